@@ -1,0 +1,30 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# How our own files are compiled. Nothing here reaches a consumer of the installed package.
+# No -march or -mavx, ever: Eigen's alignment would differ from libfcl's.
+
+if(PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+  get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(NOT CMAKE_BUILD_TYPE AND NOT multi_config)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  endif()
+  find_program(CCACHE ccache)
+  if(CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+    # ccache caches no file that uses a precompiled header unless it is told so.
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE})
+  endif()
+endif()
+
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+if(NOT MSVC)
+  # Answers are bitwise reproducible only if no multiplication is fused with an addition.
+  add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off)
+  if(FCL_KIOS_WERROR)
+    add_compile_options(-Werror)
+  endif()
+endif()

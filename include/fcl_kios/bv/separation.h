@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/bv/kios.h"
+
+namespace kios {
+
+/// Pose of frame B in frame A, x_A = R x_B + T, with what the bounds need of it precomputed.
+template <typename S>
+struct RelativePose {
+  /// Throws std::invalid_argument if the pose is not finite or not rigid: the Frobenius norm of
+  /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float).
+  RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
+  /// The pose x -> R1^T (R2 x + (t2 - t1)) of every query, for X_W1 and X_W2 in a common frame W.
+  /// A point's rounding error is at most 4 eps (|R||x| + |t2 - t1|) a coordinate.
+  RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
+
+  fcl::Matrix3<S> R;
+  fcl::Vector3<S> T;
+  float Rf[3][3];  ///< R rounded to float.
+  double T_norm1;  ///< |T|_1.
+  double stretch;  ///< |R|_2 - 1 <= stretch.
+
+ private:
+  void precompute(const char* what);
+};
+
+/// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
+/// B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame A.
+/// Once the bound of the central spheres exceeds `enough`, that is returned. An empty volume gives
+/// +infinity. Source: paper, Algorithm 2, kept signed so that deeper overlap orders first.
+template <typename S>
+double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB, double enough);
+
+/// FCL's forms of the tests, found by argument-dependent lookup: b sits at (R, T) in a's frame,
+/// P and Q are in a's frame. As kIOS::overlap and kIOS::distance otherwise.
+template <typename S>
+bool overlap(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T, const kIOS<S>& a,
+             const kIOS<S>& b);
+template <typename S>
+bool overlap(const fcl::Transform3<S>& X_AB, const kIOS<S>& a, const kIOS<S>& b);
+template <typename S>
+S distance(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T, const kIOS<S>& a, const kIOS<S>& b,
+           fcl::Vector3<S>* P = nullptr, fcl::Vector3<S>* Q = nullptr);
+template <typename S>
+S distance(const fcl::Transform3<S>& X_AB, const kIOS<S>& a, const kIOS<S>& b,
+           fcl::Vector3<S>* P = nullptr, fcl::Vector3<S>* Q = nullptr);
+
+}  // namespace kios

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "fcl/common/types.h"
+
+// fcl::collide, fcl::distance and fcl::continuousCollide for objects that may hold a kios::kIOS
+// model. FCL dispatches through tables inside libfcl that a foreign volume can't join; these
+// non-template overloads are preferred by overload resolution, also where FCL's default broadphase
+// callbacks call them, and hand every pair without a kIOS model to FCL.
+//
+// A translation unit that sees objects only through FCL's headers needs this (light) header too:
+// link the CMake target fcl_kios::force_include. An explicit fcl::collide<double>(...) reaches
+// FCL's template before C++20; write fcl::collide(...).
+//
+// Two finished meshes over k-IOS are served; any other pair with a kIOS model throws
+// std::invalid_argument and names both types. So does an unfinished model or a pose that isn't
+// rigid. Without a kIOS model everything is as in FCL.
+
+namespace fcl {
+
+template <typename S>
+class CollisionGeometry;
+template <typename S>
+class CollisionObject;
+template <typename S>
+struct CollisionRequest;
+template <typename S>
+struct CollisionResult;
+template <typename S>
+struct DistanceRequest;
+template <typename S>
+struct DistanceResult;
+template <typename S>
+class ContinuousCollisionObject;
+template <typename S>
+struct ContinuousCollisionRequest;
+template <typename S>
+struct ContinuousCollisionResult;
+template <typename S>
+class MotionBase;
+
+inline namespace kios_overloads {
+
+std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
+                    const CollisionRequest<double>& request, CollisionResult<double>& result);
+std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
+                    const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
+                    const CollisionRequest<double>& request, CollisionResult<double>& result);
+std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
+                    const CollisionRequest<float>& request, CollisionResult<float>& result);
+std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
+                    const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
+                    const CollisionRequest<float>& request, CollisionResult<float>& result);
+
+/// Returns result.min_distance: 0 for meshes that intersect (polygon soups have no inside, so
+/// enable_signed_distance adds nothing), unchanged if the pair is not nearer than it was on entry.
+double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
+                const DistanceRequest<double>& request, DistanceResult<double>& result);
+double distance(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
+                const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
+                const DistanceRequest<double>& request, DistanceResult<double>& result);
+float distance(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
+               const DistanceRequest<float>& request, DistanceResult<float>& result);
+float distance(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
+               const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
+               const DistanceRequest<float>& request, DistanceResult<float>& result);
+
+/// Refuse every pair with a kIOS model for now, instead of FCL's wrong answer. Double only, as
+/// FCL 0.7's continuousCollide<float> doesn't compile.
+double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<double>* motion1,
+                         const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result);
+double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1_beg,
+                         const Transform3<double>& tf1_end, const CollisionGeometry<double>* o2,
+                         const Transform3<double>& tf2_beg, const Transform3<double>& tf2_end,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result);
+double continuousCollide(const CollisionObject<double>* o1, const Transform3<double>& tf1_end,
+                         const CollisionObject<double>* o2, const Transform3<double>& tf2_end,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result);
+double continuousCollide(const ContinuousCollisionObject<double>* o1,
+                         const ContinuousCollisionObject<double>* o2,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result);
+
+#if defined(__cpp_concepts) && __cpp_concepts >= 201907L
+// C++20: more constrained than FCL's templates, so that explicit template arguments come here too.
+template <typename S>
+concept KiosScalar = sizeof(S) == sizeof(double) || sizeof(S) == sizeof(float);
+
+template <typename S>
+requires KiosScalar<S> std::size_t collide(const CollisionObject<S>* o1,
+                                           const CollisionObject<S>* o2,
+                                           const CollisionRequest<S>& request,
+                                           CollisionResult<S>& result) {
+  return kios_overloads::collide(o1, o2, request, result);
+}
+template <typename S>
+requires KiosScalar<S> std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                                           const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                                           const CollisionRequest<S>& request,
+                                           CollisionResult<S>& result) {
+  return kios_overloads::collide(o1, tf1, o2, tf2, request, result);
+}
+template <typename S>
+requires KiosScalar<S> S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
+                                  const DistanceRequest<S>& request, DistanceResult<S>& result) {
+  return kios_overloads::distance(o1, o2, request, result);
+}
+template <typename S>
+requires KiosScalar<S> S distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                                  const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                                  const DistanceRequest<S>& request, DistanceResult<S>& result) {
+  return kios_overloads::distance(o1, tf1, o2, tf2, request, result);
+}
+#endif
+
+}  // namespace kios_overloads
+}  // namespace fcl

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "bv/rounding.h"
+#include "fcl_kios/bv/kios.h"
+
+namespace kios {
+
+/// The exponent of the units in which a node of this radius stores its caps: 0 wherever floats and
+/// their squares are far from under- and overflow, so that tests need no scaling.
+inline int capExponent(double radius0) {
+  const bool ordinary = radius0 == 0 || (radius0 >= 0x1p-30 && radius0 <= 0x1p30);
+  return ordinary ? 0 : std::ilogb(radius0);
+}
+
+/// Fills the caps beyond k with S0 and sets the reach; center0, radius0, exponent and the caps of
+/// k are set.
+template <typename S>
+void completeCaps(kIOS<S>& v, int k) {
+  v.num_spheres = static_cast<std::uint8_t>(k);
+  const float r0 = roundUpFloat(std::ldexp(double{v.radius0}, -v.exponent));
+  for (int i = k - 1; i < kIOS<S>::kCaps; ++i) {
+    v.cap_x[i] = v.cap_y[i] = v.cap_z[i] = 0;
+    v.cap_r[i] = r0;
+  }
+  double reach = r0;
+  for (int i = 0; i < k - 1; ++i) {
+    reach = std::max(reach, double{std::abs(v.cap_x[i])} + std::abs(v.cap_y[i]) +
+                                std::abs(v.cap_z[i]) + v.cap_r[i]);
+  }
+  v.reach = roundUpFloat(reach);
+}
+
+}  // namespace kios

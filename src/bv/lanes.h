@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstring>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace kios::lanes {
+
+/// Four floats, one operation each: every target that g++ and clang++ know, no compiler flags.
+typedef float Float4 __attribute__((vector_size(16)));
+typedef int Int4 __attribute__((vector_size(16)));
+
+inline Float4 broadcast(float v) { return Float4{v, v, v, v}; }
+
+inline Float4 load(const float* p) {
+  Float4 v;
+  std::memcpy(&v, p, sizeof(v));
+  return v;
+}
+
+inline void store(float* p, Float4 v) { std::memcpy(p, &v, sizeof(v)); }
+
+inline Float4 select(Int4 mask, Float4 a, Float4 b) {
+  return reinterpret_cast<Float4>((mask & reinterpret_cast<Int4>(a)) |
+                                  (~mask & reinterpret_cast<Int4>(b)));
+}
+
+/// Lane-wise maximum; b where a is NaN.
+inline Float4 max(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return _mm_max_ps(a, b);
+#else
+  return select(a > b, a, b);
+#endif
+}
+
+inline Float4 sqrt(Float4 v) {
+#if defined(__SSE2__)
+  return _mm_sqrt_ps(v);
+#else
+  return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+
+inline float horizontalMax(Float4 v) {
+  const float a = v[0] > v[1] ? v[0] : v[1];
+  const float b = v[2] > v[3] ? v[2] : v[3];
+  return a > b ? a : b;
+}
+
+}  // namespace kios::lanes

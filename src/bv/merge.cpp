@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "bv/assemble.h"
+#include "bv/balls.h"
+#include "bv/rounding.h"
+#include "fcl_kios/bv/kios.h"
+
+namespace kios {
+namespace {
+
+using Vec = Eigen::Vector3d;
+
+/// A total order, so that a + b and b + a are computed alike.
+template <typename S>
+bool before(const kIOS<S>& a, const kIOS<S>& b) {
+  const auto head = [](const kIOS<S>& v) {
+    return std::make_tuple(v.center0[0], v.center0[1], v.center0[2], v.radius0, v.exponent,
+                           v.num_spheres);
+  };
+  if (head(a) != head(b)) return head(a) < head(b);
+  const auto caps = [](const kIOS<S>& v) {
+    std::array<float, 16> all;
+    auto out = std::copy_n(v.cap_x, 4, all.begin());
+    out = std::copy_n(v.cap_y, 4, out);
+    out = std::copy_n(v.cap_z, 4, out);
+    std::copy_n(v.cap_r, 4, out);
+    return all;
+  };
+  return caps(a) < caps(b);
+}
+
+/// The spheres of one operand around the merged centre, in the merged node's units.
+struct Content {
+  Ball balls[5];
+  int k;
+
+  /// The content lies within this distance of p: every sphere gives a bound.
+  double radiusFrom(double x, double y, double z) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < k; ++i) {
+      const Ball& s = balls[i];
+      least = std::min(least, norm(s.x - x, s.y - y, s.z - z) + s.r);
+    }
+    return least;
+  }
+  /// The content lies below this height along the unit vector n.
+  double heightAlong(const Vec& n) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < k; ++i) {
+      const Ball& s = balls[i];
+      least = std::min(least, n[0] * s.x + n[1] * s.y + n[2] * s.z + s.r);
+    }
+    return least;
+  }
+  /// The direction of cap pair 0 or 1, zero if there is none.
+  Vec axis(int pair) const {
+    if (k < 3 + 2 * pair) return Vec::Zero();
+    const Ball &p = balls[1 + 2 * pair], &m = balls[2 + 2 * pair];
+    const Vec d(p.x - m.x, p.y - m.y, p.z - m.z);
+    const double length = d.norm();
+    return length > 0 ? Vec(d / length) : Vec::Zero();
+  }
+};
+
+template <typename S>
+Content contentAround(const kIOS<S>& v, const fcl::Vector3<S>& center, int exponent) {
+  Content content;
+  std::array<double, 3> w;
+  for (int c = 0; c < 3; ++c) {
+    w[c] = std::ldexp(double{v.center0[c]} - double{center[c]}, -exponent);
+  }
+  content.k = toBalls(v, w, exponent, content.balls);
+  return content;
+}
+
+/// Common direction of two axes (either may be zero), the one of the larger node weighing more.
+Vec blend(const Vec& a, double weight_a, const Vec& b, double weight_b) {
+  const Vec sum = weight_a * a + (a.dot(b) < 0 ? -weight_b : weight_b) * b;
+  return sum;
+}
+
+// Every sphere's radius is max over the two contents of radiusFrom(stored centre): the sum of a
+// length with 4 roundings and a radius with 1, and the origin's rounding of 2 u |w|: < 16 u of it.
+double grown(double radius) { return radius * (1 + 16 * kUlpDouble) + 0x1p-900; }
+
+}  // namespace
+
+template <typename S>
+kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
+  if (k() == 0) return other;
+  if (other.k() == 0) return *this;
+  const kIOS& a = before(other, *this) ? other : *this;
+  const kIOS& b = before(other, *this) ? *this : other;
+
+  // S0: the ball around both S0, or the larger one if it contains the other.
+  Vec w;
+  for (int c = 0; c < 3; ++c) w[c] = double{b.center0[c]} - double{a.center0[c]};
+  const double ra = a.radius0, rb = b.radius0;
+  const double largest = std::max({w.cwiseAbs().maxCoeff(), ra, rb});
+  kIOS merged = a;
+  if (largest == 0) return merged;
+  const int e0 = std::ilogb(largest);
+  const double d = Vec(std::ldexp(w[0], -e0), std::ldexp(w[1], -e0), std::ldexp(w[2], -e0)).norm();
+  const double sa = std::ldexp(ra, -e0), sb = std::ldexp(rb, -e0);
+  if (d + sa <= sb) {
+    merged.center0 = b.center0;
+  } else if (d + sb > sa) {
+    const double t = (d + sb - sa) / (2 * d);
+    for (int c = 0; c < 3; ++c) {
+      merged.center0[c] = static_cast<S>(double{a.center0[c]} + t * w[c]);
+    }
+  }
+  Content content[2] = {contentAround(a, merged.center0, e0), contentAround(b, merged.center0, e0)};
+  const double scaled_r0 =
+      grown(std::max(content[0].radiusFrom(0, 0, 0), content[1].radiusFrom(0, 0, 0)));
+  merged.radius0 = roundUp<S>(
+      std::nextafter(std::ldexp(scaled_r0, e0), std::numeric_limits<double>::infinity()));
+  merged.exponent = static_cast<std::int16_t>(capExponent(merged.radius0));
+  content[0] = contentAround(a, merged.center0, merged.exponent);
+  content[1] = contentAround(b, merged.center0, merged.exponent);
+  const double r0 = std::ldexp(double{merged.radius0}, -merged.exponent);
+
+  // Caps along the operands' common axes, at the fit's half opening angle of 30 degrees.
+  int k = 1;
+  Vec first = Vec::Zero();
+  for (int pair = 0; pair < 2; ++pair) {
+    Vec n = blend(content[0].axis(pair), ra, content[1].axis(pair), rb);
+    n -= first.dot(n) * first;
+    const double length = n.norm();
+    if (!(length > 1e-3 * std::max(ra, rb))) break;
+    n /= length;
+    first = n;
+    constexpr double kCot30 = 1.7320508075688772;
+    for (int side = 0; side < 2; ++side, ++k) {
+      const Vec facing = side == 0 ? Vec(-n) : n;  // the side that this cap bounds
+      const double height =
+          std::max(content[0].heightAlong(facing), content[1].heightAlong(facing));
+      const Vec center = -facing * std::max(0.0, kCot30 * r0 - height);
+      const int i = k - 1;
+      merged.cap_x[i] = static_cast<float>(center[0]);
+      merged.cap_y[i] = static_cast<float>(center[1]);
+      merged.cap_z[i] = static_cast<float>(center[2]);
+      const double x = merged.cap_x[i], y = merged.cap_y[i], z = merged.cap_z[i];
+      merged.cap_r[i] = roundUpFloat(
+          grown(std::max(content[0].radiusFrom(x, y, z), content[1].radiusFrom(x, y, z))));
+    }
+  }
+  completeCaps(merged, k);
+  return merged;
+}
+
+template kIOS<double> kIOS<double>::operator+(const kIOS<double>&) const;
+template kIOS<float> kIOS<float>::operator+(const kIOS<float>&) const;
+
+}  // namespace kios

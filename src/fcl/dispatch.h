@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+#include "fcl/mesh_queries.h"
+#include "fcl/narrowphase/collision.h"
+#include "fcl/narrowphase/distance.h"
+
+namespace kios {
+
+/// The model behind a geometry, nullptr if it is no kIOS model. By type, never by node type: all
+/// foreign volumes share BV_UNKNOWN.
+template <typename S>
+const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
+  if (!geometry) throw std::invalid_argument("fcl_kios: a collision geometry is null.");
+  if (geometry->getNodeType() != fcl::BV_UNKNOWN || geometry->getObjectType() != fcl::OT_BVH) {
+    return nullptr;
+  }
+  if (typeid(*geometry) == typeid(Model<S>)) return static_cast<const Model<S>*>(geometry);
+  return dynamic_cast<const Model<S>*>(geometry);
+}
+
+/// The C++ name of the geometry's type, for messages.
+template <typename S>
+std::string typeName(const fcl::CollisionGeometry<S>& geometry);
+
+template <typename S>
+[[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
+                             const fcl::CollisionGeometry<S>& o2) {
+  throw std::invalid_argument(std::string("fcl_kios: ") + query + " of " + typeName(o1) + " and " +
+                              typeName(o2) + " is not supported; build both as " +
+                              "fcl::BVHModel<kios::kIOS>, or both without it.");
+}
+
+template <typename S>
+std::size_t collide(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
+                    const fcl::CollisionGeometry<S>* o2, const fcl::Transform3<S>& tf2,
+                    const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
+  if (model1 && model2) return collideMeshes(*model1, tf1, *model2, tf2, request, result);
+  if (model1 || model2) refusePair("collide", *o1, *o2);
+  return fcl::collide<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
+}
+
+template <typename S>
+S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
+           const fcl::CollisionGeometry<S>* o2, const fcl::Transform3<S>& tf2,
+           const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
+  const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
+  if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
+  if (model1 || model2) refusePair("distance", *o1, *o2);
+  return fcl::distance<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
+}
+
+}  // namespace kios

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/fcl/mesh_nodes.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace kios {
+namespace {
+
+template <typename S>
+struct Corners {
+  Corners(const fcl::Vector3<S>* vertices, const fcl::Triangle& triangle)
+      : a(vertices[triangle[0]]), b(vertices[triangle[1]]), c(vertices[triangle[2]]) {}
+  const fcl::Vector3<S>&a, &b, &c;
+};
+
+template <typename S>
+fcl::AABB<S> worldBox(const Corners<S>& t, const fcl::Transform3<S>& X_WT) {
+  return fcl::AABB<S>(X_WT * t.a, X_WT * t.b, X_WT * t.c);
+}
+
+template <typename Node, typename S, typename Request, typename Result>
+void connect(Node& node, const Model<S>& model1, const fcl::Transform3<S>& tf1,
+             const Model<S>& model2, const fcl::Transform3<S>& tf2, const Request& request,
+             Result& result) {
+  requireFinished(model1);
+  requireFinished(model2);
+  node.model1 = &model1;
+  node.model2 = &model2;
+  node.vertices1 = model1.vertices;
+  node.vertices2 = model2.vertices;
+  node.tri_indices1 = model1.tri_indices;
+  node.tri_indices2 = model2.tri_indices;
+  node.tf1 = tf1;
+  node.tf2 = tf2;
+  node.request = request;
+  node.result = &result;
+  node.X_12.emplace(tf1, tf2);
+}
+
+template <typename S>
+void requireErrorBound(const char* name, S value) {
+  if (value >= 0) return;
+  std::ostringstream message;
+  message << "fcl_kios: DistanceRequest::" << name << " is " << value << ", but must be >= 0.";
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+template <typename S>
+bool MeshCollisionTraversalNode<S>::BVTesting(int b1, int b2) const {
+  if (this->enable_statistics) this->num_bv_tests++;
+  return separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_12, 0.0) > 0;
+}
+
+template <typename S>
+void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
+  if (this->enable_statistics) this->num_leaf_tests++;
+  const auto& request = this->request;
+  auto& result = *this->result;
+  const auto& model1 = *this->model1;
+  const auto& model2 = *this->model2;
+  const bool occupied = model1.isOccupied() && model2.isOccupied();
+  const bool costs = request.enable_cost && !model1.isFree() && !model2.isFree();
+  if (!occupied && !costs) return;
+
+  const int id1 = model1.getBV(b1).primitiveId(), id2 = model2.getBV(b2).primitiveId();
+  const Corners<S> p(this->vertices1, this->tri_indices1[id1]);
+  const Corners<S> q(this->vertices2, this->tri_indices2[id2]);
+  const bool locate = occupied && request.enable_contact;
+  fcl::Vector3<S> points[3], normal = fcl::Vector3<S>::Zero();  // FCL writes up to 3 points
+  unsigned int num_points = 0;
+  S depth = 0;
+  if (!fcl::detail::Intersect<S>::intersect_Triangle(
+          p.a, p.b, p.c, q.a, q.b, q.c, X_12->R, X_12->T, locate ? points : nullptr,
+          locate ? &num_points : nullptr, locate ? &depth : nullptr, locate ? &normal : nullptr)) {
+    return;
+  }
+
+  if (occupied) {
+    const std::size_t room =
+        request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
+    if (!locate) {
+      if (room > 0) result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2));
+    } else {
+      // FCL may find a hit but no deepest point; the hit still counts.
+      if (num_points == 0) points[num_points++] = (p.a + p.b + p.c) / 3;
+      for (std::size_t i = 0; i < std::min<std::size_t>(room, num_points); ++i) {
+        result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, this->tf1 * points[i],
+                                          this->tf1.linear() * normal, depth));
+      }
+    }
+  }
+  if (costs) {
+    fcl::AABB<S> shared;
+    worldBox(p, this->tf1).overlap(worldBox(q, this->tf2), shared);
+    result.addCostSource(fcl::CostSource<S>(shared, this->cost_density),
+                         request.num_max_cost_sources);
+  }
+}
+
+template <typename S>
+void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
+  best_ = distance;
+  prune_at_ = std::max(S(0), std::min(distance - this->abs_err, distance / (1 + this->rel_err)));
+}
+
+template <typename S>
+void MeshDistanceTraversalNode<S>::preprocess() {
+  tri1_ = tri2_ = -1;
+  lowerTo(this->result->min_distance);
+}
+
+template <typename S>
+S MeshDistanceTraversalNode<S>::BVTesting(int b1, int b2) const {
+  if (this->enable_statistics) this->num_bv_tests++;
+  return static_cast<S>(
+      separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_12, double{prune_at_}));
+}
+
+template <typename S>
+bool MeshDistanceTraversalNode<S>::canStop(S bound) const {
+  return std::max(bound, S(0)) >= prune_at_;
+}
+
+template <typename S>
+void MeshDistanceTraversalNode<S>::leafTesting(int b1, int b2) const {
+  if (this->enable_statistics) this->num_leaf_tests++;
+  const int id1 = this->model1->getBV(b1).primitiveId();
+  const int id2 = this->model2->getBV(b2).primitiveId();
+  const Corners<S> p(this->vertices1, this->tri_indices1[id1]);
+  const Corners<S> q(this->vertices2, this->tri_indices2[id2]);
+  fcl::Vector3<S> on_p, on_q;
+  const S distance = fcl::detail::TriangleDistance<S>::triDistance(p.a, p.b, p.c, q.a, q.b, q.c,
+                                                                   X_12->R, X_12->T, on_p, on_q);
+  if (!(distance < best_)) return;
+  lowerTo(distance);
+  tri1_ = id1;
+  tri2_ = id2;
+  point1_ = on_p;
+  point2_ = on_q;
+}
+
+template <typename S>
+void MeshDistanceTraversalNode<S>::postprocess() {
+  if (tri1_ < 0) return;
+  if (this->request.enable_nearest_points) {
+    this->result->update(best_, this->model1, this->model2, tri1_, tri2_, this->tf1 * point1_,
+                         this->tf1 * point2_);
+  } else {
+    this->result->update(best_, this->model1, this->model2, tri1_, tri2_);
+  }
+}
+
+template <typename S>
+bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& model1,
+                const fcl::Transform3<S>& tf1, const Model<S>& model2,
+                const fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
+                fcl::CollisionResult<S>& result) {
+  connect(node, model1, tf1, model2, tf2, request, result);
+  node.cost_density = model1.cost_density * model2.cost_density;
+  return true;
+}
+
+template <typename S>
+bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& model1,
+                const fcl::Transform3<S>& tf1, const Model<S>& model2,
+                const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+                fcl::DistanceResult<S>& result) {
+  requireErrorBound("rel_err", request.rel_err);
+  requireErrorBound("abs_err", request.abs_err);
+  connect(node, model1, tf1, model2, tf2, request, result);
+  node.rel_err = request.rel_err;
+  node.abs_err = request.abs_err;
+  return true;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                       \
+  template class MeshCollisionTraversalNode<S>;                                                   \
+  template class MeshDistanceTraversalNode<S>;                                                    \
+  template bool initialize(MeshCollisionTraversalNode<S>&, const Model<S>&,                       \
+                           const fcl::Transform3<S>&, const Model<S>&, const fcl::Transform3<S>&, \
+                           const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&);            \
+  template bool initialize(MeshDistanceTraversalNode<S>&, const Model<S>&,                        \
+                           const fcl::Transform3<S>&, const Model<S>&, const fcl::Transform3<S>&, \
+                           const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

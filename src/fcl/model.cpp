@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/fcl/model.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace kios {
+namespace {
+
+const char* stateName(fcl::BVHBuildState state) {
+  switch (state) {
+    case fcl::BVH_BUILD_STATE_EMPTY:
+      return "empty (beginModel() was not called, or only reset a full model: call it again)";
+    case fcl::BVH_BUILD_STATE_BEGUN:
+      return "begun (endModel() was not called, or failed)";
+    case fcl::BVH_BUILD_STATE_REPLACE_BEGUN:
+      return "being replaced (endReplaceModel() was not called, or failed)";
+    case fcl::BVH_BUILD_STATE_UPDATE_BEGUN:
+      return "being updated (endUpdateModel() was not called, or failed)";
+    default:
+      return "finished";
+  }
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("fcl_kios: " + what);
+}
+
+template <typename S>
+void requireVertices(const fcl::Vector3<S>* vertices, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (vertices[i].allFinite()) continue;
+    std::ostringstream message;
+    message << "vertex " << i << " (" << vertices[i].transpose() << ") is not finite.";
+    refuse(message.str());
+  }
+}
+
+void requireIndices(const fcl::Triangle* triangles, std::size_t n, std::size_t num_vertices) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int corner = 0; corner < 3; ++corner) {
+      if (triangles[i][corner] < num_vertices) continue;
+      std::ostringstream message;
+      message << "triangle " << i << " refers to vertex " << triangles[i][corner]
+              << ", but there are " << num_vertices << ".";
+      refuse(message.str());
+    }
+  }
+}
+
+[[noreturn]] void refuseUnfinished(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
+                                   int num_bvs) {
+  const bool finished =
+      state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
+  std::ostringstream message;
+  message << "the BVHModel<kios::kIOS> can't be queried: ";
+  if (!finished) {
+    message << "it is " << stateName(state) << ".";
+  } else if (type == fcl::BVH_MODEL_POINTCLOUD) {
+    message << "it is a point cloud, and this query needs triangles.";
+  } else {
+    message << "it has " << num_tris << " triangles but a tree of " << num_bvs
+            << " nodes; geometry was added after it was built: build or refit it.";
+  }
+  refuse(message.str());
+}
+
+}  // namespace
+
+template <typename S>
+std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices,
+                                    const std::vector<fcl::Triangle>& triangles) {
+  if (triangles.empty()) refuse("a model needs at least one triangle.");
+  requireVertices(vertices.data(), vertices.size());
+  requireIndices(triangles.data(), triangles.size(), vertices.size());
+  auto model = std::make_shared<Model<S>>();
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+  model->addSubModel(vertices, triangles);
+  model->endModel();
+  requireFinished(*model);
+  return model;
+}
+
+template <typename S>
+void requireFinished(const Model<S>& model) {
+  const bool finished = model.build_state == fcl::BVH_BUILD_STATE_PROCESSED ||
+                        model.build_state == fcl::BVH_BUILD_STATE_UPDATED;
+  if (finished && model.num_tris > 0 && model.getNumBVs() == 2 * model.num_tris - 1) return;
+  refuseUnfinished(model.build_state, model.getModelType(), model.num_tris, model.getNumBVs());
+}
+
+template <typename S>
+void validate(const Model<S>& model) {
+  requireFinished(model);
+  requireVertices(model.vertices, static_cast<std::size_t>(model.num_vertices));
+  requireIndices(model.tri_indices, static_cast<std::size_t>(model.num_tris),
+                 static_cast<std::size_t>(model.num_vertices));
+}
+
+#define KIOS_INSTANTIATE(S)                                                         \
+  template std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>&, \
+                                               const std::vector<fcl::Triangle>&);  \
+  template void requireFinished(const Model<S>&);                                   \
+  template void validate(const Model<S>&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios
+
+template class fcl::BVHModel<kios::kIOS<double>>;
+template class fcl::BVHModel<kios::kIOS<float>>;

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl/dispatch.h"
+#include "fcl/narrowphase/continuous_collision.h"
+#include "fcl_kios/overloads.h"
+
+namespace fcl {
+inline namespace kios_overloads {
+
+namespace {
+
+void refuseContinuous(const CollisionGeometry<double>* o1, const CollisionGeometry<double>* o2) {
+  if (kios::asModel(o1) || kios::asModel(o2)) kios::refusePair("continuousCollide", *o1, *o2);
+}
+
+}  // namespace
+
+std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
+                    const CollisionRequest<double>& request, CollisionResult<double>& result) {
+  return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),
+                       o2->collisionGeometry().get(), o2->getTransform(), request, result);
+}
+
+std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
+                    const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
+                    const CollisionRequest<double>& request, CollisionResult<double>& result) {
+  return kios::collide(o1, tf1, o2, tf2, request, result);
+}
+
+double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
+                const DistanceRequest<double>& request, DistanceResult<double>& result) {
+  return kios::distance(o1->collisionGeometry().get(), o1->getTransform(),
+                        o2->collisionGeometry().get(), o2->getTransform(), request, result);
+}
+
+double distance(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
+                const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
+                const DistanceRequest<double>& request, DistanceResult<double>& result) {
+  return kios::distance(o1, tf1, o2, tf2, request, result);
+}
+
+double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<double>* motion1,
+                         const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result) {
+  refuseContinuous(o1, o2);
+  return fcl::continuousCollide<double>(o1, motion1, o2, motion2, request, result);
+}
+
+double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1_beg,
+                         const Transform3<double>& tf1_end, const CollisionGeometry<double>* o2,
+                         const Transform3<double>& tf2_beg, const Transform3<double>& tf2_end,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result) {
+  refuseContinuous(o1, o2);
+  return fcl::continuousCollide<double>(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
+                                        result);
+}
+
+double continuousCollide(const CollisionObject<double>* o1, const Transform3<double>& tf1_end,
+                         const CollisionObject<double>* o2, const Transform3<double>& tf2_end,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result) {
+  return continuousCollide(o1->collisionGeometry().get(), o1->getTransform(), tf1_end,
+                           o2->collisionGeometry().get(), o2->getTransform(), tf2_end, request,
+                           result);
+}
+
+double continuousCollide(const ContinuousCollisionObject<double>* o1,
+                         const ContinuousCollisionObject<double>* o2,
+                         const ContinuousCollisionRequest<double>& request,
+                         ContinuousCollisionResult<double>& result) {
+  return continuousCollide(o1->collisionGeometry().get(), o1->getMotion(),
+                           o2->collisionGeometry().get(), o2->getMotion(), request, result);
+}
+
+}  // namespace kios_overloads
+}  // namespace fcl

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "bv/lanes.h"
+
+namespace kios {
+
+/// Points as three arrays of floats, padded to whole lanes by repeating the first point.
+class PointLanes {
+ public:
+  struct Farthest {
+    int index;
+    float squared_distance;
+  };
+
+  void resize(int n) {
+    n_ = n;
+    padded_ = (n + 3) & ~3;
+    if (static_cast<int>(x_.size()) < padded_) {
+      const std::size_t capacity = static_cast<std::size_t>(padded_) * 3 / 2 + 64;
+      x_.resize(capacity);
+      y_.resize(capacity);
+      z_.resize(capacity);
+    }
+  }
+  void release() { *this = PointLanes(); }
+
+  int size() const { return n_; }
+  int paddedSize() const { return padded_; }
+  std::size_t capacity() const { return x_.size(); }
+  float* x() { return x_.data(); }
+  float* y() { return y_.data(); }
+  float* z() { return z_.data(); }
+  const float* x() const { return x_.data(); }
+  const float* y() const { return y_.data(); }
+  const float* z() const { return z_.data(); }
+
+  void set(int i, float px, float py, float pz) {
+    x_[i] = px;
+    y_[i] = py;
+    z_[i] = pz;
+  }
+  /// To be called once all n points are set.
+  void pad() {
+    for (int i = n_; i < padded_; ++i) set(i, x_[0], y_[0], z_[0]);
+  }
+
+  /// The point farthest from (cx, cy, cz), the first of several.
+  Farthest farthest(float cx, float cy, float cz) const {
+    using namespace lanes;  // NOLINT(google-build-using-namespace): local to one kernel
+    Float4 best = broadcast(-1.0F);
+    Int4 at = {0, 1, 2, 3}, best_at = at;
+    for (int i = 0; i < padded_; i += 4) {
+      const Float4 dx = load(&x_[i]) - cx, dy = load(&y_[i]) - cy, dz = load(&z_[i]) - cz;
+      const Float4 d2 = dx * dx + dy * dy + dz * dz;
+      const Int4 farther = d2 > best;
+      best = max(best, d2);
+      best_at = (farther & at) | (~farther & best_at);
+      at += 4;
+    }
+    int lane = 0;
+    for (int l = 1; l < 4; ++l) {
+      if (best[l] > best[lane] || (best[l] == best[lane] && best_at[l] < best_at[lane])) lane = l;
+    }
+    return {best_at[lane] < n_ ? best_at[lane] : 0, best[lane]};
+  }
+
+ private:
+  std::vector<float> x_, y_, z_;
+  int n_ = 0, padded_ = 0;
+};
+
+}  // namespace kios

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fit/principal_frame.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace kios {
+namespace {
+
+using lanes::Float4;
+using lanes::load;
+
+double sum(Float4 v) { return double{v[0]} + v[1] + v[2] + v[3]; }
+
+/// n times the covariance; the padding repeats point 0, the origin, and adds nothing.
+Eigen::Matrix3d covariance(const PointLanes& points) {
+  double s[9] = {};
+  constexpr int kBlock = 1024;  // float sums of at most 256 terms a lane
+  for (int begin = 0; begin < points.paddedSize(); begin += kBlock) {
+    Float4 t[9] = {};
+    const int end = std::min(begin + kBlock, points.paddedSize());
+    for (int i = begin; i < end; i += 4) {
+      const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
+      t[0] += x;
+      t[1] += y;
+      t[2] += z;
+      t[3] += x * x;
+      t[4] += x * y;
+      t[5] += x * z;
+      t[6] += y * y;
+      t[7] += y * z;
+      t[8] += z * z;
+    }
+    for (int j = 0; j < 9; ++j) s[j] += sum(t[j]);
+  }
+  const Eigen::Vector3d first(s[0], s[1], s[2]);
+  Eigen::Matrix3d second;
+  second << s[3], s[4], s[5], s[4], s[6], s[7], s[5], s[7], s[8];
+  return second - first * first.transpose() / points.size();
+}
+
+Eigen::Vector3f point(const PointLanes& points, int i) {
+  return {points.x()[i], points.y()[i], points.z()[i]};
+}
+
+/// Orthonormal axes from two directions that may be zero, parallel or not finite.
+Eigen::Matrix3f orthonormalAxes(Eigen::Vector3f a, Eigen::Vector3f b) {
+  const auto normalized = [](Eigen::Vector3f v, const Eigen::Vector3f& fallback) {
+    const float largest = v.cwiseAbs().maxCoeff();
+    if (!(largest > 0) || !std::isfinite(largest)) return fallback;
+    v /= largest;
+    return Eigen::Vector3f(v / v.norm());
+  };
+  Eigen::Matrix3f axes;
+  const Eigen::Vector3f e0 = normalized(a, Eigen::Vector3f::UnitX());
+  int least = 0;
+  e0.cwiseAbs().minCoeff(&least);
+  Eigen::Vector3f any = Eigen::Vector3f::Unit(least);
+  any -= e0.dot(any) * e0;
+  const float size_b = b.norm();
+  b -= e0.dot(b) * e0;
+  const Eigen::Vector3f e1 =
+      normalized(b.norm() > 1e-3F * size_b ? b : Eigen::Vector3f::Zero().eval(), any.normalized());
+  axes << e0, e1, e0.cross(e1);
+  return axes;
+}
+
+Eigen::Matrix3f axesOf(const PointLanes& points) {
+  if (points.size() == 3) {  // a triangle: longest edge, and across it in its plane
+    const Eigen::Vector3f p1 = point(points, 1), p2 = point(points, 2), p12 = p2 - p1;
+    const float d1 = p1.squaredNorm(), d2 = p2.squaredNorm(), d12 = p12.squaredNorm();
+    if (d1 >= d2 && d1 >= d12) return orthonormalAxes(p1, p2);
+    return d2 >= d12 ? orthonormalAxes(p2, p1) : orthonormalAxes(p12, p1);
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance(points));
+  return orthonormalAxes(solver.eigenvectors().col(2).cast<float>(),
+                         solver.eigenvectors().col(1).cast<float>());
+}
+
+}  // namespace
+
+PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
+  PrincipalFrame frame;
+  frame.axes = axesOf(points);
+  const Eigen::Matrix3f& e = frame.axes;
+  in_frame.resize(points.size());
+  float* const out[3] = {in_frame.x(), in_frame.y(), in_frame.z()};
+  Float4 low[3], high[3];
+  for (int k = 0; k < 3; ++k) low[k] = high[k] = lanes::broadcast(0.0F);  // point 0 is the origin
+  for (int i = 0; i < points.paddedSize(); i += 4) {
+    const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
+    for (int k = 0; k < 3; ++k) {
+      const Float4 h = x * e(0, k) + y * e(1, k) + z * e(2, k);
+      lanes::store(out[k] + i, h);
+      low[k] = -lanes::max(-low[k], -h);
+      high[k] = lanes::max(high[k], h);
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    const float lowest = -lanes::horizontalMax(-low[k]), highest = lanes::horizontalMax(high[k]);
+    frame.middle[k] = 0.5F * (lowest + highest);
+    frame.half[k] = 0.5F * (highest - lowest);
+    for (int i = 0; i < points.paddedSize(); i += 4) {
+      lanes::store(out[k] + i, load(out[k] + i) - frame.middle[k]);
+    }
+  }
+  std::stable_sort(frame.order, frame.order + 3,
+                   [&](int a, int b) { return frame.half[a] > frame.half[b]; });
+  return frame;
+}
+
+}  // namespace kios

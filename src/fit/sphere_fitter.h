@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/fit/fit.h"
+#include "fit/point_lanes.h"
+#include "fit/principal_frame.h"
+
+namespace kios {
+
+/// Fits kIOS to point sets and keeps its buffers from one fit to the next.
+template <typename S>
+class SphereFitter {
+ public:
+  /// What the fit of a node tells its split: the box centre and the longest axis, in the model.
+  struct Split {
+    Eigen::Vector3d center;
+    Eigen::Vector3d axis;
+  };
+
+  /// Throws std::invalid_argument unless every coordinate is finite and below kMaxCoordinate<S>.
+  kIOS<S> fit(const fcl::Vector3<S>* points, int n, FitMethod method, Split* split = nullptr);
+
+  /// Frees buffers of more than a few thousand points.
+  void releaseLarge();
+
+ private:
+  /// Centres in the frame, relative to the box centre.
+  struct Centers {
+    int k = 1;
+    float sphere[kIOS<S>::kMaxSpheres][3] = {};
+    double least_cap_radius = 0;  ///< > 0 when all caps share a radius, as published
+  };
+  void loadRelative(const fcl::Vector3<S>* points, int n);
+  Centers tunedCenters(const PrincipalFrame& frame) const;
+  Centers publishedCenters(const PrincipalFrame& frame) const;
+  kIOS<S> measure(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
+                  const Centers& centers) const;
+
+  PointLanes relative_;  ///< points - points[0], in units of 2^exponent_
+  PointLanes in_frame_;
+  int exponent_ = 0;
+};
+
+}  // namespace kios
