@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bv/balls.h"
 #include "bv/rounding.h"
 #include "fcl_kios/bv/kios.h"
 
@@ -22,7 +23,7 @@ inline int capExponent(double radius0) {
 template <typename S>
 void completeCaps(kIOS<S>& v, int k) {
   v.num_spheres = static_cast<std::uint8_t>(k);
-  const float r0 = roundUpFloat(std::ldexp(double{v.radius0}, -v.exponent));
+  const float r0 = roundUpFloat(scaled(double{v.radius0}, -v.exponent));
   for (int i = k - 1; i < kIOS<S>::kCaps; ++i) {
     v.cap_x[i] = v.cap_y[i] = v.cap_z[i] = 0;
     v.cap_r[i] = r0;

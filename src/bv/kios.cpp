@@ -31,7 +31,7 @@ double exclusion(const kIOS<S>& v, const fcl::Vector3<S>& p) {
   const int e = std::ilogb(largest);
   Ball balls[kIOS<S>::kMaxSpheres];
   const int k = toBalls(v, {0, 0, 0}, e, balls);
-  for (double& c : d) c = std::ldexp(c, -e);
+  for (double& c : d) c = scaled(c, -e);
   double worst = 0;
   for (int i = 0; i < k; ++i) {
     const double length = norm(d[0] - balls[i].x, d[1] - balls[i].y, d[2] - balls[i].z);
@@ -62,7 +62,7 @@ fcl::Vector3<S> kIOS<S>::sphereCenter(int i) const {
   const double o[3] = {cap_x[i - 1], cap_y[i - 1], cap_z[i - 1]};
   fcl::Vector3<S> center;
   for (int c = 0; c < 3; ++c) {
-    center[c] = static_cast<S>(double{center0[c]} + std::ldexp(o[c], exponent));
+    center[c] = static_cast<S>(double{center0[c]} + scaled(o[c], exponent));
   }
   return center;
 }
@@ -75,7 +75,7 @@ S kIOS<S>::sphereRadius(int i) const {
   const fcl::Vector3<S> center = sphereCenter(i);
   const double shift = kUlp * (std::abs(double{center[0]}) + std::abs(double{center[1]}) +
                                std::abs(double{center[2]}));
-  return saturate<S>(std::ldexp(double{cap_r[i - 1]}, exponent) * (1 + 4 * kUlpDouble) + shift);
+  return saturate<S>(scaled(double{cap_r[i - 1]}, exponent) * (1 + 4 * kUlpDouble) + shift);
 }
 
 template <typename S>
@@ -86,8 +86,8 @@ void kIOS<S>::bounds(fcl::Vector3<S>& lower, fcl::Vector3<S>& upper) const {
   const float* const offsets[3] = {cap_x, cap_y, cap_z};
   for (int c = 0; c < 3; ++c) {
     for (int i = 0; i < k(); ++i) {
-      const double o = i == 0 ? 0 : std::ldexp(double{offsets[c][i - 1]}, exponent);
-      const double r = i == 0 ? double{radius0} : std::ldexp(double{cap_r[i - 1]}, exponent);
+      const double o = i == 0 ? 0 : scaled(double{offsets[c][i - 1]}, exponent);
+      const double r = i == 0 ? double{radius0} : scaled(double{cap_r[i - 1]}, exponent);
       // Three roundings of values below |c| + |o| + r.
       const double pad = 4 * kUlpDouble * (std::abs(double{center0[c]}) + std::abs(o) + r) +
                          std::numeric_limits<double>::min();
@@ -144,7 +144,7 @@ kIOS<S> translate(const kIOS<S>& bv, const fcl::Vector3<S>& t) {
     return moved;
   }
   for (int i = 0; i + 1 < bv.k(); ++i) {
-    moved.cap_r[i] = roundUpFloat(double{bv.cap_r[i]} + std::ldexp(shift, -bv.exponent));
+    moved.cap_r[i] = roundUpFloat(double{bv.cap_r[i]} + scaled(shift, -bv.exponent));
   }
   completeCaps(moved, bv.k());
   return moved;

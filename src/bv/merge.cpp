@@ -73,7 +73,7 @@ Content contentAround(const kIOS<S>& v, const fcl::Vector3<S>& center, int expon
   Content content;
   std::array<double, 3> w;
   for (int c = 0; c < 3; ++c) {
-    w[c] = std::ldexp(double{v.center0[c]} - double{center[c]}, -exponent);
+    w[c] = scaled(double{v.center0[c]} - double{center[c]}, -exponent);
   }
   content.k = toBalls(v, w, exponent, content.balls);
   return content;
@@ -106,8 +106,8 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   kIOS merged = a;
   if (largest == 0) return merged;
   const int e0 = std::ilogb(largest);
-  const double d = Vec(std::ldexp(w[0], -e0), std::ldexp(w[1], -e0), std::ldexp(w[2], -e0)).norm();
-  const double sa = std::ldexp(ra, -e0), sb = std::ldexp(rb, -e0);
+  const double d = Vec(scaled(w[0], -e0), scaled(w[1], -e0), scaled(w[2], -e0)).norm();
+  const double sa = scaled(ra, -e0), sb = scaled(rb, -e0);
   if (d + sa <= sb) {
     merged.center0 = b.center0;
   } else if (d + sb > sa) {
@@ -120,11 +120,11 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   const double scaled_r0 =
       grown(std::max(content[0].radiusFrom(0, 0, 0), content[1].radiusFrom(0, 0, 0)));
   merged.radius0 = roundUp<S>(
-      std::nextafter(std::ldexp(scaled_r0, e0), std::numeric_limits<double>::infinity()));
+      std::nextafter(scaled(scaled_r0, e0), std::numeric_limits<double>::infinity()));
   merged.exponent = static_cast<std::int16_t>(capExponent(merged.radius0));
   content[0] = contentAround(a, merged.center0, merged.exponent);
   content[1] = contentAround(b, merged.center0, merged.exponent);
-  const double r0 = std::ldexp(double{merged.radius0}, -merged.exponent);
+  const double r0 = scaled(double{merged.radius0}, -merged.exponent);
 
   // Caps along the operands' common axes, at the fit's half opening angle of 30 degrees.
   int k = 1;

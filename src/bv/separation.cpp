@@ -86,15 +86,15 @@ struct ScaledBound {
 template <typename S>
 ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
                              const Offset& d) {
-  const double reach_a = std::max<double>(std::ldexp(a.reach, a.exponent), a.radius0);
-  const double reach_b = std::max<double>(std::ldexp(b.reach, b.exponent), b.radius0);
+  const double reach_a = std::max<double>(scaled(a.reach, a.exponent), a.radius0);
+  const double reach_b = std::max<double>(scaled(b.reach, b.exponent), b.radius0);
   const double largest = std::max({d.norm1, reach_a, reach_b});
   if (!(largest > 0)) return ScaledBound{-d.pad, {}, {}};
   const int e = std::ilogb(largest);
 
   Ball sa[kIOS<S>::kMaxSpheres], sb[kIOS<S>::kMaxSpheres];
   const int ka = toBalls(a, {0, 0, 0}, e, sa), kb = toBalls(b, {0, 0, 0}, e, sb);
-  const double dx = std::ldexp(d.x, -e), dy = std::ldexp(d.y, -e), dz = std::ldexp(d.z, -e);
+  const double dx = scaled(d.x, -e), dy = scaled(d.y, -e), dz = scaled(d.z, -e);
 
   ScaledBound best;
   for (int j = 0; j < kb; ++j) {
@@ -117,11 +117,11 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
       }
     }
   }
-  const double lengths = std::ldexp(d.norm1 + reach_a + reach_b, -e);
-  best.value -= 32 * kUlpDouble * lengths + X.stretch * std::ldexp(reach_b, -e) + 0x1p-960;
-  best.value = std::nextafter(std::ldexp(best.value, e) - d.pad, -kInfinity);
-  for (double& v : best.P) v = std::ldexp(v, e);
-  for (double& v : best.Q) v = std::ldexp(v, e);
+  const double lengths = scaled(d.norm1 + reach_a + reach_b, -e);
+  best.value -= 32 * kUlpDouble * lengths + X.stretch * scaled(reach_b, -e) + 0x1p-960;
+  best.value = std::nextafter(scaled(best.value, e) - d.pad, -kInfinity);
+  for (double& v : best.P) v = scaled(v, e);
+  for (double& v : best.Q) v = scaled(v, e);
   return best;
 }
 

@@ -6,13 +6,15 @@
 
 namespace kios {
 
-/// Centre of a nearly minimal ball of the points: steps of decreasing size towards the farthest
-/// point (Badoiu & Clarkson), the best centre seen. In and out: x, y, z.
-void shrinkBall(const PointLanes& points, float center[3]);
+/// Points that hold a ball in place; a good first guess for a ball nearby.
+struct Support {
+  int index[3];
+  int size = 0;
+};
 
 /// Moves the two coordinates of `center` other than `height_axis` to where the farthest point is
-/// nearest, to 0.1 %: a minimal ball with additive weights, solved on a core set of at most four
-/// points. Any centre is safe, since radii are measured afterwards.
-void recenterInPlane(const PointLanes& points, int height_axis, float center[3]);
+/// nearest, to 1 %: a minimal ball with additive weights, solved on a core set of at most four
+/// points, first those of `support` (in and out). Any centre is safe: radii are measured later.
+void recenterInPlane(const PointLanes& points, int height_axis, float center[3], Support& support);
 
 }  // namespace kios

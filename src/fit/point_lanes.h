@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "bv/lanes.h"
@@ -52,7 +54,7 @@ class PointLanes {
   /// The point farthest from (cx, cy, cz), the first of several.
   Farthest farthest(float cx, float cy, float cz) const {
     using namespace lanes;  // NOLINT(google-build-using-namespace): local to one kernel
-    Float4 best = broadcast(-1.0F);
+    Float4 best = broadcast(0.0F);
     Int4 at = {0, 1, 2, 3}, best_at = at;
     for (int i = 0; i < padded_; i += 4) {
       const Float4 dx = load(&x_[i]) - cx, dy = load(&y_[i]) - cy, dz = load(&z_[i]) - cz;
@@ -62,11 +64,19 @@ class PointLanes {
       best_at = (farther & at) | (~farther & best_at);
       at += 4;
     }
-    int lane = 0;
-    for (int l = 1; l < 4; ++l) {
-      if (best[l] > best[lane] || (best[l] == best[lane] && best_at[l] < best_at[lane])) lane = l;
+    // Squares order like their bits; of equal ones the smallest index wins.
+    std::uint64_t winner = 0;
+    for (int l = 0; l < 4; ++l) {
+      const float square = best[l];
+      std::uint32_t bits;
+      std::memcpy(&bits, &square, sizeof(bits));
+      winner = std::max(winner, std::uint64_t{bits} << 32 | ~static_cast<std::uint32_t>(best_at[l]));
     }
-    return {best_at[lane] < n_ ? best_at[lane] : 0, best[lane]};
+    const int index = static_cast<int>(~static_cast<std::uint32_t>(winner));
+    const auto bits = static_cast<std::uint32_t>(winner >> 32);
+    Farthest far = {index < n_ ? index : 0, 0};  // padding repeats point 0
+    std::memcpy(&far.squared_distance, &bits, sizeof(bits));
+    return far;
   }
 
  private:

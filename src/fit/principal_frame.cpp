@@ -41,12 +41,16 @@ Eigen::Matrix3d covariance(const PointLanes& points) {
   return second - first * first.transpose() / points.size();
 }
 
-Eigen::Vector3f point(const PointLanes& points, int i) {
-  return {points.x()[i], points.y()[i], points.z()[i]};
+Eigen::Matrix3f axesOf(const PointLanes& points) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(covariance(points));
+  return orthonormalAxes(solver.eigenvectors().col(2).cast<float>(),
+                         solver.eigenvectors().col(1).cast<float>());
 }
 
-/// Orthonormal axes from two directions that may be zero, parallel or not finite.
-Eigen::Matrix3f orthonormalAxes(Eigen::Vector3f a, Eigen::Vector3f b) {
+}  // namespace
+
+Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b) {
   const auto normalized = [](Eigen::Vector3f v, const Eigen::Vector3f& fallback) {
     const float largest = v.cwiseAbs().maxCoeff();
     if (!(largest > 0) || !std::isfinite(largest)) return fallback;
@@ -66,21 +70,6 @@ Eigen::Matrix3f orthonormalAxes(Eigen::Vector3f a, Eigen::Vector3f b) {
   axes << e0, e1, e0.cross(e1);
   return axes;
 }
-
-Eigen::Matrix3f axesOf(const PointLanes& points) {
-  if (points.size() == 3) {  // a triangle: longest edge, and across it in its plane
-    const Eigen::Vector3f p1 = point(points, 1), p2 = point(points, 2), p12 = p2 - p1;
-    const float d1 = p1.squaredNorm(), d2 = p2.squaredNorm(), d12 = p12.squaredNorm();
-    if (d1 >= d2 && d1 >= d12) return orthonormalAxes(p1, p2);
-    return d2 >= d12 ? orthonormalAxes(p2, p1) : orthonormalAxes(p12, p1);
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance(points));
-  return orthonormalAxes(solver.eigenvectors().col(2).cast<float>(),
-                         solver.eigenvectors().col(1).cast<float>());
-}
-
-}  // namespace
 
 PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
   PrincipalFrame frame;

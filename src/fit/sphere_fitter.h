@@ -5,6 +5,7 @@
 #include "fcl_kios/fit/fit.h"
 #include "fit/point_lanes.h"
 #include "fit/principal_frame.h"
+#include "fit/sphere_centers.h"
 
 namespace kios {
 
@@ -25,17 +26,9 @@ class SphereFitter {
   void releaseLarge();
 
  private:
-  /// Centres in the frame, relative to the box centre.
-  struct Centers {
-    int k = 1;
-    float sphere[kIOS<S>::kMaxSpheres][3] = {};
-    double least_cap_radius = 0;  ///< > 0 when all caps share a radius, as published
-  };
   void loadRelative(const fcl::Vector3<S>* points, int n);
-  Centers tunedCenters(const PrincipalFrame& frame) const;
-  Centers publishedCenters(const PrincipalFrame& frame) const;
   kIOS<S> measure(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
-                  const Centers& centers) const;
+                  const SphereCenters& centers) const;
 
   PointLanes relative_;  ///< points - points[0], in units of 2^exponent_
   PointLanes in_frame_;
