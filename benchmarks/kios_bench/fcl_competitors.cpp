@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <stdexcept>
+
+#include <fcl/math/bv/OBB.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/math/bv/RSS.h>
+#include <fcl/math/bv/kIOS.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+
+#include "mesh_pair.h"
+
+namespace kios::bench {
+namespace {
+
+namespace nodes = fcl::detail;
+
+// FCL's own functions: this file must not see the overloads of our header.
+struct FclQueries {
+  static void distance(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
+                       const fcl::DistanceRequestd& request, fcl::DistanceResultd& result) {
+    fcl::distance(a, b, request, result);
+  }
+  static void collide(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
+                      const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
+    fcl::collide(a, b, request, result);
+  }
+  static std::optional<std::string> simdTarget() { return std::nullopt; }
+};
+
+struct ObbrssTraits : FclQueries {
+  using BV = fcl::OBBRSSd;
+  using DistanceNode = nodes::MeshDistanceTraversalNodeOBBRSSd;
+  using CollisionNode = nodes::MeshCollisionTraversalNodeOBBRSSd;
+  static constexpr const char* kName = "fcl_obbrss";
+};
+
+struct BuiltinKiosTraits : FclQueries {
+  using BV = fcl::kIOSd;
+  using DistanceNode = nodes::MeshDistanceTraversalNodekIOSd;
+  using CollisionNode = nodes::MeshCollisionTraversalNodekIOSd;
+  static constexpr const char* kName = "fcl_kios_builtin";
+};
+
+// fcl::collide copies, transforms and rebuilds both RSS models at every query.
+struct RssTraits : FclQueries {
+  using BV = fcl::RSSd;
+  using DistanceNode = nodes::MeshDistanceTraversalNodeRSSd;
+  using CollisionNode = NoNode;
+  static constexpr const char* kName = "fcl_rss";
+};
+
+// FCL has no distance between OBBs.
+struct ObbTraits : FclQueries {
+  using BV = fcl::OBBd;
+  using DistanceNode = NoNode;
+  using CollisionNode = nodes::MeshCollisionTraversalNodeOBBd;
+  static constexpr const char* kName = "fcl_obb";
+};
+
+template <typename Traits>
+std::unique_ptr<Competitor> makeFclCompetitor() {
+  return std::make_unique<MeshPair<Traits>>();
+}
+
+struct Entry {
+  const char* name;
+  std::unique_ptr<Competitor> (*make)();
+};
+
+constexpr Entry kCompetitors[] = {
+    {"kios", makeKiosCompetitor},
+    {BuiltinKiosTraits::kName, makeFclCompetitor<BuiltinKiosTraits>},
+    {RssTraits::kName, makeFclCompetitor<RssTraits>},
+    {ObbrssTraits::kName, makeFclCompetitor<ObbrssTraits>},
+    {ObbTraits::kName, makeFclCompetitor<ObbTraits>},
+};
+
+}  // namespace
+
+const char* name(Query query) {
+  switch (query) {
+    case Query::kDistance:
+      return "distance";
+    case Query::kCollide:
+      return "collide";
+    case Query::kBuild:
+      return "build";
+  }
+  return "";
+}
+
+std::vector<std::string> competitorNames() {
+  std::vector<std::string> names;
+  for (const Entry& entry : kCompetitors) names.emplace_back(entry.name);
+  return names;
+}
+
+std::unique_ptr<Competitor> makeCompetitor(const std::string& name) {
+  for (const Entry& entry : kCompetitors) {
+    if (name == entry.name) return entry.make();
+  }
+  throw std::invalid_argument("no bounding volume is called '" + name + "'; see --list");
+}
+
+}  // namespace kios::bench

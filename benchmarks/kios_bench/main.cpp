@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "competitor.h"
+#include "options.h"
+#include "report.h"
+#include "scenario.h"
+
+namespace kios::bench {
+namespace {
+
+void printList() {
+  std::printf("scenarios:\n");
+  for (const Scenario& scenario : scenarios()) {
+    std::printf("  %-12s %s\n", scenario.name, scenario.description);
+  }
+  std::printf("bounding volumes:\n");
+  for (const std::string& bv : competitorNames()) {
+    const auto competitor = makeCompetitor(bv);
+    std::printf("  %-18s", bv.c_str());
+    for (const Query query : {Query::kDistance, Query::kCollide, Query::kBuild}) {
+      if (competitor->serves(query)) std::printf(" %s", name(query));
+    }
+    std::printf("\n");
+  }
+}
+
+// Exit code of --check: 1 if a row of ours is wrong, or if there is none.
+int check(const std::vector<Row>& rows) {
+  constexpr double kMaxErrorPerExtent = 1e-12;
+  int judged = 0;
+  int failed = 0;
+  for (const Row& row : rows) {
+    if (row.bv != "kios" || !row.wrong_verdicts) continue;
+    ++judged;
+    const bool inexact = row.max_abs_error.value_or(0) > kMaxErrorPerExtent * row.extent;
+    if (*row.wrong_verdicts == 0 && !inexact) continue;
+    ++failed;
+    std::fprintf(stderr, "kios_bench: %s %s: %zu wrong verdicts, error %g\n", row.scenario.c_str(),
+                 row.query.c_str(), *row.wrong_verdicts, row.max_abs_error.value_or(0));
+  }
+  std::printf("check: %d of %d rows of kios right\n", judged - failed, judged);
+  return failed == 0 && judged > 0 ? 0 : 1;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Compares kios with FCL's bounding volumes on whole scenarios, against an oracle."};
+  std::vector<std::string> names;
+  for (const Scenario& scenario : scenarios()) names.emplace_back(scenario.name);
+  Options options;
+  options.scenario = "generated";
+  options.bvs = competitorNames();
+  std::string oracle = std::to_string(options.oracle_frames);
+  std::string data;
+  std::string json;
+  bool list = false;
+  bool check_rows = false;
+  app.add_option("scenario", options.scenario, "what to run")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str();
+  app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);
+  app.add_option("--bv", options.bvs, "bounding volumes, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(competitorNames()));
+  app.add_option("--frames", options.frames, "frames of each scene, evenly chosen")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--repeats", options.repeats, "repeats of each measurement")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--oracle", oracle, "number of frames judged by the oracle, or 'all'")
+      ->check(CLI::PositiveNumber | CLI::IsMember({"all"}))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
+  app.add_option("--json", json, "file for one JSON object a row");
+  app.add_flag("--quick", options.quick, "few frames and repeats: a smoke test");
+  app.add_flag("--check", check_rows, "exit with 1 if an answer of kios is wrong");
+  app.add_flag("--list", list, "list scenarios and bounding volumes");
+  CLI11_PARSE(app, argc, argv);
+
+  if (list) {
+    printList();
+    return 0;
+  }
+  if (options.quick && app.count("--repeats") == 0) options.repeats = 2;
+  options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
+  if (!data.empty()) options.data = data;
+  const auto scenario = std::find_if(scenarios().begin(), scenarios().end(),
+                                     [&](const auto& s) { return s.name == options.scenario; });
+  Report report(json.empty() ? std::nullopt : std::optional<std::filesystem::path>(json));
+  try {
+    scenario->run(options, report);
+  } catch (const Skipped& reason) {
+    std::printf("skipped: %s: %s\n", scenario->name, reason.what());
+    return 0;
+  }
+  return check_rows ? check(report.rows()) : 0;
+}
+
+}  // namespace
+}  // namespace kios::bench
+
+int main(int argc, char** argv) {
+  try {
+    return kios::bench::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kios_bench: %s\n", error.what());
+    return 2;
+  }
+}

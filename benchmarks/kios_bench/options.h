@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace kios::bench {
+
+/// What the command line asks for.
+struct Options {
+  std::string scenario;
+  std::optional<std::filesystem::path> data;  // folder of the PQP data
+  std::vector<std::string> bvs;               // competitors, in the order of rows
+  int frames = 0;                             // per scene; 0 = the scenario's own number
+  int repeats = 5;
+  int oracle_frames = 300;  // frames judged by the oracle, evenly chosen; 0 = all
+  std::uint64_t seed = 1;
+  bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
+};
+
+}  // namespace kios::bench

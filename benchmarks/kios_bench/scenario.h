@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <stdexcept>
+#include <vector>
+
+#include "options.h"
+#include "report.h"
+
+namespace kios::bench {
+
+/// Thrown by a scenario that cannot run here, for instance without its data; says why and what to
+/// do.
+class Skipped : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A named set of scenes. Its rows carry the name, followed by `/` and the scene where it has
+/// several.
+struct Scenario {
+  const char* name;
+  const char* description;
+  void (*run)(const Options& options, Report& report);
+};
+
+/// All scenarios. To add one: a file with its run function, declared below, and a line in
+/// scenarios.cpp.
+const std::vector<Scenario>& scenarios();
+
+void runFalling(const Options& options, Report& report);
+void runSpinning(const Options& options, Report& report);
+void runGenerated(const Options& options, Report& report);
+void runScaling(const Options& options, Report& report);
+
+}  // namespace kios::bench

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/triangle.h>
+
+namespace kios::scenes {
+
+/// A triangle mesh in its own frame. Triangles index `vertices`; every index is in range.
+struct Mesh {
+  std::vector<fcl::Vector3d> vertices;
+  std::vector<fcl::Triangle> triangles;
+};
+
+/// Diagonal of the axis-aligned bounding box of the vertices; 0 for a mesh without vertices.
+inline double extent(const Mesh& mesh) {
+  if (mesh.vertices.empty()) return 0;
+  fcl::Vector3d lower = mesh.vertices.front();
+  fcl::Vector3d upper = lower;
+  for (const fcl::Vector3d& p : mesh.vertices) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  return (upper - lower).norm();
+}
+
+/// The same triangles in the same order, each with three vertices of its own (as PQP stores them).
+inline Mesh soup(const Mesh& mesh) {
+  Mesh result;
+  result.vertices.reserve(3 * mesh.triangles.size());
+  result.triangles.reserve(mesh.triangles.size());
+  for (const fcl::Triangle& triangle : mesh.triangles) {
+    const std::size_t first = result.vertices.size();
+    for (int corner = 0; corner < 3; ++corner) {
+      result.vertices.push_back(mesh.vertices[triangle[corner]]);
+    }
+    result.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  return result;
+}
+
+/// The mesh as an FCL model over any bounding volume, vertices cast to BV::S.
+/// Throws std::runtime_error if FCL refuses the mesh (for instance one without triangles).
+template <typename BV>
+std::shared_ptr<fcl::BVHModel<BV>> buildModel(const Mesh& mesh) {
+  std::vector<fcl::Vector3<typename BV::S>> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const fcl::Vector3d& p : mesh.vertices) {
+    vertices.push_back(p.template cast<typename BV::S>());
+  }
+  auto model = std::make_shared<fcl::BVHModel<BV>>();
+  int status = model->beginModel(static_cast<int>(mesh.triangles.size()),
+                                 static_cast<int>(mesh.vertices.size()));
+  if (status == fcl::BVH_OK) status = model->addSubModel(vertices, mesh.triangles);
+  if (status == fcl::BVH_OK) status = model->endModel();
+  if (status != fcl::BVH_OK) {
+    throw std::runtime_error("FCL refused a mesh of " + std::to_string(mesh.triangles.size()) +
+                             " triangles: BVHReturnCode " + std::to_string(status));
+  }
+  return model;
+}
+
+}  // namespace kios::scenes

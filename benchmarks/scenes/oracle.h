@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "aabb_tree.h"
+#include "mesh.h"
+#include "triangle_oracle.h"
+
+namespace kios::scenes {
+
+/// The true answers for two triangle soups at given poses, in long double. The common frame is A's:
+/// x -> R1^T (R2 x + (t2 - t1)) with the double matrices as given, whether or not they are exact
+/// rotations. Const calls are safe from several threads.
+class MeshOracle {
+ public:
+  /// Pairs of a triangle of A and a triangle of B.
+  using Pairs = std::vector<std::pair<int, int>>;
+
+  /// Throws std::invalid_argument if a mesh has no triangle.
+  MeshOracle(const Mesh& a, const Mesh& b);
+
+  /// Distance, 0 in contact (touching counts), rounded to double once.
+  double distance(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
+
+  /// Whether some pair of triangles meets (trianglesMeet).
+  bool collide(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
+
+  /// All pairs that meet, in ascending order.
+  Pairs collidingPairs(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
+
+  // The same over all pairs of triangles, without a tree. Results are equal, bit by bit.
+  double distanceBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
+  bool collideBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
+  Pairs collidingPairsBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
+
+ private:
+  std::vector<ExactTriangle> placeB(const fcl::Transform3d& X_WA,
+                                    const fcl::Transform3d& X_WB) const;
+
+  std::vector<ExactTriangle> triangles_a_;  // in A's frame
+  std::vector<ExactTriangle> triangles_b_;  // in B's frame
+  AabbTree tree_a_;
+  AabbTree tree_b_;
+  std::vector<ExactBox> boxes_a_;  // in A's frame
+};
+
+}  // namespace kios::scenes

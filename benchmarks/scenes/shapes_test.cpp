@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "scenes/shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fcl/math/bv/OBBRSS.h>
+
+namespace kios::scenes {
+namespace {
+
+using fcl::Vector3d;
+
+double signedVolume(const Mesh& mesh) {
+  double six_volumes = 0;
+  for (const fcl::Triangle& t : mesh.triangles) {
+    six_volumes += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]]));
+  }
+  return six_volumes / 6;
+}
+
+// Closed and consistently wound: every directed edge has its opposite exactly once.
+void expectClosed(const Mesh& mesh) {
+  std::map<std::pair<std::size_t, std::size_t>, int> directed_edges;
+  for (const fcl::Triangle& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) ++directed_edges[{t[i], t[(i + 1) % 3]}];
+  }
+  for (const auto& [edge, count] : directed_edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_EQ(directed_edges.count({edge.second, edge.first}), 1u);
+  }
+  EXPECT_GT(signedVolume(mesh), 0);
+}
+
+TEST(Shapes, ClosedAndWoundOutward) {
+  for (const Mesh& mesh : {knobbyTorus(), bentTorus(), bumpyBlob(), bumpyTorus(1000),
+                           subdividedBox({1, 2, 3}, 4), icosphere(1, 2), uvSphere(1, 5, 7)}) {
+    expectClosed(mesh);
+  }
+}
+
+TEST(Shapes, TriangleCounts) {
+  EXPECT_EQ(knobbyTorus().triangles.size(), 3240u);
+  EXPECT_EQ(bentTorus().triangles.size(), 1332u);
+  EXPECT_EQ(bumpyBlob().triangles.size(), 2204u);
+  EXPECT_EQ(subdividedBox({1, 1, 1}, 5).triangles.size(), 300u);
+  EXPECT_EQ(icosphere(1, 3).triangles.size(), 1280u);
+  EXPECT_EQ(uvSphere(1, 6, 9).triangles.size(), 90u);
+  EXPECT_EQ(sheet(1, 1, 3, 4, 0).triangles.size(), 24u);
+  for (const int n : {100, 333, 1000, 5000, 20000, 80000, 1000000}) {
+    EXPECT_NEAR(static_cast<double>(bumpyTorus(n).triangles.size()), n, 0.01 * n);
+  }
+}
+
+TEST(Shapes, Volumes) {
+  EXPECT_NEAR(signedVolume(subdividedBox({1, 2, 3}, 4)), 6, 1e-12);
+  EXPECT_NEAR(signedVolume(icosphere(2, 5)), 32 * std::acos(-1.0) / 3, 0.05);
+}
+
+TEST(Shapes, SoupHasTheSameTriangles) {
+  const Mesh shared = icosphere(1, 1);
+  const Mesh unshared = soup(shared);
+  ASSERT_EQ(unshared.vertices.size(), 3 * shared.triangles.size());
+  for (std::size_t t = 0; t < shared.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(unshared.vertices[unshared.triangles[t][i]],
+                shared.vertices[shared.triangles[t][i]]);
+    }
+  }
+}
+
+TEST(Shapes, RandomSoupIsSeededAndWithinItsEdgeLengths) {
+  const Mesh mesh = randomSoup(200, 1, 1e-2, 10, 5);
+  const Mesh again = randomSoup(200, 1, 1e-2, 10, 5);
+  EXPECT_EQ(mesh.vertices, again.vertices);
+  EXPECT_NE(mesh.vertices, randomSoup(200, 1, 1e-2, 10, 6).vertices);
+  for (const fcl::Triangle& t : mesh.triangles) {
+    for (int i = 1; i < 3; ++i) {
+      const double length = (mesh.vertices[t[i]] - mesh.vertices[t[0]]).norm();
+      EXPECT_GE(length, 0.99e-2);
+      EXPECT_LE(length, 10.01);
+    }
+  }
+}
+
+TEST(Shapes, ModelHasAllTrianglesAndAnEmptyMeshIsRefused) {
+  EXPECT_EQ(buildModel<fcl::OBBRSSd>(icosphere(1, 1))->num_tris, 80);
+  EXPECT_THROW(buildModel<fcl::OBBRSSd>(Mesh{}), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace kios::scenes
