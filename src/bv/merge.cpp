@@ -119,8 +119,8 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   Content content[2] = {contentAround(a, merged.center0, e0), contentAround(b, merged.center0, e0)};
   const double scaled_r0 =
       grown(std::max(content[0].radiusFrom(0, 0, 0), content[1].radiusFrom(0, 0, 0)));
-  merged.radius0 = roundUp<S>(
-      std::nextafter(scaled(scaled_r0, e0), std::numeric_limits<double>::infinity()));
+  merged.radius0 =
+      roundUp<S>(std::nextafter(scaled(scaled_r0, e0), std::numeric_limits<double>::infinity()));
   merged.exponent = static_cast<std::int16_t>(capExponent(merged.radius0));
   content[0] = contentAround(a, merged.center0, merged.exponent);
   content[1] = contentAround(b, merged.center0, merged.exponent);

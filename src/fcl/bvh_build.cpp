@@ -23,8 +23,11 @@ template <typename S>
 class Build {
  public:
   static Build& ofThread() {
-    thread_local Build build;
-    return build;
+    if (!active_) {
+      thread_local Build build;
+      active_ = &build;
+    }
+    return *active_;
   }
 
   void set(const fcl::Vector3<S>* vertices, const fcl::Vector3<S>* prev_vertices,
@@ -45,6 +48,11 @@ class Build {
   }
 
   kIOS<S> fit(const unsigned int* primitives, int n, FitMethod method) {
+    if (n == 1 && type_ == fcl::BVH_MODEL_TRIANGLES && !prev_vertices_) {
+      const fcl::Triangle& t = triangles_[primitives[0]];
+      const fcl::Vector3<S> corners[3] = {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
+      return fitter_.fit(corners, 3, method);
+    }
     gather(primitives, n);
     fitted_ = primitives;
     fitted_count_ = n;
@@ -138,6 +146,9 @@ class Build {
     return (*upper + *std::max_element(heights_.begin(), upper)) / 2;
   }
 
+  // Found without a call: a split asks for it once a primitive.
+  __attribute__((tls_model("initial-exec"))) static thread_local Build* active_;
+
   const fcl::Vector3<S>* vertices_ = nullptr;
   const fcl::Vector3<S>* prev_vertices_ = nullptr;
   const fcl::Triangle* triangles_ = nullptr;
@@ -156,6 +167,9 @@ class Build {
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
   SplitPlane plane_;
 };
+
+template <typename S>
+thread_local Build<S>* Build<S>::active_ = nullptr;
 
 }  // namespace
 }  // namespace kios

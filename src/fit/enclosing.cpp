@@ -75,8 +75,7 @@ class CoreSet {
 
 }  // namespace
 
-void recenterInPlane(const PointLanes& points, int height_axis, float center[3],
-                     Support& support) {
+void recenterInPlane(const PointLanes& points, int height_axis, float center[3], Support& support) {
   constexpr int kRounds = 6;
   constexpr double kGap = 1e-2;
   const float* const coordinates[3] = {points.x(), points.y(), points.z()};

@@ -70,7 +70,8 @@ class PointLanes {
       const float square = best[l];
       std::uint32_t bits;
       std::memcpy(&bits, &square, sizeof(bits));
-      winner = std::max(winner, std::uint64_t{bits} << 32 | ~static_cast<std::uint32_t>(best_at[l]));
+      winner =
+          std::max(winner, std::uint64_t{bits} << 32 | ~static_cast<std::uint32_t>(best_at[l]));
     }
     const int index = static_cast<int>(~static_cast<std::uint32_t>(winner));
     const auto bits = static_cast<std::uint32_t>(winner >> 32);

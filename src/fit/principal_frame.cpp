@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace kios {
 namespace {
@@ -51,22 +53,21 @@ Eigen::Matrix3f axesOf(const PointLanes& points) {
 }  // namespace
 
 Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b) {
-  const auto normalized = [](Eigen::Vector3f v, const Eigen::Vector3f& fallback) {
-    const float largest = v.cwiseAbs().maxCoeff();
-    if (!(largest > 0) || !std::isfinite(largest)) return fallback;
-    v /= largest;
-    return Eigen::Vector3f(v / v.norm());
-  };
-  Eigen::Matrix3f axes;
-  const Eigen::Vector3f e0 = normalized(a, Eigen::Vector3f::UnitX());
-  int least = 0;
-  e0.cwiseAbs().minCoeff(&least);
-  Eigen::Vector3f any = Eigen::Vector3f::Unit(least);
-  any -= e0.dot(any) * e0;
-  const float size_b = b.norm();
+  constexpr float kTiny = 1e-30F;  // squared; the caller's units make the longest length about 1
+  const float square_a = a.squaredNorm(), square_b = b.squaredNorm();
+  const bool usable = square_a > kTiny && square_a < std::numeric_limits<float>::infinity();
+  const Eigen::Vector3f e0 =
+      usable ? Eigen::Vector3f(a / std::sqrt(square_a)) : Eigen::Vector3f::UnitX();
   b -= e0.dot(b) * e0;
-  const Eigen::Vector3f e1 =
-      normalized(b.norm() > 1e-3F * size_b ? b : Eigen::Vector3f::Zero().eval(), any.normalized());
+  float square = b.squaredNorm();
+  if (!(square > 1e-6F * square_b && square > kTiny)) {  // any direction across e0
+    int least = 0;
+    e0.cwiseAbs().minCoeff(&least);
+    b = Eigen::Vector3f::Unit(least) - e0[least] * e0;
+    square = b.squaredNorm();
+  }
+  const Eigen::Vector3f e1 = b / std::sqrt(square);
+  Eigen::Matrix3f axes;
   axes << e0, e1, e0.cross(e1);
   return axes;
 }
@@ -96,8 +97,11 @@ PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
       lanes::store(out[k] + i, load(out[k] + i) - frame.middle[k]);
     }
   }
-  std::stable_sort(frame.order, frame.order + 3,
-                   [&](int a, int b) { return frame.half[a] > frame.half[b]; });
+  const float* const half = frame.half;
+  int* const order = frame.order;
+  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
+  if (half[order[1]] < half[order[2]]) std::swap(order[1], order[2]);
+  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
   return frame;
 }
 

@@ -68,8 +68,7 @@ kIOS<S> SphereFitter<S>::measure(const fcl::Vector3<S>* points, int n, const Pri
   const Eigen::Vector3f to_center =
       inModel(frame.middle[0] + s0[0], frame.middle[1] + s0[1], frame.middle[2] + s0[2]);
   for (int c = 0; c < 3; ++c) {
-    bv.center0[c] =
-        static_cast<S>(double{points[0][c]} + scaled(double{to_center[c]}, exponent_));
+    bv.center0[c] = static_cast<S>(double{points[0][c]} + scaled(double{to_center[c]}, exponent_));
   }
   for (int i = 1; i < centers.k; ++i) {
     const float* const s = centers.sphere[i];
