@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace kios {
+
+template <typename S>
+using Point = Eigen::Matrix<S, 3, 1>;
+
+/// A closed triangle by its vertices, in any order; it may degenerate to a segment or a point.
+template <typename S>
+using TriangleVertices = std::array<Point<S>, 3>;
+
+}  // namespace kios

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "triangle/certified_distance.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace kios {
+namespace {
+
+using Vec = Eigen::Vector3d;
+
+constexpr double kEps = 0x1p-52;
+
+double clamp01(double t) { return t < 0 ? 0 : (t > 1 ? 1 : t); }
+
+PairFeature onEdge(int edge, double t) {
+  if (t == 0) return {PairFeature::kVertex, edge};
+  if (t == 1) return {PairFeature::kVertex, nextVertex(edge)};
+  return {PairFeature::kEdge, edge};
+}
+
+}  // namespace
+
+CertifiedDistance::CertifiedDistance(const TrianglePair& pair)
+    : pair_(pair), tolerance_(8 * kEps * pair.magnitude), least_(64 * kEps * pair.magnitude) {
+  for (int i = 0; i < 3; ++i) {
+    e_[i] = pair_.p[nextVertex(i)] - pair_.p[i];
+    f_[i] = pair_.q[nextVertex(i)] - pair_.q[i];
+    ee_[i] = e_[i].squaredNorm();
+    ff_[i] = f_[i].squaredNorm();
+    per_ee_[i] = 1 / ee_[i];
+    per_ff_[i] = 1 / ff_[i];
+  }
+}
+
+bool CertifiedDistance::crossing() {
+  setPlane(pair_.p, e_, pair_.q, plane_p_);
+  setPlane(pair_.q, f_, pair_.p, plane_q_);
+  return plane_p_.side == 0 && plane_q_.side == 0;
+}
+
+void CertifiedDistance::setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3],
+                                 Plane& plane) {
+  plane.normal = edges[0].cross(edges[1]);
+  plane.square = plane.normal.squaredNorm();
+  int above = 0, below = 0;
+  for (int i = 0; i < 3; ++i) {
+    plane.heights[i] = (other[i] - face[0]).dot(plane.normal);
+    above += plane.heights[i] > 0;
+    below += plane.heights[i] < 0;
+  }
+  plane.side = above == 3 ? 1 : (below == 3 ? -1 : 0);
+}
+
+bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) const {
+  for (int i = begin; i < end; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (edgePair(i, j, found)) return true;
+    }
+  }
+  return false;
+}
+
+bool CertifiedDistance::nearestFace(PairDistance& found) const {
+  if (facePair(plane_p_, pair_.p, e_, pair_.q, found.on_p, found.on_q, found.feature_q,
+               found.distance)) {
+    found.feature_p = {PairFeature::kFace, 0};
+    return true;
+  }
+  if (facePair(plane_q_, pair_.q, f_, pair_.p, found.on_q, found.on_p, found.feature_p,
+               found.distance)) {
+    found.feature_q = {PairFeature::kFace, 0};
+    return true;
+  }
+  return false;
+}
+
+/// Nearest points of edges i and j; true if they are those of the triangles.
+bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) const {
+  const Vec &e = e_[i], &f = f_[j];
+  if (!(ee_[i] > 0 && ff_[j] > 0)) return false;
+  const Vec t = pair_.q[j] - pair_.p[i];
+  const double ee = ee_[i], ff = ff_[j], ef = e.dot(f), et = e.dot(t), ft = f.dot(t);
+  const double den = ee * ff - ef * ef;
+  double s = den > 1e-14 * ee * ff ? clamp01((et * ff - ft * ef) / den) : 0;
+  double v = (s * ef - ft) * per_ff_[j];
+  if (v < 0) {
+    v = 0;
+    s = clamp01(et * per_ee_[i]);
+  } else if (v > 1) {
+    v = 1;
+    s = clamp01((et + ef) * per_ee_[i]);
+  }
+  const Vec x = pair_.p[i] + s * e, y = pair_.q[j] + v * f, w = y - x;
+  const double square = w.squaredNorm();
+  // The other vertex of each triangle must lie behind its own point.
+  const double limit = tolerance_ * tolerance_ * square;
+  const double ahead = (pair_.p[nextVertex(nextVertex(i))] - x).dot(w);
+  if (ahead > 0 && ahead * ahead > limit) return false;
+  const double behind = (pair_.q[nextVertex(nextVertex(j))] - y).dot(w);
+  if (behind < 0 && behind * behind > limit) return false;
+
+  const double distance = std::sqrt(square);
+  if (!(distance > least_)) return false;
+  Vec direction = w;
+  if (s > 0 && s < 1 && v > 0 && v < 1) {
+    // w loses digits as the distance falls; the edges' common normal does not, unless they are
+    // nearly parallel.
+    const Vec n = e.cross(f);
+    if (n.squaredNorm() > 1e-4 * ee * ff) {
+      direction = n.dot(w) < 0 ? Vec(-n) : n;
+    }
+  }
+  if (!certified(direction, x, distance)) return false;
+  found = {distance, x, y, onEdge(i, s), onEdge(j, v)};
+  return true;
+}
+
+/// The slab across `direction` between the triangles is at least distance - tolerance wide.
+bool CertifiedDistance::certified(const Vec& direction, const Vec& x, double distance) const {
+  double high = (pair_.p[0] - x).dot(direction), low = (pair_.q[0] - x).dot(direction);
+  for (int k = 1; k < 3; ++k) {
+    high = std::max(high, (pair_.p[k] - x).dot(direction));
+    low = std::min(low, (pair_.q[k] - x).dot(direction));
+  }
+  const double length = direction.norm();
+  return distance * length - (low - high) <= tolerance_ * length;
+}
+
+/// The vertex of `other` nearest to the plane of `face`, if all lie on one side of it and that
+/// vertex above the face.
+bool CertifiedDistance::facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
+                                 const Vec (&other)[3], Vec& on_face, Vec& on_other,
+                                 PairFeature& feature, double& distance) const {
+  const Vec& n = plane.normal;
+  const double square = plane.square;
+  if (plane.side == 0 || !(square > 1e-6 * edges[0].squaredNorm() * edges[1].squaredNorm())) {
+    return false;
+  }
+  const double length = std::sqrt(square);
+  const double* const h = plane.heights;
+  int nearest = std::abs(h[1]) < std::abs(h[0]) ? 1 : 0;
+  if (std::abs(h[2]) < std::abs(h[nearest])) nearest = 2;
+  distance = std::abs(h[nearest]) / length;
+  if (!(distance > least_)) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (n.cross(edges[i]).dot(other[nearest] - face[i]) < 0) return false;
+  }
+  // The face itself must lie within the slab's one side, else n is too inaccurate.
+  double low = 0, high = 0;
+  for (int i = 1; i < 3; ++i) {
+    const double offset = (face[i] - face[0]).dot(n);
+    low = std::min(low, offset);
+    high = std::max(high, offset);
+  }
+  if (!(high - low <= 0.5 * tolerance_ * length)) return false;
+  on_other = other[nearest];
+  on_face = on_other - (h[nearest] / square) * n;
+  feature = {PairFeature::kVertex, nearest};
+  return true;
+}
+
+}  // namespace kios

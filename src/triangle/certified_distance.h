@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "triangle/pair.h"
+
+namespace kios {
+
+/// The fast kernel: candidates of plain arithmetic, taken only if a slab between the triangles
+/// certifies them to 8 eps magnitude; touching, intersecting and nearly degenerate pairs get none.
+/// The pair's magnitude must lie within 1e-70 to 1e70.
+class CertifiedDistance {
+ public:
+  explicit CertifiedDistance(const TrianglePair& pair);
+
+  /// Edges `begin` to `end` of p against all of q.
+  bool nearestEdges(int begin, int end, PairDistance& found) const;
+  /// Computes the planes; true if each triangle has vertices on both sides of the other's, as far
+  /// as rounding tells, when it pays to ask for an intersection before going on.
+  bool crossing();
+  /// Vertices against faces, after crossing().
+  bool nearestFace(PairDistance& found) const;
+
+ private:
+  using Vec = Eigen::Vector3d;
+  /// What is needed of one triangle's plane, and the other's vertices above it times |normal|.
+  struct Plane {
+    Vec normal;
+    double square, heights[3];
+    int side;  ///< of all three vertices, 0 if they differ
+  };
+  void setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3], Plane& plane);
+  bool edgePair(int i, int j, PairDistance& found) const;
+  bool facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
+                const Vec (&other)[3], Vec& on_face, Vec& on_other, PairFeature& feature,
+                double& distance) const;
+  bool certified(const Vec& direction, const Vec& x, double distance) const;
+
+  const TrianglePair& pair_;
+  const double tolerance_;  ///< of the certificate
+  const double least_;      ///< nearer pairs are left to the exact predicates
+  Vec e_[3], f_[3];
+  double ee_[3], ff_[3], per_ee_[3], per_ff_[3];
+  Plane plane_p_, plane_q_;
+};
+
+}  // namespace kios

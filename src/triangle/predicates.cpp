@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "triangle/predicates.h"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+
+#include "triangle/expansion.h"
+
+namespace kios {
+namespace {
+
+using boost::multiprecision::cpp_int;
+
+int signOf(double v) { return (v > 0) - (v < 0); }
+
+/// v 2^1074, an integer for every finite double.
+cpp_int integer(double v) {
+  int e;
+  const double mantissa = std::frexp(v, &e);  // v = mantissa 2^e, |mantissa| in [1/2, 1)
+  cpp_int n = static_cast<long long>(std::ldexp(mantissa, 53));
+  const int shift = e - 53 + 1074;
+  // Subnormals have zeros below bit 0.
+  return shift >= 0 ? cpp_int(n << shift) : cpp_int(n / (cpp_int(1) << -shift));
+}
+
+}  // namespace
+
+PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scaled_(points) {
+  double largest = 0, least = 1;
+  for (const auto& p : points) {
+    for (const double v : p) largest = std::max(largest, std::abs(v));
+  }
+  if (!(largest >= 0x1p-200 && largest <= 0x1p200) && largest > 0) {
+    const int e = std::ilogb(largest);
+    for (auto& p : scaled_) {
+      for (double& v : p) v = std::ldexp(v, -e);
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int c = 0; c < 3; ++c) {
+      if (points[i][c] != 0) least = std::min(least, std::abs(scaled_[i][c]));
+    }
+  }
+  // Bits of coordinates lie above 2^-324, those of triple products above 2^-972.
+  expansions_exact_ = least >= 0x1p-270;
+}
+
+// Filters: |det - exact| <= (7 + 56 u) u permanent for orient3d with rounded differences, (3 + 16
+// u) u for the 2x2 (Shewchuk); products that underflow add less than 2^-800 at this scale.
+int PairPredicates::orient3d(int i, int j, int k, int l) const {
+  const auto &a = scaled_[i], &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
+  const double adx = a[0] - d[0], ady = a[1] - d[1], adz = a[2] - d[2];
+  const double bdx = b[0] - d[0], bdy = b[1] - d[1], bdz = b[2] - d[2];
+  const double cdx = c[0] - d[0], cdy = c[1] - d[1], cdz = c[2] - d[2];
+  const double bxcy = bdx * cdy, cxby = cdx * bdy, cxay = cdx * ady, axcy = adx * cdy,
+               axby = adx * bdy, bxay = bdx * ady;
+  const double det = adz * (bxcy - cxby) + bdz * (cxay - axcy) + cdz * (axby - bxay);
+  const double permanent = (std::abs(bxcy) + std::abs(cxby)) * std::abs(adz) +
+                           (std::abs(cxay) + std::abs(axcy)) * std::abs(bdz) +
+                           (std::abs(axby) + std::abs(bxay)) * std::abs(cdz);
+  constexpr double kBound = 8 * 0x1p-53;
+  if (std::abs(det) > kBound * permanent + 0x1p-800) return signOf(det);
+  return exactOrient3d(i, j, k, l);
+}
+
+int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const double left = (scaled_[j][u] - scaled_[i][u]) * (scaled_[l][v] - scaled_[k][v]);
+  const double right = (scaled_[j][v] - scaled_[i][v]) * (scaled_[l][u] - scaled_[k][u]);
+  constexpr double kBound = 4 * 0x1p-53;
+  const double det = left - right;
+  if (std::abs(det) > kBound * (std::abs(left) + std::abs(right)) + 0x1p-800) return signOf(det);
+  return exactCross2d(i, j, k, l, axis);
+}
+
+int PairPredicates::exactOrient3d(int i, int j, int k, int l) const {
+  if (!expansions_exact_) {
+    cpp_int m[3][3];
+    const int rows[3] = {i, j, k};
+    for (int r = 0; r < 3; ++r) {
+      for (int c = 0; c < 3; ++c) m[r][c] = integer(given_[rows[r]][c]) - integer(given_[l][c]);
+    }
+    const cpp_int det = m[0][2] * (m[1][0] * m[2][1] - m[2][0] * m[1][1]) +
+                        m[1][2] * (m[2][0] * m[0][1] - m[0][0] * m[2][1]) +
+                        m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]);
+    return det.sign();
+  }
+  Expansion<2> m[3][3];
+  const int rows[3] = {i, j, k};
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) m[r][c] = difference(scaled_[rows[r]][c], scaled_[l][c]);
+  }
+  const auto minor = [&m](int r, int s) {
+    return sum(product(m[r][0], m[s][1]), negated(product(m[s][0], m[r][1])));
+  };
+  return sum(sum(product(minor(1, 2), m[0][2]), product(minor(2, 0), m[1][2])),
+             product(minor(0, 1), m[2][2]))
+      .sign();
+}
+
+int PairPredicates::exactCross2d(int i, int j, int k, int l, int axis) const {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  if (!expansions_exact_) {
+    const auto d = [this](int to, int from, int c) {
+      return cpp_int(integer(given_[to][c]) - integer(given_[from][c]));
+    };
+    return cpp_int(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u)).sign();
+  }
+  const auto d = [this](int to, int from, int c) {
+    return difference(scaled_[to][c], scaled_[from][c]);
+  };
+  return sum(product(d(j, i, u), d(l, k, v)), negated(product(d(j, i, v), d(l, k, u)))).sign();
+}
+
+}  // namespace kios

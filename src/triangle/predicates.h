@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+namespace kios {
+
+/// Exact signs of determinants of the six vertices of a pair of triangles (a: 0 to 2, b: 3 to 5).
+/// Coordinates must be finite.
+class PairPredicates {
+ public:
+  using Coordinates = std::array<std::array<double, 3>, 6>;
+
+  explicit PairPredicates(const Coordinates& points);
+
+  /// Sign of det(p_i - p_l, p_j - p_l, p_k - p_l).
+  int orient3d(int i, int j, int k, int l) const;
+  /// Sign of the area of (i, j, k) in the projection along `axis`.
+  int orient2d(int i, int j, int k, int axis) const { return cross2d(i, j, i, k, axis); }
+  /// Sign of component `axis` of (p_j - p_i) x (p_l - p_k).
+  int cross2d(int i, int j, int k, int l, int axis) const;
+  /// Coordinate `axis` of p_i <= that of p_j.
+  bool notAbove(int i, int j, int axis) const { return given_[i][axis] <= given_[j][axis]; }
+
+ private:
+  int exactOrient3d(int i, int j, int k, int l) const;
+  int exactCross2d(int i, int j, int k, int l, int axis) const;
+
+  const Coordinates& given_;
+  Coordinates scaled_;     ///< given_ times a power of two, largest magnitude within 2^+-200
+  bool expansions_exact_;  ///< no term of an expansion can underflow
+};
+
+}  // namespace kios
