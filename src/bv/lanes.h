@@ -12,8 +12,8 @@
 namespace kios::lanes {
 
 /// Four floats, one operation each: every target that g++ and clang++ know, no compiler flags.
-typedef float Float4 __attribute__((vector_size(16)));
-typedef int Int4 __attribute__((vector_size(16)));
+using Float4 = float __attribute__((vector_size(16)));
+using Int4 = int __attribute__((vector_size(16)));
 
 inline Float4 broadcast(float v) { return Float4{v, v, v, v}; }
 

@@ -100,14 +100,14 @@ void validate(const Model<S>& model) {
                  static_cast<std::size_t>(model.num_vertices));
 }
 
-#define KIOS_INSTANTIATE(S)                                                         \
-  template std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>&, \
-                                               const std::vector<fcl::Triangle>&);  \
-  template void requireFinished(const Model<S>&);                                   \
-  template void validate(const Model<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template std::shared_ptr<Modeld> makeModel(const std::vector<fcl::Vector3d>&,
+                                           const std::vector<fcl::Triangle>&);
+template std::shared_ptr<Modelf> makeModel(const std::vector<fcl::Vector3f>&,
+                                           const std::vector<fcl::Triangle>&);
+template void requireFinished(const Modeld&);
+template void requireFinished(const Modelf&);
+template void validate(const Modeld&);
+template void validate(const Modelf&);
 
 }  // namespace kios
 
