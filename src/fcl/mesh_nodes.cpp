@@ -6,19 +6,26 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "fcl/triangle_contact.h"
+#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/triangle/intersection.h"
+
 namespace kios {
 namespace {
 
 template <typename S>
-struct Corners {
-  Corners(const fcl::Vector3<S>* vertices, const fcl::Triangle& triangle)
-      : a(vertices[triangle[0]]), b(vertices[triangle[1]]), c(vertices[triangle[2]]) {}
-  const fcl::Vector3<S>&a, &b, &c;
-};
+TriangleVertices<S> cornersOf(const fcl::Vector3<S>* vertices, const fcl::Triangle& triangle) {
+  return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
+}
+
+template <typename S, typename Pose>
+TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
+  return {X * t[0], X * t[1], X * t[2]};
+}
 
 template <typename S>
-fcl::AABB<S> worldBox(const Corners<S>& t, const fcl::Transform3<S>& X_WT) {
-  return fcl::AABB<S>(X_WT * t.a, X_WT * t.b, X_WT * t.c);
+fcl::AABB<S> boxOf(const TriangleVertices<S>& t) {
+  return fcl::AABB<S>(t[0], t[1], t[2]);
 }
 
 template <typename Node, typename S, typename Request, typename Result>
@@ -68,35 +75,27 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (!occupied && !costs) return;
 
   const int id1 = model1.getBV(b1).primitiveId(), id2 = model2.getBV(b2).primitiveId();
-  const Corners<S> p(this->vertices1, this->tri_indices1[id1]);
-  const Corners<S> q(this->vertices2, this->tri_indices2[id2]);
-  const bool locate = occupied && request.enable_contact;
-  fcl::Vector3<S> points[3], normal = fcl::Vector3<S>::Zero();  // FCL writes up to 3 points
-  unsigned int num_points = 0;
-  S depth = 0;
-  if (!fcl::detail::Intersect<S>::intersect_Triangle(
-          p.a, p.b, p.c, q.a, q.b, q.c, X_12->R, X_12->T, locate ? points : nullptr,
-          locate ? &num_points : nullptr, locate ? &depth : nullptr, locate ? &normal : nullptr)) {
-    return;
-  }
+  const auto p = cornersOf(this->vertices1, this->tri_indices1[id1]);
+  const auto q_local = cornersOf(this->vertices2, this->tri_indices2[id2]);
+  const auto q = transformed(q_local, *X_12);
+  if (!trianglesIntersect(p, q)) return;
 
   if (occupied) {
     const std::size_t room =
         request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
-    if (!locate) {
+    if (!request.enable_contact) {
       if (room > 0) result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2));
     } else {
-      // FCL may find a hit but no deepest point; the hit still counts.
-      if (num_points == 0) points[num_points++] = (p.a + p.b + p.c) / 3;
-      for (std::size_t i = 0; i < std::min<std::size_t>(room, num_points); ++i) {
-        result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, this->tf1 * points[i],
-                                          this->tf1.linear() * normal, depth));
+      const TriangleContact<S> contact = triangleContact(p, q);
+      for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
+        result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, this->tf1 * contact.points[i],
+                                          this->tf1.linear() * contact.normal, contact.depth));
       }
     }
   }
   if (costs) {
     fcl::AABB<S> shared;
-    worldBox(p, this->tf1).overlap(worldBox(q, this->tf2), shared);
+    boxOf(transformed(p, this->tf1)).overlap(boxOf(transformed(q_local, this->tf2)), shared);
     result.addCostSource(fcl::CostSource<S>(shared, this->cost_density),
                          request.num_max_cost_sources);
   }
@@ -131,17 +130,15 @@ void MeshDistanceTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_leaf_tests++;
   const int id1 = this->model1->getBV(b1).primitiveId();
   const int id2 = this->model2->getBV(b2).primitiveId();
-  const Corners<S> p(this->vertices1, this->tri_indices1[id1]);
-  const Corners<S> q(this->vertices2, this->tri_indices2[id2]);
-  fcl::Vector3<S> on_p, on_q;
-  const S distance = fcl::detail::TriangleDistance<S>::triDistance(p.a, p.b, p.c, q.a, q.b, q.c,
-                                                                   X_12->R, X_12->T, on_p, on_q);
-  if (!(distance < best_)) return;
-  lowerTo(distance);
+  const auto p = cornersOf(this->vertices1, this->tri_indices1[id1]);
+  const auto q = transformed(cornersOf(this->vertices2, this->tri_indices2[id2]), *X_12);
+  const TriangleDistance<S> nearest = triangleDistance(p, q);
+  if (!(nearest.distance < best_)) return;
+  lowerTo(nearest.distance);
   tri1_ = id1;
   tri2_ = id2;
-  point1_ = on_p;
-  point2_ = on_q;
+  point1_ = nearest.point_a;
+  point2_ = nearest.point_b;
 }
 
 template <typename S>

@@ -16,6 +16,9 @@ struct RelativePose {
   /// A point's rounding error is at most 4 eps (|R||x| + |t2 - t1|) a coordinate.
   RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
 
+  /// A point of B in A.
+  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return R * x_B + T; }
+
   fcl::Matrix3<S> R;
   fcl::Vector3<S> T;
   float Rf[3][3];  ///< R rounded to float.
