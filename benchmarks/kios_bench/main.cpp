@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   std::string oracle = std::to_string(options.oracle_frames);
   std::string data;
   std::string json;
+  std::string markdown;
   bool list = false;
   bool check_rows = false;
   app.add_option("scenario", options.scenario, "what to run")
@@ -80,6 +81,7 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
   app.add_option("--json", json, "file for one JSON object a row");
+  app.add_option("--markdown", markdown, "file for the table of 'stability'");
   app.add_flag("--quick", options.quick, "few frames and repeats: a smoke test");
   app.add_flag("--check", check_rows, "exit with 1 if an answer of kios is wrong");
   app.add_flag("--list", list, "list scenarios and bounding volumes");
@@ -92,6 +94,7 @@ int run(int argc, char** argv) {
   if (options.quick && app.count("--repeats") == 0) options.repeats = 2;
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
+  if (!markdown.empty()) options.markdown = markdown;
   const auto scenario = std::find_if(scenarios().begin(), scenarios().end(),
                                      [&](const auto& s) { return s.name == options.scenario; });
   Report report(json.empty() ? std::nullopt : std::optional<std::filesystem::path>(json));

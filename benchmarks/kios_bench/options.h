@@ -20,6 +20,7 @@ struct Options {
   int repeats = 5;
   int oracle_frames = 300;  // frames judged by the oracle, evenly chosen; 0 = all
   std::uint64_t seed = 1;
+  std::optional<std::filesystem::path> markdown;  // file for the table of a scenario that has one
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
 };
 

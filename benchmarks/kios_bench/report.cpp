@@ -96,13 +96,17 @@ Report::Report(const std::optional<std::filesystem::path>& json_file) {
 
 void Report::add(const std::vector<Row>& rows) {
   printHeading();
+  for (const Row& row : rows) print(row);
+  std::printf("\n");
+  std::fflush(stdout);
+  addUnprinted(rows);
+}
+
+void Report::addUnprinted(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
-    print(row);
     if (json_.is_open()) json_ << toJson(row) << '\n';
     rows_.push_back(row);
   }
-  std::printf("\n");
-  std::fflush(stdout);
   json_.flush();
 }
 

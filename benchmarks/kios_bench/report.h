@@ -36,7 +36,9 @@ struct Row {
   std::optional<std::size_t> total_pairs;
   std::optional<std::string> simd_target;
   std::uint64_t seed = 0;
-  double extent = 0;  // of the larger mesh, the scale of its errors; in the table only
+  // Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles, whose
+  // errors are relative to the extent of each pair.
+  double extent = 0;
 };
 
 /// The row as one line of JSON. Numbers that are not finite become null.
@@ -51,6 +53,9 @@ class Report {
 
   /// Adds the rows of one scene, with the table's heading above them.
   void add(const std::vector<Row>& rows);
+
+  /// The same for a scenario that prints a table of its own.
+  void addUnprinted(const std::vector<Row>& rows);
 
   const std::vector<Row>& rows() const { return rows_; }
 

@@ -34,5 +34,6 @@ void runFalling(const Options& options, Report& report);
 void runSpinning(const Options& options, Report& report);
 void runGenerated(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
+void runStability(const Options& options, Report& report);
 
 }  // namespace kios::bench

@@ -12,6 +12,8 @@ const std::vector<Scenario>& scenarios() {
       {"generated", "the same kind of scenes, made by the program", runGenerated},
       {"scaling", "bumpy tori of 1k to 80k triangles: gap 0.1, 1e-3, touching; build and memory",
        runScaling},
+      {"stability", "triangle distance and intersection over hard classes of pairs, and FCL's",
+       runStability},
   };
   return all;
 }

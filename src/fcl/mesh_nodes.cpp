@@ -84,7 +84,10 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
     const std::size_t room =
         request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
     if (!request.enable_contact) {
-      if (room > 0) result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2));
+      const fcl::Vector3<S> unset = fcl::Vector3<S>::Zero();  // FCL leaves it uninitialised
+      if (room > 0) {
+        result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, unset, unset, S(0)));
+      }
     } else {
       const TriangleContact<S> contact = triangleContact(p, q);
       for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
