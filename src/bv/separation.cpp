@@ -154,6 +154,21 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   return roundDown<S>(std::max(0.0, bound.value));
 }
 
+/// Frobenius norm of R^T R - I; throws if that is too much for a rotation.
+template <typename S>
+double rotationError(const fcl::Matrix3<S>& R, const char* what) {
+  const Eigen::Matrix3d Rd = R.template cast<double>();
+  const double error = (Rd.transpose() * Rd - Eigen::Matrix3d::Identity()).norm();
+  constexpr double kRigid = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
+  if (!(error <= kRigid)) {  // NaN is refused as well
+    std::ostringstream message;
+    message << "fcl_kios: the " << what << " is not rigid: |R^T R - I| = " << error << ", at most "
+            << kRigid << " is allowed.";
+    throw std::invalid_argument(message.str());
+  }
+  return error;
+}
+
 template <typename S>
 const RelativePose<S>& identityPose() {
   static const RelativePose<S> identity(fcl::Matrix3<S>::Identity(), fcl::Vector3<S>::Zero());
@@ -165,35 +180,27 @@ const RelativePose<S>& identityPose() {
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
     : R(R_AB), T(T_AB) {
-  precompute("relative pose");
+  precompute(rotationError(R_AB, "relative pose"));
 }
 
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2)
     : R(X_W1.linear().transpose() * X_W2.linear()),
       T(X_W1.linear().transpose() * (X_W2.translation() - X_W1.translation())) {
-  precompute("pair of poses");
+  const double error1 = rotationError<S>(X_W1.linear(), "first object's pose");
+  precompute(error1 + rotationError<S>(X_W2.linear(), "second object's pose"));
 }
 
 template <typename S>
-void RelativePose<S>::precompute(const char* what) {
+void RelativePose<S>::precompute(double rotation_error) {
   T_norm1 = std::abs(double{T[0]}) + std::abs(double{T[1]}) + std::abs(double{T[2]});
-  if (!(T_norm1 <= kMaxCoordinate<S>) || !R.allFinite()) {
-    std::ostringstream message;
-    message << "fcl_kios: the " << what << " has a NaN, infinite or too large entry.";
-    throw std::invalid_argument(message.str());
+  if (!(T_norm1 <= kMaxCoordinate<S>)) {
+    throw std::invalid_argument(
+        "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
   }
-  const Eigen::Matrix3d Rd = R.template cast<double>();
-  const double error = (Rd.transpose() * Rd - Eigen::Matrix3d::Identity()).norm();
-  constexpr double kRigid = sizeof(S) == sizeof(double) ? 2e-4 : 2e-3;  // two poses of half each
-  if (!(error <= kRigid)) {
-    std::ostringstream message;
-    message << "fcl_kios: the " << what << " is not rigid: |R^T R - I| = " << error
-            << "; use rotations that are orthonormal to " << kRigid / 2 << ".";
-    throw std::invalid_argument(message.str());
-  }
-  // |R|_2 <= sqrt(1 + |E|) <= 1 + |E| / 2; E itself is known to 2^-48.
-  stretch = 0.5 * error + 0x1p-48;
+  // |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|); the product's entries are off by 3 u each.
+  constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+  stretch = 0.501 * rotation_error + 16 * kUlp;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) Rf[i][j] = static_cast<float>(R(i, j));
   }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bv/rounding.h"
 #include "fcl/triangle_contact.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"

@@ -3,6 +3,7 @@
 #include "fcl/mesh_queries.h"
 
 #include <iostream>
+#include <limits>
 
 #include "fcl/narrowphase/detail/traversal/collision_node.h"
 #include "fcl_kios/fcl/mesh_nodes.h"
@@ -30,7 +31,12 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
                  fcl::DistanceResult<S>& result) {
   MeshDistanceTraversalNode<S> node;
   initialize(node, model1, tf1, model2, tf2, request, result);
-  if (!request.isSatisfied(result)) fcl::detail::distance(&node);
+  if (request.isSatisfied(result)) return result.min_distance;
+  if (result.min_distance < std::numeric_limits<S>::max()) {  // a bound that the roots may exceed
+    node.preprocess();
+    if (node.canStop(node.BVTesting(0, 0))) return result.min_distance;
+  }
+  fcl::detail::distance(&node);
   return result.min_distance;
 }
 
