@@ -154,19 +154,25 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   return roundDown<S>(std::max(0.0, bound.value));
 }
 
-/// Frobenius norm of R^T R - I; throws if that is too much for a rotation.
+[[noreturn]] void refuseRotation(const char* what, double error, double allowed) {
+  std::ostringstream message;
+  message << "fcl_kios: the " << what << " is not rigid: |R^T R - I| = " << error << ", at most "
+          << allowed << " is allowed.";
+  throw std::invalid_argument(message.str());
+}
+
+/// Square of the Frobenius norm of R^T R - I; throws if that is too much for a rotation.
 template <typename S>
-double rotationError(const fcl::Matrix3<S>& R, const char* what) {
-  const Eigen::Matrix3d Rd = R.template cast<double>();
-  const double error = (Rd.transpose() * Rd - Eigen::Matrix3d::Identity()).norm();
+double squaredRotationError(const fcl::Matrix3<S>& R, const char* what) {
+  const auto dot = [&R](int i, int j) {
+    return double{R(0, i)} * R(0, j) + double{R(1, i)} * R(1, j) + double{R(2, i)} * R(2, j);
+  };
+  const double xx = dot(0, 0) - 1, yy = dot(1, 1) - 1, zz = dot(2, 2) - 1;
+  const double xy = dot(0, 1), xz = dot(0, 2), yz = dot(1, 2);
+  const double square = xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
   constexpr double kRigid = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
-  if (!(error <= kRigid)) {  // NaN is refused as well
-    std::ostringstream message;
-    message << "fcl_kios: the " << what << " is not rigid: |R^T R - I| = " << error << ", at most "
-            << kRigid << " is allowed.";
-    throw std::invalid_argument(message.str());
-  }
-  return error;
+  if (!(square <= kRigid * kRigid)) refuseRotation(what, std::sqrt(square), kRigid);  // or NaN
+  return square;
 }
 
 template <typename S>
@@ -180,27 +186,28 @@ const RelativePose<S>& identityPose() {
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
     : R(R_AB), T(T_AB) {
-  precompute(rotationError(R_AB, "relative pose"));
+  precompute(squaredRotationError(R_AB, "relative pose"));
 }
 
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2)
     : R(X_W1.linear().transpose() * X_W2.linear()),
       T(X_W1.linear().transpose() * (X_W2.translation() - X_W1.translation())) {
-  const double error1 = rotationError<S>(X_W1.linear(), "first object's pose");
-  precompute(error1 + rotationError<S>(X_W2.linear(), "second object's pose"));
+  const double first = squaredRotationError<S>(X_W1.linear(), "first object's pose");
+  precompute(first + squaredRotationError<S>(X_W2.linear(), "second object's pose"));
 }
 
 template <typename S>
-void RelativePose<S>::precompute(double rotation_error) {
+void RelativePose<S>::precompute(double squared_errors) {
   T_norm1 = std::abs(double{T[0]}) + std::abs(double{T[1]}) + std::abs(double{T[2]});
   if (!(T_norm1 <= kMaxCoordinate<S>)) {
     throw std::invalid_argument(
         "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
   }
-  // |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|); the product's entries are off by 3 u each.
+  // |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|) < 1 + (|E1| + |E2|) / 2 + |E1| |E2|, and |E1| + |E2| is
+  // at most sqrt(2) times their norm; the product's entries are off by 3 u each.
   constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-  stretch = 0.501 * rotation_error + 16 * kUlp;
+  stretch = 0.71 * std::sqrt(squared_errors) + 16 * kUlp;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) Rf[i][j] = static_cast<float>(R(i, j));
   }

@@ -26,7 +26,7 @@ struct RelativePose {
   double stretch;  ///< |R|_2 - 1 <= stretch.
 
  private:
-  void precompute(double rotation_error);
+  void precompute(double squared_errors);
 };
 
 /// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
