@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -29,8 +30,13 @@ SegmentPoint nearestOnSegment(const Vec& p, const Vec& a, const Vec& b) {
   const double from_a = (p - a).dot(ab), from_b = (b - p).dot(ab);
   if (!(from_a > 0)) return {a, 0};
   if (!(from_b > 0)) return {b, 1};
-  const double t = from_a < from_b ? from_a / square : 1 - from_b / square;
-  return {from_a < from_b ? Vec(a + (from_a / square) * ab) : Vec(b - (from_b / square) * ab), t};
+  // Beyond 1/2 only by rounding, for a segment much shorter than its distance.
+  if (from_a < from_b) {
+    const double t = std::min(0.5, from_a / square);
+    return {a + t * ab, t};
+  }
+  const double t = std::min(0.5, from_b / square);
+  return {b - t * ab, 1 - t};
 }
 
 /// A triangle's plane by its longest edge and the height above it, by Gram-Schmidt done twice:
