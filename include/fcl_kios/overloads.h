@@ -42,6 +42,29 @@ struct ContinuousCollisionResult;
 template <typename S>
 class MotionBase;
 
+// FCL's forms with a solver, which ours below hand over to.
+template <typename S, typename NarrowPhaseSolver>
+std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                    const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                    const NarrowPhaseSolver* nsolver, const CollisionRequest<S>& request,
+                    CollisionResult<S>& result);
+template <typename NarrowPhaseSolver>
+typename NarrowPhaseSolver::S distance(
+    const CollisionGeometry<typename NarrowPhaseSolver::S>* o1,
+    const Transform3<typename NarrowPhaseSolver::S>& tf1,
+    const CollisionGeometry<typename NarrowPhaseSolver::S>* o2,
+    const Transform3<typename NarrowPhaseSolver::S>& tf2, const NarrowPhaseSolver* nsolver,
+    const DistanceRequest<typename NarrowPhaseSolver::S>& request,
+    DistanceResult<typename NarrowPhaseSolver::S>& result);
+}  // namespace fcl
+
+namespace kios {
+/// True if the geometry is a fcl::BVHModel<kIOS>, finished or not.
+bool holdsModel(const fcl::CollisionGeometry<double>* geometry);
+bool holdsModel(const fcl::CollisionGeometry<float>* geometry);
+}  // namespace kios
+
+namespace fcl {
 inline namespace kios_overloads {
 
 std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
@@ -83,10 +106,47 @@ double continuousCollide(const CollisionObject<double>* o1, const Transform3<dou
                          const CollisionObject<double>* o2, const Transform3<double>& tf2_end,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result);
-double continuousCollide(const ContinuousCollisionObject<double>* o1,
-                         const ContinuousCollisionObject<double>* o2,
-                         const ContinuousCollisionRequest<double>& request,
-                         ContinuousCollisionResult<double>& result);
+double collide(const ContinuousCollisionObject<double>* o1,
+               const ContinuousCollisionObject<double>* o2,
+               const ContinuousCollisionRequest<double>& request,
+               ContinuousCollisionResult<double>& result);
+
+/// The forms with a GJK solver, which meshes don't need. Templates, so that only files which call
+/// them pay for FCL's, and more specialised than FCL's.
+template <typename S, template <typename> class Solver>
+std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                    const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                    const Solver<S>* solver, const CollisionRequest<S>& request,
+                    CollisionResult<S>& result) {
+  if (kios::holdsModel(o1) || kios::holdsModel(o2)) {
+    return kios_overloads::collide(o1, tf1, o2, tf2, request, result);
+  }
+  return fcl::collide<S, Solver<S>>(o1, tf1, o2, tf2, solver, request, result);
+}
+template <typename S, template <typename> class Solver>
+std::size_t collide(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
+                    const Solver<S>* solver, const CollisionRequest<S>& request,
+                    CollisionResult<S>& result) {
+  return kios_overloads::collide(o1->collisionGeometry().get(), o1->getTransform(),
+                                 o2->collisionGeometry().get(), o2->getTransform(), solver, request,
+                                 result);
+}
+template <typename S, template <typename> class Solver>
+S distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1, const CollisionGeometry<S>* o2,
+           const Transform3<S>& tf2, const Solver<S>* solver, const DistanceRequest<S>& request,
+           DistanceResult<S>& result) {
+  if (kios::holdsModel(o1) || kios::holdsModel(o2)) {
+    return kios_overloads::distance(o1, tf1, o2, tf2, request, result);
+  }
+  return fcl::distance<Solver<S>>(o1, tf1, o2, tf2, solver, request, result);
+}
+template <typename S, template <typename> class Solver>
+S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2, const Solver<S>* solver,
+           const DistanceRequest<S>& request, DistanceResult<S>& result) {
+  return kios_overloads::distance(o1->collisionGeometry().get(), o1->getTransform(),
+                                  o2->collisionGeometry().get(), o2->getTransform(), solver,
+                                  request, result);
+}
 
 #if defined(__cpp_concepts) && __cpp_concepts >= 201907L
 // C++20: more constrained than FCL's templates, so that explicit template arguments come here too.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "fit/sphere_fitter.h"
@@ -30,22 +31,32 @@ class Build {
     return *active_;
   }
 
-  void set(const fcl::Vector3<S>* vertices, const fcl::Vector3<S>* prev_vertices,
-           const fcl::Triangle* triangles, fcl::BVHModelType type) {
-    vertices_ = vertices;
+  /// A fitter and a splitter share what they know of a build; each must be the one that was set
+  /// last, so that a build within a build is refused, not mixed up.
+  void setFitter(const void* fitter, const fcl::Vector3<S>* vertices,
+                 const fcl::Vector3<S>* prev_vertices, const fcl::Triangle* triangles,
+                 fcl::BVHModelType type) {
+    setGeometry(vertices, triangles, type);
     prev_vertices_ = prev_vertices;
-    triangles_ = triangles;
-    type_ = type;
-    fitted_ = nullptr;
+    fitter_owner_ = fitter;
   }
-
-  void clear() {
-    set(nullptr, nullptr, nullptr, fcl::BVH_MODEL_UNKNOWN);
+  void setSplitter(const void* splitter, const fcl::Vector3<S>* vertices,
+                   const fcl::Triangle* triangles, fcl::BVHModelType type) {
+    setGeometry(vertices, triangles, type);
+    splitter_owner_ = splitter;
+  }
+  void clear(const void* owner) {
+    if (fitter_owner_ == owner) fitter_owner_ = nullptr;
+    if (splitter_owner_ == owner) splitter_owner_ = nullptr;
+    if (fitter_owner_ || splitter_owner_) return;
+    setGeometry(nullptr, nullptr, fcl::BVH_MODEL_UNKNOWN);
     fitter_.releaseLarge();
     constexpr std::size_t kKeep = 4096;
     if (points_.capacity() > kKeep) std::vector<fcl::Vector3<S>>().swap(points_);
     if (seen_.capacity() > kKeep) std::vector<std::uint32_t>().swap(seen_);
   }
+  void requireFitter(const void* fitter) const { requireOwner(fitter, fitter_owner_); }
+  void requireSplitter(const void* splitter) const { requireOwner(splitter, splitter_owner_); }
 
   kIOS<S> fit(const unsigned int* primitives, int n, FitMethod method) {
     if (n == 1 && type_ == fcl::BVH_MODEL_TRIANGLES && !prev_vertices_) {
@@ -84,6 +95,24 @@ class Build {
  private:
   double height(const fcl::Vector3<S>& q) const {
     return plane_.axis.dot(q.template cast<double>() - plane_.origin);
+  }
+
+  /// Geometry other than what is set starts another build.
+  void setGeometry(const fcl::Vector3<S>* vertices, const fcl::Triangle* triangles,
+                   fcl::BVHModelType type) {
+    if (vertices != vertices_ || triangles != triangles_) fitter_owner_ = splitter_owner_ = nullptr;
+    vertices_ = vertices;
+    prev_vertices_ = nullptr;
+    triangles_ = triangles;
+    type_ = type;
+    fitted_ = nullptr;
+  }
+
+  static void requireOwner(const void* asking, const void* owner) {
+    if (asking == owner) return;
+    throw std::logic_error(
+        "fcl_kios: this BVFitter or BVSplitter is not the one that its thread set last; set() it "
+        "before use, and build no other model in between.");
   }
 
   /// The distinct vertices of the primitives, and the mean of all corners (= of the centroids).
@@ -149,6 +178,8 @@ class Build {
   // Found without a call: a split asks for it once a primitive.
   __attribute__((tls_model("initial-exec"))) static thread_local Build* active_;
 
+  const void* fitter_owner_ = nullptr;
+  const void* splitter_owner_ = nullptr;
   const fcl::Vector3<S>* vertices_ = nullptr;
   const fcl::Vector3<S>* prev_vertices_ = nullptr;
   const fcl::Triangle* triangles_ = nullptr;
@@ -179,35 +210,39 @@ namespace detail {
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) {
-  kios::Build<S>::ofThread().set(vertices, nullptr, tri_indices, type);
+  kios::Build<S>::ofThread().setFitter(this, vertices, nullptr, tri_indices, type);
 }
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Vector3<S>* prev_vertices,
                                   Triangle* tri_indices, BVHModelType type) {
-  kios::Build<S>::ofThread().set(vertices, prev_vertices, tri_indices, type);
+  kios::Build<S>::ofThread().setFitter(this, vertices, prev_vertices, tri_indices, type);
 }
 
 template <typename S>
 kios::kIOS<S> BVFitter<kios::kIOS<S>>::fit(unsigned int* primitive_indices, int num_primitives) {
-  return kios::Build<S>::ofThread().fit(primitive_indices, num_primitives, method_);
+  auto& build = kios::Build<S>::ofThread();
+  build.requireFitter(this);
+  return build.fit(primitive_indices, num_primitives, method_);
 }
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::clear() {
-  kios::Build<S>::ofThread().clear();
+  kios::Build<S>::ofThread().clear(this);
 }
 
 template <typename S>
 void BVSplitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices,
                                     BVHModelType type) {
-  kios::Build<S>::ofThread().set(vertices, nullptr, tri_indices, type);
+  kios::Build<S>::ofThread().setSplitter(this, vertices, tri_indices, type);
 }
 
 template <typename S>
 void BVSplitter<kios::kIOS<S>>::computeRule(const kios::kIOS<S>& /*bv*/,
                                             unsigned int* primitive_indices, int num_primitives) {
-  kios::Build<S>::ofThread().computeRule(primitive_indices, num_primitives, method_);
+  auto& build = kios::Build<S>::ofThread();
+  build.requireSplitter(this);
+  build.computeRule(primitive_indices, num_primitives, method_);
 }
 
 template <typename S>
@@ -217,7 +252,7 @@ bool BVSplitter<kios::kIOS<S>>::apply(const Vector3<S>& q) const {
 
 template <typename S>
 void BVSplitter<kios::kIOS<S>>::clear() {
-  kios::Build<S>::ofThread().clear();
+  kios::Build<S>::ofThread().clear(this);
 }
 
 template class BVFitter<kios::kIOS<double>>;

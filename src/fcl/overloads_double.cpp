@@ -10,7 +10,7 @@ inline namespace kios_overloads {
 namespace {
 
 void refuseContinuous(const CollisionGeometry<double>* o1, const CollisionGeometry<double>* o2) {
-  if (kios::asModel(o1) || kios::asModel(o2)) kios::refusePair("continuousCollide", *o1, *o2);
+  if (kios::holdsModel(o1) || kios::holdsModel(o2)) kios::refusePair("continuousCollide", *o1, *o2);
 }
 
 }  // namespace
@@ -66,10 +66,10 @@ double continuousCollide(const CollisionObject<double>* o1, const Transform3<dou
                            result);
 }
 
-double continuousCollide(const ContinuousCollisionObject<double>* o1,
-                         const ContinuousCollisionObject<double>* o2,
-                         const ContinuousCollisionRequest<double>& request,
-                         ContinuousCollisionResult<double>& result) {
+double collide(const ContinuousCollisionObject<double>* o1,
+               const ContinuousCollisionObject<double>* o2,
+               const ContinuousCollisionRequest<double>& request,
+               ContinuousCollisionResult<double>& result) {
   return continuousCollide(o1->collisionGeometry().get(), o1->getMotion(),
                            o2->collisionGeometry().get(), o2->getMotion(), request, result);
 }

@@ -13,7 +13,8 @@ struct RelativePose {
   /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float).
   RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
   /// The pose x -> R1^T (R2 x + (t2 - t1)) of every query, for X_W1 and X_W2 in a common frame W,
-  /// each of which must be rigid. A point is off by at most 4 eps (|R||x| + |t2 - t1|) a coordinate.
+  /// each of which must be rigid. A point is off by at most 4 eps (|R||x| + |t2 - t1|) a
+  /// coordinate.
   RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
 
   /// A point of B in A.

@@ -82,3 +82,9 @@ bool initialize(MeshDistanceTraversalNode<S>& node, Model<S>& model1, fcl::Trans
 }
 
 }  // namespace kios
+
+namespace fcl {
+namespace detail {
+using kios::initialize;  // FCL's own would take a qualified call, and move the models' vertices
+}  // namespace detail
+}  // namespace fcl

@@ -3,6 +3,7 @@
 #include <boost/core/demangle.hpp>
 
 #include "fcl/dispatch.h"
+#include "fcl_kios/overloads.h"
 
 namespace kios {
 
@@ -13,5 +14,8 @@ std::string typeName(const fcl::CollisionGeometry<S>& geometry) {
 
 template std::string typeName(const fcl::CollisionGeometry<double>&);
 template std::string typeName(const fcl::CollisionGeometry<float>&);
+
+bool holdsModel(const fcl::CollisionGeometry<double>* geometry) { return asModel(geometry); }
+bool holdsModel(const fcl::CollisionGeometry<float>* geometry) { return asModel(geometry); }
 
 }  // namespace kios

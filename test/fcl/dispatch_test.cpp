@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which calls reach kIOS: every way to write a query, every kind of other object.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include <fcl/geometry/octree/octree.h>
+#include <fcl/geometry/shape/halfspace.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/math/motion/translation_motion.h>
+
+#include "fcl/mesh_cases.h"
+
+namespace kios::testing {
+namespace {
+
+using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
+
+const Transform3d kHere = Transform3d::Identity();
+const Transform3d kThere(Eigen::Translation3d(0.5, 0.25, 0.125));
+
+class Dispatch : public ::testing::Test {
+ protected:
+  const Mesh ball_ = scenes::icosphere(1, 1);
+  const std::shared_ptr<Modeld> model_ = kiosModel(ball_);
+};
+
+TEST_F(Dispatch, QualifiedUnqualifiedAndCallbackCallsMeetOurOverloads) {
+  fcl::CollisionObjectd a(model_, kHere), b(model_, kThere);
+  const fcl::CollisionRequestd request;
+  const fcl::DistanceRequestd distance_request;
+  fcl::CollisionResultd c1, c2, c3, c4;
+  EXPECT_EQ(fcl::collide(&a, &b, request, c1), 1u);
+  EXPECT_EQ(collide(&a, &b, request, c2), 1u);  // by argument-dependent lookup
+  EXPECT_EQ(fcl::collide(model_.get(), kHere, model_.get(), kThere, request, c3), 1u);
+  const fcl::CollisionGeometryd* geometry = model_.get();
+  EXPECT_EQ(collide(geometry, kHere, geometry, kThere, request, c4), 1u);
+  fcl::DistanceResultd d1, d2, d3, d4;
+  EXPECT_EQ(fcl::distance(&a, &b, distance_request, d1), 0);
+  EXPECT_EQ(distance(&a, &b, distance_request, d2), 0);
+  EXPECT_EQ(fcl::distance(model_.get(), kHere, model_.get(), kThere, distance_request, d3), 0);
+  EXPECT_EQ(distance(geometry, kHere, geometry, kThere, distance_request, d4), 0);
+
+  fcl::DefaultCollisionData<double> collision_data;
+  EXPECT_TRUE(fcl::DefaultCollisionFunction(&a, &b, &collision_data));
+  EXPECT_TRUE(collision_data.result.isCollision());
+  fcl::DefaultDistanceData<double> distance_data;
+  double d = -1;
+  EXPECT_TRUE(fcl::DefaultDistanceFunction(&a, &b, &distance_data, d));
+  EXPECT_EQ(d, 0);
+}
+
+std::map<std::string, Geometry> othersThanKios() {
+  const Mesh mesh = scenes::icosphere(0.5, 1);
+  std::map<std::string, Geometry> others;
+  others["Box"] = std::make_shared<fcl::Boxd>(1, 1, 1);
+  others["Sphere"] = std::make_shared<fcl::Sphered>(1);
+  others["Ellipsoid"] = std::make_shared<fcl::Ellipsoidd>(1, 2, 1);
+  others["Capsule"] = std::make_shared<fcl::Capsuled>(0.5, 1);
+  others["Cone"] = std::make_shared<fcl::Coned>(0.5, 1);
+  others["Cylinder"] = std::make_shared<fcl::Cylinderd>(0.5, 1);
+  others["Plane"] = std::make_shared<fcl::Planed>(Vector3d::UnitZ(), 0);
+  others["Halfspace"] = std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0);
+  others["TriangleP"] =
+      std::make_shared<fcl::TrianglePd>(Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ());
+  const auto faces = std::make_shared<std::vector<int>>();
+  for (const fcl::Triangle& t : mesh.triangles) {
+    faces->push_back(3);
+    for (int i = 0; i < 3; ++i) faces->push_back(static_cast<int>(t[i]));
+  }
+  others["Convex"] =
+      std::make_shared<fcl::Convexd>(std::make_shared<std::vector<Vector3d>>(mesh.vertices),
+                                     static_cast<int>(mesh.triangles.size()), faces);
+  const auto octree = std::make_shared<octomap::OcTree>(0.1);
+  octree->updateNode(octomap::point3d(0, 0, 0), true);
+  others["OcTree"] = std::make_shared<fcl::OcTreed>(octree);
+  others["OBBRSS"] = scenes::buildModel<fcl::OBBRSSd>(mesh);
+  others["fcl::kIOS"] = scenes::buildModel<fcl::kIOSd>(mesh);
+  others["AABB"] = scenes::buildModel<fcl::AABBd>(mesh);
+  others["KDOP"] = scenes::buildModel<fcl::KDOPd<16>>(mesh);
+  return others;
+}
+
+// The call throws, and says which query it was and what the two types were.
+void expectRefused(const std::function<void()>& call, const std::string& query,
+                   const std::string& other) {
+  try {
+    call();
+    ADD_FAILURE() << query << " of kIOS and " << other << " was not refused";
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("fcl_kios: " + query + " of ", 0), 0u) << message;
+    EXPECT_NE(message.find("kios::kIOS<double>"), std::string::npos) << message;
+    EXPECT_NE(message.find(other), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TEST_F(Dispatch, PairsWithAnythingElseAreRefusedInBothOrders) {
+  for (const auto& [name, other] : othersThanKios()) {
+    const Geometry ours = model_;
+    for (const auto& [first, second] : {std::pair(ours, other), std::pair(other, ours)}) {
+      const fcl::CollisionGeometryd *g1 = first.get(), *g2 = second.get();
+      fcl::CollisionObjectd o1(first, kHere), o2(second, kThere);
+      fcl::CollisionResultd contacts;
+      fcl::DistanceResultd distance;
+      fcl::ContinuousCollisionResultd moving;
+      const fcl::ContinuousCollisionRequestd moving_request;
+      expectRefused([&] { fcl::collide(g1, kHere, g2, kThere, {}, contacts); }, "collide", name);
+      expectRefused([&] { fcl::collide(&o1, &o2, {}, contacts); }, "collide", name);
+      const fcl::DistanceRequestd request;
+      expectRefused([&] { fcl::distance(g1, kHere, g2, kThere, request, distance); }, "distance",
+                    name);
+      expectRefused([&] { fcl::distance(&o1, &o2, request, distance); }, "distance", name);
+      expectRefused(
+          [&] {
+            fcl::continuousCollide(g1, kHere, kThere, g2, kHere, kThere, moving_request, moving);
+          },
+          "continuousCollide", name);
+      expectRefused(
+          [&] { fcl::continuousCollide(&o1, kThere, &o2, kThere, moving_request, moving); },
+          "continuousCollide", name);
+      fcl::TranslationMotiond motion(kHere, kThere);
+      expectRefused(
+          [&] { fcl::continuousCollide(g1, &motion, g2, &motion, moving_request, moving); },
+          "continuousCollide", name);
+      EXPECT_EQ(contacts.numContacts(), 0u);
+      EXPECT_EQ(distance.o1, nullptr);
+    }
+  }
+}
+
+// The forms that take a narrow-phase solver are FCL's, too: right or refused, never 0 contacts.
+TEST_F(Dispatch, FormsWithASolver) {
+  const fcl::CollisionGeometryd* geometry = model_.get();
+  const fcl::CollisionObjectd object(model_, kHere);
+  const fcl::detail::GJKSolver_indep<double> indep;
+  const fcl::detail::GJKSolver_libccd<double> libccd;
+  const auto expectHit = [&](const auto& solver) {
+    fcl::CollisionResultd c1, c2;
+    fcl::DistanceResultd d1, d2;
+    const fcl::DistanceRequestd request;
+    try {
+      fcl::collide(geometry, kHere, geometry, kThere, &solver, fcl::CollisionRequestd(), c1);
+      fcl::collide(&object, &object, &solver, fcl::CollisionRequestd(), c2);
+      fcl::distance(geometry, kHere, geometry, kThere, &solver, request, d1);
+      fcl::distance(&object, &object, &solver, request, d2);
+    } catch (const std::invalid_argument&) {
+      return;
+    }
+    EXPECT_TRUE(c1.isCollision());
+    EXPECT_TRUE(c2.isCollision());
+    EXPECT_EQ(d1.min_distance, 0);
+    EXPECT_EQ(d2.min_distance, 0);
+  };
+  expectHit(indep);
+  expectHit(libccd);
+}
+
+TEST_F(Dispatch, ContinuousCollisionOfTwoKiosModelsIsRefused) {
+  fcl::ContinuousCollisionResultd result;
+  const fcl::ContinuousCollisionRequestd request;
+  expectRefused(
+      [&] {
+        fcl::continuousCollide(model_.get(), kHere, kThere, model_.get(), kHere, kThere, request,
+                               result);
+      },
+      "continuousCollide", "kIOS");
+}
+
+// FCL's name for two moving objects is collide(), which its default continuous callback calls.
+TEST_F(Dispatch, MovingObjectsAreRefusedUnderFclsNameToo) {
+  const auto motion = std::make_shared<fcl::TranslationMotiond>(kHere, kThere);
+  fcl::ContinuousCollisionObjectd moving(model_, motion);
+  fcl::ContinuousCollisionObjectd ball(std::make_shared<fcl::Sphered>(1), motion);
+  for (const auto& [o1, o2] :
+       {std::pair(&moving, &moving), std::pair(&moving, &ball), std::pair(&ball, &moving)}) {
+    fcl::ContinuousCollisionResultd result;
+    const fcl::ContinuousCollisionRequestd request;
+    expectRefused([&, a = o1, b = o2] { fcl::collide(a, b, request, result); }, "continuousCollide",
+                  "kIOS");
+    fcl::DefaultContinuousCollisionData<double> data;
+    expectRefused([&, a = o1, b = o2] { fcl::DefaultContinuousCollisionFunction(a, b, &data); },
+                  "continuousCollide", "kIOS");
+  }
+}
+
+TEST_F(Dispatch, PairsWithoutKiosAreFcls) {
+  const auto others = othersThanKios();
+  for (const auto& [a, b] : {std::pair("Box", "Sphere"), std::pair("OBBRSS", "OBBRSS"),
+                             std::pair("fcl::kIOS", "fcl::kIOS"), std::pair("OBBRSS", "Box"),
+                             std::pair("Capsule", "Convex"), std::pair("AABB", "AABB")}) {
+    for (const Frame& frame : randomFrames(10, 1.5, 71)) {
+      const fcl::CollisionGeometryd *g1 = others.at(a).get(), *g2 = others.at(b).get();
+      const fcl::CollisionRequestd request(kAllContacts, true);
+      fcl::CollisionResultd ours, theirs;
+      EXPECT_EQ(fcl::collide(g1, frame.X_WA, g2, frame.X_WB, request, ours),
+                fcl::collide<double>(g1, frame.X_WA, g2, frame.X_WB, request, theirs));
+      ASSERT_EQ(ours.numContacts(), theirs.numContacts());
+      for (std::size_t i = 0; i < ours.numContacts(); ++i) {
+        EXPECT_EQ(ours.getContact(i).b1, theirs.getContact(i).b1);
+        EXPECT_EQ(ours.getContact(i).pos, theirs.getContact(i).pos);
+        EXPECT_EQ(ours.getContact(i).penetration_depth, theirs.getContact(i).penetration_depth);
+      }
+      if (std::string(a) == "AABB") continue;  // no distance in FCL
+      fcl::DistanceResultd d_ours, d_theirs;
+      const fcl::DistanceRequestd distance_request(true);
+      EXPECT_EQ(fcl::distance(g1, frame.X_WA, g2, frame.X_WB, distance_request, d_ours),
+                fcl::distance<double>(g1, frame.X_WA, g2, frame.X_WB, distance_request, d_theirs));
+      EXPECT_EQ(d_ours.min_distance, d_theirs.min_distance);
+    }
+  }
+}
+
+TEST_F(Dispatch, FloatModels) {
+  const auto model = scenes::buildModel<kIOSf>(ball_);
+  const scenes::MeshOracle oracle(ball_, ball_);
+  for (const Frame& frame : randomFrames(60, 1.5, 72)) {
+    const fcl::Transform3f X_WA = frame.X_WA.cast<float>(), X_WB = frame.X_WB.cast<float>();
+    const fcl::DistanceRequestf request(true);
+    fcl::DistanceResultf distance;
+    const double exact = oracle.distance(X_WA.cast<double>(), X_WB.cast<double>());
+    EXPECT_NEAR(fcl::distance(model.get(), X_WA, model.get(), X_WB, request, distance), exact,
+                1e-5);
+    EXPECT_EQ(distance.o1, model.get());
+    if (distance.min_distance > 0) {
+      EXPECT_NEAR((distance.nearest_points[0] - distance.nearest_points[1]).norm(), exact, 1e-5);
+    }
+    fcl::CollisionObjectf a(model, X_WA), b(model, X_WB);
+    fcl::CollisionResultf contacts;
+    fcl::collide(&a, &b, fcl::CollisionRequestf(), contacts);
+    EXPECT_EQ(contacts.isCollision(), exact == 0);
+    EXPECT_EQ(fcl::distance(&a, &b, request, distance), distance.min_distance);
+  }
+  const fcl::Transform3f X = fcl::Transform3f::Identity();
+  const fcl::Spheref sphere(1);
+  fcl::CollisionResultf contacts;
+  fcl::DistanceResultf distance;
+  const fcl::DistanceRequestf request;
+  EXPECT_THROW(fcl::collide(model.get(), X, &sphere, X, {}, contacts), std::invalid_argument);
+  EXPECT_THROW(fcl::collide(&sphere, X, model.get(), X, {}, contacts), std::invalid_argument);
+  EXPECT_THROW(fcl::distance(model.get(), X, &sphere, X, request, distance), std::invalid_argument);
+  EXPECT_THROW(fcl::distance(&sphere, X, model.get(), X, request, distance), std::invalid_argument);
+  EXPECT_EQ(fcl::collide(&sphere, X, &sphere, X, {}, contacts), 1u);
+}
+
+class NamedModel : public Modeld {
+ public:
+  explicit NamedModel(const Modeld& model) : Modeld(model) {}
+  std::string name = "derived";
+};
+
+TEST_F(Dispatch, ClassesDerivedFromTheModelAreRecognised) {
+  const auto derived = std::make_shared<NamedModel>(*model_);
+  for (const Frame& frame : randomFrames(20, 1.5, 73)) {
+    fcl::DistanceResultd expected, result;
+    const fcl::DistanceRequestd request;
+    fcl::distance(model_.get(), frame.X_WA, model_.get(), frame.X_WB, request, expected);
+    fcl::distance(derived.get(), frame.X_WA, model_.get(), frame.X_WB, request, result);
+    EXPECT_EQ(result.min_distance, expected.min_distance);
+    EXPECT_EQ(result.o1, derived.get());
+    fcl::CollisionObjectd a(derived, frame.X_WA), b(derived, frame.X_WB);
+    fcl::CollisionResultd contacts;
+    fcl::collide(&a, &b, {}, contacts);
+    EXPECT_EQ(contacts.isCollision(), expected.min_distance == 0);
+  }
+  const fcl::Sphered sphere(1);
+  fcl::CollisionResultd contacts;
+  EXPECT_THROW(fcl::collide(derived.get(), kHere, &sphere, kHere, {}, contacts),
+               std::invalid_argument);
+}
+
+TEST_F(Dispatch, NullGeometryIsRefused) {
+  const fcl::CollisionGeometryd* none = nullptr;
+  fcl::CollisionResultd contacts;
+  fcl::DistanceResultd distance;
+  const fcl::DistanceRequestd request;
+  EXPECT_THROW(fcl::collide(none, kHere, model_.get(), kHere, {}, contacts), std::invalid_argument);
+  EXPECT_THROW(fcl::distance(model_.get(), kHere, none, kHere, request, distance),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kios::testing

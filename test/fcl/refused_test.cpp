@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is refused, and how clearly: bad vertices, unfinished models, poses that aren't rigid.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "fcl/mesh_cases.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Throws std::invalid_argument with one line that starts with our name and holds `part`.
+void expectRefused(const std::function<void()>& call, const std::string& part) {
+  try {
+    call();
+    ADD_FAILURE() << "not refused: " << part;
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("fcl_kios: ", 0), 0u) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+class Refused : public ::testing::Test {
+ protected:
+  void SetUp() override { ::testing::internal::CaptureStderr(); }  // FCL's warnings
+  void TearDown() override { ::testing::internal::GetCapturedStderr(); }
+
+  // Every query with the model, in either place, refuses and leaves its result alone.
+  void expectUnusable(const Modeld& model, const std::string& part) const {
+    for (const auto& [a, b] : {std::pair(&model, static_cast<const Modeld*>(good_.get())),
+                               std::pair(static_cast<const Modeld*>(good_.get()), &model)}) {
+      fcl::CollisionResultd contacts;
+      fcl::DistanceResultd distance;
+      expectRefused([&, a = a, b = b] { fcl::collide(a, here_, b, here_, {}, contacts); }, part);
+      expectRefused(
+          [&, a = a, b = b] {
+            fcl::collide(a, here_, b, here_, fcl::CollisionRequestd(0), contacts);
+          },
+          part);
+      expectRefused(
+          [&, a = a, b = b] {
+            fcl::distance(a, here_, b, here_, fcl::DistanceRequestd(), distance);
+          },
+          part);
+      EXPECT_EQ(contacts.numContacts(), 0u);
+      EXPECT_EQ(distance.o1, nullptr);
+    }
+    expectRefused([&] { requireFinished(model); }, part);
+    expectRefused([&] { validate(model); }, part);
+  }
+
+  const Transform3d here_ = Transform3d::Identity();
+  const Mesh mesh_ = scenes::icosphere(1, 1);
+  const std::shared_ptr<Modeld> good_ = kiosModel(mesh_);
+};
+
+TEST_F(Refused, BadVerticesAtBuild) {
+  for (const double bad : {kNaN, kInfinity, -kInfinity, 0x1p1001}) {
+    for (const std::size_t at : {std::size_t{0}, mesh_.vertices.size() - 1}) {
+      Mesh mesh = mesh_;
+      mesh.vertices[at][1] = bad;
+      Modeld model;
+      ASSERT_EQ(model.beginModel(), fcl::BVH_OK);
+      ASSERT_EQ(model.addSubModel(mesh.vertices, mesh.triangles), fcl::BVH_OK);
+      expectRefused([&] { model.endModel(); }, "");
+      EXPECT_EQ(model.build_state, fcl::BVH_BUILD_STATE_BEGUN);
+      expectUnusable(model, "begun");
+    }
+  }
+}
+
+TEST_F(Refused, BadVerticesAtReplaceAndUpdate) {
+  std::vector<Vector3d> vertices = mesh_.vertices;
+  for (const double bad : {kNaN, kInfinity}) {
+    for (const bool refit : {false, true}) {
+      for (const bool bottomup : {false, true}) {
+        vertices[3][2] = bad;
+        Modeld replaced(*good_), updated(*good_);
+        ASSERT_EQ(replaced.beginReplaceModel(), fcl::BVH_OK);
+        ASSERT_EQ(replaced.replaceSubModel(vertices), fcl::BVH_OK);
+        EXPECT_THROW(replaced.endReplaceModel(refit, bottomup), std::invalid_argument);
+        expectUnusable(replaced, "replace");
+        ASSERT_EQ(updated.beginUpdateModel(), fcl::BVH_OK);
+        ASSERT_EQ(updated.updateSubModel(vertices), fcl::BVH_OK);
+        EXPECT_THROW(updated.endUpdateModel(refit, bottomup), std::invalid_argument);
+        expectUnusable(updated, "update");
+      }
+    }
+  }
+  // A thread that met a bad model builds good ones as ever.
+  fcl::DistanceResultd result;
+  const auto fresh = kiosModel(mesh_);
+  EXPECT_EQ(
+      fcl::distance(fresh.get(), here_, good_.get(), Transform3d(Eigen::Translation3d(5, 0, 0)),
+                    fcl::DistanceRequestd(), result),
+      leafDistance(mesh_, mesh_, {here_, Transform3d(Eigen::Translation3d(5, 0, 0))}));
+}
+
+// The vertices are public: mend them, and end again.
+TEST_F(Refused, AModelThatFailedCanBeMended) {
+  Modeld model(*good_);
+  std::vector<Vector3d> vertices = mesh_.vertices;
+  vertices[5][0] = kNaN;
+  model.beginReplaceModel();
+  model.replaceSubModel(vertices);
+  EXPECT_THROW(model.endReplaceModel(), std::invalid_argument);
+  model.vertices[5] = mesh_.vertices[5];
+  EXPECT_EQ(model.endReplaceModel(), fcl::BVH_OK);
+  EXPECT_NO_THROW(validate(model));
+  model.beginUpdateModel();
+  model.updateSubModel(vertices);
+  EXPECT_THROW(model.endUpdateModel(false), std::invalid_argument);
+  model.vertices[5] = mesh_.vertices[5];
+  EXPECT_EQ(model.endUpdateModel(false), fcl::BVH_OK);
+  EXPECT_NO_THROW(validate(model));
+}
+
+TEST_F(Refused, UnfinishedModels) {
+  expectUnusable(Modeld(), "empty");
+
+  Modeld begun;
+  begun.beginModel();
+  expectUnusable(begun, "begun");
+  begun.addSubModel(mesh_.vertices, mesh_.triangles);
+  expectUnusable(begun, "begun");
+
+  Modeld empty;
+  empty.beginModel();
+  EXPECT_EQ(empty.endModel(), fcl::BVH_ERR_BUILD_EMPTY_MODEL);
+  expectUnusable(empty, "begun");
+
+  // FCL segfaults here.
+  Modeld reset(*good_);
+  EXPECT_EQ(reset.beginModel(), fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE);
+  expectUnusable(reset, "empty");
+  reset.addTriangle(Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ());
+  EXPECT_EQ(reset.endModel(), fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE);
+  expectUnusable(reset, "empty");
+
+  Modeld replacing(*good_);
+  replacing.beginReplaceModel();
+  expectUnusable(replacing, "replace");
+  replacing.replaceVertex(Vector3d::Zero());
+  EXPECT_EQ(replacing.endReplaceModel(), fcl::BVH_ERR_INCORRECT_DATA);
+  expectUnusable(replacing, "replace");
+
+  Modeld updating(*good_);
+  updating.beginUpdateModel();
+  expectUnusable(updating, "update");
+}
+
+TEST_F(Refused, TrianglesAddedAfterAnUpdate) {
+  Modeld model(*good_);
+  model.beginUpdateModel();
+  model.updateSubModel(mesh_.vertices);
+  ASSERT_EQ(model.endUpdateModel(), fcl::BVH_OK);
+  EXPECT_NO_THROW(requireFinished(model));
+  ASSERT_EQ(model.addTriangle(Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()),
+            fcl::BVH_OK);
+  expectUnusable(model, "triangles but a tree of");
+}
+
+TEST_F(Refused, PointClouds) {
+  Modeld cloud;
+  cloud.beginModel();
+  cloud.addSubModel(mesh_.vertices);
+  ASSERT_EQ(cloud.endModel(), fcl::BVH_OK);
+  expectUnusable(cloud, "point cloud");
+}
+
+TEST_F(Refused, PosesThatAreNotRigid) {
+  std::vector<Transform3d> poses(6, here_);
+  poses[0].linear() *= 1.01;
+  poses[1].linear()(0, 1) = 0.01;
+  poses[2].linear()(2, 2) = kNaN;
+  poses[3].translation()[1] = kNaN;
+  poses[4].translation()[2] = kInfinity;
+  poses[5].linear().setZero();
+  for (const Transform3d& bad : poses) {
+    for (const auto& [X1, X2] : {std::pair(bad, here_), std::pair(here_, bad)}) {
+      fcl::CollisionResultd contacts;
+      fcl::DistanceResultd distance;
+      expectRefused(
+          [&, &X1 = X1, &X2 = X2] { fcl::collide(good_.get(), X1, good_.get(), X2, {}, contacts); },
+          "");
+      expectRefused(
+          [&, &X1 = X1, &X2 = X2] {
+            fcl::distance(good_.get(), X1, good_.get(), X2, fcl::DistanceRequestd(), distance);
+          },
+          "");
+      EXPECT_EQ(contacts.numContacts(), 0u);
+      EXPECT_EQ(distance.o1, nullptr);
+    }
+  }
+}
+
+// Each pose must be rigid by itself: distances would be right here, points and normals would not.
+TEST_F(Refused, PosesWhoseErrorsCancel) {
+  Transform3d twice = here_, half = here_;
+  twice.linear() *= 2;
+  half.linear() *= 0.5;
+  half.translation() = Vector3d(9, 0, 0);
+  fcl::DistanceResultd distance;
+  expectRefused(
+      [&] {
+        fcl::distance(good_.get(), twice, good_.get(), half, fcl::DistanceRequestd(true), distance);
+      },
+      "rigid");
+}
+
+// Six-digit rotations, as in the paper's paths, are taken as given: the oracle takes them too.
+TEST_F(Refused, SlightlyWrongRotationsAreNot) {
+  const Mesh a = scenes::bumpyTorus(200), b = scenes::bumpyTorus(140);
+  const auto model_a = kiosModel(a), model_b = kiosModel(b);
+  const scenes::MeshOracle oracle(a, b);
+  for (const double digits : {1e6, 1e5}) {
+    for (Frame frame : randomFrames(60, 1.5, 81)) {
+      for (Transform3d* X : {&frame.X_WA, &frame.X_WB}) {
+        X->linear() = (X->linear().array() * digits).round() / digits;
+      }
+      fcl::DistanceResultd result;
+      EXPECT_NEAR(fcl::distance(model_a.get(), frame.X_WA, model_b.get(), frame.X_WB,
+                                fcl::DistanceRequestd(), result),
+                  oracle.distance(frame.X_WA, frame.X_WB), 1e-12 * sizeOf(a, b));
+      fcl::CollisionResultd contacts;
+      fcl::collide(model_a.get(), frame.X_WA, model_b.get(), frame.X_WB,
+                   fcl::CollisionRequestd(kAllContacts), contacts);
+      EXPECT_EQ(contactPairs(contacts), oracle.collidingPairs(frame.X_WA, frame.X_WB));
+    }
+  }
+}
+
+TEST_F(Refused, MakeModelAndValidate) {
+  EXPECT_NO_THROW(validate(*good_));
+  EXPECT_NO_THROW(validate(*makeModel(mesh_.vertices, mesh_.triangles)));
+  expectRefused([&] { makeModel<double>({}, {}); }, "at least one triangle");
+  expectRefused([&] { makeModel(mesh_.vertices, {}); }, "at least one triangle");
+  expectRefused(
+      [&] {
+        makeModel(mesh_.vertices, {{0, 1, mesh_.vertices.size()}});
+      },
+      "triangle 0 refers to vertex 42, but there are 42");
+  expectRefused(
+      [&] {
+        makeModel(mesh_.vertices, {{0, 1, 2}, {0, std::size_t(-1), 2}});
+      },
+      "triangle 1 ");
+  auto vertices = mesh_.vertices;
+  vertices.emplace_back(0, kNaN, 0);  // no triangle uses it
+  expectRefused([&] { makeModel(vertices, mesh_.triangles); }, "vertex 42 ");
+  const auto unused = kiosModel({vertices, mesh_.triangles});
+  expectRefused([&] { validate(*unused); }, "vertex 42 ");
+
+  Modeld broken(*good_);
+  broken.tri_indices[7] = fcl::Triangle(0, 1, 4000);
+  expectRefused([&] { validate(broken); }, "triangle 7 refers to vertex 4000");
+  std::vector<fcl::Vector3f> in_float(3, fcl::Vector3f::Zero());
+  in_float[2][0] = std::numeric_limits<float>::infinity();
+  EXPECT_THROW(makeModel<float>(in_float, {{0, 1, 2}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What fcl::DistanceRequest and a DistanceResult on entry promise, kept.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "fcl/mesh_cases.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kMax = std::numeric_limits<double>::max();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+fcl::DistanceRequestd withErrors(double rel_err, double abs_err) {
+  fcl::DistanceRequestd request(true);
+  request.rel_err = rel_err;
+  request.abs_err = abs_err;
+  return request;
+}
+
+class Request : public ::testing::Test {
+ protected:
+  double distance(const Frame& frame, const fcl::DistanceRequestd& request,
+                  fcl::DistanceResultd& result) const {
+    return fcl::distance(a_.get(), frame.X_WA, b_.get(), frame.X_WB, request, result);
+  }
+  double exact(const Frame& frame) const {
+    fcl::DistanceResultd result;
+    return distance(frame, fcl::DistanceRequestd(), result);
+  }
+  int bvTests(const Frame& frame, const fcl::DistanceRequestd& request) const {
+    fcl::DistanceResultd result;
+    MeshDistanceTraversalNode<double> node;
+    initialize(node, *std::as_const(a_), frame.X_WA, *std::as_const(b_), frame.X_WB, request,
+               result);
+    node.enable_statistics = true;
+    fcl::detail::distance(&node);
+    return node.num_bv_tests;
+  }
+
+  const std::shared_ptr<Modeld> a_ = kiosModel(scenes::bumpyTorus(600));
+  const std::shared_ptr<Modeld> b_ = kiosModel(scenes::bumpyTorus(400));
+  const std::vector<Frame> frames_ = randomFrames(80, 1.8, 41);
+};
+
+TEST_F(Request, ErrorBoundsAreKeptAndSaveWork) {
+  const std::vector<std::pair<double, double>> bounds{{0, 0},    {1e-3, 0},  {0.1, 0},   {0.5, 0},
+                                                      {3, 0},    {0, 1e-3},  {0, 0.05},  {0, 0.5},
+                                                      {0, 1e30}, {0.1, 0.3}, {0.5, 1e-9}};
+  std::vector<long> work(bounds.size(), 0);
+  for (const Frame& frame : frames_) {
+    const double d_exact = exact(frame);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const auto [rel, abs] = bounds[i];
+      fcl::DistanceResultd result;
+      const double d = distance(frame, withErrors(rel, abs), result);
+      EXPECT_EQ(d, result.min_distance);
+      EXPECT_GE(d, d_exact);
+      EXPECT_LE(d - d_exact, std::max(rel * d_exact, abs) + 1e-15);
+      EXPECT_GE(result.b1, 0);  // the distance of two triangles, however large the error
+      if (d > 0) {
+        EXPECT_NEAR((result.nearest_points[0] - result.nearest_points[1]).norm(), d, 1e-12);
+      }
+      work[i] += bvTests(frame, withErrors(rel, abs));
+    }
+  }
+  for (const std::size_t i : {1u, 2u, 3u, 4u}) EXPECT_LT(work[i], work[i - 1]) << i;
+  EXPECT_LT(work[5], work[0]);
+  for (const std::size_t i : {6u, 7u}) EXPECT_LT(work[i], work[i - 1]) << i;
+  EXPECT_LE(work[8], work[7]);
+}
+
+// With 10 in hand and an error of max(rel * d, abs), only pairs beyond this can be left out.
+TEST_F(Request, StopsWhereTheErrorAllowsAndNoSooner) {
+  const Frame& frame = frames_.front();
+  for (const auto& [rel, abs, stop] :
+       {std::tuple(0.0, 0.0, 10.0), std::tuple(0.25, 0.0, 8.0), std::tuple(0.0, 4.0, 6.0),
+        std::tuple(0.25, 1.0, 8.0), std::tuple(0.25, 4.0, 6.0)}) {
+    fcl::DistanceResultd result(10);
+    MeshDistanceTraversalNode<double> node;
+    initialize(node, *std::as_const(a_), frame.X_WA, *std::as_const(b_), frame.X_WB,
+               withErrors(rel, abs), result);
+    node.preprocess();
+    EXPECT_TRUE(node.canStop(stop + 1e-9)) << rel << ' ' << abs;
+    EXPECT_FALSE(node.canStop(stop - 1e-9)) << rel << ' ' << abs;
+    EXPECT_FALSE(node.canStop(-1));
+  }
+}
+
+TEST_F(Request, ErrorBoundsThatAreNoNumbersOrNegativeAreRefused) {
+  const Frame& frame = frames_.front();
+  for (const double bad : {-1e-300, -1.0, -kInfinity, kNaN}) {
+    fcl::DistanceResultd result;
+    EXPECT_THROW(distance(frame, withErrors(bad, 0), result), std::invalid_argument);
+    EXPECT_THROW(distance(frame, withErrors(0, bad), result), std::invalid_argument);
+    EXPECT_EQ(result.min_distance, kMax);
+    try {
+      distance(frame, withErrors(0, bad), result);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("abs_err"), std::string::npos);
+    }
+  }
+  fcl::DistanceResultd result;
+  EXPECT_NO_THROW(distance(frame, withErrors(-0.0, -0.0), result));
+}
+
+TEST_F(Request, MinDistanceOnEntryIsAnUpperBound) {
+  for (const Frame& frame : frames_) {
+    const double d_exact = exact(frame);
+    for (const double bound : {0.0, 0.5 * d_exact, d_exact}) {
+      fcl::DistanceResultd result(bound);
+      result.nearest_points[0] = result.nearest_points[1] = Vector3d(1, 2, 3);
+      EXPECT_EQ(distance(frame, withErrors(0, 0), result), bound);
+      EXPECT_EQ(result.min_distance, bound);
+      EXPECT_EQ(result.o1, nullptr);
+      EXPECT_EQ(result.b1, -1);
+      EXPECT_EQ(result.nearest_points[0], Vector3d(1, 2, 3));
+      EXPECT_EQ(result.nearest_points[1], Vector3d(1, 2, 3));
+    }
+    for (const double bound : {std::nextafter(d_exact, 1e9), d_exact + 1e-9, 2 * d_exact + 1}) {
+      fcl::DistanceResultd result(bound);
+      EXPECT_EQ(distance(frame, withErrors(0, 0), result), d_exact);
+      EXPECT_EQ(result.o1, a_.get());
+    }
+    // Both at once: no farther than the bound, no worse than the error allows.
+    fcl::DistanceResultd result(1.2 * d_exact);
+    const double d = distance(frame, withErrors(0.5, 0), result);
+    EXPECT_LE(d, 1.2 * d_exact);
+    EXPECT_GE(d, d_exact);
+    EXPECT_EQ(d, result.min_distance);
+  }
+}
+
+TEST_F(Request, MinDistanceOnEntrySavesWork) {
+  Frame frame{Transform3d::Identity(), Transform3d::Identity()};
+  frame.X_WB.translation() = Vector3d(20, 0, 0);
+  fcl::DistanceResultd result(1);
+  MeshDistanceTraversalNode<double> node;
+  initialize(node, *std::as_const(a_), frame.X_WA, *std::as_const(b_), frame.X_WB,
+             fcl::DistanceRequestd(), result);
+  node.enable_statistics = true;
+  fcl::detail::distance(&node);
+  EXPECT_LE(node.num_bv_tests, 2);
+  EXPECT_EQ(node.num_leaf_tests, 0);
+}
+
+// FCL.md, defect 14: FCL transforms the points of an earlier pair again.
+TEST_F(Request, ResultReusedOverPairsKeepsTheNearest) {
+  const auto shared = kiosModel(scenes::icosphere(0.5, 1));
+  std::vector<fcl::CollisionObjectd> objects;
+  for (const Transform3d& X : scenes::randomPoses(12, 4, 42)) objects.emplace_back(shared, X);
+  const fcl::DistanceRequestd request(true);
+  fcl::DistanceResultd reused;
+  double best = kMax;
+  Vector3d p0 = Vector3d::Zero(), p1 = Vector3d::Zero();
+  for (const auto& o1 : objects) {
+    for (const auto& o2 : objects) {
+      if (&o1 == &o2) continue;
+      fcl::DistanceResultd fresh;
+      fcl::distance(&o1, &o2, request, fresh);
+      if (fresh.min_distance < best) {
+        best = fresh.min_distance;
+        p0 = fresh.nearest_points[0];
+        p1 = fresh.nearest_points[1];
+      }
+      EXPECT_EQ(fcl::distance(&o1, &o2, request, reused), best);
+      if (best == 0) continue;
+      EXPECT_EQ(reused.nearest_points[0], p0);
+      EXPECT_EQ(reused.nearest_points[1], p1);
+    }
+  }
+}
+
+TEST_F(Request, SignedDistanceOfMeshesIsZeroAtOverlap) {
+  int overlaps = 0;
+  for (const Frame& frame : frames_) {
+    const double d_exact = exact(frame);
+    overlaps += d_exact == 0;
+    for (const auto solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
+      fcl::DistanceRequestd request(true, true);
+      request.gjk_solver_type = solver;
+      fcl::DistanceResultd result;
+      EXPECT_EQ(distance(frame, request, result), d_exact);
+      EXPECT_EQ(result.min_distance, d_exact);
+      EXPECT_EQ(result.o1, a_.get());
+      EXPECT_EQ(result.o2, b_.get());
+      EXPECT_TRUE(result.nearest_points[0].allFinite());
+      EXPECT_TRUE(result.nearest_points[1].allFinite());
+    }
+  }
+  EXPECT_GT(overlaps, 5);
+}
+
+TEST_F(Request, DistanceIsSymmetric) {
+  for (const MeshCase& pair : meshCases()) {
+    const auto a = kiosModel(pair.a), b = kiosModel(pair.b);
+    for (const Frame& frame : randomFrames(60, pair.spread, 43)) {
+      fcl::DistanceResultd ab, ba;
+      fcl::distance(a.get(), frame.X_WA, b.get(), frame.X_WB, fcl::DistanceRequestd(), ab);
+      fcl::distance(b.get(), frame.X_WB, a.get(), frame.X_WA, fcl::DistanceRequestd(), ba);
+      EXPECT_NEAR(ab.min_distance, ba.min_distance, 1e-13);
+    }
+  }
+}
+
+// An error bound without limit still gets the distance of some pair of triangles.
+TEST_F(Request, UnlimitedErrorStillAnswers) {
+  for (const auto& [rel, abs] : {std::pair(kInfinity, 0.0), std::pair(kMax, 0.0),
+                                 std::pair(0.0, kInfinity), std::pair(0.0, kMax)}) {
+    fcl::DistanceResultd result;
+    const double d = distance(frames_.front(), withErrors(rel, abs), result);
+    EXPECT_LT(d, 100) << rel << ' ' << abs;
+    EXPECT_GE(result.b1, 0) << rel << ' ' << abs;
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
