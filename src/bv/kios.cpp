@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "bv/assemble.h"
 #include "bv/balls.h"
@@ -44,11 +45,18 @@ double exclusion(const kIOS<S>& v, const fcl::Vector3<S>& p) {
 
 template <typename S>
 bool kIOS<S>::contain(const fcl::Vector3<S>& p) const {
-  return k() > 0 && exclusion(*this, p) <= 1 + 16 * kUlpDouble;
+  return k() > 0 && p.allFinite() && exclusion(*this, p) <= 1 + 16 * kUlpDouble;
 }
 
 template <typename S>
 kIOS<S>& kIOS<S>::operator+=(const fcl::Vector3<S>& p) {
+  for (int c = 0; c < 3; ++c) {
+    if (!(std::abs(double{p[c]}) <= kMaxCoordinate<S>)) {
+      throw std::invalid_argument(
+          "fcl_kios: a kIOS can't contain a point that is NaN, infinite or "
+          "too large.");
+    }
+  }
   if (k() > 0 && exclusion(*this, p) <= 1 - 16 * kUlpDouble) return *this;
   kIOS point;
   point.center0 = p;
@@ -74,7 +82,8 @@ S kIOS<S>::sphereRadius(int i) const {
   constexpr double kUlp = sizeof(S) == sizeof(double) ? 2 * kUlpDouble : 2 * kUlpFloat;
   const fcl::Vector3<S> center = sphereCenter(i);
   const double shift = kUlp * (std::abs(double{center[0]}) + std::abs(double{center[1]}) +
-                               std::abs(double{center[2]}));
+                               std::abs(double{center[2]})) +
+                       4 * double{std::numeric_limits<S>::denorm_min()};
   return saturate<S>(scaled(double{cap_r[i - 1]}, exponent) * (1 + 4 * kUlpDouble) + shift);
 }
 
@@ -93,10 +102,9 @@ void kIOS<S>::bounds(fcl::Vector3<S>& lower, fcl::Vector3<S>& upper) const {
                          std::numeric_limits<double>::min();
       const double low = double{center0[c]} + (o - r) - pad;
       const double high = double{center0[c]} + (o + r) + pad;
-      // Rounding to float moves a value by at most 2^-24 of it.
-      const double out = sizeof(S) == sizeof(double) ? 0 : kUlpFloat * 2;
-      lower[c] = std::max(lower[c], static_cast<S>(low - out * std::abs(low)));
-      upper[c] = std::min(upper[c], static_cast<S>(high + out * std::abs(high)));
+      constexpr S kInfinity = std::numeric_limits<S>::infinity();
+      lower[c] = std::max(lower[c], std::nextafter(static_cast<S>(low), -kInfinity));
+      upper[c] = std::min(upper[c], std::nextafter(static_cast<S>(high), kInfinity));
     }
   }
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <tuple>
 
 #include "bv/assemble.h"
 #include "bv/balls.h"
@@ -16,23 +16,20 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-/// A total order, so that a + b and b + a are computed alike.
+/// A total order of representations (0 and -0 differ), so that a + b and b + a are computed alike.
 template <typename S>
 bool before(const kIOS<S>& a, const kIOS<S>& b) {
-  const auto head = [](const kIOS<S>& v) {
-    return std::make_tuple(v.center0[0], v.center0[1], v.center0[2], v.radius0, v.exponent,
-                           v.num_spheres);
-  };
-  if (head(a) != head(b)) return head(a) < head(b);
-  const auto caps = [](const kIOS<S>& v) {
-    std::array<float, 16> all;
-    auto out = std::copy_n(v.cap_x, 4, all.begin());
-    out = std::copy_n(v.cap_y, 4, out);
-    out = std::copy_n(v.cap_z, 4, out);
-    std::copy_n(v.cap_r, 4, out);
-    return all;
-  };
-  return caps(a) < caps(b);
+  const auto compare = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof(x)); };
+  for (int c = 0; c < 3; ++c) {
+    if (const int order = compare(a.center0[c], b.center0[c])) return order < 0;
+  }
+  if (const int order = compare(a.radius0, b.radius0)) return order < 0;
+  if (a.exponent != b.exponent) return a.exponent < b.exponent;
+  if (a.num_spheres != b.num_spheres) return a.num_spheres < b.num_spheres;
+  if (const int order = compare(a.cap_x, b.cap_x)) return order < 0;
+  if (const int order = compare(a.cap_y, b.cap_y)) return order < 0;
+  if (const int order = compare(a.cap_z, b.cap_z)) return order < 0;
+  return compare(a.cap_r, b.cap_r) < 0;
 }
 
 /// The spheres of one operand around the merged centre, in the merged node's units.
@@ -130,10 +127,11 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   int k = 1;
   Vec first = Vec::Zero();
   for (int pair = 0; pair < 2; ++pair) {
-    Vec n = blend(content[0].axis(pair), ra, content[1].axis(pair), rb);
+    const double larger = std::max(ra, rb);
+    Vec n = blend(content[0].axis(pair), ra / larger, content[1].axis(pair), rb / larger);
     n -= first.dot(n) * first;
     const double length = n.norm();
-    if (!(length > 1e-3 * std::max(ra, rb))) break;
+    if (!(length > 1e-3)) break;
     n /= length;
     first = n;
     constexpr double kCot30 = 1.7320508075688772;

@@ -41,7 +41,8 @@ Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
   const double ra = a.radius0, rb = b.radius0;
   // Leaves in float round their points to float: the same count of roundings, of size 2^-24.
   constexpr double kPad = sizeof(S) == sizeof(double) ? 32 * kUlpDouble : 32 * kUlpFloat;
-  d.pad = kPad * (m + ra + 4 * rb) + X.stretch * rb;
+  constexpr double kSubnormal = sizeof(S) == sizeof(double) ? 0x1p-1070 : 0x1p-145;
+  d.pad = kPad * (m + ra + 4 * rb) + X.stretch * rb + kSubnormal;
   return d;
 }
 
@@ -113,15 +114,16 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
       for (int c = 0; c < 3; ++c) {
         best.P[c] = ca[c] + sa[i].r * n[c];
         best.Q[c] = cb[c] - sb[j].r * n[c];
-        if (value <= 0) best.P[c] = best.Q[c] = 0.5 * (best.P[c] + best.Q[c]);
       }
     }
   }
   const double lengths = scaled(d.norm1 + reach_a + reach_b, -e);
   best.value -= 32 * kUlpDouble * lengths + X.stretch * scaled(reach_b, -e) + 0x1p-960;
   best.value = std::nextafter(scaled(best.value, e) - d.pad, -kInfinity);
-  for (double& v : best.P) v = scaled(v, e);
-  for (double& v : best.Q) v = scaled(v, e);
+  for (int c = 0; c < 3; ++c) {
+    best.P[c] = scaled(best.P[c], e);
+    best.Q[c] = scaled(best.Q[c], e);
+  }
   return best;
 }
 
@@ -147,11 +149,13 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   const Offset d = offset(a, b, X);
   if (!P && !Q) return roundDown<S>(std::max(0.0, separationFrom(a, b, X, d, kInfinity)));
   const ScaledBound bound = scaledSeparation(a, b, X, d);
+  const S lower = roundDown<S>(std::max(0.0, bound.value));
   for (int c = 0; c < 3; ++c) {
-    if (P) (*P)[c] = static_cast<S>(a.center0[c] + bound.P[c]);
-    if (Q) (*Q)[c] = static_cast<S>(a.center0[c] + bound.Q[c]);
+    const double middle = 0.5 * (bound.P[c] + bound.Q[c]);
+    if (P) (*P)[c] = static_cast<S>(a.center0[c] + (lower > 0 ? bound.P[c] : middle));
+    if (Q) (*Q)[c] = static_cast<S>(a.center0[c] + (lower > 0 ? bound.Q[c] : middle));
   }
-  return roundDown<S>(std::max(0.0, bound.value));
+  return lower;
 }
 
 [[noreturn]] void refuseRotation(const char* what, double error, double allowed) {

@@ -74,27 +74,33 @@ SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame&
   return centers;
 }
 
-SphereCenters triangleCenters(const PointLanes& points, PrincipalFrame& frame) {
-  const Eigen::Vector3f p[3] = {Eigen::Vector3f::Zero(),
-                                {points.x()[1], points.y()[1], points.z()[1]},
-                                {points.x()[2], points.y()[2], points.z()[2]}};
-  const float squares[3] = {(p[2] - p[1]).squaredNorm(), p[2].squaredNorm(), p[1].squaredNorm()};
+SphereCenters triangleCenters(const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
+                              PrincipalFrame& frame) {
+  const Eigen::Vector3d p[3] = {Eigen::Vector3d::Zero(), p1, p2};
+  const double squares[3] = {(p2 - p1).squaredNorm(), p2.squaredNorm(), p1.squaredNorm()};
   int apex = squares[0] >= squares[1] ? 0 : 1;  // opposite the longest edge
   if (squares[2] > squares[apex]) apex = 2;
-  const Eigen::Vector3f &from = p[(apex + 1) % 3], &to = p[(apex + 2) % 3];
-  const Eigen::Vector3f middle = 0.5F * (from + to);
-  const Eigen::Vector3f to_apex = p[apex] - middle;
-  frame.axes = orthonormalAxes(to - from, to_apex);
-  for (int c = 0; c < 3; ++c) frame.middle[c] = frame.axes.col(c).dot(middle);
+  const Eigen::Vector3d &from = p[(apex + 1) % 3], &to = p[(apex + 2) % 3];
+  const Eigen::Vector3d middle = 0.5 * (from + to), edge = to - from;
+  const Eigen::Vector3d from_nearer = p[apex] - ((p[apex] - middle).dot(edge) > 0 ? to : from);
 
   SphereCenters centers;
-  // In the plane: the longest edge from (-a, 0) to (a, 0), the apex at (x, h), |x| <= a.
-  const float a = 0.5F * std::sqrt(squares[apex]);
-  const float x = frame.axes.col(0).dot(to_apex), h = frame.axes.col(1).dot(to_apex);
+  // In the plane: the longest edge from (-a, 0) to (a, 0), the apex at (x, h), |x| <= a. What may
+  // be small is measured from the nearer end: slivers would lose it from the middle.
+  const double length = std::sqrt(squares[apex]);
+  const float a = static_cast<float>(0.5 * length);
   if (!(a > 0)) return centers;
+  const Eigen::Vector3d across = from_nearer - from_nearer.dot(edge) / squares[apex] * edge;
+  frame.axes = orthonormalAxes(edge.cast<float>(), across.cast<float>());
+  for (int c = 0; c < 3; ++c) frame.middle[c] = frame.axes.col(c).dot(middle.cast<float>());
+  const float x = static_cast<float>((p[apex] - middle).dot(edge) / length);
+  const float h = static_cast<float>(across.norm());
   centers.k = 5;
-  const float rise = x * x + h * h - a * a;  // > 0: acute, the circumcircle is the minimal one
-  const float v0 = rise > 0 && h > 0 ? 0.5F * rise / h : 0.0F;
+  // Acute if the apex lies outside the ball over the longest edge: then the circumcentre, which is
+  // at most a / sqrt(3) above that edge, is the minimal circle's.
+  const double rise = (p[apex] - from).dot(p[apex] - to);
+  const float v0 =
+      rise > 0 && h > 0 ? std::min(0.5774F * a, static_cast<float>(0.5 * rise / h)) : 0.0F;
   for (int i = 0; i < 3; ++i) centers.sphere[i][1] = v0;
   const float height = kCot30 * std::sqrt(a * a + v0 * v0);
   centers.sphere[1][2] = height;

@@ -36,14 +36,14 @@ template <typename S>
 void SphereFitter<S>::loadRelative(const fcl::Vector3<S>* points, int n) {
   relative_.resize(n);
   const double x0 = points[0][0], y0 = points[0][1], z0 = points[0][2];
-  double largest = 0, poison = 0;  // poison turns NaN if a difference is not finite
+  double largest = 0, magnitude = 0, poison = 0;  // poison turns NaN if a difference is not finite
   for (int i = 0; i < n; ++i) {
     const double x = points[i][0] - x0, y = points[i][1] - y0, z = points[i][2] - z0;
     poison += 0 * x + 0 * y + 0 * z;
     largest = std::max(std::max(largest, std::abs(x)), std::max(std::abs(y), std::abs(z)));
+    for (int c = 0; c < 3; ++c) magnitude = std::max(magnitude, std::abs(double{points[i][c]}));
     relative_.set(i, static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
   }
-  const double magnitude = std::max({std::abs(x0), std::abs(y0), std::abs(z0), largest / 2});
   if (poison != 0 || !(magnitude <= kMaxCoordinate<S>)) requireUsable(points, n);
   exponent_ = capExponent(largest);
   for (int i = 0; exponent_ != 0 && i < n; ++i) {
@@ -119,7 +119,13 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, FitMethod met
   loadRelative(points, n);
   PrincipalFrame frame;
   if (n == 3 && method == FitMethod::kTuned) {
-    const SphereCenters centers = triangleCenters(relative_, frame);
+    Eigen::Vector3d corners[2];
+    for (int i = 0; i < 2; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        corners[i][c] = scaled(double{points[i + 1][c]} - double{points[0][c]}, -exponent_);
+      }
+    }
+    const SphereCenters centers = triangleCenters(corners[0], corners[1], frame);
     return measure(points, n, frame, centers);
   }
   frame = principalFrame(relative_, in_frame_);

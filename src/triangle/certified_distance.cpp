@@ -136,17 +136,24 @@ bool CertifiedDistance::facePair(const Plane& plane, const Vec (&face)[3], const
                                  PairFeature& feature, double& distance) const {
   const Vec& n = plane.normal;
   const double square = plane.square;
-  if (plane.side == 0 || !(square > 1e-6 * edges[0].squaredNorm() * edges[1].squaredNorm())) {
-    return false;
-  }
+  const double longest =
+      std::max({edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm()});
+  if (plane.side == 0 || !(square > 1e-6 * longest * longest))
+    return false;  // height / edge > 1e-3
   const double length = std::sqrt(square);
   const double* const h = plane.heights;
   int nearest = std::abs(h[1]) < std::abs(h[0]) ? 1 : 0;
   if (std::abs(h[2]) < std::abs(h[nearest])) nearest = 2;
   distance = std::abs(h[nearest]) / length;
   if (!(distance > least_)) return false;
+  // Inside every edge by more than the rounding of this test: near a sharp corner that rounding
+  // would reach far beyond the corner.
   for (int i = 0; i < 3; ++i) {
-    if (n.cross(edges[i]).dot(other[nearest] - face[i]) < 0) return false;
+    const double inside = n.cross(edges[i]).dot(other[nearest] - face[i]);
+    const double margin = 2 * tolerance_;
+    if (!(inside > 0 && inside * inside > margin * margin * square * edges[i].squaredNorm())) {
+      return false;
+    }
   }
   // The face itself must lie within the slab's one side, else n is too inaccurate.
   double low = 0, high = 0;

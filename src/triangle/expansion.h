@@ -18,7 +18,6 @@ struct Expansion {
   void append(double v) {
     if (v != 0) terms[size++] = v;
   }
-  int sign() const { return size == 0 ? 0 : (terms[size - 1] > 0 ? 1 : -1); }
 };
 
 /// a + b = sum + error, exactly.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/triangle/intersection.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -93,13 +92,15 @@ class PairIntersection {
     const int p = face.v[e], q = face.v[kNext[e]];
     const int sp = side[e], sq = side[kNext[e]];
     if (other.axis >= 0 && sp * sq != 0) {
-      if (segmentMeetsFace(p, q, sp, sq, other)) add(crossing(p, q, other));
+      if (segmentMeetsFace(p, q, sp, sq, other)) {
+        add(between(p, q, signs_.crossing3d(p, q, other.v[0], other.v[1], other.v[2])));
+      }
       return;
     }
     if (segmentMeetsFace(p, p, sp, sp, other)) add(points_[p]);
     for (int o = 0; o < 3; ++o) {
       const int r = other.v[o], s = other.v[kNext[o]];
-      if (segmentsMeet(p, q, r, s)) add(nearestOn(p, q, r, s));
+      if (segmentsMeet(p, q, r, s)) add(meetingPoint(p, q, r, s));
     }
   }
 
@@ -183,31 +184,17 @@ class PairIntersection {
     return true;
   }
 
-  /// Where p q crosses the plane of f (its ends lie on opposite sides), rounded.
-  std::array<double, 3> crossing(int p, int q, const Face& f) const {
-    const Eigen::Vector3d o = at(f.v[0]);
-    const Eigen::Vector3d n =
-        (at(f.v[1]) - o).stableNormalized().cross((at(f.v[2]) - o).stableNormalized());
-    const double hp = std::abs(n.dot(at(p) - o)), hq = std::abs(n.dot(at(q) - o));
-    const double t = hp + hq > 0 ? hp / (hp + hq) : 0.5;
-    return between(p, q, t);
-  }
-
-  /// A common point of two segments that meet: the point of p q nearest to r s.
-  std::array<double, 3> nearestOn(int p, int q, int r, int s) const {
-    const Eigen::Vector3d d = at(q) - at(p), e = at(s) - at(r), w = at(r) - at(p);
-    const Eigen::Vector3d n = d.stableNormalized().cross(e.stableNormalized());
-    const double length = d.stableNorm();
-    if (n.squaredNorm() > 0) {
-      const double t = w.cross(e.stableNormalized()).dot(n) / n.squaredNorm() / length;
-      return between(p, q, std::min(1.0, std::max(0.0, t)));
+  /// A common point of two segments that meet.
+  std::array<double, 3> meetingPoint(int p, int q, int r, int s) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (signs_.cross2d(p, q, r, s, axis) == 0) continue;
+      return between(p, q, signs_.crossing2d(p, q, r, s, axis));
     }
-    // Collinear: the middle of the overlap.
-    if (!(length > 0)) return points_[p];
-    const Eigen::Vector3d u = d / length;
-    const double t0 = u.dot(w) / length, t1 = u.dot(at(s) - at(p)) / length;
-    const double low = std::max(0.0, std::min(t0, t1)), high = std::min(1.0, std::max(t0, t1));
-    return between(p, q, std::min(1.0, std::max(0.0, 0.5 * (low + high))));
+    // Collinear: an end of one lies within the other.
+    for (const int end : {r, s}) {
+      if (boxesMeet(p, q, end, end)) return points_[end];
+    }
+    return points_[p];
   }
 
   std::array<double, 3> between(int p, int q, double t) const {
@@ -218,8 +205,6 @@ class PairIntersection {
     }
     return point;
   }
-
-  Eigen::Vector3d at(int i) const { return {points_[i][0], points_[i][1], points_[i][2]}; }
 
   const PairPredicates::Coordinates& points_;
   const PairPredicates signs_;

@@ -25,6 +25,23 @@ cpp_int integer(double v) {
   return shift >= 0 ? cpp_int(n << shift) : cpp_int(n / (cpp_int(1) << -shift));
 }
 
+/// An integer, rounded to 53 bits and split into mantissa and exponent.
+template <typename Rounded>
+Rounded roundedInteger(const cpp_int& n) {
+  if (n == 0) return {0, 0};
+  const cpp_int magnitude = abs(n);
+  const long bits = static_cast<long>(msb(magnitude)) + 1, drop = std::max(0L, bits - 62);
+  const double mantissa = static_cast<double>(static_cast<long long>(magnitude >> drop));
+  return {n < 0 ? -mantissa : mantissa, drop};
+}
+
+template <typename Rounded, int N>
+Rounded roundedExpansion(const Expansion<N>& e) {
+  double sum = 0;
+  for (int i = 0; i < e.size; ++i) sum += e.terms[i];
+  return {sum, 0};
+}
+
 }  // namespace
 
 PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scaled_(points) {
@@ -49,7 +66,7 @@ PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scal
 
 // Filters: |det - exact| <= (7 + 56 u) u permanent for orient3d with rounded differences, (3 + 16
 // u) u for the 2x2 (Shewchuk); products that underflow add less than 2^-800 at this scale.
-int PairPredicates::orient3d(int i, int j, int k, int l) const {
+PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, int l) const {
   const auto &a = scaled_[i], &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
   const double adx = a[0] - d[0], ady = a[1] - d[1], adz = a[2] - d[2];
   const double bdx = b[0] - d[0], bdy = b[1] - d[1], bdz = b[2] - d[2];
@@ -61,21 +78,55 @@ int PairPredicates::orient3d(int i, int j, int k, int l) const {
                            (std::abs(cxay) + std::abs(axcy)) * std::abs(bdz) +
                            (std::abs(axby) + std::abs(bxay)) * std::abs(cdz);
   constexpr double kBound = 8 * 0x1p-53;
-  if (std::abs(det) > kBound * permanent + 0x1p-800) return signOf(det);
-  return exactOrient3d(i, j, k, l);
+  return {det, kBound * permanent + 0x1p-800};
 }
 
-int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
+int PairPredicates::orient3d(int i, int j, int k, int l) const {
+  const Filtered det = filteredOrient3d(i, j, k, l);
+  if (std::abs(det.value) > det.error) return signOf(det.value);
+  return signOf(exactOrient3d(i, j, k, l).mantissa);
+}
+
+PairPredicates::Filtered PairPredicates::filteredCross2d(int i, int j, int k, int l,
+                                                         int axis) const {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const double left = (scaled_[j][u] - scaled_[i][u]) * (scaled_[l][v] - scaled_[k][v]);
   const double right = (scaled_[j][v] - scaled_[i][v]) * (scaled_[l][u] - scaled_[k][u]);
   constexpr double kBound = 4 * 0x1p-53;
-  const double det = left - right;
-  if (std::abs(det) > kBound * (std::abs(left) + std::abs(right)) + 0x1p-800) return signOf(det);
-  return exactCross2d(i, j, k, l, axis);
+  return {left - right, kBound * (std::abs(left) + std::abs(right)) + 0x1p-800};
 }
 
-int PairPredicates::exactOrient3d(int i, int j, int k, int l) const {
+int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
+  const Filtered det = filteredCross2d(i, j, k, l, axis);
+  if (std::abs(det.value) > det.error) return signOf(det.value);
+  return signOf(exactCross2d(i, j, k, l, axis).mantissa);
+}
+
+/// |a| / (|a| + |b|)
+double PairPredicates::share(const Rounded& a, const Rounded& b) {
+  const long shift = b.exponent - a.exponent;
+  const double size_a = std::abs(a.mantissa), size_b = std::abs(b.mantissa);
+  if (size_a == 0) return 0;
+  // Mantissas are below 2^63 and a ratio beyond 2^+-200 is 0 or 1.
+  const double relative_b = std::ldexp(size_b, static_cast<int>(std::clamp(shift, -2000L, 900L)));
+  return std::isfinite(relative_b) ? size_a / (size_a + relative_b) : 0;
+}
+
+double PairPredicates::crossing3d(int i, int j, int k, int l, int m) const {
+  const Filtered fi = filteredOrient3d(k, l, m, i), fj = filteredOrient3d(k, l, m, j);
+  const double size = std::abs(fi.value) + std::abs(fj.value);
+  if (fi.error + fj.error <= 0x1p-48 * size) return std::abs(fi.value) / size;
+  return share(exactOrient3d(k, l, m, i), exactOrient3d(k, l, m, j));
+}
+
+double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
+  const Filtered fi = filteredCross2d(k, l, k, i, axis), fj = filteredCross2d(k, l, k, j, axis);
+  const double size = std::abs(fi.value) + std::abs(fj.value);
+  if (fi.error + fj.error <= 0x1p-48 * size) return std::abs(fi.value) / size;
+  return share(exactCross2d(k, l, k, i, axis), exactCross2d(k, l, k, j, axis));
+}
+
+PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l) const {
   if (!expansions_exact_) {
     cpp_int m[3][3];
     const int rows[3] = {i, j, k};
@@ -85,7 +136,7 @@ int PairPredicates::exactOrient3d(int i, int j, int k, int l) const {
     const cpp_int det = m[0][2] * (m[1][0] * m[2][1] - m[2][0] * m[1][1]) +
                         m[1][2] * (m[2][0] * m[0][1] - m[0][0] * m[2][1]) +
                         m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]);
-    return det.sign();
+    return roundedInteger<Rounded>(det);
   }
   Expansion<2> m[3][3];
   const int rows[3] = {i, j, k};
@@ -95,23 +146,24 @@ int PairPredicates::exactOrient3d(int i, int j, int k, int l) const {
   const auto minor = [&m](int r, int s) {
     return sum(product(m[r][0], m[s][1]), negated(product(m[s][0], m[r][1])));
   };
-  return sum(sum(product(minor(1, 2), m[0][2]), product(minor(2, 0), m[1][2])),
-             product(minor(0, 1), m[2][2]))
-      .sign();
+  return roundedExpansion<Rounded>(
+      sum(sum(product(minor(1, 2), m[0][2]), product(minor(2, 0), m[1][2])),
+          product(minor(0, 1), m[2][2])));
 }
 
-int PairPredicates::exactCross2d(int i, int j, int k, int l, int axis) const {
+PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis) const {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   if (!expansions_exact_) {
     const auto d = [this](int to, int from, int c) {
       return cpp_int(integer(given_[to][c]) - integer(given_[from][c]));
     };
-    return cpp_int(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u)).sign();
+    return roundedInteger<Rounded>(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u));
   }
   const auto d = [this](int to, int from, int c) {
     return difference(scaled_[to][c], scaled_[from][c]);
   };
-  return sum(product(d(j, i, u), d(l, k, v)), negated(product(d(j, i, v), d(l, k, u)))).sign();
+  return roundedExpansion<Rounded>(
+      sum(product(d(j, i, u), d(l, k, v)), negated(product(d(j, i, v), d(l, k, u)))));
 }
 
 }  // namespace kios

@@ -20,12 +20,30 @@ class PairPredicates {
   int orient2d(int i, int j, int k, int axis) const { return cross2d(i, j, i, k, axis); }
   /// Sign of component `axis` of (p_j - p_i) x (p_l - p_k).
   int cross2d(int i, int j, int k, int l, int axis) const;
+  /// Where p_i p_j crosses the plane of (k, l, m), on whose two sides they lie: the parameter from
+  /// p_i, to about 8 eps of the segment however small the angle is.
+  double crossing3d(int i, int j, int k, int l, int m) const;
+  /// Where p_i p_j crosses the line p_k p_l in the projection along `axis`: the same.
+  double crossing2d(int i, int j, int k, int l, int axis) const;
   /// Coordinate `axis` of p_i <= that of p_j.
   bool notAbove(int i, int j, int axis) const { return given_[i][axis] <= given_[j][axis]; }
 
  private:
-  int exactOrient3d(int i, int j, int k, int l) const;
-  int exactCross2d(int i, int j, int k, int l, int axis) const;
+  /// A determinant by plain arithmetic, and a bound of its error.
+  struct Filtered {
+    double value, error;
+  };
+  Filtered filteredOrient3d(int i, int j, int k, int l) const;
+  Filtered filteredCross2d(int i, int j, int k, int l, int axis) const;
+
+  /// The same exactly, rounded once: mantissa 2^exponent.
+  struct Rounded {
+    double mantissa;
+    long exponent;
+  };
+  Rounded exactOrient3d(int i, int j, int k, int l) const;
+  Rounded exactCross2d(int i, int j, int k, int l, int axis) const;
+  static double share(const Rounded& a, const Rounded& b);
 
   const Coordinates& given_;
   Coordinates scaled_;     ///< given_ times a power of two, largest magnitude within 2^+-200

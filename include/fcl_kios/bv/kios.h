@@ -27,7 +27,7 @@ class kIOS {
   static constexpr int kMaxSpheres = 5;
   static constexpr int kCaps = 4;
 
-  /// Signed-free tests of the pair in one frame: paper, IV-A (Algorithm 1) and IV-B (Algorithm 2).
+  /// Tests of a pair in one frame: paper, IV-A (Algorithm 1) and IV-B (Algorithm 2).
   bool overlap(const kIOS& other) const;
   /// As overlap(other). `overlap_part` is not written: the intersection of two k-IOS is not one.
   bool overlap(const kIOS& other, kIOS& overlap_part) const;
@@ -40,7 +40,8 @@ class kIOS {
   /// True if no sphere excludes p; never false for a point of the content.
   bool contain(const fcl::Vector3<S>& p) const;
 
-  /// Grows every sphere, so that the result contains p as well.
+  /// Grows the volume, if need be, so that it contains p as well. Throws std::invalid_argument if a
+  /// coordinate is NaN, infinite, or above 2^1000 (double) or 2^120 (float) in magnitude.
   kIOS& operator+=(const fcl::Vector3<S>& p);
   kIOS& operator+=(const kIOS& other) { return *this = *this + other; }
   /// Encloses both contents. a + b and b + a are bitwise equal.

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+namespace kios::scenes {
+
+/// Two triangles in one frame.
+struct TrianglePair {
+  std::array<Eigen::Vector3d, 3> a, b;
+};
+
+/// L, the diagonal of the pair's bounding box: what errors are measured by.
+long double extent(const TrianglePair& pair);
+
+/// Largest magnitude of a coordinate of the pair.
+double magnitude(const TrianglePair& pair);
+
+}  // namespace kios::scenes
