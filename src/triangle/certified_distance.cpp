@@ -33,6 +33,20 @@ CertifiedDistance::CertifiedDistance(const TrianglePair& pair)
     per_ee_[i] = 1 / ee_[i];
     per_ff_[i] = 1 / ff_[i];
   }
+  // Most nearest pairs lie at the vertices that face the other triangle.
+  const Vec across =
+      (pair_.q[0] + pair_.q[1] + pair_.q[2]) - (pair_.p[0] + pair_.p[1] + pair_.p[2]);
+  orderEdges(pair_.p, across, order_p_);
+  orderEdges(pair_.q, -across, order_q_);
+}
+
+/// The two edges at the vertex farthest along `direction`, then the third.
+void CertifiedDistance::orderEdges(const Vec (&v)[3], const Vec& direction, int (&order)[3]) {
+  const double h0 = v[0].dot(direction), h1 = v[1].dot(direction), h2 = v[2].dot(direction);
+  const int vertex = h0 >= h1 ? (h0 >= h2 ? 0 : 2) : (h1 >= h2 ? 1 : 2);
+  order[0] = vertex;
+  order[2] = nextVertex(vertex);
+  order[1] = nextVertex(order[2]);
 }
 
 bool CertifiedDistance::crossing() {
@@ -57,19 +71,19 @@ void CertifiedDistance::setPlane(const Vec (&face)[3], const Vec (&edges)[3], co
 bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) const {
   for (int i = begin; i < end; ++i) {
     for (int j = 0; j < 3; ++j) {
-      if (edgePair(i, j, found)) return true;
+      if (edgePair(order_p_[i], order_q_[j], found)) return true;
     }
   }
   return false;
 }
 
 bool CertifiedDistance::nearestFace(PairDistance& found) const {
-  if (facePair(plane_p_, pair_.p, e_, pair_.q, found.on_p, found.on_q, found.feature_q,
+  if (facePair(plane_p_, pair_.p, e_, ee_, pair_.q, found.on_p, found.on_q, found.feature_q,
                found.distance)) {
     found.feature_p = {PairFeature::kFace, 0};
     return true;
   }
-  if (facePair(plane_q_, pair_.q, f_, pair_.p, found.on_q, found.on_p, found.feature_p,
+  if (facePair(plane_q_, pair_.q, f_, ff_, pair_.p, found.on_q, found.on_p, found.feature_p,
                found.distance)) {
     found.feature_q = {PairFeature::kFace, 0};
     return true;
@@ -132,12 +146,11 @@ bool CertifiedDistance::certified(const Vec& direction, const Vec& x, double dis
 /// The vertex of `other` nearest to the plane of `face`, if all lie on one side of it and that
 /// vertex above the face.
 bool CertifiedDistance::facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
-                                 const Vec (&other)[3], Vec& on_face, Vec& on_other,
-                                 PairFeature& feature, double& distance) const {
+                                 const double (&squares)[3], const Vec (&other)[3], Vec& on_face,
+                                 Vec& on_other, PairFeature& feature, double& distance) const {
   const Vec& n = plane.normal;
   const double square = plane.square;
-  const double longest =
-      std::max({edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm()});
+  const double longest = std::max({squares[0], squares[1], squares[2]});
   if (plane.side == 0 || !(square > 1e-6 * longest * longest))
     return false;  // height / edge > 1e-3
   const double length = std::sqrt(square);
@@ -151,7 +164,7 @@ bool CertifiedDistance::facePair(const Plane& plane, const Vec (&face)[3], const
   for (int i = 0; i < 3; ++i) {
     const double inside = n.cross(edges[i]).dot(other[nearest] - face[i]);
     const double margin = 2 * tolerance_;
-    if (!(inside > 0 && inside * inside > margin * margin * square * edges[i].squaredNorm())) {
+    if (!(inside > 0 && inside * inside > margin * margin * square * squares[i])) {
       return false;
     }
   }

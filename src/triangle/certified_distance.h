@@ -13,7 +13,7 @@ class CertifiedDistance {
  public:
   explicit CertifiedDistance(const TrianglePair& pair);
 
-  /// Edges `begin` to `end` of p against all of q.
+  /// Edges `begin` to `end` of p, those nearest to q first, against all of q.
   bool nearestEdges(int begin, int end, PairDistance& found) const;
   /// Computes the planes; true if each triangle has vertices on both sides of the other's, as far
   /// as rounding tells, when it pays to ask for an intersection before going on.
@@ -30,10 +30,11 @@ class CertifiedDistance {
     int side;  ///< of all three vertices, 0 if they differ
   };
   void setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3], Plane& plane);
+  static void orderEdges(const Vec (&v)[3], const Vec& direction, int (&order)[3]);
   bool edgePair(int i, int j, PairDistance& found) const;
   bool facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
-                const Vec (&other)[3], Vec& on_face, Vec& on_other, PairFeature& feature,
-                double& distance) const;
+                const double (&squares)[3], const Vec (&other)[3], Vec& on_face, Vec& on_other,
+                PairFeature& feature, double& distance) const;
   bool certified(const Vec& direction, const Vec& x, double distance) const;
 
   const TrianglePair& pair_;
@@ -41,6 +42,7 @@ class CertifiedDistance {
   const double least_;      ///< nearer pairs are left to the exact predicates
   Vec e_[3], f_[3];
   double ee_[3], ff_[3], per_ee_[3], per_ff_[3];
+  int order_p_[3], order_q_[3];
   Plane plane_p_, plane_q_;
 };
 

@@ -110,13 +110,13 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
   const Sorted sa(a), sb(b);
   const bool swapped = before(sb, sa);
   const Sorted &p = swapped ? sb : sa, &q = swapped ? sa : sb;
-  for (int i = 0; i < 3; ++i) {  // neighbours in a mesh touch in a vertex as stored
-    for (int j = 0; j < 3; ++j) {
-      if (sa.v[i] != sb.v[j]) continue;
+  for (int i = 0, j = 0; i < 3 && j < 3;) {  // neighbours in a mesh share a vertex as stored
+    if (sa.v[i] == sb.v[j]) {
       const Point<S>& common = a[sa.index[i]];
       return {S(0), common, common, static_cast<TriangleFeature>(sa.index[i]),
               static_cast<TriangleFeature>(sb.index[j])};
     }
+    before(sa.v[i], sb.v[j]) ? ++i : ++j;
   }
   const Vec origin = p.v[0];
   const TrianglePair pair = relativeTo(origin, p, q);
@@ -126,13 +126,13 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
   bool certified = false, disjoint = false;
   if (pair.magnitude > 1e-70 && pair.magnitude < 1e70) {
     CertifiedDistance fast(pair);
-    certified = fast.nearestEdges(0, 2, found);
+    certified = fast.nearestEdges(0, 1, found);
     if (!certified) {
       if (fast.crossing()) {
         if (commonPoint(a, b, common)) return touchingAt(common);
         disjoint = true;
       }
-      certified = fast.nearestEdges(2, 3, found) || fast.nearestFace(found);
+      certified = fast.nearestEdges(1, 3, found) || fast.nearestFace(found);
     }
   }
   if (!certified) {

@@ -93,7 +93,7 @@ class PairIntersection {
     const int sp = side[e], sq = side[kNext[e]];
     if (other.axis >= 0 && sp * sq != 0) {
       if (segmentMeetsFace(p, q, sp, sq, other)) {
-        add(between(p, q, signs_.crossing3d(p, q, other.v[0], other.v[1], other.v[2])));
+        add(crossing(p, q, other));
       }
       return;
     }
@@ -108,6 +108,10 @@ class PairIntersection {
                  std::array<double, 3>& point) const {
     const int n = kNext[e];
     if (!segmentMeetsFace(face.v[e], face.v[n], side[e], side[n], other)) return false;
+    if (other.axis >= 0 && side[e] * side[n] < 0) {
+      point = crossing(face.v[e], face.v[n], other);
+      return true;
+    }
     bool located = false;
     eachMeeting(face, side, e, other, [&](const std::array<double, 3>& p) {
       if (!located) point = p;
@@ -184,6 +188,11 @@ class PairIntersection {
     return true;
   }
 
+  /// Where p q crosses the plane of f, on whose two sides its ends lie.
+  std::array<double, 3> crossing(int p, int q, const Face& f) const {
+    return between(p, q, signs_.crossing3d(p, q, f.v[0], f.v[1], f.v[2]));
+  }
+
   /// A common point of two segments that meet.
   std::array<double, 3> meetingPoint(int p, int q, int r, int s) const {
     for (int axis = 0; axis < 3; ++axis) {
@@ -223,15 +232,27 @@ PairPredicates::Coordinates coordinates(const TriangleVertices<S>& a,
   return all;
 }
 
+template <typename S>
+bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+  for (int c = 0; c < 3; ++c) {
+    const auto [low_a, high_a] = std::minmax({a[0][c], a[1][c], a[2][c]});
+    const auto [low_b, high_b] = std::minmax({b[0][c], b[1][c], b[2][c]});
+    if (high_a < low_b || high_b < low_a) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 template <typename S>
 bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+  if (boxesApart(a, b)) return false;
   return PairIntersection(coordinates(a, b)).test();
 }
 
 template <typename S>
 bool commonPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b, Point<S>& point) {
+  if (boxesApart(a, b)) return false;
   const auto found = PairIntersection(coordinates(a, b)).anyPoint();
   if (found) {
     for (int c = 0; c < 3; ++c) point[c] = static_cast<S>((*found)[c]);

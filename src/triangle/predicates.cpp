@@ -112,17 +112,20 @@ double PairPredicates::share(const Rounded& a, const Rounded& b) {
   return std::isfinite(relative_b) ? size_a / (size_a + relative_b) : 0;
 }
 
+// The filters' bounds are far above their errors: 2^-46 of a bound is a few eps in fact.
+constexpr double kAccurate = 0x1p-46;
+
 double PairPredicates::crossing3d(int i, int j, int k, int l, int m) const {
   const Filtered fi = filteredOrient3d(k, l, m, i), fj = filteredOrient3d(k, l, m, j);
   const double size = std::abs(fi.value) + std::abs(fj.value);
-  if (fi.error + fj.error <= 0x1p-48 * size) return std::abs(fi.value) / size;
+  if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
   return share(exactOrient3d(k, l, m, i), exactOrient3d(k, l, m, j));
 }
 
 double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
   const Filtered fi = filteredCross2d(k, l, k, i, axis), fj = filteredCross2d(k, l, k, j, axis);
   const double size = std::abs(fi.value) + std::abs(fj.value);
-  if (fi.error + fj.error <= 0x1p-48 * size) return std::abs(fi.value) / size;
+  if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
   return share(exactCross2d(k, l, k, i, axis), exactCross2d(k, l, k, j, axis));
 }
 
