@@ -91,6 +91,15 @@ Expansion<2 * N> scaled(const Expansion<N>& e, double b) {
   return h;
 }
 
+inline Expansion<2> product(double a, double b) {
+  double high, low;
+  twoProduct(a, b, high, low);
+  Expansion<2> e;
+  e.append(low);
+  e.append(high);
+  return e;
+}
+
 /// e times a number of at most two terms.
 template <int N>
 Expansion<4 * N> product(const Expansion<N>& e, const Expansion<2>& f) {

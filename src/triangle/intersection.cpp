@@ -72,16 +72,9 @@ class PairIntersection {
     if (std::abs(side_b_[0] + side_b_[1] + side_b_[2]) == 3) return false;
     for (int i = 0; i < 3; ++i) side_a_[i] = signs_.orient3d(3, 4, 5, i);
     if (std::abs(side_a_[0] + side_a_[1] + side_a_[2]) == 3) return false;
-    a_.axis = projectionAxis(a_);
-    b_.axis = projectionAxis(b_);
+    a_.axis = signs_.projectionAxis(0, 1, 2);
+    b_.axis = signs_.projectionAxis(3, 4, 5);
     return true;
-  }
-
-  int projectionAxis(const Face& f) const {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (signs_.orient2d(f.v[0], f.v[1], f.v[2], axis) != 0) return axis;
-    }
-    return -1;
   }
 
   /// Calls add() with the points where edge e of `face` meets `other`: a crossing of its plane, or

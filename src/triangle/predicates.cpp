@@ -84,7 +84,8 @@ PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, i
 int PairPredicates::orient3d(int i, int j, int k, int l) const {
   const Filtered det = filteredOrient3d(i, j, k, l);
   if (std::abs(det.value) > det.error) return signOf(det.value);
-  return signOf(exactOrient3d(i, j, k, l).mantissa);
+  if (det.error == 0x1p-800 && expansions_exact_) return 0;  // every product is 0, none underflowed
+  return signOf(exactOrient3d(i, j, k, l, 1).mantissa);
 }
 
 PairPredicates::Filtered PairPredicates::filteredCross2d(int i, int j, int k, int l,
@@ -99,7 +100,23 @@ PairPredicates::Filtered PairPredicates::filteredCross2d(int i, int j, int k, in
 int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
   const Filtered det = filteredCross2d(i, j, k, l, axis);
   if (std::abs(det.value) > det.error) return signOf(det.value);
+  if (det.error == 0x1p-800 && expansions_exact_) return 0;
   return signOf(exactCross2d(i, j, k, l, axis).mantissa);
+}
+
+int PairPredicates::projectionAxis(int i, int j, int k) const {
+  int best = -1;
+  double largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Filtered area = filteredCross2d(i, j, i, k, axis);
+    if (std::abs(area.value) <= std::max(area.error, largest)) continue;
+    largest = std::abs(area.value);
+    best = axis;
+  }
+  for (int axis = 0; axis < 3 && best < 0; ++axis) {
+    if (orient2d(i, j, k, axis) != 0) best = axis;
+  }
+  return best;
 }
 
 /// |a| / (|a| + |b|)
@@ -114,12 +131,13 @@ double PairPredicates::share(const Rounded& a, const Rounded& b) {
 
 // The filters' bounds are far above their errors: 2^-46 of a bound is a few eps in fact.
 constexpr double kAccurate = 0x1p-46;
+constexpr double kExact = 0x1p50;
 
 double PairPredicates::crossing3d(int i, int j, int k, int l, int m) const {
   const Filtered fi = filteredOrient3d(k, l, m, i), fj = filteredOrient3d(k, l, m, j);
   const double size = std::abs(fi.value) + std::abs(fj.value);
   if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
-  return share(exactOrient3d(k, l, m, i), exactOrient3d(k, l, m, j));
+  return share(exactOrient3d(k, l, m, i, kExact), exactOrient3d(k, l, m, j, kExact));
 }
 
 double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
@@ -129,7 +147,8 @@ double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
   return share(exactCross2d(k, l, k, i, axis), exactCross2d(k, l, k, j, axis));
 }
 
-PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l) const {
+PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l,
+                                                      double margin) const {
   if (!expansions_exact_) {
     cpp_int m[3][3];
     const int rows[3] = {i, j, k};
@@ -141,17 +160,48 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
                         m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]);
     return roundedInteger<Rounded>(det);
   }
-  Expansion<2> m[3][3];
+  // In stages (Shewchuk, 4.3): exactly for the rounded differences, which is all if they are exact;
+  // with their roundings to first order, off by at most (26 + 288 u) u^2 permanent; exactly.
+  double d[3][3], t[3][3];
   const int rows[3] = {i, j, k};
+  bool tails = false;
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) {
+      twoSum(scaled_[rows[r]][c], -scaled_[l][c], d[r][c], t[r][c]);
+      tails |= t[r][c] != 0;
+    }
+  }
+  const auto minor = [&d](int r, int s) {
+    return sum(product(d[r][0], d[s][1]), negated(product(d[s][0], d[r][1])));
+  };
+  Rounded det =
+      roundedExpansion<Rounded>(sum(sum(scaled(minor(1, 2), d[0][2]), scaled(minor(2, 0), d[1][2])),
+                                    scaled(minor(0, 1), d[2][2])));
+  if (!tails) return det;
+
+  double permanent = 0;
+  for (int r = 0; r < 3; ++r) {
+    const int p = (r + 1) % 3, q = (r + 2) % 3;
+    const double left = d[p][0] * d[q][1], right = d[q][0] * d[p][1];
+    permanent += (std::abs(left) + std::abs(right)) * std::abs(d[r][2]);
+    det.mantissa += d[r][2] * ((d[p][0] * t[q][1] + d[q][1] * t[p][0]) -
+                               (d[q][0] * t[p][1] + d[p][1] * t[q][0])) +
+                    t[r][2] * (left - right);
+  }
+  constexpr double kUlp = 0x1p-53;
+  const double error = 27 * kUlp * kUlp * permanent + 4 * kUlp * std::abs(det.mantissa) + 0x1p-800;
+  if (std::abs(det.mantissa) > margin * error) return det;
+
+  Expansion<2> m[3][3];
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) m[r][c] = difference(scaled_[rows[r]][c], scaled_[l][c]);
   }
-  const auto minor = [&m](int r, int s) {
+  const auto exact_minor = [&m](int r, int s) {
     return sum(product(m[r][0], m[s][1]), negated(product(m[s][0], m[r][1])));
   };
   return roundedExpansion<Rounded>(
-      sum(sum(product(minor(1, 2), m[0][2]), product(minor(2, 0), m[1][2])),
-          product(minor(0, 1), m[2][2])));
+      sum(sum(product(exact_minor(1, 2), m[0][2]), product(exact_minor(2, 0), m[1][2])),
+          product(exact_minor(0, 1), m[2][2])));
 }
 
 PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis) const {

@@ -18,6 +18,8 @@ class PairPredicates {
   int orient3d(int i, int j, int k, int l) const;
   /// Sign of the area of (i, j, k) in the projection along `axis`.
   int orient2d(int i, int j, int k, int axis) const { return cross2d(i, j, i, k, axis); }
+  /// The axis along which the projection of (i, j, k) has an area, -1 if there is none.
+  int projectionAxis(int i, int j, int k) const;
   /// Sign of component `axis` of (p_j - p_i) x (p_l - p_k).
   int cross2d(int i, int j, int k, int l, int axis) const;
   /// Where p_i p_j crosses the plane of (k, l, m), on whose two sides they lie: the parameter from
@@ -36,12 +38,13 @@ class PairPredicates {
   Filtered filteredOrient3d(int i, int j, int k, int l) const;
   Filtered filteredCross2d(int i, int j, int k, int l, int axis) const;
 
-  /// The same exactly, rounded once: mantissa 2^exponent.
+  /// The same with the right sign, and nearly all digits: mantissa 2^exponent.
   struct Rounded {
     double mantissa;
     long exponent;
   };
-  Rounded exactOrient3d(int i, int j, int k, int l) const;
+  /// `margin`: how many times its error bound an early stage's result must be to be taken.
+  Rounded exactOrient3d(int i, int j, int k, int l, double margin) const;
   Rounded exactCross2d(int i, int j, int k, int l, int axis) const;
   static double share(const Rounded& a, const Rounded& b);
 
