@@ -91,9 +91,7 @@ class Plane {
 
 class RobustDistance {
  public:
-  explicit RobustDistance(const TrianglePair& pair) : p_(pair.p), q_(pair.q) {
-    best_.distance = std::numeric_limits<double>::infinity();
-  }
+  explicit RobustDistance(const TrianglePair& pair) : p_(pair.p), q_(pair.q) {}
 
   PairDistance find() {
     for (int i = 0; i < 3; ++i) {
@@ -106,15 +104,17 @@ class RobustDistance {
       }
     }
     faces();
+    best_.distance = std::sqrt(square_);
     return best_;
   }
 
  private:
   void consider(const SegmentPoint& on_p, PairFeature feature_p, const SegmentPoint& on_q,
                 PairFeature feature_q) {
-    const double distance = (on_q.point - on_p.point).norm();
-    if (!(distance < best_.distance)) return;
-    best_ = {distance, on_p.point, on_q.point, atEnd(feature_p, on_p.t), atEnd(feature_q, on_q.t)};
+    const double square = (on_q.point - on_p.point).squaredNorm();
+    if (!(square < square_)) return;
+    square_ = square;
+    best_ = {0, on_p.point, on_q.point, atEnd(feature_p, on_p.t), atEnd(feature_q, on_q.t)};
   }
 
   static PairFeature atEnd(PairFeature feature, double t) {
@@ -156,13 +156,15 @@ class RobustDistance {
     PairFeature feature_p, feature_q;
   };
   void consider(const Vec& residual, const Points& at) {
-    const double distance = residual.norm();
-    if (!(distance < best_.distance)) return;
-    best_ = {distance, at.on_p, at.on_q, at.feature_p, at.feature_q};
+    const double square = residual.squaredNorm();
+    if (!(square < square_)) return;
+    square_ = square;
+    best_ = {0, at.on_p, at.on_q, at.feature_p, at.feature_q};
   }
 
   const Vec (&p_)[3];
   const Vec (&q_)[3];
+  double square_ = std::numeric_limits<double>::infinity();  ///< of the best distance
   PairDistance best_;
 };
 
