@@ -19,17 +19,22 @@ using Vec = Eigen::Vector3d;
 /// A total order of representations (0 and -0 differ), so that a + b and b + a are computed alike.
 template <typename S>
 bool before(const kIOS<S>& a, const kIOS<S>& b) {
-  const auto compare = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof(x)); };
-  for (int c = 0; c < 3; ++c) {
-    if (const int order = compare(a.center0[c], b.center0[c])) return order < 0;
-  }
-  if (const int order = compare(a.radius0, b.radius0)) return order < 0;
-  if (a.exponent != b.exponent) return a.exponent < b.exponent;
-  if (a.num_spheres != b.num_spheres) return a.num_spheres < b.num_spheres;
-  if (const int order = compare(a.cap_x, b.cap_x)) return order < 0;
-  if (const int order = compare(a.cap_y, b.cap_y)) return order < 0;
-  if (const int order = compare(a.cap_z, b.cap_z)) return order < 0;
-  return compare(a.cap_r, b.cap_r) < 0;
+  constexpr std::size_t kBytes = 4 * sizeof(S) + sizeof(a.cap_x) * 4 + sizeof(a.exponent) + 1;
+  const auto bytes = [](const kIOS<S>& v) {
+    std::array<unsigned char, kBytes> all;
+    unsigned char* out = all.data();
+    const auto append = [&out](const auto* field, std::size_t size) {
+      std::memcpy(out, field, size);
+      out += size;
+    };
+    append(v.center0.data(), 3 * sizeof(S));
+    append(&v.radius0, sizeof(S));
+    for (const float* cap : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) append(cap, sizeof(v.cap_x));
+    append(&v.exponent, sizeof(v.exponent));
+    append(&v.num_spheres, 1);
+    return all;
+  };
+  return bytes(a) < bytes(b);
 }
 
 /// The spheres of one operand around the merged centre, in the merged node's units.
