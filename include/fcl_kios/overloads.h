@@ -12,8 +12,10 @@
 // callbacks call them, and hand every pair without a kIOS model to FCL.
 //
 // A translation unit that sees objects only through FCL's headers needs this (light) header too:
-// link the CMake target fcl_kios::force_include. An explicit fcl::collide<double>(...) reaches
-// FCL's template before C++20; write fcl::collide(...).
+// link the CMake target fcl_kios::force_include. Explicit template arguments, and solver types that
+// aren't templates of the scalar, reach FCL's templates, which know no kIOS (a warning, no
+// contact); write fcl::collide(...). In C++20, fcl::collide<double>(...) and
+// fcl::distance<double>(...) without a solver come here too.
 //
 // Two finished meshes over k-IOS are served; any other pair with a kIOS model throws
 // std::invalid_argument and names both types. So does an unfinished model or a pose that isn't
@@ -149,7 +151,7 @@ S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2, const Sol
 }
 
 #if defined(__cpp_concepts) && __cpp_concepts >= 201907L
-// C++20: more constrained than FCL's templates, so that explicit template arguments come here too.
+// C++20: more constrained than FCL's templates.
 template <typename S>
 concept KiosScalar = sizeof(S) == sizeof(double) || sizeof(S) == sizeof(float);
 

@@ -20,6 +20,12 @@ S saturate(double v) {
   return v < double{kMax} ? roundUp<S>(v) : kMax;
 }
 
+/// A power of a positive length stays positive where it underflows.
+template <typename S>
+S notBelow(S length, S power) {
+  return length > 0 ? std::max(power, std::numeric_limits<S>::denorm_min()) : power;
+}
+
 /// |p - centre| / radius of the sphere that excludes p most, at most 1 + 16 u of error; 0 / 0 is 0.
 template <typename S>
 double exclusion(const kIOS<S>& v, const fcl::Vector3<S>& p) {
@@ -124,13 +130,13 @@ S kIOS<S>::volume() const {
   const double r = radius0;
   const double ball = kBall * r * r * r;
   const double box = double{width()} * double{height()} * double{depth()};
-  return saturate<S>(std::min(ball, box) * (1 + 8 * kUlpDouble));
+  return notBelow(radius0, saturate<S>(std::min(ball, box) * (1 + 8 * kUlpDouble)));
 }
 
 template <typename S>
 S kIOS<S>::size() const {
   const double diameter = 2 * double{radius0};
-  return saturate<S>(diameter * diameter);
+  return notBelow(radius0, saturate<S>(diameter * diameter));
 }
 
 template <typename S>

@@ -47,8 +47,8 @@ Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
 }
 
 /// All sphere pairs with a cap in them, in float lanes; exponents 0, |d| < 2^40.
-// Each lane's |D + R o_b - o_a| - r_a - r_b has at most 14 u (|D| + reach_a + reach_b) of error:
-// u |D| and 9 u |o_b|, 2 u |o_a| from rounding D, R, products and sums, 3 u of the root, 2 u a
+// Each lane's |D + R o_b - o_a| - r_a - r_b has at most 16 u (|D| + reach_a + reach_b) of error:
+// u |D| and 11 u |o_b|, 2 u |o_a| from rounding D, R, products and sums, 3 u of the root, 2 u a
 // subtraction. 2^-19 is 32 u. Squares that underflow make the bound smaller.
 template <typename S>
 double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
@@ -209,9 +209,9 @@ void RelativePose<S>::precompute(double squared_errors) {
         "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
   }
   // |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|) < 1 + (|E1| + |E2|) / 2 + |E1| |E2|, and |E1| + |E2| is
-  // at most sqrt(2) times their norm; the product's entries are off by 3 u each.
+  // at most sqrt(2) times their norm; E and the product's entries are known to 3 u a term.
   constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-  stretch = 0.71 * std::sqrt(squared_errors) + 16 * kUlp;
+  stretch = 0.71 * std::sqrt(squared_errors) + 20 * kUlp;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) Rf[i][j] = static_cast<float>(R(i, j));
   }

@@ -30,12 +30,15 @@ void boxAlong(const kIOS<S>& bv, const Eigen::Matrix3d& axes, Eigen::Vector3d& c
   }
 }
 
-/// What the box must grow by for the rounding of its centre and axes in S.
+/// What the box must grow by: for the rounding of its centre and axes in S, and for a rotation that
+/// is off by E = R^T R - I, which stretches the content by less than |E| of its size.
 template <typename S>
 S roundingPad(const kIOS<S>& bv, const fcl::Transform3<S>& X) {
   constexpr S kEps = std::numeric_limits<S>::epsilon();
-  return 16 * kEps *
-         (bv.center0.cwiseAbs().sum() + X.translation().cwiseAbs().sum() + 8 * bv.radius0);
+  const S error =
+      (X.linear().transpose() * X.linear() - fcl::Matrix3<S>::Identity()).norm() + 16 * kEps;
+  return 16 * kEps * (bv.center0.cwiseAbs().sum() + X.translation().cwiseAbs().sum()) +
+         8 * error * bv.radius0;
 }
 
 Eigen::Vector3d capAxis(const float* x, const float* y, const float* z, int i) {

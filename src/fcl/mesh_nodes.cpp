@@ -109,7 +109,7 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
 template <typename S>
 void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
   best_ = prune_at_ = distance;
-  if (distance == std::numeric_limits<S>::max()) return;  // no bound, and nothing found yet
+  if (!(distance < std::numeric_limits<S>::max())) return;  // no bound, and nothing found yet
   prune_at_ = std::max(S(0), std::min(distance - this->abs_err, distance / (1 + this->rel_err)));
 }
 

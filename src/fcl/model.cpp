@@ -15,11 +15,15 @@ const char* stateName(fcl::BVHBuildState state) {
     case fcl::BVH_BUILD_STATE_EMPTY:
       return "empty (beginModel() was not called, or only reset a full model: call it again)";
     case fcl::BVH_BUILD_STATE_BEGUN:
-      return "begun (endModel() was not called, or failed)";
+      return "begun (endModel() was not called, or failed: build it anew from beginModel(), until "
+             "that "
+             "returns 0)";
     case fcl::BVH_BUILD_STATE_REPLACE_BEGUN:
-      return "being replaced (endReplaceModel() was not called, or failed)";
+      return "being replaced (endReplaceModel() was not called, or failed: build it anew from "
+             "beginModel(), until that returns 0)";
     case fcl::BVH_BUILD_STATE_UPDATE_BEGUN:
-      return "being updated (endUpdateModel() was not called, or failed)";
+      return "being updated (endUpdateModel() was not called, or failed: build it anew from "
+             "beginModel(), until that returns 0)";
     default:
       return "finished";
   }

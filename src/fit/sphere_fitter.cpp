@@ -118,7 +118,7 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, FitMethod met
   if (n == 0) return kIOS<S>();
   loadRelative(points, n);
   PrincipalFrame frame;
-  if (n == 3 && method == FitMethod::kTuned) {
+  if (n == 3 && method == FitMethod::kTuned && !split) {
     Eigen::Vector3d corners[2];
     for (int i = 0; i < 2; ++i) {
       for (int c = 0; c < 3; ++c) {

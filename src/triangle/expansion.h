@@ -51,7 +51,8 @@ Expansion<N> negated(Expansion<N> e) {
   return e;
 }
 
-/// Merge by magnitude, then one pass of sums: linear-expansion-sum with zeros dropped.
+/// Merge by magnitude, then one pass of sums: fast-expansion-sum with zeros dropped. Exact for
+/// strongly nonoverlapping expansions and round-to-even; all of this file's results are such.
 template <int N, int M>
 Expansion<N + M> sum(const Expansion<N>& e, const Expansion<M>& f) {
   Expansion<N + M> h;

@@ -78,13 +78,13 @@ PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, i
                            (std::abs(cxay) + std::abs(axcy)) * std::abs(bdz) +
                            (std::abs(axby) + std::abs(bxay)) * std::abs(cdz);
   constexpr double kBound = 8 * 0x1p-53;
-  return {det, kBound * permanent + 0x1p-800};
+  return {det, kBound * permanent + 0x1p-800, permanent == 0};
 }
 
 int PairPredicates::orient3d(int i, int j, int k, int l) const {
   const Filtered det = filteredOrient3d(i, j, k, l);
   if (std::abs(det.value) > det.error) return signOf(det.value);
-  if (det.error == 0x1p-800 && expansions_exact_) return 0;  // every product is 0, none underflowed
+  if (det.vanishes && expansions_exact_) return 0;
   return signOf(exactOrient3d(i, j, k, l, 1).mantissa);
 }
 
@@ -94,13 +94,14 @@ PairPredicates::Filtered PairPredicates::filteredCross2d(int i, int j, int k, in
   const double left = (scaled_[j][u] - scaled_[i][u]) * (scaled_[l][v] - scaled_[k][v]);
   const double right = (scaled_[j][v] - scaled_[i][v]) * (scaled_[l][u] - scaled_[k][u]);
   constexpr double kBound = 4 * 0x1p-53;
-  return {left - right, kBound * (std::abs(left) + std::abs(right)) + 0x1p-800};
+  return {left - right, kBound * (std::abs(left) + std::abs(right)) + 0x1p-800,
+          left == 0 && right == 0};
 }
 
 int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
   const Filtered det = filteredCross2d(i, j, k, l, axis);
   if (std::abs(det.value) > det.error) return signOf(det.value);
-  if (det.error == 0x1p-800 && expansions_exact_) return 0;
+  if (det.vanishes && expansions_exact_) return 0;
   return signOf(exactCross2d(i, j, k, l, axis).mantissa);
 }
 
@@ -161,7 +162,8 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
     return roundedInteger<Rounded>(det);
   }
   // In stages (Shewchuk, 4.3): exactly for the rounded differences, which is all if they are exact;
-  // with their roundings to first order, off by at most (26 + 288 u) u^2 permanent; exactly.
+  // with their roundings to first order, off by at most 32 u^2 permanent (3 dropped, 14 and 6 for
+  // computing and adding the corrections, 9 of the first stage); exactly.
   double d[3][3], t[3][3];
   const int rows[3] = {i, j, k};
   bool tails = false;

@@ -34,6 +34,7 @@ class PairPredicates {
   /// A determinant by plain arithmetic, and a bound of its error.
   struct Filtered {
     double value, error;
+    bool vanishes;  ///< every product is 0; where none can underflow, so is the determinant
   };
   Filtered filteredOrient3d(int i, int j, int k, int l) const;
   Filtered filteredCross2d(int i, int j, int k, int l, int axis) const;

@@ -257,5 +257,22 @@ TEST(Build, DepthOfDegenerateMeshesIsLogarithmic) {
   }
 }
 
+// An inner node of three distinct vertices: its split is its own, whatever was built before.
+TEST(Build, SplitDoesNotDependOnTheThreadsPast) {
+  const std::vector<Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<fcl::Triangle> triangles = {{0, 0, 0}, {1, 1, 1}, {0, 0, 0},
+                                                {1, 1, 1}, {2, 2, 2}, {0, 0, 1}};
+  std::vector<int> left;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Vector3d> other(4, Vector3d::Zero());
+    for (int i = 0; i < 4; ++i) other[i][axis] = 5 * i;
+    makeModel<double>(other, {{0, 1, 2}, {1, 2, 3}});
+    const auto model = makeModel<double>(corners, triangles);
+    left.push_back(model->getBV(model->getBV(0).leftChild()).num_primitives);
+  }
+  EXPECT_EQ(left[0], left[1]);
+  EXPECT_EQ(left[0], left[2]);
+}
+
 }  // namespace
 }  // namespace kios::testing

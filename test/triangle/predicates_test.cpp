@@ -130,5 +130,15 @@ TEST(Predicates, ExtremeExponents) {
   }
 }
 
+// Four clustered vertices of six: a determinant far below the filter's bound, yet not 0.
+TEST(Predicates, ClusterBelowTheFilter) {
+  for (const double t : {0x1p-266, 0x1p-268, 0x1p-269, 0x1p-270, 0x1p-271}) {
+    const Corners cluster = {Eigen::Vector3d(t, t, 2 * t), {3 * t, t, 4 * t}, {t, 3 * t, t}};
+    const Corners above = {
+        Eigen::Vector3d(1.5 * t, 1.5 * t, 3 * t), {t, t, 1 + t}, {2 * t, t, 1 + 2 * t}};
+    EXPECT_FALSE(intersects({cluster, above})) << t;
+  }
+}
+
 }  // namespace
 }  // namespace kios::testing
