@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kNext[3] = {1, 2, 0};
 
-/// Vertices of a triangle of the pair, and the axis along which its projection has an area.
+/// Vertices of a triangle of the pair.
 struct Face {
   int v[3];
-  int axis = -1;  ///< -1: degenerate, the triangle is the union of its edges
+  bool degenerate = false;  ///< no area: the triangle is the union of its edges
 };
 
 /// Closed intersection tests between the parts of two triangles, by vertex index.
@@ -72,8 +72,9 @@ class PairIntersection {
     if (std::abs(side_b_[0] + side_b_[1] + side_b_[2]) == 3) return false;
     for (int i = 0; i < 3; ++i) side_a_[i] = signs_.orient3d(3, 4, 5, i);
     if (std::abs(side_a_[0] + side_a_[1] + side_a_[2]) == 3) return false;
-    a_.axis = signs_.projectionAxis(0, 1, 2);
-    b_.axis = signs_.projectionAxis(3, 4, 5);
+    // A vertex beside a triangle's plane shows that there is one.
+    a_.degenerate = !(side_b_[0] | side_b_[1] | side_b_[2]) && axisOf(a_) < 0;
+    b_.degenerate = !(side_a_[0] | side_a_[1] | side_a_[2]) && axisOf(b_) < 0;
     return true;
   }
 
@@ -84,7 +85,7 @@ class PairIntersection {
                    const Add& add) const {
     const int p = face.v[e], q = face.v[kNext[e]];
     const int sp = side[e], sq = side[kNext[e]];
-    if (other.axis >= 0 && sp * sq != 0) {
+    if (!other.degenerate && sp * sq != 0) {
       if (segmentMeetsFace(p, q, sp, sq, other)) {
         add(crossing(p, q, other));
       }
@@ -101,7 +102,7 @@ class PairIntersection {
                  std::array<double, 3>& point) const {
     const int n = kNext[e];
     if (!segmentMeetsFace(face.v[e], face.v[n], side[e], side[n], other)) return false;
-    if (other.axis >= 0 && side[e] * side[n] < 0) {
+    if (!other.degenerate && side[e] * side[n] < 0) {
       point = crossing(face.v[e], face.v[n], other);
       return true;
     }
@@ -116,7 +117,7 @@ class PairIntersection {
 
   /// Segment p q, whose ends lie on sides sp, sq of the face's plane.
   bool segmentMeetsFace(int p, int q, int sp, int sq, const Face& f) const {
-    if (f.axis < 0) {
+    if (f.degenerate) {
       for (int e = 0; e < 3; ++e) {
         if (segmentsMeet(p, q, f.v[e], f.v[kNext[e]])) return true;
       }
@@ -135,12 +136,15 @@ class PairIntersection {
     return true;
   }
 
+  int axisOf(const Face& f) const { return signs_.projectionAxis(f.v[0], f.v[1], f.v[2]); }
+
   bool coplanarSegmentMeetsFace(int p, int q, const Face& f) const {
+    const int axis = axisOf(f);
     bool left = false, right = false;
     for (int e = 0; e < 3; ++e) {
       const int r = f.v[e], s = f.v[kNext[e]];
-      if (segmentsMeetInPlane(p, q, r, s, f.axis)) return true;
-      const int side = signs_.orient2d(r, s, p, f.axis);
+      if (segmentsMeetInPlane(p, q, r, s, axis)) return true;
+      const int side = signs_.orient2d(r, s, p, axis);
       left |= side > 0;
       right |= side < 0;
     }
@@ -210,7 +214,7 @@ class PairIntersection {
 
   const PairPredicates::Coordinates& points_;
   const PairPredicates signs_;
-  Face a_ = {{0, 1, 2}, -1}, b_ = {{3, 4, 5}, -1};
+  Face a_ = {{0, 1, 2}}, b_ = {{3, 4, 5}};
   int side_a_[3], side_b_[3];
 };
 
