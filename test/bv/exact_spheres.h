@@ -11,8 +11,17 @@
 
 #include "bv/point_sets.h"
 #include "fcl_kios/bv/kios.h"
+#include "fcl_kios/fit/fit.h"
 
 namespace kios::test {
+
+/// The tuned fit.
+template <typename S>
+kIOS<S> fitted(const Points<S>& points) {
+  kIOS<S> v;
+  fit(points.data(), static_cast<int>(points.size()), v);
+  return v;
+}
 
 // A 64-bit significand to filter, 100 digits to decide. Neither over- nor underflows: squares of
 // doubles lie within 2^-2150 .. 2^2048.

@@ -13,13 +13,6 @@ namespace kios::test {
 namespace {
 
 template <typename S>
-kIOS<S> fitted(const Points<S>& points) {
-  kIOS<S> v;
-  fit(points.data(), static_cast<int>(points.size()), v);
-  return v;
-}
-
-template <typename S>
 class Merge : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(Merge, Scalars);

@@ -12,13 +12,6 @@ namespace kios::test {
 namespace {
 
 template <typename S>
-kIOS<S> fitted(const Points<S>& points) {
-  kIOS<S> v;
-  fit(points.data(), static_cast<int>(points.size()), v);
-  return v;
-}
-
-template <typename S>
 class Translate : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(Translate, Scalars);
