@@ -14,6 +14,7 @@
 #include "fcl_kios/fcl/bv_traits.h"
 #include "fcl_kios/fcl/bvh_build.h"
 #include "fcl_kios/fcl/mesh_nodes.h"
+#include "fcl_kios/fcl/mesh_queries.h"
 #include "fcl_kios/fcl/model.h"
 #include "fcl_kios/fit/fit.h"
 #include "fcl_kios/overloads.h"

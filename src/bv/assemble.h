@@ -7,6 +7,7 @@
 
 #include "bv/balls.h"
 #include "bv/rounding.h"
+#include "bv/stamp.h"
 #include "fcl_kios/bv/kios.h"
 
 namespace kios {
@@ -18,7 +19,7 @@ inline int capExponent(double radius0) {
   return ordinary ? 0 : std::ilogb(radius0);
 }
 
-/// Fills the caps beyond k with S0 and sets the reach; center0, radius0, exponent and the caps of
+/// Fills the caps beyond k with S0, sets the reach and a new stamp; center0, radius0, exponent and the caps of
 /// k are set.
 template <typename S>
 void completeCaps(kIOS<S>& v, int k) {
@@ -34,6 +35,7 @@ void completeCaps(kIOS<S>& v, int k) {
                                 std::abs(v.cap_z[i]) + v.cap_r[i]);
   }
   v.reach = roundUpFloat(reach);
+  v.stamp = nextStamp();
 }
 
 }  // namespace kios

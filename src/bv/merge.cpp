@@ -106,7 +106,10 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   const double ra = a.radius0, rb = b.radius0;
   const double largest = std::max({w.cwiseAbs().maxCoeff(), ra, rb});
   kIOS merged = a;
-  if (largest == 0) return merged;
+  if (largest == 0) {
+    merged.stamp = nextStamp();
+    return merged;
+  }
   const int e0 = std::ilogb(largest);
   const double d = Vec(scaled(w[0], -e0), scaled(w[1], -e0), scaled(w[2], -e0)).norm();
   const double sa = scaled(ra, -e0), sb = scaled(rb, -e0);

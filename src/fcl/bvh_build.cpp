@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/tree_cache.h"
 #include "fit/sphere_fitter.h"
 
 namespace kios {
@@ -207,6 +208,13 @@ thread_local Build<S>* Build<S>::active_ = nullptr;
 
 namespace fcl {
 namespace detail {
+
+template <typename S>
+BVFitter<kios::kIOS<S>>::BVFitter(kios::FitMethod method)
+    : method_(method), trees_(std::make_unique<kios::engine::TreeCache>()) {}
+
+template <typename S>
+BVFitter<kios::kIOS<S>>::~BVFitter() = default;
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) {

@@ -7,9 +7,9 @@
 #include <string>
 #include <typeinfo>
 
-#include "fcl/mesh_queries.h"
 #include "fcl/narrowphase/collision.h"
 #include "fcl/narrowphase/distance.h"
+#include "fcl_kios/fcl/mesh_queries.h"
 
 namespace kios {
 

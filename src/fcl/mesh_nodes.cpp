@@ -8,22 +8,12 @@
 #include <stdexcept>
 
 #include "bv/rounding.h"
-#include "fcl/triangle_contact.h"
+#include "fcl/mesh_pair.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 
 namespace kios {
 namespace {
-
-template <typename S>
-TriangleVertices<S> cornersOf(const fcl::Vector3<S>* vertices, const fcl::Triangle& triangle) {
-  return {vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]};
-}
-
-template <typename S, typename Pose>
-TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
-  return {X * t[0], X * t[1], X * t[2]};
-}
 
 template <typename S>
 fcl::AABB<S> boxOf(const TriangleVertices<S>& t) {
@@ -49,14 +39,6 @@ void connect(Node& node, const Model<S>& model1, const fcl::Transform3<S>& tf1,
   node.X_12.emplace(tf1, tf2);
 }
 
-template <typename S>
-void requireErrorBound(const char* name, S value) {
-  if (value >= 0) return;
-  std::ostringstream message;
-  message << "fcl_kios: DistanceRequest::" << name << " is " << value << ", but must be >= 0.";
-  throw std::invalid_argument(message.str());
-}
-
 }  // namespace
 
 template <typename S>
@@ -77,27 +59,12 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (!occupied && !costs) return;
 
   const int id1 = model1.getBV(b1).primitiveId(), id2 = model2.getBV(b2).primitiveId();
-  const auto p = cornersOf(this->vertices1, this->tri_indices1[id1]);
-  const auto q_local = cornersOf(this->vertices2, this->tri_indices2[id2]);
+  const auto p = cornersOf(*this->model1, id1);
+  const auto q_local = cornersOf(*this->model2, id2);
   const auto q = transformed(q_local, *X_12);
   if (!trianglesIntersect(p, q)) return;
 
-  if (occupied) {
-    const std::size_t room =
-        request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
-    if (!request.enable_contact) {
-      const fcl::Vector3<S> unset = fcl::Vector3<S>::Zero();  // FCL leaves it uninitialised
-      if (room > 0) {
-        result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, unset, unset, S(0)));
-      }
-    } else {
-      const TriangleContact<S> contact = triangleContact(p, q);
-      for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
-        result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, this->tf1 * contact.points[i],
-                                          this->tf1.linear() * contact.normal, contact.depth));
-      }
-    }
-  }
+  if (occupied) addContacts(model1, id1, p, model2, id2, q, this->tf1, request, result);
   if (costs) {
     fcl::AABB<S> shared;
     boxOf(transformed(p, this->tf1)).overlap(boxOf(transformed(q_local, this->tf2)), shared);
@@ -110,7 +77,7 @@ template <typename S>
 void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
   best_ = prune_at_ = distance;
   if (!(distance < std::numeric_limits<S>::max())) return;  // no bound, and nothing found yet
-  prune_at_ = std::max(S(0), std::min(distance - this->abs_err, distance / (1 + this->rel_err)));
+  prune_at_ = pruneAt(distance, this->rel_err, this->abs_err);
 }
 
 template <typename S>
@@ -136,8 +103,8 @@ void MeshDistanceTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_leaf_tests++;
   const int id1 = this->model1->getBV(b1).primitiveId();
   const int id2 = this->model2->getBV(b2).primitiveId();
-  const auto p = cornersOf(this->vertices1, this->tri_indices1[id1]);
-  const auto q = transformed(cornersOf(this->vertices2, this->tri_indices2[id2]), *X_12);
+  const auto p = cornersOf(*this->model1, id1);
+  const auto q = transformed(cornersOf(*this->model2, id2), *X_12);
   const TriangleDistance<S> nearest = triangleDistance(p, q);
   if (!(nearest.distance < best_)) return;
   lowerTo(nearest.distance);
@@ -173,8 +140,7 @@ bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& model1,
                 const fcl::Transform3<S>& tf1, const Model<S>& model2,
                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
                 fcl::DistanceResult<S>& result) {
-  requireErrorBound("rel_err", request.rel_err);
-  requireErrorBound("abs_err", request.abs_err);
+  requireErrorBounds(request);
   connect(node, model1, tf1, model2, tf2, request, result);
   node.rel_err = request.rel_err;
   node.abs_err = request.abs_err;

@@ -44,7 +44,7 @@ class kIOS {
   /// coordinate is NaN, infinite, or above 2^1000 (double) or 2^120 (float) in magnitude.
   kIOS& operator+=(const fcl::Vector3<S>& p);
   kIOS& operator+=(const kIOS& other) { return *this = *this + other; }
-  /// Encloses both contents. a + b and b + a are bitwise equal.
+  /// Encloses both contents. a + b and b + a are bitwise equal but for their stamps.
   kIOS operator+(const kIOS& other) const;
 
   /// Centre of S0.
@@ -76,6 +76,8 @@ class kIOS {
   float cap_y[kCaps] = {};
   float cap_z[kCaps] = {};
   float cap_r[kCaps] = {};
+  /// Unlike that of any other fit or merge in this process; copies keep it. 0: empty.
+  std::uint64_t stamp = 0;
   float reach = 0;            ///< >= |offset| + radius of every sphere, units of 2^exponent.
   std::int16_t exponent = 0;  ///< 0 for radii in about [2^-30, 2^30].
   std::uint8_t num_spheres = 0;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "fcl/geometry/bvh/BVH_internal.h"
 #include "fcl/geometry/bvh/detail/BV_fitter.h"
 #include "fcl/geometry/bvh/detail/BV_splitter.h"
@@ -11,6 +13,10 @@
 // How fcl::BVHModel<kios::kIOS<S>> builds and refits. FCL's copy constructor shares fitter and
 // splitter between models, so neither holds anything of a build: that lives with the thread which
 // builds, from set() to clear(), and models may be built in many threads at once.
+
+namespace kios::engine {
+class TreeCache;
+}
 
 namespace fcl {
 namespace detail {
@@ -23,8 +29,8 @@ template <typename S_>
 class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
  public:
   using S = S_;
-  explicit BVFitter(kios::FitMethod method = kios::FitMethod::kTuned) : method_(method) {}
-  virtual ~BVFitter() = default;
+  explicit BVFitter(kios::FitMethod method = kios::FitMethod::kTuned);
+  virtual ~BVFitter();
 
   void set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) override;
   void set(Vector3<S>* vertices, Vector3<S>* prev_vertices, Triangle* tri_indices,
@@ -32,8 +38,12 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   kios::kIOS<S> fit(unsigned int* primitive_indices, int num_primitives) override;
   void clear() override;
 
+  /// What queries prepared of the models that share this fitter: a model and its copies.
+  kios::engine::TreeCache& trees() const { return *trees_; }
+
  private:
   const kios::FitMethod method_;
+  const std::unique_ptr<kios::engine::TreeCache> trees_;
 };
 
 /// Splits a node across the longest principal axis of its vertices: at the mean or the median of

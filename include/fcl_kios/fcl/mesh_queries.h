@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "fcl/narrowphase/collision_request.h"
+#include "fcl/narrowphase/collision_result.h"
+#include "fcl/narrowphase/distance_request.h"
+#include "fcl/narrowphase/distance_result.h"
+#include "fcl_kios/engine/counts.h"
+#include "fcl_kios/fcl/model.h"
+
+namespace kios {
+
+/// fcl::collide and fcl::distance of two meshes over k-IOS, with FCL's conventions for requests
+/// and results. Throw std::invalid_argument if a model is not a finished mesh, a pose is not rigid,
+/// or an error bound is negative or NaN.
+///
+/// A pair that the root volumes can't decide is searched in trees that the models prepare at their
+/// first such query and keep (see prepare()). Cost sources, models whose BVFitter is not ours, and
+/// pairs beyond the range of floats (lengths below 1e-11 or above 1e12, objects of very different
+/// size, or far from each other for their size) are searched in FCL's tree instead, by the
+/// traversal nodes of mesh_nodes.h. `counts`, if given, is added to.
+template <typename S>
+std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
+                          const Model<S>& model2, const fcl::Transform3<S>& tf2,
+                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
+                          SearchCounts* counts = nullptr);
+template <typename S>
+S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Model<S>& model2,
+                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+                 fcl::DistanceResult<S>& result, SearchCounts* counts = nullptr);
+
+/// Makes now what the model's first query would make. Does nothing if it exists, or can't be used.
+template <typename S>
+void prepare(const Model<S>& model);
+
+/// Bytes held by what queries prepared of this model and of its copies.
+template <typename S>
+std::size_t preparedBytes(const Model<S>& model);
+
+/// To be called after vertices were written without beginReplaceModel() or beginUpdateModel():
+/// refits the model's volumes and drops what was prepared. Throws as validate().
+template <typename S>
+void invalidate(Model<S>& model);
+
+/// The instruction set that searches: AVX3 (AVX-512), AVX2, SSE4, NEON or EMU128 (plain C++). The
+/// environment variable FCL_KIOS_SIMD chooses one, for tests; answers don't depend on it.
+const char* simdTarget();
+
+}  // namespace kios

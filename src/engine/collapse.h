@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "engine/partition.h"
+#include "engine/tree.h"
+
+namespace kios::engine {
+
+/// Which nodes of a binary tree survive as nodes of the wide tree.
+class Collapse {
+ public:
+  /// Minimises the sum of size^1.5 over the blocks that a query may have to test, by dynamic
+  /// programming bottom-up over the number of roots that a subtree is dissolved into.
+  explicit Collapse(const std::vector<BinaryNode>& nodes);
+
+  /// The up to kLanes nodes that become the children of inner node n.
+  void children(int n, std::vector<int>& out) const;
+
+ private:
+  void dissolve(int n, int roots, std::vector<int>& out) const;
+
+  const std::vector<BinaryNode>& nodes_;
+  struct Costs {
+    float at_most[kLanes + 1] = {};     ///< [i]: as at most i nodes
+    signed char left[kLanes + 1] = {};  ///< [i]: how many of i nodes are under the left child
+  };
+  std::vector<Costs> costs_;
+};
+
+}  // namespace kios::engine

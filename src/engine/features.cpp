@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/features.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kios::engine {
+namespace {
+
+using Vec = Eigen::Vector3d;
+
+double clamp01(double t) { return t > 0 ? std::min(t, 1.0) : 0.0; }  // 0 for NaN
+
+/// Removes from v its part along a direction, returns that part in directions.
+double removePart(const Vec& direction, double square, Vec& v) {
+  const double t = v.dot(direction) / square;
+  v -= t * direction;
+  return t;
+}
+
+}  // namespace
+
+// By the cross product, not by aa bb - ab^2: a parameter then errs by eps / sin. What that adds to
+// the distance after the re-projections is at most eps of the extent.
+FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const Vec& q1) {
+  const Vec a = p1 - p0, b = q1 - q0, t = q0 - p0;
+  const double aa = a.squaredNorm(), bb = b.squaredNorm();
+  const Vec n = a.cross(b);
+  double s = clamp01(t.cross(b).dot(n) / n.squaredNorm());
+  const double v = clamp01((s * a - t).dot(b) / bb);
+  // The point of q from its nearer end.
+  const Vec y = v < 0.5 ? Vec(t + v * b) : Vec((q1 - p0) - (1 - v) * b);
+  s = clamp01(y.dot(a) / aa);
+  const Vec w = s < 0.5 ? Vec(y - s * a) : Vec((y - a) + (1 - s) * a);
+  return {w.norm(), std::sqrt(aa) + std::sqrt(bb) + t.lpNorm<Eigen::Infinity>()};
+}
+
+// The plane by Gram-Schmidt on the longest edge, twice: right for any aspect.
+FeatureDistance faceDistance(const Vec& point, const Vec (&face)[3]) {
+  int longest = 0;
+  double square = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double s = (face[(k + 1) % 3] - face[k]).squaredNorm();
+    if (s > square) {
+      square = s;
+      longest = k;
+    }
+  }
+  const Vec edge = face[(longest + 1) % 3] - face[longest];
+  Vec height = face[(longest + 2) % 3] - face[longest];
+  double foot = removePart(edge, square, height);
+  foot += removePart(edge, square, height);
+  Vec residual = point - face[longest];
+  const double extent = std::sqrt(square) + residual.lpNorm<Eigen::Infinity>();
+  const double height2 = height.squaredNorm();
+  double s = removePart(edge, square, residual), c = removePart(height, height2, residual);
+  s += removePart(edge, square, residual);
+  c += removePart(height, height2, residual);
+  s += removePart(edge, square, residual);
+  const double side = s - c * foot;
+  const bool inside = c >= 0 && side >= 0 && side + c <= 1;  // false for NaN
+  return {inside ? residual.norm() : std::numeric_limits<double>::infinity(), extent};
+}
+
+}  // namespace kios::engine

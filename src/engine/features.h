@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace kios::engine {
+
+/// Distance of two features by a pair of their points, and what its error scales with.
+struct FeatureDistance {
+  double distance;  ///< right to a few 2^-53 of `extent`; never below the exact one by more
+  double extent;
+};
+
+/// Edges p0 p1 and q0 q1, of any length.
+FeatureDistance edgeDistance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+                             const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
+
+/// A point and the inside of a triangle; infinity if the point projects outside (the edges then
+/// are as near), or if the triangle has no plane.
+FeatureDistance faceDistance(const Eigen::Vector3d& point, const Eigen::Vector3d (&face)[3]);
+
+}  // namespace kios::engine

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/frame_pair.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "bv/rounding.h"
+#include "engine/prepare.h"
+
+namespace kios::engine {
+namespace {
+
+FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
+  FloatPose pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) pose.R[i][j] = static_cast<float>(R(i, j));
+    pose.t[i] = static_cast<float>(t[i]);
+  }
+  return pose;
+}
+
+}  // namespace
+
+template <typename S>
+bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
+  const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
+  const Eigen::Matrix3d R = X_AB.R.template cast<double>();
+  const Eigen::Vector3d t = R * origin_b + X_AB.T.template cast<double>() - origin_a;
+  const double reach_a = a.reach, reach_b = b.reach, scale = reach_a + reach_b + t.lpNorm<1>();
+  if (!(std::min(reach_a, reach_b) >= kLeastReach && scale <= kLargestReach)) return false;
+  // The common frame: 6 roundings of terms that sum to at most m, of points and of t (see
+  // bv/separation.cpp), 3 coordinates, two objects: 32 ulp cover them.
+  constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+  const double m = 1.8 * (origin_b.lpNorm<1>() + 2 * reach_b) + X_AB.T_norm1 +
+                   origin_a.lpNorm<1>() + 2 * reach_a;
+  const double pad = 0x1p-19 * scale + 2 * X_AB.stretch * scale + 32 * kUlp * m;
+  if (!(pad <= 0x1p-4 * std::min(reach_a, reach_b))) return false;
+  const Eigen::Matrix3d inverse = R.inverse();
+  out.a_from_b = toFloat(R, t);
+  out.b_from_a = toFloat(inverse, -(inverse * t));
+  out.pad = roundUpFloat(pad);
+  out.scale = roundUpFloat(scale);
+  return true;
+}
+
+template bool makeFramePair(const Tree&, const Tree&, const RelativePose<double>&, FramePair&);
+template bool makeFramePair(const Tree&, const Tree&, const RelativePose<float>&, FramePair&);
+
+}  // namespace kios::engine

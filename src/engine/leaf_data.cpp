@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/leaf_data.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace kios::engine {
+namespace {
+
+using Vec = Eigen::Vector3d;
+
+/// Appends rows of lanes; values beyond the last repeat it.
+class LaneWriter {
+ public:
+  LaneWriter(std::vector<Lanes>& lanes, int count, int rows) : lanes_(lanes), count_(count) {
+    first_ = lanes.size();
+    rows_ = rows;
+    lanes.resize(first_ + static_cast<std::size_t>((count + kLanes - 1) / kLanes) * rows);
+  }
+  void set(int i, int row, double value) {
+    at(i, row) = static_cast<float>(value);
+    if (i + 1 != count_) return;
+    for (int pad = i + 1; pad % kLanes != 0; ++pad) at(pad, row) = static_cast<float>(value);
+  }
+  void set(int i, int row, const Vec& value) {
+    for (int c = 0; c < 3; ++c) set(i, row + c, value[c]);
+  }
+
+ private:
+  float& at(int i, int row) {
+    return lanes_[first_ + static_cast<std::size_t>(i / kLanes * rows_ + row)].v[i % kLanes];
+  }
+  std::vector<Lanes>& lanes_;
+  std::size_t first_;
+  int count_, rows_;
+};
+
+/// Unit normal by the longest edge and the height above it, true to 2^-52 * aspect; false if the
+/// triangle is too thin for one that is right to a few 2^-30.
+bool unitNormal(const Vec (&v)[3], Vec& normal) {
+  int longest = 0;
+  double square = -1;
+  for (int k = 0; k < 3; ++k) {
+    const double s = (v[(k + 1) % 3] - v[k]).squaredNorm();
+    if (s > square) {
+      square = s;
+      longest = k;
+    }
+  }
+  if (!(square > 0)) return false;
+  const Vec edge = v[(longest + 1) % 3] - v[longest];
+  Vec height = v[(longest + 2) % 3] - v[longest];
+  height -= height.dot(edge) / square * edge;
+  if (!(height.squaredNorm() > 0x1p-40 * square)) return false;
+  normal = edge.cross(height).normalized();
+  return true;
+}
+
+}  // namespace
+
+void appendLeaf(const LeafContent& content, Tree& tree) {
+  Leaf leaf;
+  leaf.offset = static_cast<std::uint32_t>(tree.lanes.size());
+  leaf.feature_offset = static_cast<std::uint32_t>(tree.features.size());
+  leaf.num_faces = static_cast<std::uint8_t>(content.triangles.size());
+  leaf.num_edges = static_cast<std::uint8_t>(content.edges.size());
+  leaf.num_owned = static_cast<std::uint8_t>(content.owned.size());
+  leaf.num_vertices = static_cast<std::uint8_t>(content.vertices.size());
+
+  Eigen::Vector3f low = content.vertices[0], high = low;
+  LaneWriter vertices(tree.lanes, leaf.num_vertices, 3);
+  for (int i = 0; i < leaf.num_vertices; ++i) {
+    vertices.set(i, 0, content.vertices[i].cast<double>());
+    low = low.cwiseMin(content.vertices[i]);
+    high = high.cwiseMax(content.vertices[i]);
+  }
+  LaneWriter edges(tree.lanes, leaf.num_edges, 6);
+  for (int i = 0; i < leaf.num_edges; ++i) {
+    edges.set(i, 0, content.edges[i].start);
+    edges.set(i, 3, content.edges[i].end - content.edges[i].start);
+  }
+  LaneWriter faces(tree.lanes, leaf.num_faces, kFaceRows);
+  Vec sum = Vec::Zero();
+  for (int i = 0; i < leaf.num_faces; ++i) {
+    const Vec(&v)[3] = content.triangles[i].corners;
+    Vec normal = Vec::Zero();
+    const bool usable = unitNormal(v, normal);
+    std::copy_n(content.triangles[i].vertices, 3, leaf.corners + 3 * i);
+    sum += normal;
+    normal = normal.cast<float>().cast<double>();
+    faces.set(i, kFacePlane, normal);
+    faces.set(i, kFacePlane + 3, -normal.dot(v[0] + v[1] + v[2]) / 3);
+    for (int k = 0; k < 3; ++k) {
+      Vec inward = Vec::Zero();
+      if (usable) {
+        inward = normal.cross(v[(k + 1) % 3] - v[k]).normalized().cast<float>().cast<double>();
+      }
+      const int row = kEdgePlanes + 4 * k;
+      faces.set(i, row, inward);
+      faces.set(i, row + 3, usable ? -inward.dot(v[k]) : 1);
+    }
+  }
+  const Eigen::Vector3f middle = 0.5F * (low + high), normal = sum.cast<float>();
+  std::copy_n(middle.data(), 3, leaf.centroid);
+  std::copy_n(normal.data(), 3, leaf.normal);
+
+  for (const LeafTriangle& t : content.triangles) tree.features.push_back(FeatureId{t.id << 2});
+  for (const LeafEdge& e : content.edges) tree.features.push_back(e.id);
+  for (const FeatureId v : content.owned) tree.features.push_back(v);
+  tree.leaves.push_back(leaf);
+}
+
+}  // namespace kios::engine

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/mesh_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "bv/rounding.h"
+#include "engine/features.h"
+#include "fcl_kios/triangle/intersection.h"
+
+namespace kios::engine {
+namespace {
+
+float upToFloat(double v) {
+  return v < 0x1p127 ? roundUpFloat(v) : std::numeric_limits<float>::infinity();
+}
+
+/// Features in the common frame, whose coordinates are rounded to S.
+template <typename S>
+class Corners {
+ public:
+  explicit Corners(const PreparedPair<S>& pair) : pair_(pair) {}
+
+  Eigen::Vector3d ofA(FeatureId id, std::uint32_t step = 0) const {
+    return pair_.a.mesh.corner(id.triangle(), next(id, step)).template cast<double>();
+  }
+  Eigen::Vector3d ofB(FeatureId id, std::uint32_t step = 0) const {
+    const fcl::Vector3<S> q = pair_.X_AB * pair_.b.mesh.corner(id.triangle(), next(id, step));
+    return q.template cast<double>();
+  }
+  TriangleVertices<S> triangleOfA(std::uint32_t t) const {
+    const auto& m = pair_.a.mesh;
+    return {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
+  }
+  TriangleVertices<S> triangleOfB(std::uint32_t t) const {
+    const auto& m = pair_.b.mesh;
+    return {pair_.X_AB * m.corner(t, 0), pair_.X_AB * m.corner(t, 1), pair_.X_AB * m.corner(t, 2)};
+  }
+  bool intersect(const Candidate& c) const {
+    return trianglesIntersect(triangleOfA(c.a.triangle()), triangleOfB(c.b.triangle()));
+  }
+
+ private:
+  static std::uint32_t next(FeatureId id, std::uint32_t step) {
+    const std::uint32_t k = id.corner() + step;
+    return k < 3 ? k : k - 3;
+  }
+  const PreparedPair<S>& pair_;
+};
+
+TrianglePairIds idsOf(const Candidate& c) {
+  return {static_cast<int>(c.a.triangle()), static_cast<int>(c.b.triangle())};
+}
+
+template <typename S>
+class NearestJudge final : public Judge {
+ public:
+  NearestJudge(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds)
+      : corners_(pair), rel_err_(bounds.rel_err), abs_err_(bounds.abs_err) {
+    lowerTo(bounds.at_most);
+  }
+
+  bool judge(const Candidate& c) override {
+    if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
+      if (!corners_.intersect(c)) return false;
+      take(0, idsOf(c));
+      return true;
+    }
+    const FeatureDistance found = distanceOf(c);
+    double distance = found.distance;
+    // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.
+    constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+    if (distance <= 64 * kUlp * found.extent) {
+      distance = double{triangleDistance(corners_.triangleOfA(c.a.triangle()),
+                                         corners_.triangleOfB(c.b.triangle()))
+                            .distance};
+    }
+    const TrianglePairIds ids = idsOf(c);
+    if (distance < best_ || (distance == best_ && ids_.a >= 0 && ids < ids_)) take(distance, ids);
+    return distance == 0;
+  }
+
+  void offer(float upper_bound) override {
+    if (upper_bound < keep_to) setBounds(upper_bound);
+  }
+
+  TrianglePairIds ids() const { return ids_; }
+  TriangleDistance<S> certified() const {
+    return triangleDistance(corners_.triangleOfA(static_cast<std::uint32_t>(ids_.a)),
+                            corners_.triangleOfB(static_cast<std::uint32_t>(ids_.b)));
+  }
+
+ private:
+  FeatureDistance distanceOf(const Candidate& c) const {
+    if (c.kind == PairKind::kEdgeEdge) {
+      return edgeDistance(corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofB(c.b),
+                          corners_.ofB(c.b, 1));
+    }
+    if (c.kind == PairKind::kVertexFace) {
+      return faceDistance(corners_.ofA(c.a),
+                          {corners_.ofB(c.b), corners_.ofB(c.b, 1), corners_.ofB(c.b, 2)});
+    }
+    return faceDistance(corners_.ofB(c.b),
+                        {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
+  }
+
+  void take(double distance, const TrianglePairIds& ids) {
+    ids_ = ids;
+    lowerTo(distance);
+  }
+
+  void lowerTo(double distance) {
+    best_ = distance;
+    setBounds(distance);
+  }
+
+  /// `distance` is that of a pair found, or to be found.
+  void setBounds(double distance) {
+    keep_to = std::min(keep_to, upToFloat(distance));
+    prune_at = upToFloat(
+        std::max(0.0, std::min(distance - abs_err_, distance / (1 + rel_err_))));
+  }
+
+  const Corners<S> corners_;
+  const double rel_err_, abs_err_;
+  double best_ = 0;  ///< of ids_, or what was asked for
+  TrianglePairIds ids_;
+};
+
+template <typename S>
+class IntersectionJudge final : public Judge {
+ public:
+  IntersectionJudge(const PreparedPair<S>& pair, std::size_t limit)
+      : corners_(pair), limit_(limit) {
+    prune_at = keep_to = 0;
+  }
+
+  bool judge(const Candidate& c) override {
+    if (!corners_.intersect(c)) return false;
+    found.push_back(idsOf(c));
+    return found.size() >= limit_;
+  }
+
+  void offer(float /*upper_bound*/) override {}
+
+  std::vector<TrianglePairIds> found;
+
+ private:
+  const Corners<S> corners_;
+  const std::size_t limit_;
+};
+
+}  // namespace
+
+template <typename S>
+TrianglePairIds nearestTriangles(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds,
+                                 TriangleDistance<S>& nearest, SearchCounts& counts) {
+  NearestJudge<S> judge(pair, bounds);
+  kernels().distance({pair.a.tree, pair.b.tree, pair.frames, judge, counts});
+  if (judge.ids().a < 0) return {};
+  nearest = judge.certified();
+  return nearest.distance < bounds.at_most ? judge.ids() : TrianglePairIds();
+}
+
+template <typename S>
+std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, std::size_t limit,
+                                                   SearchCounts& counts) {
+  IntersectionJudge<S> judge(pair, limit);
+  const Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts};
+  if (limit == 1) {
+    kernels().contact(search);
+  } else {
+    kernels().contacts(search);
+  }
+  std::sort(judge.found.begin(), judge.found.end());
+  return std::move(judge.found);
+}
+
+#define KIOS_INSTANTIATE(S)                                                                     \
+  template TrianglePairIds nearestTriangles(const PreparedPair<S>&, const DistanceBounds<S>&,   \
+                                            TriangleDistance<S>&, SearchCounts&);               \
+  template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&,           \
+                                                              std::size_t, SearchCounts&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios::engine

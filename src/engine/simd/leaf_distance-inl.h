@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+HWY_INLINE V clamp01(V v) { return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1)); }
+
+/// An edge as it is tested: start, direction a, |a|^2 and its guarded reciprocal.
+struct Edges {
+  V px, py, pz, ax, ay, az, square, inverse;
+};
+
+HWY_INLINE Edges edgesIn(const Lanes* rows, size_t l, V least_square) {
+  Edges e = {load(rows[0], l), load(rows[1], l), load(rows[2], l), load(rows[3], l),
+             load(rows[4], l), load(rows[5], l), V(),              V()};
+  e.square = square(e.ax, e.ay, e.az);
+  e.inverse = hn::Div(hn::Set(d, 1), hn::Max(e.square, least_square));
+  return e;
+}
+
+/// Squared distances of two edges a lane, each at most the true one plus the rounding of the
+/// points (the pad's): what the rounding of the parameters can add is taken off.
+///
+/// u = 2^-24, t = q - p, sin^2 = 1 - (ab / aa)(ab / bb) to 16 u, s = ((at / aa) - (bt / bb)(ab /
+/// aa)) / sin^2 with a numerator right to 25 u |t| / |a|. So s errs by at most e = (25 u |t| / |a|
+/// + 16 u) / sin^2. The re-projections move both points to the nearest of the other, whatever s:
+/// the excess is at most e^2 |a|^2 sin^2 <= 2^-37 (|t|^2 + |a|^2) / sin^2, counted twice. Below
+/// sin^2 = 2^-19, where s may be anything in [0, 1], the excess is at most |a|^2 sin^2 < 2^-18
+/// |a|^2, which the same term exceeds. Edges shorter than 2^-24 S (least_square) are points to the
+/// pad.
+HWY_INLINE V edgeDistances(const Edges& a, const Edges& b) {
+  const V tx = hn::Sub(b.px, a.px), ty = hn::Sub(b.py, a.py), tz = hn::Sub(b.pz, a.pz);
+  const V ab = dot(a.ax, a.ay, a.az, b.ax, b.ay, b.az);
+  const V at = dot(a.ax, a.ay, a.az, tx, ty, tz), bt = dot(b.ax, b.ay, b.az, tx, ty, tz);
+  const V p = hn::Mul(ab, a.inverse), q = hn::Mul(ab, b.inverse);
+  const V alpha = hn::Mul(at, a.inverse), beta = hn::Mul(bt, b.inverse);
+  const V sine2 = hn::Max(hn::Sub(hn::Set(d, 1), hn::Mul(p, q)), hn::Set(d, 0x1p-19F));
+  const V over_sine2 = hn::Div(hn::Set(d, 1), sine2);
+  V s = clamp01(hn::Mul(hn::Sub(alpha, hn::Mul(beta, p)), over_sine2));
+  const V v = clamp01(hn::Sub(hn::Mul(s, q), beta));
+  s = clamp01(hn::Add(hn::Mul(v, p), alpha));
+  const V wx = hn::Sub(hn::Add(tx, hn::Mul(v, b.ax)), hn::Mul(s, a.ax));
+  const V wy = hn::Sub(hn::Add(ty, hn::Mul(v, b.ay)), hn::Mul(s, a.ay));
+  const V wz = hn::Sub(hn::Add(tz, hn::Mul(v, b.az)), hn::Mul(s, a.az));
+  const V excess = hn::Mul(hn::Mul(hn::Set(d, 0x1p-36F), hn::Add(square(tx, ty, tz), a.square)),
+                           over_sine2);
+  return hn::Sub(square(wx, wy, wz), excess);
+}
+
+/// Squared heights of a point above the faces that it may project into, infinity elsewhere.
+HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad) {
+  const V x = hn::Set(d, point.x), y = hn::Set(d, point.y), z = hn::Set(d, point.z);
+  const V h = faces.height(l, x, y, z);
+  const V inside = hn::Min(hn::Min(faces.inside(0, l, x, y, z), faces.inside(1, l, x, y, z)),
+                           faces.inside(2, l, x, y, z));
+  return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h),
+                        hn::Set(d, std::numeric_limits<float>::infinity()));
+}
+
+/// The features of a leaf that reach a slab's side, as bits.
+struct Facing {
+  uint32_t edges = 0, vertices = 0;
+};
+
+/// Edges and owned vertices of which some point has w . p >= least.
+HWY_INLINE Facing facing(const LeafView& leaf, const Lanes* edges, const Points& vertices, Vec3 w,
+                         float least) {
+  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
+  const V leasts = hn::Set(d, least);
+  const auto along = [&](const Lanes* rows, size_t l) {
+    return dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
+  };
+  Facing result;
+  for (int c = 0; c < leaf.edge_chunks; ++c) {
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V start = along(edges + 6 * c, l), end = hn::Add(start, along(edges + 6 * c + 3, l));
+      result.edges |= bitsOf(hn::Ge(hn::Max(start, end), leasts)) << (kLanes * c + l);
+    }
+  }
+  for (int c = 0; kLanes * c < leaf.leaf.num_owned; ++c) {
+    for (size_t l = 0; l < kLanes; l += step()) {
+      result.vertices |= bitsOf(hn::Ge(along(vertices.rows + 3 * c, l), leasts)) << (kLanes * c + l);
+    }
+  }
+  result.edges &= (1U << leaf.leaf.num_edges) - 1;
+  result.vertices &= (1U << leaf.leaf.num_owned) - 1;
+  return result;
+}
+
+/// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk of
+/// b's edges; a vertex of a against b's faces; a vertex of b against a's faces.
+class LeafDistances {
+ public:
+  LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
+
+  /// The least of them. Features that the slab proves farther than `distance` are left out.
+  float compute(const Points& vertices_b, const Lanes* edges_b, const FramePair& frames,
+                const Slab& slab, float distance) {
+    const float thickness = distance * std::sqrt(dot(slab.w, slab.w));
+    const Facing near_a =
+        facing(a_, a_.edges, a_.vertices, slab.w, slab.bottom_b - thickness);
+    const Facing near_b =
+        facing(b_, edges_b, vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
+    V least = edgeRows(edges_b, near_a.edges, near_b.edges, 0x1p-24F * frames.scale);
+    const V minus_pad = hn::Set(d, -frames.pad);
+    for (uint32_t left = near_a.vertices; left != 0; left &= left - 1) {
+      const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      const Vec3 p = moved(frames.b_from_a, a_.vertices.at(i));
+      least = hn::Min(least, faceRow({PairKind::kVertexFace, i}, b_, p, minus_pad));
+    }
+    for (uint32_t left = near_b.vertices; left != 0; left &= left - 1) {
+      const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      least = hn::Min(least, faceRow({PairKind::kFaceVertex, i}, a_, vertices_b.at(i), minus_pad));
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
+  }
+
+  /// Judges everything that may be within judge.keep_to, the nearest by float first.
+  bool judgeNear(float least, float pad, Judge& judge, long long& exact) const {
+    if (!(least <= squaredLimit(judge, pad))) return false;
+    return judgeRows(least, true, pad, judge, exact) || judgeRows(least, false, pad, judge, exact);
+  }
+
+ private:
+  /// What a row holds: feature `index` of one leaf against lanes of the other.
+  struct Row {
+    PairKind kind;
+    int index;
+    int chunk = 0;
+  };
+
+  V edgeRows(const Lanes* edges_b, uint32_t near_a, uint32_t near_b, float shortest) {
+    const V least_square = hn::Set(d, shortest * shortest);
+    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    alignas(32) float inverse_a[kMaxLeafFeatures], square_a[kMaxLeafFeatures];
+    for (int c = 0; c < a_.edge_chunks; ++c) {
+      for (size_t l = 0; l < kLanes; l += step()) {
+        const Edges e = edgesIn(a_.edges + 6 * c, l, least_square);
+        hn::Store(e.square, d, square_a + c * kLanes + l);
+        hn::Store(e.inverse, d, inverse_a + c * kLanes + l);
+      }
+    }
+    for (int c = 0; c < b_.edge_chunks; ++c) {
+      if ((near_b >> (kLanes * c) & 0xFFU) == 0) continue;
+      const int first = rows_;
+      for (uint32_t left = near_a; left != 0; left &= left - 1) {
+        row_[rows_++] = {PairKind::kEdgeEdge,
+                         static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left)), c};
+      }
+      for (size_t l = 0; l < kLanes; l += step()) {
+        const Edges eb = edgesIn(edges_b + 6 * c, l, least_square);
+        for (int r = first; r < rows_; ++r) {
+          const int i = row_[r].index, at = i % kLanes;
+          const Lanes* const rows = a_.edges + 6 * (i / kLanes);
+          const Edges ea = {hn::Set(d, rows[0].v[at]), hn::Set(d, rows[1].v[at]),
+                            hn::Set(d, rows[2].v[at]), hn::Set(d, rows[3].v[at]),
+                            hn::Set(d, rows[4].v[at]), hn::Set(d, rows[5].v[at]),
+                            hn::Set(d, square_a[i]),   hn::Set(d, inverse_a[i])};
+          const V square = edgeDistances(ea, eb);
+          hn::Store(square, d, squares_[r].v + l);
+          least = hn::Min(least, square);
+        }
+      }
+    }
+    return least;
+  }
+
+  V faceRow(const Row& row, const LeafView& on, Vec3 point, V minus_pad) {
+    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V square = faceDistances(Faces{on.faces}, l, point, minus_pad);
+      hn::Store(square, d, squares_[rows_].v + l);
+      least = hn::Min(least, square);
+    }
+    row_[rows_++] = row;
+    return least;
+  }
+
+  static float squaredLimit(const Judge& judge, float pad) {
+    const float reach = judge.keep_to + pad;
+    return reach * reach;
+  }
+
+  bool judgeRows(float least, bool nearest, float pad, Judge& judge, long long& exact) const {
+    float limit = squaredLimit(judge, pad);
+    for (int r = 0; r < rows_; ++r) {
+      uint32_t near = 0;
+      for (size_t l = 0; l < kLanes; l += step()) {
+        const V square = hn::Load(d, squares_[r].v + l);
+        const auto match = hn::Eq(square, hn::Set(d, least));
+        near |= bitsOf(nearest ? match : hn::AndNot(match, hn::Le(square, hn::Set(d, limit)))) << l;
+      }
+      if (HWY_LIKELY(near == 0)) continue;
+      for (near &= validLanes(row_[r]); near != 0; near &= near - 1) {
+        const uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
+        if (squares_[r].v[lane] > limit) continue;
+        ++exact;
+        if (judge.judge(candidate(row_[r], lane))) return true;
+        limit = squaredLimit(judge, pad);
+      }
+    }
+    return false;
+  }
+
+  uint32_t validLanes(const Row& row) const {
+    if (row.kind == PairKind::kEdgeEdge) {
+      const int left = b_.leaf.num_edges - kLanes * row.chunk;
+      return left >= kLanes ? 0xFFU : (1U << left) - 1;
+    }
+    return (1U << (row.kind == PairKind::kVertexFace ? b_ : a_).leaf.num_faces) - 1;
+  }
+
+  Candidate candidate(const Row& row, uint32_t lane) const {
+    const uint32_t i = static_cast<uint32_t>(row.index);
+    if (row.kind == PairKind::kEdgeEdge) {
+      return {row.kind, a_.edge(i), b_.edge(static_cast<uint32_t>(kLanes * row.chunk) + lane)};
+    }
+    if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(i), b_.face(lane)};
+    return {row.kind, a_.face(lane), b_.vertex(i)};
+  }
+
+  static constexpr int kMaxRows = kMaxLeafFeatures * kMaxChunks + 2 * kMaxLeafFeatures;
+
+  const LeafView& a_;
+  const LeafView& b_;
+  int rows_ = 0;
+  Row row_[kMaxRows];
+  Lanes squares_[kMaxRows];
+};
+
+HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
+                                  float bound) {
+  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+  const FramePair& frames = search.frames;
+  Judge& judge = search.judge;
+  MovedLeaf moved_b;
+  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  const Slab slab = separateLeaves(a, b, vertices_b, frames.a_from_b, judge.prune_at + frames.pad);
+  if (slab.apart) return false;
+  ++search.counts.leaf_kernels;
+  const Vec3 vertices = slab.point_b - slab.point_a;
+  judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
+  moveEdges(b, frames.a_from_b, moved_b);
+  LeafDistances distances(a, b);
+  const float least = distances.compute(vertices_b, moved_b.edge_rows, frames, slab,
+                                        judge.keep_to + frames.pad);
+  if (bound <= 0) {  // else nothing can cross
+    if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, judge, search.counts.exact)) return true;
+    MovedLeaf moved_a;
+    moveEdges(a, frames.b_from_a, moved_a);
+    if (crossings<true>(a, moved_a.edge_rows, b, frames.pad, judge, search.counts.exact)) return true;
+  }
+  return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
+}
+
+HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
+  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+  const FramePair& frames = search.frames;
+  MovedLeaf moved_b;
+  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  if (separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad).apart) return false;
+  ++search.counts.leaf_kernels;
+  moveEdges(b, frames.a_from_b, moved_b);
+  if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, search.judge, search.counts.exact)) {
+    return true;
+  }
+  MovedLeaf moved_a;
+  moveEdges(a, frames.b_from_a, moved_a);
+  return crossings<true>(a, moved_a.edge_rows, b, frames.pad, search.judge, search.counts.exact);
+}
+
+/// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.
+HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float pad) {
+  uint32_t result = 0;
+  const Faces faces = {on.faces};
+  const V pads = hn::Set(d, pad), minus_pads = hn::Set(d, -pad);
+  for (size_t l = 0; l < kLanes; l += step()) {
+    V low, high, inside[3];
+    for (int c = 0; c < 3; ++c) {
+      const V x = hn::Set(d, corners[c].x), y = hn::Set(d, corners[c].y),
+              z = hn::Set(d, corners[c].z);
+      const V h = faces.height(l, x, y, z);
+      low = c == 0 ? h : hn::Min(low, h);
+      high = c == 0 ? h : hn::Max(high, h);
+      for (int k = 0; k < 3; ++k) {
+        const V e = faces.inside(k, l, x, y, z);
+        inside[k] = c == 0 ? e : hn::Max(inside[k], e);
+      }
+    }
+    auto may = hn::And(hn::Le(low, pads), hn::Ge(high, minus_pads));
+    for (int k = 0; k < 3; ++k) may = hn::And(may, hn::Ge(inside[k], minus_pads));
+    result |= bitsOf(may) << l;
+  }
+  return result & ((1U << on.leaf.num_faces) - 1);
+}
+
+HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
+  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+  const FramePair& frames = search.frames;
+  MovedLeaf moved_a, moved_b;
+  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  if (separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad).apart) return false;
+  ++search.counts.leaf_kernels;
+  const Points vertices_a = moveVertices(a, a.vertices.chunks, frames.b_from_a, moved_a);
+  const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i, Vec3(&out)[3]) {
+    for (int k = 0; k < 3; ++k) out[k] = vertices.at(leaf.leaf.corners[3 * i + k]);
+  };
+  uint32_t of_b[kLeafTriangles];
+  for (uint32_t j = 0; j < b.leaf.num_faces; ++j) {
+    Vec3 corners[3];
+    cornersOf(b, vertices_b, j, corners);
+    of_b[j] = mayMeet(a, corners, frames.pad);
+  }
+  for (uint32_t i = 0; i < a.leaf.num_faces; ++i) {
+    Vec3 corners[3];
+    cornersOf(a, vertices_a, i, corners);
+    for (uint32_t may = mayMeet(b, corners, frames.pad); may != 0; may &= may - 1) {
+      const uint32_t j = hwy::Num0BitsBelowLS1Bit_Nonzero32(may);
+      if ((of_b[j] >> i & 1U) == 0) continue;
+      ++search.counts.exact;
+      if (search.judge.judge({PairKind::kFaces, a.face(i), b.face(j)})) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+/// A leaf with its chunks found.
+struct LeafView {
+  LeafView(const Tree& tree, const Leaf& l)
+      : leaf(l),
+        vertices{tree.lanes.data() + l.offset, l.vertexChunks()},
+        edges(vertices.rows + 3 * vertices.chunks),
+        edge_chunks(l.edgeChunks()),
+        faces(edges + 6 * edge_chunks),
+        ids(tree.features.data() + l.feature_offset) {}
+
+  FeatureId face(uint32_t i) const { return ids[i]; }
+  FeatureId edge(uint32_t i) const { return ids[leaf.num_faces + i]; }
+  FeatureId vertex(uint32_t i) const { return ids[leaf.num_faces + leaf.num_edges + i]; }
+
+  const Leaf& leaf;
+  Points vertices;
+  const Lanes* edges;
+  int edge_chunks;
+  const Lanes* faces;
+  const FeatureId* ids;
+};
+
+/// The vertices and edges of a leaf in the other frame.
+struct MovedLeaf {
+  Lanes vertex_rows[3 * kMaxChunks];
+  Lanes edge_rows[6 * kMaxChunks];
+};
+
+HWY_INLINE Points moveVertices(const LeafView& leaf, int chunks, const FloatPose& X, MovedLeaf& out) {
+  for (int c = 0; c < chunks; ++c) {
+    moveRows(leaf.vertices.rows + 3 * c, X, true, out.vertex_rows + 3 * c);
+  }
+  return {out.vertex_rows, chunks};
+}
+
+HWY_INLINE void moveEdges(const LeafView& leaf, const FloatPose& X, MovedLeaf& out) {
+  for (int c = 0; c < leaf.edge_chunks; ++c) {
+    moveRows(leaf.edges + 6 * c, X, true, out.edge_rows + 6 * c);
+    moveRows(leaf.edges + 6 * c + 3, X, false, out.edge_rows + 6 * c + 3);
+  }
+}
+
+HWY_INLINE Slab separateLeaves(const LeafView& a, const LeafView& b, const Points& moved_b,
+                               const FloatPose& X, float distance) {
+  const Vec3 between = moved(X, vec3(b.leaf.centroid)) - vec3(a.leaf.centroid);
+  return separate(a.vertices, moved_b, between, vec3(a.leaf.normal),
+                  rotated(X, vec3(b.leaf.normal)), distance);
+}
+
+struct Faces {
+  const Lanes* rows;
+  V height(size_t l, V x, V y, V z) const { return plane(kFacePlane, l, x, y, z); }
+  V inside(int k, size_t l, V x, V y, V z) const { return plane(kEdgePlanes + 4 * k, l, x, y, z); }
+  V slope(int row, size_t l, V x, V y, V z) const {
+    return dot(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l), x, y, z);
+  }
+  V plane(int row, size_t l, V x, V y, V z) const {
+    return hn::Add(slope(row, l, x, y, z), load(rows[row + 3], l));
+  }
+};
+
+/// Faces (lanes of the result) that an edge (point p, direction a, in the faces' frame) may cross
+/// or touch. Heights and distances to the edge planes are right to `pad`. Where the edge is steep,
+/// its crossing point is right to pad (2 + 8 |a| / |dh|) along it.
+HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
+  const V px = hn::Set(d, p.x), py = hn::Set(d, p.y), pz = hn::Set(d, p.z);
+  const V ax = hn::Set(d, a.x), ay = hn::Set(d, a.y), az = hn::Set(d, a.z);
+  const V pads = hn::Set(d, pad), minus_pads = hn::Set(d, -pad);
+  const V length = hn::Sqrt(hn::Set(d, dot(a, a)));
+  uint32_t result = 0;
+  for (size_t l = 0; l < kLanes; l += step()) {
+    const V h0 = faces.height(l, px, py, pz), dh = faces.slope(kFacePlane, l, ax, ay, az);
+    const V h1 = hn::Add(h0, dh);
+    auto may = hn::And(hn::Le(hn::Min(h0, h1), pads), hn::Ge(hn::Max(h0, h1), minus_pads));
+    if (bitsOf(may) == 0) continue;
+    const V steepness = hn::Abs(dh);
+    const auto flat = hn::Lt(steepness, hn::Mul(hn::Set(d, 8), pads));
+    const V divisor = hn::IfThenElse(flat, hn::Set(d, 1), dh);
+    const V s = hn::Min(hn::Max(hn::Div(hn::Neg(h0), divisor), hn::Zero(d)), hn::Set(d, 1));
+    const V slack = hn::Mul(
+        minus_pads, hn::Add(hn::Set(d, 2), hn::Div(hn::Mul(hn::Set(d, 8), length), hn::Abs(divisor))));
+    for (int k = 0; k < 3; ++k) {
+      const V e0 = faces.inside(k, l, px, py, pz);
+      const V de = faces.slope(kEdgePlanes + 4 * k, l, ax, ay, az);
+      may = hn::And(may, hn::Ge(hn::Max(e0, hn::Add(e0, de)), minus_pads));
+      may = hn::And(may, hn::Or(flat, hn::Ge(hn::Add(e0, hn::Mul(s, de)), slack)));
+    }
+    result |= bitsOf(may) << l;
+  }
+  return result;
+}
+
+/// Judges the edges of one leaf, in rows moved to the frame of the other, against its faces.
+template <bool kEdgesOfA>
+HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const LeafView& faces, float pad,
+                          Judge& judge, long long& exact) {
+  const uint32_t all = (1U << faces.leaf.num_faces) - 1;
+  for (uint32_t i = 0; i < edges.leaf.num_edges; ++i) {
+    const Points chunk = {rows + 6 * (i / kLanes), 1};
+    const Points directions = {chunk.rows + 3, 1};
+    const int lane = static_cast<int>(i % kLanes);
+    uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & all;
+    for (; may != 0; may &= may - 1) {
+      ++exact;
+      const FeatureId face = faces.face(hwy::Num0BitsBelowLS1Bit_Nonzero32(may));
+      if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edges.edge(i), face}
+                                : Candidate{PairKind::kFaceEdge, face, edges.edge(i)})) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+// The prepared tree: what the SIMD kernels stream. All floats are relative to the tree's origin, in
+// the model's units. It holds no coordinates for exact evaluation, only the ids of features.
+
+namespace kios::engine {
+
+constexpr int kLanes = 8;
+constexpr int kSphereRows = 5;
+constexpr int kLeafTriangles = 8;
+constexpr int kMaxLeafFeatures = 3 * kLeafTriangles;  ///< of edges, and of vertices
+
+struct alignas(32) Lanes {
+  float v[kLanes];
+};
+
+/// Five spheres as rows: S0, then for each of two axes the middle of its pair of caps and the half
+/// difference from the minus to the plus cap, centres and radii alike. A cap is middle +- half.
+enum SphereRow { kCentral = 0, kMiddle2 = 1, kHalf2 = 2, kMiddle1 = 3, kHalf1 = 4 };
+
+/// A node for the side of a test that is transformed, its rows in lanes.
+struct alignas(64) Node {
+  float x[kLanes] = {}, y[kLanes] = {}, z[kLanes] = {};  ///< lanes beyond the rows are 0
+  float r[kSphereRows] = {};
+  float size = 0;  ///< radius of S0
+  /// Leaf: ~leaf index. Inner: block index.
+  std::int32_t child = 0;
+  std::uint32_t first_child = 0;  ///< of the block: a node index
+
+  bool isLeaf() const { return child < 0; }
+  std::size_t leaf() const { return static_cast<std::size_t>(~child); }
+};
+static_assert(sizeof(Node) == 128);
+
+/// The children of a node for the side that is tested untransformed, one a lane. Lanes beyond
+/// `count` (in `counts`) repeat the first child and are masked.
+struct alignas(64) Block {
+  Lanes x[kSphereRows], y[kSphereRows], z[kSphereRows], r[kSphereRows];
+};
+static_assert(sizeof(Block) == 640);
+
+/// A feature of the model: triangle index and corner. Edge k runs from corner k to the next.
+struct FeatureId {
+  std::uint32_t packed;
+  std::uint32_t triangle() const { return packed >> 2; }
+  std::uint32_t corner() const { return packed & 3U; }
+};
+
+/// Up to eight triangles, and the edges and vertices that the leaf owns: every edge and every
+/// vertex of the mesh belongs to one leaf only. In `lanes` from `offset`: vertices (chunks of x, y,
+/// z; owned ones first), edges (chunks of start x, y, z and direction x, y, z), faces (a chunk of
+/// FaceRow). Lanes that aren't used repeat the last feature. In `features` from `feature_offset`:
+/// faces, edges, owned vertices.
+struct Leaf {
+  std::uint32_t offset = 0, feature_offset = 0;
+  std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
+  float centroid[3] = {};
+  float normal[3] = {};  ///< sum of the unit normals; any vector is safe
+  std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
+
+  int vertexChunks() const { return (num_vertices + kLanes - 1) / kLanes; }
+  int edgeChunks() const { return (num_edges + kLanes - 1) / kLanes; }
+};
+
+/// Rows of a chunk of faces: unit normal and offset, then three inward unit edge planes; 16 rows.
+/// A face too thin for a normal has height 0 everywhere and lies inside everywhere: it is always a
+/// candidate.
+enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
+
+struct Tree {
+  double origin[3] = {};
+  float reach = 0;  ///< >= |centre| + |radius| of all spheres
+  int depth = 0;    ///< of blocks
+  std::vector<Node> nodes;
+  std::vector<Block> blocks;
+  std::vector<std::uint8_t> counts;  ///< of children, by block
+  std::vector<Leaf> leaves;
+  std::vector<Lanes> lanes;
+  std::vector<FeatureId> features;
+
+  std::size_t bytes() const {
+    return sizeof(*this) + nodes.capacity() * sizeof(Node) + blocks.capacity() * sizeof(Block) +
+           counts.capacity() + leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
+           features.capacity() * sizeof(FeatureId);
+  }
+};
+
+}  // namespace kios::engine

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/tree_cache.h"
+
+#include <utility>
+
+namespace kios::engine {
+
+TreeCache::Use::Use(Use&& o) noexcept
+    : cell_(std::exchange(o.cell_, nullptr)),
+      own_(std::move(o.own_)),
+      tree_(std::exchange(o.tree_, nullptr)) {}
+
+TreeCache::Use::~Use() {
+  if (cell_) cell_->users.fetch_sub(1, std::memory_order_release);
+}
+
+TreeCache::Use TreeCache::find(const TreeKey& key) {
+  for (Cell& cell : cells_) {
+    if (cell.root_stamp.load(std::memory_order_relaxed) != key.root_stamp) continue;
+    if (cell.users.fetch_add(1, std::memory_order_acquire) >= 0 && cell.key == key) {
+      return Use(cell);
+    }
+    cell.users.fetch_sub(1, std::memory_order_release);
+  }
+  return Use();
+}
+
+TreeCache::Use TreeCache::findOrMake(const TreeKey& key,
+                                     const std::function<std::unique_ptr<const Tree>()>& make) {
+  if (Use found = find(key)) return found;
+  const std::lock_guard<std::mutex> lock(making_);
+  if (Use found = find(key)) return found;
+  std::unique_ptr<const Tree> tree = make();
+  // First where a state of the same vertices that is no more lies, then where nothing lies.
+  for (const void* const vertices : {key.vertices, static_cast<const void*>(nullptr)}) {
+    for (Cell& cell : cells_) {
+      if (cell.key.vertices == vertices && tryReplace(cell, key, tree)) return find(key);
+    }
+  }
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    next_ = (next_ + 1) % cells_.size();
+    if (tryReplace(cells_[next_], key, tree)) return find(key);
+  }
+  return Use(std::move(tree));
+}
+
+bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<const Tree>& tree) {
+  int nobody = 0;
+  if (!cell.users.compare_exchange_strong(nobody, kWriting, std::memory_order_acquire)) {
+    return false;
+  }
+  cell.key = key;
+  std::swap(cell.tree, tree);
+  cell.root_stamp.store(key.root_stamp, std::memory_order_relaxed);
+  cell.users.fetch_sub(kWriting, std::memory_order_release);
+  return true;
+}
+
+std::size_t TreeCache::bytes() {
+  const std::lock_guard<std::mutex> lock(making_);
+  std::size_t sum = 0;
+  for (const Cell& cell : cells_) sum += cell.tree ? cell.tree->bytes() : 0;
+  return sum;
+}
+
+void TreeCache::drop(const void* vertices) {
+  const std::lock_guard<std::mutex> lock(making_);
+  for (Cell& cell : cells_) {
+    std::unique_ptr<const Tree> none;
+    if (cell.tree && cell.key.vertices == vertices) tryReplace(cell, TreeKey(), none);
+  }
+}
+
+}  // namespace kios::engine

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "engine/tree.h"
+
+namespace kios::engine {
+
+/// What a tree was prepared from. Every fit and every merge stamps its volume anew, so that no two
+/// states of a model's geometry share a key.
+struct TreeKey {
+  std::uint64_t root_stamp = 0;  ///< 0: none
+  const void* vertices = nullptr;
+  const void* triangles = nullptr;
+  std::size_t num_vertices = 0, num_triangles = 0;
+
+  bool operator==(const TreeKey& o) const {
+    return root_stamp == o.root_stamp && vertices == o.vertices && triangles == o.triangles &&
+           num_vertices == o.num_vertices && num_triangles == o.num_triangles;
+  }
+};
+
+/// The prepared trees of a model and of its copies, which share it: a bounded set by key. Finding
+/// one takes no lock; a tree that is in use is never changed or freed.
+class TreeCache {
+  struct Cell;
+
+ public:
+  /// A tree in use. Empty if there is none.
+  class Use {
+   public:
+    Use() = default;
+    Use(Use&& o) noexcept;
+    Use& operator=(Use&&) = delete;
+    ~Use();
+
+    explicit operator bool() const { return tree_ != nullptr; }
+    const Tree& operator*() const { return *tree_; }
+    const Tree* operator->() const { return tree_; }
+
+   private:
+    friend class TreeCache;
+    explicit Use(Cell& cell) : cell_(&cell), tree_(cell.tree.get()) {}
+    explicit Use(std::unique_ptr<const Tree> own) : own_(std::move(own)), tree_(own_.get()) {}
+
+    Cell* cell_ = nullptr;
+    std::unique_ptr<const Tree> own_;  ///< one that found no place
+    const Tree* tree_ = nullptr;
+  };
+
+  /// The tree of that key, empty if there is none. Lock-free.
+  Use find(const TreeKey& key);
+
+  /// The tree of that key, made if there is none; threads that ask at once wait for one to make it.
+  Use findOrMake(const TreeKey& key, const std::function<std::unique_ptr<const Tree>()>& make);
+
+  /// Bytes of all trees held.
+  std::size_t bytes();
+
+  /// Drops the trees made from these vertices, except those in use.
+  void drop(const void* vertices);
+
+ private:
+  /// users counts those who read key and tree; kWriting is added while they change.
+  struct Cell {
+    std::atomic<std::uint64_t> root_stamp{0};
+    std::atomic<int> users{0};
+    TreeKey key;
+    std::unique_ptr<const Tree> tree;
+  };
+  static constexpr int kWriting = -(1 << 30);
+
+  bool tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<const Tree>& tree);
+
+  std::array<Cell, 8> cells_;
+  std::mutex making_;
+  std::size_t next_ = 0;  ///< to be replaced, where no cell is free
+};
+
+}  // namespace kios::engine

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl/prepared.h"
+
+#include <typeinfo>
+#include <vector>
+
+#include "engine/prepare.h"
+#include "engine/search.h"
+#include "fcl_kios/fcl/mesh_queries.h"
+
+namespace kios {
+
+template <typename S>
+engine::TreeCache* treesOf(const Model<S>& model) {
+  using Fitter = fcl::detail::BVFitter<kIOS<S>>;
+  const auto* const fitter = model.bv_fitter.get();
+  if (!fitter) return nullptr;
+  if (typeid(*fitter) == typeid(Fitter)) return &static_cast<const Fitter*>(fitter)->trees();
+  const auto* const derived = dynamic_cast<const Fitter*>(fitter);
+  return derived ? &derived->trees() : nullptr;
+}
+
+template <typename S>
+engine::TreeCache::Use preparedTree(const Model<S>& model) {
+  engine::TreeCache* const trees = treesOf(model);
+  const kIOS<S>& root = model.getBV(0).bv;
+  if (!trees || root.stamp == 0) return {};
+  const double radius = root.radius0;
+  if (!(radius >= engine::kLeastReach && radius <= engine::kLargestReach)) return {};
+  const engine::MeshView<S> mesh = viewOf(model);
+  const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
+                               mesh.num_triangles};
+  if (engine::TreeCache::Use found = trees->find(key)) return found;
+  const Eigen::Vector3d origin = root.center0.template cast<double>();
+  return trees->findOrMake(key, [&] { return engine::prepare(mesh, origin); });
+}
+
+template <typename S>
+void prepare(const Model<S>& model) {
+  requireFinished(model);
+  preparedTree(model);
+}
+
+template <typename S>
+std::size_t preparedBytes(const Model<S>& model) {
+  engine::TreeCache* const trees = treesOf(model);
+  return trees ? trees->bytes() : 0;
+}
+
+template <typename S>
+void invalidate(Model<S>& model) {
+  validate(model);
+  const std::vector<fcl::Vector3<S>> vertices(model.vertices, model.vertices + model.num_vertices);
+  model.beginReplaceModel();
+  model.replaceSubModel(vertices);
+  model.endReplaceModel(true, true);
+  if (engine::TreeCache* const trees = treesOf(model)) trees->drop(model.vertices);
+}
+
+const char* simdTarget() { return engine::kernels().target; }
+
+#define KIOS_INSTANTIATE(S)                                          \
+  template engine::TreeCache* treesOf(const Model<S>&);              \
+  template engine::TreeCache::Use preparedTree(const Model<S>&);     \
+  template void prepare(const Model<S>&);                            \
+  template std::size_t preparedBytes(const Model<S>&);               \
+  template void invalidate(Model<S>&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios
