@@ -134,12 +134,10 @@ bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) {
   const Vec x = pair_.p[i] + s * e, y = pair_.q[j] + v * f, w = y - x;
   const double square = w.squaredNorm();
   if (square < nearest_square_) nearest_square_ = square;
-  // The other vertex of each triangle must lie behind its own point.
-  const double limit = tolerance_ * tolerance_ * square;
-  const double ahead = (pair_.p[nextVertex(nextVertex(i))] - x).dot(w);
-  if (ahead > 0 && ahead * ahead > limit) return false;
-  const double behind = (pair_.q[nextVertex(nextVertex(j))] - y).dot(w);
-  if (behind < 0 && behind * behind > limit) return false;
+  // The other vertex of each triangle must lie behind its own point, but for the rounding of w.
+  const double slack = 8 * tolerance_ * pair_.magnitude;
+  if ((pair_.p[nextVertex(nextVertex(i))] - x).dot(w) > slack) return false;
+  if ((pair_.q[nextVertex(nextVertex(j))] - y).dot(w) < -slack) return false;
 
   const double distance = std::sqrt(square);
   if (!(distance > least_)) return false;

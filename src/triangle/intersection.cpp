@@ -71,9 +71,10 @@ class PairIntersection {
   /// Sides of every vertex with respect to the other plane; false if one plane has a triangle
   /// strictly on one side.
   bool crossesPlanes() {
-    for (int i = 0; i < 3; ++i) b_.side[i] = signs_.orient3d(0, 1, 2, 3 + i);
+    // From a vertex of the plane: its differences are the plane's own, however small the triangle.
+    for (int i = 0; i < 3; ++i) b_.side[i] = signs_.orient3d(3 + i, 1, 0, 2);
     if (std::abs(b_.side[0] + b_.side[1] + b_.side[2]) == 3) return false;
-    for (int i = 0; i < 3; ++i) a_.side[i] = signs_.orient3d(3, 4, 5, i);
+    for (int i = 0; i < 3; ++i) a_.side[i] = signs_.orient3d(i, 4, 3, 5);
     if (std::abs(a_.side[0] + a_.side[1] + a_.side[2]) == 3) return false;
     // A vertex beside a triangle's plane shows that there is one.
     if (b_.inPlane()) findDegenerate(a_);
@@ -325,9 +326,9 @@ PairPredicates::Coordinates coordinates(const TriangleVertices<S>& a,
 template <typename S>
 bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   for (int c = 0; c < 3; ++c) {
-    const auto [low_a, high_a] = std::minmax({a[0][c], a[1][c], a[2][c]});
-    const auto [low_b, high_b] = std::minmax({b[0][c], b[1][c], b[2][c]});
-    if (high_a < low_b || high_b < low_a) return true;
+    const auto low = [c](const auto& t) { return std::min(std::min(t[0][c], t[1][c]), t[2][c]); };
+    const auto high = [c](const auto& t) { return std::max(std::max(t[0][c], t[1][c]), t[2][c]); };
+    if (high(a) < low(b) || high(b) < low(a)) return true;
   }
   return false;
 }

@@ -51,10 +51,11 @@ PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scal
   }
   if (!(largest >= 0x1p-200 && largest <= 0x1p200) && largest > 0) {
     scale_ = -std::ilogb(largest);
+    const double half = std::ldexp(1.0, scale_ / 2), rest = std::ldexp(1.0, scale_ - scale_ / 2);
     for (auto& p : scaled_) {
-      for (double& v : p) v = std::ldexp(v, scale_);
+      for (double& v : p) v = v * half * rest;
     }
-    largest = std::ldexp(largest, scale_);
+    largest = largest * half * rest;
   }
   // Multiples of one unit by factors of at most 15 bits: no result of a determinant has more
   // than 53.
@@ -142,20 +143,20 @@ double PairPredicates::share(const Rounded& a, const Rounded& b) {
 
 // The filters' bounds are far above their errors: 2^-46 of a bound is a few eps in fact.
 constexpr double kAccurate = 0x1p-46;
-constexpr double kExact = 0x1p50;
+constexpr double kMargin = 1 / kAccurate;
 
 double PairPredicates::crossing3d(int i, int j, int k, int l, int m) const {
-  const Filtered fi = filteredOrient3d(k, l, m, i), fj = filteredOrient3d(k, l, m, j);
+  const Filtered fi = filteredOrient3d(i, k, l, m), fj = filteredOrient3d(j, k, l, m);
   const double size = std::abs(fi.value) + std::abs(fj.value);
   if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
-  return share(exactOrient3d(k, l, m, i, kExact), exactOrient3d(k, l, m, j, kExact));
+  return share(exactOrient3d(i, k, l, m, kMargin), exactOrient3d(j, k, l, m, kMargin));
 }
 
 double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
   const Filtered fi = filteredCross2d(k, l, k, i, axis), fj = filteredCross2d(k, l, k, j, axis);
   const double size = std::abs(fi.value) + std::abs(fj.value);
   if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
-  return share(exactCross2d(k, l, k, i, axis, kExact), exactCross2d(k, l, k, j, axis, kExact));
+  return share(exactCross2d(k, l, k, i, axis, kMargin), exactCross2d(k, l, k, j, axis, kMargin));
 }
 
 PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l,
