@@ -43,7 +43,7 @@ struct Sorted {
     return static_cast<TriangleFeature>(3 + (j == nextVertex(i) ? i : j));
   }
 
-  Vec v[3];
+  TriangleVertices<double> v;
   const int* index;
 };
 
@@ -93,7 +93,8 @@ S positive(double distance) {
 }
 
 template <typename S>
-TriangleDistance<S> touchingAt(const Point<S>& p) {
+TriangleDistance<S> touchingAt(const Vec& at) {
+  const Point<S> p = at.cast<S>();
   return {S(0), p, p, TriangleFeature::kFace, TriangleFeature::kFace};
 }
 
@@ -116,19 +117,19 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
   TrianglePair pair = relativeTo(origin, p, q);
   const int exponent = normalize(pair);
 
-  Point<S> common;
+  Vec common;
   PairDistance found;
   CertifiedDistance fast(pair);
   bool certified = fast.nearestEdges(0, 1, found), disjoint = false;
   if (!certified && (fast.touching() || fast.crossing())) {
-    if (commonPoint(a, b, common)) return touchingAt(common);
+    if (commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
     disjoint = true;
   }
   if (!certified && !fast.touching()) {
     certified = fast.nearestEdges(1, 3, found) || (!fast.touching() && fast.nearestFace(found));
   }
   if (!certified) {
-    if (!disjoint && commonPoint(a, b, common)) return touchingAt(common);
+    if (!disjoint && commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
     found = robustDistance(pair, fast.nearest());
   }
   if (exponent != 0) {

@@ -71,15 +71,23 @@ class PairIntersection {
   /// Sides of every vertex with respect to the other plane; false if one plane has a triangle
   /// strictly on one side.
   bool crossesPlanes() {
-    // From a vertex of the plane: its differences are the plane's own, however small the triangle.
-    for (int i = 0; i < 3; ++i) b_.side[i] = signs_.orient3d(3 + i, 1, 0, 2);
+    findSides(b_, a_);
     if (std::abs(b_.side[0] + b_.side[1] + b_.side[2]) == 3) return false;
-    for (int i = 0; i < 3; ++i) a_.side[i] = signs_.orient3d(i, 4, 3, 5);
+    findSides(a_, b_);
     if (std::abs(a_.side[0] + a_.side[1] + a_.side[2]) == 3) return false;
     // A vertex beside a triangle's plane shows that there is one.
     if (b_.inPlane()) findDegenerate(a_);
     if (a_.inPlane()) findDegenerate(b_);
     return true;
+  }
+
+  /// From a vertex of the plane: its differences are the plane's own, however small the triangle.
+  void findSides(Face& f, const Face& plane) const {
+    for (int i = 0; i < 3; ++i) {
+      const bool repeated = i > 0 && points_[f.v[i]] == points_[f.v[i - 1]];
+      f.side[i] =
+          repeated ? f.side[i - 1] : signs_.orient3d(f.v[i], plane.v[1], plane.v[0], plane.v[2]);
+    }
   }
 
   /// Collinear vertices lie along their line as they do by coordinates.
@@ -341,13 +349,11 @@ bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>&
   return PairIntersection(coordinates(a, b)).test();
 }
 
-template <typename S>
-bool commonPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b, Point<S>& point) {
+bool commonPoint(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
+                 Point<double>& point) {
   if (boxesApart(a, b)) return false;
   const auto found = PairIntersection(coordinates(a, b)).anyPoint();
-  if (found) {
-    for (int c = 0; c < 3; ++c) point[c] = static_cast<S>((*found)[c]);
-  }
+  if (found) point = {(*found)[0], (*found)[1], (*found)[2]};
   return found.has_value();
 }
 
@@ -359,10 +365,6 @@ Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<
 
 template bool trianglesIntersect(const TriangleVertices<double>&, const TriangleVertices<double>&);
 template bool trianglesIntersect(const TriangleVertices<float>&, const TriangleVertices<float>&);
-template bool commonPoint(const TriangleVertices<double>&, const TriangleVertices<double>&,
-                          Point<double>&);
-template bool commonPoint(const TriangleVertices<float>&, const TriangleVertices<float>&,
-                          Point<float>&);
 template Point<double> intersectionPoint(const TriangleVertices<double>&,
                                          const TriangleVertices<double>&);
 template Point<float> intersectionPoint(const TriangleVertices<float>&,
