@@ -113,6 +113,8 @@ int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
   const Filtered det = filteredCross2d(i, j, k, l, axis);
   if (std::abs(det.value) > det.error) return signOf(det.value);
   if (plain_exact_ || (det.vanishes && expansions_exact_)) return signOf(det.value);
+  if (same(i, j) || same(k, l) || (same(i, k) && same(j, l)) || (same(i, l) && same(j, k)))
+    return 0;
   return signOf(exactCross2d(i, j, k, l, axis, 1).mantissa);
 }
 

@@ -222,18 +222,24 @@ class RobustDistance {
     consider(x, {PairFeature::kEdge, i}, y, {PairFeature::kEdge, j});
   }
 
+  /// False if two vertices are the same: then the edges are all there is.
+  static bool hasArea(const double (&squares)[3]) {
+    return squares[0] > 0 && squares[1] > 0 && squares[2] > 0;
+  }
+
   void faces(const Sides& far_p, const Sides& far_q) {
     std::optional<Plane> plane_p, plane_q;  // most are not needed
+    const bool area_p = hasArea(ee_), area_q = hasArea(ff_);
     const PairFeature face = {PairFeature::kFace, 0};
     Vec residual;
     for (int i = 0; i < 3; ++i) {
-      if (far_q.of[i] == 0) {
+      if (area_p && far_q.of[i] == 0) {
         if (!plane_p) plane_p.emplace(p_);
         if (plane_p->project(q_[i], residual)) {
           consider(residual, {q_[i] - residual, q_[i], face, {PairFeature::kVertex, i}});
         }
       }
-      if (far_p.of[i] == 0) {
+      if (area_q && far_p.of[i] == 0) {
         if (!plane_q) plane_q.emplace(q_);
         if (plane_q->project(p_[i], residual)) {
           consider(residual, {p_[i], p_[i] - residual, {PairFeature::kVertex, i}, face});
@@ -262,7 +268,7 @@ class RobustDistance {
   Vec between_[3][3];  ///< from p_[i] to q_[j]
   double squares_[3][3];
   double square_ = std::numeric_limits<double>::infinity();  ///< of the best distance
-  PairDistance best_;
+  PairDistance best_ = {};
 };
 
 }  // namespace
