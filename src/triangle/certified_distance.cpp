@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "triangle/expansion.h"
+
 namespace kios {
 namespace {
 
@@ -19,6 +21,19 @@ PairFeature onEdge(int edge, double t) {
   if (t == 0) return {PairFeature::kVertex, edge};
   if (t == 1) return {PairFeature::kVertex, nextVertex(edge)};
   return {PairFeature::kEdge, edge};
+}
+
+/// a x b; every component has nearly all its digits, however small the angle is.
+Vec accurateCross(const Vec& a, const Vec& b) {
+  Vec n;
+  for (int c = 0; c < 3; ++c) {
+    const int u = nextVertex(c), v = nextVertex(u);
+    const Twofold left = Twofold{a[u], 0} * Twofold{b[v], 0};
+    const Twofold right = Twofold{a[v], 0} * Twofold{b[u], 0};
+    const Twofold det = left - right;
+    n[c] = det.high + det.low;
+  }
+  return n;
 }
 
 }  // namespace
@@ -68,10 +83,11 @@ void CertifiedDistance::setPlane(const Vec (&face)[3], const Vec (&edges)[3], co
   plane.side = above == 3 ? 1 : (below == 3 ? -1 : 0);
 }
 
-bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) const {
+bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) {
   for (int i = begin; i < end; ++i) {
     for (int j = 0; j < 3; ++j) {
       if (edgePair(order_p_[i], order_q_[j], found)) return true;
+      if (touching()) return false;
     }
   }
   return false;
@@ -92,13 +108,21 @@ bool CertifiedDistance::nearestFace(PairDistance& found) const {
 }
 
 /// Nearest points of edges i and j; true if they are those of the triangles.
-bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) const {
+bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) {
   const Vec &e = e_[i], &f = f_[j];
   if (!(ee_[i] > 0 && ff_[j] > 0)) return false;
   const Vec t = pair_.q[j] - pair_.p[i];
   const double ee = ee_[i], ff = ff_[j], ef = e.dot(f), et = e.dot(t), ft = f.dot(t);
   const double den = ee * ff - ef * ef;
-  double s = den > 1e-14 * ee * ff ? clamp01((et * ff - ft * ef) / den) : 0;
+  const bool oblique = den > 1e-4 * ee * ff;
+  double s = 0;
+  if (oblique) {
+    s = clamp01((et * ff - ft * ef) / den);
+  } else {  // den has lost its digits
+    const Vec n = e.cross(f);
+    const double square = n.squaredNorm();
+    if (square > 0) s = clamp01(t.cross(f).dot(n) / square);
+  }
   double v = (s * ef - ft) * per_ff_[j];
   if (v < 0) {
     v = 0;
@@ -109,27 +133,30 @@ bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) const {
   }
   const Vec x = pair_.p[i] + s * e, y = pair_.q[j] + v * f, w = y - x;
   const double square = w.squaredNorm();
-  // The other vertex of each triangle must lie behind its own point.
-  const double limit = tolerance_ * tolerance_ * square;
-  const double ahead = (pair_.p[nextVertex(nextVertex(i))] - x).dot(w);
-  if (ahead > 0 && ahead * ahead > limit) return false;
-  const double behind = (pair_.q[nextVertex(nextVertex(j))] - y).dot(w);
-  if (behind < 0 && behind * behind > limit) return false;
+  if (square < nearest_square_) nearest_square_ = square;
+  // The other vertex of each triangle must lie behind its own point, but for the rounding of w.
+  const double slack = 8 * tolerance_ * pair_.magnitude;
+  if ((pair_.p[nextVertex(nextVertex(i))] - x).dot(w) > slack) return false;
+  if ((pair_.q[nextVertex(nextVertex(j))] - y).dot(w) < -slack) return false;
 
   const double distance = std::sqrt(square);
   if (!(distance > least_)) return false;
-  Vec direction = w;
-  if (s > 0 && s < 1 && v > 0 && v < 1) {
-    // w loses digits as the distance falls; the edges' common normal does not, unless they are
-    // nearly parallel.
-    const Vec n = e.cross(f);
-    if (n.squaredNorm() > 1e-4 * ee * ff) {
-      direction = n.dot(w) < 0 ? Vec(-n) : n;
+  const bool within_e = s > 0 && s<1, within_f = v> 0 && v < 1;
+  // w loses digits as the distance falls, but the directions of the edges don't.
+  const auto across = [&w](const Vec& n) { return n.dot(w) < 0 ? Vec(-n) : n; };
+  bool proven;
+  if (within_e && within_f && oblique) {
+    proven = certified(across(e.cross(f)), x, distance);
+  } else {
+    proven = certified(w, x, distance);
+    if (!proven && within_e) proven = certified(w - (w.dot(e) / ee) * e, x, distance);
+    if (!proven && within_f) proven = certified(w - (w.dot(f) / ff) * f, x, distance);
+    if (!proven && within_e && within_f) {
+      proven = certified(across(accurateCross(e, f)), x, distance);
     }
   }
-  if (!certified(direction, x, distance)) return false;
-  found = {distance, x, y, onEdge(i, s), onEdge(j, v)};
-  return true;
+  if (proven) found = {distance, x, y, onEdge(i, s), onEdge(j, v)};
+  return proven;
 }
 
 /// The slab across `direction` between the triangles is at least distance - tolerance wide.
@@ -140,7 +167,8 @@ bool CertifiedDistance::certified(const Vec& direction, const Vec& x, double dis
     low = std::min(low, (pair_.q[k] - x).dot(direction));
   }
   const double length = direction.norm();
-  return distance * length - (low - high) <= tolerance_ * length;
+  // A length whose square underflows means nothing.
+  return length > 1e-140 && distance * length - (low - high) <= tolerance_ * length;
 }
 
 /// The vertex of `other` nearest to the plane of `face`, if all lie on one side of it and that

@@ -2,19 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "triangle/pair.h"
 
 namespace kios {
 
 /// The fast kernel: candidates of plain arithmetic, taken only if a slab between the triangles
 /// certifies them to 8 eps magnitude; touching, intersecting and nearly degenerate pairs get none.
-/// The pair's magnitude must lie within 1e-70 to 1e70.
+/// The pair's magnitude must lie within 2^+-32.
 class CertifiedDistance {
  public:
   explicit CertifiedDistance(const TrianglePair& pair);
 
   /// Edges `begin` to `end` of p, those nearest to q first, against all of q.
-  bool nearestEdges(int begin, int end, PairDistance& found) const;
+  bool nearestEdges(int begin, int end, PairDistance& found);
+  /// Edges have been found too near for any certificate.
+  bool touching() const { return nearest_square_ <= least_ * least_; }
+  /// Least distance of edges so far, off by less than 16 eps magnitude; infinite without any.
+  double nearest() const { return std::sqrt(nearest_square_); }
   /// Computes the planes; true if each triangle has vertices on both sides of the other's, as far
   /// as rounding tells, when it pays to ask for an intersection before going on.
   bool crossing();
@@ -31,7 +38,7 @@ class CertifiedDistance {
   };
   void setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3], Plane& plane);
   static void orderEdges(const Vec (&v)[3], const Vec& direction, int (&order)[3]);
-  bool edgePair(int i, int j, PairDistance& found) const;
+  bool edgePair(int i, int j, PairDistance& found);
   bool facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
                 const double (&squares)[3], const Vec (&other)[3], Vec& on_face, Vec& on_other,
                 PairFeature& feature, double& distance) const;
@@ -40,6 +47,7 @@ class CertifiedDistance {
   const TrianglePair& pair_;
   const double tolerance_;  ///< of the certificate
   const double least_;      ///< nearer pairs are left to the exact predicates
+  double nearest_square_ = std::numeric_limits<double>::infinity();
   Vec e_[3], f_[3];
   double ee_[3], ff_[3], per_ee_[3], per_ff_[3];
   int order_p_[3], order_q_[3];

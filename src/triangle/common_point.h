@@ -7,7 +7,7 @@
 namespace kios {
 
 /// trianglesIntersect(), and if they do, some point of the intersection, rounded.
-template <typename S>
-bool commonPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b, Point<S>& point);
+bool commonPoint(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
+                 Point<double>& point);
 
 }  // namespace kios

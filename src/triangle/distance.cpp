@@ -25,17 +25,14 @@ bool before(const Vec& a, const Vec& b) {
 /// A triangle's vertices by increasing coordinates, and where they came from.
 struct Sorted {
   template <typename S>
-  explicit Sorted(const TriangleVertices<S>& t)
-      : v{t[0].template cast<double>(), t[1].template cast<double>(),
-          t[2].template cast<double>()} {
-    compareAndSwap(0, 1);
-    compareAndSwap(1, 2);
-    compareAndSwap(0, 1);
-  }
-  void compareAndSwap(int i, int j) {
-    if (!before(v[j], v[i])) return;
-    std::swap(v[i], v[j]);
-    std::swap(index[i], index[j]);
+  explicit Sorted(const TriangleVertices<S>& t) {
+    const Vec u[3] = {t[0].template cast<double>(), t[1].template cast<double>(),
+                      t[2].template cast<double>()};
+    // Looked up, because no branch predictor knows the order.
+    static constexpr int kOrders[8][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0},
+                                          {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    index = kOrders[before(u[1], u[0]) + 2 * before(u[2], u[1]) + 4 * before(u[2], u[0])];
+    for (int i = 0; i < 3; ++i) v[i] = u[index[i]];
   }
 
   TriangleFeature feature(PairFeature f) const {
@@ -46,8 +43,8 @@ struct Sorted {
     return static_cast<TriangleFeature>(3 + (j == nextVertex(i) ? i : j));
   }
 
-  Vec v[3];
-  int index[3] = {0, 1, 2};
+  TriangleVertices<double> v;
+  const int* index;
 };
 
 bool before(const Sorted& a, const Sorted& b) {
@@ -70,36 +67,34 @@ TrianglePair relativeTo(const Vec& origin, const Sorted& p, const Sorted& q) {
   return pair;
 }
 
-void scale(TrianglePair& pair, int e) {
-  for (int i = 0; i < 3; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      pair.p[i][c] = std::ldexp(pair.p[i][c], e);
-      pair.q[i][c] = std::ldexp(pair.q[i][c], e);
-    }
-  }
+/// Times 2^e, in two steps because 2^e itself may overflow.
+void scale(Vec& v, int e) {
+  const double half = std::ldexp(1.0, e / 2);
+  v = v * half * std::ldexp(1.0, e - e / 2);
 }
 
-PairDistance disjointDistance(TrianglePair pair) {
+/// Brings the magnitude to about 1 by a power of two and returns its exponent, 0 if the magnitude
+/// is moderate: what underflows then is no part of the answer.
+int normalize(TrianglePair& pair) {
+  if (pair.magnitude > 0x1p-30 && pair.magnitude < 0x1p30) return 0;
   const int e = std::ilogb(pair.magnitude);
-  scale(pair, -e);
-  PairDistance found = robustDistance(pair);
-  // Disjoint, so not 0 even where all digits have cancelled.
-  found.distance =
-      std::max(std::ldexp(found.distance, e), std::numeric_limits<double>::denorm_min());
-  for (int c = 0; c < 3; ++c) {
-    found.on_p[c] = std::ldexp(found.on_p[c], e);
-    found.on_q[c] = std::ldexp(found.on_q[c], e);
+  for (int i = 0; i < 3; ++i) {
+    scale(pair.p[i], -e);
+    scale(pair.q[i], -e);
   }
-  return found;
+  pair.magnitude = std::ldexp(pair.magnitude, -e);
+  return e;
 }
 
+/// Of triangles that are disjoint: not 0 even where all digits have cancelled.
 template <typename S>
 S positive(double distance) {
   return std::max(static_cast<S>(distance), std::numeric_limits<S>::denorm_min());
 }
 
 template <typename S>
-TriangleDistance<S> touchingAt(const Point<S>& p) {
+TriangleDistance<S> touchingAt(const Vec& at) {
+  const Point<S> p = at.cast<S>();
   return {S(0), p, p, TriangleFeature::kFace, TriangleFeature::kFace};
 }
 
@@ -110,34 +105,37 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
   const Sorted sa(a), sb(b);
   const bool swapped = before(sb, sa);
   const Sorted &p = swapped ? sb : sa, &q = swapped ? sa : sb;
-  for (int i = 0, j = 0; i < 3 && j < 3;) {  // neighbours in a mesh share a vertex as stored
-    if (sa.v[i] == sb.v[j]) {
+  for (int i = 0; i < 3; ++i) {  // neighbours in a mesh share a vertex as stored
+    for (int j = 0; j < 3; ++j) {
+      if (sa.v[i] != sb.v[j]) continue;
       const Point<S>& common = a[sa.index[i]];
       return {S(0), common, common, static_cast<TriangleFeature>(sa.index[i]),
               static_cast<TriangleFeature>(sb.index[j])};
     }
-    before(sa.v[i], sb.v[j]) ? ++i : ++j;
   }
   const Vec origin = p.v[0];
-  const TrianglePair pair = relativeTo(origin, p, q);
+  TrianglePair pair = relativeTo(origin, p, q);
+  const int exponent = normalize(pair);
 
-  Point<S> common;
+  Vec common;
   PairDistance found;
-  bool certified = false, disjoint = false;
-  if (pair.magnitude > 1e-70 && pair.magnitude < 1e70) {
-    CertifiedDistance fast(pair);
-    certified = fast.nearestEdges(0, 1, found);
-    if (!certified) {
-      if (fast.crossing()) {
-        if (commonPoint(a, b, common)) return touchingAt(common);
-        disjoint = true;
-      }
-      certified = fast.nearestEdges(1, 3, found) || fast.nearestFace(found);
-    }
+  CertifiedDistance fast(pair);
+  bool certified = fast.nearestEdges(0, 1, found), disjoint = false;
+  if (!certified && (fast.touching() || fast.crossing())) {
+    if (commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
+    disjoint = true;
+  }
+  if (!certified && !fast.touching()) {
+    certified = fast.nearestEdges(1, 3, found) || (!fast.touching() && fast.nearestFace(found));
   }
   if (!certified) {
-    if (!disjoint && commonPoint(a, b, common)) return touchingAt(common);
-    found = disjointDistance(pair);
+    if (!disjoint && commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
+    found = robustDistance(pair, fast.nearest());
+  }
+  if (exponent != 0) {
+    found.distance = std::ldexp(found.distance, exponent);
+    scale(found.on_p, exponent);
+    scale(found.on_q, exponent);
   }
   const Vec on_p = origin + found.on_p, on_q = origin + found.on_q;
   TriangleDistance<S> result;

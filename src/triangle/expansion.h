@@ -36,6 +36,37 @@ inline void twoProduct(double a, double b, double& product, double& error) {
   error = a0 * b0 - (((product - a1 * b1) - a0 * b1) - a1 * b0);
 }
 
+/// high + low, not normalised: |low| is a few u (2^-53) times the numbers it was made from. Twice
+/// the digits of a double for a few times the cost.
+struct Twofold {
+  double high, low;
+};
+
+/// a - b, exactly.
+inline Twofold twofoldDifference(double a, double b) {
+  Twofold d;
+  twoSum(a, -b, d.high, d.low);
+  return d;
+}
+
+inline Twofold operator+(const Twofold& a, const Twofold& b) {
+  Twofold s;
+  twoSum(a.high, b.high, s.high, s.low);
+  s.low += a.low + b.low;
+  return s;
+}
+
+inline Twofold operator-(const Twofold& a, const Twofold& b) {
+  return a + Twofold{-b.high, -b.low};
+}
+
+inline Twofold operator*(const Twofold& a, const Twofold& b) {
+  Twofold p;
+  twoProduct(a.high, b.high, p.high, p.low);
+  p.low += a.high * b.low + a.low * b.high;
+  return p;
+}
+
 inline Expansion<2> difference(double a, double b) {
   double high, low;
   twoSum(a, -b, high, low);

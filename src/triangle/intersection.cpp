@@ -14,10 +14,14 @@ namespace {
 
 constexpr int kNext[3] = {1, 2, 0};
 
-/// Vertices of a triangle of the pair.
+using Coordinates = std::array<double, 3>;
+
+/// Vertices of a triangle of the pair, and their sides of the other's plane.
 struct Face {
-  int v[3];
-  bool degenerate = false;  ///< no area: the triangle is the union of its edges
+  int v[3], side[3];
+  bool degenerate = false;  ///< no area: the triangle is the segment from v[0] to v[1]
+
+  bool inPlane() const { return (side[0] | side[1] | side[2]) == 0; }
 };
 
 /// Closed intersection tests between the parts of two triangles, by vertex index.
@@ -26,69 +30,185 @@ class PairIntersection {
   explicit PairIntersection(const PairPredicates::Coordinates& points)
       : points_(points), signs_(points) {}
 
-  bool test() {
-    if (!crossesPlanes()) return false;
-    for (int e = 0; e < 3; ++e) {
-      const int n = kNext[e];
-      if (segmentMeetsFace(a_.v[e], a_.v[n], side_a_[e], side_a_[n], b_)) return true;
-      if (segmentMeetsFace(b_.v[e], b_.v[n], side_b_[e], side_b_[n], a_)) return true;
-    }
-    return false;
-  }
+  bool test() { return common(nullptr); }
 
-  /// The first common point that is found, nothing if there is none: cheaper than middle().
-  std::optional<std::array<double, 3>> anyPoint() {
-    if (!crossesPlanes()) return std::nullopt;
-    std::array<double, 3> point;
-    for (int e = 0; e < 3; ++e) {
-      if (edgeMeets(a_, side_a_, e, b_, point) || edgeMeets(b_, side_b_, e, a_, point)) {
-        return point;
-      }
-    }
-    return std::nullopt;
+  /// The common point that is cheapest to find, nothing if there is none.
+  std::optional<Coordinates> anyPoint() {
+    Coordinates point;
+    return common(&point) ? std::optional<Coordinates>(point) : std::nullopt;
   }
 
   /// Mean of the points where an edge of one triangle meets the other, after test().
-  std::array<double, 3> middle() {
+  Coordinates middle() {
     crossesPlanes();
-    std::array<double, 3> sum = {0, 0, 0};
+    Coordinates sum = {0, 0, 0};
     int count = 0;
-    const auto add = [&](const std::array<double, 3>& p) {
+    const auto add = [&](const Coordinates& p) {
       ++count;
       for (int c = 0; c < 3; ++c) sum[c] += (p[c] - sum[c]) / count;  // a mean never overflows
     };
     for (int e = 0; e < 3; ++e) {
-      eachMeeting(a_, side_a_, e, b_, add);
-      eachMeeting(b_, side_b_, e, a_, add);
+      eachMeeting(a_, e, b_, add);
+      eachMeeting(b_, e, a_, add);
     }
     return sum;
   }
 
  private:
+  /// Whether the triangles intersect; if they do and it is asked for, a common point.
+  bool common(Coordinates* point) {
+    if (!crossesPlanes()) return false;
+    if (a_.degenerate && b_.degenerate) {
+      if (!segmentsMeet(a_.v[0], a_.v[1], b_.v[0], b_.v[1])) return false;
+      if (point) *point = meetingPoint(a_.v[0], a_.v[1], b_.v[0], b_.v[1]);
+      return true;
+    }
+    if (a_.degenerate) return segmentMeets(a_, b_, point);
+    if (b_.degenerate) return segmentMeets(b_, a_, point);
+    return a_.inPlane() ? coplanarMeet(point) : intervalsMeet(point);
+  }
+
   /// Sides of every vertex with respect to the other plane; false if one plane has a triangle
   /// strictly on one side.
   bool crossesPlanes() {
-    for (int i = 0; i < 3; ++i) side_b_[i] = signs_.orient3d(0, 1, 2, 3 + i);
-    if (std::abs(side_b_[0] + side_b_[1] + side_b_[2]) == 3) return false;
-    for (int i = 0; i < 3; ++i) side_a_[i] = signs_.orient3d(3, 4, 5, i);
-    if (std::abs(side_a_[0] + side_a_[1] + side_a_[2]) == 3) return false;
+    findSides(b_, a_);
+    if (std::abs(b_.side[0] + b_.side[1] + b_.side[2]) == 3) return false;
+    findSides(a_, b_);
+    if (std::abs(a_.side[0] + a_.side[1] + a_.side[2]) == 3) return false;
     // A vertex beside a triangle's plane shows that there is one.
-    a_.degenerate = !(side_b_[0] | side_b_[1] | side_b_[2]) && axisOf(a_) < 0;
-    b_.degenerate = !(side_a_[0] | side_a_[1] | side_a_[2]) && axisOf(b_) < 0;
+    if (b_.inPlane()) findDegenerate(a_);
+    if (a_.inPlane()) findDegenerate(b_);
+    return true;
+  }
+
+  /// From a vertex of the plane: its differences are the plane's own, however small the triangle.
+  void findSides(Face& f, const Face& plane) const {
+    for (int i = 0; i < 3; ++i) {
+      const bool repeated = i > 0 && points_[f.v[i]] == points_[f.v[i - 1]];
+      f.side[i] =
+          repeated ? f.side[i - 1] : signs_.orient3d(f.v[i], plane.v[1], plane.v[0], plane.v[2]);
+    }
+  }
+
+  /// Collinear vertices lie along their line as they do by coordinates.
+  void findDegenerate(Face& f) {
+    if (axisOf(f) >= 0) return;
+    f.degenerate = true;
+    const auto order = [&](int i, int j) {
+      if (!(points_[f.v[j]] < points_[f.v[i]])) return;
+      std::swap(f.v[i], f.v[j]);
+      std::swap(f.side[i], f.side[j]);
+    };
+    order(0, 2);
+    order(0, 1);
+    order(2, 1);
+  }
+
+  /// Where a face crosses the other's plane: its edges from the vertex that is alone on its side.
+  struct Interval {
+    int alone, begin, end;  ///< of face.v
+    bool above;             ///< the side of `alone`
+  };
+  static Interval intervalOf(const Face& f) {
+    const auto alone = [&f](int i) {
+      const int s = f.side[i], t = f.side[kNext[i]], u = f.side[kNext[kNext[i]]];
+      return t * u >= 0 && (s == 0 ? t * u > 0 : s * (t + u) <= 0);
+    };
+    int i = 0;
+    while (i < 2 && !alone(i)) ++i;
+    const int j = kNext[i], k = kNext[j];
+    return {i, j, k, f.side[i] > f.side[j] + f.side[k]};
+  }
+
+  /// Triangles in two planes: each meets the planes' common line in an interval. The orientation of
+  /// an edge of a and one of b tells which meets the line first (Guigue and Devillers, "Fast and
+  /// robust triangle-triangle overlap test using orientation predicates", 2003).
+  bool intervalsMeet(Coordinates* point) const {
+    Interval a = intervalOf(a_), b = intervalOf(b_);
+    if (a.above) std::swap(b.begin, b.end);
+    if (!b.above) std::swap(a.begin, a.end);
+    const auto order = [&](int end_a, int end_b) {  // along the line
+      return signs_.orient3d(a_.v[a.alone], a_.v[end_a], b_.v[b.alone], b_.v[end_b]);
+    };
+    if (order(a.begin, b.end) > 0 || order(a.end, b.begin) < 0) return false;
+    if (!point) return true;
+    *point = order(a.begin, b.begin) > 0 ? crossing(a_, a.alone, a.begin, b_)
+                                         : crossing(b_, b.alone, b.begin, a_);
+    return true;
+  }
+
+  /// Nothing separates two triangles of one plane if no edge of theirs does.
+  bool coplanarMeet(Coordinates* point) const {
+    const int axis = axisOf(a_);
+    int in_a[3][3], in_b[3][3];
+    if (!insides(a_, b_, axis, in_a) || !insides(b_, a_, axis, in_b)) return false;
+    if (!point) return true;
+    for (int i = 0; i < 3; ++i) {
+      if (in_a[0][i] >= 0 && in_a[1][i] >= 0 && in_a[2][i] >= 0) {
+        *point = points_[b_.v[i]];
+        return true;
+      }
+      if (in_b[0][i] >= 0 && in_b[1][i] >= 0 && in_b[2][i] >= 0) {
+        *point = points_[a_.v[i]];
+        return true;
+      }
+    }
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const int ni = kNext[i], nj = kNext[j];
+        if (in_a[i][j] * in_a[i][nj] > 0 || in_b[j][i] * in_b[j][ni] > 0) continue;
+        if ((in_a[i][j] | in_a[i][nj]) == 0) continue;  // on one line, but apart
+        const double t = signs_.crossing2d(a_.v[i], a_.v[ni], b_.v[j], b_.v[nj], axis);
+        *point = between(a_.v[i], a_.v[ni], t);
+        return true;
+      }
+    }
+    return true;
+  }
+
+  /// in[e][i]: the side of edge e of f on which vertex i of `other` lies, 1 inside. False if an
+  /// edge separates the triangles.
+  bool insides(const Face& f, const Face& other, int axis, int (&in)[3][3]) const {
+    const int turn = signs_.orient2d(f.v[0], f.v[1], f.v[2], axis);
+    for (int e = 0; e < 3; ++e) {
+      for (int i = 0; i < 3; ++i) {
+        in[e][i] = turn * signs_.orient2d(f.v[e], f.v[kNext[e]], other.v[i], axis);
+      }
+      if (in[e][0] + in[e][1] + in[e][2] == -3) return false;
+    }
+    return true;
+  }
+
+  /// A degenerate triangle and a face.
+  bool segmentMeets(const Face& segment, const Face& f, Coordinates* point) const {
+    const int p = segment.v[0], q = segment.v[1];
+    const int sp = segment.side[0], sq = segment.side[1];
+    if (!segmentMeetsFace(p, q, sp, sq, f)) return false;
+    if (!point) return true;
+    if (sp != 0 || sq != 0) {
+      *point = crossing(segment, 0, 1, f);
+    } else if (coplanarSegmentMeetsFace(p, p, f)) {
+      *point = points_[p];
+    } else {
+      *point = points_[q];
+      for (int e = 0; e < 3; ++e) {
+        const int r = f.v[e], s = f.v[kNext[e]];
+        if (!segmentsMeet(p, q, r, s)) continue;
+        *point = meetingPoint(p, q, r, s);
+        break;
+      }
+    }
     return true;
   }
 
   /// Calls add() with the points where edge e of `face` meets `other`: a crossing of its plane, or
   /// a vertex in it and crossings with its edges.
   template <typename Add>
-  void eachMeeting(const Face& face, const int* side, int e, const Face& other,
-                   const Add& add) const {
-    const int p = face.v[e], q = face.v[kNext[e]];
-    const int sp = side[e], sq = side[kNext[e]];
+  void eachMeeting(const Face& face, int e, const Face& other, const Add& add) const {
+    const int n = kNext[e], p = face.v[e], q = face.v[n];
+    const int sp = face.side[e], sq = face.side[n];
     if (!other.degenerate && sp * sq != 0) {
-      if (segmentMeetsFace(p, q, sp, sq, other)) {
-        add(crossing(p, q, other));
-      }
+      if (segmentMeetsFace(p, q, sp, sq, other)) add(crossing(face, e, n, other));
       return;
     }
     if (segmentMeetsFace(p, p, sp, sp, other)) add(points_[p]);
@@ -98,31 +218,9 @@ class PairIntersection {
     }
   }
 
-  bool edgeMeets(const Face& face, const int* side, int e, const Face& other,
-                 std::array<double, 3>& point) const {
-    const int n = kNext[e];
-    if (!segmentMeetsFace(face.v[e], face.v[n], side[e], side[n], other)) return false;
-    if (!other.degenerate && side[e] * side[n] < 0) {
-      point = crossing(face.v[e], face.v[n], other);
-      return true;
-    }
-    bool located = false;
-    eachMeeting(face, side, e, other, [&](const std::array<double, 3>& p) {
-      if (!located) point = p;
-      located = true;
-    });
-    if (!located) point = points_[face.v[n]];  // coplanar, the end alone lies in the face
-    return true;
-  }
-
   /// Segment p q, whose ends lie on sides sp, sq of the face's plane.
   bool segmentMeetsFace(int p, int q, int sp, int sq, const Face& f) const {
-    if (f.degenerate) {
-      for (int e = 0; e < 3; ++e) {
-        if (segmentsMeet(p, q, f.v[e], f.v[kNext[e]])) return true;
-      }
-      return false;
-    }
+    if (f.degenerate) return segmentsMeet(p, q, f.v[0], f.v[1]);
     if (sp * sq > 0) return false;
     if (sp == 0 && sq == 0) return coplanarSegmentMeetsFace(p, q, f);
     // The line meets the plane in one point of the segment; inside if it passes all edges alike.
@@ -138,17 +236,19 @@ class PairIntersection {
 
   int axisOf(const Face& f) const { return signs_.projectionAxis(f.v[0], f.v[1], f.v[2]); }
 
+  /// Nothing separates them if neither an edge nor the segment does.
   bool coplanarSegmentMeetsFace(int p, int q, const Face& f) const {
-    const int axis = axisOf(f);
-    bool left = false, right = false;
+    const int axis = axisOf(f), turn = signs_.orient2d(f.v[0], f.v[1], f.v[2], axis);
     for (int e = 0; e < 3; ++e) {
       const int r = f.v[e], s = f.v[kNext[e]];
-      if (segmentsMeetInPlane(p, q, r, s, axis)) return true;
-      const int side = signs_.orient2d(r, s, p, axis);
-      left |= side > 0;
-      right |= side < 0;
+      if (turn * signs_.orient2d(r, s, p, axis) < 0 && turn * signs_.orient2d(r, s, q, axis) < 0) {
+        return false;
+      }
     }
-    return !(left && right);
+    if (p == q) return true;
+    int beside = 0;
+    for (const int v : f.v) beside += signs_.orient2d(p, q, v, axis);
+    return std::abs(beside) < 3;
   }
 
   /// Segments in a plane whose projection along `axis` is one to one.
@@ -185,13 +285,16 @@ class PairIntersection {
     return true;
   }
 
-  /// Where p q crosses the plane of f, on whose two sides its ends lie.
-  std::array<double, 3> crossing(int p, int q, const Face& f) const {
+  /// Where edge i j of `face` meets the plane of f, of which its ends do not lie on one side.
+  Coordinates crossing(const Face& face, int i, int j, const Face& f) const {
+    const int p = face.v[i], q = face.v[j];
+    if (face.side[i] == 0) return points_[p];
+    if (face.side[j] == 0) return points_[q];
     return between(p, q, signs_.crossing3d(p, q, f.v[0], f.v[1], f.v[2]));
   }
 
   /// A common point of two segments that meet.
-  std::array<double, 3> meetingPoint(int p, int q, int r, int s) const {
+  Coordinates meetingPoint(int p, int q, int r, int s) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (signs_.cross2d(p, q, r, s, axis) == 0) continue;
       return between(p, q, signs_.crossing2d(p, q, r, s, axis));
@@ -203,8 +306,8 @@ class PairIntersection {
     return points_[p];
   }
 
-  std::array<double, 3> between(int p, int q, double t) const {
-    std::array<double, 3> point;
+  Coordinates between(int p, int q, double t) const {
+    Coordinates point;
     for (int c = 0; c < 3; ++c) {
       const double a = points_[p][c], b = points_[q][c];
       point[c] = t < 0.5 ? a + t * (b - a) : b + (1 - t) * (a - b);
@@ -214,8 +317,7 @@ class PairIntersection {
 
   const PairPredicates::Coordinates& points_;
   const PairPredicates signs_;
-  Face a_ = {{0, 1, 2}}, b_ = {{3, 4, 5}};
-  int side_a_[3], side_b_[3];
+  Face a_ = {{0, 1, 2}, {}}, b_ = {{3, 4, 5}, {}};
 };
 
 template <typename S>
@@ -232,9 +334,9 @@ PairPredicates::Coordinates coordinates(const TriangleVertices<S>& a,
 template <typename S>
 bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   for (int c = 0; c < 3; ++c) {
-    const auto [low_a, high_a] = std::minmax({a[0][c], a[1][c], a[2][c]});
-    const auto [low_b, high_b] = std::minmax({b[0][c], b[1][c], b[2][c]});
-    if (high_a < low_b || high_b < low_a) return true;
+    const auto low = [c](const auto& t) { return std::min(std::min(t[0][c], t[1][c]), t[2][c]); };
+    const auto high = [c](const auto& t) { return std::max(std::max(t[0][c], t[1][c]), t[2][c]); };
+    if (high(a) < low(b) || high(b) < low(a)) return true;
   }
   return false;
 }
@@ -247,13 +349,11 @@ bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>&
   return PairIntersection(coordinates(a, b)).test();
 }
 
-template <typename S>
-bool commonPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b, Point<S>& point) {
+bool commonPoint(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
+                 Point<double>& point) {
   if (boxesApart(a, b)) return false;
   const auto found = PairIntersection(coordinates(a, b)).anyPoint();
-  if (found) {
-    for (int c = 0; c < 3; ++c) point[c] = static_cast<S>((*found)[c]);
-  }
+  if (found) point = {(*found)[0], (*found)[1], (*found)[2]};
   return found.has_value();
 }
 
@@ -265,10 +365,6 @@ Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<
 
 template bool trianglesIntersect(const TriangleVertices<double>&, const TriangleVertices<double>&);
 template bool trianglesIntersect(const TriangleVertices<float>&, const TriangleVertices<float>&);
-template bool commonPoint(const TriangleVertices<double>&, const TriangleVertices<double>&,
-                          Point<double>&);
-template bool commonPoint(const TriangleVertices<float>&, const TriangleVertices<float>&,
-                          Point<float>&);
 template Point<double> intersectionPoint(const TriangleVertices<double>&,
                                          const TriangleVertices<double>&);
 template Point<float> intersectionPoint(const TriangleVertices<float>&,

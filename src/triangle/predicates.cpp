@@ -25,14 +25,14 @@ cpp_int integer(double v) {
   return shift >= 0 ? cpp_int(n << shift) : cpp_int(n / (cpp_int(1) << -shift));
 }
 
-/// An integer, rounded to 53 bits and split into mantissa and exponent.
+/// n 2^exponent, rounded to 53 bits.
 template <typename Rounded>
-Rounded roundedInteger(const cpp_int& n) {
+Rounded roundedInteger(const cpp_int& n, long exponent) {
   if (n == 0) return {0, 0};
   const cpp_int magnitude = abs(n);
   const long bits = static_cast<long>(msb(magnitude)) + 1, drop = std::max(0L, bits - 62);
   const double mantissa = static_cast<double>(static_cast<long long>(magnitude >> drop));
-  return {n < 0 ? -mantissa : mantissa, drop};
+  return {n < 0 ? -mantissa : mantissa, exponent + drop};
 }
 
 template <typename Rounded, int N>
@@ -50,16 +50,26 @@ PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scal
     for (const double v : p) largest = std::max(largest, std::abs(v));
   }
   if (!(largest >= 0x1p-200 && largest <= 0x1p200) && largest > 0) {
-    const int e = std::ilogb(largest);
+    scale_ = -std::ilogb(largest);
+    const double half = std::ldexp(1.0, scale_ / 2), rest = std::ldexp(1.0, scale_ - scale_ / 2);
     for (auto& p : scaled_) {
-      for (double& v : p) v = std::ldexp(v, -e);
+      for (double& v : p) v = v * half * rest;
     }
+    largest = largest * half * rest;
   }
+  // Multiples of one unit by factors of at most 15 bits: no result of a determinant has more
+  // than 53.
+  const double unit = largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 14) : 1;
+  const double rounder = 0x1.8p52 * unit;
+  plain_exact_ = true;
   for (int i = 0; i < 6; ++i) {
     for (int c = 0; c < 3; ++c) {
-      if (points[i][c] != 0) least = std::min(least, std::abs(scaled_[i][c]));
+      const double v = scaled_[i][c];
+      if (points[i][c] != 0) least = std::min(least, std::abs(v));
+      plain_exact_ &= (v + rounder) - rounder == v;
     }
   }
+  plain_exact_ &= least > 0;  // else one has underflowed
   // Bits of coordinates lie above 2^-324, those of triple products above 2^-972.
   expansions_exact_ = least >= 0x1p-270;
 }
@@ -84,7 +94,8 @@ PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, i
 int PairPredicates::orient3d(int i, int j, int k, int l) const {
   const Filtered det = filteredOrient3d(i, j, k, l);
   if (std::abs(det.value) > det.error) return signOf(det.value);
-  if (det.vanishes && expansions_exact_) return 0;
+  if (plain_exact_ || (det.vanishes && expansions_exact_)) return signOf(det.value);
+  if (same(i, j) || same(i, k) || same(i, l) || same(j, k) || same(j, l) || same(k, l)) return 0;
   return signOf(exactOrient3d(i, j, k, l, 1).mantissa);
 }
 
@@ -101,8 +112,10 @@ PairPredicates::Filtered PairPredicates::filteredCross2d(int i, int j, int k, in
 int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
   const Filtered det = filteredCross2d(i, j, k, l, axis);
   if (std::abs(det.value) > det.error) return signOf(det.value);
-  if (det.vanishes && expansions_exact_) return 0;
-  return signOf(exactCross2d(i, j, k, l, axis).mantissa);
+  if (plain_exact_ || (det.vanishes && expansions_exact_)) return signOf(det.value);
+  if (same(i, j) || same(k, l) || (same(i, k) && same(j, l)) || (same(i, l) && same(j, k)))
+    return 0;
+  return signOf(exactCross2d(i, j, k, l, axis, 1).mantissa);
 }
 
 int PairPredicates::projectionAxis(int i, int j, int k) const {
@@ -125,75 +138,62 @@ double PairPredicates::share(const Rounded& a, const Rounded& b) {
   const long shift = b.exponent - a.exponent;
   const double size_a = std::abs(a.mantissa), size_b = std::abs(b.mantissa);
   if (size_a == 0) return 0;
-  // Mantissas are below 2^63 and a ratio beyond 2^+-200 is 0 or 1.
-  const double relative_b = std::ldexp(size_b, static_cast<int>(std::clamp(shift, -2000L, 900L)));
+  // Mantissas lie within 2^-800 to 2^700, so that a ratio of more is 0 or 1.
+  const double relative_b = std::ldexp(size_b, static_cast<int>(std::clamp(shift, -3000L, 3000L)));
   return std::isfinite(relative_b) ? size_a / (size_a + relative_b) : 0;
 }
 
 // The filters' bounds are far above their errors: 2^-46 of a bound is a few eps in fact.
 constexpr double kAccurate = 0x1p-46;
-constexpr double kExact = 0x1p50;
+constexpr double kMargin = 1 / kAccurate;
 
 double PairPredicates::crossing3d(int i, int j, int k, int l, int m) const {
-  const Filtered fi = filteredOrient3d(k, l, m, i), fj = filteredOrient3d(k, l, m, j);
+  const Filtered fi = filteredOrient3d(i, k, l, m), fj = filteredOrient3d(j, k, l, m);
   const double size = std::abs(fi.value) + std::abs(fj.value);
   if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
-  return share(exactOrient3d(k, l, m, i, kExact), exactOrient3d(k, l, m, j, kExact));
+  return share(exactOrient3d(i, k, l, m, kMargin), exactOrient3d(j, k, l, m, kMargin));
 }
 
 double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
   const Filtered fi = filteredCross2d(k, l, k, i, axis), fj = filteredCross2d(k, l, k, j, axis);
   const double size = std::abs(fi.value) + std::abs(fj.value);
   if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
-  return share(exactCross2d(k, l, k, i, axis), exactCross2d(k, l, k, j, axis));
+  return share(exactCross2d(k, l, k, i, axis, kMargin), exactCross2d(k, l, k, j, axis, kMargin));
 }
 
 PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l,
                                                       double margin) const {
+  // In twofold numbers, which is off by at most 63 u^2 permanent (a minor by 15, its product with
+  // the third difference by 20 more, their sum by 28); what underflows adds
+  // less than 2^-800. If that does not tell, exactly.
+  const int rows[3] = {i, j, k};
+  Twofold d[3][3];
+  for (int r = 0; r < 3; ++r) {
+    for (int c = 0; c < 3; ++c) d[r][c] = twofoldDifference(scaled_[rows[r]][c], scaled_[l][c]);
+  }
+  double permanent = 0;
+  Twofold det = {0, 0};
+  for (int r = 0; r < 3; ++r) {
+    const Twofold &x = d[(r + 1) % 3][0], &y = d[(r + 1) % 3][1];
+    const Twofold &u = d[(r + 2) % 3][0], &v = d[(r + 2) % 3][1];
+    const Twofold left = x * v, right = u * y;
+    det = det + (left - right) * d[r][2];
+    permanent += (std::abs(left.high) + std::abs(right.high)) * std::abs(d[r][2].high);
+  }
+  const double value = det.high + det.low;
+  constexpr double kUlp = 0x1p-53;
+  if (std::abs(value) > margin * (80 * kUlp * kUlp * permanent + 0x1p-800)) return {value, 0};
+
   if (!expansions_exact_) {
     cpp_int m[3][3];
-    const int rows[3] = {i, j, k};
     for (int r = 0; r < 3; ++r) {
       for (int c = 0; c < 3; ++c) m[r][c] = integer(given_[rows[r]][c]) - integer(given_[l][c]);
     }
     const cpp_int det = m[0][2] * (m[1][0] * m[2][1] - m[2][0] * m[1][1]) +
                         m[1][2] * (m[2][0] * m[0][1] - m[0][0] * m[2][1]) +
                         m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]);
-    return roundedInteger<Rounded>(det);
+    return roundedInteger<Rounded>(det, 3 * (scale_ - 1074));
   }
-  // In stages (Shewchuk, 4.3): exactly for the rounded differences, which is all if they are exact;
-  // with their roundings to first order, off by at most 32 u^2 permanent (3 dropped, 14 and 6 for
-  // computing and adding the corrections, 9 of the first stage); exactly.
-  double d[3][3], t[3][3];
-  const int rows[3] = {i, j, k};
-  bool tails = false;
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) {
-      twoSum(scaled_[rows[r]][c], -scaled_[l][c], d[r][c], t[r][c]);
-      tails |= t[r][c] != 0;
-    }
-  }
-  const auto minor = [&d](int r, int s) {
-    return sum(product(d[r][0], d[s][1]), negated(product(d[s][0], d[r][1])));
-  };
-  Rounded det =
-      roundedExpansion<Rounded>(sum(sum(scaled(minor(1, 2), d[0][2]), scaled(minor(2, 0), d[1][2])),
-                                    scaled(minor(0, 1), d[2][2])));
-  if (!tails) return det;
-
-  double permanent = 0;
-  for (int r = 0; r < 3; ++r) {
-    const int p = (r + 1) % 3, q = (r + 2) % 3;
-    const double left = d[p][0] * d[q][1], right = d[q][0] * d[p][1];
-    permanent += (std::abs(left) + std::abs(right)) * std::abs(d[r][2]);
-    det.mantissa += d[r][2] * ((d[p][0] * t[q][1] + d[q][1] * t[p][0]) -
-                               (d[q][0] * t[p][1] + d[p][1] * t[q][0])) +
-                    t[r][2] * (left - right);
-  }
-  constexpr double kUlp = 0x1p-53;
-  const double error = 27 * kUlp * kUlp * permanent + 4 * kUlp * std::abs(det.mantissa) + 0x1p-800;
-  if (std::abs(det.mantissa) > margin * error) return det;
-
   Expansion<2> m[3][3];
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) m[r][c] = difference(scaled_[rows[r]][c], scaled_[l][c]);
@@ -206,13 +206,27 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
           product(exact_minor(0, 1), m[2][2])));
 }
 
-PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis) const {
+PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis,
+                                                     double margin) const {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  // The same stages: the first is off by at most 15 u^2 (|left| + |right|).
+  const auto twofold = [this](int to, int from, int c) {
+    return twofoldDifference(scaled_[to][c], scaled_[from][c]);
+  };
+  const Twofold left = twofold(j, i, u) * twofold(l, k, v);
+  const Twofold right = twofold(j, i, v) * twofold(l, k, u);
+  const Twofold det = left - right;
+  const double value = det.high + det.low;
+  constexpr double kUlp = 0x1p-53;
+  const double size = std::abs(left.high) + std::abs(right.high);
+  if (std::abs(value) > margin * (20 * kUlp * kUlp * size + 0x1p-800)) return {value, 0};
+
   if (!expansions_exact_) {
     const auto d = [this](int to, int from, int c) {
       return cpp_int(integer(given_[to][c]) - integer(given_[from][c]));
     };
-    return roundedInteger<Rounded>(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u));
+    return roundedInteger<Rounded>(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u),
+                                   2 * (scale_ - 1074));
   }
   const auto d = [this](int to, int from, int c) {
     return difference(scaled_[to][c], scaled_[from][c]);

@@ -46,12 +46,16 @@ class PairPredicates {
   };
   /// `margin`: how many times its error bound an early stage's result must be to be taken.
   Rounded exactOrient3d(int i, int j, int k, int l, double margin) const;
-  Rounded exactCross2d(int i, int j, int k, int l, int axis) const;
+  Rounded exactCross2d(int i, int j, int k, int l, int axis, double margin) const;
   static double share(const Rounded& a, const Rounded& b);
 
+  bool same(int i, int j) const { return given_[i] == given_[j]; }
+
   const Coordinates& given_;
-  Coordinates scaled_;     ///< given_ times a power of two, largest magnitude within 2^+-200
+  Coordinates scaled_;  ///< given_ times 2^scale_, largest magnitude within 2^+-200
+  int scale_ = 0;
   bool expansions_exact_;  ///< no term of an expansion can underflow
+  bool plain_exact_;       ///< plain doubles are exact, too
 };
 
 }  // namespace kios

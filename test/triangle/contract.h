@@ -175,18 +175,20 @@ ContractResult contractOf(const RoundedPair<S>& pair) {
 constexpr std::array<std::array<int, 3>, 6> kVertexOrders{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-/// Whether distance and verdict stay bitwise the same with the vertices in orders p and q, and with
+/// Whether distance, points and verdict stay the same with the vertices in orders p and q, and with
 /// swapped triangles.
 template <typename S>
 bool sameForOrder(const RoundedPair<S>& pair, const std::array<int, 3>& p,
                   const std::array<int, 3>& q) {
   const TriangleVertices<S> a = {pair.a[p[0]], pair.a[p[1]], pair.a[p[2]]};
   const TriangleVertices<S> b = {pair.b[q[0]], pair.b[q[1]], pair.b[q[2]]};
-  const S distance = triangleDistance(pair.a, pair.b).distance;
+  const TriangleDistance<S> expected = triangleDistance(pair.a, pair.b);
+  const TriangleDistance<S> ordered = triangleDistance(a, b), swapped = triangleDistance(b, a);
   const bool intersect = trianglesIntersect(pair.a, pair.b);
-  return triangleDistance(a, b).distance == distance &&
-         triangleDistance(b, a).distance == distance && trianglesIntersect(a, b) == intersect &&
-         trianglesIntersect(b, a) == intersect;
+  return ordered.distance == expected.distance && ordered.point_a == expected.point_a &&
+         ordered.point_b == expected.point_b && swapped.distance == expected.distance &&
+         swapped.point_a == expected.point_b && swapped.point_b == expected.point_a &&
+         trianglesIntersect(a, b) == intersect && trianglesIntersect(b, a) == intersect;
 }
 
 /// The same for all 72 ways to pass the pair.

@@ -22,7 +22,8 @@ struct TriangleDistance {
 /// the machine epsilon of S. Bitwise the same for all vertex orders and swapped arguments.
 ///
 /// A fast candidate is returned only if a slab between the triangles certifies it (duality gap);
-/// the other pairs get exact predicates for 0 and a robust evaluation of every feature pair.
+/// the other pairs get exact predicates for 0 and a robust evaluation of the pairs of features that
+/// may be the nearest.
 template <typename S>
 TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
 
