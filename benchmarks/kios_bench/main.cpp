@@ -20,13 +20,13 @@ namespace {
 void printList() {
   std::printf("scenarios:\n");
   for (const Scenario& scenario : scenarios()) {
-    std::printf("  %-12s %s\n", scenario.name, scenario.description);
+    std::printf("  %-16s %s\n", scenario.name, scenario.description);
   }
   std::printf("bounding volumes:\n");
   for (const std::string& bv : competitorNames()) {
     const auto competitor = makeCompetitor(bv);
     std::printf("  %-18s", bv.c_str());
-    for (const Query query : {Query::kDistance, Query::kCollide, Query::kBuild}) {
+    for (const Query query : kAllQueries) {
       if (competitor->serves(query)) std::printf(" %s", name(query));
     }
     std::printf("\n");

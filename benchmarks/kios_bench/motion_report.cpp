@@ -15,12 +15,12 @@ void reportMotion(const std::string& scenario, const scenes::Mesh& a, const scen
   constexpr int kQuickFrames = 40;
   const int wanted = options.frames == 0 && options.quick ? kQuickFrames : options.frames;
   const std::vector<scenes::Frame> chosen = evenlyChosen(frames, wanted);
-  Contest contest(a, b, options);
+  Contest contest({a, b}, options);
   std::vector<Row> rows;
   for (const Query query : {Query::kDistance, Query::kCollide}) {
-    for (Row& row : contest.queryRows(scenario, query, chosen)) rows.push_back(std::move(row));
+    append(contest.queryRows(pairTask(scenario, query, chosen)), rows);
   }
-  for (Row& row : contest.buildRows(scenario)) rows.push_back(std::move(row));
+  append(contest.buildRows(scenario), rows);
   report.add(rows);
 }
 

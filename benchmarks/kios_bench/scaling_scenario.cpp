@@ -30,7 +30,7 @@ void runScaling(const Options& options, Report& report) {
   for (const int size : sizes) {
     const scenes::Mesh torus = scenes::bumpyTorus(size);
     const std::string scenario = "scaling/" + std::to_string(size);
-    Contest contest(torus, torus, options);
+    Contest contest({torus, torus}, options);
     std::vector<Row> rows;
     for (const Gap& gap : kGaps) {
       const auto motion = scenes::gapMotion(
@@ -38,12 +38,10 @@ void runScaling(const Options& options, Report& report) {
             return contest.oracle().distance(frame.X_WA, frame.X_WB);
           });
       for (const Query query : {Query::kDistance, Query::kCollide}) {
-        for (Row& row : contest.queryRows(scenario + "/" + gap.name, query, motion)) {
-          rows.push_back(std::move(row));
-        }
+        append(contest.queryRows(pairTask(scenario + "/" + gap.name, query, motion)), rows);
       }
     }
-    for (Row& row : contest.buildRows(scenario)) rows.push_back(std::move(row));
+    append(contest.buildRows(scenario), rows);
     report.add(rows);
   }
 }
