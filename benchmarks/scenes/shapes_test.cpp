@@ -88,6 +88,23 @@ TEST(Shapes, RandomSoupIsSeededAndWithinItsEdgeLengths) {
   }
 }
 
+TEST(Shapes, ShrunkSoupMovesVerticesByItsFactors) {
+  const Mesh mesh = knobbyTorus();
+  const Mesh shrunk = shrunkSoup(mesh, 1e-6, 1e-3, 3);
+  ASSERT_EQ(shrunk.triangles.size(), mesh.triangles.size());
+  ASSERT_EQ(shrunk.vertices.size(), 3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const fcl::Triangle& from = mesh.triangles[t];
+    const fcl::Triangle& to = shrunk.triangles[t];
+    const double before = (mesh.vertices[from[0]] - mesh.vertices[from[1]]).norm();
+    const double after = (shrunk.vertices[to[0]] - shrunk.vertices[to[1]]).norm();
+    EXPECT_GE(1 - after / before, 0.99e-6);
+    EXPECT_LE(1 - after / before, 1.01e-3);
+  }
+  EXPECT_EQ(shrunk.vertices, shrunkSoup(mesh, 1e-6, 1e-3, 3).vertices);
+  EXPECT_NE(shrunk.vertices, shrunkSoup(mesh, 1e-6, 1e-3, 4).vertices);
+}
+
 TEST(Shapes, ModelHasAllTrianglesAndAnEmptyMeshIsRefused) {
   EXPECT_EQ(buildModel<fcl::OBBRSSd>(icosphere(1, 1))->num_tris, 80);
   EXPECT_THROW(buildModel<fcl::OBBRSSd>(Mesh{}), std::runtime_error);
