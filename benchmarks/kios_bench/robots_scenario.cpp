@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <cstdio>
-#include <utility>
 
 #include "arm_report.h"
 #include "scenario.h"
@@ -10,25 +9,21 @@
 #include "scenes/ur5_data.h"
 
 namespace kios::bench {
-namespace {
-
-TwoArms sideBySide(scenes::Arm arm, double apart) {
-  TwoArms arms{std::move(arm), fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
-  arms.X_W2.translation().y() = apart;
-  return arms;
-}
-
-}  // namespace
 
 void runRobots(const Options& options, Report& report) {
-  constexpr double kApart = 0.7;  // about a reach, so that the arms share half their room
-  reportArms("robots/generated", sideBySide(scenes::cadArm(), kApart), options, report);
+  TwoArms generated{scenes::cadArm(), fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
+  generated.X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();  // they face each other
+  generated.X_W2.translation().x() = 0.7;
+  reportArms("robots/generated", generated, options, report);
+
   const auto data = findData(options);
-  if (data && scenes::holdsUr5(*data)) {
-    reportArms("robots/ur5", sideBySide(scenes::loadUr5(*data), kApart), options, report);
-  } else {
+  if (!data || !scenes::holdsUr5(*data)) {
     std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
+    return;
   }
+  TwoArms ur5{scenes::loadUr5(*data), fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
+  ur5.X_W2.translation().y() = 0.5;
+  reportArms("robots/ur5", ur5, options, report);
 }
 
 }  // namespace kios::bench

@@ -96,6 +96,8 @@ Arm cadArm() {
   constexpr double kLengths[] = {0.25, 0.22, 0.26, 0.24, 0.22, 0.18, 0.13};
   constexpr double kRadii[] = {0.075, 0.065, 0.06, 0.055, 0.05, 0.045, 0.04};
   constexpr int kSegments[] = {96, 80, 64, 80, 48, 40, 32};
+  constexpr double kCentres[] = {0.6, 0, 0.8, 0, 0.5, 0};  // leaning towards +x
+  constexpr double kAmplitudes[] = {0.5, 1.5, 0.6, 1.5, 0.8, 1.5};
   Arm arm;
   for (int i = 0; i < 7; ++i) {
     // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
@@ -106,8 +108,8 @@ Arm cadArm() {
       const double reach = kLengths[i - 1];
       link.X_PL = across ? Transform3d(shift(0, 0, reach) * turn(-kPi / 2, Vector3d::UnitX()))
                          : Transform3d(shift(0, -reach, 0) * turn(kPi / 2, Vector3d::UnitX()));
-      arm.centres.push_back(0);
-      arm.amplitudes.push_back(across ? 0.9 : 1.5);
+      arm.centres.push_back(kCentres[i - 1]);
+      arm.amplitudes.push_back(kAmplitudes[i - 1]);
     }
     if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX());
     link.mesh = cadLink(kLengths[i], kRadii[i], kSegments[i], across);

@@ -6,36 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include <fcl/math/bv/OBBRSS.h>
 
+#include "scenes/mesh_checks.h"
+
 namespace kios::scenes {
 namespace {
-
-using fcl::Vector3d;
-
-double signedVolume(const Mesh& mesh) {
-  double six_volumes = 0;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    six_volumes += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]]));
-  }
-  return six_volumes / 6;
-}
-
-// Closed and consistently wound: every directed edge has its opposite exactly once.
-void expectClosed(const Mesh& mesh) {
-  std::map<std::pair<std::size_t, std::size_t>, int> directed_edges;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) ++directed_edges[{t[i], t[(i + 1) % 3]}];
-  }
-  for (const auto& [edge, count] : directed_edges) {
-    EXPECT_EQ(count, 1);
-    EXPECT_EQ(directed_edges.count({edge.second, edge.first}), 1u);
-  }
-  EXPECT_GT(signedVolume(mesh), 0);
-}
 
 TEST(Shapes, ClosedAndWoundOutward) {
   for (const Mesh& mesh : {knobbyTorus(), bentTorus(), bumpyBlob(), bumpyTorus(1000),

@@ -3,7 +3,6 @@
 
 #include "ur5_data.h"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
