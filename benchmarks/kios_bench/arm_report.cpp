@@ -38,10 +38,14 @@ std::vector<Question> questionsOf(const TwoArms& arms, int frames, std::uint64_t
 
 }  // namespace
 
-void reportArms(const std::string& scenario, const TwoArms& arms, const Options& options,
-                Report& report) {
-  constexpr int kFrames = 40;  // FCL's OBBRSS takes 10 ms for one
-  const int frames = options.frames > 0 ? options.frames : (options.quick ? 2 : kFrames);
+void reportArms(const std::string& scenario, const TwoArms& arms, int frames,
+                const Options& options, Report& report) {
+  constexpr int kQuickFrames = 2;
+  if (options.frames > 0) {
+    frames = options.frames;
+  } else if (options.quick) {
+    frames = kQuickFrames;
+  }
   std::vector<scenes::Mesh> meshes;
   for (const scenes::Link& link : arms.arm.links) meshes.push_back(link.mesh);
   Contest contest(meshes, options);

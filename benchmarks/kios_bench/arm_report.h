@@ -20,8 +20,9 @@ struct TwoArms {
 
 /// Reports distance, collide and build rows of two moving arms. Each frame asks every pair of a
 /// link of the first and a link of the second, none skipped: times and tests of the rows are sums
-/// over the pairs of a frame, `total_pairs` counts the queries of all frames.
-void reportArms(const std::string& scenario, const TwoArms& arms, const Options& options,
-                Report& report);
+/// over the pairs of a frame, `total_pairs` counts the queries of all frames. `frames` is the
+/// number of frames if the options name none.
+void reportArms(const std::string& scenario, const TwoArms& arms, int frames,
+                const Options& options, Report& report);
 
 }  // namespace kios::bench

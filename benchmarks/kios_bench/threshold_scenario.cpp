@@ -15,7 +15,7 @@
 namespace kios::bench {
 namespace {
 
-constexpr double kThresholds[] = {0.01, 0.05, 0.2};  // far below the size of the tori
+constexpr double kThresholds[] = {0.01, 0.05, 0.2};     // far below the size of the tori
 constexpr double kDistanceFactors[] = {0.5, 0.9, 1.1};  // of each frame's exact distance
 constexpr int kFactorFrames = 600;
 
