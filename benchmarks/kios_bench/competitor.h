@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,10 +15,24 @@
 
 namespace kios::bench {
 
-enum class Query { kDistance, kCollide, kBuild };
+/// kThreshold: a distance query with a bound on entry, as FCL's broadphase asks: is anything
+/// nearer? kPrepare: the build and the first query, with whatever a model leaves to that.
+enum class Query { kDistance, kCollide, kThreshold, kBuild, kPrepare };
+
+constexpr Query kAllQueries[] = {Query::kDistance, Query::kCollide, Query::kThreshold,
+                                 Query::kBuild, Query::kPrepare};
 
 /// The name of the query in tables and JSON.
 const char* name(Query query);
+
+/// What to ask: a query on two meshes of a scene, by their indices, at their poses.
+struct Question {
+  std::size_t a = 0;
+  std::size_t b = 1;
+  scenes::Frame poses;
+  /// For kThreshold: DistanceResult::min_distance on entry.
+  double threshold = std::numeric_limits<double>::infinity();
+};
 
 /// Tests of bounding volumes and of triangle pairs, summed over frames.
 struct TestCounts {
@@ -25,8 +40,8 @@ struct TestCounts {
   long long leaf_tests = 0;
 };
 
-/// One bounding volume with a pair of meshes, queried as a user would: through fcl::distance and
-/// fcl::collide on collision objects that exist once and are moved for every frame.
+/// One bounding volume with the meshes of a scene, queried as a user would: through fcl::distance
+/// and fcl::collide on collision objects that exist once and are moved for every question.
 class Competitor {
  public:
   virtual ~Competitor() = default;
@@ -36,21 +51,25 @@ class Competitor {
   /// Whether FCL answers this query for meshes of this volume without rebuilding them.
   virtual bool serves(Query query) const = 0;
 
-  /// Builds both models and drops them: what a `build` row times.
-  virtual void build(const scenes::Mesh& a, const scenes::Mesh& b) = 0;
+  /// Builds all models and drops them: what a `build` row times.
+  virtual void build(const std::vector<scenes::Mesh>& meshes) = 0;
 
-  /// Builds both models and keeps them for the queries below.
-  virtual void load(const scenes::Mesh& a, const scenes::Mesh& b) = 0;
+  /// Builds all models, asks one distance and drops them: what a `prepare` row times.
+  virtual void prepare(const std::vector<scenes::Mesh>& meshes, const Question& question) = 0;
 
-  /// Answers frames[begin, end) into answers[begin, end) with a fresh request and result each: the
-  /// distance, or 1 for contact and 0 for none.
-  virtual void answer(Query query, const std::vector<scenes::Frame>& frames, std::size_t begin,
+  /// Builds all models and keeps them for the queries below.
+  virtual void load(const std::vector<scenes::Mesh>& meshes) = 0;
+
+  /// Answers questions[begin, end) into answers[begin, end) with a fresh request and result each:
+  /// the distance, never above the threshold of a kThreshold query, or 1 for contact and 0 for
+  /// none.
+  virtual void answer(Query query, const std::vector<Question>& questions, std::size_t begin,
                       std::size_t end, std::vector<double>& answers) = 0;
 
-  /// Counts of FCL's recursion over the volume's own traversal node, cold at each frame.
-  virtual TestCounts count(Query query, const std::vector<scenes::Frame>& frames) const = 0;
+  /// Counts of FCL's recursion over the volume's own traversal node, cold at each question.
+  virtual TestCounts count(Query query, const std::vector<Question>& questions) const = 0;
 
-  /// Bytes of both models: nodes, primitive indices, vertices and triangles.
+  /// Bytes of all models: nodes, primitive indices, vertices and triangles.
   virtual std::size_t bytes() const = 0;
 
   /// The SIMD target that answers, where the volume has more than one.

@@ -4,17 +4,17 @@
 #include "contest.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
 
 #include "timing.h"
+#include "verdicts.h"
 
 namespace kios::bench {
 namespace {
 
-// Large enough for the models to be in cache for most of a block even where a query takes 3 us.
+// Large enough for the models to be in cache for most of a block even where a query takes 3 us; in
+// frames where each asks many questions.
 constexpr std::size_t kBlock = 256;
+constexpr std::size_t kBlockFrames = 32;
 
 constexpr char kReference[] = "fcl_obbrss";
 
@@ -25,47 +25,38 @@ double medianRatio(const std::vector<double>& reference, const std::vector<doubl
   return median(std::move(ratios));
 }
 
-// i of `count` evenly chosen indices below `size`.
-std::size_t evenIndex(std::size_t i, std::size_t count, std::size_t size) {
-  return i * size / count;
+double minimum(const std::vector<double>& values) {
+  return *std::min_element(values.begin(), values.end());
 }
 
-// What the oracle says at some of the frames.
-struct Verdicts {
-  std::vector<std::size_t> frames;
-  std::vector<double> answers;  // distance, or 1 for contact
+template <typename Work>
+double timeOf(const Work& work) {
+  const double start = nowMicroseconds();
+  work();
+  return nowMicroseconds() - start;
+}
+
+// A competitor's answers and times to one task.
+struct Lane {
+  Competitor* competitor;
+  std::vector<double> answers;
+  std::vector<double> repeat_us;  // per frame
 };
 
-Verdicts judge(const scenes::MeshOracle& oracle, Query query,
-               const std::vector<scenes::Frame>& frames, int wanted) {
-  const std::size_t count =
-      wanted == 0 ? frames.size() : std::min(frames.size(), static_cast<std::size_t>(wanted));
-  Verdicts verdicts;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t frame = evenIndex(i, count, frames.size());
-    const auto& [X_WA, X_WB] = frames[frame];
-    verdicts.frames.push_back(frame);
-    verdicts.answers.push_back(query == Query::kDistance ? oracle.distance(X_WA, X_WB)
-                                                         : (oracle.collide(X_WA, X_WB) ? 1 : 0));
-  }
-  return verdicts;
-}
-
-// An answer that is no number is an infinite error, so that it cannot hide in a maximum.
-double absoluteError(double answer, double exact) {
-  return std::isfinite(answer) ? std::abs(answer - exact) : std::numeric_limits<double>::infinity();
-}
-
-void compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query, Row& row) {
-  row.wrong_verdicts = 0;
-  for (std::size_t i = 0; i < verdicts.frames.size(); ++i) {
-    const double answer = answers[verdicts.frames[i]];
-    const double exact = verdicts.answers[i];
-    if ((answer == 0) != (exact == 0)) ++*row.wrong_verdicts;
-    if (query != Query::kDistance) continue;
-    const double error = absoluteError(answer, exact);
-    row.max_abs_error = std::max(row.max_abs_error.value_or(0), error);
-    if (exact > 0) row.max_rel_error = std::max(row.max_rel_error.value_or(0), error / exact);
+void timeRepeats(const Task& task, int repeats, std::vector<Lane>& lanes) {
+  const std::size_t size = task.questions.size();
+  const std::size_t block_size = std::max(kBlock, kBlockFrames * (size / task.frames));
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    for (Lane& lane : lanes) lane.repeat_us.push_back(0);
+    for (std::size_t begin = 0, block = 0; begin < size; begin += block_size, ++block) {
+      const std::size_t end = std::min(begin + block_size, size);
+      for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
+        Lane& lane = lanes[(turn + block + repeat) % lanes.size()];
+        lane.repeat_us.back() += timeOf(
+            [&] { lane.competitor->answer(task.query, task.questions, begin, end, lane.answers); });
+      }
+    }
+    for (Lane& lane : lanes) lane.repeat_us.back() /= static_cast<double>(task.frames);
   }
 }
 
@@ -75,29 +66,49 @@ std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames
   if (count == 0 || static_cast<std::size_t>(count) >= frames.size()) return frames;
   std::vector<scenes::Frame> chosen;
   chosen.reserve(count);
-  for (int i = 0; i < count; ++i) chosen.push_back(frames[evenIndex(i, count, frames.size())]);
+  for (int i = 0; i < count; ++i) chosen.push_back(frames[i * frames.size() / count]);
   return chosen;
 }
 
-Contest::Contest(const scenes::Mesh& a, const scenes::Mesh& b, const Options& options)
-    : options_(options),
-      extent_(std::max(scenes::extent(a), scenes::extent(b))),
-      triangles_(a.triangles.size() + b.triangles.size()),
-      oracle_(a, b) {
-  for (const std::string& bv : options.bvs) entrants_.push_back({makeCompetitor(bv), {}});
-  measureBuilds(a, b);
-  for (Entrant& entrant : entrants_) entrant.competitor->load(a, b);
+Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames) {
+  Task task{scenario, query, {}, frames.size(), std::nullopt};
+  for (const scenes::Frame& frame : frames) {
+    Question question;
+    question.poses = frame;
+    task.questions.push_back(question);
+  }
+  return task;
 }
 
-void Contest::measureBuilds(const scenes::Mesh& a, const scenes::Mesh& b) {
+Contest::Contest(std::vector<scenes::Mesh> meshes, const Options& options)
+    : options_(options), meshes_(std::move(meshes)) {
+  for (const scenes::Mesh& mesh : meshes_) {
+    extent_ = std::max(extent_, scenes::extent(mesh));
+    triangles_ += mesh.triangles.size();
+  }
+  for (const std::string& bv : options.bvs) entrants_.push_back({makeCompetitor(bv), {}});
+  measureBuilds();
+  for (Entrant& entrant : entrants_) entrant.competitor->load(meshes_);
+}
+
+void Contest::measureBuilds() {
   for (int repeat = 0; repeat < options_.repeats; ++repeat) {
     for (std::size_t turn = 0; turn < entrants_.size(); ++turn) {
       Entrant& entrant = entrants_[(turn + repeat) % entrants_.size()];
-      const double start = nowMicroseconds();
-      entrant.competitor->build(a, b);
-      entrant.build_us.push_back(nowMicroseconds() - start);
+      entrant.build_us.push_back(timeOf([&] { entrant.competitor->build(meshes_); }));
     }
   }
+}
+
+const Contest::Entrant* Contest::reference() const {
+  const auto found = std::find_if(entrants_.begin(), entrants_.end(), [](const Entrant& entrant) {
+    return std::string(entrant.competitor->name()) == kReference;
+  });
+  return found == entrants_.end() ? nullptr : &*found;
+}
+
+const scenes::MeshOracle& Contest::oracle(std::size_t a, std::size_t b) {
+  return oracles_.try_emplace({a, b}, meshes_[a], meshes_[b]).first->second;
 }
 
 Row Contest::rowOf(const Entrant& entrant, const std::string& scenario, Query query) const {
@@ -106,6 +117,7 @@ Row Contest::rowOf(const Entrant& entrant, const std::string& scenario, Query qu
   row.query = name(query);
   row.bv = entrant.competitor->name();
   row.triangles = triangles_;
+  row.frames = 1;
   row.bytes_per_triangle =
       static_cast<double>(entrant.competitor->bytes()) / static_cast<double>(triangles_);
   row.build_us_per_triangle = median(entrant.build_us) / static_cast<double>(triangles_);
@@ -116,73 +128,92 @@ Row Contest::rowOf(const Entrant& entrant, const std::string& scenario, Query qu
 }
 
 std::vector<Row> Contest::buildRows(const std::string& scenario) const {
-  const auto reference = std::find_if(
-      entrants_.begin(), entrants_.end(),
-      [](const Entrant& entrant) { return std::string(entrant.competitor->name()) == kReference; });
   std::vector<Row> rows;
   for (const Entrant& entrant : entrants_) {
     Row row = rowOf(entrant, scenario, Query::kBuild);
-    row.frames = 1;
     row.median_us = median(entrant.build_us);
-    row.min_us = *std::min_element(entrant.build_us.begin(), entrant.build_us.end());
-    if (reference != entrants_.end()) {
-      row.ratio_to_fcl_obbrss = medianRatio(reference->build_us, entrant.build_us);
+    row.min_us = minimum(entrant.build_us);
+    if (const Entrant* obbrss = reference()) {
+      row.ratio_to_fcl_obbrss = medianRatio(obbrss->build_us, entrant.build_us);
     }
     rows.push_back(std::move(row));
   }
   return rows;
 }
 
-std::vector<Row> Contest::queryRows(const std::string& scenario, Query query,
-                                    const std::vector<scenes::Frame>& frames) {
-  struct Lane {
-    const Entrant* entrant;
-    std::vector<double> answers;
-    std::vector<double> repeat_us;  // per frame
-  };
-  std::vector<Lane> lanes;
-  for (const Entrant& entrant : entrants_) {
-    if (!entrant.competitor->serves(query)) continue;
-    lanes.push_back({&entrant, std::vector<double>(frames.size()), {}});
-  }
-
-  // The first query of a model may prepare it: that belongs to no repeat.
-  for (Lane& lane : lanes) lane.entrant->competitor->answer(query, frames, 0, 1, lane.answers);
+std::vector<Row> Contest::prepareRows(const std::string& scenario, const Question& question) const {
+  const std::size_t count = entrants_.size();
+  std::vector<std::vector<double>> prepare_us(count);
+  std::vector<double> reference_us;
   for (int repeat = 0; repeat < options_.repeats; ++repeat) {
-    for (Lane& lane : lanes) lane.repeat_us.push_back(0);
-    for (std::size_t begin = 0, block = 0; begin < frames.size(); begin += kBlock, ++block) {
-      const std::size_t end = std::min(begin + kBlock, frames.size());
-      for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
-        Lane& lane = lanes[(turn + block + repeat) % lanes.size()];
-        const double start = nowMicroseconds();
-        lane.entrant->competitor->answer(query, frames, begin, end, lane.answers);
-        lane.repeat_us.back() += nowMicroseconds() - start;
-      }
+    if (const Entrant* obbrss = reference()) {
+      reference_us.push_back(timeOf([&] { obbrss->competitor->build(meshes_); }));
     }
-    for (Lane& lane : lanes) lane.repeat_us.back() /= static_cast<double>(frames.size());
+    for (std::size_t turn = 0; turn < count; ++turn) {
+      const std::size_t i = (turn + repeat) % count;
+      Competitor& competitor = *entrants_[i].competitor;
+      if (!competitor.serves(Query::kPrepare)) continue;
+      prepare_us[i].push_back(timeOf([&] { competitor.prepare(meshes_, question); }));
+    }
+  }
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (prepare_us[i].empty()) continue;
+    Row row = rowOf(entrants_[i], scenario, Query::kPrepare);
+    row.median_us = median(prepare_us[i]);
+    row.min_us = minimum(prepare_us[i]);
+    if (!reference_us.empty()) row.ratio_to_fcl_obbrss = medianRatio(reference_us, prepare_us[i]);
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<Row> Contest::queryRows(const Task& task) {
+  if (task.questions.empty()) return {};
+  std::vector<Lane> lanes;
+  std::vector<const Entrant*> servers;
+  for (const Entrant& entrant : entrants_) {
+    if (!entrant.competitor->serves(task.query)) continue;
+    servers.push_back(&entrant);
+    lanes.push_back({entrant.competitor.get(), std::vector<double>(task.questions.size()), {}});
   }
 
-  const auto reference = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) {
-    return std::string(lane.entrant->competitor->name()) == kReference;
+  // Whatever models leave to their first query belongs to no repeat.
+  for (Lane& lane : lanes) {
+    lane.competitor->answer(task.query, task.questions, 0, task.questions.size(), lane.answers);
+  }
+  timeRepeats(task, options_.repeats, lanes);
+
+  const auto reference_lane = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) {
+    return std::string(lane.competitor->name()) == kReference;
   });
-  const Verdicts verdicts = judge(oracle_, query, frames, options_.oracle_frames);
+  const Verdicts verdicts = judge(
+      [this](std::size_t a, std::size_t b) -> const scenes::MeshOracle& { return oracle(a, b); },
+      task.query, task.questions, options_.oracle_frames);
+  const auto frames = static_cast<double>(task.frames);
   std::vector<Row> rows;
-  for (const Lane& lane : lanes) {
-    Row row = rowOf(*lane.entrant, scenario, query);
-    row.frames = frames.size();
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
+    Row row = rowOf(*servers[i], task.scenario, task.query);
+    row.frames = task.frames;
+    row.threshold = task.threshold;
     row.median_us = median(lane.repeat_us);
-    row.min_us = *std::min_element(lane.repeat_us.begin(), lane.repeat_us.end());
-    if (reference != lanes.end()) {
-      row.ratio_to_fcl_obbrss = medianRatio(reference->repeat_us, lane.repeat_us);
+    row.min_us = minimum(lane.repeat_us);
+    if (task.questions.size() > task.frames) {
+      row.skipped_pairs = 0;
+      row.total_pairs = task.questions.size();
     }
-    if (query == Query::kDistance) {
+    if (reference_lane != lanes.end()) {
+      row.ratio_to_fcl_obbrss = medianRatio(reference_lane->repeat_us, lane.repeat_us);
+    }
+    if (task.query != Query::kCollide) {
       row.rel_err = 0;
       row.abs_err = 0;
     }
-    compare(lane.answers, verdicts, query, row);
-    const TestCounts counts = lane.entrant->competitor->count(query, frames);
-    row.bv_tests = static_cast<double>(counts.bv_tests) / static_cast<double>(frames.size());
-    row.leaf_tests = static_cast<double>(counts.leaf_tests) / static_cast<double>(frames.size());
+    compare(lane.answers, verdicts, task.query, task.questions, extent_, row);
+    const TestCounts counts = lane.competitor->count(task.query, task.questions);
+    row.bv_tests = static_cast<double>(counts.bv_tests) / frames;
+    row.leaf_tests = static_cast<double>(counts.leaf_tests) / frames;
     rows.push_back(std::move(row));
   }
   return rows;

@@ -3,8 +3,12 @@
 
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "competitor.h"
@@ -14,37 +18,55 @@
 
 namespace kios::bench {
 
-/// Measures all competitors on one pair of meshes. Time is this thread's CPU time where the system
-/// has it, so that other programs disturb it least.
+/// What a set of rows asks: the questions of all frames in turn, as many for each frame.
+struct Task {
+  std::string scenario;
+  Query query = Query::kDistance;
+  std::vector<Question> questions;
+  std::size_t frames = 0;
+  std::optional<double> threshold;  // as the rows state it
+};
+
+/// The task of a scene with the meshes 0 and 1.
+Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames);
+
+/// Measures all competitors on the meshes of a scene. Time is this thread's CPU time where the
+/// system has it, so that other programs disturb it least.
 class Contest {
  public:
   /// Builds the models: options.repeats times interleaved for the build rows, once to keep.
-  Contest(const scenes::Mesh& a, const scenes::Mesh& b, const Options& options);
+  Contest(std::vector<scenes::Mesh> meshes, const Options& options);
 
-  /// Times the build of both models.
+  /// Times the build of all models.
   std::vector<Row> buildRows(const std::string& scenario) const;
 
-  /// Answers the query at every frame, options.repeats times. In a repeat the competitors take
-  /// turns at blocks of frames, each block with another one first. Answers of all competitors are
-  /// then compared with the oracle, and tests are counted in a pass that is not timed.
-  std::vector<Row> queryRows(const std::string& scenario, Query query,
-                             const std::vector<scenes::Frame>& frames);
+  /// Times the build of all models together with one distance query, so that what a model leaves
+  /// to its first query is counted. The ratio is to FCL's build alone, of the same repeat.
+  std::vector<Row> prepareRows(const std::string& scenario, const Question& question) const;
 
-  const scenes::MeshOracle& oracle() const { return oracle_; }
+  /// Asks all questions, options.repeats times. In a repeat the competitors take turns at blocks of
+  /// questions, each block with another one first. Answers of all competitors are then compared
+  /// with the oracle, and tests are counted in a pass that is not timed.
+  std::vector<Row> queryRows(const Task& task);
+
+  /// The oracle of two of the meshes, made when first asked for.
+  const scenes::MeshOracle& oracle(std::size_t a = 0, std::size_t b = 1);
 
  private:
   struct Entrant {
     std::unique_ptr<Competitor> competitor;
-    std::vector<double> build_us;  // both models, by repeat
+    std::vector<double> build_us;  // all models, by repeat
   };
 
-  void measureBuilds(const scenes::Mesh& a, const scenes::Mesh& b);
+  void measureBuilds();
+  const Entrant* reference() const;
   Row rowOf(const Entrant& entrant, const std::string& scenario, Query query) const;
 
   Options options_;
-  double extent_;
-  std::size_t triangles_;
-  scenes::MeshOracle oracle_;
+  std::vector<scenes::Mesh> meshes_;
+  double extent_ = 0;
+  std::size_t triangles_ = 0;
+  std::map<std::pair<std::size_t, std::size_t>, scenes::MeshOracle> oracles_;
   std::vector<Entrant> entrants_;
 };
 

@@ -10,7 +10,7 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
-#include "mesh_pair.h"
+#include "mesh_set.h"
 
 namespace kios::bench {
 namespace {
@@ -62,7 +62,7 @@ struct ObbTraits : FclQueries {
 
 template <typename Traits>
 std::unique_ptr<Competitor> makeFclCompetitor() {
-  return std::make_unique<MeshPair<Traits>>();
+  return std::make_unique<MeshSet<Traits>>();
 }
 
 struct Entry {
@@ -86,8 +86,12 @@ const char* name(Query query) {
       return "distance";
     case Query::kCollide:
       return "collide";
+    case Query::kThreshold:
+      return "threshold";
     case Query::kBuild:
       return "build";
+    case Query::kPrepare:
+      return "prepare";
   }
   return "";
 }

@@ -3,7 +3,7 @@
 
 #include <fcl_kios/fcl_kios.h>
 
-#include "mesh_pair.h"
+#include "mesh_set.h"
 
 namespace kios::bench {
 namespace {
@@ -28,8 +28,6 @@ struct KiosTraits {
 
 }  // namespace
 
-std::unique_ptr<Competitor> makeKiosCompetitor() {
-  return std::make_unique<MeshPair<KiosTraits>>();
-}
+std::unique_ptr<Competitor> makeKiosCompetitor() { return std::make_unique<MeshSet<KiosTraits>>(); }
 
 }  // namespace kios::bench

@@ -20,13 +20,13 @@ namespace {
 void printList() {
   std::printf("scenarios:\n");
   for (const Scenario& scenario : scenarios()) {
-    std::printf("  %-12s %s\n", scenario.name, scenario.description);
+    std::printf("  %-18s %s\n", scenario.name, scenario.description);
   }
   std::printf("bounding volumes:\n");
   for (const std::string& bv : competitorNames()) {
     const auto competitor = makeCompetitor(bv);
     std::printf("  %-18s", bv.c_str());
-    for (const Query query : {Query::kDistance, Query::kCollide, Query::kBuild}) {
+    for (const Query query : kAllQueries) {
       if (competitor->serves(query)) std::printf(" %s", name(query));
     }
     std::printf("\n");
@@ -78,6 +78,10 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--oracle", oracle, "number of frames judged by the oracle, or 'all'")
       ->check(CLI::PositiveNumber | CLI::IsMember({"all"}))
+      ->capture_default_str();
+  app.add_option("--max-triangles", options.max_triangles,
+                 "largest meshes of 'scaling', to 1000000")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
   app.add_option("--json", json, "file for one JSON object a row");

@@ -3,25 +3,35 @@
 
 #include "motion_report.h"
 
-#include <utility>
-
 #include "contest.h"
 
 namespace kios::bench {
 
+std::vector<scenes::Frame> chosenFrames(const std::vector<scenes::Frame>& frames,
+                                        const Options& options) {
+  constexpr int kQuickFrames = 40;
+  return evenlyChosen(frames, options.frames == 0 && options.quick ? kQuickFrames : options.frames);
+}
+
 void reportMotion(const std::string& scenario, const scenes::Mesh& a, const scenes::Mesh& b,
                   const std::vector<scenes::Frame>& frames, const Options& options,
                   Report& report) {
-  constexpr int kQuickFrames = 40;
-  const int wanted = options.frames == 0 && options.quick ? kQuickFrames : options.frames;
-  const std::vector<scenes::Frame> chosen = evenlyChosen(frames, wanted);
-  Contest contest(a, b, options);
+  const std::vector<scenes::Frame> chosen = chosenFrames(frames, options);
+  Contest contest({a, b}, options);
   std::vector<Row> rows;
   for (const Query query : {Query::kDistance, Query::kCollide}) {
-    for (Row& row : contest.queryRows(scenario, query, chosen)) rows.push_back(std::move(row));
+    append(contest.queryRows(pairTask(scenario, query, chosen)), rows);
   }
-  for (Row& row : contest.buildRows(scenario)) rows.push_back(std::move(row));
+  append(contest.buildRows(scenario), rows);
   report.add(rows);
+}
+
+void reportShuffled(const std::string& scenario, const scenes::Mesh& a, const scenes::Mesh& b,
+                    const std::vector<scenes::Frame>& frames, const Options& options,
+                    Report& report) {
+  const auto chosen = scenes::shuffled(chosenFrames(frames, options), options.seed);
+  Contest contest({a, b}, options);
+  report.add(contest.queryRows(pairTask(scenario, Query::kDistance, chosen)));
 }
 
 }  // namespace kios::bench

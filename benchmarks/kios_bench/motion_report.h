@@ -13,9 +13,18 @@
 
 namespace kios::bench {
 
-/// Reports distance, collide and build rows of two meshes along a motion. `frames` are thinned
-/// evenly to options.frames, or to a few for options.quick.
+/// The frames thinned evenly to options.frames, or to a few for options.quick.
+std::vector<scenes::Frame> chosenFrames(const std::vector<scenes::Frame>& frames,
+                                        const Options& options);
+
+/// Reports distance, collide and build rows of two meshes along the chosen frames of a motion.
 void reportMotion(const std::string& scenario, const scenes::Mesh& a, const scenes::Mesh& b,
                   const std::vector<scenes::Frame>& frames, const Options& options, Report& report);
+
+/// Reports distance rows of the same frames in a random order, so that no query profits from the
+/// one before.
+void reportShuffled(const std::string& scenario, const scenes::Mesh& a, const scenes::Mesh& b,
+                    const std::vector<scenes::Frame>& frames, const Options& options,
+                    Report& report);
 
 }  // namespace kios::bench

@@ -9,19 +9,27 @@
 #include <string>
 #include <vector>
 
+#include "scenes/pqp_data.h"
+
 namespace kios::bench {
 
 /// What the command line asks for.
 struct Options {
   std::string scenario;
-  std::optional<std::filesystem::path> data;  // folder of the PQP data
+  std::optional<std::filesystem::path> data;  // folder of the benchmark data
   std::vector<std::string> bvs;               // competitors, in the order of rows
   int frames = 0;                             // per scene; 0 = the scenario's own number
   int repeats = 5;
-  int oracle_frames = 300;  // frames judged by the oracle, evenly chosen; 0 = all
+  int oracle_frames = 300;    // frames judged by the oracle, evenly chosen; 0 = all
+  int max_triangles = 80000;  // of each mesh of 'scaling'
   std::uint64_t seed = 1;
   std::optional<std::filesystem::path> markdown;  // file for the table of a scenario that has one
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
 };
+
+/// The data folder that the command line names, else the one that is found.
+inline std::optional<std::filesystem::path> findData(const Options& options) {
+  return options.data ? options.data : scenes::findData();
+}
 
 }  // namespace kios::bench

@@ -13,8 +13,7 @@ namespace {
 constexpr int kSpinningFrames = 5000;
 
 std::filesystem::path dataFolder(const Options& options) {
-  if (options.data) return *options.data;
-  if (const auto found = scenes::findData()) return *found;
+  if (const auto found = findData(options)) return *found;
   throw Skipped("the PQP data is absent: name its folder by --data or KIOS_DATA");
 }
 
@@ -23,11 +22,23 @@ std::filesystem::path dataFolder(const Options& options) {
 void runFalling(const Options& options, Report& report) {
   const scenes::MovingPair pair = scenes::loadFalling(dataFolder(options));
   reportMotion("falling", pair.a, pair.b, pair.frames, options, report);
+  reportShuffled("falling_shuffled", pair.a, pair.b, pair.frames, options, report);
+}
+
+void runFallingShuffled(const Options& options, Report& report) {
+  const scenes::MovingPair pair = scenes::loadFalling(dataFolder(options));
+  reportShuffled("falling_shuffled", pair.a, pair.b, pair.frames, options, report);
 }
 
 void runSpinning(const Options& options, Report& report) {
   const scenes::MovingPair pair = scenes::loadSpinning(dataFolder(options), kSpinningFrames);
   reportMotion("spinning", pair.a, pair.b, pair.frames, options, report);
+  reportShuffled("spinning_shuffled", pair.a, pair.b, pair.frames, options, report);
+}
+
+void runSpinningShuffled(const Options& options, Report& report) {
+  const scenes::MovingPair pair = scenes::loadSpinning(dataFolder(options), kSpinningFrames);
+  reportShuffled("spinning_shuffled", pair.a, pair.b, pair.frames, options, report);
 }
 
 }  // namespace kios::bench

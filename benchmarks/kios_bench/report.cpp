@@ -3,8 +3,10 @@
 
 #include "report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -41,16 +43,23 @@ std::optional<double> scaledError(const Row& row) {
   return *row.max_abs_error / row.extent;
 }
 
-constexpr char kLine[] = "%-22s %-9s %-17s %10s %10s %9s %9s %9s %10s %6s %8s %9s\n";
+// The time of one of several queries of a frame.
+std::optional<double> pairMicroseconds(const Row& row) {
+  if (!row.total_pairs) return std::nullopt;
+  return row.median_us * static_cast<double>(row.frames) / static_cast<double>(*row.total_pairs);
+}
+
+constexpr char kLine[] = "%-25s %-9s %-17s %10s %10s %8s %9s %9s %9s %10s %6s %8s %9s\n";
 
 void printHeading() {
-  std::printf(kLine, "scenario", "query", "bv", "median_us", "min_us", "x OBBRSS", "BV tests",
-              "leaves", "err/extent", "wrong", "B/tri", "build/tri");
+  std::printf(kLine, "scenario", "query", "bv", "median_us", "min_us", "us/pair", "x OBBRSS",
+              "BV tests", "leaves", "err/extent", "wrong", "B/tri", "build/tri");
 }
 
 void print(const Row& row) {
   std::printf(kLine, row.scenario.c_str(), row.query.c_str(), row.bv.c_str(),
               cell(row.median_us, "%.3f").c_str(), cell(row.min_us, "%.3f").c_str(),
+              cell(pairMicroseconds(row), "%.3f").c_str(),
               cell(row.ratio_to_fcl_obbrss, "%.2f").c_str(), cell(row.bv_tests, "%.1f").c_str(),
               cell(row.leaf_tests, "%.1f").c_str(), cell(scaledError(row), "%.1e").c_str(),
               cell(asDouble(row.wrong_verdicts), "%.0f").c_str(),
@@ -59,6 +68,10 @@ void print(const Row& row) {
 }
 
 }  // namespace
+
+void append(std::vector<Row> rows, std::vector<Row>& all) {
+  std::move(rows.begin(), rows.end(), std::back_inserter(all));
+}
 
 std::string toJson(const Row& row) {
   const Json json = {

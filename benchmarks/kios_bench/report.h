@@ -17,12 +17,13 @@ struct Row {
   std::string scenario;
   std::string query;
   std::string bv;
-  std::size_t triangles = 0;  // of both meshes
+  std::size_t triangles = 0;  // of all meshes
   std::size_t frames = 0;
-  std::optional<double> rel_err;  // asked for
-  std::optional<double> abs_err;  // asked for, in the scene's unit of length
-  std::optional<double> threshold;
-  double median_us = 0;  // per frame; per pair of meshes for builds
+  std::optional<double> rel_err;    // asked for
+  std::optional<double> abs_err;    // asked for, in the scene's unit of length
+  std::optional<double> threshold;  // 'threshold': a distance, or its ratio to the exact distance
+  // Per frame, over all pairs of the frame; of all models for builds.
+  double median_us = 0;
   double min_us = 0;
   std::optional<double> ratio_to_fcl_obbrss;  // above 1: faster than FCL's OBBRSS
   std::optional<double> max_abs_error;        // against the oracle
@@ -33,13 +34,16 @@ struct Row {
   std::optional<double> bytes_per_triangle;
   std::optional<double> build_us_per_triangle;
   std::optional<std::size_t> skipped_pairs;
-  std::optional<std::size_t> total_pairs;
+  std::optional<std::size_t> total_pairs;  // of all frames, where a frame has several
   std::optional<std::string> simd_target;
   std::uint64_t seed = 0;
   // Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles, whose
   // errors are relative to the extent of each pair.
   double extent = 0;
 };
+
+/// Moves the rows to the end of `all`.
+void append(std::vector<Row> rows, std::vector<Row>& all);
 
 /// The row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);

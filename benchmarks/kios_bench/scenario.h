@@ -32,7 +32,14 @@ const std::vector<Scenario>& scenarios();
 
 void runFalling(const Options& options, Report& report);
 void runSpinning(const Options& options, Report& report);
+void runFallingShuffled(const Options& options, Report& report);
+void runSpinningShuffled(const Options& options, Report& report);
 void runGenerated(const Options& options, Report& report);
+void runSoup(const Options& options, Report& report);
+void runThreshold(const Options& options, Report& report);
+void runRootReject(const Options& options, Report& report);
+void runStrips(const Options& options, Report& report);
+void runRobots(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "random.h"
 
@@ -131,6 +132,28 @@ std::vector<Frame> gapMotion(int frames, double gap, double apart, std::uint64_t
     }
   }
   return motion;
+}
+
+std::vector<Frame> farMotion(int frames, double nearest, double farthest, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Frame> motion;
+  motion.reserve(frames);
+  for (int i = 0; i < frames; ++i) {
+    const Vector3d direction = randomRotation(random).col(0);
+    const double distance = random.uniform(nearest, farthest);
+    const Transform3d X_WA = pose(randomRotation(random), Vector3d::Zero());
+    motion.push_back({X_WA, pose(randomRotation(random), distance * direction)});
+  }
+  return motion;
+}
+
+std::vector<Frame> shuffled(std::vector<Frame> frames, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t left = frames.size(); left > 1; --left) {
+    const auto chosen = static_cast<std::size_t>(random.unit() * static_cast<double>(left));
+    std::swap(frames[left - 1], frames[chosen]);
+  }
+  return frames;
 }
 
 }  // namespace kios::scenes

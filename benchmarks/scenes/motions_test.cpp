@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "scenes/oracle.h"
@@ -69,6 +70,31 @@ TEST(Motions, GapMotionReachesItsGap) {
   }
   for (const Frame& frame : gapMotion(5, 0, 4, 1, distance)) EXPECT_EQ(distance(frame), 0);
   EXPECT_THROW(gapMotion(5, 4, 4, 1, distance), std::invalid_argument);
+}
+
+TEST(Motions, FarMotionKeepsItsDistances) {
+  for (const Frame& frame : farMotion(50, 3, 10, 7)) {
+    expectRotation(frame.X_WA.linear());
+    expectRotation(frame.X_WB.linear());
+    const double distance = (frame.X_WB.translation() - frame.X_WA.translation()).norm();
+    EXPECT_GE(distance, 3 - 1e-12);
+    EXPECT_LE(distance, 10 + 1e-12);
+  }
+}
+
+TEST(Motions, ShuffledIsASeededPermutation) {
+  const auto frames = fallingMotion(200);
+  const auto heights = [](const std::vector<Frame>& motion) {
+    std::vector<double> z;
+    for (const Frame& frame : motion) z.push_back(frame.X_WA.translation().z());
+    return z;
+  };
+  auto mixed = heights(shuffled(frames, 1));
+  EXPECT_EQ(mixed, heights(shuffled(frames, 1)));
+  EXPECT_NE(mixed, heights(shuffled(frames, 2)));
+  EXPECT_NE(mixed, heights(frames));
+  std::sort(mixed.begin(), mixed.end(), std::greater<>());
+  EXPECT_EQ(mixed, heights(frames));
 }
 
 // What the loader says about a file of the given text; empty if it takes the file.

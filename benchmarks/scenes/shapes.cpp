@@ -256,4 +256,18 @@ Mesh randomSoup(int count, double half_width, double min_edge, double max_edge,
   return mesh;
 }
 
+Mesh shrunkSoup(const Mesh& mesh, double least, double most, std::uint64_t seed) {
+  Random random(seed);
+  Mesh result = soup(mesh);
+  for (const fcl::Triangle& t : result.triangles) {
+    Vector3d& a = result.vertices[t[0]];
+    Vector3d& b = result.vertices[t[1]];
+    Vector3d& c = result.vertices[t[2]];
+    const Vector3d centroid = (a + b + c) / 3;
+    const double shrink = least * std::pow(most / least, random.unit());
+    for (Vector3d* p : {&a, &b, &c}) *p += shrink * (centroid - *p);
+  }
+  return result;
+}
+
 }  // namespace kios::scenes

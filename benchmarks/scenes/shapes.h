@@ -51,4 +51,8 @@ Mesh singleTriangle(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::V
 /// max_edge].
 Mesh randomSoup(int count, double half_width, double min_edge, double max_edge, std::uint64_t seed);
 
+/// The triangles of a mesh, each with vertices of its own and shrunk towards its centroid by a
+/// factor 1 - s, s log-uniform in [least, most]: a soup that cannot be welded.
+Mesh shrunkSoup(const Mesh& mesh, double least, double most, std::uint64_t seed);
+
 }  // namespace kios::scenes

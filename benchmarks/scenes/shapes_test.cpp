@@ -6,36 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <utility>
 
 #include <fcl/math/bv/OBBRSS.h>
 
+#include "scenes/mesh_checks.h"
+
 namespace kios::scenes {
 namespace {
-
-using fcl::Vector3d;
-
-double signedVolume(const Mesh& mesh) {
-  double six_volumes = 0;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    six_volumes += mesh.vertices[t[0]].dot(mesh.vertices[t[1]].cross(mesh.vertices[t[2]]));
-  }
-  return six_volumes / 6;
-}
-
-// Closed and consistently wound: every directed edge has its opposite exactly once.
-void expectClosed(const Mesh& mesh) {
-  std::map<std::pair<std::size_t, std::size_t>, int> directed_edges;
-  for (const fcl::Triangle& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) ++directed_edges[{t[i], t[(i + 1) % 3]}];
-  }
-  for (const auto& [edge, count] : directed_edges) {
-    EXPECT_EQ(count, 1);
-    EXPECT_EQ(directed_edges.count({edge.second, edge.first}), 1u);
-  }
-  EXPECT_GT(signedVolume(mesh), 0);
-}
 
 TEST(Shapes, ClosedAndWoundOutward) {
   for (const Mesh& mesh : {knobbyTorus(), bentTorus(), bumpyBlob(), bumpyTorus(1000),
@@ -86,6 +63,23 @@ TEST(Shapes, RandomSoupIsSeededAndWithinItsEdgeLengths) {
       EXPECT_LE(length, 10.01);
     }
   }
+}
+
+TEST(Shapes, ShrunkSoupMovesVerticesByItsFactors) {
+  const Mesh mesh = knobbyTorus();
+  const Mesh shrunk = shrunkSoup(mesh, 1e-6, 1e-3, 3);
+  ASSERT_EQ(shrunk.triangles.size(), mesh.triangles.size());
+  ASSERT_EQ(shrunk.vertices.size(), 3 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const fcl::Triangle& from = mesh.triangles[t];
+    const fcl::Triangle& to = shrunk.triangles[t];
+    const double before = (mesh.vertices[from[0]] - mesh.vertices[from[1]]).norm();
+    const double after = (shrunk.vertices[to[0]] - shrunk.vertices[to[1]]).norm();
+    EXPECT_GE(1 - after / before, 0.99e-6);
+    EXPECT_LE(1 - after / before, 1.01e-3);
+  }
+  EXPECT_EQ(shrunk.vertices, shrunkSoup(mesh, 1e-6, 1e-3, 3).vertices);
+  EXPECT_NE(shrunk.vertices, shrunkSoup(mesh, 1e-6, 1e-3, 4).vertices);
 }
 
 TEST(Shapes, ModelHasAllTrianglesAndAnEmptyMeshIsRefused) {

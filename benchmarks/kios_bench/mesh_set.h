@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/narrowphase/collision_object.h>
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
+
+#include "competitor.h"
+
+namespace kios::bench {
+
+/// A query that the volume does not serve.
+struct NoNode {};
+
+/// A Competitor over Traits:
+///   BV             the bounding volume
+///   DistanceNode   FCL traversal node of the distance query, or NoNode
+///   CollisionNode  FCL traversal node of the collision query, or NoNode
+///   kName          name in rows
+///   distance(a, b, request, result), collide(...)  the call a user makes on two objects
+///   simdTarget()
+template <typename Traits>
+class MeshSet final : public Competitor {
+ public:
+  using BV = typename Traits::BV;
+  using Model = fcl::BVHModel<BV>;
+
+  const char* name() const override { return Traits::kName; }
+
+  bool serves(Query query) const override {
+    switch (query) {
+      case Query::kDistance:
+      case Query::kThreshold:
+      case Query::kPrepare:
+        return kHasDistance;
+      case Query::kCollide:
+        return kHasCollision;
+      case Query::kBuild:
+        return true;
+    }
+    return false;
+  }
+
+  void build(const std::vector<scenes::Mesh>& meshes) override {
+    for (const scenes::Mesh& mesh : meshes) scenes::buildModel<BV>(mesh);
+  }
+
+  void prepare(const std::vector<scenes::Mesh>& meshes, const Question& question) override {
+    MeshSet fresh;
+    fresh.load(meshes);
+    std::vector<double> answer(1);
+    fresh.answer(Query::kDistance, {question}, 0, 1, answer);
+  }
+
+  void load(const std::vector<scenes::Mesh>& meshes) override {
+    bodies_.clear();
+    for (const scenes::Mesh& mesh : meshes) {
+      const std::shared_ptr<Model> model = scenes::buildModel<BV>(mesh);
+      bodies_.push_back({model, std::make_unique<fcl::CollisionObjectd>(model),
+                         std::make_unique<fcl::CollisionObjectd>(model)});
+    }
+  }
+
+  void answer(Query query, const std::vector<Question>& questions, std::size_t begin,
+              std::size_t end, std::vector<double>& answers) override {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Question& question = questions[i];
+      fcl::CollisionObjectd& a = *bodies_[question.a].as_first;
+      fcl::CollisionObjectd& b = *bodies_[question.b].as_second;
+      a.setTransform(question.poses.X_WA);
+      b.setTransform(question.poses.X_WB);
+      switch (query) {
+        case Query::kCollide:
+          answers[i] = collide(a, b);
+          break;
+        case Query::kThreshold:
+          answers[i] = distanceBelow(a, b, question.threshold);
+          break;
+        default:
+          answers[i] = distance(a, b);
+      }
+    }
+  }
+
+  TestCounts count(Query query, const std::vector<Question>& questions) const override {
+    TestCounts counts;
+    for (const Question& question : questions) {
+      if (query == Query::kCollide) {
+        if constexpr (kHasCollision) {
+          fcl::CollisionResultd result;
+          typename Traits::CollisionNode node;
+          start(node, question, fcl::CollisionRequestd(), result);
+          fcl::detail::collide(&node);
+          add(node, counts);
+        }
+      } else {
+        if constexpr (kHasDistance) {
+          fcl::DistanceResultd result;
+          if (query == Query::kThreshold) result.min_distance = question.threshold;
+          typename Traits::DistanceNode node;
+          start(node, question, fcl::DistanceRequestd(), result);
+          fcl::detail::distance(&node);
+          add(node, counts);
+        }
+      }
+    }
+    return counts;
+  }
+
+  std::size_t bytes() const override {
+    std::size_t sum = 0;
+    for (const Body& body : bodies_) sum += modelBytes(*body.model);
+    return sum;
+  }
+
+  std::optional<std::string> simdTarget() const override { return Traits::simdTarget(); }
+
+ private:
+  static constexpr bool kHasDistance = !std::is_same_v<typename Traits::DistanceNode, NoNode>;
+  static constexpr bool kHasCollision = !std::is_same_v<typename Traits::CollisionNode, NoNode>;
+
+  // A mesh and its objects as either argument: two bodies of one shape share its model.
+  struct Body {
+    std::shared_ptr<Model> model;
+    std::unique_ptr<fcl::CollisionObjectd> as_first;
+    std::unique_ptr<fcl::CollisionObjectd> as_second;
+  };
+
+  static double distance(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
+    const fcl::DistanceRequestd request;
+    fcl::DistanceResultd result;
+    Traits::distance(&a, &b, request, result);
+    return result.min_distance;
+  }
+
+  static double distanceBelow(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b,
+                              double threshold) {
+    const fcl::DistanceRequestd request;
+    fcl::DistanceResultd result;
+    result.min_distance = threshold;
+    Traits::distance(&a, &b, request, result);
+    return std::min(result.min_distance, threshold);
+  }
+
+  // First contact: the default request asks for one, without its geometry.
+  static double collide(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    Traits::collide(&a, &b, request, result);
+    return result.isCollision() ? 1 : 0;
+  }
+
+  template <typename Node, typename Request, typename Result>
+  void start(Node& node, const Question& question, const Request& request, Result& result) const {
+    if (!initialize(node, *bodies_[question.a].model, question.poses.X_WA,
+                    *bodies_[question.b].model, question.poses.X_WB, request, result)) {
+      throw std::runtime_error(std::string(Traits::kName) + ": the traversal refused the models");
+    }
+    node.enable_statistics = true;
+  }
+
+  template <typename Node>
+  static void add(const Node& node, TestCounts& counts) {
+    counts.bv_tests += node.num_bv_tests;
+    counts.leaf_tests += node.num_leaf_tests;
+  }
+
+  static std::size_t modelBytes(const Model& model) {
+    const std::size_t nodes = model.getNumBVs();
+    return nodes * (sizeof(fcl::BVNode<BV>) + sizeof(unsigned int)) +
+           model.num_vertices * sizeof(fcl::Vector3d) + model.num_tris * sizeof(fcl::Triangle);
+  }
+
+  std::vector<Body> bodies_;
+};
+
+}  // namespace kios::bench

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "competitor.h"
+#include "report.h"
+#include "scenes/oracle.h"
+
+namespace kios::bench {
+
+/// What the oracle says to some of the questions.
+struct Verdicts {
+  std::vector<std::size_t> questions;
+  std::vector<double> answers;  // exact distance, or 1 for contact
+};
+
+/// The oracle of two meshes of a scene.
+using OracleOf = std::function<const scenes::MeshOracle&(std::size_t a, std::size_t b)>;
+
+/// Judges `wanted` of the questions, spread evenly with a step that varies, so that it falls on
+/// every pair of meshes where each frame asks the same pairs in turn; all of them for 0.
+Verdicts judge(const OracleOf& oracle, Query query, const std::vector<Question>& questions,
+               int wanted);
+
+/// Sets errors and wrong verdicts of the row. For kThreshold the exact answer is the distance, but
+/// at most the threshold, and the verdict whether something is nearer than that; no verdict is
+/// wrong where distance and threshold agree within 16 eps of the scale that `extent` and they set.
+void compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
+             const std::vector<Question>& questions, double extent, Row& row);
+
+}  // namespace kios::bench

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "arms.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "cad_shapes.h"
+#include "random.h"
+
+namespace kios::scenes {
+namespace {
+
+using fcl::Transform3d;
+using fcl::Vector3d;
+
+constexpr double kPi = 3.14159265358979323846;
+
+Transform3d shift(double x, double y, double z) {
+  Transform3d X = Transform3d::Identity();
+  X.translation() = Vector3d(x, y, z);
+  return X;
+}
+
+Transform3d turn(double angle, const Vector3d& axis) {
+  return Transform3d(fcl::AngleAxisd(angle, axis));
+}
+
+// A link along z, of this length: its own joint's housing at the foot, lying along z or across it,
+// a block with a bore, and a flange towards the next joint.
+Mesh cadLink(double length, double radius, int segments, bool across) {
+  const double housing = 2.6 * radius;
+  const Transform3d X_housing =
+      across ? Transform3d(turn(kPi / 2, Vector3d::UnitX()) * shift(0, 0, -housing / 2))
+             : Transform3d::Identity();
+  const double block = 0.45 * length;
+  const Transform3d X_block =
+      shift(0, 0, 0.55 * length) * turn(kPi / 2, Vector3d::UnitY()) * turn(0.3, Vector3d::UnitX());
+  return merged({
+      moved(X_housing, flangedCylinder(radius, housing, segments)),
+      moved(X_block, boredBlock({block, 1.7 * radius, 1.3 * radius}, 0.15 * radius, 0.1 * radius,
+                                0.5 * radius, segments)),
+      moved(shift(0, 0, 0.75 * length), flangedCylinder(0.75 * radius, 0.2 * length, segments)),
+  });
+}
+
+}  // namespace
+
+std::vector<Transform3d> linkPoses(const Arm& arm, const Transform3d& X_WB,
+                                   const std::vector<double>& angles) {
+  if (angles.size() + 1 != arm.links.size()) {
+    throw std::invalid_argument("linkPoses: one angle for each link but the base");
+  }
+  std::vector<Transform3d> poses;
+  Transform3d X_WL = X_WB;
+  for (std::size_t i = 0; i < arm.links.size(); ++i) {
+    const Link& link = arm.links[i];
+    X_WL = X_WL * link.X_PL;
+    if (i > 0) X_WL = X_WL * turn(angles[i - 1], Vector3d::UnitZ());
+    poses.push_back(X_WL * link.X_LM);
+  }
+  return poses;
+}
+
+std::vector<std::vector<double>> armMotion(const Arm& arm, int frames, std::uint64_t seed) {
+  constexpr double kTurnsPerFrame = 3.0 / 400;
+  struct Swing {
+    double turns_per_frame;
+    double phase;
+    double share;
+  };
+  Random random(seed);
+  std::vector<std::vector<double>> motion(frames);
+  for (std::size_t joint = 0; joint < arm.centres.size(); ++joint) {
+    Swing swings[2];
+    for (Swing& swing : swings) {
+      const bool slow = &swing == swings;
+      swing.turns_per_frame = kTurnsPerFrame * random.uniform(0.6, 1.4) * (slow ? 1 : 2.3);
+      swing.phase = random.uniform(0, 2 * kPi);
+      swing.share = slow ? 0.75 : 0.25;
+    }
+    for (int frame = 0; frame < frames; ++frame) {
+      double angle = arm.centres[joint];
+      for (const Swing& swing : swings) {
+        angle += arm.amplitudes[joint] * swing.share *
+                 std::sin(2 * kPi * swing.turns_per_frame * frame + swing.phase);
+      }
+      motion[frame].push_back(angle);
+    }
+  }
+  return motion;
+}
+
+Arm cadArm() {
+  constexpr double kLengths[] = {0.25, 0.22, 0.26, 0.24, 0.22, 0.18, 0.13};
+  constexpr double kRadii[] = {0.075, 0.065, 0.06, 0.055, 0.05, 0.045, 0.04};
+  constexpr int kSegments[] = {96, 80, 64, 80, 48, 40, 32};
+  constexpr double kCentres[] = {0.6, 0, 0.8, 0, 0.5, 0};  // leaning towards +x
+  constexpr double kAmplitudes[] = {0.5, 1.5, 0.6, 1.5, 0.8, 1.5};
+  Arm arm;
+  for (int i = 0; i < 7; ++i) {
+    // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
+    // with -y along the arm.
+    const bool across = i % 2 == 1;
+    Link link;
+    if (i > 0) {
+      const double reach = kLengths[i - 1];
+      link.X_PL = across ? Transform3d(shift(0, 0, reach) * turn(-kPi / 2, Vector3d::UnitX()))
+                         : Transform3d(shift(0, -reach, 0) * turn(kPi / 2, Vector3d::UnitX()));
+      arm.centres.push_back(kCentres[i - 1]);
+      arm.amplitudes.push_back(kAmplitudes[i - 1]);
+    }
+    if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX());
+    link.mesh = cadLink(kLengths[i], kRadii[i], kSegments[i], across);
+    arm.links.push_back(link);
+  }
+  return arm;
+}
+
+Arm stripChain() {
+  struct Strips {
+    int count;
+    double width;
+  };
+  constexpr Strips kCylinders[] = {{100, 0.005}, {200, 0.003}, {400, 0.001}, {300, 0.002}};
+  constexpr double kLength = 0.6;
+  Arm arm;
+  for (const Strips& strips : kCylinders) {
+    // x is along the chain; each joint bends across the one before.
+    Link link;
+    if (!arm.links.empty()) {
+      link.X_PL = shift(kLength, 0, 0) * turn(kPi / 2, Vector3d::UnitX());
+      arm.centres.push_back(0);
+      arm.amplitudes.push_back(0.7);
+    }
+    link.X_LM = turn(kPi / 2, Vector3d::UnitY());
+    link.mesh = stripCylinder(strips.count, kLength, strips.width);
+    arm.links.push_back(link);
+  }
+  return arm;
+}
+
+}  // namespace kios::scenes
