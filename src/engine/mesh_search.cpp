@@ -59,7 +59,8 @@ class NearestJudge final : public Judge {
  public:
   NearestJudge(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds)
       : corners_(pair), rel_err_(bounds.rel_err), abs_err_(bounds.abs_err) {
-    lowerTo(bounds.at_most);
+    best_ = bounds.at_most;
+    if (bounds.at_most < std::numeric_limits<S>::max()) lowerTo(bounds.at_most);
   }
 
   bool judge(const Candidate& c) override {
@@ -78,12 +79,17 @@ class NearestJudge final : public Judge {
                             .distance};
     }
     const TrianglePairIds ids = idsOf(c);
-    if (distance < best_ || (distance == best_ && ids_.a >= 0 && ids < ids_)) take(distance, ids);
+    if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
+      if (distance < best_ + 64 * kUlp * found.extent) take(distance, ids);
+    } else if (distance < best_ || (distance == best_ && ids < ids_)) {
+      take(distance, ids);
+    }
     return distance == 0;
   }
 
   void offer(float upper_bound) override {
-    if (upper_bound < keep_to) setBounds(upper_bound);
+    keep_to = std::min(keep_to, upper_bound);
+    prune_at = std::min(prune_at, upper_bound);
   }
 
   TrianglePairIds ids() const { return ids_; }
@@ -111,16 +117,12 @@ class NearestJudge final : public Judge {
     lowerTo(distance);
   }
 
+  /// A pair so far apart was found, or none farther is asked for.
   void lowerTo(double distance) {
     best_ = distance;
-    setBounds(distance);
-  }
-
-  /// `distance` is that of a pair found, or to be found.
-  void setBounds(double distance) {
     keep_to = std::min(keep_to, upToFloat(distance));
-    prune_at = upToFloat(
-        std::max(0.0, std::min(distance - abs_err_, distance / (1 + rel_err_))));
+    const double enough = std::min(distance - abs_err_, distance / (1 + rel_err_));
+    prune_at = std::min(prune_at, upToFloat(std::max(0.0, enough)));
   }
 
   const Corners<S> corners_;

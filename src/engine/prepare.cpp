@@ -21,14 +21,19 @@ namespace {
 template <typename S>
 class Preparation {
  public:
-  Preparation(const MeshView<S>& mesh, const Eigen::Vector3d& origin)
-      : mesh_(mesh), origin_(origin), order_(mesh.num_triangles) {
+  explicit Preparation(const MeshView<S>& mesh) : mesh_(mesh), order_(mesh.num_triangles) {
     std::iota(order_.begin(), order_.end(), 0U);
     const std::vector<std::uint32_t> first = weld(mesh);
     corners_.resize(mesh.num_triangles);
+    fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
     for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-      for (int k = 0; k < 3; ++k) corners_[t][k] = first[mesh.triangles[t][k]];
+      for (int k = 0; k < 3; ++k) {
+        corners_[t][k] = first[mesh.triangles[t][k]];
+        low = low.cwiseMin(mesh.corner(t, k));
+        high = high.cwiseMax(mesh.corner(t, k));
+      }
     }
+    origin_ = 0.5 * (low.template cast<double>() + high.template cast<double>());
     points_.resize(mesh.num_vertices);
     for (std::size_t v = 0; v < mesh.num_vertices; ++v) {
       if (first[v] == v) points_[v] = relative(mesh.vertices[v]).template cast<float>();
@@ -177,7 +182,7 @@ class Preparation {
   }
 
   const MeshView<S> mesh_;
-  const Eigen::Vector3d origin_;
+  Eigen::Vector3d origin_;
   std::vector<std::uint32_t> order_;
   std::vector<Corners3> corners_;         ///< welded vertices, by triangle
   std::vector<Eigen::Vector3f> points_;   ///< relative to the origin, by welded vertex
@@ -194,11 +199,11 @@ class Preparation {
 }  // namespace
 
 template <typename S>
-std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const Eigen::Vector3d& origin) {
-  return Preparation<S>(mesh, origin).run();
+std::unique_ptr<Tree> prepare(const MeshView<S>& mesh) {
+  return Preparation<S>(mesh).run();
 }
 
-template std::unique_ptr<Tree> prepare(const MeshView<double>&, const Eigen::Vector3d&);
-template std::unique_ptr<Tree> prepare(const MeshView<float>&, const Eigen::Vector3d&);
+template std::unique_ptr<Tree> prepare(const MeshView<double>&);
+template std::unique_ptr<Tree> prepare(const MeshView<float>&);
 
 }  // namespace kios::engine

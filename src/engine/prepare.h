@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
 
 #include "engine/mesh.h"
@@ -15,8 +14,8 @@ namespace kios::engine {
 constexpr double kLeastReach = 0x1p-36, kLargestReach = 0x1p40;
 
 /// Builds the tree: weld, partition, collapse, assign the features, fit. The mesh must have finite
-/// vertices that lie within kLargestReach of the origin.
+/// vertices, its extent within the lengths above. The tree depends on nothing but the mesh.
 template <typename S>
-std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const Eigen::Vector3d& origin);
+std::unique_ptr<Tree> prepare(const MeshView<S>& mesh);
 
 }  // namespace kios::engine

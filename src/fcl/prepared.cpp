@@ -32,8 +32,7 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
   const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
                                mesh.num_triangles};
   if (engine::TreeCache::Use found = trees->find(key)) return found;
-  const Eigen::Vector3d origin = root.center0.template cast<double>();
-  return trees->findOrMake(key, [&] { return engine::prepare(mesh, origin); });
+  return trees->findOrMake(key, [&] { return engine::prepare(mesh); });
 }
 
 template <typename S>
