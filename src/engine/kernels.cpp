@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/search.h"
@@ -38,21 +39,82 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
+/// Best first: the pair of the least bound is expanded; a pair of leaves is bounded by a slab and
+/// waits again; the features of one that waited are judged. Pairs that overlap must all be expanded
+/// and come depth first, and so does everything until a first upper bound is known.
 void distance(const Search& search) {
-  traverse(search, [&](const Leaf& a, const Leaf& b, float bound) {
-    return nearestOfLeaves(search, a, b, bound);
-  });
+  constexpr uint32_t kSlabbed = 1U << 31;
+  const Tree &a = search.a, &b = search.b;
+  const Judge& judge = search.judge;
+  Frontier frontier;
+  std::vector<Slabbed> slabbed;
+  Frontier::Pair at = {0, 0};
+  float bound = -std::numeric_limits<float>::infinity();
+  for (bool have = true;;) {
+    if (have && bound > std::max(frontier.least(), 0.0F) &&
+        judge.prune_at < std::numeric_limits<float>::infinity()) {
+      frontier.reserve(1);
+      frontier.push(bound, at);
+      have = false;
+    }
+    if (!have) {
+      frontier.prune(judge.prune_at);
+      if (frontier.empty()) return;
+      at = frontier.popLeast(bound);
+    }
+    have = false;
+    if ((at.a & kSlabbed) != 0) {
+      const Slabbed& leaves = slabbed[at.a & ~kSlabbed];
+      if (nearestOfLeaves(search, a.leaves[a.nodes[leaves.nodes.a].leaf()],
+                          b.leaves[b.nodes[leaves.nodes.b].leaf()], leaves.slab, bound)) {
+        return;
+      }
+      continue;
+    }
+    const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
+    if (!node_a.isLeaf() || !node_b.isLeaf()) {
+      have = expand(search, frontier, at, bound);
+      continue;
+    }
+    ++search.counts.leaf_pairs;
+    Slabbed leaves;
+    leaves.nodes = at;
+    const float by_slab =
+        boundOfLeaves(search, a.leaves[node_a.leaf()], b.leaves[node_b.leaf()], leaves.slab);
+    if (by_slab >= judge.prune_at) continue;
+    at = {kSlabbed | static_cast<uint32_t>(slabbed.size()), 0};
+    bound = std::max(bound, by_slab);
+    slabbed.push_back(leaves);
+    have = true;
+  }
 }
 
-void contact(const Search& search) {
-  traverse(search,
-           [&](const Leaf& a, const Leaf& b, float) { return contactOfLeaves(search, a, b); });
+/// Depth first, of the last children the deepest first: what overlaps deepest is the likeliest hit.
+template <class LeafPair>
+HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
+  const Tree &a = search.a, &b = search.b;
+  Frontier frontier;
+  Frontier::Pair at = {0, 0};
+  float bound;
+  for (bool have = true;;) {
+    if (!have) {
+      if (frontier.empty()) return;
+      at = frontier.popLast(bound);
+    }
+    const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
+    have = !node_a.isLeaf() || !node_b.isLeaf();
+    if (have) {
+      have = expand(search, frontier, at, bound);
+      continue;
+    }
+    ++search.counts.leaf_pairs;
+    if (leaf_pair(search, a.leaves[node_a.leaf()], b.leaves[node_b.leaf()])) return;
+  }
 }
 
-void contacts(const Search& search) {
-  traverse(search,
-           [&](const Leaf& a, const Leaf& b, float) { return contactsOfLeaves(search, a, b); });
-}
+void contact(const Search& search) { touching(search, contactOfLeaves); }
+
+void contacts(const Search& search) { touching(search, contactsOfLeaves); }
 
 extern const Kernels kKernels;
 const Kernels kKernels = {HWY_STR(HWY_NAMESPACE) + 2, &distance, &contact, &contacts};  // after N_

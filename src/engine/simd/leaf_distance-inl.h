@@ -230,18 +230,36 @@ class LeafDistances {
   Lanes squares_[kMaxRows];
 };
 
+/// Two leaves that were looked at, and no slab proved to be far enough apart.
+struct Slabbed {
+  Frontier::Pair nodes;
+  Slab slab;
+};
+
+/// Lower bound of the distance of two leaves by a slab; tells the judge of an upper bound.
+HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
+                                 Slab& slab) {
+  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+  const FramePair& frames = search.frames;
+  MovedLeaf moved_b;
+  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  slab = separateLeaves(a, b, vertices_b, frames.a_from_b, search.judge.prune_at + frames.pad);
+  if (slab.apart) return std::numeric_limits<float>::infinity();
+  const Vec3 vertices = slab.point_b - slab.point_a;
+  search.judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
+  const float gap = slab.bottom_b - slab.top_a;
+  return gap > 0 ? gap / std::sqrt(dot(slab.w, slab.w)) - frames.pad : gap;
+}
+
+/// Judges all features of two leaves that may be nearest.
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
-                                  float bound) {
+                                  const Slab& slab, float bound) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
   Judge& judge = search.judge;
+  ++search.counts.leaf_kernels;
   MovedLeaf moved_b;
   const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
-  const Slab slab = separateLeaves(a, b, vertices_b, frames.a_from_b, judge.prune_at + frames.pad);
-  if (slab.apart) return false;
-  ++search.counts.leaf_kernels;
-  const Vec3 vertices = slab.point_b - slab.point_a;
-  judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
   moveEdges(b, frames.a_from_b, moved_b);
   LeafDistances distances(a, b);
   const float least = distances.compute(vertices_b, moved_b.edge_rows, frames, slab,
