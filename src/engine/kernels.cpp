@@ -44,25 +44,35 @@ namespace kios::engine::HWY_NAMESPACE {
 /// and come depth first, and so does everything until a first upper bound is known.
 void distance(const Search& search) {
   constexpr uint32_t kSlabbed = 1U << 31;
+  constexpr uint32_t kMaxSlabbed = 256;
   const Tree &a = search.a, &b = search.b;
   const Judge& judge = search.judge;
+  const Sides sides(search);
   Frontier frontier;
-  std::vector<Slabbed> slabbed;
+  Slabbed slabbed[kMaxSlabbed];
+  uint32_t num_slabbed = 0;
   Frontier::Pair at = {0, 0};
   float bound = -std::numeric_limits<float>::infinity();
+  float prune_at = judge.prune_at;
+  if (prune_at < std::numeric_limits<float>::infinity()) frontier.setUpperBound(prune_at);
   for (bool have = true;;) {
-    if (have && bound > std::max(frontier.least(), 0.0F) &&
-        judge.prune_at < std::numeric_limits<float>::infinity()) {
+    if (judge.prune_at < prune_at) {
+      prune_at = judge.prune_at;
+      frontier.setUpperBound(prune_at);
+    }
+    if (have && !frontier.comesNext(bound)) {
       frontier.reserve(1);
       frontier.push(bound, at);
       have = false;
     }
     if (!have) {
-      frontier.prune(judge.prune_at);
       if (frontier.empty()) return;
-      at = frontier.popLeast(bound);
+      const Frontier::Entry entry = frontier.pop();
+      at = entry.pair;
+      bound = entry.bound;
     }
     have = false;
+    if (bound >= prune_at) continue;
     if ((at.a & kSlabbed) != 0) {
       const Slabbed& leaves = slabbed[at.a & ~kSlabbed];
       if (nearestOfLeaves(search, a.leaves[a.nodes[leaves.nodes.a].leaf()],
@@ -73,18 +83,20 @@ void distance(const Search& search) {
     }
     const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
     if (!node_a.isLeaf() || !node_b.isLeaf()) {
-      have = expand(search, frontier, at, bound);
+      have = expand(search, sides, frontier, at, bound);
       continue;
     }
     ++search.counts.leaf_pairs;
-    Slabbed leaves;
+    const Leaf &leaf_a = a.leaves[node_a.leaf()], &leaf_b = b.leaves[node_b.leaf()];
+    Slabbed& leaves = slabbed[num_slabbed];
     leaves.nodes = at;
-    const float by_slab =
-        boundOfLeaves(search, a.leaves[node_a.leaf()], b.leaves[node_b.leaf()], leaves.slab);
-    if (by_slab >= judge.prune_at) continue;
-    at = {kSlabbed | static_cast<uint32_t>(slabbed.size()), 0};
-    bound = std::max(bound, by_slab);
-    slabbed.push_back(leaves);
+    bound = std::max(bound, boundOfLeaves(search, leaf_a, leaf_b, leaves.slab));
+    if (bound >= prune_at) continue;
+    if (num_slabbed + 1 == kMaxSlabbed) {  // no room to wait
+      if (nearestOfLeaves(search, leaf_a, leaf_b, leaves.slab, bound)) return;
+      continue;
+    }
+    at = {kSlabbed | num_slabbed++, 0};
     have = true;
   }
 }
@@ -93,18 +105,19 @@ void distance(const Search& search) {
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   const Tree &a = search.a, &b = search.b;
-  Frontier frontier;
+  const Sides sides(search);
+  Frontier frontier;  // of one bucket: a stack
   Frontier::Pair at = {0, 0};
   float bound;
   for (bool have = true;;) {
     if (!have) {
       if (frontier.empty()) return;
-      at = frontier.popLast(bound);
+      at = frontier.pop().pair;
     }
     const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
     have = !node_a.isLeaf() || !node_b.isLeaf();
     if (have) {
-      have = expand(search, frontier, at, bound);
+      have = expand(search, sides, frontier, at, bound);
       continue;
     }
     ++search.counts.leaf_pairs;

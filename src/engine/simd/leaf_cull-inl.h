@@ -83,12 +83,12 @@ HWY_INLINE float supportValue(const Points& points, Vec3 w) {
   return hn::GetLane(hn::MaxOfLanes(d, best));
 }
 
-/// What is known of two sets of points a and b.
+/// What is known of two sets of points a and b. Unset where they are apart.
 struct Slab {
-  bool apart = false;        ///< proven at least the distance apart that was asked for
-  Vec3 w = {0, 0, 0};        ///< a direction from a to b
-  float top_a = 0, bottom_b = 0;  ///< max w . a, min w . b
-  Vec3 point_a = {0, 0, 0}, point_b = {0, 0, 0};  ///< where they are attained
+  bool apart;             ///< proven at least the distance apart that was asked for
+  Vec3 w;                 ///< a direction from a to b
+  float top_a, bottom_b;  ///< max w . a, min w . b
+  Vec3 point_a, point_b;  ///< where they are attained
 };
 
 /// Looks for a slab that proves the sets at least `distance` apart (pad included): for any w,
@@ -99,31 +99,26 @@ HWY_INLINE Slab separate(const Points& a, const Points& b, Vec3 between, Vec3 no
   const float square = distance * distance;
   const auto proves = [&](float gap, Vec3 w) { return gap > 0 && gap * gap >= square * dot(w, w); };
   Slab slab;
-  const auto look = [&](Vec3 w) {
-    const Support of_a = support(a, w), of_b = support(b, -1.0F * w);
-    slab.w = w;
+  const auto proved = [&](Vec3 w) {
+    return proves(-supportValue(b, -1.0F * w) - supportValue(a, w), w);
+  };
+  slab.apart = proved(between) || proved(dot(normal_a, between) > 0 ? normal_a : -1.0F * normal_a) ||
+               proved(dot(normal_b, between) > 0 ? normal_b : -1.0F * normal_b);
+  if (slab.apart) return slab;
+  slab.w = between;
+  for (int i = 0;; ++i) {
+    const Support of_a = support(a, slab.w), of_b = support(b, -1.0F * slab.w);
     slab.top_a = of_a.value;
     slab.bottom_b = -of_b.value;
     slab.point_a = a.at(of_a.index);
     slab.point_b = b.at(of_b.index);
-    slab.apart = proves(slab.bottom_b - slab.top_a, w);
-  };
-  look(between);
-  if (slab.apart) return slab;
-  for (const Vec3 n : {normal_a, normal_b}) {
-    const Vec3 side = dot(n, between) > 0 ? n : -1.0F * n;
-    if (proves(-supportValue(b, -1.0F * side) - supportValue(a, side), side)) {
-      slab.apart = true;
-      return slab;
-    }
-  }
-  for (int i = 0; i < kFrankWolfeSteps && !slab.apart; ++i) {
+    slab.apart = i > 0 && proves(slab.bottom_b - slab.top_a, slab.w);
+    if (slab.apart || i == kFrankWolfeSteps) return slab;
     const Vec3 z = slab.point_b - slab.point_a - slab.w;
     const float zz = dot(z, z), wz = dot(slab.w, z);
-    if (!(wz < 0 && zz > 0)) break;  // w is as short as it gets
-    look(slab.w + std::min(1.0F, -wz / zz) * z);
+    if (!(wz < 0 && zz > 0)) return slab;  // w is as short as it gets
+    slab.w = slab.w + std::min(1.0F, -wz / zz) * z;
   }
-  return slab;
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE

@@ -108,11 +108,11 @@ class LeafDistances {
     for (uint32_t left = near_a.vertices; left != 0; left &= left - 1) {
       const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
       const Vec3 p = moved(frames.b_from_a, a_.vertices.at(i));
-      least = hn::Min(least, faceRow({PairKind::kVertexFace, i}, b_, p, minus_pad));
+      least = hn::Min(least, faceRow({PairKind::kVertexFace, i, 0}, b_, p, minus_pad));
     }
     for (uint32_t left = near_b.vertices; left != 0; left &= left - 1) {
       const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
-      least = hn::Min(least, faceRow({PairKind::kFaceVertex, i}, a_, vertices_b.at(i), minus_pad));
+      least = hn::Min(least, faceRow({PairKind::kFaceVertex, i, 0}, a_, vertices_b.at(i), minus_pad));
     }
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
@@ -127,8 +127,7 @@ class LeafDistances {
   /// What a row holds: feature `index` of one leaf against lanes of the other.
   struct Row {
     PairKind kind;
-    int index;
-    int chunk = 0;
+    int index, chunk;
   };
 
   V edgeRows(const Lanes* edges_b, uint32_t near_a, uint32_t near_b, float shortest) {

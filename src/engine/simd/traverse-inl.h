@@ -12,121 +12,151 @@ HWY_INLINE uint32_t bitsOf(M mask) {
   return bits[0];
 }
 
-/// Pairs of nodes that wait to be tested, with their lower bounds. In no order: the least is found by
-/// vectors of bounds, and most often the nearest child of the last expansion is nearer still.
+/// Pairs of nodes that wait to be tested, with their lower bounds, in buckets of equal width up to
+/// an upper bound. A pair of the first bucket that is not empty comes next, the last in first:
+/// nearly the best first, for the price of a stack.
 class Frontier {
  public:
   struct Pair {
     uint32_t a, b;
   };
+  struct Entry {
+    float bound;
+    Pair pair;
+    uint32_t next;
+  };
 
-  bool empty() const { return top_ == 0; }
-  /// The least bound, infinity if empty.
-  float least() const { return least_; }
+  Frontier() { std::fill(head_, head_ + kBuckets, kEnd); }
+
+  /// Once an upper bound is known, and as it falls: drops what is farther, sorts the rest anew.
+  void setUpperBound(float upper_bound) {
+    if (upper_bound > 0.5F * sorted_for_) {  // buckets of that width still do
+      filled_ &= bucketsBelow(upper_bound);
+      return;
+    }
+    sorted_for_ = upper_bound;
+    per_width_ = kBuckets / std::max(upper_bound, 1e-30F);
+    uint32_t chain = kEnd;
+    for (; filled_ != 0; filled_ &= filled_ - 1) {  // one chain of all, the nearest buckets last
+      uint32_t& head = head_[hwy::Num0BitsBelowLS1Bit_Nonzero32(filled_)];
+      while (head != kEnd) {
+        const uint32_t entry = head;
+        head = entries_[entry].next;
+        entries_[entry].next = chain;
+        chain = entry;
+      }
+    }
+    while (chain != kEnd) {
+      const uint32_t entry = chain;
+      chain = entries_[entry].next;
+      if (entries_[entry].bound < upper_bound) {
+        link(entry);
+      } else {
+        release(entry);
+      }
+    }
+  }
 
   void reserve(size_t more) {
-    if (HWY_UNLIKELY(top_ + more + kLanes > capacity_)) grow(top_ + more + kLanes);
+    if (HWY_UNLIKELY(used_ + more > capacity_)) grow(used_ + more);
   }
 
   /// There must be room: see reserve().
   void push(float bound, Pair pair) {
-    bounds_[top_] = bound;
-    pairs_[top_++] = pair;
-    least_ = std::min(least_, bound);
+    uint32_t entry = free_;
+    if (entry == kEnd) {
+      entry = used_++;
+    } else {
+      free_ = entries_[entry].next;
+    }
+    entries_[entry].bound = bound;
+    entries_[entry].pair = pair;
+    link(entry);
   }
 
-  /// Drops pairs that are at least `limit` apart, if that is less than the last time.
-  void prune(float limit) {
-    if (!(limit < limit_)) return;
-    limit_ = limit;
-    size_t kept = 0;
-    for (size_t i = 0; i < top_; ++i) {
-      bounds_[kept] = bounds_[i];
-      pairs_[kept] = pairs_[i];
-      kept += bounds_[i] < limit ? 1 : 0;
-    }
-    top_ = kept;
-    if (!(least_ < limit)) least_ = std::numeric_limits<float>::infinity();
+  bool empty() const { return filled_ == 0; }
+  /// Whether a pair of this bound would come next if it were pushed.
+  bool comesNext(float bound) const {
+    return ((filled_ | 1U << kBuckets) & ((1U << bucketOf(bound)) - 1)) == 0;
   }
 
-  /// Takes the pair of the least bound, the first of equals.
-  Pair popLeast(float& bound) {
-    const V infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-    for (size_t l = 0; l < kLanes; l += step()) hn::StoreU(infinity, d, bounds_ + top_ + l);
-    V first = infinity, second = infinity;  // the least two of each lane
-    for (size_t i = 0; i < top_; i += step()) {
-      const V v = hn::LoadU(d, bounds_ + i);
-      second = hn::Min(second, hn::Max(first, v));
-      first = hn::Min(first, v);
-    }
-    const V least = hn::MinOfLanes(d, first);
-    size_t at = 0;
-    for (;; at += step()) {
-      const uint32_t match = bitsOf(hn::Eq(hn::LoadU(d, bounds_ + at), least));
-      if (match == 0) continue;
-      at += hwy::Num0BitsBelowLS1Bit_Nonzero32(match);
-      break;
-    }
-    // What is least without it: the second of its lane or the first of another.
-    const uint32_t lane = at % step();
-    alignas(64) float firsts[kLanes], seconds[kLanes];
-    hn::Store(first, d, firsts);
-    hn::Store(second, d, seconds);
-    firsts[lane] = seconds[lane];
-    least_ = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, firsts)));
-    return take(at, bound);
+  Entry pop() {
+    const uint32_t bucket = hwy::Num0BitsBelowLS1Bit_Nonzero32(filled_);
+    const uint32_t entry = head_[bucket];
+    const Entry taken = entries_[entry];
+    head_[bucket] = taken.next;
+    if (taken.next == kEnd) filled_ &= filled_ - 1;
+    release(entry);
+    return taken;
   }
-
-  /// Takes the pair pushed last.
-  Pair popLast(float& bound) { return take(top_ - 1, bound); }
 
  private:
-  Pair take(size_t at, float& bound) {
-    bound = bounds_[at];
-    const Pair pair = pairs_[at];
-    --top_;
-    bounds_[at] = bounds_[top_];
-    pairs_[at] = pairs_[top_];
-    return pair;
+  static constexpr uint32_t kBuckets = 24;
+  static constexpr uint32_t kEnd = ~uint32_t{0};
+
+  /// Overlapping pairs lie in the first bucket; while there is no upper bound, all do.
+  uint32_t bucketOf(float bound) const {
+    const float at = std::min(std::max(bound, 0.0F) * per_width_, kBuckets - 1.0F);
+    return static_cast<uint32_t>(at);
+  }
+  uint32_t bucketsBelow(float upper_bound) const { return (2U << bucketOf(upper_bound)) - 1; }
+
+  void link(uint32_t entry) {
+    const uint32_t bucket = bucketOf(entries_[entry].bound);
+    entries_[entry].next = head_[bucket];
+    head_[bucket] = entry;
+    filled_ |= 1U << bucket;
+  }
+
+  void release(uint32_t entry) {
+    entries_[entry].next = free_;
+    free_ = entry;
   }
 
   HWY_NOINLINE void grow(size_t needed) {
-    std::vector<float> bounds(2 * needed);
-    std::vector<Pair> pairs(2 * needed);
-    std::copy_n(bounds_, top_, bounds.data());
-    std::copy_n(pairs_, top_, pairs.data());
-    more_bounds_ = std::move(bounds);
-    more_pairs_ = std::move(pairs);
-    bounds_ = more_bounds_.data();
-    pairs_ = more_pairs_.data();
+    std::vector<Entry> entries(2 * needed);
+    std::copy_n(entries_, used_, entries.data());
+    more_ = std::move(entries);
+    entries_ = more_.data();
     capacity_ = 2 * needed;
   }
 
   static constexpr size_t kUsual = 512;
-  float usual_bounds_[kUsual];
-  Pair usual_pairs_[kUsual];
-  std::vector<float> more_bounds_;
-  std::vector<Pair> more_pairs_;
-  float* bounds_ = usual_bounds_;
-  Pair* pairs_ = usual_pairs_;
-  size_t top_ = 0, capacity_ = kUsual;
-  float least_ = std::numeric_limits<float>::infinity();
-  float limit_ = std::numeric_limits<float>::infinity();
+  Entry usual_[kUsual];
+  std::vector<Entry> more_;
+  Entry* entries_ = usual_;
+  size_t capacity_ = kUsual;
+  uint32_t used_ = 0, free_ = kEnd;
+  uint32_t filled_ = 0;  ///< buckets that aren't empty, as bits
+  uint32_t head_[kBuckets];
+  float sorted_for_ = std::numeric_limits<float>::infinity();
+  float per_width_ = 0;
+};
+
+/// The two sides of a search, by index.
+struct Sides {
+  explicit Sides(const Search& search)
+      : trees{&search.a, &search.b}, to{&search.frames.a_from_b, &search.frames.b_from_a} {}
+
+  const Tree* trees[2];
+  const FloatPose* to[2];  ///< the frame of a side from the other's
 };
 
 /// Tests the children of the larger node of a pair (a leaf is not expanded) against the other node.
 /// Of those nearer than judge.prune_at the nearest replaces the pair, the others join the frontier;
 /// false if there is none.
-HWY_INLINE bool expand(const Search& search, Frontier& frontier, Frontier::Pair& at, float& bound) {
-  const Node &node_a = search.a.nodes[at.a], &node_b = search.b.nodes[at.b];
-  const FramePair& frames = search.frames;
-  const bool expand_a = node_b.isLeaf() || (!node_a.isLeaf() && node_a.size > node_b.size);
-  const Node& parent = expand_a ? node_a : node_b;
-  const Tree& tree = expand_a ? search.a : search.b;
-  const Block& block = tree.blocks[parent.child];
-  const uint32_t count = tree.counts[parent.child];
+HWY_INLINE bool expand(const Search& search, const Sides& sides, Frontier& frontier,
+                       Frontier::Pair& at, float& bound) {
+  const Node* const nodes[2] = {&search.a.nodes[at.a], &search.b.nodes[at.b]};
+  // A leaf's size counts as negative.
+  const auto rank = [](const Node& n) { return n.child < 0 ? -1.0F : n.size; };
+  const uint32_t side = rank(*nodes[0]) > rank(*nodes[1]) ? 0 : 1;
+  const Node& parent = *nodes[side];
+  const Tree& tree = *sides.trees[side];
+  const Block& block = tree.blocks[static_cast<size_t>(parent.child)];
+  const uint32_t count = tree.counts[static_cast<size_t>(parent.child)];
   MovedNode moved;
-  move(expand_a ? node_b : node_a, expand_a ? frames.a_from_b : frames.b_from_a, frames.pad, moved);
+  move(*nodes[1 - side], *sides.to[side], search.frames.pad, moved);
   alignas(32) float bounds[kLanes];
   uint32_t near = 0;
   const V limit = hn::Set(d, search.judge.prune_at);
@@ -139,16 +169,19 @@ HWY_INLINE bool expand(const Search& search, Frontier& frontier, Frontier::Pair&
   search.counts.volume_tests += count;
   near &= (1U << count) - 1;
   if (near == 0) return false;
-  uint32_t nearest = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
+  uint32_t pair[2] = {at.a, at.b};
   const auto pairOf = [&](uint32_t lane) {
-    const uint32_t child = parent.first_child + lane;
-    return expand_a ? Frontier::Pair{child, at.b} : Frontier::Pair{at.a, child};
+    pair[side] = parent.first_child + lane;
+    return Frontier::Pair{pair[0], pair[1]};
   };
+  uint32_t nearest = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
   frontier.reserve(kLanes);
   for (near &= near - 1; near != 0; near &= near - 1) {
-    uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
-    if (bounds[lane] < bounds[nearest]) std::swap(lane, nearest);
-    frontier.push(bounds[lane], pairOf(lane));
+    const uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
+    const bool nearer = bounds[lane] < bounds[nearest];
+    const uint32_t other = nearer ? nearest : lane;
+    nearest = nearer ? lane : nearest;
+    frontier.push(bounds[other], pairOf(other));
   }
   bound = bounds[nearest];
   at = pairOf(nearest);
