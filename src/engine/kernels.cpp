@@ -28,6 +28,8 @@
 // In this order.
 #include "engine/simd/node_test-inl.h"
 //
+#include "engine/simd/box_test-inl.h"
+//
 #include "engine/simd/traverse-inl.h"
 //
 #include "engine/simd/leaf_cull-inl.h"
@@ -161,10 +163,13 @@ const Target kTargets[] = {
 #if HWY_TARGETS & HWY_EMU128
     {HWY_EMU128, N_EMU128::kKernels},
 #endif
+#if HWY_TARGETS & HWY_SCALAR
+    {HWY_SCALAR, N_SCALAR::kKernels},
+#endif
 };
 
 const Kernels& choose() {
-  const int64_t supported = hwy::SupportedTargets() | HWY_EMU128;
+  const int64_t supported = hwy::SupportedTargets() | HWY_EMU128 | HWY_SCALAR;
   const char* const wanted = std::getenv("FCL_KIOS_SIMD");
   std::string available;
   for (const Target& target : kTargets) {

@@ -116,9 +116,12 @@ class Preparation {
       }
     }
     Node node;
+    SphereFitter<float>::Split frame;
     writeSpheres(fitter_.fit(gathered_.data(), static_cast<int>(gathered_.size()),
-                             FitMethod::kTuned),
+                             FitMethod::kTuned, &frame),
                  node);
+    tree_->boxes.push_back(boxAround(gathered_, frame.axes));
+    node.flat = isFlat(tree_->boxes.back());
     tree_->reach = std::max(tree_->reach, reachOf(node));
     return node;
   }

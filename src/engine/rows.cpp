@@ -48,6 +48,34 @@ void writeLane(const Node& node, int lane, Block& block) {
   }
 }
 
+// Extents are measured from the centre and along the axes as stored, and rounded up.
+Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes) {
+  const Eigen::Matrix3d to_box = axes.transpose().cast<double>();
+  Eigen::Vector3d low = to_box * points[0].cast<double>(), high = low;
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d q = to_box * p.cast<double>();
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  const Eigen::Vector3f center = (to_box.transpose() * (0.5 * (low + high))).cast<float>();
+  const Eigen::Vector3d at = to_box * center.cast<double>();
+  const Eigen::Vector3d half = (high - at).cwiseMax(at - low);
+  Box box = {};
+  for (int i = 0; i < 3; ++i) {
+    box.ex[i] = axes(0, i);
+    box.ey[i] = axes(1, i);
+    box.ez[i] = axes(2, i);
+    box.center[i] = center[i];
+    box.half[i] = roundUpFloat(half[i] + 8 * kUlpDouble * (std::abs(at[i]) + half[i]));
+  }
+  return box;
+}
+
+bool isFlat(const Box& box) {
+  const auto [least, largest] = std::minmax({box.half[0], box.half[1], box.half[2]});
+  return least < 0.05F * largest;
+}
+
 float reachOf(const Node& node) {
   const auto length = [&](int row) { return norm(node.x[row], node.y[row], node.z[row]); };
   const auto pair = [&](int middle) {

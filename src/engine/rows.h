@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <vector>
+
 #include "engine/tree.h"
 #include "fcl_kios/bv/kios.h"
 
@@ -13,6 +16,12 @@ void writeSpheres(const kIOS<float>& bv, Node& node);
 
 /// Copies a node's rows into a lane of the block of its parent.
 void writeLane(const Node& node, int lane, Block& block);
+
+/// The box of points along orthonormal axes.
+Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes);
+
+/// Whether the box is thin enough to bound its content better than spheres.
+bool isFlat(const Box& box);
 
 /// >= |middle| + |half| + radii of every sphere of the node.
 float reachOf(const Node& node);

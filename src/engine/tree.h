@@ -31,12 +31,22 @@ struct alignas(64) Node {
   float size = 0;  ///< radius of S0
   /// Leaf: ~leaf index. Inner: block index.
   std::int32_t child = 0;
-  std::uint32_t first_child = 0;  ///< of the block: a node index
+  std::uint32_t first_child : 31;  ///< of the block: a node index
+  std::uint32_t flat : 1;          ///< a box bounds it better than spheres
+
+  Node() : first_child(0), flat(0) {}
 
   bool isLeaf() const { return child < 0; }
   std::size_t leaf() const { return static_cast<std::size_t>(~child); }
 };
 static_assert(sizeof(Node) == 128);
+
+/// A box around a node's content, for what is flat: axes as columns of lanes, their fourth 0.
+struct alignas(16) Box {
+  float ex[4], ey[4], ez[4];  ///< lane i: axis i
+  float center[4];
+  float half[4];  ///< every point has |axis . (p - center)| <= half
+};
 
 /// The children of a node for the side that is tested untransformed, one a lane. Lanes beyond
 /// `count` (in `counts`) repeat the first child and are masked.
@@ -78,6 +88,7 @@ struct Tree {
   float reach = 0;  ///< >= |centre| + |radius| of all spheres
   int depth = 0;    ///< of blocks
   std::vector<Node> nodes;
+  std::vector<Box> boxes;  ///< by node
   std::vector<Block> blocks;
   std::vector<std::uint8_t> counts;  ///< of children, by block
   std::vector<Leaf> leaves;
@@ -85,7 +96,7 @@ struct Tree {
   std::vector<FeatureId> features;
 
   std::size_t bytes() const {
-    return sizeof(*this) + nodes.capacity() * sizeof(Node) + blocks.capacity() * sizeof(Block) +
+    return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) + blocks.capacity() * sizeof(Block) +
            counts.capacity() + leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
            features.capacity() * sizeof(FeatureId);
   }

@@ -136,6 +136,7 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, FitMethod met
       split->center[c] = double{points[0][c]} + scaled(double{center[c]}, exponent_);
     }
     split->axis = frame.axes.col(frame.order[0]).template cast<double>();
+    split->axes = frame.axes;
   }
   return measure(points, n, frame,
                  method == FitMethod::kTuned ? tunedCenters(in_frame_, frame)

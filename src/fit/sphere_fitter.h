@@ -13,10 +13,12 @@ namespace kios {
 template <typename S>
 class SphereFitter {
  public:
-  /// What the fit of a node tells its split: the box centre and the longest axis, in the model.
+  /// What the fit of a node tells its split: the box centre and the longest axis, in the model, and
+  /// all principal axes, in no order.
   struct Split {
     Eigen::Vector3d center;
     Eigen::Vector3d axis;
+    Eigen::Matrix3f axes;
   };
 
   /// Throws std::invalid_argument unless every coordinate is finite and below kMaxCoordinate<S>.

@@ -168,6 +168,21 @@ HWY_INLINE bool expand(const Search& search, const Sides& sides, Frontier& front
   ++search.counts.expansions;
   search.counts.volume_tests += count;
   near &= (1U << count) - 1;
+  Box moved_box;
+  bool box_moved = false;
+  for (uint32_t left = near; left != 0; left &= left - 1) {
+    const uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
+    const uint32_t child = parent.first_child + lane;
+    if ((tree.nodes[child].flat | nodes[1 - side]->flat) == 0) continue;
+    if (!box_moved) {
+      const Tree& other = *sides.trees[1 - side];
+      move(other.boxes[side == 0 ? at.b : at.a], *sides.to[side], moved_box);
+      box_moved = true;
+    }
+    const float lower = boxDistance(tree.boxes[child], moved_box, search.frames.pad);
+    if (lower > 0 && lower >= search.judge.prune_at) near ^= 1U << lane;
+    bounds[lane] = std::max(bounds[lane], lower > 0 ? lower : bounds[lane]);
+  }
   if (near == 0) return false;
   uint32_t pair[2] = {at.a, at.b};
   const auto pairOf = [&](uint32_t lane) {
