@@ -30,33 +30,29 @@ struct FclQueries {
   static std::optional<std::string> simdTarget() { return std::nullopt; }
 };
 
-struct ObbrssTraits : FclQueries {
+struct ObbrssTraits : FclQueries,
+                      CountedByNodes<nodes::MeshDistanceTraversalNodeOBBRSSd,
+                                     nodes::MeshCollisionTraversalNodeOBBRSSd> {
   using BV = fcl::OBBRSSd;
-  using DistanceNode = nodes::MeshDistanceTraversalNodeOBBRSSd;
-  using CollisionNode = nodes::MeshCollisionTraversalNodeOBBRSSd;
   static constexpr const char* kName = "fcl_obbrss";
 };
 
-struct BuiltinKiosTraits : FclQueries {
+struct BuiltinKiosTraits : FclQueries,
+                           CountedByNodes<nodes::MeshDistanceTraversalNodekIOSd,
+                                          nodes::MeshCollisionTraversalNodekIOSd> {
   using BV = fcl::kIOSd;
-  using DistanceNode = nodes::MeshDistanceTraversalNodekIOSd;
-  using CollisionNode = nodes::MeshCollisionTraversalNodekIOSd;
   static constexpr const char* kName = "fcl_kios_builtin";
 };
 
 // fcl::collide copies, transforms and rebuilds both RSS models at every query.
-struct RssTraits : FclQueries {
+struct RssTraits : FclQueries, CountedByNodes<nodes::MeshDistanceTraversalNodeRSSd, NoNode> {
   using BV = fcl::RSSd;
-  using DistanceNode = nodes::MeshDistanceTraversalNodeRSSd;
-  using CollisionNode = NoNode;
   static constexpr const char* kName = "fcl_rss";
 };
 
 // FCL has no distance between OBBs.
-struct ObbTraits : FclQueries {
+struct ObbTraits : FclQueries, CountedByNodes<NoNode, nodes::MeshCollisionTraversalNodeOBBd> {
   using BV = fcl::OBBd;
-  using DistanceNode = NoNode;
-  using CollisionNode = nodes::MeshCollisionTraversalNodeOBBd;
   static constexpr const char* kName = "fcl_obb";
 };
 

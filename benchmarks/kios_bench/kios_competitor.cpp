@@ -23,7 +23,29 @@ struct KiosTraits {
                       const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
     fcl::collide(a, b, request, result);
   }
-  static std::optional<std::string> simdTarget() { return std::nullopt; }
+
+  // Volumes tested and pairs of leaves (of up to eight triangles each) reached.
+  static void countDistance(const kios::Modeld& a, const kios::Modeld& b,
+                            const scenes::Frame& poses, fcl::DistanceResultd& result,
+                            TestCounts& counts) {
+    kios::SearchCounts search;
+    kios::distanceMeshes(a, poses.X_WA, b, poses.X_WB, fcl::DistanceRequestd(), result, &search);
+    add(search, counts);
+  }
+  static void countCollide(const kios::Modeld& a, const kios::Modeld& b, const scenes::Frame& poses,
+                           fcl::CollisionResultd& result, TestCounts& counts) {
+    kios::SearchCounts search;
+    kios::collideMeshes(a, poses.X_WA, b, poses.X_WB, fcl::CollisionRequestd(), result, &search);
+    add(search, counts);
+  }
+  static std::size_t preparedBytes(const kios::Modeld& model) { return kios::preparedBytes(model); }
+  static std::optional<std::string> simdTarget() { return kios::simdTarget(); }
+
+ private:
+  static void add(const kios::SearchCounts& search, TestCounts& counts) {
+    counts.bv_tests += search.volume_tests;
+    counts.leaf_tests += search.leaf_pairs;
+  }
 };
 
 }  // namespace

@@ -26,13 +26,61 @@ namespace kios::bench {
 /// A query that the volume does not serve.
 struct NoNode {};
 
+/// The counts of FCL's traversal over its nodes.
+template <typename DistanceNode_, typename CollisionNode_>
+struct CountedByNodes {
+  using DistanceNode = DistanceNode_;
+  using CollisionNode = CollisionNode_;
+
+  template <typename Model>
+  static void countDistance(const Model& a, const Model& b, const scenes::Frame& poses,
+                            fcl::DistanceResultd& result, TestCounts& counts) {
+    if constexpr (!std::is_same_v<DistanceNode, NoNode>) {
+      DistanceNode node;
+      start(node, a, b, poses, fcl::DistanceRequestd(), result);
+      fcl::detail::distance(&node);
+      add(node, counts);
+    }
+  }
+  template <typename Model>
+  static void countCollide(const Model& a, const Model& b, const scenes::Frame& poses,
+                           fcl::CollisionResultd& result, TestCounts& counts) {
+    if constexpr (!std::is_same_v<CollisionNode, NoNode>) {
+      CollisionNode node;
+      start(node, a, b, poses, fcl::CollisionRequestd(), result);
+      fcl::detail::collide(&node);
+      add(node, counts);
+    }
+  }
+  template <typename Model>
+  static std::size_t preparedBytes(const Model& /*model*/) {
+    return 0;
+  }
+
+ private:
+  template <typename Node, typename Model, typename Request, typename Result>
+  static void start(Node& node, const Model& a, const Model& b, const scenes::Frame& poses,
+                    const Request& request, Result& result) {
+    if (!initialize(node, a, poses.X_WA, b, poses.X_WB, request, result)) {
+      throw std::runtime_error("the traversal refused the models");
+    }
+    node.enable_statistics = true;
+  }
+  template <typename Node>
+  static void add(const Node& node, TestCounts& counts) {
+    counts.bv_tests += node.num_bv_tests;
+    counts.leaf_tests += node.num_leaf_tests;
+  }
+};
+
 /// A Competitor over Traits:
 ///   BV             the bounding volume
 ///   DistanceNode   FCL traversal node of the distance query, or NoNode
 ///   CollisionNode  FCL traversal node of the collision query, or NoNode
 ///   kName          name in rows
 ///   distance(a, b, request, result), collide(...)  the call a user makes on two objects
-///   simdTarget()
+///   countDistance(a, b, poses, result, counts), countCollide(...)  the same for two models,
+///   counted preparedBytes(model)  what queries made of a model simdTarget()
 template <typename Traits>
 class MeshSet final : public Competitor {
  public:
@@ -99,23 +147,14 @@ class MeshSet final : public Competitor {
   TestCounts count(Query query, const std::vector<Question>& questions) const override {
     TestCounts counts;
     for (const Question& question : questions) {
+      const Model &a = *bodies_[question.a].model, &b = *bodies_[question.b].model;
       if (query == Query::kCollide) {
-        if constexpr (kHasCollision) {
-          fcl::CollisionResultd result;
-          typename Traits::CollisionNode node;
-          start(node, question, fcl::CollisionRequestd(), result);
-          fcl::detail::collide(&node);
-          add(node, counts);
-        }
+        fcl::CollisionResultd result;
+        Traits::countCollide(a, b, question.poses, result, counts);
       } else {
-        if constexpr (kHasDistance) {
-          fcl::DistanceResultd result;
-          if (query == Query::kThreshold) result.min_distance = question.threshold;
-          typename Traits::DistanceNode node;
-          start(node, question, fcl::DistanceRequestd(), result);
-          fcl::detail::distance(&node);
-          add(node, counts);
-        }
+        fcl::DistanceResultd result;
+        if (query == Query::kThreshold) result.min_distance = question.threshold;
+        Traits::countDistance(a, b, question.poses, result, counts);
       }
     }
     return counts;
@@ -164,25 +203,11 @@ class MeshSet final : public Competitor {
     return result.isCollision() ? 1 : 0;
   }
 
-  template <typename Node, typename Request, typename Result>
-  void start(Node& node, const Question& question, const Request& request, Result& result) const {
-    if (!initialize(node, *bodies_[question.a].model, question.poses.X_WA,
-                    *bodies_[question.b].model, question.poses.X_WB, request, result)) {
-      throw std::runtime_error(std::string(Traits::kName) + ": the traversal refused the models");
-    }
-    node.enable_statistics = true;
-  }
-
-  template <typename Node>
-  static void add(const Node& node, TestCounts& counts) {
-    counts.bv_tests += node.num_bv_tests;
-    counts.leaf_tests += node.num_leaf_tests;
-  }
-
   static std::size_t modelBytes(const Model& model) {
     const std::size_t nodes = model.getNumBVs();
     return nodes * (sizeof(fcl::BVNode<BV>) + sizeof(unsigned int)) +
-           model.num_vertices * sizeof(fcl::Vector3d) + model.num_tris * sizeof(fcl::Triangle);
+           model.num_vertices * sizeof(fcl::Vector3d) + model.num_tris * sizeof(fcl::Triangle) +
+           Traits::preparedBytes(model);
   }
 
   std::vector<Body> bodies_;

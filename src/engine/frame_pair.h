@@ -16,8 +16,8 @@ struct FloatPose {
 /// Two trees in a common query: poses between their origins, and the pad that every float bound
 /// pays.
 ///
-/// u = 2^-24, S = a.reach + b.reach + |t|_1. Against exact arithmetic on the model's own vertices in
-/// the common frame:
+/// u = 2^-24, S = a.reach + b.reach + |t|_1. Against exact arithmetic on the model's own vertices
+/// in the common frame:
 /// - vertices stored in float, relative to the origin: u a coordinate; moved to the other frame:
 ///   R and t rounded, three products, three sums: 5 u (|x| + |t|) a coordinate, 9 u S in all;
 /// - spheres contain the stored vertices; middle +- half rounds by u S; |c - c'| - r - r' takes

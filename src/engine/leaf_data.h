@@ -27,7 +27,7 @@ struct LeafEdge {
 struct LeafContent {
   std::vector<LeafTriangle> triangles;
   std::vector<LeafEdge> edges;
-  std::vector<FeatureId> owned;         ///< ids of the first of `vertices`
+  std::vector<FeatureId> owned;           ///< ids of the first of `vertices`
   std::vector<Eigen::Vector3f> vertices;  ///< distinct corners of the triangles
 };
 

@@ -180,11 +180,11 @@ std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, 
   return std::move(judge.found);
 }
 
-#define KIOS_INSTANTIATE(S)                                                                     \
-  template TrianglePairIds nearestTriangles(const PreparedPair<S>&, const DistanceBounds<S>&,   \
-                                            TriangleDistance<S>&, SearchCounts&);               \
-  template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&,           \
-                                                              std::size_t, SearchCounts&);
+#define KIOS_INSTANTIATE(S)                                                                        \
+  template TrianglePairIds nearestTriangles(const PreparedPair<S>&, const DistanceBounds<S>&,      \
+                                            TriangleDistance<S>&, SearchCounts&);                  \
+  template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&, std::size_t, \
+                                                              SearchCounts&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -187,10 +187,10 @@ class Preparation {
   const MeshView<S> mesh_;
   Eigen::Vector3d origin_;
   std::vector<std::uint32_t> order_;
-  std::vector<Corners3> corners_;         ///< welded vertices, by triangle
-  std::vector<Eigen::Vector3f> points_;   ///< relative to the origin, by welded vertex
-  std::vector<std::uint32_t> stamps_;     ///< by welded vertex
-  std::vector<std::uint8_t> place_;       ///< in the leaf at hand, by welded vertex
+  std::vector<Corners3> corners_;        ///< welded vertices, by triangle
+  std::vector<Eigen::Vector3f> points_;  ///< relative to the origin, by welded vertex
+  std::vector<std::uint32_t> stamps_;    ///< by welded vertex
+  std::vector<std::uint8_t> place_;      ///< in the leaf at hand, by welded vertex
   std::uint32_t stamp_ = 0;
   std::vector<BinaryNode> binary_;
   std::vector<int> leaves_;  ///< binary nodes

@@ -34,8 +34,8 @@ void writeSpheres(const kIOS<float>& bv, Node& node) {
     }
     // middle - |half| error of the radii: half rounds by at most 2^-24 of itself.
     node.r[half] = static_cast<float>(0.5 * (plus.r - minus.r));
-    node.r[middle] =
-        roundUpFloat(0.5 * (plus.r + minus.r) + shift + kUlpFloat * 0.5 * std::abs(plus.r - minus.r));
+    node.r[middle] = roundUpFloat(0.5 * (plus.r + minus.r) + shift +
+                                  kUlpFloat * 0.5 * std::abs(plus.r - minus.r));
   }
 }
 
@@ -82,9 +82,9 @@ float reachOf(const Node& node) {
     return length(middle) + length(middle + 1) + double{node.r[middle]} +
            std::abs(double{node.r[middle + 1]});
   };
-  return roundUpFloat(std::max({length(kCentral) + double{node.r[kCentral]}, pair(kMiddle2),
-                                pair(kMiddle1)}) *
-                      (1 + 8 * kUlpDouble));
+  return roundUpFloat(
+      std::max({length(kCentral) + double{node.r[kCentral]}, pair(kMiddle2), pair(kMiddle1)}) *
+      (1 + 8 * kUlpDouble));
 }
 
 }  // namespace kios::engine

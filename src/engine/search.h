@@ -13,7 +13,14 @@
 
 namespace kios::engine {
 
-enum class PairKind : std::uint8_t { kEdgeEdge, kVertexFace, kFaceVertex, kEdgeFace, kFaceEdge, kFaces };
+enum class PairKind : std::uint8_t {
+  kEdgeEdge,
+  kVertexFace,
+  kFaceVertex,
+  kEdgeFace,
+  kFaceEdge,
+  kFaces
+};
 
 /// Features of a and b, named in that order by `kind`, that float can't tell from the answer.
 struct Candidate {
@@ -29,8 +36,10 @@ class Judge {
   /// Tells that some pair is at most so far apart: it will turn up as a candidate.
   virtual void offer(float upper_bound) = 0;
 
-  float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far apart don't matter
-  float keep_to = std::numeric_limits<float>::infinity();   ///< feature pairs at most so far apart are candidates
+  float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far
+                                                            ///< apart don't matter
+  float keep_to = std::numeric_limits<float>::infinity();   ///< feature pairs at most so far apart
+                                                            ///< are candidates
 
  protected:
   ~Judge() = default;

@@ -71,7 +71,7 @@ struct Leaf {
   std::uint32_t offset = 0, feature_offset = 0;
   std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
   float centroid[3] = {};
-  float normal[3] = {};  ///< sum of the unit normals; any vector is safe
+  float normal[3] = {};                         ///< sum of the unit normals; any vector is safe
   std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
 
   int vertexChunks() const { return (num_vertices + kLanes - 1) / kLanes; }
@@ -96,8 +96,9 @@ struct Tree {
   std::vector<FeatureId> features;
 
   std::size_t bytes() const {
-    return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) + blocks.capacity() * sizeof(Block) +
-           counts.capacity() + leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
+    return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) +
+           blocks.capacity() * sizeof(Block) + counts.capacity() +
+           leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
            features.capacity() * sizeof(FeatureId);
   }
 };

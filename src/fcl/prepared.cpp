@@ -59,11 +59,11 @@ void invalidate(Model<S>& model) {
 
 const char* simdTarget() { return engine::kernels().target; }
 
-#define KIOS_INSTANTIATE(S)                                          \
-  template engine::TreeCache* treesOf(const Model<S>&);              \
-  template engine::TreeCache::Use preparedTree(const Model<S>&);     \
-  template void prepare(const Model<S>&);                            \
-  template std::size_t preparedBytes(const Model<S>&);               \
+#define KIOS_INSTANTIATE(S)                                      \
+  template engine::TreeCache* treesOf(const Model<S>&);          \
+  template engine::TreeCache::Use preparedTree(const Model<S>&); \
+  template void prepare(const Model<S>&);                        \
+  template std::size_t preparedBytes(const Model<S>&);           \
   template void invalidate(Model<S>&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

@@ -6,12 +6,12 @@ namespace kios {
 
 /// Work done by a search.
 struct SearchCounts {
-  long long expansions = 0;    ///< nodes whose children were tested
-  long long volume_tests = 0;  ///< children tested
-  long long leaf_pairs = 0;    ///< pairs of leaves reached
-  long long leaf_kernels = 0;  ///< of these, those that no separating direction excluded
-  long long exact = 0;         ///< feature and triangle pairs evaluated in double
-  long long tree_searches = 0; ///< queries that fell back to FCL's tree
+  long long expansions = 0;     ///< nodes whose children were tested
+  long long volume_tests = 0;   ///< children tested
+  long long leaf_pairs = 0;     ///< pairs of leaves reached
+  long long leaf_kernels = 0;   ///< of these, those that no separating direction excluded
+  long long exact = 0;          ///< feature and triangle pairs evaluated in double
+  long long tree_searches = 0;  ///< queries that fell back to FCL's tree
 };
 
 }  // namespace kios

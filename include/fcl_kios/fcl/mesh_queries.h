@@ -45,8 +45,8 @@ std::size_t preparedBytes(const Model<S>& model);
 template <typename S>
 void invalidate(Model<S>& model);
 
-/// The instruction set that searches: AVX3 (AVX-512), AVX2, SSE4, NEON, or EMU128 or SCALAR (plain C++). The
-/// environment variable FCL_KIOS_SIMD chooses one, for tests; answers don't depend on it.
+/// The instruction set that searches: AVX3 (AVX-512), AVX2, SSE4, NEON, or EMU128 or SCALAR (plain
+/// C++). The environment variable FCL_KIOS_SIMD chooses one, for tests; answers don't depend on it.
 const char* simdTarget();
 
 }  // namespace kios

@@ -77,7 +77,8 @@ HWY_INLINE float supportValue(const Points& points, Vec3 w) {
   for (int c = 0; c < points.chunks; ++c) {
     const Lanes* const chunk = points.rows + 3 * c;
     for (size_t l = 0; l < kLanes; l += step()) {
-      best = hn::Max(best, dot(load(chunk[0], l), load(chunk[1], l), load(chunk[2], l), wx, wy, wz));
+      best =
+          hn::Max(best, dot(load(chunk[0], l), load(chunk[1], l), load(chunk[2], l), wx, wy, wz));
     }
   }
   return hn::GetLane(hn::MaxOfLanes(d, best));
@@ -102,7 +103,8 @@ HWY_INLINE Slab separate(const Points& a, const Points& b, Vec3 between, Vec3 no
   const auto proved = [&](Vec3 w) {
     return proves(-supportValue(b, -1.0F * w) - supportValue(a, w), w);
   };
-  slab.apart = proved(between) || proved(dot(normal_a, between) > 0 ? normal_a : -1.0F * normal_a) ||
+  slab.apart = proved(between) ||
+               proved(dot(normal_a, between) > 0 ? normal_a : -1.0F * normal_a) ||
                proved(dot(normal_b, between) > 0 ? normal_b : -1.0F * normal_b);
   if (slab.apart) return slab;
   slab.w = between;

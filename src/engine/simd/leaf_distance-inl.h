@@ -13,8 +13,14 @@ struct Edges {
 };
 
 HWY_INLINE Edges edgesIn(const Lanes* rows, size_t l, V least_square) {
-  Edges e = {load(rows[0], l), load(rows[1], l), load(rows[2], l), load(rows[3], l),
-             load(rows[4], l), load(rows[5], l), V(),              V()};
+  Edges e = {load(rows[0], l),
+             load(rows[1], l),
+             load(rows[2], l),
+             load(rows[3], l),
+             load(rows[4], l),
+             load(rows[5], l),
+             V(),
+             V()};
   e.square = square(e.ax, e.ay, e.az);
   e.inverse = hn::Div(hn::Set(d, 1), hn::Max(e.square, least_square));
   return e;
@@ -44,8 +50,8 @@ HWY_INLINE V edgeDistances(const Edges& a, const Edges& b) {
   const V wx = hn::Sub(hn::Add(tx, hn::Mul(v, b.ax)), hn::Mul(s, a.ax));
   const V wy = hn::Sub(hn::Add(ty, hn::Mul(v, b.ay)), hn::Mul(s, a.ay));
   const V wz = hn::Sub(hn::Add(tz, hn::Mul(v, b.az)), hn::Mul(s, a.az));
-  const V excess = hn::Mul(hn::Mul(hn::Set(d, 0x1p-36F), hn::Add(square(tx, ty, tz), a.square)),
-                           over_sine2);
+  const V excess =
+      hn::Mul(hn::Mul(hn::Set(d, 0x1p-36F), hn::Add(square(tx, ty, tz), a.square)), over_sine2);
   return hn::Sub(square(wx, wy, wz), excess);
 }
 
@@ -81,7 +87,8 @@ HWY_INLINE Facing facing(const LeafView& leaf, const Lanes* edges, const Points&
   }
   for (int c = 0; kLanes * c < leaf.leaf.num_owned; ++c) {
     for (size_t l = 0; l < kLanes; l += step()) {
-      result.vertices |= bitsOf(hn::Ge(along(vertices.rows + 3 * c, l), leasts)) << (kLanes * c + l);
+      result.vertices |= bitsOf(hn::Ge(along(vertices.rows + 3 * c, l), leasts))
+                         << (kLanes * c + l);
     }
   }
   result.edges &= (1U << leaf.leaf.num_edges) - 1;
@@ -89,8 +96,8 @@ HWY_INLINE Facing facing(const LeafView& leaf, const Lanes* edges, const Points&
   return result;
 }
 
-/// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk of
-/// b's edges; a vertex of a against b's faces; a vertex of b against a's faces.
+/// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
+/// of b's edges; a vertex of a against b's faces; a vertex of b against a's faces.
 class LeafDistances {
  public:
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
@@ -99,10 +106,8 @@ class LeafDistances {
   float compute(const Points& vertices_b, const Lanes* edges_b, const FramePair& frames,
                 const Slab& slab, float distance) {
     const float thickness = distance * std::sqrt(dot(slab.w, slab.w));
-    const Facing near_a =
-        facing(a_, a_.edges, a_.vertices, slab.w, slab.bottom_b - thickness);
-    const Facing near_b =
-        facing(b_, edges_b, vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
+    const Facing near_a = facing(a_, a_.edges, a_.vertices, slab.w, slab.bottom_b - thickness);
+    const Facing near_b = facing(b_, edges_b, vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
     V least = edgeRows(edges_b, near_a.edges, near_b.edges, 0x1p-24F * frames.scale);
     const V minus_pad = hn::Set(d, -frames.pad);
     for (uint32_t left = near_a.vertices; left != 0; left &= left - 1) {
@@ -112,7 +117,8 @@ class LeafDistances {
     }
     for (uint32_t left = near_b.vertices; left != 0; left &= left - 1) {
       const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
-      least = hn::Min(least, faceRow({PairKind::kFaceVertex, i, 0}, a_, vertices_b.at(i), minus_pad));
+      least =
+          hn::Min(least, faceRow({PairKind::kFaceVertex, i, 0}, a_, vertices_b.at(i), minus_pad));
     }
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
@@ -261,13 +267,15 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
   moveEdges(b, frames.a_from_b, moved_b);
   LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, moved_b.edge_rows, frames, slab,
-                                        judge.keep_to + frames.pad);
+  const float least =
+      distances.compute(vertices_b, moved_b.edge_rows, frames, slab, judge.keep_to + frames.pad);
   if (bound <= 0) {  // else nothing can cross
-    if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, judge, search.counts.exact)) return true;
+    if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, judge, search.counts.exact))
+      return true;
     MovedLeaf moved_a;
     moveEdges(a, frames.b_from_a, moved_a);
-    if (crossings<true>(a, moved_a.edge_rows, b, frames.pad, judge, search.counts.exact)) return true;
+    if (crossings<true>(a, moved_a.edge_rows, b, frames.pad, judge, search.counts.exact))
+      return true;
   }
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
 }
@@ -321,7 +329,8 @@ HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, con
   if (separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad).apart) return false;
   ++search.counts.leaf_kernels;
   const Points vertices_a = moveVertices(a, a.vertices.chunks, frames.b_from_a, moved_a);
-  const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i, Vec3(&out)[3]) {
+  const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i,
+                            Vec3(&out)[3]) {
     for (int k = 0; k < 3; ++k) out[k] = vertices.at(leaf.leaf.corners[3 * i + k]);
   };
   uint32_t of_b[kLeafTriangles];

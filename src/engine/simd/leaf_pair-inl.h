@@ -33,7 +33,8 @@ struct MovedLeaf {
   Lanes edge_rows[6 * kMaxChunks];
 };
 
-HWY_INLINE Points moveVertices(const LeafView& leaf, int chunks, const FloatPose& X, MovedLeaf& out) {
+HWY_INLINE Points moveVertices(const LeafView& leaf, int chunks, const FloatPose& X,
+                               MovedLeaf& out) {
   for (int c = 0; c < chunks; ++c) {
     moveRows(leaf.vertices.rows + 3 * c, X, true, out.vertex_rows + 3 * c);
   }
@@ -84,8 +85,9 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
     const auto flat = hn::Lt(steepness, hn::Mul(hn::Set(d, 8), pads));
     const V divisor = hn::IfThenElse(flat, hn::Set(d, 1), dh);
     const V s = hn::Min(hn::Max(hn::Div(hn::Neg(h0), divisor), hn::Zero(d)), hn::Set(d, 1));
-    const V slack = hn::Mul(
-        minus_pads, hn::Add(hn::Set(d, 2), hn::Div(hn::Mul(hn::Set(d, 8), length), hn::Abs(divisor))));
+    const V slack =
+        hn::Mul(minus_pads,
+                hn::Add(hn::Set(d, 2), hn::Div(hn::Mul(hn::Set(d, 8), length), hn::Abs(divisor))));
     for (int k = 0; k < 3; ++k) {
       const V e0 = faces.inside(k, l, px, py, pz);
       const V de = faces.slope(kEdgePlanes + 4 * k, l, ax, ay, az);
@@ -99,8 +101,8 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
 
 /// Judges the edges of one leaf, in rows moved to the frame of the other, against its faces.
 template <bool kEdgesOfA>
-HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const LeafView& faces, float pad,
-                          Judge& judge, long long& exact) {
+HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const LeafView& faces,
+                            float pad, Judge& judge, long long& exact) {
   const uint32_t all = (1U << faces.leaf.num_faces) - 1;
   for (uint32_t i = 0; i < edges.leaf.num_edges; ++i) {
     const Points chunk = {rows + 6 * (i / kLanes), 1};
