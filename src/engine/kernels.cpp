@@ -93,7 +93,10 @@ void distance(const Search& search) {
     Slabbed& leaves = slabbed[num_slabbed];
     leaves.nodes = at;
     bound = std::max(bound, boundOfLeaves(search, leaf_a, leaf_b, leaves.slab));
-    if (bound >= prune_at) continue;
+    if (bound >= prune_at) {
+      if (search.audit) search.audit->pruned(at.a, at.b, prune_at);
+      continue;
+    }
     if (num_slabbed + 1 == kMaxSlabbed) {  // no room to wait
       if (nearestOfLeaves(search, leaf_a, leaf_b, leaves.slab, bound)) return;
       continue;

@@ -160,7 +160,7 @@ template <typename S>
 TrianglePairIds nearestTriangles(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds,
                                  TriangleDistance<S>& nearest, SearchCounts& counts) {
   NearestJudge<S> judge(pair, bounds);
-  kernels().distance({pair.a.tree, pair.b.tree, pair.frames, judge, counts});
+  kernels().distance({pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit});
   if (judge.ids().a < 0) return {};
   nearest = judge.certified();
   return nearest.distance < bounds.at_most ? judge.ids() : TrianglePairIds();
@@ -170,7 +170,7 @@ template <typename S>
 std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, std::size_t limit,
                                                    SearchCounts& counts) {
   IntersectionJudge<S> judge(pair, limit);
-  const Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts};
+  const Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit};
   if (limit == 1) {
     kernels().contact(search);
   } else {

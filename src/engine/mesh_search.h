@@ -26,6 +26,7 @@ struct PreparedPair {
   PreparedMesh<S> a, b;
   const RelativePose<S>& X_AB;
   FramePair frames;
+  Audit* audit = nullptr;
 };
 
 /// Which distance is asked for.

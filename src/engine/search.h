@@ -45,12 +45,23 @@ class Judge {
   ~Judge() = default;
 };
 
+/// Hears of everything that a search leaves out, for tests.
+class Audit {
+ public:
+  /// The contents of two nodes were proven at least `bound` apart, and so left out.
+  virtual void pruned(std::uint32_t node_a, std::uint32_t node_b, float bound) = 0;
+
+ protected:
+  ~Audit() = default;
+};
+
 struct Search {
   const Tree& a;
   const Tree& b;
   const FramePair& frames;
   Judge& judge;
   SearchCounts& counts;
+  Audit* audit = nullptr;
 };
 
 /// The traversals of one instruction set.

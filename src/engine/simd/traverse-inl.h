@@ -142,6 +142,16 @@ struct Sides {
   const FloatPose* to[2];  ///< the frame of a side from the other's
 };
 
+HWY_NOINLINE void reportPruned(const Search& search, const Node& parent, uint32_t count,
+                               uint32_t side, Frontier::Pair at, uint32_t near,
+                               const float* bounds) {
+  for (uint32_t lane = 0; lane < count; ++lane) {
+    if ((near >> lane & 1U) != 0) continue;
+    const uint32_t child = parent.first_child + lane;
+    search.audit->pruned(side == 0 ? child : at.a, side == 0 ? at.b : child, bounds[lane]);
+  }
+}
+
 /// Tests the children of the larger node of a pair (a leaf is not expanded) against the other node.
 /// Of those nearer than judge.prune_at the nearest replaces the pair, the others join the frontier;
 /// false if there is none.
@@ -183,6 +193,8 @@ HWY_INLINE bool expand(const Search& search, const Sides& sides, Frontier& front
     if (lower > 0 && lower >= search.judge.prune_at) near ^= 1U << lane;
     bounds[lane] = std::max(bounds[lane], lower > 0 ? lower : bounds[lane]);
   }
+  if (HWY_UNLIKELY(search.audit != nullptr))
+    reportPruned(search, parent, count, side, at, near, bounds);
   if (near == 0) return false;
   uint32_t pair[2] = {at.a, at.b};
   const auto pairOf = [&](uint32_t lane) {
