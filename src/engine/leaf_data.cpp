@@ -13,15 +13,15 @@ using Vec = Eigen::Vector3d;
 /// Appends rows of lanes; values beyond the last repeat it.
 class LaneWriter {
  public:
-  LaneWriter(std::vector<Lanes>& lanes, int count, int rows) : lanes_(lanes), count_(count) {
+  LaneWriter(std::vector<Lanes>& lanes, int count, int chunks, int rows)
+      : lanes_(lanes), count_(count), places_(kLanes * chunks), rows_(rows) {
     first_ = lanes.size();
-    rows_ = rows;
-    lanes.resize(first_ + static_cast<std::size_t>((count + kLanes - 1) / kLanes) * rows);
+    lanes.resize(first_ + static_cast<std::size_t>(chunks * rows));
   }
   void set(int i, int row, double value) {
     at(i, row) = static_cast<float>(value);
     if (i + 1 != count_) return;
-    for (int pad = i + 1; pad % kLanes != 0; ++pad) at(pad, row) = static_cast<float>(value);
+    for (int pad = count_; pad < places_; ++pad) at(pad, row) = static_cast<float>(value);
   }
   void set(int i, int row, const Vec& value) {
     for (int c = 0; c < 3; ++c) set(i, row + c, value[c]);
@@ -33,7 +33,7 @@ class LaneWriter {
   }
   std::vector<Lanes>& lanes_;
   std::size_t first_;
-  int count_, rows_;
+  int count_, places_, rows_;
 };
 
 /// Unit normal by the longest edge and the height above it, true to 2^-52 * aspect; false if the
@@ -69,18 +69,18 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
   leaf.num_vertices = static_cast<std::uint8_t>(content.vertices.size());
 
   Eigen::Vector3f low = content.vertices[0], high = low;
-  LaneWriter vertices(tree.lanes, leaf.num_vertices, 3);
+  LaneWriter vertices(tree.lanes, leaf.num_vertices, leaf.vertexChunks(), 3);
   for (int i = 0; i < leaf.num_vertices; ++i) {
     vertices.set(i, 0, content.vertices[i].cast<double>());
     low = low.cwiseMin(content.vertices[i]);
     high = high.cwiseMax(content.vertices[i]);
   }
-  LaneWriter edges(tree.lanes, leaf.num_edges, 6);
+  LaneWriter edges(tree.lanes, leaf.num_edges, leaf.edgeChunks(), 6);
   for (int i = 0; i < leaf.num_edges; ++i) {
     edges.set(i, 0, content.edges[i].start);
     edges.set(i, 3, content.edges[i].end - content.edges[i].start);
   }
-  LaneWriter faces(tree.lanes, leaf.num_faces, kFaceRows);
+  LaneWriter faces(tree.lanes, leaf.num_faces, 1, kFaceRows);
   Vec sum = Vec::Zero();
   for (int i = 0; i < leaf.num_faces; ++i) {
     const Vec(&v)[3] = content.triangles[i].corners;
@@ -101,9 +101,15 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
       faces.set(i, row + 3, usable ? -inward.dot(v[k]) : 1);
     }
   }
-  const Eigen::Vector3f middle = 0.5F * (low + high), normal = sum.cast<float>();
+  const Eigen::Vector3f middle = 0.5F * (low + high);
+  const Eigen::Vector3f normal = sum.normalized().cast<float>();  // 0 stays 0
   std::copy_n(middle.data(), 3, leaf.centroid);
   std::copy_n(normal.data(), 3, leaf.normal);
+  leaf.normal_bottom = leaf.normal_top = normal.dot(content.vertices[0]);
+  for (const Eigen::Vector3f& v : content.vertices) {
+    leaf.normal_bottom = std::min(leaf.normal_bottom, normal.dot(v));
+    leaf.normal_top = std::max(leaf.normal_top, normal.dot(v));
+  }
 
   for (const LeafTriangle& t : content.triangles) tree.features.push_back(FeatureId{t.id << 2});
   for (const LeafEdge& e : content.edges) tree.features.push_back(e.id);

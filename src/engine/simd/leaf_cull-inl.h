@@ -46,43 +46,53 @@ struct Points {
 /// The largest of w . p over the points, and which.
 struct Support {
   float value;
-  int index;
+  uint32_t index;
 };
-HWY_INLINE Support support(const Points& points, Vec3 w) {
-  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
-  V dots[kMaxChunks * kLanes / hn::MaxLanes(d)];
-  int n = 0;
-  V best = hn::Set(d, -std::numeric_limits<float>::infinity());
-  for (int c = 0; c < points.chunks; ++c) {
-    const Lanes* const chunk = points.rows + 3 * c;
-    for (size_t l = 0; l < kLanes; l += step(), ++n) {
-      dots[n] = dot(load(chunk[0], l), load(chunk[1], l), load(chunk[2], l), wx, wy, wz);
-      best = hn::Max(best, dots[n]);
-    }
-  }
-  best = hn::MaxOfLanes(d, best);
-  for (int i = 0; i < n; ++i) {
-    const uint32_t at = bitsOf(hn::Eq(dots[i], best));
-    if (at != 0) {
-      return {hn::GetLane(best), i * static_cast<int>(step()) +
-                                     static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(at))};
-    }
-  }
-  return {hn::GetLane(best), 0};  // NaN
-}
 
-HWY_INLINE float supportValue(const Points& points, Vec3 w) {
-  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
-  V best = hn::Set(d, -std::numeric_limits<float>::infinity());
-  for (int c = 0; c < points.chunks; ++c) {
-    const Lanes* const chunk = points.rows + 3 * c;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      best =
-          hn::Max(best, dot(load(chunk[0], l), load(chunk[1], l), load(chunk[2], l), wx, wy, wz));
+/// `kChunks` chunks of points in vectors.
+template <int kChunks>
+class Hull {
+ public:
+  explicit Hull(const Lanes* rows) : rows_(rows) {
+    for (int i = 0; i < kVectors; ++i) {
+      const Lanes* const chunk = rows + 3 * (i * kStep / kLanes);
+      const size_t l = static_cast<size_t>(i * kStep % kLanes);
+      x_[i] = load(chunk[0], l);
+      y_[i] = load(chunk[1], l);
+      z_[i] = load(chunk[2], l);
     }
   }
-  return hn::GetLane(hn::MaxOfLanes(d, best));
-}
+
+  float top(Vec3 w) const {
+    V dots[kVectors];
+    return hn::GetLane(topOf(w, dots));
+  }
+
+  Support support(Vec3 w) const {
+    V dots[kVectors];
+    const V best = topOf(w, dots);
+    uint32_t at = 1U << (kVectors * kStep - 1);  // for NaN
+    for (int i = 0; i < kVectors; ++i) at |= bitsOf(hn::Eq(dots[i], best)) << (i * kStep);
+    return {hn::GetLane(best), hwy::Num0BitsBelowLS1Bit_Nonzero32(at)};
+  }
+
+  Vec3 at(uint32_t i) const { return Points{rows_, kChunks}.at(static_cast<int>(i)); }
+
+ private:
+  static constexpr int kStep = static_cast<int>(hn::MaxLanes(d));
+  static constexpr int kVectors = kChunks * kLanes / kStep;
+
+  HWY_INLINE V topOf(Vec3 w, V* dots) const {
+    const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
+    for (int i = 0; i < kVectors; ++i) dots[i] = dot(x_[i], y_[i], z_[i], wx, wy, wz);
+    V best = dots[0];
+    for (int i = 1; i < kVectors; ++i) best = hn::Max(best, dots[i]);
+    return hn::MaxOfLanes(d, best);
+  }
+
+  const Lanes* rows_;
+  V x_[kVectors], y_[kVectors], z_[kVectors];
+};
 
 /// What is known of two sets of points a and b. Unset where they are apart.
 struct Slab {
@@ -92,35 +102,50 @@ struct Slab {
   Vec3 point_a, point_b;  ///< where they are attained
 };
 
+/// A direction across a leaf, and where its points lie along it.
+struct Across {
+  Vec3 normal;
+  float bottom, top;
+};
+
 /// Looks for a slab that proves the sets at least `distance` apart (pad included): for any w,
 /// (min w . b - max w . a) / |w| bounds the distance. Tries the line of centres, both mean normals
 /// and Frank-Wolfe steps towards the nearest points of the hulls.
-HWY_INLINE Slab separate(const Points& a, const Points& b, Vec3 between, Vec3 normal_a,
-                         Vec3 normal_b, float distance) {
+template <class HullA, class HullB>
+HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Across& across_a,
+                         const Across& across_b, float distance, Slab& slab) {
   const float square = distance * distance;
   const auto proves = [&](float gap, Vec3 w) { return gap > 0 && gap * gap >= square * dot(w, w); };
-  Slab slab;
-  const auto proved = [&](Vec3 w) {
-    return proves(-supportValue(b, -1.0F * w) - supportValue(a, w), w);
-  };
-  slab.apart = proved(between) ||
-               proved(dot(normal_a, between) > 0 ? normal_a : -1.0F * normal_a) ||
-               proved(dot(normal_b, between) > 0 ? normal_b : -1.0F * normal_b);
-  if (slab.apart) return slab;
   slab.w = between;
+  slab.apart = true;
   for (int i = 0;; ++i) {
-    const Support of_a = support(a, slab.w), of_b = support(b, -1.0F * slab.w);
+    const Support of_a = a.support(slab.w), of_b = b.support(-1.0F * slab.w);
     slab.top_a = of_a.value;
     slab.bottom_b = -of_b.value;
+    if (proves(slab.bottom_b - slab.top_a, slab.w)) return;
+    if (i == 0) {
+      Vec3 n = across_a.normal;
+      if (proves(
+              dot(n, between) > 0 ? -b.top(-1.0F * n) - across_a.top : across_a.bottom - b.top(n),
+              n)) {
+        return;
+      }
+      n = across_b.normal;
+      if (proves(
+              dot(n, between) > 0 ? across_b.bottom - a.top(n) : -a.top(-1.0F * n) - across_b.top,
+              n)) {
+        return;
+      }
+    }
     slab.point_a = a.at(of_a.index);
     slab.point_b = b.at(of_b.index);
-    slab.apart = i > 0 && proves(slab.bottom_b - slab.top_a, slab.w);
-    if (slab.apart || i == kFrankWolfeSteps) return slab;
+    if (i == kFrankWolfeSteps) break;
     const Vec3 z = slab.point_b - slab.point_a - slab.w;
     const float zz = dot(z, z), wz = dot(slab.w, z);
-    if (!(wz < 0 && zz > 0)) return slab;  // w is as short as it gets
+    if (!(wz < 0 && zz > 0)) break;  // w is as short as it gets
     slab.w = slab.w + std::min(1.0F, -wz / zz) * z;
   }
+  slab.apart = false;
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE

@@ -248,7 +248,7 @@ HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const
   const FramePair& frames = search.frames;
   MovedLeaf moved_b;
   const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
-  slab = separateLeaves(a, b, vertices_b, frames.a_from_b, search.judge.prune_at + frames.pad);
+  separateLeaves(a, b, vertices_b, frames.a_from_b, search.judge.prune_at + frames.pad, slab);
   if (slab.apart) return std::numeric_limits<float>::infinity();
   const Vec3 vertices = slab.point_b - slab.point_a;
   search.judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
@@ -285,7 +285,9 @@ HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, cons
   const FramePair& frames = search.frames;
   MovedLeaf moved_b;
   const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
-  if (separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad).apart) return false;
+  Slab slab;
+  separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
+  if (slab.apart) return false;
   ++search.counts.leaf_kernels;
   moveEdges(b, frames.a_from_b, moved_b);
   if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, search.judge, search.counts.exact)) {
@@ -326,7 +328,9 @@ HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, con
   const FramePair& frames = search.frames;
   MovedLeaf moved_a, moved_b;
   const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
-  if (separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad).apart) return false;
+  Slab slab;
+  separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
+  if (slab.apart) return false;
   ++search.counts.leaf_kernels;
   const Points vertices_a = moveVertices(a, a.vertices.chunks, frames.b_from_a, moved_a);
   const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i,

@@ -48,11 +48,27 @@ HWY_INLINE void moveEdges(const LeafView& leaf, const FloatPose& X, MovedLeaf& o
   }
 }
 
-HWY_INLINE Slab separateLeaves(const LeafView& a, const LeafView& b, const Points& moved_b,
-                               const FloatPose& X, float distance) {
+/// Both leaves' points in a's frame, and a slab between them.
+HWY_INLINE void separateLeaves(const LeafView& a, const LeafView& b, const Points& moved_b,
+                               const FloatPose& X, float distance, Slab& slab) {
   const Vec3 between = moved(X, vec3(b.leaf.centroid)) - vec3(a.leaf.centroid);
-  return separate(a.vertices, moved_b, between, vec3(a.leaf.normal),
-                  rotated(X, vec3(b.leaf.normal)), distance);
+  const Across across_a = {vec3(a.leaf.normal), a.leaf.normal_bottom, a.leaf.normal_top};
+  const Vec3 n = rotated(X, vec3(b.leaf.normal));
+  const float shift = dot(n, vec3(X.t));
+  const Across across_b = {n, b.leaf.normal_bottom + shift, b.leaf.normal_top + shift};
+  const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
+    separate(hull_a, hull_b, between, across_a, across_b, distance, slab);
+  };
+  const Lanes *const rows_a = a.vertices.rows, *const rows_b = moved_b.rows;
+  if (HWY_LIKELY(a.vertices.chunks == 2 && moved_b.chunks == 2)) {
+    between_hulls(Hull<2>(rows_a), Hull<2>(rows_b));
+  } else if (a.vertices.chunks == 2) {
+    between_hulls(Hull<2>(rows_a), Hull<3>(rows_b));
+  } else if (moved_b.chunks == 2) {
+    between_hulls(Hull<3>(rows_a), Hull<2>(rows_b));
+  } else {
+    between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));
+  }
 }
 
 struct Faces {

@@ -12,9 +12,9 @@ HWY_INLINE uint32_t bitsOf(M mask) {
   return bits[0];
 }
 
-/// Pairs of nodes that wait to be tested, with their lower bounds, in buckets of equal width up to
-/// an upper bound. A pair of the first bucket that is not empty comes next, the last in first:
-/// nearly the best first, for the price of a stack.
+/// Pairs of nodes that wait to be tested, with their lower bounds, in buckets of sixteen an octave
+/// below an upper bound. A pair of the first bucket that is not empty comes next, the last in
+/// first: nearly the best first, for the price of a stack.
 class Frontier {
  public:
   struct Pair {
@@ -26,34 +26,12 @@ class Frontier {
     uint32_t next;
   };
 
-  Frontier() { std::fill(head_, head_ + kBuckets, kEnd); }
-
-  /// Once an upper bound is known, and as it falls: drops what is farther, sorts the rest anew.
+  /// Called as an upper bound gets known and falls: what is farther is dropped.
   void setUpperBound(float upper_bound) {
-    if (upper_bound > 0.5F * sorted_for_) {  // buckets of that width still do
-      filled_ &= bucketsBelow(upper_bound);
-      return;
-    }
-    sorted_for_ = upper_bound;
-    per_width_ = kBuckets / std::max(upper_bound, 1e-30F);
-    uint32_t chain = kEnd;
-    for (; filled_ != 0; filled_ &= filled_ - 1) {  // one chain of all, the nearest buckets last
-      uint32_t& head = head_[hwy::Num0BitsBelowLS1Bit_Nonzero32(filled_)];
-      while (head != kEnd) {
-        const uint32_t entry = head;
-        head = entries_[entry].next;
-        entries_[entry].next = chain;
-        chain = entry;
-      }
-    }
-    while (chain != kEnd) {
-      const uint32_t entry = chain;
-      chain = entries_[entry].next;
-      if (entries_[entry].bound < upper_bound) {
-        link(entry);
-      } else {
-        release(entry);
-      }
+    if (base_ == kNoBase || bitsOf(upper_bound) < base_ + kRebase) {
+      sortFor(upper_bound);
+    } else {
+      filled_ &= (uint64_t{2} << bucketOf(upper_bound)) - 1;
     }
   }
 
@@ -77,11 +55,11 @@ class Frontier {
   bool empty() const { return filled_ == 0; }
   /// Whether a pair of this bound would come next if it were pushed.
   bool comesNext(float bound) const {
-    return ((filled_ | 1U << kBuckets) & ((1U << bucketOf(bound)) - 1)) == 0;
+    return (filled_ & ((uint64_t{1} << bucketOf(bound)) - 1)) == 0;
   }
 
   Entry pop() {
-    const uint32_t bucket = hwy::Num0BitsBelowLS1Bit_Nonzero32(filled_);
+    const size_t bucket = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_);
     const uint32_t entry = head_[bucket];
     const Entry taken = entries_[entry];
     head_[bucket] = taken.next;
@@ -91,21 +69,53 @@ class Frontier {
   }
 
  private:
-  static constexpr uint32_t kBuckets = 24;
+  static constexpr int32_t kBuckets = 64;
+  static constexpr int kBitsOfBucket = 19;  // of a float: 4 bits of the mantissa select the bucket
+  static constexpr int32_t kRange = kBuckets << kBitsOfBucket, kRebase = kRange / 4;
+  static constexpr int32_t kNoBase = std::numeric_limits<int32_t>::max();
   static constexpr uint32_t kEnd = ~uint32_t{0};
 
-  /// Overlapping pairs lie in the first bucket; while there is no upper bound, all do.
-  uint32_t bucketOf(float bound) const {
-    const float at = std::min(std::max(bound, 0.0F) * per_width_, kBuckets - 1.0F);
-    return static_cast<uint32_t>(at);
+  /// Positive floats order like their bits; negative ones have negative bits.
+  static int32_t bitsOf(float bound) {
+    int32_t bits;
+    std::memcpy(&bits, &bound, sizeof(bits));
+    return bits;
   }
-  uint32_t bucketsBelow(float upper_bound) const { return (2U << bucketOf(upper_bound)) - 1; }
+
+  /// Overlapping pairs lie in the first bucket; while there is no upper bound, all do.
+  int32_t bucketOf(float bound) const {
+    const int32_t above = std::max(bitsOf(bound), base_) - base_;
+    return std::min(above >> kBitsOfBucket, kBuckets - 1);
+  }
+
+  /// Buckets anew: the last one holds the upper bound.
+  HWY_NOINLINE void sortFor(float upper_bound) {
+    uint32_t chain = kEnd;
+    for (; filled_ != 0; filled_ &= filled_ - 1) {  // one chain of all, the nearest buckets last
+      const uint32_t head = head_[hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_)];
+      for (uint32_t entry = head, next; entry != kEnd; entry = next) {
+        next = entries_[entry].next;
+        entries_[entry].next = chain;
+        chain = entry;
+      }
+    }
+    base_ = std::max(bitsOf(upper_bound) + (1 << kBitsOfBucket) - kRange, 0);
+    for (uint32_t entry = chain, next; entry != kEnd; entry = next) {
+      next = entries_[entry].next;
+      if (entries_[entry].bound < upper_bound) {
+        link(entry);
+      } else {
+        release(entry);
+      }
+    }
+  }
 
   void link(uint32_t entry) {
-    const uint32_t bucket = bucketOf(entries_[entry].bound);
-    entries_[entry].next = head_[bucket];
+    const int32_t bucket = bucketOf(entries_[entry].bound);
+    const uint64_t bit = uint64_t{1} << bucket;
+    entries_[entry].next = (filled_ & bit) != 0 ? head_[bucket] : kEnd;
     head_[bucket] = entry;
-    filled_ |= 1U << bucket;
+    filled_ |= bit;
   }
 
   void release(uint32_t entry) {
@@ -127,10 +137,9 @@ class Frontier {
   Entry* entries_ = usual_;
   size_t capacity_ = kUsual;
   uint32_t used_ = 0, free_ = kEnd;
-  uint32_t filled_ = 0;  ///< buckets that aren't empty, as bits
-  uint32_t head_[kBuckets];
-  float sorted_for_ = std::numeric_limits<float>::infinity();
-  float per_width_ = 0;
+  uint64_t filled_ = 0;  ///< buckets that aren't empty, as bits
+  int32_t base_ = kNoBase;
+  uint32_t head_[kBuckets];  ///< of those
 };
 
 /// The two sides of a search, by index.
