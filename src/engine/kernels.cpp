@@ -22,8 +22,9 @@
 #define HWY_TARGET_INCLUDE "engine/kernels.cpp"
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #define HWY_COMPILE_ALL_ATTAINABLE  // the scalar one too
-#include <hwy/foreach_target.h>     // NOLINT(llvm-include-order)
-#include <hwy/highway.h>            // NOLINT(llvm-include-order)
+#include <hwy/foreach_target.h>  // NOLINT(llvm-include-order)
+#include <hwy/highway.h>  // NOLINT(llvm-include-order)
+#include <hwy/cache_control.h>  // NOLINT(llvm-include-order)
 
 // In this order.
 #include "engine/simd/node_test-inl.h"
@@ -41,92 +42,117 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Best first: the pair of the least bound is expanded; a pair of leaves is bounded by a slab and
-/// waits again; the features of one that waited are judged. Pairs that overlap must all be expanded
-/// and come depth first, and so does everything until a first upper bound is known.
-void distance(const Search& search) {
-  constexpr uint32_t kSlabbed = 1U << 31;
-  constexpr uint32_t kMaxSlabbed = 256;
-  const Tree &a = search.a, &b = search.b;
-  const Judge& judge = search.judge;
-  const Sides sides(search);
-  Frontier frontier;
-  Slabbed slabbed[kMaxSlabbed];
-  uint32_t num_slabbed = 0;
-  Frontier::Pair at = {0, 0};
-  float bound = -std::numeric_limits<float>::infinity();
-  float prune_at = judge.prune_at;
-  if (prune_at < std::numeric_limits<float>::infinity()) frontier.setUpperBound(prune_at);
-  for (bool have = true;;) {
-    if (judge.prune_at < prune_at) {
-      prune_at = judge.prune_at;
-      frontier.setUpperBound(prune_at);
-    }
-    if (have && !frontier.comesNext(bound)) {
-      frontier.reserve(1);
-      frontier.push(bound, at);
-      have = false;
-    }
-    if (!have) {
-      if (frontier.empty()) return;
-      const Frontier::Entry entry = frontier.pop();
-      at = entry.pair;
-      bound = entry.bound;
-    }
-    have = false;
-    if (bound >= prune_at) continue;
-    if ((at.a & kSlabbed) != 0) {
-      const Slabbed& leaves = slabbed[at.a & ~kSlabbed];
-      if (nearestOfLeaves(search, a.leaves[a.nodes[leaves.nodes.a].leaf()],
-                          b.leaves[b.nodes[leaves.nodes.b].leaf()], leaves.slab, bound)) {
-        return;
+/// Nearly best first: the pairs of the least bounds are expanded; a pair of leaves is bounded by a
+/// slab and waits again; the features of one that waited are judged. Depth first where pairs overlap,
+/// as they must all be expanded, and until a first upper bound is known.
+class DistanceSearch {
+ public:
+  explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
+
+  void run() {
+    frontier_.push(-kInfinity, {0, 0});
+    lowerTo(search_.judge.prune_at);
+    Expansion batch[kBatch];
+    for (;;) {
+      const size_t wanted = prune_at_ < kInfinity ? kBatch : 1;
+      size_t n = 0;
+      while (n < wanted && !frontier_.empty()) {
+        const Frontier::Entry entry = frontier_.pop();
+        if (entry.bound >= prune_at_) continue;
+        if (isInner(entry.pair)) {
+          expander_.start(entry.pair, batch[n++]);
+        } else {
+          if (leaves(entry)) return;
+          lowerTo(search_.judge.prune_at);
+        }
       }
-      continue;
+      if (n == 0) return;
+      for (size_t i = 0; i < n; ++i) expander_.test(batch[i]);
+      for (size_t i = 0; i < n; ++i) expander_.spread(batch[i], frontier_);
     }
-    const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
-    if (!node_a.isLeaf() || !node_b.isLeaf()) {
-      have = expand(search, sides, frontier, at, bound);
-      continue;
-    }
-    ++search.counts.leaf_pairs;
-    const Leaf &leaf_a = a.leaves[node_a.leaf()], &leaf_b = b.leaves[node_b.leaf()];
-    Slabbed& leaves = slabbed[num_slabbed];
-    leaves.nodes = at;
-    bound = std::max(bound, boundOfLeaves(search, leaf_a, leaf_b, leaves.slab));
-    if (bound >= prune_at) {
-      if (search.audit) search.audit->pruned(at.a, at.b, prune_at);
-      continue;
-    }
-    if (num_slabbed + 1 == kMaxSlabbed) {  // no room to wait
-      if (nearestOfLeaves(search, leaf_a, leaf_b, leaves.slab, bound)) return;
-      continue;
-    }
-    at = {kSlabbed | num_slabbed++, 0};
-    have = true;
   }
-}
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr size_t kBatch = 2;
+  static constexpr uint32_t kWaiting = 1U << 31;  ///< instead of node a: an index of waiting_
+  static constexpr uint32_t kMaxWaiting = 256;
+
+  const Node& nodeA(Frontier::Pair at) const { return search_.a.nodes[at.a]; }
+  const Node& nodeB(Frontier::Pair at) const { return search_.b.nodes[at.b]; }
+  bool isInner(Frontier::Pair at) const {
+    return (at.a & kWaiting) == 0 && !(nodeA(at).isLeaf() && nodeB(at).isLeaf());
+  }
+
+  void lowerTo(float prune_at) {
+    if (!(prune_at < prune_at_)) return;
+    prune_at_ = prune_at;
+    frontier_.setUpperBound(prune_at);
+  }
+
+  /// True to end the search.
+  bool leaves(const Frontier::Entry& entry) {
+    if ((entry.pair.a & kWaiting) != 0) {
+      const Slabbed& slabbed = waiting_[entry.pair.a & ~kWaiting];
+      return nearest(slabbed, entry.bound);
+    }
+    ++search_.counts.leaf_pairs;
+    Slabbed& slabbed = waiting_[num_waiting_];
+    slabbed.nodes = entry.pair;
+    const float by_slab = boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
+    const float bound = std::max(entry.bound, by_slab);
+    lowerTo(search_.judge.prune_at);
+    if (bound >= prune_at_) {
+      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, prune_at_);
+      return false;
+    }
+    if (num_waiting_ + 1 == kMaxWaiting) return nearest(slabbed, bound);  // no room to wait
+    frontier_.reserve(1);
+    frontier_.push(bound, {kWaiting | num_waiting_++, 0});
+    return false;
+  }
+
+  const Leaf& leafA(Frontier::Pair at) const { return search_.a.leaves[nodeA(at).leaf()]; }
+  const Leaf& leafB(Frontier::Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
+
+  bool nearest(const Slabbed& slabbed, float bound) {
+    return nearestOfLeaves(search_, leafA(slabbed.nodes), leafB(slabbed.nodes), slabbed.slab, bound);
+  }
+
+  const Search& search_;
+  const Expander expander_;
+  Frontier frontier_;
+  float prune_at_ = kInfinity;
+  uint32_t num_waiting_ = 0;
+  Slabbed waiting_[kMaxWaiting];
+};
+
+void distance(const Search& search) { DistanceSearch(search).run(); }
 
 /// Depth first, of the last children the deepest first: what overlaps deepest is the likeliest hit.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
+  constexpr size_t kBatch = 2;
   const Tree &a = search.a, &b = search.b;
-  const Sides sides(search);
+  const Expander expander(search);
   Frontier frontier;  // of one bucket: a stack
-  Frontier::Pair at = {0, 0};
-  float bound;
-  for (bool have = true;;) {
-    if (!have) {
-      if (frontier.empty()) return;
-      at = frontier.pop().pair;
+  frontier.push(0, {0, 0});
+  Expansion batch[kBatch];
+  for (;;) {
+    size_t n = 0;
+    while (n < kBatch && !frontier.empty()) {
+      const Frontier::Pair at = frontier.pop().pair;
+      const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
+      if (!node_a.isLeaf() || !node_b.isLeaf()) {
+        expander.start(at, batch[n++]);
+        continue;
+      }
+      ++search.counts.leaf_pairs;
+      if (leaf_pair(search, a.leaves[node_a.leaf()], b.leaves[node_b.leaf()])) return;
     }
-    const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
-    have = !node_a.isLeaf() || !node_b.isLeaf();
-    if (have) {
-      have = expand(search, sides, frontier, at, bound);
-      continue;
-    }
-    ++search.counts.leaf_pairs;
-    if (leaf_pair(search, a.leaves[node_a.leaf()], b.leaves[node_b.leaf()])) return;
+    if (n == 0) return;
+    for (size_t i = 0; i < n; ++i) expander.test(batch[i]);
+    for (size_t i = 0; i < n; ++i) expander.spread(batch[i], frontier);
   }
 }
 

@@ -90,13 +90,15 @@ class Preparation {
       collapse.children(at.binary, children);
       tree_->nodes[at.node].child = static_cast<std::int32_t>(tree_->blocks.size());
       tree_->nodes[at.node].first_child = static_cast<std::uint32_t>(tree_->nodes.size());
-      tree_->counts.push_back(static_cast<std::uint8_t>(children.size()));
+      Children& of_block = tree_->children.emplace_back();
+      of_block.count = static_cast<std::uint8_t>(children.size());
       Block& block = tree_->blocks.emplace_back();
       for (int lane = 0; lane < kLanes; ++lane) {
         if (lane < static_cast<int>(children.size())) {
           stack.push_back(
               {static_cast<std::uint32_t>(tree_->nodes.size()), children[lane], at.depth + 1});
           tree_->nodes.push_back(fitted(children[lane]));
+          of_block.flat |= static_cast<std::uint8_t>(tree_->nodes.back().flat << lane);
         }
         const bool used = lane < static_cast<int>(children.size());
         writeLane(tree_->nodes[tree_->nodes[at.node].first_child + (used ? lane : 0)], lane, block);

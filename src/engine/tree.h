@@ -49,7 +49,7 @@ struct alignas(16) Box {
 };
 
 /// The children of a node for the side that is tested untransformed, one a lane. Lanes beyond
-/// `count` (in `counts`) repeat the first child and are masked.
+/// `Children::count` repeat the first child and are masked.
 struct alignas(64) Block {
   Lanes x[kSphereRows], y[kSphereRows], z[kSphereRows], r[kSphereRows];
 };
@@ -84,6 +84,12 @@ struct Leaf {
 /// candidate.
 enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
+/// How many children a block has, and which of them are flat.
+struct Children {
+  std::uint8_t count = 0, flat = 0;
+  std::uint32_t all() const { return (1U << count) - 1; }
+};
+
 struct Tree {
   double origin[3] = {};
   float reach = 0;  ///< >= |centre| + |radius| of all spheres
@@ -91,14 +97,14 @@ struct Tree {
   std::vector<Node> nodes;
   std::vector<Box> boxes;  ///< by node
   std::vector<Block> blocks;
-  std::vector<std::uint8_t> counts;  ///< of children, by block
+  std::vector<Children> children;  ///< by block
   std::vector<Leaf> leaves;
   std::vector<Lanes> lanes;
   std::vector<FeatureId> features;
 
   std::size_t bytes() const {
     return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) +
-           blocks.capacity() * sizeof(Block) + counts.capacity() +
+           blocks.capacity() * sizeof(Block) + children.capacity() * sizeof(Children) +
            leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
            features.capacity() * sizeof(FeatureId);
   }

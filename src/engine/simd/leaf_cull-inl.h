@@ -73,7 +73,7 @@ class Hull {
     const V best = topOf(w, dots);
     uint32_t at = 1U << (kVectors * kStep - 1);  // for NaN
     for (int i = 0; i < kVectors; ++i) at |= bitsOf(hn::Eq(dots[i], best)) << (i * kStep);
-    return {hn::GetLane(best), hwy::Num0BitsBelowLS1Bit_Nonzero32(at)};
+    return {hn::GetLane(best), firstOf(at)};
   }
 
   Vec3 at(uint32_t i) const { return Points{rows_, kChunks}.at(static_cast<int>(i)); }

@@ -111,12 +111,12 @@ class LeafDistances {
     V least = edgeRows(edges_b, near_a.edges, near_b.edges, 0x1p-24F * frames.scale);
     const V minus_pad = hn::Set(d, -frames.pad);
     for (uint32_t left = near_a.vertices; left != 0; left &= left - 1) {
-      const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      const int i = static_cast<int>(firstOf(left));
       const Vec3 p = moved(frames.b_from_a, a_.vertices.at(i));
       least = hn::Min(least, faceRow({PairKind::kVertexFace, i, 0}, b_, p, minus_pad));
     }
     for (uint32_t left = near_b.vertices; left != 0; left &= left - 1) {
-      const int i = static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left));
+      const int i = static_cast<int>(firstOf(left));
       least =
           hn::Min(least, faceRow({PairKind::kFaceVertex, i, 0}, a_, vertices_b.at(i), minus_pad));
     }
@@ -152,7 +152,7 @@ class LeafDistances {
       const int first = rows_;
       for (uint32_t left = near_a; left != 0; left &= left - 1) {
         row_[rows_++] = {PairKind::kEdgeEdge,
-                         static_cast<int>(hwy::Num0BitsBelowLS1Bit_Nonzero32(left)), c};
+                         static_cast<int>(firstOf(left)), c};
       }
       for (size_t l = 0; l < kLanes; l += step()) {
         const Edges eb = edgesIn(edges_b + 6 * c, l, least_square);
@@ -199,7 +199,7 @@ class LeafDistances {
       }
       if (HWY_LIKELY(near == 0)) continue;
       for (near &= validLanes(row_[r]); near != 0; near &= near - 1) {
-        const uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
+        const uint32_t lane = firstOf(near);
         if (squares_[r].v[lane] > limit) continue;
         ++exact;
         if (judge.judge(candidate(row_[r], lane))) return true;
@@ -347,7 +347,7 @@ HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, con
     Vec3 corners[3];
     cornersOf(a, vertices_a, i, corners);
     for (uint32_t may = mayMeet(b, corners, frames.pad); may != 0; may &= may - 1) {
-      const uint32_t j = hwy::Num0BitsBelowLS1Bit_Nonzero32(may);
+      const uint32_t j = firstOf(may);
       if ((of_b[j] >> i & 1U) == 0) continue;
       ++search.counts.exact;
       if (search.judge.judge({PairKind::kFaces, a.face(i), b.face(j)})) return true;

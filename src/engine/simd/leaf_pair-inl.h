@@ -127,7 +127,7 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const Leaf
     uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & all;
     for (; may != 0; may &= may - 1) {
       ++exact;
-      const FeatureId face = faces.face(hwy::Num0BitsBelowLS1Bit_Nonzero32(may));
+      const FeatureId face = faces.face(firstOf(may));
       if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edges.edge(i), face}
                                 : Candidate{PairKind::kFaceEdge, face, edges.edge(i)})) {
         return true;

@@ -5,6 +5,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
+HWY_INLINE uint32_t firstOf(uint32_t bits) {
+  return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+}
+
 template <class M>
 HWY_INLINE uint32_t bitsOf(M mask) {
   uint8_t bits[8] = {};
@@ -53,11 +57,6 @@ class Frontier {
   }
 
   bool empty() const { return filled_ == 0; }
-  /// Whether a pair of this bound would come next if it were pushed.
-  bool comesNext(float bound) const {
-    return (filled_ & ((uint64_t{1} << bucketOf(bound)) - 1)) == 0;
-  }
-
   Entry pop() {
     const size_t bucket = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_);
     const uint32_t entry = head_[bucket];
@@ -142,87 +141,108 @@ class Frontier {
   uint32_t head_[kBuckets];  ///< of those
 };
 
-/// The two sides of a search, by index.
-struct Sides {
-  explicit Sides(const Search& search)
-      : trees{&search.a, &search.b}, to{&search.frames.a_from_b, &search.frames.b_from_a} {}
-
-  const Tree* trees[2];
-  const FloatPose* to[2];  ///< the frame of a side from the other's
+/// An inner pair of nodes under test: the children of the larger node (a leaf is not expanded)
+/// against the other.
+struct Expansion {
+  Frontier::Pair at;
+  uint32_t side;  ///< whose node is expanded: 0 of a, 1 of b
+  const Node* parent;
+  const Node* other;
+  uint32_t near;  ///< children that matter, as bits
+  alignas(32) float bounds[kLanes];
 };
 
-HWY_NOINLINE void reportPruned(const Search& search, const Node& parent, uint32_t count,
-                               uint32_t side, Frontier::Pair at, uint32_t near,
-                               const float* bounds) {
-  for (uint32_t lane = 0; lane < count; ++lane) {
-    if ((near >> lane & 1U) != 0) continue;
-    const uint32_t child = parent.first_child + lane;
-    search.audit->pruned(side == 0 ? child : at.a, side == 0 ? at.b : child, bounds[lane]);
-  }
-}
+/// Expansions come in batches: what one waits for overlaps with the work of another.
+class Expander {
+ public:
+  explicit Expander(const Search& search)
+      : search_(search),
+        trees_{&search.a, &search.b},
+        to_{&search.frames.a_from_b, &search.frames.b_from_a} {}
 
-/// Tests the children of the larger node of a pair (a leaf is not expanded) against the other node.
-/// Of those nearer than judge.prune_at the nearest replaces the pair, the others join the frontier;
-/// false if there is none.
-HWY_INLINE bool expand(const Search& search, const Sides& sides, Frontier& frontier,
-                       Frontier::Pair& at, float& bound) {
-  const Node* const nodes[2] = {&search.a.nodes[at.a], &search.b.nodes[at.b]};
-  // A leaf's size counts as negative.
-  const auto rank = [](const Node& n) { return n.child < 0 ? -1.0F : n.size; };
-  const uint32_t side = rank(*nodes[0]) > rank(*nodes[1]) ? 0 : 1;
-  const Node& parent = *nodes[side];
-  const Tree& tree = *sides.trees[side];
-  const Block& block = tree.blocks[static_cast<size_t>(parent.child)];
-  const uint32_t count = tree.counts[static_cast<size_t>(parent.child)];
-  MovedNode moved;
-  move(*nodes[1 - side], *sides.to[side], search.frames.pad, moved);
-  alignas(32) float bounds[kLanes];
-  uint32_t near = 0;
-  const V limit = hn::Set(d, search.judge.prune_at);
-  for (size_t l = 0; l < kLanes; l += step()) {
-    const V lower = lowerBounds(block, l, moved);
-    hn::Store(lower, d, bounds + l);
-    near |= bitsOf(hn::Lt(lower, limit)) << l;
+  void start(Frontier::Pair at, Expansion& e) const {
+    const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
+    const auto rank = [](const Node& n) { return n.child < 0 ? -1.0F : n.size; };
+    e.at = at;
+    e.side = rank(*nodes[0]) > rank(*nodes[1]) ? 0 : 1;
+    e.parent = nodes[e.side];
+    e.other = nodes[1 - e.side];
+    const char* const block = reinterpret_cast<const char*>(&blockOf(e));
+    for (size_t line = 0; line < sizeof(Block); line += 64) hwy::Prefetch(block + line);
   }
-  ++search.counts.expansions;
-  search.counts.volume_tests += count;
-  near &= (1U << count) - 1;
-  Box moved_box;
-  bool box_moved = false;
-  for (uint32_t left = near; left != 0; left &= left - 1) {
-    const uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(left);
-    const uint32_t child = parent.first_child + lane;
-    if ((tree.nodes[child].flat | nodes[1 - side]->flat) == 0) continue;
-    if (!box_moved) {
-      const Tree& other = *sides.trees[1 - side];
-      move(other.boxes[side == 0 ? at.b : at.a], *sides.to[side], moved_box);
-      box_moved = true;
+
+  void test(Expansion& e) const {
+    MovedNode moved;
+    move(*e.other, *to_[e.side], search_.frames.pad, moved);
+    const Block& block = blockOf(e);
+    const V limit = hn::Set(d, search_.judge.prune_at);
+    e.near = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V lower = lowerBounds(block, l, moved);
+      hn::Store(lower, d, e.bounds + l);
+      e.near |= bitsOf(hn::Lt(lower, limit)) << l;
     }
-    const float lower = boxDistance(tree.boxes[child], moved_box, search.frames.pad);
-    if (lower > 0 && lower >= search.judge.prune_at) near ^= 1U << lane;
-    bounds[lane] = std::max(bounds[lane], lower > 0 ? lower : bounds[lane]);
+    e.near &= childrenOf(e).all();
+    ++search_.counts.expansions;
+    search_.counts.volume_tests += childrenOf(e).count;
   }
-  if (HWY_UNLIKELY(search.audit != nullptr))
-    reportPruned(search, parent, count, side, at, near, bounds);
-  if (near == 0) return false;
-  uint32_t pair[2] = {at.a, at.b};
-  const auto pairOf = [&](uint32_t lane) {
-    pair[side] = parent.first_child + lane;
-    return Frontier::Pair{pair[0], pair[1]};
-  };
-  uint32_t nearest = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
-  frontier.reserve(kLanes);
-  for (near &= near - 1; near != 0; near &= near - 1) {
-    const uint32_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(near);
-    const bool nearer = bounds[lane] < bounds[nearest];
-    const uint32_t other = nearer ? nearest : lane;
-    nearest = nearer ? lane : nearest;
-    frontier.push(bounds[other], pairOf(other));
+
+  /// The children that matter join the frontier, the nearest last.
+  void spread(Expansion& e, Frontier& frontier) const {
+    const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
+    if (flat != 0) testBoxes(e, flat);
+    if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e);
+    if (e.near == 0) return;
+    const auto pairOf = [&](uint32_t lane) {
+      const uint32_t child = e.parent->first_child + lane;
+      return e.side == 0 ? Frontier::Pair{child, e.at.b} : Frontier::Pair{e.at.a, child};
+    };
+    frontier.reserve(kLanes);
+    uint32_t nearest = firstOf(e.near);
+    for (uint32_t left = e.near & (e.near - 1); left != 0; left &= left - 1) {
+      const uint32_t lane = firstOf(left);
+      const bool nearer = e.bounds[lane] < e.bounds[nearest];
+      const uint32_t other = nearer ? nearest : lane;
+      nearest = nearer ? lane : nearest;
+      frontier.push(e.bounds[other], pairOf(other));
+    }
+    frontier.push(e.bounds[nearest], pairOf(nearest));
   }
-  bound = bounds[nearest];
-  at = pairOf(nearest);
-  return true;
-}
+
+ private:
+  const Block& blockOf(const Expansion& e) const {
+    return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
+  }
+  const Children& childrenOf(const Expansion& e) const {
+    return trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
+  }
+
+  HWY_NOINLINE void testBoxes(Expansion& e, uint32_t flat) const {
+    const Tree &tree = *trees_[e.side], &other = *trees_[1 - e.side];
+    Box moved_box;
+    move(other.boxes[e.side == 0 ? e.at.b : e.at.a], *to_[e.side], moved_box);
+    for (; flat != 0; flat &= flat - 1) {
+      const uint32_t lane = firstOf(flat);
+      const float lower = boxDistance(tree.boxes[e.parent->first_child + lane], moved_box,
+                                      search_.frames.pad);
+      if (!(lower > 0)) continue;  // 0 says nothing
+      e.bounds[lane] = std::max(e.bounds[lane], lower);
+      if (lower >= search_.judge.prune_at) e.near ^= 1U << lane;
+    }
+  }
+
+  HWY_NOINLINE void reportPruned(const Expansion& e) const {
+    for (uint32_t left = childrenOf(e).all() & ~e.near; left != 0; left &= left - 1) {
+      const uint32_t lane = firstOf(left), child = e.parent->first_child + lane;
+      search_.audit->pruned(e.side == 0 ? child : e.at.a, e.side == 0 ? e.at.b : child,
+                            e.bounds[lane]);
+    }
+  }
+
+  const Search& search_;
+  const Tree* trees_[2];
+  const FloatPose* to_[2];  ///< the frame of a side from the other's
+};
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
