@@ -25,7 +25,8 @@ double removePart(const Vec& direction, double square, Vec& v) {
 
 // By the cross product, not by aa bb - ab^2: a parameter then errs by eps / sin. What that adds to
 // the distance after the re-projections is at most eps of the extent.
-FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const Vec& q1) {
+FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const Vec& q1,
+                             NearestEnds& ends) {
   const Vec a = p1 - p0, b = q1 - q0, t = q0 - p0;
   const double aa = a.squaredNorm(), bb = b.squaredNorm();
   const Vec n = a.cross(b);
@@ -34,8 +35,22 @@ FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const 
   // The point of q from its nearer end.
   const Vec y = v < 0.5 ? Vec(t + v * b) : Vec((q1 - p0) - (1 - v) * b);
   s = clamp01(y.dot(a) / aa);
+  const double extent = std::sqrt(aa) + std::sqrt(bb) + t.lpNorm<Eigen::Infinity>();
+  if ((s == 0 || s == 1) && (v == 0 || v == 1)) {  // the same for all edges that end there
+    const Vec &p = s == 0 ? p0 : p1, &q = v == 0 ? q0 : q1;
+    ends = {p, q, (q - p).norm()};
+    return {ends.distance, extent};
+  }
   const Vec w = s < 0.5 ? Vec(y - s * a) : Vec((y - a) + (1 - s) * a);
-  return {w.norm(), std::sqrt(aa) + std::sqrt(bb) + t.lpNorm<Eigen::Infinity>()};
+  return {w.norm(), extent};
+}
+
+bool nearestAt(const NearestEnds& ends, const Vec& p0, const Vec& p1, const Vec& q0,
+               const Vec& q1) {
+  const auto& [p, q, distance] = ends;
+  if ((p0 != p && p1 != p) || (q0 != q && q1 != q)) return false;
+  const Vec w = q - p;
+  return ((p0 == p ? p1 : p0) - p).dot(w) <= 0 && ((q0 == q ? q1 : q0) - q).dot(w) >= 0;
 }
 
 // The plane by Gram-Schmidt on the longest edge, twice: right for any aspect.

@@ -12,9 +12,21 @@ struct FeatureDistance {
   double extent;
 };
 
-/// Edges p0 p1 and q0 q1, of any length.
+/// Two vertices in which edges were nearest.
+struct NearestEnds {
+  Eigen::Vector3d p, q;
+  double distance = -1;  ///< < 0: none yet
+};
+
+/// Edges p0 p1 and q0 q1, of any length. Sets `ends` if they are nearest in two ends.
 FeatureDistance edgeDistance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
-                             const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
+                             const Eigen::Vector3d& q0, const Eigen::Vector3d& q1,
+                             NearestEnds& ends);
+
+/// True if these edges too end in those vertices and are nearest there, as both lead away. Most
+/// edges that a search finds equally near are.
+bool nearestAt(const NearestEnds& ends, const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+               const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
 /// A point and the inside of a triangle; infinity if the point projects outside (the edges then
 /// are as near), or if the triangle has no plane.

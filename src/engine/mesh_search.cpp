@@ -99,10 +99,12 @@ class NearestJudge final : public Judge {
   }
 
  private:
-  FeatureDistance distanceOf(const Candidate& c) const {
+  FeatureDistance distanceOf(const Candidate& c) {
     if (c.kind == PairKind::kEdgeEdge) {
-      return edgeDistance(corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofB(c.b),
-                          corners_.ofB(c.b, 1));
+      const Eigen::Vector3d p0 = corners_.ofA(c.a), p1 = corners_.ofA(c.a, 1);
+      const Eigen::Vector3d q0 = corners_.ofB(c.b), q1 = corners_.ofB(c.b, 1);
+      if (ends_.distance > 0 && nearestAt(ends_, p0, p1, q0, q1)) return {ends_.distance, 0};
+      return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
       return faceDistance(corners_.ofA(c.a),
@@ -129,6 +131,7 @@ class NearestJudge final : public Judge {
   const double rel_err_, abs_err_;
   double best_ = 0;  ///< of ids_, or what was asked for
   TrianglePairIds ids_;
+  NearestEnds ends_;
 };
 
 template <typename S>
