@@ -74,7 +74,7 @@ class DistanceSearch {
 
  private:
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  static constexpr size_t kBatch = 2;
+  static constexpr size_t kBatch = 4;
   static constexpr uint32_t kWaiting = 1U << 31;  ///< instead of node a: an index of waiting_
   static constexpr uint32_t kMaxWaiting = 256;
 
@@ -132,7 +132,7 @@ void distance(const Search& search) { DistanceSearch(search).run(); }
 /// Depth first, of the last children the deepest first: what overlaps deepest is the likeliest hit.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
-  constexpr size_t kBatch = 2;
+  constexpr size_t kBatch = 4;
   const Tree &a = search.a, &b = search.b;
   const Expander expander(search);
   Frontier frontier;  // of one bucket: a stack

@@ -205,11 +205,19 @@ class Expander {
       const uint32_t other = nearer ? nearest : lane;
       nearest = nearer ? lane : nearest;
       frontier.push(e.bounds[other], pairOf(other));
+      prefetchNode(e, other);
     }
     frontier.push(e.bounds[nearest], pairOf(nearest));
+    prefetchNode(e, nearest);
   }
 
  private:
+  void prefetchNode(const Expansion& e, uint32_t lane) const {
+    const Node* const child = &trees_[e.side]->nodes[e.parent->first_child + lane];
+    hwy::Prefetch(child);
+    hwy::Prefetch(reinterpret_cast<const char*>(child) + 64);
+  }
+
   const Block& blockOf(const Expansion& e) const {
     return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
   }
