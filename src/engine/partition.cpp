@@ -66,10 +66,10 @@ class Partition {
  private:
   void split(int node) {
     const int first = nodes_[node].first, n = nodes_[node].count;
+    if (n <= kLeafTriangles) return;
     Box bounds, centers;
     project(first, n, bounds, centers);
     nodes_[node].size = std::sqrt(bounds.squaredDiagonal());
-    if (n <= kLeafTriangles) return;
     const int left = n <= kSweep ? sweep(first, n) : binned(first, n, centers);
     nodes_[node].left = static_cast<int>(nodes_.size());
     nodes_[node].right = nodes_[node].left + 1;

@@ -13,7 +13,7 @@ namespace kios::engine {
 struct BinaryNode {
   int first, count;
   int left = -1, right = -1;  ///< -1: a leaf
-  float size = 0;             ///< diagonal of the box along the principal axes
+  float size = 0;             ///< of inner nodes: diagonal of the box along the principal axes
 
   bool isLeaf() const { return left < 0; }
 };
