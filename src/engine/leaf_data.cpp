@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace kios::engine {
 namespace {
@@ -38,23 +39,40 @@ class LaneWriter {
 
 /// Unit normal by the longest edge and the height above it, true to 2^-52 * aspect; false if the
 /// triangle is too thin for one that is right to a few 2^-30.
-bool unitNormal(const Vec (&v)[3], Vec& normal) {
-  int longest = 0;
-  double square = -1;
-  for (int k = 0; k < 3; ++k) {
-    const double s = (v[(k + 1) % 3] - v[k]).squaredNorm();
-    if (s > square) {
-      square = s;
-      longest = k;
-    }
-  }
+bool unitNormal(const Vec (&edges)[3], const double (&squares)[3], Vec& normal) {
+  int longest = squares[1] > squares[0] ? 1 : 0;
+  if (squares[2] > squares[longest]) longest = 2;
+  const double square = squares[longest];
   if (!(square > 0)) return false;
-  const Vec edge = v[(longest + 1) % 3] - v[longest];
-  Vec height = v[(longest + 2) % 3] - v[longest];
+  const Vec& edge = edges[longest];
+  Vec height = -edges[(longest + 2) % 3];
   height -= height.dot(edge) / square * edge;
-  if (!(height.squaredNorm() > 0x1p-40 * square)) return false;
-  normal = edge.cross(height).normalized();
+  const double height2 = height.squaredNorm();
+  if (!(height2 > 0x1p-40 * square)) return false;
+  normal = edge.cross(height) / std::sqrt(square * height2);
   return true;
+}
+
+/// Plane and edge planes of a face; of one that is too thin those that hold everywhere.
+void writeFace(const Vec (&v)[3], int i, LaneWriter& faces, Vec& sum_of_normals) {
+  const Vec edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
+  const double squares[3] = {edges[0].squaredNorm(), edges[1].squaredNorm(),
+                             edges[2].squaredNorm()};
+  Vec normal = Vec::Zero();
+  const bool usable = unitNormal(edges, squares, normal);
+  sum_of_normals += normal;
+  normal = normal.cast<float>().cast<double>();
+  faces.set(i, kFacePlane, normal);
+  faces.set(i, kFacePlane + 3, -normal.dot(v[0] + v[1] + v[2]) / 3);
+  for (int k = 0; k < 3; ++k) {
+    Vec inward = Vec::Zero();
+    if (usable) {
+      inward = (normal.cross(edges[k]) / std::sqrt(squares[k])).cast<float>().cast<double>();
+    }
+    const int row = kEdgePlanes + 4 * k;
+    faces.set(i, row, inward);
+    faces.set(i, row + 3, usable ? -inward.dot(v[k]) : 1);
+  }
 }
 
 }  // namespace
@@ -83,23 +101,8 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
   LaneWriter faces(tree.lanes, leaf.num_faces, 1, kFaceRows);
   Vec sum = Vec::Zero();
   for (int i = 0; i < leaf.num_faces; ++i) {
-    const Vec(&v)[3] = content.triangles[i].corners;
-    Vec normal = Vec::Zero();
-    const bool usable = unitNormal(v, normal);
+    writeFace(content.triangles[i].corners, i, faces, sum);
     std::copy_n(content.triangles[i].vertices, 3, leaf.corners + 3 * i);
-    sum += normal;
-    normal = normal.cast<float>().cast<double>();
-    faces.set(i, kFacePlane, normal);
-    faces.set(i, kFacePlane + 3, -normal.dot(v[0] + v[1] + v[2]) / 3);
-    for (int k = 0; k < 3; ++k) {
-      Vec inward = Vec::Zero();
-      if (usable) {
-        inward = normal.cross(v[(k + 1) % 3] - v[k]).normalized().cast<float>().cast<double>();
-      }
-      const int row = kEdgePlanes + 4 * k;
-      faces.set(i, row, inward);
-      faces.set(i, row + 3, usable ? -inward.dot(v[k]) : 1);
-    }
   }
   const Eigen::Vector3f middle = 0.5F * (low + high);
   const Eigen::Vector3f normal = sum.normalized().cast<float>();  // 0 stays 0
