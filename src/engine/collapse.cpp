@@ -19,7 +19,7 @@ Collapse::Collapse(const std::vector<BinaryNode>& nodes) : nodes_(nodes), costs_
       for (int left = 2; left < roots; ++left) {
         if (cost(left) < cost(best)) best = left;
       }
-      c.left[roots] = static_cast<signed char>(best);
+      c.left[roots] = static_cast<unsigned char>(best);
       dissolved[roots] = cost(best);
     }
     c.at_most[1] = node.size * std::sqrt(node.size) + dissolved[kLanes];

@@ -24,8 +24,8 @@ class Collapse {
 
   const std::vector<BinaryNode>& nodes_;
   struct Costs {
-    float at_most[kLanes + 1] = {};     ///< [i]: as at most i nodes
-    signed char left[kLanes + 1] = {};  ///< [i]: how many of i nodes are under the left child
+    float at_most[kLanes + 1] = {};       ///< [i]: as at most i nodes
+    unsigned char left[kLanes + 1] = {};  ///< [i]: how many of i nodes are under the left child
   };
   std::vector<Costs> costs_;
 };

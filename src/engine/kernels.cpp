@@ -22,9 +22,9 @@
 #define HWY_TARGET_INCLUDE "engine/kernels.cpp"
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #define HWY_COMPILE_ALL_ATTAINABLE  // the scalar one too
-#include <hwy/foreach_target.h>  // NOLINT(llvm-include-order)
-#include <hwy/highway.h>  // NOLINT(llvm-include-order)
-#include <hwy/cache_control.h>  // NOLINT(llvm-include-order)
+#include <hwy/cache_control.h>      // NOLINT(llvm-include-order)
+#include <hwy/foreach_target.h>     // NOLINT(llvm-include-order)
+#include <hwy/highway.h>            // NOLINT(llvm-include-order)
 
 // In this order.
 #include "engine/simd/node_test-inl.h"
@@ -43,8 +43,8 @@ HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
 /// Nearly best first: the pairs of the least bounds are expanded; a pair of leaves is bounded by a
-/// slab and waits again; the features of one that waited are judged. Depth first where pairs overlap,
-/// as they must all be expanded, and until a first upper bound is known.
+/// slab and waits again; the features of one that waited are judged. Depth first where pairs
+/// overlap, as they must all be expanded, and until a first upper bound is known.
 class DistanceSearch {
  public:
   explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
@@ -99,7 +99,8 @@ class DistanceSearch {
     ++search_.counts.leaf_pairs;
     Slabbed& slabbed = waiting_[num_waiting_];
     slabbed.nodes = entry.pair;
-    const float by_slab = boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
+    const float by_slab =
+        boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
     const float bound = std::max(entry.bound, by_slab);
     lowerTo(search_.judge.prune_at);
     if (bound >= prune_at_) {
@@ -116,7 +117,8 @@ class DistanceSearch {
   const Leaf& leafB(Frontier::Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
 
   bool nearest(const Slabbed& slabbed, float bound) {
-    return nearestOfLeaves(search_, leafA(slabbed.nodes), leafB(slabbed.nodes), slabbed.slab, bound);
+    return nearestOfLeaves(search_, leafA(slabbed.nodes), leafB(slabbed.nodes), slabbed.slab,
+                           bound);
   }
 
   const Search& search_;

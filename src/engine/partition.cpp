@@ -41,7 +41,10 @@ struct Item {
   std::uint32_t index;
 };
 
-float leavesOf(int n) { return static_cast<float>((n + kLeafTriangles - 1) / kLeafTriangles); }
+float leavesOf(int n) {
+  const int leaves = (n + kLeafTriangles - 1) / kLeafTriangles;
+  return static_cast<float>(leaves);
+}
 
 struct Split {
   float cost = kInfinity;

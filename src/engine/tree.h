@@ -37,7 +37,7 @@ struct alignas(64) Node {
   Node() : first_child(0), flat(0) {}
 
   bool isLeaf() const { return child < 0; }
-  std::size_t leaf() const { return static_cast<std::size_t>(~child); }
+  std::size_t leaf() const { return ~static_cast<std::size_t>(child); }
 };
 static_assert(sizeof(Node) == 128);
 
@@ -71,8 +71,8 @@ struct Leaf {
   std::uint32_t offset = 0, feature_offset = 0;
   std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
   float centroid[3] = {};
-  float normal[3] = {};  ///< mean direction of the faces, of length 1 or 0
-  float normal_bottom = 0, normal_top = 0;  ///< where the vertices lie along it
+  float normal[3] = {};                         ///< mean direction of the faces, of length 1 or 0
+  float normal_bottom = 0, normal_top = 0;      ///< where the vertices lie along it
   std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
 
   int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }

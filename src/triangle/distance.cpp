@@ -94,7 +94,7 @@ S positive(double distance) {
 
 template <typename S>
 TriangleDistance<S> touchingAt(const Vec& at) {
-  const Point<S> p = at.cast<S>();
+  const Point<S>& p = at.cast<S>();
   return {S(0), p, p, TriangleFeature::kFace, TriangleFeature::kFace};
 }
 

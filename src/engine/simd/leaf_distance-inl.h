@@ -151,8 +151,7 @@ class LeafDistances {
       if ((near_b >> (kLanes * c) & 0xFFU) == 0) continue;
       const int first = rows_;
       for (uint32_t left = near_a; left != 0; left &= left - 1) {
-        row_[rows_++] = {PairKind::kEdgeEdge,
-                         static_cast<int>(firstOf(left)), c};
+        row_[rows_++] = {PairKind::kEdgeEdge, static_cast<int>(firstOf(left)), c};
       }
       for (size_t l = 0; l < kLanes; l += step()) {
         const Edges eb = edgesIn(edges_b + 6 * c, l, least_square);

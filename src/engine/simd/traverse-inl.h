@@ -231,8 +231,8 @@ class Expander {
     move(other.boxes[e.side == 0 ? e.at.b : e.at.a], *to_[e.side], moved_box);
     for (; flat != 0; flat &= flat - 1) {
       const uint32_t lane = firstOf(flat);
-      const float lower = boxDistance(tree.boxes[e.parent->first_child + lane], moved_box,
-                                      search_.frames.pad);
+      const float lower =
+          boxDistance(tree.boxes[e.parent->first_child + lane], moved_box, search_.frames.pad);
       if (!(lower > 0)) continue;  // 0 says nothing
       e.bounds[lane] = std::max(e.bounds[lane], lower);
       if (lower >= search_.judge.prune_at) e.near ^= 1U << lane;
