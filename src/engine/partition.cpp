@@ -62,7 +62,15 @@ class Partition {
     const int n = static_cast<int>(triangles_.size());
     nodes_.reserve(n / 2 + 4);
     nodes_.push_back({0, n});
-    for (std::size_t i = 0; i < nodes_.size(); ++i) split(static_cast<int>(i));
+    std::vector<int> stack = {0};  // depth first: a part that fits the cache stays there
+    while (!stack.empty()) {
+      const int node = stack.back();
+      stack.pop_back();
+      split(node);
+      if (nodes_[node].isLeaf()) continue;
+      stack.push_back(nodes_[node].right);
+      stack.push_back(nodes_[node].left);
+    }
     return std::move(nodes_);
   }
 
