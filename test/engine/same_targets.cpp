@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Prints every bit of the answers of queries, and the work they took: a line a query. Whatever
+// instruction set the environment variable FCL_KIOS_SIMD chooses, the output must be the same:
+// same_targets.sh compares. The name of the target goes to the standard error stream.
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "engine/shapes.h"
+#include "fcl_kios/fcl_kios.h"
+
+namespace kios::testing {
+namespace {
+
+void print(const SearchCounts& c) {
+  std::printf(" %lld %lld %lld %lld %lld %lld", c.expansions, c.volume_tests, c.leaf_pairs,
+              c.leaf_kernels, c.exact, c.tree_searches);
+}
+
+template <typename S>
+void print(const fcl::Vector3<S>& p) {
+  for (int i = 0; i < 3; ++i) std::printf(" %a", double{p[i]});
+}
+
+template <typename S>
+void ask(const Model<S>& a, const fcl::Transform3<S>& X_A, const Model<S>& b,
+         const fcl::Transform3<S>& X_B) {
+  for (const S rel_err : {S(0), S(0.1)}) {
+    fcl::DistanceResult<S> result;
+    SearchCounts counts;
+    const fcl::DistanceRequest<S> request(true, false, rel_err);
+    const S d = distanceMeshes(a, X_A, b, X_B, request, result, &counts);
+    std::printf("%a %" PRIdPTR " %" PRIdPTR, double{d}, result.b1, result.b2);
+    print<S>(result.nearest_points[0]);
+    print<S>(result.nearest_points[1]);
+    print(counts);
+    std::printf("\n");
+  }
+  for (const std::size_t most : {1, 4, 100000}) {
+    fcl::CollisionResult<S> result;
+    SearchCounts counts;
+    collideMeshes(a, X_A, b, X_B, fcl::CollisionRequest<S>(most, true), result, &counts);
+    std::printf("%zu", result.numContacts());
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      const fcl::Contact<S>& contact = result.getContact(i);
+      std::printf(" %" PRIdPTR " %" PRIdPTR " %a", contact.b1, contact.b2,
+                  double{contact.penetration_depth});
+    }
+    print(counts);
+    std::printf("\n");
+  }
+}
+
+template <typename S>
+void askAll() {
+  std::vector<NamedMesh> meshes = unitMeshes();
+  const Mesh other = scenes::bumpyTorus(400);
+  const auto b = scenes::buildModel<kIOS<S>>(other);
+  for (const NamedMesh& named : meshes) {
+    const auto a = scenes::buildModel<kIOS<S>>(named.mesh);
+    std::printf("%s\n", named.name.c_str());
+    const auto poses = scenes::randomPoses(12, 1.5, 5);
+    for (std::size_t i = 0; i < poses.size(); i += 2) {
+      ask<S>(*a, poses[i].template cast<S>(), *b, poses[i + 1].template cast<S>());
+      ask<S>(*b, poses[i].template cast<S>(), *a, poses[i + 1].template cast<S>());
+    }
+  }
+  // Ties, at a pose that rounds nothing.
+  const auto sheet = scenes::buildModel<kIOS<S>>(lattice(12, 1));
+  for (int i = 0; i < 6; ++i) {
+    fcl::Transform3<S> X = fcl::Transform3<S>::Identity();
+    X.translation() = fcl::Vector3<S>(S(3 * i), S(0.5), S(i / 2));
+    ask<S>(*sheet, fcl::Transform3<S>::Identity(), *sheet, X);
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
+
+int main() {
+  try {
+    std::fprintf(stderr, "%s\n", kios::simdTarget());
+    kios::testing::askAll<double>();
+    kios::testing::askAll<float>();
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,49 @@
+#!/bin/sh
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Queries give bitwise the same answers by the same steps whatever instruction set searches.
+#   same_targets.sh <program of same_targets.cpp>
+set -eu
+program=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+env -u FCL_KIOS_SIMD "$program" > "$work/expected" 2> "$work/best"
+echo "$(cat "$work/best"): the best of this machine, $(wc -l < "$work/expected") lines"
+compared=0
+for target in AVX3 AVX2 SSE4 NEON EMU128 SCALAR; do
+  if FCL_KIOS_SIMD=$target "$program" > "$work/answers" 2> "$work/target"; then
+    if [ "$(cat "$work/target")" != "$target" ]; then
+      echo "$target was asked for, $(cat "$work/target") answered"
+      failed=1
+    elif cmp -s "$work/expected" "$work/answers"; then
+      echo "$target: the same"
+      compared=$((compared + 1))
+    else
+      echo "$target: differs"
+      diff "$work/expected" "$work/answers" | head -n 6 || true
+      failed=1
+    fi
+  elif grep -q "FCL_KIOS_SIMD=$target is not available" "$work/target"; then
+    echo "$target: skipped, this machine or build lacks it"
+  else
+    echo "$target: failed"
+    cat "$work/target"
+    failed=1
+  fi
+done
+if [ "$compared" -lt 2 ]; then
+  echo "fewer than two targets were compared"
+  failed=1
+fi
+
+status=0
+FCL_KIOS_SIMD=NONSENSE "$program" > "$work/answers" 2> "$work/target" || status=$?
+if [ "$status" -ne 2 ] || ! grep -q "^fcl_kios: FCL_KIOS_SIMD=NONSENSE .*: .*$(cat "$work/best")" "$work/target"; then
+  echo "an unknown name must be refused by std::invalid_argument, naming what there is; got:"
+  cat "$work/target"
+  failed=1
+fi
+exit $failed

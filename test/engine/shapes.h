@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/mesh.h"
+#include "engine/mesh_search.h"
+#include "engine/prepare.h"
+#include "fcl_kios/bv/separation.h"
+#include "fcl_kios/triangle/triangle.h"
+#include "scenes/cad_shapes.h"
+#include "scenes/motions.h"
+#include "scenes/random.h"
+#include "scenes/shapes.h"
+
+// Meshes, poses and prepared pairs that the tests of the engine share.
+
+namespace kios::testing {
+
+using scenes::Mesh;
+using scenes::Random;
+
+/// A mesh in the precision of a query.
+template <typename S>
+struct Shape {
+  std::vector<fcl::Vector3<S>> vertices;
+  std::vector<fcl::Triangle> triangles;
+
+  explicit Shape(const Mesh& mesh) : triangles(mesh.triangles) {
+    for (const fcl::Vector3d& p : mesh.vertices) vertices.push_back(p.template cast<S>());
+  }
+  engine::MeshView<S> view() const {
+    return {vertices.data(), vertices.size(), triangles.data(), triangles.size()};
+  }
+  TriangleVertices<S> corners(std::size_t t) const {
+    const fcl::Triangle& ids = triangles[t];
+    return {vertices[ids[0]], vertices[ids[1]], vertices[ids[2]]};
+  }
+};
+
+struct NamedMesh {
+  std::string name;
+  Mesh mesh;
+};
+
+inline Mesh transformed(Mesh mesh, double scale, const fcl::Vector3d& offset) {
+  for (fcl::Vector3d& p : mesh.vertices) p = scale * p + offset;
+  return mesh;
+}
+
+/// Points (0), segments (1) and proper triangles (2), mixed if `kind` is 3.
+inline Mesh degenerateMesh(int count, int kind, std::uint64_t seed) {
+  Random random(seed);
+  const auto point = [&random]() -> fcl::Vector3d {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    return {x, y, random.uniform(-1, 1)};
+  };
+  std::vector<Mesh> parts;
+  for (int i = 0; i < count; ++i) {
+    const int what = kind == 3 ? i % 3 : kind;
+    const fcl::Vector3d p = point(), d = 0.3 * point(), e = 0.3 * point();
+    if (what == 0) parts.push_back(scenes::singleTriangle(p, p, p));
+    if (what == 1) parts.push_back(scenes::singleTriangle(p, p + d, p + 0.5 * d));
+    if (what == 2) parts.push_back(scenes::singleTriangle(p, p + d, p + e));
+  }
+  return scenes::merged(parts);
+}
+
+/// The same triangle `count` times, over the same three vertices.
+inline Mesh repeated(int count) {
+  Mesh mesh = scenes::singleTriangle({0.3, 0.1, -0.2}, {-0.4, 0.7, 0.1}, {0.2, -0.5, 0.6});
+  mesh.triangles.resize(count, mesh.triangles[0]);
+  return mesh;
+}
+
+/// A flat grid of n x n squares of side `step`, each of two triangles, in the plane z = 0.
+inline Mesh lattice(int n, double step) {
+  Mesh mesh;
+  for (int y = 0; y <= n; ++y) {
+    for (int x = 0; x <= n; ++x) mesh.vertices.emplace_back(step * x, step * y, 0);
+  }
+  const auto at = [n](int x, int y) { return static_cast<std::size_t>(y * (n + 1) + x); };
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      mesh.triangles.emplace_back(at(x, y), at(x + 1, y), at(x, y + 1));
+      mesh.triangles.emplace_back(at(x + 1, y), at(x + 1, y + 1), at(x, y + 1));
+    }
+  }
+  return mesh;
+}
+
+/// Meshes of extent about 1 of every kind that a partition meets.
+inline std::vector<NamedMesh> unitMeshes() {
+  using namespace scenes;
+  const Mesh torus = bumpyTorus(300);
+  std::vector<NamedMesh> meshes = {
+      {"torus", torus},
+      {"soup of a torus", soup(torus)},
+      {"shrunk soup", shrunkSoup(torus, 1e-6, 0.1, 5)},
+      {"sheet", sheet(2, 1.5, 9, 8, 0)},
+      {"strips", stripCylinder(40, 0.6, 0.004)},
+      {"poles", uvSphere(1, 8, 40)},
+      {"repeated triangle", repeated(40)},
+      {"repeated triangle, own vertices", soup(repeated(40))},
+      {"points", degenerateMesh(30, 0, 6)},
+      {"segments", degenerateMesh(30, 1, 7)},
+      {"points, segments, triangles", degenerateMesh(60, 3, 8)},
+      {"two parts", merged({icosphere(0.5, 1), transformed(icosphere(0.3, 1), 1, {40, -30, 20})})},
+      {"large and small",
+       merged({subdividedBox({2, 2, 2}, 2), transformed(icosphere(1, 1), 1e-4, {0.3, 0.4, 1.1})})},
+      {"small flat part",
+       merged({icosphere(1, 1), transformed(sheet(1, 1, 5, 5, 0), 1e-5, {0.7, 0.9, 1.1})})}};
+  for (const int n : {1, 2, 7, 8, 9, 16, 17, 33, 100}) {
+    meshes.push_back({"soup of " + std::to_string(n), randomSoup(n, 1, 1e-3, 1, 20 + n)});
+  }
+  return meshes;
+}
+
+/// Those, and some of them at other scales and away from their origin.
+template <typename S>
+std::vector<NamedMesh> allMeshes() {
+  std::vector<NamedMesh> meshes = unitMeshes();
+  const double offset = sizeof(S) == sizeof(double) ? 1e9 : 1e3;
+  const Mesh torus = scenes::bumpyTorus(300);
+  meshes.push_back({"far off", transformed(torus, 1, {offset, -2 * offset, offset / 2})});
+  meshes.push_back({"tiny", transformed(torus, 1e-9, fcl::Vector3d::Zero())});
+  meshes.push_back({"huge", transformed(torus, 1e9, fcl::Vector3d::Zero())});
+  meshes.push_back({"tiny soup", transformed(scenes::randomSoup(60, 1, 1e-4, 1, 9), 1e-9,
+                                             fcl::Vector3d(1e-6, 0, -1e-7))});
+  return meshes;
+}
+
+/// Two shapes with their trees, at a pose.
+template <typename S>
+class PosedPair {
+ public:
+  PosedPair(const Mesh& a, const Mesh& b)
+      : a(a),
+        b(b),
+        tree_a(engine::prepare(this->a.view())),
+        tree_b(engine::prepare(this->b.view())) {}
+
+  /// False if floats can't serve the pair there.
+  bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
+    X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
+    return engine::makeFramePair(*tree_a, *tree_b, *X_AB, frames_);
+  }
+  engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
+    return {{*tree_a, a.view()}, {*tree_b, b.view()}, *X_AB, frames_, audit};
+  }
+  TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
+    const TriangleVertices<S> q = b.corners(t);
+    return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};
+  }
+
+  const Shape<S> a, b;
+  const std::unique_ptr<engine::Tree> tree_a, tree_b;
+  std::unique_ptr<RelativePose<S>> X_AB;
+
+ private:
+  engine::FramePair frames_;
+};
+
+/// Diagonal of the box of two triangles: what errors are measured by.
+template <typename S>
+double extentOf(const TriangleVertices<S>& p, const TriangleVertices<S>& q) {
+  Point<S> low = p[0], high = p[0];
+  for (const auto* t : {&p, &q}) {
+    for (const Point<S>& v : *t) {
+      low = low.cwiseMin(v);
+      high = high.cwiseMax(v);
+    }
+  }
+  return (high - low).template cast<double>().stableNorm();
+}
+
+}  // namespace kios::testing
