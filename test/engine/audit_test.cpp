@@ -26,7 +26,7 @@ std::vector<std::vector<std::uint32_t>> contents(const engine::Tree& tree) {
       }
       continue;
     }
-    for (std::uint32_t i = 0; i < tree.counts[static_cast<std::size_t>(node.child)]; ++i) {
+    for (std::uint32_t i = 0; i < tree.children[static_cast<std::size_t>(node.child)].count; ++i) {
       const auto& child = below[node.first_child + i];
       below[n].insert(below[n].end(), child.begin(), child.end());
     }

@@ -102,7 +102,7 @@ class TreeOf {
   void check() {
     ASSERT_FALSE(tree_.nodes.empty());
     ASSERT_EQ(tree_.boxes.size(), tree_.nodes.size());
-    ASSERT_EQ(tree_.counts.size(), tree_.blocks.size());
+    ASSERT_EQ(tree_.children.size(), tree_.blocks.size());
     leaf_seen_.assign(tree_.leaves.size(), 0);
     EXPECT_EQ(descend(0, 0).first, tree_.depth);
     EXPECT_EQ(nodes_seen_, tree_.nodes.size());
@@ -126,7 +126,8 @@ class TreeOf {
       ++leaf_seen_[node.leaf()];
       points = checkLeaf(node.leaf());
     } else {
-      const std::size_t block = static_cast<std::size_t>(node.child), count = tree_.counts[block];
+      const auto block = static_cast<std::size_t>(node.child);
+      const std::size_t count = tree_.children[block].count;
       EXPECT_GE(count, 2u);
       EXPECT_LE(count, static_cast<std::size_t>(kLanes));
       EXPECT_GT(node.first_child, at);  // no cycles
@@ -134,6 +135,7 @@ class TreeOf {
         const std::uint32_t child = node.first_child + (i < count ? i : 0);
         expectLane(tree_.blocks[block], static_cast<int>(i), tree_.nodes[child]);
         if (i >= count) continue;
+        EXPECT_EQ(tree_.children[block].flat >> i & 1U, tree_.nodes[child].flat);
         const auto [deepest, below] = descend(child, level + 1);
         depth = std::max(depth, deepest);
         points.insert(points.end(), below.begin(), below.end());
@@ -231,12 +233,27 @@ class TreeOf {
       EXPECT_TRUE(
           vertex_owner_.emplace(coordinates(cornerOf(id)), std::pair(index, id.packed)).second);
     }
+    checkAcross(leaf);
     Points points;
     for (std::uint32_t i = 0; i < 8u * static_cast<unsigned>(leaf.vertexChunks()); ++i) {
       points.push_back(vector(leaf.offset, 3, i, 0));
       EXPECT_TRUE(i < leaf.num_vertices || points[i] == points[leaf.num_vertices - 1u]);
     }
     return points;
+  }
+
+  /// The direction across a leaf has length 1 or 0, and its vertices lie where the leaf says.
+  void checkAcross(const Leaf& leaf) const {
+    const Eigen::Vector3d normal = Eigen::Map<const Eigen::Vector3f>(leaf.normal).cast<double>();
+    EXPECT_LE(std::min(normal.norm(), std::abs(normal.norm() - 1)), 0x1p-21);
+    double bottom = 1e300, top = -1e300;
+    for (std::uint32_t i = 0; i < leaf.num_vertices; ++i) {
+      const double h = normal.dot(vector(leaf.offset, 3, i, 0).template cast<double>());
+      bottom = std::min(bottom, h);
+      top = std::max(top, h);
+    }
+    EXPECT_NEAR(leaf.normal_bottom, bottom, 0x1p-21 * tree_.reach);
+    EXPECT_NEAR(leaf.normal_top, top, 0x1p-21 * tree_.reach);
   }
 
   /// Planes hold their corners; the inside of each edge plane is where the third corner lies.
