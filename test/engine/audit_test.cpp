@@ -183,18 +183,38 @@ TYPED_TEST(AuditOf, FlatSheets) {
   this->audit(scenes::sheet(2, 2, 8, 8, 0), scenes::sheet(2, 2, 7, 9, 1e-3), 1, 10);
 }
 
-// Boxes around parallel sheets leave no slack: only the pad covers the rounding of floats.
-TYPED_TEST(AuditOf, ParallelSheets) {
-  const Mesh a = scenes::sheet(2, 2, 8, 8, 0), b = scenes::sheet(2, 2, 6, 6, 0);
-  Auditor<TypeParam> auditor(a, b);
+// Boxes around parallel sheets leave no slack: only the pad covers what rounds.
+template <typename S>
+void auditSheets(const fcl::Vector3d& origin, double stretch) {
+  const Mesh a = transformed(scenes::sheet(2, 2, 8, 8, 0), 1, origin),
+             b = transformed(scenes::sheet(2, 2, 6, 6, 0), 1, origin);
+  Auditor<S> auditor(a, b);
   Random random(3);
   for (const fcl::Transform3d& X_A : scenes::randomPoses(30, 2, 11)) {
     fcl::Transform3d X_AB = fcl::Transform3d::Identity();
-    X_AB.linear() = Eigen::AngleAxisd(random.uniform(0, 6), fcl::Vector3d::UnitZ()).matrix();
-    X_AB.translation() = fcl::Vector3d(random.uniform(0, 3), 0, random.uniform(0, 0.5));
-    EXPECT_TRUE(auditor.search(X_A, X_A * X_AB));
+    X_AB.linear() =
+        stretch * Eigen::AngleAxisd(random.uniform(0, 6), fcl::Vector3d::UnitZ()).matrix();
+    X_AB.translation() = origin - X_AB.linear() * origin +
+                         fcl::Vector3d(random.uniform(0, 3), 0, random.uniform(0, 0.5));
+    EXPECT_TRUE(auditor.search(fcl::Transform3d::Identity(), X_AB));
+    EXPECT_TRUE(!origin.isZero() || auditor.search(X_A, X_A * X_AB));
   }
   auditor.expectRight(1000);
+}
+
+TYPED_TEST(AuditOf, ParallelSheets) { auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1); }
+
+// The largest stretch that passes for a rotation, or nearly so.
+TYPED_TEST(AuditOf, StretchedSheets) {
+  for (const double e : {-2.8e-5, 2.8e-5}) auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1 + e);
+}
+
+// Where the coordinates of the common frame are rounded by more than the floats.
+TYPED_TEST(AuditOf, SheetsFarFromTheirOrigins) {
+  const double far = this->kDouble ? 0x1p37 : 0x1p8;
+  for (const double share : {1.0, 0.3}) {
+    auditSheets<TypeParam>(share * far * fcl::Vector3d(1, -0.7, 0.9), 1);
+  }
 }
 
 TYPED_TEST(AuditOf, RotationsOfSixDigits) {

@@ -192,6 +192,67 @@ TYPED_TEST(BruteForce, CoplanarSheets) {
   }
 }
 
+// Sheets that cross at angles down to none.
+TYPED_TEST(BruteForce, GrazingSheets) {
+  const Mesh a = scenes::sheet(2, 2, 6, 6, 0), b = scenes::sheet(1.5, 1.7, 5, 5, 0);
+  Searches<TypeParam> searches(a, b);
+  Seen seen;
+  const auto poses = scenes::randomPoses(10, 1, 47);
+  for (int i = 0; i < 10; ++i) {
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    X.linear() =
+        Eigen::AngleAxisd(std::pow(10, -i), fcl::Vector3d(1, 0.3, 0).normalized()).matrix();
+    X.translation() = fcl::Vector3d(0.1, 0.2, 0.3 * std::pow(10, -i));
+    searches.check(fcl::Transform3d::Identity(), X, seen);
+    searches.check(poses[i], poses[i] * X, seen);
+  }
+  EXPECT_GE(seen.touching, 10);
+}
+
+// Boxes that touch in a vertex, an edge or a face, at poses that round: by chance a gap of a few
+// eps is left, or none.
+TYPED_TEST(BruteForce, TouchingBoxes) {
+  Random random(12);
+  Searches<TypeParam> searches(scenes::subdividedBox({1, 1, 1}, 1),
+                               scenes::subdividedBox({1, 1, 1}, 2));
+  Seen seen;
+  for (const fcl::Transform3d& X : scenes::randomPoses(40, 1, 49)) {
+    for (const int shared : {0, 1, 2, 3}) {  // axes along which the boxes overlap
+      fcl::Vector3d offset(1, 1, 1);
+      for (int c = 0; c < shared; ++c) offset[c] = random.uniform(-0.9, 0.9);
+      searches.check(X, X * Eigen::Translation3d(offset), seen);
+    }
+  }
+  EXPECT_GT(seen.apart, 20);
+  EXPECT_GT(seen.touching, 20);
+}
+
+// Points and segments in the plane of a sheet and above it.
+TYPED_TEST(BruteForce, DegenerateTrianglesOnASheet) {
+  Random random(10);
+  const auto grid = [&random](double step) { return step * std::floor(random.uniform(-8, 9)); };
+  Seen seen;
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Mesh> parts;
+    for (int part = 0; part < 12; ++part) {
+      const fcl::Vector3d p(grid(0.5), grid(0.5), i % 3 == 0 ? 0.25 : std::abs(grid(0.125)));
+      const fcl::Vector3d q = p + fcl::Vector3d(grid(0.25), grid(0.25), i % 2 == 0 ? 0 : 1);
+      parts.push_back(part % 2 == 0 ? scenes::singleTriangle(p, p, p)
+                                    : scenes::singleTriangle(p, q, 0.5 * (p + q)));
+    }
+    const Mesh degenerate = scenes::merged(parts);
+    Searches<TypeParam> searches(lattice(6, 1), degenerate), among(degenerate, degenerate);
+    for (const double z : {0.0, -0.25}) {
+      fcl::Transform3d X = fcl::Transform3d::Identity();
+      X.translation() = fcl::Vector3d(3, 3, z);
+      searches.check(fcl::Transform3d::Identity(), X, seen);
+      among.check(fcl::Transform3d::Identity(), X, seen);
+    }
+  }
+  EXPECT_GT(seen.apart, 20);
+  EXPECT_GT(seen.touching, 20);
+}
+
 // Of pairs that are exactly equally near, that of the least ids: first of A, then of B.
 TYPED_TEST(BruteForce, TiesGoToTheLeastIds) {
   Random random(9);
