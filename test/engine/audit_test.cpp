@@ -179,6 +179,18 @@ TYPED_TEST(AuditOf, Soups) {
   this->audit(degenerateMesh(60, 3, 5), scenes::shrunkSoup(torus(), 1e-6, 0.1, 6), 1.5, 6);
 }
 
+// Spheres of radius 0: nothing but the pad covers the rounding of their distances.
+TYPED_TEST(AuditOf, HeapsOfPoints) {
+  std::vector<Mesh> parts;
+  Random random(8);
+  for (int heap = 0; heap < 20; ++heap) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    const fcl::Vector3d p(x, y, random.uniform(-1, 1));
+    parts.insert(parts.end(), engine::kLeafTriangles, scenes::singleTriangle(p, p, p));
+  }
+  this->audit(scenes::merged(parts), scenes::merged(parts), 1, 10);
+}
+
 TYPED_TEST(AuditOf, FlatSheets) {
   this->audit(scenes::sheet(2, 2, 8, 8, 0), scenes::sheet(2, 2, 7, 9, 1e-3), 1, 10);
 }
@@ -186,16 +198,20 @@ TYPED_TEST(AuditOf, FlatSheets) {
 // Boxes around parallel sheets leave no slack: only the pad covers what rounds.
 template <typename S>
 void auditSheets(const fcl::Vector3d& origin, double stretch) {
-  const Mesh a = transformed(scenes::sheet(2, 2, 8, 8, 0), 1, origin),
-             b = transformed(scenes::sheet(2, 2, 6, 6, 0), 1, origin);
-  Auditor<S> auditor(a, b);
+  // Tilted, so that every coordinate rounds.
+  const fcl::Matrix3d tilt =
+      Eigen::AngleAxisd(1, fcl::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const fcl::Transform3d to_origin = Eigen::Translation3d(origin) * fcl::Transform3d(tilt);
+  Auditor<S> auditor(scenes::moved(to_origin, scenes::sheet(2, 2, 8, 8, 0)),
+                     scenes::moved(to_origin, scenes::sheet(2, 2, 6, 6, 0)));
   Random random(3);
   for (const fcl::Transform3d& X_A : scenes::randomPoses(30, 2, 11)) {
+    const double angle = random.uniform(0, 6), x = random.uniform(0, 3);
     fcl::Transform3d X_AB = fcl::Transform3d::Identity();
-    X_AB.linear() =
-        stretch * Eigen::AngleAxisd(random.uniform(0, 6), fcl::Vector3d::UnitZ()).matrix();
-    X_AB.translation() = origin - X_AB.linear() * origin +
-                         fcl::Vector3d(random.uniform(0, 3), 0, random.uniform(0, 0.5));
+    X_AB.linear() = stretch * tilt * Eigen::AngleAxisd(angle, fcl::Vector3d::UnitZ()).matrix() *
+                    tilt.transpose();
+    X_AB.translation() =
+        origin - X_AB.linear() * origin + tilt * fcl::Vector3d(x, 0, random.uniform(0, 0.5));
     EXPECT_TRUE(auditor.search(fcl::Transform3d::Identity(), X_AB));
     EXPECT_TRUE(!origin.isZero() || auditor.search(X_A, X_A * X_AB));
   }

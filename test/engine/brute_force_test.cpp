@@ -192,6 +192,44 @@ TYPED_TEST(BruteForce, CoplanarSheets) {
   }
 }
 
+// Coplanar triangles of which none has a corner in the other.
+TYPED_TEST(BruteForce, CoplanarStars) {
+  Random random(14);
+  Seen seen;
+  const auto poses = scenes::randomPoses(60, 2, 51);
+  for (int i = 0; i < 60; ++i) {
+    std::vector<fcl::Vector3d> p;
+    for (int k = 0; k < 6; ++k) {
+      const double angle = M_PI / 3 * (k + random.uniform(-0.2, 0.2)), r = random.uniform(0.9, 1.1);
+      p.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
+    }
+    Searches<TypeParam> searches(scenes::singleTriangle(p[0], p[2], p[4]),
+                                 scenes::singleTriangle(p[1], p[3], p[5]));
+    searches.check(fcl::Transform3d::Identity(), fcl::Transform3d::Identity(), seen);
+    searches.check(poses[i], poses[i], seen);
+  }
+  EXPECT_GE(seen.touching, 60);
+}
+
+// Spikes that stand on a sheet by their tips, all but touching or touching as rounding has it: a
+// tip that looks like touching must not hide one that does.
+TYPED_TEST(BruteForce, SpikesOnASheet) {
+  Random random(15);
+  Seen seen;
+  for (const fcl::Transform3d& X : scenes::randomPoses(60, 2, 52)) {
+    std::vector<Mesh> spikes;
+    for (int i = 0; i < 12; ++i) {
+      const double x = random.uniform(-0.9, 0.9), y = random.uniform(-0.9, 0.9);
+      const fcl::Vector3d tip(x, y, 0);
+      spikes.push_back(scenes::singleTriangle(tip, tip + fcl::Vector3d(0.05, 0.02, 0.3),
+                                              tip + fcl::Vector3d(-0.03, 0.04, 0.3)));
+    }
+    Searches<TypeParam> searches(scenes::sheet(2, 2, 5, 5, 0), scenes::merged(spikes));
+    searches.check(X, X * Eigen::Translation3d(0, 0, random.uniform(0, 3e-17)), seen);
+  }
+  EXPECT_GT(seen.touching, 20);
+}
+
 // Sheets that cross at angles down to none.
 TYPED_TEST(BruteForce, GrazingSheets) {
   const Mesh a = scenes::sheet(2, 2, 6, 6, 0), b = scenes::sheet(1.5, 1.7, 5, 5, 0);
