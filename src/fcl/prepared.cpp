@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl/prepared.h"
 
+#include <stdexcept>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
 #include "engine/prepare.h"
@@ -51,9 +53,21 @@ template <typename S>
 void invalidate(Model<S>& model) {
   validate(model);
   const std::vector<fcl::Vector3<S>> vertices(model.vertices, model.vertices + model.num_vertices);
-  model.beginReplaceModel();
-  model.replaceSubModel(vertices);
-  model.endReplaceModel(true, true);
+  int failed = 0;
+  if (model.build_state == fcl::BVH_BUILD_STATE_UPDATED) {
+    // FCL replaces no updated model. An update makes the current vertices the previous ones, which
+    // they must not become: beginUpdateModel() swaps the arrays back.
+    std::swap(model.vertices, model.prev_vertices);
+    failed |= model.beginUpdateModel();
+    failed |= model.updateSubModel(vertices);
+    failed |= model.endUpdateModel(true, true);
+  } else {
+    failed |= model.beginReplaceModel();
+    failed |= model.replaceSubModel(vertices);
+    failed |= model.endReplaceModel(true, true);
+  }
+  if (failed != fcl::BVH_OK)
+    throw std::logic_error("fcl_kios: FCL refused to refit a finished model.");
   if (engine::TreeCache* const trees = treesOf(model)) trees->drop(model.vertices);
 }
 

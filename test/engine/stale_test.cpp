@@ -202,7 +202,7 @@ TEST_F(Stale, DirectWritesNeedInvalidate) {
 }
 
 // FCL refuses to replace a model that was updated, and invalidate() goes by replacing.
-TEST_F(Stale, DISABLED_DirectWritesAfterAnUpdateNeedInvalidate) {
+TEST_F(Stale, DirectWritesAfterAnUpdateNeedInvalidate) {
   for (const double away : {0.5, 20.0}) {  // the latter where the old volumes don't reach
     const auto model = kiosModel(mesh_);
     update(*model, swayed(mesh_, 1), true, true);

@@ -114,8 +114,11 @@ struct Across {
 template <class HullA, class HullB>
 HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Across& across_a,
                          const Across& across_b, float distance, Slab& slab) {
-  const float square = distance * distance;
-  const auto proves = [&](float gap, Vec3 w) { return gap > 0 && gap * gap >= square * dot(w, w); };
+  // No squares of squares: lengths may be 2^40. A w too short for its square proves nothing.
+  const auto proves = [&](float gap, Vec3 w) {
+    const float ww = dot(w, w);
+    return gap > 0 && ww >= 0x1p-120F && gap >= distance * std::sqrt(ww);
+  };
   slab.w = between;
   slab.apart = true;
   for (int i = 0;; ++i) {
