@@ -104,6 +104,10 @@ class Preparation {
         writeLane(tree_->nodes[tree_->nodes[at.node].first_child + (used ? lane : 0)], lane, block);
       }
     }
+    const auto flat = [](const Node& node) { return node.flat != 0; };
+    if (std::none_of(tree_->nodes.begin(), tree_->nodes.end(), flat)) tree_->boxes.clear();
+    tree_->boxes.shrink_to_fit();
+    tree_->children.shrink_to_fit();
     tree_->nodes.shrink_to_fit();
     tree_->blocks.shrink_to_fit();
   }

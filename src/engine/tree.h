@@ -24,10 +24,10 @@ struct alignas(32) Lanes {
 /// difference from the minus to the plus cap, centres and radii alike. A cap is middle +- half.
 enum SphereRow { kCentral = 0, kMiddle2 = 1, kHalf2 = 2, kMiddle1 = 3, kHalf1 = 4 };
 
-/// A node for the side of a test that is transformed, its rows in lanes.
-struct alignas(64) Node {
-  float x[kLanes] = {}, y[kLanes] = {}, z[kLanes] = {};  ///< lanes beyond the rows are 0
-  float r[kSphereRows] = {};
+/// A node for the side of a test that is transformed. Vectors of eight lanes are loaded from each
+/// row of coordinates: what lies beyond its five is moved along, and not used.
+struct alignas(32) Node {
+  float x[kSphereRows] = {}, y[kSphereRows] = {}, z[kSphereRows] = {}, r[kSphereRows] = {};
   float size = 0;  ///< radius of S0
   /// Leaf: ~leaf index. Inner: block index.
   std::int32_t child = 0;
@@ -39,7 +39,7 @@ struct alignas(64) Node {
   bool isLeaf() const { return child < 0; }
   std::size_t leaf() const { return ~static_cast<std::size_t>(child); }
 };
-static_assert(sizeof(Node) == 128);
+static_assert(sizeof(Node) == 96);
 
 /// A box around a node's content, for what is flat: axes as columns of lanes, their fourth 0.
 struct alignas(16) Box {
@@ -95,7 +95,7 @@ struct Tree {
   float reach = 0;  ///< >= |centre| + |radius| of all spheres
   int depth = 0;    ///< of blocks
   std::vector<Node> nodes;
-  std::vector<Box> boxes;  ///< by node
+  std::vector<Box> boxes;  ///< by node; none if no node is flat
   std::vector<Block> blocks;
   std::vector<Children> children;  ///< by block
   std::vector<Leaf> leaves;

@@ -27,8 +27,9 @@ struct alignas(64) MovedNode {
 HWY_INLINE void move(const Node& node, const FloatPose& X, float pad, MovedNode& out) {
   alignas(32) static constexpr float kPoint[kLanes] = {1, 1, 0, 1, 0, 0, 0, 0};
   for (size_t l = 0; l < kLanes; l += step()) {
-    const V px = hn::Load(d, node.x + l), py = hn::Load(d, node.y + l),
-            pz = hn::Load(d, node.z + l);
+    const float* const rows = reinterpret_cast<const float*>(&node) + l;
+    const V px = hn::LoadU(d, rows), py = hn::LoadU(d, rows + kSphereRows),
+            pz = hn::LoadU(d, rows + 2 * kSphereRows);
     const V point = hn::Load(d, kPoint + l);
     const auto row = [&](int i) {
       const V rotated =

@@ -158,7 +158,8 @@ class Expander {
   explicit Expander(const Search& search)
       : search_(search),
         trees_{&search.a, &search.b},
-        to_{&search.frames.a_from_b, &search.frames.b_from_a} {}
+        to_{&search.frames.a_from_b, &search.frames.b_from_a},
+        boxes_(!search.a.boxes.empty() && !search.b.boxes.empty()) {}
 
   void start(Frontier::Pair at, Expansion& e) const {
     const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
@@ -190,7 +191,7 @@ class Expander {
   /// The children that matter join the frontier, the nearest last.
   void spread(Expansion& e, Frontier& frontier) const {
     const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
-    if (flat != 0) testBoxes(e, flat);
+    if (flat != 0 && boxes_) testBoxes(e, flat);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e);
     if (e.near == 0) return;
     const auto pairOf = [&](uint32_t lane) {
@@ -215,7 +216,7 @@ class Expander {
   void prefetchNode(const Expansion& e, uint32_t lane) const {
     const Node* const child = &trees_[e.side]->nodes[e.parent->first_child + lane];
     hwy::Prefetch(child);
-    hwy::Prefetch(reinterpret_cast<const char*>(child) + 64);
+    hwy::Prefetch(reinterpret_cast<const char*>(child) + sizeof(Node) - 1);
   }
 
   const Block& blockOf(const Expansion& e) const {
@@ -250,6 +251,7 @@ class Expander {
   const Search& search_;
   const Tree* trees_[2];
   const FloatPose* to_[2];  ///< the frame of a side from the other's
+  const bool boxes_;        ///< both trees have them
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE
