@@ -93,10 +93,9 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
     low = low.cwiseMin(content.vertices[i]);
     high = high.cwiseMax(content.vertices[i]);
   }
-  LaneWriter edges(tree.lanes, leaf.num_edges, leaf.edgeChunks(), 6);
   for (int i = 0; i < leaf.num_edges; ++i) {
-    edges.set(i, 0, content.edges[i].start);
-    edges.set(i, 3, content.edges[i].end - content.edges[i].start);
+    leaf.ends[2 * i] = content.edges[i].start;
+    leaf.ends[2 * i + 1] = content.edges[i].end;
   }
   LaneWriter faces(tree.lanes, leaf.num_faces, 1, kFaceRows);
   Vec sum = Vec::Zero();

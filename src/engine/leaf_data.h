@@ -17,10 +17,10 @@ struct LeafTriangle {
   std::uint8_t vertices[3];  ///< its corners among the leaf's vertices
 };
 
-/// An edge of a leaf: start and end relative to the tree's origin.
+/// An edge of a leaf, its ends among the leaf's vertices.
 struct LeafEdge {
   FeatureId id;
-  Eigen::Vector3d start, end;
+  std::uint8_t start, end;
 };
 
 /// What a leaf holds, gathered.

@@ -144,7 +144,7 @@ class Preparation {
     }
     const Ownership owned = assignFeatures(corners_, order, begin, mesh_.num_vertices);
     tree_->leaves.reserve(leaves_.size());
-    tree_->lanes.reserve(leaves_.size() * 34);
+    tree_->lanes.reserve(leaves_.size() * 22);
     tree_->features.reserve(order.size() + owned.edges.size() + owned.vertices.size());
     LeafContent content;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
@@ -177,16 +177,17 @@ class Preparation {
       addVertex(corners_[id.triangle()][id.corner()]);
       content.owned.push_back(id);
     }
-    for (std::uint32_t i = owned.edge_begin[l]; i < owned.edge_begin[l + 1]; ++i) {
-      const FeatureId id = owned.edges[i];
-      content.edges.push_back({id, cornerOf(id, 0), cornerOf(id, 1)});
-    }
     for (std::size_t i = 0; i < n; ++i) {
       const Corners3& v = corners_[triangles[i]];
       const FeatureId id = {triangles[i] << 2};
       content.triangles.push_back({triangles[i],
                                    {cornerOf(id, 0), cornerOf(id, 1), cornerOf(id, 2)},
                                    {addVertex(v[0]), addVertex(v[1]), addVertex(v[2])}});
+    }
+    for (std::uint32_t i = owned.edge_begin[l]; i < owned.edge_begin[l + 1]; ++i) {
+      const FeatureId id = owned.edges[i];
+      const Corners3& v = corners_[id.triangle()];
+      content.edges.push_back({id, place_[v[id.corner()]], place_[v[(id.corner() + 1) % 3]]});
     }
   }
 

@@ -34,6 +34,8 @@ struct alignas(32) Node {
   std::uint32_t first_child : 31;  ///< of the block: a node index
   std::uint32_t flat : 1;          ///< a box bounds it better than spheres
 
+  std::uint32_t unused = 0;
+
   Node() : first_child(0), flat(0) {}
 
   bool isLeaf() const { return child < 0; }
@@ -64,16 +66,17 @@ struct FeatureId {
 
 /// Up to eight triangles, and the edges and vertices that the leaf owns: every edge and every
 /// vertex of the mesh belongs to one leaf only. In `lanes` from `offset`: vertices (chunks of x, y,
-/// z; owned ones first), edges (chunks of start x, y, z and direction x, y, z), faces (a chunk of
+/// z; owned ones first), faces (a chunk of
 /// FaceRow). Lanes that aren't used repeat the last feature. In `features` from `feature_offset`:
 /// faces, edges, owned vertices.
 struct Leaf {
   std::uint32_t offset = 0, feature_offset = 0;
   std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
   float centroid[3] = {};
-  float normal[3] = {};                         ///< mean direction of the faces, of length 1 or 0
-  float normal_bottom = 0, normal_top = 0;      ///< where the vertices lie along it
-  std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
+  float normal[3] = {};                          ///< mean direction of the faces, of length 1 or 0
+  float normal_bottom = 0, normal_top = 0;       ///< where the vertices lie along it
+  std::uint8_t corners[kMaxLeafFeatures] = {};   ///< vertices of each face
+  std::uint8_t ends[2 * kMaxLeafFeatures] = {};  ///< vertices of each edge
 
   int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }
   int edgeChunks() const { return (num_edges + kLanes - 1) / kLanes; }

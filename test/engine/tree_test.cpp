@@ -199,8 +199,7 @@ class TreeOf {
   Points checkLeaf(std::size_t index) {
     const Leaf& leaf = tree_.leaves[index];
     const FeatureId* const ids = tree_.features.data() + leaf.feature_offset;
-    const std::size_t edges = leaf.offset + 3u * static_cast<unsigned>(leaf.vertexChunks());
-    const std::size_t faces = edges + 6u * static_cast<unsigned>(leaf.edgeChunks());
+    const std::size_t faces = leaf.offset + 3u * static_cast<unsigned>(leaf.vertexChunks());
     EXPECT_GE(leaf.num_faces, 1);
     EXPECT_LE(leaf.num_faces, engine::kLeafTriangles);
     EXPECT_LE(leaf.num_owned, leaf.num_vertices);
@@ -220,9 +219,11 @@ class TreeOf {
     EXPECT_EQ(leaf.num_vertices, distinct.size());
     for (std::uint32_t i = 0; i < leaf.num_edges; ++i) {
       const FeatureId id = ids[leaf.num_faces + i];
-      const Eigen::Vector3d start = relative(cornerOf(id)), end = relative(cornerOf(id, 1));
-      EXPECT_EQ(vector(edges, 6, i, 0), start.cast<float>());
-      EXPECT_EQ(vector(edges, 6, i, 3), (end - start).cast<float>());
+      for (std::uint32_t k = 0; k < 2; ++k) {
+        EXPECT_LT(leaf.ends[2 * i + k], leaf.num_vertices);
+        EXPECT_EQ(vector(leaf.offset, 3, leaf.ends[2 * i + k], 0),
+                  relative(cornerOf(id, k)).template cast<float>());
+      }
       EXPECT_TRUE(edge_owner_
                       .emplace(edgeOf(shape_.corners(id.triangle()), id.corner()),
                                std::pair(index, id.packed))

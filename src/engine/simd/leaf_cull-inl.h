@@ -21,13 +21,13 @@ HWY_INLINE Vec3 rotated(const FloatPose& X, Vec3 v) {
 }
 HWY_INLINE Vec3 moved(const FloatPose& X, Vec3 v) { return rotated(X, v) + vec3(X.t); }
 
-/// Moves chunks of rows x, y, z (every `stride` lanes of one) to another frame.
-HWY_INLINE void moveRows(const Lanes* from, const FloatPose& X, bool points, Lanes* to) {
+/// Moves a chunk of points, rows x, y, z, to another frame.
+HWY_INLINE void moveRows(const Lanes* from, const FloatPose& X, Lanes* to) {
   for (size_t l = 0; l < kLanes; l += step()) {
     const V x = load(from[0], l), y = load(from[1], l), z = load(from[2], l);
     for (int i = 0; i < 3; ++i) {
       const V r = dot(hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2]), x, y, z);
-      hn::Store(points ? hn::Add(r, hn::Set(d, X.t[i])) : r, d, to[i].v + l);
+      hn::Store(hn::Add(r, hn::Set(d, X.t[i])), d, to[i].v + l);
     }
   }
 }

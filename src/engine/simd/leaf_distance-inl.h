@@ -103,12 +103,12 @@ class LeafDistances {
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
 
   /// The least of them. Features that the slab proves farther than `distance` are left out.
-  float compute(const Points& vertices_b, const Lanes* edges_b, const FramePair& frames,
-                const Slab& slab, float distance) {
+  float compute(const Points& vertices_b, const Lanes* edges_a, const Lanes* edges_b,
+                const FramePair& frames, const Slab& slab, float distance) {
     const float thickness = distance * std::sqrt(dot(slab.w, slab.w));
-    const Facing near_a = facing(a_, a_.edges, a_.vertices, slab.w, slab.bottom_b - thickness);
+    const Facing near_a = facing(a_, edges_a, a_.vertices, slab.w, slab.bottom_b - thickness);
     const Facing near_b = facing(b_, edges_b, vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
-    V least = edgeRows(edges_b, near_a.edges, near_b.edges, 0x1p-24F * frames.scale);
+    V least = edgeRows(edges_a, edges_b, near_a.edges, near_b.edges, 0x1p-24F * frames.scale);
     const V minus_pad = hn::Set(d, -frames.pad);
     for (uint32_t left = near_a.vertices; left != 0; left &= left - 1) {
       const int i = static_cast<int>(firstOf(left));
@@ -136,13 +136,14 @@ class LeafDistances {
     int index, chunk;
   };
 
-  V edgeRows(const Lanes* edges_b, uint32_t near_a, uint32_t near_b, float shortest) {
+  V edgeRows(const Lanes* edges_a, const Lanes* edges_b, uint32_t near_a, uint32_t near_b,
+             float shortest) {
     const V least_square = hn::Set(d, shortest * shortest);
     V least = hn::Set(d, std::numeric_limits<float>::infinity());
     alignas(32) float inverse_a[kMaxLeafFeatures], square_a[kMaxLeafFeatures];
     for (int c = 0; c < a_.edge_chunks; ++c) {
       for (size_t l = 0; l < kLanes; l += step()) {
-        const Edges e = edgesIn(a_.edges + 6 * c, l, least_square);
+        const Edges e = edgesIn(edges_a + 6 * c, l, least_square);
         hn::Store(e.square, d, square_a + c * kLanes + l);
         hn::Store(e.inverse, d, inverse_a + c * kLanes + l);
       }
@@ -157,7 +158,7 @@ class LeafDistances {
         const Edges eb = edgesIn(edges_b + 6 * c, l, least_square);
         for (int r = first; r < rows_; ++r) {
           const int i = row_[r].index, at = i % kLanes;
-          const Lanes* const rows = a_.edges + 6 * (i / kLanes);
+          const Lanes* const rows = edges_a + 6 * (i / kLanes);
           const Edges ea = {hn::Set(d, rows[0].v[at]), hn::Set(d, rows[1].v[at]),
                             hn::Set(d, rows[2].v[at]), hn::Set(d, rows[3].v[at]),
                             hn::Set(d, rows[4].v[at]), hn::Set(d, rows[5].v[at]),
@@ -245,8 +246,8 @@ HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const
                                  Slab& slab) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
-  MovedLeaf moved_b;
-  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  VertexRows moved_b;
+  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   separateLeaves(a, b, vertices_b, frames.a_from_b, search.judge.prune_at + frames.pad, slab);
   if (slab.apart) return std::numeric_limits<float>::infinity();
   const Vec3 vertices = slab.point_b - slab.point_a;
@@ -262,39 +263,31 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   const FramePair& frames = search.frames;
   Judge& judge = search.judge;
   ++search.counts.leaf_kernels;
-  MovedLeaf moved_b;
-  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
-  moveEdges(b, frames.a_from_b, moved_b);
+  VertexRows moved_b;
+  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
+  EdgeRows edges_a, edges_b;
+  gatherEdges(a, a.vertices, edges_a);
+  gatherEdges(b, vertices_b, edges_b);
   LeafDistances distances(a, b);
-  const float least =
-      distances.compute(vertices_b, moved_b.edge_rows, frames, slab, judge.keep_to + frames.pad);
-  if (bound <= 0) {  // else nothing can cross
-    if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, judge, search.counts.exact))
-      return true;
-    MovedLeaf moved_a;
-    moveEdges(a, frames.b_from_a, moved_a);
-    if (crossings<true>(a, moved_a.edge_rows, b, frames.pad, judge, search.counts.exact))
-      return true;
-  }
+  const float least = distances.compute(vertices_b, edges_a.rows, edges_b.rows, frames, slab,
+                                        judge.keep_to + frames.pad);
+  // Only what overlaps can cross.
+  if (bound <= 0 && edgesCross(search, a, b, edges_b)) return true;
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
 }
 
 HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
-  MovedLeaf moved_b;
-  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  VertexRows moved_b;
+  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   Slab slab;
   separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
-  moveEdges(b, frames.a_from_b, moved_b);
-  if (crossings<false>(b, moved_b.edge_rows, a, frames.pad, search.judge, search.counts.exact)) {
-    return true;
-  }
-  MovedLeaf moved_a;
-  moveEdges(a, frames.b_from_a, moved_a);
-  return crossings<true>(a, moved_a.edge_rows, b, frames.pad, search.judge, search.counts.exact);
+  EdgeRows edges_b;
+  gatherEdges(b, vertices_b, edges_b);
+  return edgesCross(search, a, b, edges_b);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.
@@ -325,13 +318,13 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
 HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
-  MovedLeaf moved_a, moved_b;
-  const Points vertices_b = moveVertices(b, b.vertices.chunks, frames.a_from_b, moved_b);
+  VertexRows moved_a, moved_b;
+  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   Slab slab;
   separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
-  const Points vertices_a = moveVertices(a, a.vertices.chunks, frames.b_from_a, moved_a);
+  const Points vertices_a = moveVertices(a, frames.b_from_a, moved_a);
   const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i,
                             Vec3(&out)[3]) {
     for (int k = 0; k < 3; ++k) out[k] = vertices.at(leaf.leaf.corners[3 * i + k]);

@@ -10,9 +10,8 @@ struct LeafView {
   LeafView(const Tree& tree, const Leaf& l)
       : leaf(l),
         vertices{tree.lanes.data() + l.offset, l.vertexChunks()},
-        edges(vertices.rows + 3 * vertices.chunks),
         edge_chunks(l.edgeChunks()),
-        faces(edges + 6 * edge_chunks),
+        faces(vertices.rows + 3 * vertices.chunks),
         ids(tree.features.data() + l.feature_offset) {}
 
   FeatureId face(uint32_t i) const { return ids[i]; }
@@ -21,30 +20,41 @@ struct LeafView {
 
   const Leaf& leaf;
   Points vertices;
-  const Lanes* edges;
   int edge_chunks;
   const Lanes* faces;
   const FeatureId* ids;
 };
 
-/// The vertices and edges of a leaf in the other frame.
-struct MovedLeaf {
-  Lanes vertex_rows[3 * kMaxChunks];
-  Lanes edge_rows[6 * kMaxChunks];
+/// Vertices of a leaf in some frame, rows x, y, z by chunk.
+struct VertexRows {
+  Lanes rows[3 * kMaxChunks];
+};
+/// Edges of a leaf in some frame: rows of start x, y, z and direction x, y, z by chunk.
+struct EdgeRows {
+  Lanes rows[6 * kMaxChunks];
 };
 
-HWY_INLINE Points moveVertices(const LeafView& leaf, int chunks, const FloatPose& X,
-                               MovedLeaf& out) {
-  for (int c = 0; c < chunks; ++c) {
-    moveRows(leaf.vertices.rows + 3 * c, X, true, out.vertex_rows + 3 * c);
+HWY_INLINE Points moveVertices(const LeafView& leaf, const FloatPose& X, VertexRows& out) {
+  for (int c = 0; c < leaf.vertices.chunks; ++c) {
+    moveRows(leaf.vertices.rows + 3 * c, X, out.rows + 3 * c);
   }
-  return {out.vertex_rows, chunks};
+  return {out.rows, leaf.vertices.chunks};
 }
 
-HWY_INLINE void moveEdges(const LeafView& leaf, const FloatPose& X, MovedLeaf& out) {
-  for (int c = 0; c < leaf.edge_chunks; ++c) {
-    moveRows(leaf.edges + 6 * c, X, true, out.edge_rows + 6 * c);
-    moveRows(leaf.edges + 6 * c + 3, X, false, out.edge_rows + 6 * c + 3);
+/// The leaf's edges between its vertices, in their frame; lanes beyond the last repeat it.
+HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, EdgeRows& out) {
+  for (int i = 0; i < kLanes * leaf.edge_chunks; ++i) {
+    const int edge = std::min<int>(i, leaf.leaf.num_edges - 1);
+    const Vec3 start = vertices.at(leaf.leaf.ends[2 * edge]);
+    const Vec3 along = vertices.at(leaf.leaf.ends[2 * edge + 1]) - start;
+    Lanes* const chunk = out.rows + 6 * (i / kLanes);
+    const int lane = i % kLanes;
+    chunk[0].v[lane] = start.x;
+    chunk[1].v[lane] = start.y;
+    chunk[2].v[lane] = start.z;
+    chunk[3].v[lane] = along.x;
+    chunk[4].v[lane] = along.y;
+    chunk[5].v[lane] = along.z;
   }
 }
 
@@ -135,6 +145,18 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const Leaf
     }
   }
   return false;
+}
+
+/// Judges the edges of either leaf against the faces of the other.
+HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
+                           const EdgeRows& edges_b) {
+  const FramePair& frames = search.frames;
+  long long& exact = search.counts.exact;
+  if (crossings<false>(b, edges_b.rows, a, frames.pad, search.judge, exact)) return true;
+  VertexRows moved_a;
+  EdgeRows edges_a;
+  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a), edges_a);
+  return crossings<true>(a, edges_a.rows, b, frames.pad, search.judge, exact);
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE
