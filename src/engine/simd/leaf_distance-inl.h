@@ -65,34 +65,18 @@ HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad
                         hn::Set(d, std::numeric_limits<float>::infinity()));
 }
 
-/// The features of a leaf that reach a slab's side, as bits.
-struct Facing {
-  uint32_t edges = 0, vertices = 0;
-};
-
-/// Edges and owned vertices of which some point has w . p >= least.
-HWY_INLINE Facing facing(const LeafView& leaf, const Lanes* edges, const Points& vertices, Vec3 w,
-                         float least) {
+/// Vertices with w . p >= least, as bits.
+HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
   const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
   const V leasts = hn::Set(d, least);
-  const auto along = [&](const Lanes* rows, size_t l) {
-    return dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
-  };
-  Facing result;
-  for (int c = 0; c < leaf.edge_chunks; ++c) {
+  uint32_t result = 0;
+  for (int c = 0; c < vertices.chunks; ++c) {
+    const Lanes* const rows = vertices.rows + 3 * c;
     for (size_t l = 0; l < kLanes; l += step()) {
-      const V start = along(edges + 6 * c, l), end = hn::Add(start, along(edges + 6 * c + 3, l));
-      result.edges |= bitsOf(hn::Ge(hn::Max(start, end), leasts)) << (kLanes * c + l);
+      const V along = dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
+      result |= bitsOf(hn::Ge(along, leasts)) << (kLanes * c + l);
     }
   }
-  for (int c = 0; kLanes * c < leaf.leaf.num_owned; ++c) {
-    for (size_t l = 0; l < kLanes; l += step()) {
-      result.vertices |= bitsOf(hn::Ge(along(vertices.rows + 3 * c, l), leasts))
-                         << (kLanes * c + l);
-    }
-  }
-  result.edges &= (1U << leaf.leaf.num_edges) - 1;
-  result.vertices &= (1U << leaf.leaf.num_owned) - 1;
   return result;
 }
 
@@ -103,19 +87,21 @@ class LeafDistances {
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
 
   /// The least of them. Features that the slab proves farther than `distance` are left out.
-  float compute(const Points& vertices_b, const Lanes* edges_a, const Lanes* edges_b,
-                const FramePair& frames, const Slab& slab, float distance) {
+  float compute(const Points& vertices_b, const FramePair& frames, const Slab& slab,
+                float distance) {
     const float thickness = distance * std::sqrt(dot(slab.w, slab.w));
-    const Facing near_a = facing(a_, edges_a, a_.vertices, slab.w, slab.bottom_b - thickness);
-    const Facing near_b = facing(b_, edges_b, vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
-    V least = edgeRows(edges_a, edges_b, near_a.edges, near_b.edges, 0x1p-24F * frames.scale);
+    const uint32_t near_a = facing(a_.vertices, slab.w, slab.bottom_b - thickness);
+    const uint32_t near_b = facing(vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
+    gatherEdges(a_, a_.vertices, near_a, edges_a_);
+    gatherEdges(b_, vertices_b, near_b, edges_b_);
+    V least = edgeRows(0x1p-24F * frames.scale);
     const V minus_pad = hn::Set(d, -frames.pad);
-    for (uint32_t left = near_a.vertices; left != 0; left &= left - 1) {
+    for (uint32_t left = near_a & owned(a_); left != 0; left &= left - 1) {
       const int i = static_cast<int>(firstOf(left));
       const Vec3 p = moved(frames.b_from_a, a_.vertices.at(i));
       least = hn::Min(least, faceRow({PairKind::kVertexFace, i, 0}, b_, p, minus_pad));
     }
-    for (uint32_t left = near_b.vertices; left != 0; left &= left - 1) {
+    for (uint32_t left = near_b & owned(b_); left != 0; left &= left - 1) {
       const int i = static_cast<int>(firstOf(left));
       least =
           hn::Min(least, faceRow({PairKind::kFaceVertex, i, 0}, a_, vertices_b.at(i), minus_pad));
@@ -130,41 +116,39 @@ class LeafDistances {
   }
 
  private:
-  /// What a row holds: feature `index` of one leaf against lanes of the other.
+  /// What a row holds: vertex `index`, or edge `index` of those gathered, against lanes.
   struct Row {
     PairKind kind;
     int index, chunk;
   };
 
-  V edgeRows(const Lanes* edges_a, const Lanes* edges_b, uint32_t near_a, uint32_t near_b,
-             float shortest) {
+  static uint32_t owned(const LeafView& leaf) { return (1U << leaf.leaf.num_owned) - 1; }
+
+  V edgeRows(float shortest) {
     const V least_square = hn::Set(d, shortest * shortest);
     V least = hn::Set(d, std::numeric_limits<float>::infinity());
     alignas(32) float inverse_a[kMaxLeafFeatures], square_a[kMaxLeafFeatures];
-    for (int c = 0; c < a_.edge_chunks; ++c) {
+    for (int c = 0; c < edges_a_.chunks(); ++c) {
       for (size_t l = 0; l < kLanes; l += step()) {
-        const Edges e = edgesIn(edges_a + 6 * c, l, least_square);
+        const Edges e = edgesIn(edges_a_.rows + 6 * c, l, least_square);
         hn::Store(e.square, d, square_a + c * kLanes + l);
         hn::Store(e.inverse, d, inverse_a + c * kLanes + l);
       }
     }
-    for (int c = 0; c < b_.edge_chunks; ++c) {
-      if ((near_b >> (kLanes * c) & 0xFFU) == 0) continue;
+    for (int c = 0; c < edges_b_.chunks(); ++c) {
       const int first = rows_;
-      for (uint32_t left = near_a; left != 0; left &= left - 1) {
-        row_[rows_++] = {PairKind::kEdgeEdge, static_cast<int>(firstOf(left)), c};
-      }
+      for (int i = 0; i < edges_a_.count; ++i) row_[rows_++] = {PairKind::kEdgeEdge, i, c};
       for (size_t l = 0; l < kLanes; l += step()) {
-        const Edges eb = edgesIn(edges_b + 6 * c, l, least_square);
-        for (int r = first; r < rows_; ++r) {
-          const int i = row_[r].index, at = i % kLanes;
-          const Lanes* const rows = edges_a + 6 * (i / kLanes);
+        const Edges eb = edgesIn(edges_b_.rows + 6 * c, l, least_square);
+        for (int i = 0; i < edges_a_.count; ++i) {
+          const int at = i % kLanes;
+          const Lanes* const rows = edges_a_.rows + 6 * (i / kLanes);
           const Edges ea = {hn::Set(d, rows[0].v[at]), hn::Set(d, rows[1].v[at]),
                             hn::Set(d, rows[2].v[at]), hn::Set(d, rows[3].v[at]),
                             hn::Set(d, rows[4].v[at]), hn::Set(d, rows[5].v[at]),
                             hn::Set(d, square_a[i]),   hn::Set(d, inverse_a[i])};
           const V square = edgeDistances(ea, eb);
-          hn::Store(square, d, squares_[r].v + l);
+          hn::Store(square, d, squares_[first + i].v + l);
           least = hn::Min(least, square);
         }
       }
@@ -211,7 +195,7 @@ class LeafDistances {
 
   uint32_t validLanes(const Row& row) const {
     if (row.kind == PairKind::kEdgeEdge) {
-      const int left = b_.leaf.num_edges - kLanes * row.chunk;
+      const int left = edges_b_.count - kLanes * row.chunk;
       return left >= kLanes ? 0xFFU : (1U << left) - 1;
     }
     return (1U << (row.kind == PairKind::kVertexFace ? b_ : a_).leaf.num_faces) - 1;
@@ -220,7 +204,8 @@ class LeafDistances {
   Candidate candidate(const Row& row, uint32_t lane) const {
     const uint32_t i = static_cast<uint32_t>(row.index);
     if (row.kind == PairKind::kEdgeEdge) {
-      return {row.kind, a_.edge(i), b_.edge(static_cast<uint32_t>(kLanes * row.chunk) + lane)};
+      const uint32_t j = static_cast<uint32_t>(kLanes * row.chunk) + lane;
+      return {row.kind, a_.edge(edges_a_.index[i]), b_.edge(edges_b_.index[j])};
     }
     if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(i), b_.face(lane)};
     return {row.kind, a_.face(lane), b_.vertex(i)};
@@ -230,6 +215,7 @@ class LeafDistances {
 
   const LeafView& a_;
   const LeafView& b_;
+  EdgeRows edges_a_, edges_b_;
   int rows_ = 0;
   Row row_[kMaxRows];
   Lanes squares_[kMaxRows];
@@ -265,14 +251,10 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
-  EdgeRows edges_a, edges_b;
-  gatherEdges(a, a.vertices, edges_a);
-  gatherEdges(b, vertices_b, edges_b);
   LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, edges_a.rows, edges_b.rows, frames, slab,
-                                        judge.keep_to + frames.pad);
+  const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   // Only what overlaps can cross.
-  if (bound <= 0 && edgesCross(search, a, b, edges_b)) return true;
+  if (bound <= 0 && edgesCross(search, a, b, vertices_b)) return true;
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
 }
 
@@ -285,9 +267,7 @@ HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, cons
   separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
-  EdgeRows edges_b;
-  gatherEdges(b, vertices_b, edges_b);
-  return edgesCross(search, a, b, edges_b);
+  return edgesCross(search, a, b, vertices_b);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.

@@ -29,9 +29,14 @@ struct LeafView {
 struct VertexRows {
   Lanes rows[3 * kMaxChunks];
 };
-/// Edges of a leaf in some frame: rows of start x, y, z and direction x, y, z by chunk.
+/// Some edges of a leaf in some frame: rows of start x, y, z and direction x, y, z by chunk. Lanes
+/// beyond the last repeat it.
 struct EdgeRows {
+  int chunks() const { return (count + kLanes - 1) / kLanes; }
+
   Lanes rows[6 * kMaxChunks];
+  uint8_t index[kMaxLeafFeatures];  ///< of the leaf's edges
+  int count;
 };
 
 HWY_INLINE Points moveVertices(const LeafView& leaf, const FloatPose& X, VertexRows& out) {
@@ -41,12 +46,19 @@ HWY_INLINE Points moveVertices(const LeafView& leaf, const FloatPose& X, VertexR
   return {out.rows, leaf.vertices.chunks};
 }
 
-/// The leaf's edges between its vertices, in their frame; lanes beyond the last repeat it.
-HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, EdgeRows& out) {
-  for (int i = 0; i < kLanes * leaf.edge_chunks; ++i) {
-    const int edge = std::min<int>(i, leaf.leaf.num_edges - 1);
-    const Vec3 start = vertices.at(leaf.leaf.ends[2 * edge]);
-    const Vec3 along = vertices.at(leaf.leaf.ends[2 * edge + 1]) - start;
+/// The edges that have an end in `vertices_wanted` (bits), between vertices in some frame.
+HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, uint32_t vertices_wanted,
+                            EdgeRows& out) {
+  const uint8_t* const ends = leaf.leaf.ends;
+  out.count = 0;
+  for (int i = 0; i < leaf.leaf.num_edges; ++i) {
+    out.index[out.count] = static_cast<uint8_t>(i);
+    out.count += ((vertices_wanted >> ends[2 * i]) | (vertices_wanted >> ends[2 * i + 1])) & 1U;
+  }
+  for (int i = 0; i < kLanes * out.chunks(); ++i) {
+    const int edge = out.index[std::min(i, out.count - 1)];
+    const Vec3 start = vertices.at(ends[2 * edge]);
+    const Vec3 along = vertices.at(ends[2 * edge + 1]) - start;
     Lanes* const chunk = out.rows + 6 * (i / kLanes);
     const int lane = i % kLanes;
     chunk[0].v[lane] = start.x;
@@ -57,6 +69,8 @@ HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, EdgeRo
     chunk[5].v[lane] = along.z;
   }
 }
+
+constexpr uint32_t kAllVertices = (1U << kMaxLeafFeatures) - 1;
 
 /// Both leaves' points in a's frame, and a slab between them.
 HWY_INLINE void separateLeaves(const LeafView& a, const LeafView& b, const Points& moved_b,
@@ -127,14 +141,14 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
 
 /// Judges the edges of one leaf, in rows moved to the frame of the other, against its faces.
 template <bool kEdgesOfA>
-HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const LeafView& faces,
+HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& all, const LeafView& faces,
                             float pad, Judge& judge, long long& exact) {
-  const uint32_t all = (1U << faces.leaf.num_faces) - 1;
+  const uint32_t used = (1U << faces.leaf.num_faces) - 1;
   for (uint32_t i = 0; i < edges.leaf.num_edges; ++i) {
-    const Points chunk = {rows + 6 * (i / kLanes), 1};
+    const Points chunk = {all.rows + 6 * (i / kLanes), 1};
     const Points directions = {chunk.rows + 3, 1};
     const int lane = static_cast<int>(i % kLanes);
-    uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & all;
+    uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & used;
     for (; may != 0; may &= may - 1) {
       ++exact;
       const FeatureId face = faces.face(firstOf(may));
@@ -149,14 +163,15 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const Lanes* rows, const Leaf
 
 /// Judges the edges of either leaf against the faces of the other.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
-                           const EdgeRows& edges_b) {
+                           const Points& vertices_b) {
   const FramePair& frames = search.frames;
   long long& exact = search.counts.exact;
-  if (crossings<false>(b, edges_b.rows, a, frames.pad, search.judge, exact)) return true;
+  EdgeRows edges;
+  gatherEdges(b, vertices_b, kAllVertices, edges);
+  if (crossings<false>(b, edges, a, frames.pad, search.judge, exact)) return true;
   VertexRows moved_a;
-  EdgeRows edges_a;
-  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a), edges_a);
-  return crossings<true>(a, edges_a.rows, b, frames.pad, search.judge, exact);
+  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a), kAllVertices, edges);
+  return crossings<true>(a, edges, b, frames.pad, search.judge, exact);
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE
