@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
-#include <initializer_list>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -163,7 +162,7 @@ void contact(const Search& search) { touching(search, contactOfLeaves); }
 void contacts(const Search& search) { touching(search, contactsOfLeaves); }
 
 extern const Kernels kKernels;
-const Kernels kKernels = {HWY_STR(HWY_NAMESPACE) + 2, &distance, &contact, &contacts};  // after N_
+const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2], &distance, &contact, &contacts};  // after N_
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

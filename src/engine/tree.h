@@ -66,9 +66,8 @@ struct FeatureId {
 
 /// Up to eight triangles, and the edges and vertices that the leaf owns: every edge and every
 /// vertex of the mesh belongs to one leaf only. In `lanes` from `offset`: vertices (chunks of x, y,
-/// z; owned ones first), faces (a chunk of
-/// FaceRow). Lanes that aren't used repeat the last feature. In `features` from `feature_offset`:
-/// faces, edges, owned vertices.
+/// z; owned ones first), faces (a chunk of FaceRow). Lanes that aren't used repeat the last
+/// feature. In `features` from `feature_offset`: faces, edges, owned vertices.
 struct Leaf {
   std::uint32_t offset = 0, feature_offset = 0;
   std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
@@ -79,7 +78,6 @@ struct Leaf {
   std::uint8_t ends[2 * kMaxLeafFeatures] = {};  ///< vertices of each edge
 
   int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }
-  int edgeChunks() const { return (num_edges + kLanes - 1) / kLanes; }
 };
 
 /// Rows of a chunk of faces: unit normal and offset, then three inward unit edge planes; 16 rows.

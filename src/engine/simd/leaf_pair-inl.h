@@ -10,7 +10,6 @@ struct LeafView {
   LeafView(const Tree& tree, const Leaf& l)
       : leaf(l),
         vertices{tree.lanes.data() + l.offset, l.vertexChunks()},
-        edge_chunks(l.edgeChunks()),
         faces(vertices.rows + 3 * vertices.chunks),
         ids(tree.features.data() + l.feature_offset) {}
 
@@ -20,7 +19,6 @@ struct LeafView {
 
   const Leaf& leaf;
   Points vertices;
-  int edge_chunks;
   const Lanes* faces;
   const FeatureId* ids;
 };
