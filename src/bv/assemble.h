@@ -19,8 +19,8 @@ inline int capExponent(double radius0) {
   return ordinary ? 0 : std::ilogb(radius0);
 }
 
-/// Fills the caps beyond k with S0, sets the reach and a new stamp; center0, radius0, exponent and the caps of
-/// k are set.
+/// Fills the caps beyond k with S0, sets the reach and a new stamp; center0, radius0, exponent and
+/// the caps of k are set.
 template <typename S>
 void completeCaps(kIOS<S>& v, int k) {
   v.num_spheres = static_cast<std::uint8_t>(k);
