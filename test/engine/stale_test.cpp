@@ -8,32 +8,11 @@
 
 #include <list>
 
+#include "fcl/deform.h"
 #include "fcl/mesh_cases.h"
 
 namespace kios::testing {
 namespace {
-
-// Every vertex moves by up to a third of the mesh.
-std::vector<Vector3d> swayed(const Mesh& mesh, double phase) {
-  std::vector<Vector3d> vertices = mesh.vertices;
-  for (Vector3d& p : vertices) {
-    p += 0.3 *
-         Vector3d(std::sin(3 * p[1] + phase), std::cos(2 * p[2] + phase), std::sin(p[0] - phase));
-  }
-  return vertices;
-}
-
-void replace(Modeld& model, const std::vector<Vector3d>& vertices, bool refit, bool bottomup) {
-  ASSERT_EQ(model.beginReplaceModel(), fcl::BVH_OK);
-  ASSERT_EQ(model.replaceSubModel(vertices), fcl::BVH_OK);
-  ASSERT_EQ(model.endReplaceModel(refit, bottomup), fcl::BVH_OK);
-}
-
-void update(Modeld& model, const std::vector<Vector3d>& vertices, bool refit, bool bottomup) {
-  ASSERT_EQ(model.beginUpdateModel(), fcl::BVH_OK);
-  ASSERT_EQ(model.updateSubModel(vertices), fcl::BVH_OK);
-  ASSERT_EQ(model.endUpdateModel(refit, bottomup), fcl::BVH_OK);
-}
 
 /// A fitter of the user's own, which no tree can be kept by.
 class PlainFitter : public fcl::detail::BVFitterBase<kIOSd> {
