@@ -108,16 +108,19 @@ struct Across {
   float bottom, top;
 };
 
+/// Squares below lose their precision, and then vanish: what is divided by them proves nothing.
+constexpr float kLeastSquare = 0x1p-120F;
+
 /// Looks for a slab that proves the sets at least `distance` apart (pad included): for any w,
 /// (min w . b - max w . a) / |w| bounds the distance. Tries the line of centres, both mean normals
 /// and Frank-Wolfe steps towards the nearest points of the hulls.
 template <class HullA, class HullB>
 HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Across& across_a,
                          const Across& across_b, float distance, Slab& slab) {
-  // No squares of squares: lengths may be 2^40. A w too short for its square proves nothing.
+  // No squares of squares: lengths may be 2^40.
   const auto proves = [&](float gap, Vec3 w) {
     const float ww = dot(w, w);
-    return gap > 0 && ww >= 0x1p-120F && gap >= distance * std::sqrt(ww);
+    return gap > 0 && ww >= kLeastSquare && gap >= distance * std::sqrt(ww);
   };
   slab.w = between;
   slab.apart = true;

@@ -238,8 +238,9 @@ HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const
   if (slab.apart) return std::numeric_limits<float>::infinity();
   const Vec3 vertices = slab.point_b - slab.point_a;
   search.judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
-  const float gap = slab.bottom_b - slab.top_a;
-  return gap > 0 ? gap / std::sqrt(dot(slab.w, slab.w)) - frames.pad : gap;
+  const float gap = slab.bottom_b - slab.top_a, ww = dot(slab.w, slab.w);
+  if (gap > 0 && ww >= kLeastSquare) return gap / std::sqrt(ww) - frames.pad;
+  return std::min(gap, 0.0F);
 }
 
 /// Judges all features of two leaves that may be nearest.
