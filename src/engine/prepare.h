@@ -10,7 +10,7 @@
 namespace kios::engine {
 
 /// Lengths of a mesh, and of a scene, for which floats keep clear of under- and overflow in every
-/// kernel (squares of 2^-24 of a length, products of two squares).
+/// kernel: squares of lengths and of 2^-24 of them, never their products.
 constexpr double kLeastReach = 0x1p-36, kLargestReach = 0x1p40;
 
 /// Builds the tree: weld, partition, collapse, assign the features, fit. The mesh must have finite

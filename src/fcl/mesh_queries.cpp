@@ -37,8 +37,8 @@ class EnginePair {
   }
 
  private:
-  /// Whether the root volumes tell that makeFramePair() will refuse: caps reach no farther than
-  /// some radii of S0.
+  /// Whether the models are so far apart for their size that makeFramePair() would refuse: its pad
+  /// then is a radius of the smaller.
   bool tooFar() const {
     const kIOS<S>&a = model1_.getBV(0).bv, &b = model2_.getBV(0).bv;
     const double apart = (X_12_ * b.center0 - a.center0).template cast<double>().norm();
@@ -51,15 +51,6 @@ class EnginePair {
   engine::FramePair frames_;
   bool usable_ = false;
 };
-
-/// What FCL's recursion over our traversal nodes does: the reference, and the way out.
-template <typename S, typename Node, typename Request, typename Result>
-void searchFclTree(Node& node, const Model<S>& model1, const fcl::Transform3<S>& tf1,
-                   const Model<S>& model2, const fcl::Transform3<S>& tf2, const Request& request,
-                   Result& result, SearchCounts& counts) {
-  initialize(node, model1, tf1, model2, tf2, request, result);
-  ++counts.tree_searches;
-}
 
 }  // namespace
 
@@ -92,8 +83,9 @@ std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
       return result.numContacts();
     }
   }
+  ++count.tree_searches;
   MeshCollisionTraversalNode<S> node;
-  searchFclTree(node, model1, tf1, model2, tf2, request, result, count);
+  initialize(node, model1, tf1, model2, tf2, request, result);
   fcl::detail::collide(&node);
   return result.numContacts();
 }
@@ -128,8 +120,9 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
     }
     return result.min_distance;
   }
+  ++count.tree_searches;
   MeshDistanceTraversalNode<S> node;
-  searchFclTree(node, model1, tf1, model2, tf2, request, result, count);
+  initialize(node, model1, tf1, model2, tf2, request, result);
   fcl::detail::distance(&node);
   return result.min_distance;
 }

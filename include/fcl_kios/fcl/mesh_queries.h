@@ -14,8 +14,11 @@
 namespace kios {
 
 /// fcl::collide and fcl::distance of two meshes over k-IOS, with FCL's conventions for requests
-/// and results. Throw std::invalid_argument if a model is not a finished mesh, a pose is not rigid,
-/// or an error bound is negative or NaN.
+/// and results: poses tf1 and tf2 in the world, points and normals of results there too, lengths in
+/// the models' units. Collision is exact; distance is right to 16 eps of the extent of the nearest
+/// triangles, or to what the request allows (docs/guarantees.md). Safe from many threads. Source of
+/// the tests of volumes: paper, IV. Throw std::invalid_argument if a model is not a finished mesh,
+/// a pose is not rigid, or an error bound is negative or NaN.
 ///
 /// A pair that the root volumes can't decide is searched in trees that the models prepare at their
 /// first such query and keep (see prepare()). Cost sources, models whose BVFitter is not ours, and
@@ -32,7 +35,9 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
                  const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
                  fcl::DistanceResult<S>& result, SearchCounts* counts = nullptr);
 
-/// Makes now what the model's first query would make. Does nothing if it exists, or can't be used.
+/// Makes now what the model's first query would make; its other threads wait for it. Does nothing
+/// if it exists, or can't be used. Throws std::invalid_argument if the model is not a finished
+/// mesh.
 template <typename S>
 void prepare(const Model<S>& model);
 
