@@ -39,6 +39,15 @@ inline Float4 max(Float4 a, Float4 b) {
 #endif
 }
 
+/// Lane-wise minimum; b where a is NaN.
+inline Float4 min(Float4 a, Float4 b) {
+#if defined(__SSE2__)
+  return _mm_min_ps(a, b);
+#else
+  return select(a < b, a, b);
+#endif
+}
+
 inline Float4 sqrt(Float4 v) {
 #if defined(__SSE2__)
   return _mm_sqrt_ps(v);
@@ -52,5 +61,7 @@ inline float horizontalMax(Float4 v) {
   const float b = v[2] > v[3] ? v[2] : v[3];
   return a > b ? a : b;
 }
+
+inline float horizontalMin(Float4 v) { return -horizontalMax(-v); }
 
 }  // namespace kios::lanes

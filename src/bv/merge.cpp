@@ -8,18 +8,21 @@
 
 #include "bv/assemble.h"
 #include "bv/balls.h"
+#include "bv/lanes.h"
 #include "bv/rounding.h"
 #include "fcl_kios/bv/kios.h"
 
 namespace kios {
 namespace {
 
-using Vec = Eigen::Vector3d;
+using lanes::broadcast;
+using lanes::Float4;
 
 /// A total order of representations (0 and -0 differ), so that a + b and b + a are computed alike.
 template <typename S>
 bool before(const kIOS<S>& a, const kIOS<S>& b) {
-  constexpr std::size_t kBytes = 4 * sizeof(S) + sizeof(a.cap_x) * 4 + sizeof(a.exponent) + 1;
+  if (a.radius0 != b.radius0) return a.radius0 < b.radius0;
+  constexpr std::size_t kBytes = 3 * sizeof(S) + sizeof(a.cap_x) * 4 + sizeof(a.exponent) + 1;
   const auto bytes = [](const kIOS<S>& v) {
     std::array<unsigned char, kBytes> all;
     unsigned char* out = all.data();
@@ -28,7 +31,6 @@ bool before(const kIOS<S>& a, const kIOS<S>& b) {
       out += size;
     };
     append(v.center0.data(), 3 * sizeof(S));
-    append(&v.radius0, sizeof(S));
     for (const float* cap : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) append(cap, sizeof(v.cap_x));
     append(&v.exponent, sizeof(v.exponent));
     append(&v.num_spheres, 1);
@@ -37,59 +39,86 @@ bool before(const kIOS<S>& a, const kIOS<S>& b) {
   return bytes(a) < bytes(b);
 }
 
-/// The spheres of one operand around the merged centre, in the merged node's units.
-struct Content {
-  Ball balls[5];
-  int k;
+/// The spheres of one operand around the merged centre, in the merged node's units, as floats. The
+/// content lies within |c_i - p| + r_i + pad of any p, whatever i: in floats (u = 2^-24) that sum
+/// is off by u |w| (S0's centre w as a float), u (|w| + |o|) (a cap's at w + o), 4.5 u |c_i - p|
+/// and u (|c_i - p| + r_i), together below 8 u (|w| + |o| + r_i + |p|).
+class Content {
+ public:
+  template <typename S>
+  Content(const kIOS<S>& v, const fcl::Vector3<S>& center, int exponent) {
+    const double unit0 = scaled(1.0, -exponent / 2);  // in two steps: 2^-exponent may overflow
+    const double unit1 = scaled(1.0, -exponent - (-exponent / 2));
+    const bool caps = v.k() > 1;  // others are S0; a point has an exponent of its own
+    const auto unit = caps ? static_cast<float>(scaled(1.0, v.exponent - exponent)) : 0.0F;
+    float w[3];
+    for (int c = 0; c < 3; ++c) {
+      w_[c] = (double{v.center0[c]} - double{center[c]}) * unit0 * unit1;
+      w[c] = static_cast<float>(w_[c]);
+    }
+    r0_ = double{v.radius0} * unit0 * unit1;
+    x_[0] = w[0];
+    y_[0] = w[1];
+    z_[0] = w[2];
+    r_[0] = roundUpFloat(r0_);
+    for (int i = 0; i < kIOS<S>::kCaps; ++i) {
+      x_[i + 1] = w[0] + v.cap_x[i] * unit;
+      y_[i + 1] = w[1] + v.cap_y[i] * unit;
+      z_[i + 1] = w[2] + v.cap_z[i] * unit;
+      r_[i + 1] = caps ? v.cap_r[i] * unit : r_[0];
+    }
+    reach_ = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]) + std::max(r_[0], v.reach * unit);
+  }
 
-  /// The content lies within this distance of p: every sphere gives a bound.
-  double radiusFrom(double x, double y, double z) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < k; ++i) {
-      const Ball& s = balls[i];
-      least = std::min(least, norm(s.x - x, s.y - y, s.z - z) + s.r);
+  float weight() const { return r_[0]; }
+
+  /// Rounding of radii from points whose coordinates are at most so large.
+  Float4 pad(Float4 reach) const { return (reach + reach_) * 0x1p-20F + 0x1p-90F; }
+
+  /// The content lies within this distance of the origin.
+  double radius() const {
+    const double by_center = norm(w_[0], w_[1], w_[2]) + r0_;
+    const Float4 x = lanes::load(x_ + 1), y = lanes::load(y_ + 1), z = lanes::load(z_ + 1);
+    const Float4 by_caps =
+        lanes::sqrt(x * x + y * y + z * z) + lanes::load(r_ + 1) + pad(broadcast(0));
+    return std::min(by_center, double{lanes::horizontalMin(by_caps)});
+  }
+  /// The content lies within these distances of four points, but for the pad.
+  Float4 radiusFrom(Float4 x, Float4 y, Float4 z) const {
+    Float4 least = broadcast(std::numeric_limits<float>::infinity());
+    for (int i = 0; i < 5; ++i) {
+      const Float4 dx = x - x_[i], dy = y - y_[i], dz = z - z_[i];
+      least = lanes::min(least, lanes::sqrt(dx * dx + dy * dy + dz * dz) + r_[i]);
     }
     return least;
   }
-  /// The content lies below this height along the unit vector n.
-  double heightAlong(const Vec& n) const {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < k; ++i) {
-      const Ball& s = balls[i];
-      least = std::min(least, n[0] * s.x + n[1] * s.y + n[2] * s.z + s.r);
+  /// The content lies about below these heights along four directions.
+  Float4 heightAlong(Float4 x, Float4 y, Float4 z) const {
+    Float4 least = broadcast(std::numeric_limits<float>::infinity());
+    for (int i = 0; i < 5; ++i) {
+      least = lanes::min(least, x * x_[i] + y * y_[i] + z * z_[i] + r_[i]);
     }
     return least;
   }
   /// The direction of cap pair 0 or 1, zero if there is none.
-  Vec axis(int pair) const {
-    if (k < 3 + 2 * pair) return Vec::Zero();
-    const Ball &p = balls[1 + 2 * pair], &m = balls[2 + 2 * pair];
-    const Vec d(p.x - m.x, p.y - m.y, p.z - m.z);
-    const double length = d.norm();
-    return length > 0 ? Vec(d / length) : Vec::Zero();
+  Eigen::Vector3f axis(int pair) const {
+    const int plus = 1 + 2 * pair, minus = plus + 1;
+    const Eigen::Vector3f d(x_[plus] - x_[minus], y_[plus] - y_[minus], z_[plus] - z_[minus]);
+    const float square = d.squaredNorm();
+    return square > 0 ? Eigen::Vector3f(d / std::sqrt(square)) : Eigen::Vector3f(0, 0, 0);
   }
+
+ private:
+  double w_[3], r0_;
+  float x_[5], y_[5], z_[5], r_[5];
+  float reach_;
 };
 
-template <typename S>
-Content contentAround(const kIOS<S>& v, const fcl::Vector3<S>& center, int exponent) {
-  Content content;
-  std::array<double, 3> w;
-  for (int c = 0; c < 3; ++c) {
-    w[c] = scaled(double{v.center0[c]} - double{center[c]}, -exponent);
-  }
-  content.k = toBalls(v, w, exponent, content.balls);
-  return content;
-}
-
 /// Common direction of two axes (either may be zero), the one of the larger node weighing more.
-Vec blend(const Vec& a, double weight_a, const Vec& b, double weight_b) {
-  const Vec sum = weight_a * a + (a.dot(b) < 0 ? -weight_b : weight_b) * b;
-  return sum;
+Eigen::Vector3f blend(const Content& a, const Content& b, int pair) {
+  const Eigen::Vector3f of_a = a.axis(pair), of_b = b.axis(pair);
+  return a.weight() * of_a + (of_a.dot(of_b) < 0 ? -b.weight() : b.weight()) * of_b;
 }
-
-// Every sphere's radius is max over the two contents of radiusFrom(stored centre): the sum of a
-// length with 4 roundings and a radius with 1, and the origin's rounding of 2 u |w|: < 16 u of it.
-double grown(double radius) { return radius * (1 + 16 * kUlpDouble) + 0x1p-900; }
 
 }  // namespace
 
@@ -97,65 +126,72 @@ template <typename S>
 kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   if (k() == 0) return other;
   if (other.k() == 0) return *this;
-  const kIOS& a = before(other, *this) ? other : *this;
-  const kIOS& b = before(other, *this) ? *this : other;
+  const bool swap = before(other, *this);
+  const kIOS &a = swap ? other : *this, &b = swap ? *this : other;
 
-  // S0: the ball around both S0, or the larger one if it contains the other.
-  Vec w;
+  // S0: the ball around both S0, or the larger one (b's) if it contains the other.
+  double w[3];
   for (int c = 0; c < 3; ++c) w[c] = double{b.center0[c]} - double{a.center0[c]};
   const double ra = a.radius0, rb = b.radius0;
-  const double largest = std::max({w.cwiseAbs().maxCoeff(), ra, rb});
-  kIOS merged = a;
+  const double largest = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2]), rb});
+  kIOS merged = b;
   if (largest == 0) {
     merged.stamp = nextStamp();
     return merged;
   }
-  const int e0 = std::ilogb(largest);
-  const double d = Vec(scaled(w[0], -e0), scaled(w[1], -e0), scaled(w[2], -e0)).norm();
-  const double sa = scaled(ra, -e0), sb = scaled(rb, -e0);
-  if (d + sa <= sb) {
-    merged.center0 = b.center0;
-  } else if (d + sb > sa) {
+  int exponent = largest >= 0x1p-28 && largest <= 0x1p28 ? 0 : std::ilogb(largest);
+  const double d = norm(scaled(w[0], -exponent), scaled(w[1], -exponent), scaled(w[2], -exponent));
+  const double sa = scaled(ra, -exponent), sb = scaled(rb, -exponent);
+  if (d + sa > sb) {
     const double t = (d + sb - sa) / (2 * d);
     for (int c = 0; c < 3; ++c) {
       merged.center0[c] = static_cast<S>(double{a.center0[c]} + t * w[c]);
     }
   }
-  Content content[2] = {contentAround(a, merged.center0, e0), contentAround(b, merged.center0, e0)};
-  const double scaled_r0 =
-      grown(std::max(content[0].radiusFrom(0, 0, 0), content[1].radiusFrom(0, 0, 0)));
-  merged.radius0 =
-      roundUp<S>(std::nextafter(scaled(scaled_r0, e0), std::numeric_limits<double>::infinity()));
+  Content from_a(a, merged.center0, exponent), from_b(b, merged.center0, exponent);
+  // Sums of a length with four roundings and a radius with one, in double: below 16 u.
+  const double scaled_r0 = std::max(from_a.radius(), from_b.radius()) * (1 + 16 * kUlpDouble);
+  merged.radius0 = roundUp<S>(std::nextafter(scaled(scaled_r0 + 0x1p-900, exponent),
+                                             std::numeric_limits<double>::infinity()));
   merged.exponent = static_cast<std::int16_t>(capExponent(merged.radius0));
-  content[0] = contentAround(a, merged.center0, merged.exponent);
-  content[1] = contentAround(b, merged.center0, merged.exponent);
-  const double r0 = scaled(double{merged.radius0}, -merged.exponent);
+  if (merged.exponent != exponent) {
+    exponent = merged.exponent;
+    from_a = Content(a, merged.center0, exponent);
+    from_b = Content(b, merged.center0, exponent);
+  }
 
   // Caps along the operands' common axes, at the fit's half opening angle of 30 degrees.
+  const float least_length = 1e-3F * std::max(from_a.weight(), from_b.weight());
+  Eigen::Vector3f axes[2];
   int k = 1;
-  Vec first = Vec::Zero();
   for (int pair = 0; pair < 2; ++pair) {
-    const double larger = std::max(ra, rb);
-    Vec n = blend(content[0].axis(pair), ra / larger, content[1].axis(pair), rb / larger);
-    n -= first.dot(n) * first;
-    const double length = n.norm();
-    if (!(length > 1e-3)) break;
-    n /= length;
-    first = n;
-    constexpr double kCot30 = 1.7320508075688772;
-    for (int side = 0; side < 2; ++side, ++k) {
-      const Vec facing = side == 0 ? Vec(-n) : n;  // the side that this cap bounds
-      const double height =
-          std::max(content[0].heightAlong(facing), content[1].heightAlong(facing));
-      const Vec center = -facing * std::max(0.0, kCot30 * r0 - height);
-      const int i = k - 1;
-      merged.cap_x[i] = static_cast<float>(center[0]);
-      merged.cap_y[i] = static_cast<float>(center[1]);
-      merged.cap_z[i] = static_cast<float>(center[2]);
-      const double x = merged.cap_x[i], y = merged.cap_y[i], z = merged.cap_z[i];
-      merged.cap_r[i] = roundUpFloat(
-          grown(std::max(content[0].radiusFrom(x, y, z), content[1].radiusFrom(x, y, z))));
-    }
+    Eigen::Vector3f n = blend(from_a, from_b, pair);
+    if (pair == 1) n -= axes[0].dot(n) * axes[0];
+    const float length = n.norm();
+    if (!(length > least_length)) break;
+    axes[pair] = n / length;
+    k += 2;
+  }
+  if (k > 1) {
+    if (k == 3) axes[1].setZero();
+    // A lane a cap: the directions of the sides that they bound.
+    const Float4 sign = {-1, 1, -1, 1};
+    const auto lanesOf = [&](int c) {
+      return Float4{axes[0][c], axes[0][c], axes[1][c], axes[1][c]} * sign;
+    };
+    const Float4 fx = lanesOf(0), fy = lanesOf(1), fz = lanesOf(2);
+    const Float4 height =
+        lanes::max(from_a.heightAlong(fx, fy, fz), from_b.heightAlong(fx, fy, fz));
+    constexpr float kCot30 = 1.7320508F;
+    const auto r0 = static_cast<float>(scaled(double{merged.radius0}, -exponent));
+    const Float4 offset = lanes::max(kCot30 * r0 - height, broadcast(0));
+    const Float4 x = -fx * offset, y = -fy * offset, z = -fz * offset;
+    const Float4 radius = lanes::max(from_a.radiusFrom(x, y, z) + from_a.pad(offset * 1.8F),
+                                     from_b.radiusFrom(x, y, z) + from_b.pad(offset * 1.8F));
+    lanes::store(merged.cap_x, x);
+    lanes::store(merged.cap_y, y);
+    lanes::store(merged.cap_z, z);
+    lanes::store(merged.cap_r, radius);
   }
   completeCaps(merged, k);
   return merged;
