@@ -11,14 +11,11 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-/// Appends rows of lanes; values beyond the last repeat it.
+/// Writes chunks of rows of lanes; values beyond the last repeat it.
 class LaneWriter {
  public:
-  LaneWriter(std::vector<Lanes>& lanes, int count, int chunks, int rows)
-      : lanes_(lanes), count_(count), places_(kLanes * chunks), rows_(rows) {
-    first_ = lanes.size();
-    lanes.resize(first_ + static_cast<std::size_t>(chunks * rows));
-  }
+  LaneWriter(Lanes* lanes, int count, int chunks, int rows)
+      : lanes_(lanes), count_(count), places_(kLanes * chunks), rows_(rows) {}
   void set(int i, int row, double value) {
     at(i, row) = static_cast<float>(value);
     if (i + 1 != count_) return;
@@ -29,11 +26,8 @@ class LaneWriter {
   }
 
  private:
-  float& at(int i, int row) {
-    return lanes_[first_ + static_cast<std::size_t>(i / kLanes * rows_ + row)].v[i % kLanes];
-  }
-  std::vector<Lanes>& lanes_;
-  std::size_t first_;
+  float& at(int i, int row) { return lanes_[i / kLanes * rows_ + row].v[i % kLanes]; }
+  Lanes* const lanes_;
   int count_, places_, rows_;
 };
 
@@ -54,7 +48,7 @@ bool unitNormal(const Vec (&edges)[3], const double (&squares)[3], Vec& normal) 
 }
 
 /// Plane and edge planes of a face; of one that is too thin those that hold everywhere.
-void writeFace(const Vec (&v)[3], int i, LaneWriter& faces, Vec& sum_of_normals) {
+void writeFace(const FaceCorners& v, int i, LaneWriter& faces, Vec& sum_of_normals) {
   const Vec edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
   const double squares[3] = {edges[0].squaredNorm(), edges[1].squaredNorm(),
                              edges[2].squaredNorm()};
@@ -77,6 +71,30 @@ void writeFace(const Vec (&v)[3], int i, LaneWriter& faces, Vec& sum_of_normals)
 
 }  // namespace
 
+void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& leaf, Tree& tree) {
+  Lanes* const lanes = &tree.lanes[leaf.offset];
+  Eigen::Vector3f low = vertices[0], high = low;
+  LaneWriter vertex_lanes(lanes, leaf.num_vertices, leaf.vertexChunks(), 3);
+  for (int i = 0; i < leaf.num_vertices; ++i) {
+    vertex_lanes.set(i, 0, vertices[i].cast<double>());
+    low = low.cwiseMin(vertices[i]);
+    high = high.cwiseMax(vertices[i]);
+  }
+  LaneWriter face_lanes(lanes + 3 * leaf.vertexChunks(), leaf.num_faces, 1, kFaceRows);
+  Vec sum = Vec::Zero();
+  for (int i = 0; i < leaf.num_faces; ++i) writeFace(faces[i], i, face_lanes, sum);
+  const Eigen::Vector3f middle = 0.5F * (low + high);
+  const Eigen::Vector3f normal = sum.normalized().cast<float>();  // 0 stays 0
+  std::copy_n(middle.data(), 3, leaf.centroid);
+  std::copy_n(normal.data(), 3, leaf.normal);
+  leaf.normal_bottom = leaf.normal_top = normal.dot(vertices[0]);
+  for (int i = 1; i < leaf.num_vertices; ++i) {
+    const float height = normal.dot(vertices[i]);
+    leaf.normal_bottom = std::min(leaf.normal_bottom, height);
+    leaf.normal_top = std::max(leaf.normal_top, height);
+  }
+}
+
 void appendLeaf(const LeafContent& content, Tree& tree) {
   Leaf leaf;
   leaf.offset = static_cast<std::uint32_t>(tree.lanes.size());
@@ -85,33 +103,15 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
   leaf.num_edges = static_cast<std::uint8_t>(content.edges.size());
   leaf.num_owned = static_cast<std::uint8_t>(content.owned.size());
   leaf.num_vertices = static_cast<std::uint8_t>(content.vertices.size());
-
-  Eigen::Vector3f low = content.vertices[0], high = low;
-  LaneWriter vertices(tree.lanes, leaf.num_vertices, leaf.vertexChunks(), 3);
-  for (int i = 0; i < leaf.num_vertices; ++i) {
-    vertices.set(i, 0, content.vertices[i].cast<double>());
-    low = low.cwiseMin(content.vertices[i]);
-    high = high.cwiseMax(content.vertices[i]);
+  for (int i = 0; i < leaf.num_faces; ++i) {
+    std::copy_n(content.triangles[i].vertices, 3, leaf.corners + 3 * i);
   }
   for (int i = 0; i < leaf.num_edges; ++i) {
     leaf.ends[2 * i] = content.edges[i].start;
     leaf.ends[2 * i + 1] = content.edges[i].end;
   }
-  LaneWriter faces(tree.lanes, leaf.num_faces, 1, kFaceRows);
-  Vec sum = Vec::Zero();
-  for (int i = 0; i < leaf.num_faces; ++i) {
-    writeFace(content.triangles[i].corners, i, faces, sum);
-    std::copy_n(content.triangles[i].vertices, 3, leaf.corners + 3 * i);
-  }
-  const Eigen::Vector3f middle = 0.5F * (low + high);
-  const Eigen::Vector3f normal = sum.normalized().cast<float>();  // 0 stays 0
-  std::copy_n(middle.data(), 3, leaf.centroid);
-  std::copy_n(normal.data(), 3, leaf.normal);
-  leaf.normal_bottom = leaf.normal_top = normal.dot(content.vertices[0]);
-  for (const Eigen::Vector3f& v : content.vertices) {
-    leaf.normal_bottom = std::min(leaf.normal_bottom, normal.dot(v));
-    leaf.normal_top = std::max(leaf.normal_top, normal.dot(v));
-  }
+  tree.lanes.resize(tree.lanes.size() + 3 * leaf.vertexChunks() + kFaceRows);
+  placeLeaf(content.vertices.data(), content.faces.data(), leaf, tree);
 
   for (const LeafTriangle& t : content.triangles) tree.features.push_back(FeatureId{t.id << 2});
   for (const LeafEdge& e : content.edges) tree.features.push_back(e.id);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -10,10 +11,12 @@
 
 namespace kios::engine {
 
-/// A triangle of a leaf: its id and its corners relative to the tree's origin.
+/// The corners of a triangle relative to the tree's origin.
+using FaceCorners = std::array<Eigen::Vector3d, 3>;
+
+/// A triangle of a leaf.
 struct LeafTriangle {
   std::uint32_t id;
-  Eigen::Vector3d corners[3];
   std::uint8_t vertices[3];  ///< its corners among the leaf's vertices
 };
 
@@ -29,9 +32,14 @@ struct LeafContent {
   std::vector<LeafEdge> edges;
   std::vector<FeatureId> owned;           ///< ids of the first of `vertices`
   std::vector<Eigen::Vector3f> vertices;  ///< distinct corners of the triangles
+  std::vector<FaceCorners> faces;         ///< by triangle
 };
 
 /// Appends a leaf to the tree.
 void appendLeaf(const LeafContent& content, Tree& tree);
+
+/// Writes all that depends on where a leaf's vertices and faces are: its lanes in the tree, its
+/// centroid and its slab.
+void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& leaf, Tree& tree);
 
 }  // namespace kios::engine

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "engine/tree.h"
 
 namespace kios::engine {
-
-using Corners3 = std::array<std::uint32_t, 3>;
 
 /// What each leaf owns. The distance of two disjoint meshes is attained by two edges or by a
 /// vertex and a face, so it suffices that every edge and every vertex lies in one leaf that holds

@@ -21,7 +21,11 @@ namespace {
 template <typename S>
 class Preparation {
  public:
-  explicit Preparation(const MeshView<S>& mesh) : mesh_(mesh), order_(mesh.num_triangles) {
+  explicit Preparation(const MeshView<S>& mesh)
+      : mesh_(mesh),
+        tree_(std::make_unique<Tree>()),
+        corners_(tree_->corners),
+        order_(mesh.num_triangles) {
     std::iota(order_.begin(), order_.end(), 0U);
     const std::vector<std::uint32_t> first = weld(mesh);
     corners_.resize(mesh.num_triangles);
@@ -43,11 +47,11 @@ class Preparation {
   }
 
   std::unique_ptr<Tree> run() {
-    tree_ = std::make_unique<Tree>();
     std::copy_n(origin_.data(), 3, tree_->origin);
     binary_ = partitioned();
     layOut();
     fillLeaves();
+    tree_->cost = searchCost(*tree_);
     return std::move(tree_);
   }
 
@@ -161,6 +165,7 @@ class Preparation {
   void gather(const std::uint32_t* triangles, std::size_t n, const Ownership& owned, std::size_t l,
               LeafContent& content) {
     content.triangles.clear();
+    content.faces.clear();
     content.edges.clear();
     content.owned.clear();
     content.vertices.clear();
@@ -180,9 +185,9 @@ class Preparation {
     for (std::size_t i = 0; i < n; ++i) {
       const Corners3& v = corners_[triangles[i]];
       const FeatureId id = {triangles[i] << 2};
-      content.triangles.push_back({triangles[i],
-                                   {cornerOf(id, 0), cornerOf(id, 1), cornerOf(id, 2)},
-                                   {addVertex(v[0]), addVertex(v[1]), addVertex(v[2])}});
+      content.triangles.push_back(
+          {triangles[i], {addVertex(v[0]), addVertex(v[1]), addVertex(v[2])}});
+      content.faces.push_back({cornerOf(id, 0), cornerOf(id, 1), cornerOf(id, 2)});
     }
     for (std::uint32_t i = owned.edge_begin[l]; i < owned.edge_begin[l + 1]; ++i) {
       const FeatureId id = owned.edges[i];
@@ -192,9 +197,10 @@ class Preparation {
   }
 
   const MeshView<S> mesh_;
+  std::unique_ptr<Tree> tree_;
+  std::vector<Corners3>& corners_;  ///< of the tree
   Eigen::Vector3d origin_;
   std::vector<std::uint32_t> order_;
-  std::vector<Corners3> corners_;        ///< welded vertices, by triangle
   std::vector<Eigen::Vector3f> points_;  ///< relative to the origin, by welded vertex
   std::vector<std::uint32_t> stamps_;    ///< by welded vertex
   std::vector<std::uint8_t> place_;      ///< in the leaf at hand, by welded vertex
@@ -203,7 +209,6 @@ class Preparation {
   std::vector<int> leaves_;  ///< binary nodes
   std::vector<Eigen::Vector3f> gathered_;
   SphereFitter<float> fitter_;
-  std::unique_ptr<Tree> tree_;
 };
 
 }  // namespace

@@ -87,4 +87,14 @@ float reachOf(const Node& node) {
       (1 + 8 * kUlpDouble));
 }
 
+double searchCost(const Tree& tree) {
+  const double unit = tree.nodes[0].size > 0 ? 1 / double{tree.nodes[0].size} : 0;
+  double sum = 0;
+  for (const Node& node : tree.nodes) {
+    const double size = node.size * unit;
+    sum += size * std::sqrt(size);
+  }
+  return sum;
+}
+
 }  // namespace kios::engine

@@ -26,4 +26,8 @@ bool isFlat(const Box& box);
 /// >= |middle| + |half| + radii of every sphere of the node.
 float reachOf(const Node& node);
 
+/// What the blocks cost that a query may have to test, for trees of one mesh to be compared: the
+/// sum of their nodes' sizes to the 1.5, that of the root being 1.
+double searchCost(const Tree& tree);
+
 }  // namespace kios::engine

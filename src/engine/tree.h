@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -91,6 +92,9 @@ struct Children {
   std::uint32_t all() const { return (1U << count) - 1; }
 };
 
+/// The vertices of a triangle; of equal ones the first.
+using Corners3 = std::array<std::uint32_t, 3>;
+
 struct Tree {
   double origin[3] = {};
   float reach = 0;  ///< >= |centre| + |radius| of all spheres
@@ -102,12 +106,14 @@ struct Tree {
   std::vector<Leaf> leaves;
   std::vector<Lanes> lanes;
   std::vector<FeatureId> features;
+  std::vector<Corners3> corners;  ///< by triangle
+  double cost = 0;                ///< searchCost() as partitioned
 
   std::size_t bytes() const {
     return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) +
            blocks.capacity() * sizeof(Block) + children.capacity() * sizeof(Children) +
            leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
-           features.capacity() * sizeof(FeatureId);
+           features.capacity() * sizeof(FeatureId) + corners.capacity() * sizeof(Corners3);
   }
 };
 

@@ -26,12 +26,11 @@ TreeCache::Use TreeCache::find(const TreeKey& key) {
   return Use();
 }
 
-TreeCache::Use TreeCache::findOrMake(const TreeKey& key,
-                                     const std::function<std::unique_ptr<const Tree>()>& make) {
+TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
   if (Use found = find(key)) return found;
   const std::lock_guard<std::mutex> lock(making_);
   if (Use found = find(key)) return found;
-  std::unique_ptr<const Tree> tree = make();
+  std::unique_ptr<Tree> tree = make(earlierState(key));
   // First where a state of the same vertices that is no more lies, then where nothing lies.
   for (const void* const vertices : {key.vertices, static_cast<const void*>(nullptr)}) {
     for (Cell& cell : cells_) {
@@ -45,7 +44,19 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key,
   return Use(std::move(tree));
 }
 
-bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<const Tree>& tree) {
+/// The tree of a state of the same triangles that is no more, taken out.
+std::unique_ptr<Tree> TreeCache::earlierState(const TreeKey& key) {
+  for (Cell& cell : cells_) {
+    std::unique_ptr<Tree> taken;
+    if (cell.tree && cell.key.triangles == key.triangles && cell.key.root_stamp != key.root_stamp &&
+        tryReplace(cell, TreeKey(), taken)) {
+      return taken;
+    }
+  }
+  return nullptr;
+}
+
+bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<Tree>& tree) {
   int nobody = 0;
   if (!cell.users.compare_exchange_strong(nobody, kWriting, std::memory_order_acquire)) {
     return false;
@@ -67,7 +78,7 @@ std::size_t TreeCache::bytes() {
 void TreeCache::drop(const void* vertices) {
   const std::lock_guard<std::mutex> lock(making_);
   for (Cell& cell : cells_) {
-    std::unique_ptr<const Tree> none;
+    std::unique_ptr<Tree> none;
     if (cell.tree && cell.key.vertices == vertices) tryReplace(cell, TreeKey(), none);
   }
 }

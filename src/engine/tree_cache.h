@@ -49,18 +49,21 @@ class TreeCache {
    private:
     friend class TreeCache;
     explicit Use(Cell& cell) : cell_(&cell), tree_(cell.tree.get()) {}
-    explicit Use(std::unique_ptr<const Tree> own) : own_(std::move(own)), tree_(own_.get()) {}
+    explicit Use(std::unique_ptr<Tree> own) : own_(std::move(own)), tree_(own_.get()) {}
 
     Cell* cell_ = nullptr;
-    std::unique_ptr<const Tree> own_;  ///< one that found no place
+    std::unique_ptr<Tree> own_;  ///< one that found no place
     const Tree* tree_ = nullptr;
   };
 
   /// The tree of that key, empty if there is none. Lock-free.
   Use find(const TreeKey& key);
 
+  /// Makes a tree, of `old` if that serves: another state of the same triangles, or nullptr.
+  using Make = std::function<std::unique_ptr<Tree>(std::unique_ptr<Tree> old)>;
+
   /// The tree of that key, made if there is none; threads that ask at once wait for one to make it.
-  Use findOrMake(const TreeKey& key, const std::function<std::unique_ptr<const Tree>()>& make);
+  Use findOrMake(const TreeKey& key, const Make& make);
 
   /// Bytes of all trees held.
   std::size_t bytes();
@@ -74,11 +77,12 @@ class TreeCache {
     std::atomic<std::uint64_t> root_stamp{0};
     std::atomic<int> users{0};
     TreeKey key;
-    std::unique_ptr<const Tree> tree;
+    std::unique_ptr<Tree> tree;
   };
   static constexpr int kWriting = -(1 << 30);
 
-  bool tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<const Tree>& tree);
+  static bool tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<Tree>& tree);
+  std::unique_ptr<Tree> earlierState(const TreeKey& key);
 
   std::array<Cell, 8> cells_;
   std::mutex making_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/prepare.h"
+#include "engine/refit.h"
 #include "engine/search.h"
 #include "fcl_kios/fcl/mesh_queries.h"
 
@@ -34,7 +35,9 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
   const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
                                mesh.num_triangles};
   if (engine::TreeCache::Use found = trees->find(key)) return found;
-  return trees->findOrMake(key, [&] { return engine::prepare(mesh); });
+  return trees->findOrMake(key, [&](std::unique_ptr<engine::Tree> old) {
+    return old && engine::refit(mesh, *old) ? std::move(old) : engine::prepare(mesh);
+  });
 }
 
 template <typename S>

@@ -42,8 +42,10 @@ TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
 template <typename S>
 class Auditor final : public engine::Audit {
  public:
-  Auditor(const Mesh& a, const Mesh& b)
-      : posed_(a, b), below_a_(contents(*posed_.tree_a)), below_b_(contents(*posed_.tree_b)) {}
+  explicit Auditor(const Mesh& a, const Mesh& b, bool refitted = false)
+      : posed_(a, b, refitted),
+        below_a_(contents(*posed_.tree_a)),
+        below_b_(contents(*posed_.tree_b)) {}
 
   void pruned(std::uint32_t node_a, std::uint32_t node_b, float bound) override {
     ++pruned_;
@@ -134,9 +136,9 @@ class AuditOf : public ::testing::Test {
  protected:
   /// Random, close and touching poses; `scale` and `offset` apply to the world.
   static void audit(const Mesh& a, const Mesh& b, double spread, int poses, double scale = 1,
-                    double offset = 0, double skew = 0) {
+                    double offset = 0, double skew = 0, bool refitted = false) {
     Auditor<S> auditor(transformed(a, scale, fcl::Vector3d::Zero()),
-                       transformed(b, scale, fcl::Vector3d::Zero()));
+                       transformed(b, scale, fcl::Vector3d::Zero()), refitted);
     Random random(17);
     const auto drawn = scenes::randomPoses(2 * poses, spread, 31);
     for (int i = 0; i < poses; ++i) {
@@ -168,6 +170,15 @@ const Mesh& strips() {
 }
 
 TYPED_TEST(AuditOf, ClosedMeshes) { this->audit(torus(), scenes::icosphere(0.7, 1), 1.6, 15); }
+
+TYPED_TEST(AuditOf, Refitted) {
+  for (const double scale : {1e-9, 1.0, 1e9}) {
+    this->audit(torus(), scenes::icosphere(0.7, 1), 1.6, 4, scale, 0, 0, true);
+    this->audit(torus(), strips(), 1.5, 3, scale, 0, 0, true);
+  }
+  this->audit(scenes::randomSoup(90, 1, 1e-3, 1, 3), degenerateMesh(60, 3, 5), 2, 5, 1, 0, 0, true);
+  this->audit(scenes::sheet(2, 2, 8, 8, 0), scenes::sheet(2, 2, 7, 9, 1e-3), 1, 5, 1, 0, 0, true);
+}
 
 TYPED_TEST(AuditOf, LongThinTriangles) {
   this->audit(strips(), strips(), 0.4, 10);

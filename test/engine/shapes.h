@@ -10,6 +10,7 @@
 #include "engine/mesh.h"
 #include "engine/mesh_search.h"
 #include "engine/prepare.h"
+#include "engine/refit.h"
 #include "fcl_kios/bv/separation.h"
 #include "fcl_kios/triangle/triangle.h"
 #include "scenes/cad_shapes.h"
@@ -134,15 +135,39 @@ std::vector<NamedMesh> allMeshes() {
   return meshes;
 }
 
+/// Swayed by about a tenth of its size, and turned. Equal vertices stay equal.
+inline Mesh swayed(Mesh mesh) {
+  fcl::Vector3d low = mesh.vertices[0], high = low;
+  for (const fcl::Vector3d& p : mesh.vertices) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double size = (high - low).maxCoeff();
+  if (!(size > 0)) return mesh;
+  const fcl::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, fcl::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
+  for (fcl::Vector3d& p : mesh.vertices) {
+    const fcl::Vector3d u = (p - low) / size;
+    const fcl::Vector3d sway(std::sin(6 * u[1]), std::cos(4 * u[2]), std::sin(5 * u[0]));
+    p = low + size * (turn * (u + 0.06 * sway));
+  }
+  return mesh;
+}
+
+/// The tree as prepared, or as refitted from where the mesh was before; nullptr if it can't be.
+template <typename S>
+std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* before) {
+  if (!before) return engine::prepare(shape.view());
+  auto tree = engine::prepare(before->view());
+  return engine::refit(shape.view(), *tree) ? std::move(tree) : nullptr;
+}
+
 /// Two shapes with their trees, at a pose.
 template <typename S>
 class PosedPair {
  public:
-  PosedPair(const Mesh& a, const Mesh& b)
-      : a(a),
-        b(b),
-        tree_a(engine::prepare(this->a.view())),
-        tree_b(engine::prepare(this->b.view())) {}
+  explicit PosedPair(const Mesh& a, const Mesh& b, bool refitted = false)
+      : a(a), b(b), tree_a(made(this->a, a, refitted)), tree_b(made(this->b, b, refitted)) {}
 
   /// False if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
@@ -162,6 +187,12 @@ class PosedPair {
   std::unique_ptr<RelativePose<S>> X_AB;
 
  private:
+  static std::unique_ptr<engine::Tree> made(const Shape<S>& shape, const Mesh& mesh,
+                                            bool refitted) {
+    const Shape<S> before(swayed(mesh));
+    auto tree = treeOf(shape, refitted ? &before : nullptr);
+    return tree ? std::move(tree) : engine::prepare(shape.view());
+  }
   engine::FramePair frames_;
 };
 

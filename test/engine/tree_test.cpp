@@ -12,6 +12,7 @@
 #include <set>
 #include <tuple>
 
+#include "engine/rows.h"
 #include "engine/shapes.h"
 
 namespace kios::testing {
@@ -103,7 +104,9 @@ class TreeOf {
     ASSERT_FALSE(tree_.nodes.empty());
     int flat = 0;
     for (const Node& node : tree_.nodes) flat += static_cast<int>(node.flat);
-    ASSERT_EQ(tree_.boxes.size(), flat > 0 ? tree_.nodes.size() : 0);
+    if (!tree_.boxes.empty() || flat > 0) {
+      ASSERT_EQ(tree_.boxes.size(), tree_.nodes.size());
+    }
     ASSERT_EQ(tree_.children.size(), tree_.blocks.size());
     leaf_seen_.assign(tree_.leaves.size(), 0);
     EXPECT_EQ(descend(0, 0).first, tree_.depth);
@@ -329,7 +332,63 @@ TYPED_TEST(PreparedTree, HoldsTheMesh) {
     const Shape<TypeParam> shape(named.mesh);
     const auto tree = engine::prepare(shape.view());
     TreeOf<TypeParam>(shape, *tree).check();
+    const bool flat = std::any_of(tree->nodes.begin(), tree->nodes.end(),
+                                  [](const Node& node) { return node.flat != 0; });
+    EXPECT_EQ(tree->boxes.empty(), !flat);
   }
+}
+
+// Refitted from where it was before. What the refit refuses is prepared anew by queries.
+TYPED_TEST(PreparedTree, RefittedHoldsTheMesh) {
+  int refitted = 0, all = 0;
+  for (const NamedMesh& named : allMeshes<TypeParam>()) {
+    SCOPED_TRACE(named.name);
+    const Shape<TypeParam> shape(named.mesh), before(swayed(named.mesh));
+    const auto tree = treeOf(shape, &before);
+    ++all;
+    if (!tree) continue;
+    ++refitted;
+    TreeOf<TypeParam>(shape, *tree).check();
+  }
+  EXPECT_GE(refitted, all - 4);
+}
+
+// Moves and turns in a row leave a tree as good as a new one, nearly.
+TYPED_TEST(PreparedTree, RefittedManyTimes) {
+  const Mesh mesh = scenes::bumpyTorus(2000);
+  const auto tree = engine::prepare(Shape<TypeParam>(mesh).view());
+  const double cost = tree->cost;
+  for (int i = 0; i < 20; ++i) {
+    const fcl::Transform3d X(Eigen::AngleAxisd(i, fcl::Vector3d(1, i, 2).normalized()));
+    const Shape<TypeParam> shape(swayed(scenes::moved(X, mesh)));
+    ASSERT_TRUE(engine::refit(shape.view(), *tree));
+    EXPECT_LT(engine::searchCost(*tree), 1.25 * engine::prepare(shape.view())->cost);
+    EXPECT_EQ(tree->cost, cost);
+  }
+}
+
+TYPED_TEST(PreparedTree, RefusesToRefitToAnotherMesh) {
+  const Mesh torus = scenes::bumpyTorus(300), apart = scenes::soup(torus);
+  const auto refits = [](const Mesh& before, const Mesh& after) {
+    const Shape<TypeParam> from(before), to(after);
+    return treeOf(to, &from) != nullptr;
+  };
+  EXPECT_TRUE(refits(torus, torus));
+  EXPECT_TRUE(refits(apart, apart));
+  EXPECT_FALSE(refits(torus, scenes::bumpyTorus(400)));
+  Mesh torn = apart;  // a corner of one triangle only: it was one vertex with its neighbours'
+  torn.vertices.back()[0] += 1e-3;
+  EXPECT_FALSE(refits(apart, torn));
+  EXPECT_TRUE(refits(torn, apart));  // what comes together is no harm
+  Mesh other = torus;                // as many triangles of the same vertices
+  std::swap(other.triangles[3], other.triangles[200]);
+  EXPECT_FALSE(refits(torus, other));
+  Mesh shuffled = torus;  // a partition that holds no more
+  Random random(5);
+  for (fcl::Vector3d& p : shuffled.vertices) {
+    p = torus.vertices[static_cast<std::size_t>(random.uniform(0, 100))];
+  }
+  EXPECT_FALSE(refits(torus, shuffled));
 }
 
 // Nothing of what a build is given but the mesh shows in the tree.
