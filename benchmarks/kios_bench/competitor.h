@@ -17,10 +17,14 @@ namespace kios::bench {
 
 /// kThreshold: a distance query with a bound on entry, as FCL's broadphase asks: is anything
 /// nearer? kPrepare: the build and the first query, with whatever a model leaves to that.
-enum class Query { kDistance, kCollide, kThreshold, kBuild, kPrepare };
+/// kRefit: the same for a model whose vertices moved.
+enum class Query { kDistance, kCollide, kThreshold, kBuild, kPrepare, kRefit };
 
 constexpr Query kAllQueries[] = {Query::kDistance, Query::kCollide, Query::kThreshold,
-                                 Query::kBuild, Query::kPrepare};
+                                 Query::kBuild,    Query::kPrepare, Query::kRefit};
+
+/// What FCL's endReplaceModel() does with the tree.
+enum class Refit { kRebuild, kTopDown, kBottomUp };
 
 /// The name of the query in tables and JSON.
 const char* name(Query query);
@@ -59,6 +63,11 @@ class Competitor {
 
   /// Builds all models and keeps them for the queries below.
   virtual void load(const std::vector<scenes::Mesh>& meshes) = 0;
+
+  /// Moves the vertices of the loaded models to those of meshes of the same triangles, and asks one
+  /// distance.
+  virtual void refit(const std::vector<scenes::Mesh>& meshes, Refit how,
+                     const Question& question) = 0;
 
   /// Answers questions[begin, end) into answers[begin, end) with a fresh request and result each:
   /// the distance, never above the threshold of a kThreshold query, or 1 for contact and 0 for

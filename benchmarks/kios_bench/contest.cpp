@@ -168,6 +168,39 @@ std::vector<Row> Contest::prepareRows(const std::string& scenario, const Questio
   return rows;
 }
 
+std::vector<Row> Contest::refitRows(const std::string& scenario,
+                                    const std::vector<scenes::Mesh>& before, Refit how,
+                                    const Question& question) {
+  const std::size_t count = entrants_.size();
+  std::vector<std::vector<double>> refit_us(count);
+  for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+    for (std::size_t turn = 0; turn < count; ++turn) {
+      const std::size_t i = (turn + repeat) % count;
+      Competitor& competitor = *entrants_[i].competitor;
+      if (!competitor.serves(Query::kRefit)) continue;
+      competitor.load(before);
+      std::vector<double> answer(1);  // as it would have been asked before, too
+      competitor.answer(Query::kDistance, {question}, 0, 1, answer);
+      refit_us[i].push_back(timeOf([&] { competitor.refit(meshes_, how, question); }));
+    }
+  }
+  const auto obbrss = std::find_if(entrants_.begin(), entrants_.end(),
+                                   [&](const Entrant& entrant) { return &entrant == reference(); });
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (refit_us[i].empty()) continue;
+    Row row = rowOf(entrants_[i], scenario, Query::kRefit);
+    row.median_us = median(refit_us[i]);
+    row.min_us = minimum(refit_us[i]);
+    if (obbrss != entrants_.end()) {
+      row.ratio_to_fcl_obbrss =
+          medianRatio(refit_us[static_cast<std::size_t>(obbrss - entrants_.begin())], refit_us[i]);
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 std::vector<Row> Contest::queryRows(const Task& task) {
   if (task.questions.empty()) return {};
   std::vector<Lane> lanes;

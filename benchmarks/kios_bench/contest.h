@@ -44,6 +44,12 @@ class Contest {
   /// to its first query is counted. The ratio is to FCL's build alone, of the same repeat.
   std::vector<Row> prepareRows(const std::string& scenario, const Question& question) const;
 
+  /// Times refits of all models from where their vertices were before (meshes of the same
+  /// triangles), each with one distance query. Leaves the models as the last refit left them: what
+  /// queryRows() asks next, it asks of those.
+  std::vector<Row> refitRows(const std::string& scenario, const std::vector<scenes::Mesh>& before,
+                             Refit how, const Question& question);
+
   /// Asks all questions, options.repeats times. In a repeat the competitors take turns at blocks of
   /// questions, each block with another one first. Answers of all competitors are then compared
   /// with the oracle, and tests are counted in a pass that is not timed.

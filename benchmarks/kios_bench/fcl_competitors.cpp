@@ -88,6 +88,8 @@ const char* name(Query query) {
       return "build";
     case Query::kPrepare:
       return "prepare";
+    case Query::kRefit:
+      return "refit";
   }
   return "";
 }

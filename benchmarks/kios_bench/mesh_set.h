@@ -94,6 +94,7 @@ class MeshSet final : public Competitor {
       case Query::kDistance:
       case Query::kThreshold:
       case Query::kPrepare:
+      case Query::kRefit:
         return kHasDistance;
       case Query::kCollide:
         return kHasCollision;
@@ -121,6 +122,18 @@ class MeshSet final : public Competitor {
       bodies_.push_back({model, std::make_unique<fcl::CollisionObjectd>(model),
                          std::make_unique<fcl::CollisionObjectd>(model)});
     }
+  }
+
+  void refit(const std::vector<scenes::Mesh>& meshes, Refit how,
+             const Question& question) override {
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+      Model& model = *bodies_[i].model;
+      model.beginReplaceModel();
+      model.replaceSubModel(meshes[i].vertices);
+      model.endReplaceModel(how != Refit::kRebuild, how == Refit::kBottomUp);
+    }
+    std::vector<double> answer_to(1);
+    answer(Query::kDistance, {question}, 0, 1, answer_to);
   }
 
   void answer(Query query, const std::vector<Question>& questions, std::size_t begin,

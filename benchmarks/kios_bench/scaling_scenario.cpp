@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <algorithm>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include <fcl/math/bv/OBBRSS.h>
-#include <fcl/narrowphase/distance.h>
-
 #include "contest.h"
+#include "pose_finder.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/shapes.h"
@@ -40,29 +37,6 @@ int oracleFrames(const Options& options, int size) {
   const int affordable = std::max(2, kTriangleFrames / size);
   return options.oracle_frames == 0 ? 0 : std::min(options.oracle_frames, affordable);
 }
-
-// FCL's distance of two meshes, to find poses by: it is fast at any size, and what it gets wrong
-// moves a pose a little.
-class PoseFinder {
- public:
-  explicit PoseFinder(const scenes::Mesh& mesh)
-      : PoseFinder(scenes::buildModel<fcl::OBBRSSd>(mesh)) {}
-
-  double operator()(const scenes::Frame& frame) {
-    a_.setTransform(frame.X_WA);
-    b_.setTransform(frame.X_WB);
-    fcl::DistanceResultd result;
-    fcl::distance(&a_, &b_, fcl::DistanceRequestd(), result);
-    return result.min_distance;
-  }
-
- private:
-  explicit PoseFinder(const std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>>& model)
-      : a_(model), b_(model) {}
-
-  fcl::CollisionObjectd a_;
-  fcl::CollisionObjectd b_;
-};
 
 }  // namespace
 

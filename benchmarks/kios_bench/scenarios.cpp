@@ -25,6 +25,11 @@ const std::vector<Scenario>& scenarios() {
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
        runScaling},
+      {"refit",
+       "tori that sway by a tenth of their size: rebuild, top-down and bottom-up refit, and "
+       "queries "
+       "after each",
+       runRefit},
       {"stability", "triangle distance and intersection over hard classes of pairs, and FCL's",
        runStability},
   };
