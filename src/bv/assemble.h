@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bv/balls.h"
+#include "bv/lanes.h"
 #include "bv/rounding.h"
 #include "bv/stamp.h"
 #include "fcl_kios/bv/kios.h"
@@ -29,12 +30,14 @@ void completeCaps(kIOS<S>& v, int k) {
     v.cap_x[i] = v.cap_y[i] = v.cap_z[i] = 0;
     v.cap_r[i] = r0;
   }
-  double reach = r0;
-  for (int i = 0; i < k - 1; ++i) {
-    reach = std::max(reach, double{std::abs(v.cap_x[i])} + std::abs(v.cap_y[i]) +
-                                std::abs(v.cap_z[i]) + v.cap_r[i]);
-  }
-  v.reach = roundUpFloat(reach);
+  // Sums of four floats: within 3 u of theirs.
+  const auto magnitude = [](const float* c) {
+    const lanes::Float4 x = lanes::load(c);
+    return lanes::max(x, -x);
+  };
+  const lanes::Float4 reach =
+      magnitude(v.cap_x) + magnitude(v.cap_y) + magnitude(v.cap_z) + lanes::load(v.cap_r);
+  v.reach = std::max(lanes::horizontalMax(reach), r0) * (1 + 0x1p-20F);
   v.stamp = nextStamp();
 }
 

@@ -22,9 +22,4 @@ SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& fra
 /// Method II as published: paper, III-B.2 and III-C.
 SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame& frame);
 
-/// The tuned fit of the triangle 0, p1, p2 in closed form. Sets the frame (longest edge, across it,
-/// normal), its middle being the middle of the longest edge.
-SphereCenters triangleCenters(const Eigen::Vector3d& p1, const Eigen::Vector3d& p2,
-                              PrincipalFrame& frame);
-
 }  // namespace kios

@@ -29,8 +29,8 @@ class SphereFitter {
 
  private:
   void loadRelative(const fcl::Vector3<S>* points, int n);
-  kIOS<S> measure(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
-                  const SphereCenters& centers) const;
+  kIOS<S> placed(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
+                 const SphereCenters& centers) const;
 
   PointLanes relative_;  ///< points - points[0], in units of 2^exponent_
   PointLanes in_frame_;
