@@ -49,28 +49,33 @@ class Content {
   Content(const kIOS<S>& v, const fcl::Vector3<S>& center, int exponent) {
     const double unit0 = scaled(1.0, -exponent / 2);  // in two steps: 2^-exponent may overflow
     const double unit1 = scaled(1.0, -exponent - (-exponent / 2));
-    const bool caps = v.k() > 1;  // others are S0; a point has an exponent of its own
-    const auto unit = caps ? static_cast<float>(scaled(1.0, v.exponent - exponent)) : 0.0F;
-    float w[3];
     for (int c = 0; c < 3; ++c) {
       w_[c] = (double{v.center0[c]} - double{center[c]}) * unit0 * unit1;
-      w[c] = static_cast<float>(w_[c]);
     }
     r0_ = double{v.radius0} * unit0 * unit1;
-    x_[0] = w[0];
-    y_[0] = w[1];
-    z_[0] = w[2];
-    r_[0] = roundUpFloat(r0_);
-    for (int i = 0; i < kIOS<S>::kCaps; ++i) {
-      x_[i + 1] = w[0] + v.cap_x[i] * unit;
-      y_[i + 1] = w[1] + v.cap_y[i] * unit;
-      z_[i + 1] = w[2] + v.cap_z[i] * unit;
-      r_[i + 1] = caps ? v.cap_r[i] * unit : r_[0];
+    weight_ = roundUpFloat(r0_);
+    const float w[3] = {static_cast<float>(w_[0]), static_cast<float>(w_[1]),
+                        static_cast<float>(w_[2])};
+    reach_ = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]) + weight_;
+    caps_[0] = caps_[1] = caps_[2] = broadcast(0);
+    caps_[3] = broadcast(weight_);  // as S0
+    if (v.k() > 1) {                // a point has an exponent of its own
+      const auto unit = static_cast<float>(scaled(1.0, v.exponent - exponent));
+      caps_[0] = lanes::load(v.cap_x) * unit;
+      caps_[1] = lanes::load(v.cap_y) * unit;
+      caps_[2] = lanes::load(v.cap_z) * unit;
+      caps_[3] = lanes::load(v.cap_r) * unit;
+      reach_ += v.reach * unit;
     }
-    reach_ = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]) + std::max(r_[0], v.reach * unit);
+    balls_[0] = {broadcast(w[0]), broadcast(w[1]), broadcast(w[2]), broadcast(weight_)};
+    for (int c = 0; c < 3; ++c) at_[c] = caps_[c] + w[c];
+    for (int i = 0; i < 4; ++i) {
+      balls_[i + 1] = {broadcast(at_[0][i]), broadcast(at_[1][i]), broadcast(at_[2][i]),
+                       broadcast(caps_[3][i])};
+    }
   }
 
-  float weight() const { return r_[0]; }
+  float weight() const { return weight_; }
 
   /// Rounding of radii from points whose coordinates are at most so large.
   Float4 pad(Float4 reach) const { return (reach + reach_) * 0x1p-20F + 0x1p-90F; }
@@ -78,46 +83,52 @@ class Content {
   /// The content lies within this distance of the origin.
   double radius() const {
     const double by_center = norm(w_[0], w_[1], w_[2]) + r0_;
-    const Float4 x = lanes::load(x_ + 1), y = lanes::load(y_ + 1), z = lanes::load(z_ + 1);
-    const Float4 by_caps =
-        lanes::sqrt(x * x + y * y + z * z) + lanes::load(r_ + 1) + pad(broadcast(0));
+    const Float4 by_caps = lanes::sqrt(at_[0] * at_[0] + at_[1] * at_[1] + at_[2] * at_[2]) +
+                           caps_[3] + pad(broadcast(0));
     return std::min(by_center, double{lanes::horizontalMin(by_caps)});
   }
   /// The content lies within these distances of four points, but for the pad.
   Float4 radiusFrom(Float4 x, Float4 y, Float4 z) const {
     Float4 least = broadcast(std::numeric_limits<float>::infinity());
-    for (int i = 0; i < 5; ++i) {
-      const Float4 dx = x - x_[i], dy = y - y_[i], dz = z - z_[i];
-      least = lanes::min(least, lanes::sqrt(dx * dx + dy * dy + dz * dz) + r_[i]);
+    for (const LaneBall& s : balls_) {
+      const Float4 dx = x - s.x, dy = y - s.y, dz = z - s.z;
+      least = lanes::min(least, lanes::sqrt(dx * dx + dy * dy + dz * dz) + s.r);
     }
     return least;
   }
   /// The content lies about below these heights along four directions.
   Float4 heightAlong(Float4 x, Float4 y, Float4 z) const {
     Float4 least = broadcast(std::numeric_limits<float>::infinity());
-    for (int i = 0; i < 5; ++i) {
-      least = lanes::min(least, x * x_[i] + y * y_[i] + z * z_[i] + r_[i]);
-    }
+    for (const LaneBall& s : balls_) least = lanes::min(least, x * s.x + y * s.y + z * s.z + s.r);
     return least;
   }
-  /// The direction of cap pair 0 or 1, zero if there is none.
+  /// From the minus to the plus cap of pair 0 or 1, zero if there is none.
   Eigen::Vector3f axis(int pair) const {
-    const int plus = 1 + 2 * pair, minus = plus + 1;
-    const Eigen::Vector3f d(x_[plus] - x_[minus], y_[plus] - y_[minus], z_[plus] - z_[minus]);
-    const float square = d.squaredNorm();
-    return square > 0 ? Eigen::Vector3f(d / std::sqrt(square)) : Eigen::Vector3f(0, 0, 0);
+    const int plus = 2 * pair, minus = plus + 1;
+    return {caps_[0][plus] - caps_[0][minus], caps_[1][plus] - caps_[1][minus],
+            caps_[2][plus] - caps_[2][minus]};
   }
 
  private:
+  /// A sphere in all lanes.
+  struct LaneBall {
+    Float4 x, y, z, r;
+  };
+
   double w_[3], r0_;
-  float x_[5], y_[5], z_[5], r_[5];
-  float reach_;
+  Float4 caps_[4];     ///< x, y, z from S0's centre, and radii: a cap a lane
+  Float4 at_[3];       ///< their centres
+  LaneBall balls_[5];  ///< S0, caps
+  float weight_, reach_;
 };
 
 /// Common direction of two axes (either may be zero), the one of the larger node weighing more.
 Eigen::Vector3f blend(const Content& a, const Content& b, int pair) {
   const Eigen::Vector3f of_a = a.axis(pair), of_b = b.axis(pair);
-  return a.weight() * of_a + (of_a.dot(of_b) < 0 ? -b.weight() : b.weight()) * of_b;
+  const float square_a = of_a.squaredNorm(), square_b = of_b.squaredNorm();
+  const float scale_a = square_a > 0 ? a.weight() / std::sqrt(square_a) : 0.0F;
+  const float scale_b = square_b > 0 ? b.weight() / std::sqrt(square_b) : 0.0F;
+  return scale_a * of_a + (of_a.dot(of_b) < 0 ? -scale_b : scale_b) * of_b;
 }
 
 }  // namespace
