@@ -11,61 +11,77 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-/// Writes chunks of rows of lanes; values beyond the last repeat it.
-class LaneWriter {
- public:
-  LaneWriter(Lanes* lanes, int count, int chunks, int rows)
-      : lanes_(lanes), count_(count), places_(kLanes * chunks), rows_(rows) {}
-  void set(int i, int row, double value) {
-    at(i, row) = static_cast<float>(value);
-    if (i + 1 != count_) return;
-    for (int pad = count_; pad < places_; ++pad) at(pad, row) = static_cast<float>(value);
-  }
-  void set(int i, int row, const Vec& value) {
-    for (int c = 0; c < 3; ++c) set(i, row + c, value[c]);
-  }
+/// A coordinate of eight faces.
+using Eight = double[kLanes];
 
- private:
-  float& at(int i, int row) { return lanes_[i / kLanes * rows_ + row].v[i % kLanes]; }
-  Lanes* const lanes_;
-  int count_, places_, rows_;
-};
-
-/// Unit normal by the longest edge and the height above it, true to 2^-52 * aspect; false if the
-/// triangle is too thin for one that is right to a few 2^-30.
-bool unitNormal(const Vec (&edges)[3], const double (&squares)[3], Vec& normal) {
-  int longest = squares[1] > squares[0] ? 1 : 0;
-  if (squares[2] > squares[longest]) longest = 2;
-  const double square = squares[longest];
-  if (!(square > 0)) return false;
-  const Vec& edge = edges[longest];
-  Vec height = -edges[(longest + 2) % 3];
-  height -= height.dot(edge) / square * edge;
-  const double height2 = height.squaredNorm();
-  if (!(height2 > 0x1p-40 * square)) return false;
-  normal = edge.cross(height) / std::sqrt(square * height2);
-  return true;
-}
-
-/// Plane and edge planes of a face; of one that is too thin those that hold everywhere.
-void writeFace(const FaceCorners& v, int i, LaneWriter& faces, Vec& sum_of_normals) {
-  const Vec edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
-  const double squares[3] = {edges[0].squaredNorm(), edges[1].squaredNorm(),
-                             edges[2].squaredNorm()};
-  Vec normal = Vec::Zero();
-  const bool usable = unitNormal(edges, squares, normal);
-  sum_of_normals += normal;
-  normal = normal.cast<float>().cast<double>();
-  faces.set(i, kFacePlane, normal);
-  faces.set(i, kFacePlane + 3, -normal.dot(v[0] + v[1] + v[2]) / 3);
-  for (int k = 0; k < 3; ++k) {
-    Vec inward = Vec::Zero();
-    if (usable) {
-      inward = (normal.cross(edges[k]) / std::sqrt(squares[k])).cast<float>().cast<double>();
+/// Planes and edge planes of up to eight faces; of those that are too thin, planes that hold
+/// everywhere. Adds up the normals. Written without branches, for the compiler to vectorise.
+///
+/// A normal is by the longest edge and the height above it, true to 2^-52 * aspect; a face for
+/// which that is more than a few 2^-30 is too thin.
+void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_normals) {
+  Eight v[3][3];  // by corner and coordinate
+  for (int i = 0; i < kLanes; ++i) {
+    const FaceCorners& face = faces[std::min(i, count - 1)];
+    for (int k = 0; k < 3; ++k) {
+      for (int c = 0; c < 3; ++c) v[k][c][i] = face[k][c];
     }
-    const int row = kEdgePlanes + 4 * k;
-    faces.set(i, row, inward);
-    faces.set(i, row + 3, usable ? -inward.dot(v[k]) : 1);
+  }
+  Eight edge[3][3], square[3];
+  for (int k = 0; k < 3; ++k) {
+    for (int i = 0; i < kLanes; ++i) {
+      for (int c = 0; c < 3; ++c) edge[k][c][i] = v[(k + 1) % 3][c][i] - v[k][c][i];
+      square[k][i] = edge[k][0][i] * edge[k][0][i] + edge[k][1][i] * edge[k][1][i] +
+                     edge[k][2][i] * edge[k][2][i];
+    }
+  }
+  Eight normal[3], usable;
+  for (int i = 0; i < kLanes; ++i) {
+    const bool second = square[1][i] > square[0][i];
+    const double of_two = second ? square[1][i] : square[0][i];
+    const bool third = square[2][i] > of_two;
+    const double longest = third ? square[2][i] : of_two;
+    double e[3], h[3];  // the longest edge; from its start to the apex, then across it
+    for (int c = 0; c < 3; ++c) {
+      e[c] = third ? edge[2][c][i] : (second ? edge[1][c][i] : edge[0][c][i]);
+      h[c] = third ? -edge[1][c][i] : (second ? -edge[0][c][i] : -edge[2][c][i]);
+    }
+    const double along = (h[0] * e[0] + h[1] * e[1] + h[2] * e[2]) / longest;
+    for (int c = 0; c < 3; ++c) h[c] -= along * e[c];
+    const double height = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
+    const bool thick = height > 0x1p-40 * longest;  // false where the longest edge is 0
+    const double length = std::sqrt(thick ? longest * height : 1.0);
+    usable[i] = thick ? 1.0 : 0.0;
+    normal[0][i] = thick ? (e[1] * h[2] - e[2] * h[1]) / length : 0.0;
+    normal[1][i] = thick ? (e[2] * h[0] - e[0] * h[2]) / length : 0.0;
+    normal[2][i] = thick ? (e[0] * h[1] - e[1] * h[0]) / length : 0.0;
+  }
+  for (int i = 0; i < count; ++i) sum_of_normals += Vec(normal[0][i], normal[1][i], normal[2][i]);
+  for (int c = 0; c < 3; ++c) {  // offsets belong to what is stored
+    for (int i = 0; i < kLanes; ++i) {
+      rows[kFacePlane + c].v[i] = static_cast<float>(normal[c][i]);
+      normal[c][i] = double{rows[kFacePlane + c].v[i]};
+    }
+  }
+  for (int i = 0; i < kLanes; ++i) {
+    double height = 0;
+    for (int c = 0; c < 3; ++c) height += normal[c][i] * (v[0][c][i] + v[1][c][i] + v[2][c][i]);
+    rows[kFacePlane + 3].v[i] = static_cast<float>(-height / 3);
+  }
+  for (int k = 0; k < 3; ++k) {
+    Lanes* const plane = rows + kEdgePlanes + 4 * k;
+    for (int i = 0; i < kLanes; ++i) {
+      const bool thick = usable[i] > 0;
+      const double length = std::sqrt(thick ? square[k][i] : 1.0);
+      double height = 0;
+      for (int c = 0; c < 3; ++c) {
+        const int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+        const double cross = normal[c1][i] * edge[k][c2][i] - normal[c2][i] * edge[k][c1][i];
+        plane[c].v[i] = static_cast<float>(cross / length);
+        height += double{plane[c].v[i]} * v[k][c][i];
+      }
+      plane[3].v[i] = static_cast<float>(thick ? -height : 1.0);
+    }
   }
 }
 
@@ -74,15 +90,14 @@ void writeFace(const FaceCorners& v, int i, LaneWriter& faces, Vec& sum_of_norma
 void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& leaf, Tree& tree) {
   Lanes* const lanes = &tree.lanes[leaf.offset];
   Eigen::Vector3f low = vertices[0], high = low;
-  LaneWriter vertex_lanes(lanes, leaf.num_vertices, leaf.vertexChunks(), 3);
-  for (int i = 0; i < leaf.num_vertices; ++i) {
-    vertex_lanes.set(i, 0, vertices[i].cast<double>());
-    low = low.cwiseMin(vertices[i]);
-    high = high.cwiseMax(vertices[i]);
+  for (int i = 0; i < kLanes * leaf.vertexChunks(); ++i) {  // what lies beyond repeats the last
+    const Eigen::Vector3f& p = vertices[std::min(i, leaf.num_vertices - 1)];
+    for (int c = 0; c < 3; ++c) lanes[3 * (i / kLanes) + c].v[i % kLanes] = p[c];
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-  LaneWriter face_lanes(lanes + 3 * leaf.vertexChunks(), leaf.num_faces, 1, kFaceRows);
   Vec sum = Vec::Zero();
-  for (int i = 0; i < leaf.num_faces; ++i) writeFace(faces[i], i, face_lanes, sum);
+  writeFaces(faces, leaf.num_faces, lanes + 3 * leaf.vertexChunks(), sum);
   const Eigen::Vector3f middle = 0.5F * (low + high);
   const Eigen::Vector3f normal = sum.normalized().cast<float>();  // 0 stays 0
   std::copy_n(middle.data(), 3, leaf.centroid);
