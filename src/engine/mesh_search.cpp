@@ -93,6 +93,12 @@ class NearestJudge final : public Judge {
       take(0, idsOf(c));
       return true;
     }
+    if (c.kind == PairKind::kFaces) {
+      const TriangleDistance<S> found = corners_.distanceOf(idsOf(c));
+      least_ = std::min(least_, double{found.distance});
+      if (double{found.distance} < best_) take(double{found.distance}, idsOf(c));
+      return found.distance <= near_enough_;
+    }
     const FeatureDistance found = distanceOf(c);
     double distance = found.distance;
     // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+/// Two leaves that were looked at: what a slab between them proves, and their nearest vertices so
+/// far.
+struct Bracketed {
+  Frontier::Pair nodes;
+  Slab slab;  ///< the one that proves most; its points are those vertices
+  float lower;
+  float upper;
+  uint32_t vertex_a, vertex_b;
+};
+
+/// Slabs between two sets of points, and pairs of the points.
+template <class HullA, class HullB>
+class Slabs {
+ public:
+  Slabs(const HullA& a, const HullB& b, float distance, Bracketed& out)
+      : a_(a), b_(b), distance_(distance), out_(out) {
+    out.slab.apart = false;
+    out.lower = out.upper = std::numeric_limits<float>::infinity();
+  }
+
+  /// Tries a direction. True if it proves the sets at least `distance` apart.
+  bool proves(Vec3 w, float top_a, float bottom_b) {
+    const float ww = dot(w, w), gap = bottom_b - top_a;
+    const float length = std::sqrt(ww);
+    const bool valid = gap > 0 && ww >= kLeastSquare;
+    const float lower = valid ? gap / length : std::min(gap, 0.0F);
+    if (first_ || lower > out_.lower) {
+      out_.lower = lower;
+      out_.slab.w = w;
+      out_.slab.top_a = top_a;
+      out_.slab.bottom_b = bottom_b;
+      first_ = false;
+    }
+    out_.slab.apart = valid && gap >= distance_ * length;
+    return out_.slab.apart;
+  }
+  bool proves(Vec3 w) { return proves(w, a_.top(w), -b_.top(-1.0F * w)); }
+
+  /// Steps of Frank-Wolfe towards the nearest points of the hulls.
+  bool steps(Vec3 w, int count) {
+    for (int i = 0;; ++i) {
+      const Support of_a = a_.support(w), of_b = b_.support(-1.0F * w);
+      if (proves(w, of_a.value, -of_b.value)) return true;
+      const Vec3 between = b_.at(of_b.index) - a_.at(of_a.index);
+      const float square = dot(between, between);
+      if (square < out_.upper) {
+        out_.upper = square;
+        out_.vertex_a = of_a.index;
+        out_.vertex_b = of_b.index;
+      }
+      if (i == count) return false;
+      const Vec3 z = between - w;
+      const float zz = dot(z, z), wz = dot(w, z);
+      if (!(wz < 0 && zz > 0)) return false;  // w is as short as it gets
+      w = w + std::min(1.0F, -wz / zz) * z;
+    }
+  }
+
+ private:
+  const HullA& a_;
+  const HullB& b_;
+  const float distance_;
+  Bracketed& out_;
+  bool first_ = true;
+};
+
+/// Brackets the distance of two leaves, or proves them at least `distance` apart: `hint` is tried
+/// first, then the line of centres, both mean normals, steps of Frank-Wolfe.
+HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
+                                Vec3 hint, Bracketed& out) {
+  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+  const FramePair& frames = search.frames;
+  const float distance = search.judge.prune_at + frames.pad;
+  VertexRows moved_b;
+  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
+  const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
+    Slabs slabs(hull_a, hull_b, distance, out);
+    if (slabs.proves(hint)) return;
+    const Vec3 between = moved(frames.a_from_b, vec3(leaf_b.centroid)) - vec3(leaf_a.centroid);
+    Vec3 n = vec3(leaf_a.normal);
+    if (dot(n, between) < 0) n = -1.0F * n;
+    if (slabs.proves(n)) return;
+    n = rotated(frames.a_from_b, vec3(leaf_b.normal));
+    if (dot(n, between) < 0) n = -1.0F * n;
+    if (slabs.proves(n)) return;
+    slabs.steps(between, kFrankWolfeSteps);
+  };
+  const Lanes *const rows_a = a.vertices.rows, *const rows_b = vertices_b.rows;
+  if (HWY_LIKELY(a.vertices.chunks == 2 && vertices_b.chunks == 2)) {
+    between_hulls(Hull<2>(rows_a), Hull<2>(rows_b));
+  } else if (a.vertices.chunks == 2) {
+    between_hulls(Hull<2>(rows_a), Hull<3>(rows_b));
+  } else if (vertices_b.chunks == 2) {
+    between_hulls(Hull<3>(rows_a), Hull<2>(rows_b));
+  } else {
+    between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));
+  }
+  if (out.slab.apart) return;
+  out.lower = out.lower > 0 ? out.lower - frames.pad : out.lower;
+  out.upper = std::sqrt(out.upper) + frames.pad;
+}
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
