@@ -23,6 +23,9 @@ float downToFloat(double v) {
 }
 
 template <typename S>
+constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+
+template <typename S>
 bool exists(const TrianglePairIds& ids, const PreparedPair<S>& pair) {
   return ids.a >= 0 && static_cast<std::size_t>(ids.a) < pair.a.mesh.num_triangles && ids.b >= 0 &&
          static_cast<std::size_t>(ids.b) < pair.b.mesh.num_triangles;
@@ -73,7 +76,10 @@ template <typename S>
 class NearestJudge final : public Judge {
  public:
   NearestJudge(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds)
-      : corners_(pair), rel_err_(bounds.rel_err), abs_err_(bounds.abs_err) {
+      : corners_(pair),
+        rel_err_(bounds.rel_err),
+        abs_err_(bounds.abs_err),
+        least_shared_(leastShared(pair)) {
     best_ = bounds.at_most;
     if (bounds.at_most < std::numeric_limits<S>::max()) lowerTo(bounds.at_most);
   }
@@ -82,7 +88,8 @@ class NearestJudge final : public Judge {
         rel_err_(query.rel_err),
         abs_err_(query.abs_err),
         near_enough_(query.near_enough),
-        best_(std::numeric_limits<double>::infinity()) {
+        best_(std::numeric_limits<double>::infinity()),
+        least_shared_(leastShared(pair)) {
     prune_at = keep_to = upToFloat(query.far_enough);
   }
 
@@ -94,22 +101,23 @@ class NearestJudge final : public Judge {
       return true;
     }
     if (c.kind == PairKind::kFaces) {
-      const TriangleDistance<S> found = corners_.distanceOf(idsOf(c));
-      least_ = std::min(least_, double{found.distance});
-      if (double{found.distance} < best_) take(double{found.distance}, idsOf(c));
-      return found.distance <= near_enough_;
+      faces_ = idsOf(c);
+      of_faces_ = corners_.distanceOf(faces_);
+      const double distance = double{of_faces_.distance};
+      least_ = std::min(least_, distance);
+      if (distance < best_) take(distance, faces_);
+      return distance <= near_enough_;
     }
     const FeatureDistance found = distanceOf(c);
     double distance = found.distance;
     // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.
-    constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-    if (distance <= 64 * kUlp * found.extent) {
+    if (distance <= 64 * kUlp<S> * found.extent) {
       distance = double{corners_.distanceOf(idsOf(c)).distance};
     }
     least_ = std::min(least_, distance);
     const TrianglePairIds ids = idsOf(c);
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
-      if (distance < best_ + 64 * kUlp * found.extent) take(distance, ids);
+      if (distance < best_ + 64 * kUlp<S> * found.extent) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
       take(distance, ids);
     }
@@ -131,14 +139,22 @@ class NearestJudge final : public Judge {
 
   TrianglePairIds ids() const { return ids_; }
   double least() const { return least_; }  ///< of all that was judged
-  TriangleDistance<S> certified() const { return corners_.distanceOf(ids_); }
+  TriangleDistance<S> certified() const {
+    return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
+  }
 
  private:
+  /// Extents of edges are at most four times the scale.
+  static double leastShared(const PreparedPair<S>& pair) {
+    return 64 * kUlp<S> * 4 * double{pair.frames.scale};
+  }
+
   FeatureDistance distanceOf(const Candidate& c) {
     if (c.kind == PairKind::kEdgeEdge) {
       const Eigen::Vector3d p0 = corners_.ofA(c.a), p1 = corners_.ofA(c.a, 1);
       const Eigen::Vector3d q0 = corners_.ofB(c.b), q1 = corners_.ofB(c.b, 1);
-      if (ends_.distance > 0 && nearestAt(ends_, p0, p1, q0, q1)) return {ends_.distance, 0};
+      if (ends_.distance > least_shared_ && nearestAt(ends_, p0, p1, q0, q1))
+        return {ends_.distance, 0};
       return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
@@ -171,8 +187,10 @@ class NearestJudge final : public Judge {
   const double near_enough_ = 0;
   double best_;  ///< of ids_, or what was asked for
   double least_ = std::numeric_limits<double>::infinity();
-  TrianglePairIds ids_;
+  TrianglePairIds ids_, faces_;  ///< the nearest; those judged as faces
+  TriangleDistance<S> of_faces_;
   NearestEnds ends_;
+  const double least_shared_;  ///< nearer edges need their own extent; see judge()
 };
 
 template <typename S>
@@ -231,8 +249,7 @@ BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery
     if (!exact) {
       done = judge.start(query.start, distance);
     } else if (distance > 0) {
-      constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-      judge.offer(upToFloat(distance + 256 * kUlp * pair.frames.scale));
+      judge.offer(upToFloat(distance + 256 * kUlp<S> * pair.frames.scale));
       offered = true;
     }
   }

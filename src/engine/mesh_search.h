@@ -42,6 +42,7 @@ struct TrianglePairIds {
   int a = -1, b = -1;
 
   bool operator<(const TrianglePairIds& o) const { return a != o.a ? a < o.a : b < o.b; }
+  bool operator==(const TrianglePairIds& o) const { return a == o.a && b == o.b; }
 };
 
 /// The nearest triangles: d - d_exact <= max(rel_err * d_exact, abs_err), and 16 eps L where both
@@ -68,7 +69,7 @@ struct BracketQuery {
 
 template <typename S>
 struct BracketResult {
-  TrianglePairIds ids;          ///< the nearest that were found, if any were looked at
+  TrianglePairIds ids;               ///< the nearest that were found, if any were looked at
   TriangleDistance<S> nearest = {};  ///< of ids
   /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
   double least_evaluated = std::numeric_limits<double>::infinity();

@@ -21,8 +21,8 @@ class Slabs {
  public:
   Slabs(const HullA& a, const HullB& b, float distance, Bracketed& out)
       : a_(a), b_(b), distance_(distance), out_(out) {
-    out.slab.apart = false;
-    out.lower = out.upper = std::numeric_limits<float>::infinity();
+    out.lower = -std::numeric_limits<float>::infinity();
+    out.upper = std::numeric_limits<float>::infinity();
   }
 
   /// Tries a direction. True if it proves the sets at least `distance` apart.
@@ -31,17 +31,28 @@ class Slabs {
     const float length = std::sqrt(ww);
     const bool valid = gap > 0 && ww >= kLeastSquare;
     const float lower = valid ? gap / length : std::min(gap, 0.0F);
-    if (first_ || lower > out_.lower) {
+    if (lower > out_.lower) {
       out_.lower = lower;
       out_.slab.w = w;
       out_.slab.top_a = top_a;
       out_.slab.bottom_b = bottom_b;
-      first_ = false;
     }
-    out_.slab.apart = valid && gap >= distance_ * length;
-    return out_.slab.apart;
+    return valid && gap >= distance_ * length;
   }
   bool proves(Vec3 w) { return proves(w, a_.top(w), -b_.top(-1.0F * w)); }
+  /// A normal of one of the sets, of length 1 or 0, turned to point from a to b.
+  bool provesByNormalOfA(const Across& across, Vec3 between) {
+    if (dot(across.normal, between) >= 0) {
+      return proves(across.normal, across.top, -b_.top(-1.0F * across.normal));
+    }
+    return proves(-1.0F * across.normal, -across.bottom, -b_.top(across.normal));
+  }
+  bool provesByNormalOfB(const Across& across, Vec3 between) {
+    if (dot(across.normal, between) >= 0) {
+      return proves(across.normal, a_.top(across.normal), across.bottom);
+    }
+    return proves(-1.0F * across.normal, a_.top(-1.0F * across.normal), -across.top);
+  }
 
   /// Steps of Frank-Wolfe towards the nearest points of the hulls.
   bool steps(Vec3 w, int count) {
@@ -68,7 +79,6 @@ class Slabs {
   const HullB& b_;
   const float distance_;
   Bracketed& out_;
-  bool first_ = true;
 };
 
 /// Brackets the distance of two leaves, or proves them at least `distance` apart: `hint` is tried
@@ -77,20 +87,20 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
                                 Vec3 hint, Bracketed& out) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
+  const FloatPose& X = frames.a_from_b;
   const float distance = search.judge.prune_at + frames.pad;
   VertexRows moved_b;
-  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
+  const Points vertices_b = moveVertices(b, X, moved_b);
   const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
-    if (slabs.proves(hint)) return;
-    const Vec3 between = moved(frames.a_from_b, vec3(leaf_b.centroid)) - vec3(leaf_a.centroid);
-    Vec3 n = vec3(leaf_a.normal);
-    if (dot(n, between) < 0) n = -1.0F * n;
-    if (slabs.proves(n)) return;
-    n = rotated(frames.a_from_b, vec3(leaf_b.normal));
-    if (dot(n, between) < 0) n = -1.0F * n;
-    if (slabs.proves(n)) return;
-    slabs.steps(between, kFrankWolfeSteps);
+    const Vec3 between = moved(X, vec3(leaf_b.centroid)) - vec3(leaf_a.centroid);
+    const Across across_a = {vec3(leaf_a.normal), leaf_a.normal_bottom, leaf_a.normal_top};
+    const Vec3 n = rotated(X, vec3(leaf_b.normal));
+    const float shift = dot(n, vec3(X.t));
+    const Across across_b = {n, leaf_b.normal_bottom + shift, leaf_b.normal_top + shift};
+    out.slab.apart = slabs.proves(hint) || slabs.provesByNormalOfA(across_a, between) ||
+                     slabs.provesByNormalOfB(across_b, between) ||
+                     slabs.steps(between, kFrankWolfeSteps);
   };
   const Lanes *const rows_a = a.vertices.rows, *const rows_b = vertices_b.rows;
   if (HWY_LIKELY(a.vertices.chunks == 2 && vertices_b.chunks == 2)) {
