@@ -41,6 +41,7 @@ void runRootReject(const Options& options, Report& report);
 void runStrips(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
+void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
 
 }  // namespace kios::bench

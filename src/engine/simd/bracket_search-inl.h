@@ -22,8 +22,10 @@ class BracketSearch {
         budget_(search.bracket->max_expansions) {}
 
   void run() {
+    // Any triangles, so that even the smallest budget has an upper bound.
+    bool done = budgeted() && judgeFaces(search_.a.leaves[0], 0, search_.b.leaves[0], 0);
     lowerTo(search_.judge.prune_at);
-    bool done = descend();
+    done = done || descend();
     while (!done && !frontier_.empty()) {
       if (budget_ < static_cast<long long>(kBatch)) {  // whole batches: more never differs
         bracket_.out_of_budget = true;
@@ -32,7 +34,7 @@ class BracketSearch {
       done = expandNearest();
     }
     prove();
-    if (!done && best_ != kNone) judgeVertices(waiting_[best_]);
+    if (offered_) judgeVertices();
   }
 
  private:
@@ -40,7 +42,6 @@ class BracketSearch {
   static constexpr size_t kBatch = 4;
   static constexpr uint32_t kWaiting = 1U << 31;  ///< instead of node a: an index of waiting_
   static constexpr uint32_t kMaxWaiting = 256;
-  static constexpr uint32_t kNone = ~uint32_t{0};
   static constexpr size_t kMaxDepth = 32;
 
   const Node& nodeA(Frontier::Pair at) const { return search_.a.nodes[at.a]; }
@@ -137,20 +138,23 @@ class BracketSearch {
     bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), hint_, pair);
     hint_ = pair.slab.w;
     const bool nearer = !pair.slab.apart && pair.upper < search_.judge.keep_to;
-    if (nearer) search_.judge.offer(pair.upper);
+    if (nearer) {
+      search_.judge.offer(pair.upper);
+      best_ = pair.vertices;
+      offered_ = true;
+    }
     const float bound = std::max(entry.bound, pair.lower);
     if (pair.slab.apart || (!nearer && bound >= prune_at_)) {
       if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, prune_at_);
       return false;
     }
-    // What may be nearer than an upper bound of its own is judged at once, so that better ones come
-    // early; with a budget all upper bounds are, as answers must not get worse as it grows.
+    // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
     const bool ends = nearer && search_.judge.keep_to <= bracket_.near_enough;
+    if (nearer && (ends || budgeted()) && judgeVertices()) return true;
+    // What may be nearer than its own upper bound is judged at once, so that better ones come
+    // early.
     const bool open = bound < search_.judge.prune_at;
-    if (num_waiting_ + 1 == kMaxWaiting || ends || (nearer && (open || budgeted()))) {
-      return judgeFeatures(pair, bound);
-    }
-    if (nearer) best_ = num_waiting_;
+    if ((nearer && open) || num_waiting_ + 1 == kMaxWaiting) return judgeFeatures(pair, bound);
     current_ = bound;
     lowerTo(search_.judge.prune_at);
     if (open) {
@@ -171,19 +175,24 @@ class BracketSearch {
     const float known = search_.judge.keep_to;
     const bool done =
         nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
-    if (search_.judge.keep_to < known) best_ = kNone;
+    if (search_.judge.keep_to < known) offered_ = false;
     if (!done) current_ = kInfinity;
     lowerTo(search_.judge.prune_at);
     return done;
   }
 
-  /// Judges a triangle of each of the nearest vertices that were seen.
-  void judgeVertices(const Bracketed& pair) {
-    const LeafView a(search_.a, leafA(pair.nodes)), b(search_.b, leafB(pair.nodes));
-    const FeatureId face_a = a.face(faceAt(a.leaf, pair.vertex_a));
-    const FeatureId face_b = b.face(faceAt(b.leaf, pair.vertex_b));
+  /// Judges triangles of the vertices that are the upper bound: the edges and faces there may
+  /// belong to other leaves, and be left out. True to end the search.
+  bool judgeVertices() {
+    offered_ = false;
+    const Leaf &a = leafA(best_.nodes), &b = leafB(best_.nodes);
+    return judgeFaces(a, faceAt(a, best_.a), b, faceAt(b, best_.b));
+  }
+
+  bool judgeFaces(const Leaf& a, uint32_t face_a, const Leaf& b, uint32_t face_b) {
     ++search_.counts.exact;
-    search_.judge.judge({PairKind::kFaces, face_a, face_b});
+    return search_.judge.judge({PairKind::kFaces, LeafView(search_.a, a).face(face_a),
+                                LeafView(search_.b, b).face(face_b)});
   }
 
   static uint32_t faceAt(const Leaf& leaf, uint32_t vertex) {
@@ -201,7 +210,8 @@ class BracketSearch {
   float in_flight_ = kInfinity;  ///< least bound of what is being expanded
   float current_ = -kInfinity;   ///< bound of what is at hand
   Vec3 hint_ = {1, 0, 0};        ///< the last direction that told leaves apart
-  uint32_t best_ = kNone;        ///< of waiting_: whose vertices are the upper bound, if they are
+  VertexPair best_;
+  bool offered_ = false;  ///< whether they are the upper bound
   uint32_t num_waiting_ = 0;
   Bracketed waiting_[kMaxWaiting];
 };

@@ -5,14 +5,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Two leaves that were looked at: what a slab between them proves, and their nearest vertices so
-/// far.
+/// Two vertices, by their leaves.
+struct VertexPair {
+  Frontier::Pair nodes;
+  uint32_t a, b;
+};
+
+/// Two leaves that were looked at.
 struct Bracketed {
   Frontier::Pair nodes;
-  Slab slab;  ///< the one that proves most; its points are those vertices
-  float lower;
-  float upper;
-  uint32_t vertex_a, vertex_b;
+  Slab slab;            ///< the one that proves most; no points are set
+  float lower, upper;   ///< bounds of the distance
+  VertexPair vertices;  ///< the nearest so far: the upper bound
 };
 
 /// Slabs between two sets of points, and pairs of the points.
@@ -63,8 +67,8 @@ class Slabs {
       const float square = dot(between, between);
       if (square < out_.upper) {
         out_.upper = square;
-        out_.vertex_a = of_a.index;
-        out_.vertex_b = of_b.index;
+        out_.vertices.a = of_a.index;
+        out_.vertices.b = of_b.index;
       }
       if (i == count) return false;
       const Vec3 z = between - w;
@@ -113,6 +117,7 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
     between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));
   }
   if (out.slab.apart) return;
+  out.vertices.nodes = out.nodes;
   out.lower = out.lower > 0 ? out.lower - frames.pad : out.lower;
   out.upper = std::sqrt(out.upper) + frames.pad;
 }
