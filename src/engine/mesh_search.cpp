@@ -88,6 +88,7 @@ class NearestJudge final : public Judge {
         rel_err_(query.rel_err),
         abs_err_(query.abs_err),
         near_enough_(query.near_enough),
+        by_faces_(query.hasBudget()),
         best_(std::numeric_limits<double>::infinity()),
         least_shared_(leastShared(pair)) {
     prune_at = keep_to = upToFloat(query.far_enough);
@@ -100,14 +101,7 @@ class NearestJudge final : public Judge {
       take(0, idsOf(c));
       return true;
     }
-    if (c.kind == PairKind::kFaces) {
-      faces_ = idsOf(c);
-      of_faces_ = corners_.distanceOf(faces_);
-      const double distance = double{of_faces_.distance};
-      least_ = std::min(least_, distance);
-      if (distance < best_) take(distance, faces_);
-      return distance <= near_enough_;
-    }
+    if (c.kind == PairKind::kFaces) return judgeFaces(idsOf(c));
     const FeatureDistance found = distanceOf(c);
     double distance = found.distance;
     // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.
@@ -116,6 +110,7 @@ class NearestJudge final : public Judge {
     }
     least_ = std::min(least_, distance);
     const TrianglePairIds ids = idsOf(c);
+    if (by_faces_) return distance < best_ && judgeFaces(ids);
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
       if (distance < best_ + 64 * kUlp<S> * found.extent) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
@@ -165,6 +160,16 @@ class NearestJudge final : public Judge {
                         {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
   }
 
+  /// Triangles as a whole: they may be nearer than the features that named them.
+  bool judgeFaces(const TrianglePairIds& ids) {
+    faces_ = ids;
+    of_faces_ = corners_.distanceOf(ids);
+    const double distance = double{of_faces_.distance};
+    least_ = std::min(least_, distance);
+    if (distance < best_) take(distance, ids);
+    return distance <= near_enough_;
+  }
+
   void take(double distance, const TrianglePairIds& ids) {
     ids_ = ids;
     lowerTo(distance);
@@ -185,7 +190,8 @@ class NearestJudge final : public Judge {
   const Corners<S> corners_;
   const double rel_err_, abs_err_;
   const double near_enough_ = 0;
-  double best_;  ///< of ids_, or what was asked for
+  const bool by_faces_ = false;  ///< whether what was found must not get worse by going on
+  double best_;                  ///< of ids_, or what was asked for
   double least_ = std::numeric_limits<double>::infinity();
   TrianglePairIds ids_, faces_;  ///< the nearest; those judged as faces
   TriangleDistance<S> of_faces_;

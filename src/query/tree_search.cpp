@@ -27,9 +27,10 @@ class TreeSearch {
         prune_at_(query.far_enough) {}
 
   engine::BracketResult<S> run() {
-    bool done = begin();
+    if (begin()) return result_;
+    bool done = false;
     long long left = query_.max_expansions;
-    if (!done) push(0, 0, -kInfinity);
+    push(0, 0, -kInfinity);
     while (!done && !waiting_.empty() && waiting_.front().bound < prune_at_) {
       const Pair at = waiting_.front();
       const auto &node1 = model1_.getBV(at.node1), &node2 = model2_.getBV(at.node2);
