@@ -22,7 +22,8 @@ namespace {
 
 constexpr int kFrames = 300;
 constexpr int kQuickFrames = 20;
-constexpr std::size_t kBlock = 512;  // caches stay warm for most of a block
+constexpr std::size_t kBlock = 512;
+constexpr std::size_t kWarmUp = 32;  // frames, so that no lane pays for what others left in caches
 
 constexpr double kErrors[] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 0.5};
 constexpr long long kBudgets[] = {8, 16, 32, 64, 128, 256};
@@ -75,6 +76,8 @@ void timeLanes(const std::vector<ErrorQuestion>& questions, int repeats, std::ve
       const std::size_t end = std::min(begin + kBlock, questions.size());
       for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
         Lane& lane = lanes[(turn + block + static_cast<std::size_t>(repeat + 1)) % lanes.size()];
+        lane.competitor->answer(lane.setting, questions, begin, std::min(begin + kWarmUp, end),
+                                lane.answers);
         const double start = nowMicroseconds();
         lane.competitor->answer(lane.setting, questions, begin, end, lane.answers);
         lane.repeat_us.back() += nowMicroseconds() - start;
