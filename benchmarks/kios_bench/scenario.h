@@ -42,6 +42,7 @@ void runStrips(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
+void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
 
 }  // namespace kios::bench

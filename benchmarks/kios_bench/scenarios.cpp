@@ -30,6 +30,10 @@ const std::vector<Scenario>& scenarios() {
        "queries "
        "after each",
        runRefit},
+      {"error",
+       "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
+       "with their error members set",
+       runError},
       {"stability", "triangle distance and intersection over hard classes of pairs, and FCL's",
        runStability},
   };

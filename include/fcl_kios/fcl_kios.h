@@ -20,6 +20,7 @@
 #include "fcl_kios/fcl/shape_queries.h"
 #include "fcl_kios/fit/fit.h"
 #include "fcl_kios/overloads.h"
+#include "fcl_kios/query/distance.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "fcl_kios/version.h"

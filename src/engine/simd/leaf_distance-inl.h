@@ -252,10 +252,10 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
-  LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   // Only what overlaps can cross.
   if (bound <= 0 && edgesCross(search, a, b, vertices_b)) return true;
+  LeafDistances distances(a, b);
+  const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
 }
 
