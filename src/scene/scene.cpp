@@ -1,0 +1,378 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace kios::scene {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::uint64_t keyOf(int a, int b) {
+  const auto [low, high] = std::minmax(a, b);
+  return std::uint64_t{static_cast<std::uint32_t>(low)} << 32 | static_cast<std::uint32_t>(high);
+}
+
+/// What is at most that is below x.
+template <typename S>
+double below(S x) {
+  return std::nextafter(x, -std::numeric_limits<S>::infinity());
+}
+
+/// Two parts of the tree, or two bodies, whose distances are at least `bound`.
+struct Waiting {
+  double bound;
+  int a, b;
+  enum class Kind { kNodes, kBodies } kind;
+  Knowledge::Source source;
+
+  bool operator<(const Waiting& o) const { return bound > o.bound; }  // least first in a heap
+};
+
+class Queue {
+ public:
+  bool empty() const { return items_.empty(); }
+  double leastBound() const { return items_.empty() ? kInfinity : items_.front().bound; }
+  void push(const Waiting& item) {
+    items_.push_back(item);
+    std::push_heap(items_.begin(), items_.end());
+  }
+  Waiting pop() {
+    std::pop_heap(items_.begin(), items_.end());
+    const Waiting item = items_.back();
+    items_.pop_back();
+    return item;
+  }
+  const std::vector<Waiting>& items() const { return items_; }
+
+ private:
+  std::vector<Waiting> items_;
+};
+
+}  // namespace
+
+template <typename S>
+int Scene<S>::add(Body<S> body) {
+  int id = static_cast<int>(bodies_.size());
+  if (free_.empty()) {
+    bodies_.push_back(std::move(body));
+  } else {
+    id = *free_.begin();
+    free_.erase(free_.begin());
+    bodies_[id] = std::move(body);
+  }
+  tree_stale_ = true;
+  return id;
+}
+
+template <typename S>
+void Scene<S>::remove(int id) {
+  body(id) = Body<S>();
+  free_.insert(id);
+  for (auto it = excluded_.begin(); it != excluded_.end();) {
+    const int a = static_cast<int>(*it >> 32), b = static_cast<int>(*it & 0xffffffffU);
+    it = a == id || b == id ? excluded_.erase(it) : std::next(it);
+  }
+  tree_stale_ = true;
+}
+
+template <typename S>
+Body<S>& Scene<S>::body(int id) {
+  if (!contains(id)) {
+    throw std::invalid_argument("fcl_kios: the scene has no object " + std::to_string(id) + ".");
+  }
+  return bodies_[id];
+}
+
+template <typename S>
+void Scene<S>::exclude(int a, int b, bool excluded) {
+  body(a);
+  body(b);
+  if (excluded) {
+    excluded_.insert(keyOf(a, b));
+  } else {
+    excluded_.erase(keyOf(a, b));
+  }
+}
+
+template <typename S>
+bool Scene<S>::admissible(int a, int b) const {
+  if (obstacles(a, b)) return false;
+  if (!excluded_.empty() && excluded_.count(keyOf(a, b)) != 0) return false;
+  return !filter || filter(a, b);
+}
+
+template <typename S>
+void Scene<S>::beginQuery() {
+  counts = SceneCounts();
+  counts.total = static_cast<long long>(size()) * (static_cast<long long>(size()) - 1) / 2;
+  bool changed = std::exchange(boxes_stale_, true);  // stays so if a body is refused
+  double error = 0;
+  for (Body<S>& body : bodies_) {
+    if (!body.used()) continue;
+    changed |= sync(body);
+    error = std::max(error, body.rotation_error);
+  }
+  boxes_stale_ = changed;
+  box_share_ = 1 - boxShare<S>(error);
+  memory.beginQuery();
+}
+
+template <typename S>
+void Scene<S>::updateTree() {
+  if (!tree_stale_ && boxes_stale_) {
+    tree_stale_ = !tree_.refit([this](int id) -> const Box& { return bodies_[id].box; });
+  }
+  if (tree_stale_) {
+    std::vector<BoxTree::Leaf> leaves;
+    leaves.reserve(size());
+    for (int id = 0; id < static_cast<int>(bodies_.size()); ++id) {
+      const Body<S>& body = bodies_[id];
+      if (body.used()) leaves.push_back({id, body.box, body.role == Role::kObstacle});
+    }
+    tree_.build(std::move(leaves));
+  }
+  tree_stale_ = boxes_stale_ = false;
+}
+
+template <typename S>
+template <typename Visit>
+void Scene<S>::forChildren(int n, int m, const Visit& visit) {
+  const auto visitPair = [&](int i, int j) {
+    const BoxTree::Node &a = tree_[i], &b = tree_[j];
+    if (i == j && a.isLeaf()) return;
+    if (a.bodies + b.bodies == 0) {
+      counts.filtered += i == j ? a.pairs() : a.pairsWith(b);
+    } else {
+      visit(i, j);
+    }
+  };
+  const BoxTree::Node &a = tree_[n], &b = tree_[m];
+  if (n == m) {
+    visitPair(a.left, a.left);
+    visitPair(a.right, a.right);
+    visitPair(a.left, a.right);
+  } else if (b.isLeaf() || (!a.isLeaf() && a.count >= b.count)) {
+    visitPair(a.left, m);
+    visitPair(a.right, m);
+  } else {
+    visitPair(n, b.left);
+    visitPair(n, b.right);
+  }
+}
+
+template <typename S>
+void Scene<S>::countSkipped(Knowledge::Source source) {
+  switch (source) {
+    case Knowledge::Source::kNothing:
+      ++counts.far_boxes;
+      break;
+    case Knowledge::Source::kStill:
+      ++counts.still;
+      break;
+    case Knowledge::Source::kMotion:
+      ++counts.moved_too_little;
+      break;
+    case Knowledge::Source::kRoots:
+      ++counts.far_roots;
+  }
+}
+
+template <typename S>
+typename Scene<S>::Answer Scene<S>::search(PairQuery<S>& pair, double limit, bool exact) {
+  ++counts.queried;
+  const Answer answer = pair.search(limit, exact, counts.search);
+  if (!answer.within) ++counts.proven_farther;
+  return answer;
+}
+
+template <typename S>
+ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
+                              const SceneRequest& request) const {
+  ScenePair<S> pair;
+  pair.a = a;
+  pair.b = b;
+  pair.distance = answer.distance;
+  pair.triangle_a = answer.triangle_a;
+  pair.triangle_b = answer.triangle_b;
+  if (request.nearest_points) nearestPoints(bodies_[a], bodies_[b], pair);
+  return pair;
+}
+
+// Best first: what waits with the least bound is next, and the search ends when that exceeds the
+// best distance so far.
+template <typename S>
+std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
+  beginQuery();
+  updateTree();
+  bool found = false;
+  std::pair<int, int> best;
+  Answer nearest;
+  double limit = kInfinity;  // pairs farther than that don't matter
+  const auto [last_a, last_b] = last_closest_;
+  if (contains(last_a) && contains(last_b) && admissible(last_a, last_b)) {
+    limit = std::min(limit, pairOf(last_a, last_b).ceiling());
+  }
+
+  Queue queue;
+  const auto enqueue = [&](int n, int m) {
+    const BoxTree::Node &a = tree_[n], &b = tree_[m];
+    const double bound = n == m ? 0 : boxBound(n, m);
+    if (bound > limit) {
+      counts.far_boxes += a.pairsWith(b);
+    } else if (a.isLeaf() && b.isLeaf()) {
+      const auto [low, high] = std::minmax(a.object, b.object);
+      queue.push({bound, low, high, Waiting::Kind::kBodies, Knowledge::Source::kNothing});
+    } else {
+      queue.push({bound, n, m, Waiting::Kind::kNodes, Knowledge::Source::kNothing});
+    }
+  };
+  if (tree_.nodes().size() > 1) enqueue(0, 0);
+
+  while (!queue.empty() && !(queue.leastBound() > limit)) {
+    const Waiting next = queue.pop();
+    if (next.kind == Waiting::Kind::kNodes) {
+      forChildren(next.a, next.b, enqueue);
+      continue;
+    }
+    const std::pair<int, int> ids(next.a, next.b);
+    if (next.source == Knowledge::Source::kNothing && !admissible(next.a, next.b)) {
+      ++counts.filtered;
+      continue;
+    }
+    PairQuery<S> pair = pairOf(next.a, next.b);
+    const double matters = found && best < ids ? below(nearest.distance) : limit;
+    if (pair.least() > matters) {
+      ++counts.ties;
+      continue;
+    }
+    Answer answer;
+    if (next.source == Knowledge::Source::kNothing) {
+      const Knowledge known = pair.know(matters);
+      if (known.exact) {
+        ++counts.still;
+        answer = pair.proven(matters);
+      } else if (known.bound > matters) {
+        countSkipped(known.source);
+        continue;
+      } else if (known.bound > queue.leastBound()) {
+        queue.push({known.bound, next.a, next.b, Waiting::Kind::kBodies, known.source});
+        continue;
+      } else {
+        answer = search(pair, matters, true);
+      }
+    } else {
+      answer = search(pair, matters, true);
+    }
+    if (!answer.within) continue;
+    found = true;
+    best = ids;
+    nearest = answer;
+    limit = std::min(limit, double{answer.distance});
+  }
+  for (const Waiting& item : queue.items()) {
+    if (item.kind == Waiting::Kind::kBodies) {
+      countSkipped(item.source);
+    } else {
+      counts.far_boxes +=
+          item.a == item.b ? tree_[item.a].pairs() : tree_[item.a].pairsWith(tree_[item.b]);
+    }
+  }
+  memory.endQuery();
+  last_closest_ = found ? best : std::pair<int, int>(-1, -1);
+  if (!found) return std::nullopt;
+  return report(best.first, best.second, nearest, request);
+}
+
+template <typename S>
+std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& request) {
+  beginQuery();
+  updateTree();
+  const double limit = below(margin);
+  std::vector<ScenePair<S>> pairs;
+  const auto ask = [&](int a, int b) {
+    if (!admissible(a, b)) {
+      ++counts.filtered;
+      return;
+    }
+    PairQuery<S> pair = pairOf(a, b);
+    if (pair.least() > limit) {
+      ++counts.ties;
+      return;
+    }
+    const Knowledge known = pair.know(limit);
+    Answer answer;
+    if (known.exact) {
+      ++counts.still;
+      answer = pair.proven(limit);
+    } else if (known.bound > limit) {
+      countSkipped(known.source);
+    } else {
+      if (!request.exact) answer = pair.nearby(limit);
+      if (answer.within) {
+        ++counts.near_by_proof;
+      } else {
+        answer = search(pair, limit, request.exact);
+      }
+    }
+    if (answer.within) pairs.push_back(report(a, b, answer, request));
+  };
+
+  std::vector<std::pair<int, int>> stack;
+  const auto push = [&](int n, int m) {
+    const BoxTree::Node &a = tree_[n], &b = tree_[m];
+    if (n != m && boxBound(n, m) > limit) {
+      counts.far_boxes += a.pairsWith(b);
+    } else if (n != m && a.isLeaf() && b.isLeaf()) {
+      const auto [low, high] = std::minmax(a.object, b.object);
+      ask(low, high);
+    } else {
+      stack.emplace_back(n, m);
+    }
+  };
+  if (tree_.nodes().size() > 1) push(0, 0);
+  while (!stack.empty()) {
+    const auto [n, m] = stack.back();
+    stack.pop_back();
+    forChildren(n, m, push);
+  }
+  memory.endQuery();
+  std::sort(pairs.begin(), pairs.end(), [](const ScenePair<S>& x, const ScenePair<S>& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  });
+  return pairs;
+}
+
+template <typename S>
+std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
+  beginQuery();
+  std::vector<ScenePair<S>> pairs;
+  const int end = static_cast<int>(bodies_.size());
+  for (int a = 0; a < end; ++a) {
+    for (int b = a + 1; bodies_[a].used() && b < end; ++b) {
+      if (!bodies_[b].used()) continue;
+      if (!admissible(a, b)) {
+        ++counts.filtered;
+        continue;
+      }
+      PairQuery<S> pair = pairOf(a, b);
+      const bool still = pair.stoodStill();
+      if (still) ++counts.still;
+      const Answer answer = still ? pair.proven(kInfinity) : search(pair, kInfinity, true);
+      pairs.push_back(report(a, b, answer, request));
+    }
+  }
+  memory.endQuery();
+  return pairs;
+}
+
+template class Scene<double>;
+template class Scene<float>;
+
+}  // namespace kios::scene
