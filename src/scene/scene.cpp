@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::uint64_t keyOf(int a, int b) {
-  const auto [low, high] = std::minmax(a, b);
+  const auto [low, high] = std::minmax({a, b});
   return std::uint64_t{static_cast<std::uint32_t>(low)} << 32 | static_cast<std::uint32_t>(high);
 }
 
@@ -227,7 +227,7 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
     if (bound > limit) {
       counts.far_boxes += a.pairsWith(b);
     } else if (a.isLeaf() && b.isLeaf()) {
-      const auto [low, high] = std::minmax(a.object, b.object);
+      const auto [low, high] = std::minmax({a.object, b.object});
       queue.push({bound, low, high, Waiting::Kind::kBodies, Knowledge::Source::kNothing});
     } else {
       queue.push({bound, n, m, Waiting::Kind::kNodes, Knowledge::Source::kNothing});
@@ -330,7 +330,7 @@ std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& re
     if (n != m && boxBound(n, m) > limit) {
       counts.far_boxes += a.pairsWith(b);
     } else if (n != m && a.isLeaf() && b.isLeaf()) {
-      const auto [low, high] = std::minmax(a.object, b.object);
+      const auto [low, high] = std::minmax({a.object, b.object});
       ask(low, high);
     } else {
       stack.emplace_back(n, m);

@@ -181,7 +181,7 @@ class RandomScene {
 
   void toggle(int a, int b) {
     if (a == b) return;
-    const auto [low, high] = std::minmax(a, b);
+    const auto [low, high] = std::minmax({a, b});
     const bool exclude = excluded_.insert({low, high}).second;
     if (!exclude) excluded_.erase({low, high});
     scene_.exclude(b, a, exclude);
