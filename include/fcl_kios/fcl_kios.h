@@ -18,6 +18,7 @@
 #include "fcl_kios/fcl/model.h"
 #include "fcl_kios/fit/fit.h"
 #include "fcl_kios/overloads.h"
+#include "fcl_kios/query/distance.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "fcl_kios/version.h"

@@ -57,6 +57,18 @@ class Frontier {
   }
 
   bool empty() const { return filled_ == 0; }
+
+  /// The least bound of all; infinity if empty.
+  HWY_NOINLINE float least() const {
+    float least = std::numeric_limits<float>::infinity();
+    if (empty()) return least;
+    uint32_t entry = head_[hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_)];
+    for (; entry != kEnd; entry = entries_[entry].next) {
+      least = std::min(least, entries_[entry].bound);
+    }
+    return least;
+  }
+
   Entry pop() {
     const size_t bucket = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_);
     const uint32_t entry = head_[bucket];
@@ -149,6 +161,7 @@ struct Expansion {
   const Node* parent;
   const Node* other;
   uint32_t near;  ///< children that matter, as bits
+  float bound;    ///< of the pair; not used by all searches
   alignas(32) float bounds[kLanes];
 };
 
@@ -188,12 +201,17 @@ class Expander {
     search_.counts.volume_tests += childrenOf(e).count;
   }
 
-  /// The children that matter join the frontier, the nearest last.
+  /// The children that matter join the frontier, the nearest last. Their bounds are at least the
+  /// pair's if kInherit.
+  template <bool kInherit = false>
   void spread(Expansion& e, Frontier& frontier) const {
     const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
     if (flat != 0 && boxes_) testBoxes(e, flat);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e);
     if (e.near == 0) return;
+    if constexpr (kInherit) {
+      for (float& bound : e.bounds) bound = std::max(bound, e.bound);
+    }
     const auto pairOf = [&](uint32_t lane) {
       const uint32_t child = e.parent->first_child + lane;
       return e.side == 0 ? Frontier::Pair{child, e.at.b} : Frontier::Pair{e.at.a, child};
