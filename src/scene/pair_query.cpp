@@ -8,8 +8,8 @@
 
 #include "fcl/mesh_pair.h"
 #include "fcl_kios/bv/separation.h"
-#include "fcl_kios/fcl/mesh_queries.h"
 #include "fcl_kios/overloads.h"
+#include "fcl_kios/query/distance.h"
 #include "fcl_kios/triangle/distance.h"
 
 namespace kios::scene {
@@ -168,7 +168,7 @@ void PairQuery<S>::remember(double apart, bool exact, const Answer& answer) {
   proof->apart = apart;
   proof->exact = exact;
   proof->distance = answer.distance;
-  if (exact || !same) {  // else the old triangles may still be the nearest
+  if (answer.triangle_a >= 0 || !same) {  // else the old triangles may still be the nearest
     proof->triangle_a = answer.triangle_a;
     proof->triangle_b = answer.triangle_b;
   }
@@ -177,26 +177,34 @@ void PairQuery<S>::remember(double apart, bool exact, const Answer& answer) {
 }
 
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, bool /*exact*/,
+typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, bool exact,
                                                          SearchCounts& counts) {
-  constexpr double kMax = std::numeric_limits<S>::max();
-  const double wanted = limit + 2 * roundingOf(std::max(limit, 0.0));
-  for (const double at_most : {std::min(wanted, ceiling()), wanted}) {
-    fcl::DistanceRequest<S> request;
-    fcl::DistanceResult<S> result;
-    // Above the limit also where all is 0, or S rounds it down.
-    if (at_most < kMax) result.min_distance = std::nextafter(static_cast<S>(at_most), kMax);
-    distanceMeshes(*a_.model, a_.X_W, *b_.model, b_.X_W, request, result, &counts);
-    if (result.o1) {
-      const Answer answer = {result.min_distance <= limit, result.min_distance, result.b1,
-                             result.b2};
-      remember(double{answer.distance}, true, answer);
-      return answer;
-    }
-    if (!(at_most < wanted)) break;  // else the bound was not one, which it always is
+  constexpr S kMax = std::numeric_limits<S>::max();
+  const double rounding = roundingOf(std::max(limit, 0.0));
+  WarmStart start;
+  if (proof_) {
+    start = {static_cast<int>(proof_->triangle_a), static_cast<int>(proof_->triangle_b)};
   }
-  remember(wanted - roundingOf(wanted), false, {});
-  return {};
+  DistanceOptions<S> options;
+  options.nearest_points = false;
+  options.warm_start = &start;
+  // Above the limit also where all is 0, or S rounds it down.
+  const double far = limit + 2 * rounding;
+  if (far < kMax) options.far_enough = std::nextafter(static_cast<S>(far), kMax);
+  if (!exact) options.near_enough = static_cast<S>(std::max(0.0, limit - 2 * rounding));
+
+  const DistanceAnswer<S> found = kios::distance(*a_.model, a_.X_W, *b_.model, b_.X_W, options);
+  counts += found.counts;
+  Answer answer = {true, found.distance, found.triangle1, found.triangle2};
+  if (found.stop == DistanceStop::kTolerance) {
+    answer.within = found.distance <= limit;
+    remember(double{found.distance}, true, answer);
+  } else {
+    answer.within = found.stop == DistanceStop::kNear;
+    const double apart = found.lower_bound;
+    remember(apart - roundingOf(apart), false, answer);
+  }
+  return answer;
 }
 
 template <typename S>
