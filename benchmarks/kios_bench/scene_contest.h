@@ -25,8 +25,8 @@ struct SceneTask {
   double margin = 0;
 };
 
-/// Measures competitors on the frames of a scene, interleaved frame by frame, each repeat from a
-/// cold start. The first entrant sets the truth: answers of all others are compared with its, the
+/// Measures competitors on the frames of a scene, interleaved in blocks of frames, each repeat from
+/// a cold start. The first entrant sets the truth: answers of all others are compared with its, the
 /// distances, and whether a pair is nearer than the margin. Ratios are to the entrant called
 /// fcl_obbrss, or else fcl_manager.
 class SceneContest {

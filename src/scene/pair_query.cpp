@@ -8,6 +8,7 @@
 
 #include "fcl/mesh_pair.h"
 #include "fcl_kios/bv/separation.h"
+#include "fcl_kios/fcl/mesh_queries.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/distance.h"
 #include "fcl_kios/triangle/distance.h"
@@ -176,9 +177,44 @@ void PairQuery<S>::remember(double apart, bool exact, const Answer& answer) {
   proof_ = proof;
 }
 
+// A pair that turns out farther than asked is asked again as soon as it moves, or the limit grows.
+// So it is asked about a little more: what it may come nearer in the next few queries, unless that
+// is much for its size, and a share of the limit.
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, bool exact,
-                                                         SearchCounts& counts) {
+double PairQuery<S>::outlook(double limit) const {
+  constexpr double kQueries = 8, kSizeShare = 0.05, kLimitShare = 1.0 / 32;
+  const double ahead = kLimitShare * std::max(limit, 0.0);
+  if (!proof_ || proof_->made == memory_.query()) return ahead;
+  const RelativePose<S> X_AB(a_.X_W, b_.X_W);
+  const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R, X_AB.T, b_.sphere);
+  const double nearer = kQueries * moved / static_cast<double>(memory_.query() - proof_->made);
+  return nearer < kSizeShare * (a_.sphere.radius + b_.sphere.radius) ? ahead + nearer : ahead;
+}
+
+template <typename S>
+typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, SearchCounts& counts) {
+  constexpr S kMax = std::numeric_limits<S>::max();
+  const double wanted = limit + 2 * roundingOf(std::max(limit, 0.0)) + outlook(limit);
+  for (const double at_most : {std::min(wanted, ceiling()), wanted}) {
+    const fcl::DistanceRequest<S> request;
+    fcl::DistanceResult<S> result;
+    // Above the limit also where all is 0, or S rounds it down.
+    if (at_most < kMax) result.min_distance = std::nextafter(static_cast<S>(at_most), kMax);
+    distanceMeshes(*a_.model, a_.X_W, *b_.model, b_.X_W, request, result, &counts);
+    if (result.o1) {
+      const Answer answer = {result.min_distance <= limit, result.min_distance, result.b1,
+                             result.b2};
+      remember(double{answer.distance}, true, answer);
+      return answer;
+    }
+    if (!(at_most < wanted)) break;  // else the ceiling was not one, which it always is
+  }
+  remember(wanted - roundingOf(wanted), false, {});
+  return {};
+}
+
+template <typename S>
+typename PairQuery<S>::Answer PairQuery<S>::decideMeshes(double limit, SearchCounts& counts) {
   constexpr S kMax = std::numeric_limits<S>::max();
   const double rounding = roundingOf(std::max(limit, 0.0));
   WarmStart start;
@@ -188,10 +224,9 @@ typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, bool exac
   DistanceOptions<S> options;
   options.nearest_points = false;
   options.warm_start = &start;
-  // Above the limit also where all is 0, or S rounds it down.
-  const double far = limit + 2 * rounding;
+  const double far = limit + 2 * rounding + outlook(limit);
   if (far < kMax) options.far_enough = std::nextafter(static_cast<S>(far), kMax);
-  if (!exact) options.near_enough = static_cast<S>(std::max(0.0, limit - 2 * rounding));
+  options.near_enough = static_cast<S>(std::max(0.0, limit - 2 * rounding));
 
   const DistanceAnswer<S> found = kios::distance(*a_.model, a_.X_W, *b_.model, b_.X_W, options);
   counts += found.counts;
@@ -209,7 +244,7 @@ typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, bool exac
 
 template <typename S>
 typename PairQuery<S>::Answer PairQuery<S>::search(double limit, bool exact, SearchCounts& counts) {
-  if (meshes()) return searchMeshes(limit, exact, counts);
+  if (meshes()) return exact ? searchMeshes(limit, counts) : decideMeshes(limit, counts);
   const fcl::DistanceRequest<S> request;
   fcl::DistanceResult<S> result;
   const S distance =

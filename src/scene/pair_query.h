@@ -59,7 +59,9 @@ class PairQuery {
   double afterMotion(double moved, double T_norm) const;
   /// How far computed distances may be from exact ones in the common frame, for distances about d.
   double roundingOf(double d) const;
-  Answer searchMeshes(double limit, bool exact, SearchCounts& counts);
+  double outlook(double limit) const;
+  Answer searchMeshes(double limit, SearchCounts& counts);
+  Answer decideMeshes(double limit, SearchCounts& counts);
   void remember(double apart, bool exact, const Answer& answer);
 
   const int id_a_, id_b_;
