@@ -44,7 +44,8 @@ double requireRigid(const fcl::Transform3<S>& X) {
   if (!(size <= kMaxCoordinate<S> / 4)) {
     refuse("the translation of an object of the scene is NaN, infinite or too large.");
   }
-  return error + 0x1p-48;
+  // A power of two, so that it stays the same while rounding errors come and go.
+  return std::ldexp(1.0, std::ilogb(error + 0x1p-48) + 1);
 }
 
 template <typename S>
@@ -59,10 +60,9 @@ bool samePose(const fcl::Transform3<S>& a, const fcl::Transform3<S>& b) {
 }
 
 template <typename S>
-Sphere sphereOf(const Model<S>& model) {
-  const kIOS<S>& root = model.getBV(0).bv;
-  const fcl::Vector3<S>& c = root.center0;
-  return {{double{c[0]}, double{c[1]}, double{c[2]}}, double{root.radius0}};
+Sphere sphereOf(const kIOS<S>& root, int i) {
+  const fcl::Vector3<S> c = root.sphereCenter(i);
+  return {{double{c[0]}, double{c[1]}, double{c[2]}}, double{root.sphereRadius(i)}};
 }
 
 /// FCL's own local AABB, which place() and renew() made afresh. Its radius has no margin, and FCL's
@@ -82,20 +82,21 @@ Sphere sphereOf(const fcl::CollisionGeometry<S>& geometry) {
 // where |t' - t| <= d + reach + reach'. The terms in d are boxShare()'s, the rest is split over the
 // boxes.
 template <typename S>
-void encloseInBox(const fcl::Transform3<S>& X, double error, const Sphere& whole,
-                  const double center[3], double radius, Box& box) {
+void encloseInBox(const Body<S>& body, const Sphere& sphere, Box& box) {
   constexpr double kEps = std::numeric_limits<S>::epsilon();
+  const double error = body.rotation_error;
+  const double pads = (2 * error + 64 * kEps) * body.reach + 32 * kEps * body.sphere.radius;
   for (int i = 0; i < 3; ++i) {
-    double at = double{X.translation()[i]}, terms = std::abs(at);
+    double at = double{body.X_W.translation()[i]}, terms = std::abs(at);
     for (int j = 0; j < 3; ++j) {
-      const double term = double{X.linear()(i, j)} * center[j];
+      const double term = double{body.X_W.linear()(i, j)} * sphere.center[j];
       at += term;
       terms += std::abs(term);
     }
-    const double r = radius * (1 + error) + 2 * error * whole.reach() + 32 * kEps * whole.radius +
-                     64 * kEps * whole.reach() + 0x1p-48 * terms + 0x1p-1000;
-    box.lower[i] = std::max(box.lower[i], at - r * (1 + 0x1p-50));
-    box.upper[i] = std::min(box.upper[i], at + r * (1 + 0x1p-50));
+    const double r =
+        (sphere.radius * (1 + error) + pads + 0x1p-48 * terms + 0x1p-1000) * (1 + 0x1p-50);
+    box.lower[i] = std::max(box.lower[i], at - r);
+    box.upper[i] = std::min(box.upper[i], at + r);
   }
 }
 
@@ -107,16 +108,8 @@ template <typename S>
 Box boxOf(const Body<S>& body) {
   Box box = kWholeSpace;
   if (!(body.sphere.radius < kInfinity)) return box;
-  encloseInBox(body.X_W, body.rotation_error, body.sphere, body.sphere.center, body.sphere.radius,
-               box);
-  if (!body.model) return box;
-  const kIOS<S>& root = body.model->getBV(0).bv;
-  for (int s = 1; s < root.k(); ++s) {
-    const fcl::Vector3<S> c = root.sphereCenter(s);
-    const double center[3] = {double{c[0]}, double{c[1]}, double{c[2]}};
-    encloseInBox(body.X_W, body.rotation_error, body.sphere, center, double{root.sphereRadius(s)},
-                 box);
-  }
+  encloseInBox(body, body.sphere, box);
+  for (int i = 0; i < body.num_caps; ++i) encloseInBox(body, body.caps[i], box);
   return box;
 }
 
@@ -130,12 +123,17 @@ template <typename S>
 void measure(Body<S>& body) {
   if (body.model) {
     body.key = keyOf(*body.model);
-    body.sphere = sphereOf(*body.model);
+    const kIOS<S>& root = body.model->getBV(0).bv;
+    body.sphere = sphereOf(root, 0);
+    body.num_caps = std::max(0, root.k() - 1);
+    for (int i = 0; i < body.num_caps; ++i) body.caps[i] = sphereOf(root, i + 1);
   } else {
     // As fcl::CollisionObject does at its construction.
     const_cast<fcl::CollisionGeometry<S>&>(*body.geometry).computeLocalAABB();
     body.sphere = sphereOf(*body.geometry);
+    body.num_caps = 0;
   }
+  body.reach = body.sphere.reach();
   newState(body);
   body.box = boxOf(body);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -31,6 +32,10 @@ struct Body {
   std::uint64_t state = 0;
   engine::TreeKey key;  ///< of the model that `state` stands for
   Sphere sphere;        ///< around the content, infinite for planes and the like
+  double reach = 0;     ///< the sphere's
+  /// More spheres around the content: the caps of its k-IOS.
+  std::array<Sphere, kIOS<S>::kCaps> caps;
+  int num_caps = 0;
   /// What every point of the content has moved so far in this state, at most; grows with each move.
   double path = 0;
   /// In the world, around the content, so wide that the gap of two bodies' boxes, less a share

@@ -19,15 +19,21 @@ struct Box {
   }
 };
 
-/// Distance of two boxes, up to 8 roundings; infinite boxes touch.
-inline double gap(const Box& a, const Box& b) {
-  double g[3];
-  for (int i = 0; i < 3; ++i) {
-    g[i] = std::max(0.0, std::max(a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]));
-  }
-  const double square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
-  if (square < 0x1p1000) return std::sqrt(square);  // squares that underflow make it smaller
-  return std::max({g[0], g[1], g[2]});
+/// Squared distance of two boxes, up to 6 roundings; infinite boxes touch.
+inline double squaredGap(const Box& a, const Box& b) {
+  const auto larger = [](double x, double y) { return x > y ? x : y; };  // without a branch
+  const auto side = [&](int i) {
+    return larger(0.0, larger(a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]));
+  };
+  const double x = side(0), y = side(1), z = side(2);
+  return x * x + y * y + z * z;
+}
+
+/// What squaredGap() exceeds only if the distance exceeds `limit`: roundings are covered, and what
+/// underflows.
+inline double squaredLimit(double limit) {
+  if (limit < 0) limit = 0;  // bodies of FCL that overlap have negative distances
+  return limit * limit * (1 + 0x1p-40) + 1e-300;
 }
 
 }  // namespace kios::scene

@@ -16,8 +16,6 @@ constexpr double kSubnormal = 0x1p-530;
 
 }  // namespace
 
-double addUp(double a, double b) { return std::nextafter(a + b, kInfinity); }
-
 double Sphere::reach() const {
   return addUp(std::abs(center[0]) + std::abs(center[1]) + std::abs(center[2]), radius) *
          (1 + kRelative);

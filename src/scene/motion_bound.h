@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "fcl/common/types.h"
 
 namespace kios::scene {
@@ -22,7 +25,10 @@ template <typename S>
 double displacement(const fcl::Matrix3<S>& R0, const fcl::Vector3<S>& T0, const fcl::Matrix3<S>& R1,
                     const fcl::Vector3<S>& T1, const Sphere& sphere);
 
-/// A number >= a + b, which must not be NaN.
-double addUp(double a, double b);
+/// A number >= a + b, which is not NaN; above a if b = 0.
+inline double addUp(double a, double b) {
+  const double sum = a + b;
+  return sum + (std::abs(sum) * 0x1p-52 + std::numeric_limits<double>::denorm_min());
+}
 
 }  // namespace kios::scene

@@ -70,7 +70,7 @@ double PairQuery<S>::roundingOf(double d) const {
 template <typename S>
 double PairQuery<S>::afterMotion(double moved, double T_norm) const {
   constexpr double kEps = std::numeric_limits<S>::epsilon();
-  const double frames = 16 * kEps * (4 * b_.sphere.reach() + norm1<S>(proof_->T) + T_norm);
+  const double frames = 16 * kEps * (4 * b_.reach + norm1<S>(proof_->T) + T_norm);
   return proof_->apart - moved * (1 + 0x1p-40) - 2 * roundingOf(proof_->apart) - frames;
 }
 
@@ -95,8 +95,8 @@ Knowledge PairQuery<S>::know(double limit) const {
       // Both have moved in the world by at most their paths, and a's frame sees the world through a
       // rotation that is off by its error: (1 - e)(g - e x) and the like, x a point of a.
       const double moved = addUp(addUp(a_.path, -proof_->path_a), addUp(b_.path, -proof_->path_b));
-      const double skew = (proof_->rotation_error + a_.rotation_error) *
-                          (a_.sphere.reach() + std::abs(proof_->apart));
+      const double skew =
+          (proof_->rotation_error + a_.rotation_error) * (a_.reach + std::abs(proof_->apart));
       if (raise(afterMotion(moved, translation(a_, b_)) - 1.01 * skew, Source::kMotion)) {
         return known;
       }

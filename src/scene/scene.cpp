@@ -114,13 +114,16 @@ void Scene<S>::beginQuery() {
   counts.total = static_cast<long long>(size()) * (static_cast<long long>(size()) - 1) / 2;
   bool changed = std::exchange(boxes_stale_, true);  // stays so if a body is refused
   double error = 0;
+  num_obstacles_ = 0;
   for (Body<S>& body : bodies_) {
     if (!body.used()) continue;
     changed |= sync(body);
+    num_obstacles_ += body.role == Role::kObstacle ? 1 : 0;
     error = std::max(error, body.rotation_error);
   }
   boxes_stale_ = changed;
   box_share_ = 1 - boxShare<S>(error);
+  near_.follow(bodies_);
   memory.beginQuery();
 }
 
@@ -168,6 +171,54 @@ void Scene<S>::forChildren(int n, int m, const Visit& visit) {
 }
 
 template <typename S>
+template <typename Visit>
+void Scene<S>::forNearPairs(double limit, const Visit& visit) {
+  const double gap_limit = gapLimit(limit);
+  const auto visitIfNear = [&](int a, int b) {
+    const double square = squaredGap(bodies_[a].box, bodies_[b].box);
+    if (square > gap_limit) {
+      ++counts.far_boxes;
+    } else {
+      visit(a, b, square);
+    }
+  };
+  if (near_.covers(limit)) {
+    const auto listed = static_cast<long long>(near_.pairs().size());
+    const long long of_obstacles = num_obstacles_ * (num_obstacles_ - 1) / 2;
+    counts.filtered += of_obstacles;
+    counts.far_boxes += counts.total - of_obstacles - listed;
+    for (const auto& [a, b] : near_.pairs()) visitIfNear(a, b);
+    return;
+  }
+
+  const double reach = near_.reachFor(limit, bodies_);
+  near_.start(reach, bodies_);
+  bool listing = reach > limit;
+  if (!listing) near_.drop();
+  updateTree();
+  if (tree_.nodes().size() < 2) return;
+  const double reach_limit = gapLimit(reach);
+  std::vector<std::pair<int, int>> stack = {{0, 0}};
+  const auto push = [&](int n, int m) {
+    const BoxTree::Node &a = tree_[n], &b = tree_[m];
+    if (n != m && squaredGap(a.box, b.box) > (listing ? reach_limit : gap_limit)) {
+      counts.far_boxes += a.pairsWith(b);
+    } else if (n != m && a.isLeaf() && b.isLeaf()) {
+      const auto [low, high] = std::minmax({a.object, b.object});
+      if (listing) listing = near_.add(low, high);
+      visitIfNear(low, high);
+    } else {
+      stack.emplace_back(n, m);
+    }
+  };
+  while (!stack.empty()) {
+    const auto [n, m] = stack.back();
+    stack.pop_back();
+    forChildren(n, m, push);
+  }
+}
+
+template <typename S>
 void Scene<S>::countSkipped(Knowledge::Source source) {
   switch (source) {
     case Knowledge::Source::kNothing:
@@ -210,7 +261,6 @@ ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
 template <typename S>
 std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
   beginQuery();
-  updateTree();
   bool found = false;
   std::pair<int, int> best;
   Answer nearest;
@@ -221,19 +271,27 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
   }
 
   Queue queue;
+  const auto enqueuePair = [&](int a, int b, double square) {
+    queue.push({boxBound(square), a, b, Waiting::Kind::kBodies, Knowledge::Source::kNothing});
+  };
   const auto enqueue = [&](int n, int m) {
     const BoxTree::Node &a = tree_[n], &b = tree_[m];
-    const double bound = n == m ? 0 : boxBound(n, m);
-    if (bound > limit) {
+    const double square = n == m ? 0 : squaredGap(a.box, b.box);
+    if (square > gapLimit(limit)) {
       counts.far_boxes += a.pairsWith(b);
-    } else if (a.isLeaf() && b.isLeaf()) {
+    } else if (n != m && a.isLeaf() && b.isLeaf()) {
       const auto [low, high] = std::minmax({a.object, b.object});
-      queue.push({bound, low, high, Waiting::Kind::kBodies, Knowledge::Source::kNothing});
+      enqueuePair(low, high, square);
     } else {
-      queue.push({bound, n, m, Waiting::Kind::kNodes, Knowledge::Source::kNothing});
+      queue.push({boxBound(square), n, m, Waiting::Kind::kNodes, Knowledge::Source::kNothing});
     }
   };
-  if (tree_.nodes().size() > 1) enqueue(0, 0);
+  if (limit < kInfinity) {
+    forNearPairs(limit, enqueuePair);
+  } else {
+    updateTree();
+    if (tree_.nodes().size() > 1) enqueue(0, 0);
+  }
 
   while (!queue.empty() && !(queue.leastBound() > limit)) {
     const Waiting next = queue.pop();
@@ -293,10 +351,9 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
 template <typename S>
 std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& request) {
   beginQuery();
-  updateTree();
   const double limit = below(margin);
   std::vector<ScenePair<S>> pairs;
-  const auto ask = [&](int a, int b) {
+  const auto ask = [&](int a, int b, double /*square*/) {
     if (!admissible(a, b)) {
       ++counts.filtered;
       return;
@@ -324,24 +381,7 @@ std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& re
     if (answer.within) pairs.push_back(report(a, b, answer, request));
   };
 
-  std::vector<std::pair<int, int>> stack;
-  const auto push = [&](int n, int m) {
-    const BoxTree::Node &a = tree_[n], &b = tree_[m];
-    if (n != m && boxBound(n, m) > limit) {
-      counts.far_boxes += a.pairsWith(b);
-    } else if (n != m && a.isLeaf() && b.isLeaf()) {
-      const auto [low, high] = std::minmax({a.object, b.object});
-      ask(low, high);
-    } else {
-      stack.emplace_back(n, m);
-    }
-  };
-  if (tree_.nodes().size() > 1) push(0, 0);
-  while (!stack.empty()) {
-    const auto [n, m] = stack.back();
-    stack.pop_back();
-    forChildren(n, m, push);
-  }
+  forNearPairs(limit, ask);
   memory.endQuery();
   std::sort(pairs.begin(), pairs.end(), [](const ScenePair<S>& x, const ScenePair<S>& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "fcl_kios/scene/scene_distance.h"
 #include "scene/body.h"
 #include "scene/box_tree.h"
+#include "scene/near_list.h"
 #include "scene/pair_memory.h"
 #include "scene/pair_query.h"
 
@@ -56,8 +58,17 @@ class Scene {
   /// itself, which are not both full of obstacles.
   template <typename Visit>
   void forChildren(int n, int m, const Visit& visit);
-  /// Lower bound of what the narrow phase computes for any two objects below two nodes.
-  double boxBound(int n, int m) const { return gap(tree_[n].box, tree_[m].box) * box_share_; }
+  /// Calls visit(a, b, squared gap of their boxes) for every pair a < b, not both obstacles, that
+  /// may be within the limit.
+  template <typename Visit>
+  void forNearPairs(double limit, const Visit& visit);
+  /// What the squared gap of two objects' boxes exceeds only if the narrow phase would compute more
+  /// than the limit.
+  double gapLimit(double limit) const { return squaredLimit(limit / box_share_); }
+  /// A lower bound of that, roundings covered.
+  double boxBound(double square) const {
+    return square < 0x1p1000 ? std::sqrt(square) * box_share_ * (1 - 0x1p-40) : 0x1p499;
+  }
   void countSkipped(Knowledge::Source source);
   Answer search(PairQuery<S>& pair, double limit, bool exact);
   ScenePair<S> report(int a, int b, const Answer& answer, const SceneRequest& request) const;
@@ -68,7 +79,9 @@ class Scene {
   BoxTree tree_;
   bool tree_stale_ = true;   // bodies were added or removed
   bool boxes_stale_ = true;  // bodies may have moved or changed
+  NearList<S> near_;
   double box_share_ = 1;
+  long long num_obstacles_ = 0;
   std::pair<int, int> last_closest_{-1, -1};
 };
 
