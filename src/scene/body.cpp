@@ -49,12 +49,6 @@ double requireRigid(const fcl::Transform3<S>& X) {
 }
 
 template <typename S>
-engine::TreeKey keyOf(const Model<S>& model) {
-  return {model.getBV(0).bv.stamp, model.vertices, model.tri_indices,
-          static_cast<std::size_t>(model.num_vertices), static_cast<std::size_t>(model.num_tris)};
-}
-
-template <typename S>
 bool samePose(const fcl::Transform3<S>& a, const fcl::Transform3<S>& b) {
   return a.linear() == b.linear() && a.translation() == b.translation();
 }
@@ -122,7 +116,6 @@ void newState(Body<S>& body) {
 template <typename S>
 void measure(Body<S>& body) {
   if (body.model) {
-    body.key = keyOf(*body.model);
     const kIOS<S>& root = body.model->getBV(0).bv;
     body.sphere = sphereOf(root, 0);
     body.num_caps = std::max(0, root.k() - 1);
@@ -169,26 +162,6 @@ void move(Body<S>& body, const fcl::Transform3<S>& X_W) {
 }
 
 template <typename S>
-bool sync(Body<S>& body) {
-  const std::uint64_t state = body.state;
-  const double path = body.path;
-  if (body.followed) {
-    const auto& geometry = body.followed->collisionGeometry();
-    if (geometry != body.geometry) {
-      place(body, std::shared_ptr<const fcl::CollisionGeometry<S>>(geometry),
-            body.followed->getTransform());
-    } else {
-      move(body, body.followed->getTransform());
-    }
-  }
-  if (body.model) {
-    requireFinished(*body.model);
-    if (!(keyOf(*body.model) == body.key)) measure(body);
-  }
-  return body.state != state || body.path != path;
-}
-
-template <typename S>
 void renew(Body<S>& body) {
   measure(body);
 }
@@ -196,7 +169,6 @@ void renew(Body<S>& body) {
 #define KIOS_INSTANTIATE(S)                                                       \
   template void place(Body<S>&, std::shared_ptr<const fcl::CollisionGeometry<S>>, \
                       const fcl::Transform3<S>&);                                 \
-  template bool sync(Body<S>&);                                                   \
   template void move(Body<S>&, const fcl::Transform3<S>&);                        \
   template void renew(Body<S>&);
 KIOS_INSTANTIATE(double)

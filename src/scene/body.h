@@ -17,7 +17,7 @@
 
 namespace kios::scene {
 
-/// An object of a scene as the last sync() found it.
+/// An object of a scene as the last query found it.
 template <typename S>
 struct Body {
   std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
@@ -27,12 +27,11 @@ struct Body {
 
   fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
   double rotation_error = 0;  ///< >= |R^T R - I|_2
-  /// Unlike that of any other geometry, or state of a geometry, that this process has met; 0 is
-  /// that of no object.
+  /// Unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
+  /// object.
   std::uint64_t state = 0;
-  engine::TreeKey key;  ///< of the model that `state` stands for
-  Sphere sphere;        ///< around the content, infinite for planes and the like
-  double reach = 0;     ///< the sphere's
+  Sphere sphere;     ///< around the content, infinite for planes and the like
+  double reach = 0;  ///< the sphere's
   /// More spheres around the content: the caps of its k-IOS.
   std::array<Sphere, kIOS<S>::kCaps> caps;
   int num_caps = 0;
@@ -50,18 +49,21 @@ template <typename S>
 void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geometry,
            const fcl::Transform3<S>& X_W);
 
-/// Brings the body up to date with its object and model. Returns true if its box changed. Throws
-/// std::invalid_argument as SceneDistance::add() does; the body then is as it was.
-template <typename S>
-bool sync(Body<S>& body);
-
-/// Moves the body. Throws if the pose is not rigid.
+/// Moves the body. Throws std::invalid_argument if the pose is not rigid; the body then is as it
+/// was.
 template <typename S>
 void move(Body<S>& body, const fcl::Transform3<S>& X_W);
 
-/// Notes a change of the geometry that sync() can't see.
+/// Measures the body's geometry anew, which has changed.
 template <typename S>
 void renew(Body<S>& body);
+
+/// What a model's root volume and arrays tell of its state.
+template <typename S>
+engine::TreeKey keyOf(const Model<S>& model) {
+  return {model.getBV(0).bv.stamp, model.vertices, model.tri_indices,
+          static_cast<std::size_t>(model.num_vertices), static_cast<std::size_t>(model.num_tris)};
+}
 
 /// See Body::box: `error` is the largest rotation error of the scene.
 template <typename S>

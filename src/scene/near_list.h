@@ -26,17 +26,15 @@ class NearList {
   /// To be called at each query once all bodies are up to date.
   void follow(const std::vector<Body<S>>& bodies);
 
-  /// The reach that a new list for `limit` should have, so that it serves a few more queries; the
-  /// limit itself if bodies move too fast for that to pay, or there were too many pairs of late.
-  double reachFor(double limit, const std::vector<Body<S>>& bodies) const;
-
-  /// Starts a list of that reach at the present poses. Pairs are then added; add() returns false if
-  /// they have become too many, and the list is of no use.
-  void start(double reach, const std::vector<Body<S>>& bodies);
+  /// Starts a list at the present poses that serves `limit` and is likely to do so for a few more
+  /// queries. Returns its reach, or the limit if there is none: bodies move too fast for that to
+  /// pay, or there were too many pairs of late.
+  double startFor(double limit, const std::vector<Body<S>>& bodies);
+  /// Adds a pair within reach. Returns false if they have become too many, and there is no list.
   bool add(int a, int b);
-  void drop() { valid_ = false; }
 
  private:
+  void rest();
   struct Mark {
     std::uint64_t state;
     double path, rotation_error;
@@ -45,9 +43,10 @@ class NearList {
   Pairs pairs_;
   std::vector<Mark> marks_;  // of the bodies when the list was started, by id
   double reach_ = 0;
-  double moved_ = 0;   // at most, by any body since then
-  long long age_ = 0;  // queries since then
-  long long tired_until_ = 0, query_ = 0;
+  double moved_ = 0;       // at most, by any body since then
+  long long age_ = 0;      // queries since then
+  long long resting_ = 0;  // queries for which no list is tried
+  double size_ = 0;        // mean radius of the bodies
   std::size_t capacity_ = 0;
   bool valid_ = false;
 };

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <set>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -33,8 +34,6 @@ class Scene {
   }
   std::size_t size() const { return bodies_.size() - free_.size(); }
   void exclude(int a, int b, bool excluded);
-  /// To be called before a body changes.
-  void touch() { boxes_stale_ = true; }
 
   std::optional<ScenePair<S>> closestPair(const SceneRequest& request);
   std::vector<ScenePair<S>> pairsWithin(S margin, const SceneRequest& request);
@@ -47,6 +46,18 @@ class Scene {
  private:
   using Answer = typename PairQuery<S>::Answer;
 
+  /// A model that bodies share, as its volumes were last measured.
+  struct Watch {
+    engine::TreeKey key;
+    int users = 0;
+    bool changed = false;
+  };
+  void watch(const Model<S>* model);
+  void unwatch(const Model<S>* model);
+  /// Brings a body up to date with its fcl::CollisionObject.
+  void follow(Body<S>& body);
+  /// Looks at every model once. Throws if one is not finished.
+  bool modelsChanged();
   void beginQuery();
   void updateTree();
   bool admissible(int a, int b) const;
@@ -75,10 +86,10 @@ class Scene {
 
   std::vector<Body<S>> bodies_;  // by id
   std::set<int> free_;           // ids below that are free
+  std::unordered_map<const Model<S>*, Watch> watches_;
   std::unordered_set<std::uint64_t> excluded_;
   BoxTree tree_;
-  bool tree_stale_ = true;   // bodies were added or removed
-  bool boxes_stale_ = true;  // bodies may have moved or changed
+  bool tree_stale_ = true;  // bodies were added or removed
   NearList<S> near_;
   double box_share_ = 1;
   long long num_obstacles_ = 0;

@@ -53,14 +53,12 @@ void SceneDistance<S>::move(int id, const Pose& X_W) {
     throw std::invalid_argument(
         "fcl_kios: the pose of an object added as an fcl::CollisionObject is read from that.");
   }
-  impl_->touch();
   scene::move(body, X_W);
 }
 
 template <typename S>
 void SceneDistance<S>::changed(int id) {
   scene::Body<S>& body = impl_->body(id);
-  impl_->touch();
   scene::renew(body);
 }
 
