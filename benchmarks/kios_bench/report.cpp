@@ -99,6 +99,8 @@ std::string toJson(const Row& row) {
       {"build_us_per_triangle", orNull(row.build_us_per_triangle)},
       {"skipped_pairs", orNull(row.skipped_pairs)},
       {"total_pairs", orNull(row.total_pairs)},
+      {"narrow_queries", orNull(row.narrow_queries)},
+      {"prepared_models", orNull(row.prepared_models)},
       {"simd_target", orNull(row.simd_target)},
       {"seed", row.seed},
   };

@@ -39,6 +39,8 @@ struct Row {
   std::optional<double> build_us_per_triangle;
   std::optional<std::size_t> skipped_pairs;
   std::optional<std::size_t> total_pairs;  // of all frames, where a frame has several
+  std::optional<double> narrow_queries;    // per frame, of the pairs of a scene
+  std::optional<std::size_t> prepared_models;
   std::optional<std::string> simd_target;
   std::uint64_t seed = 0;
   // Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles, whose
