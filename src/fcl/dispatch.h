@@ -32,9 +32,12 @@ std::string typeName(const fcl::CollisionGeometry<S>& geometry);
 template <typename S>
 [[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
                              const fcl::CollisionGeometry<S>& o2) {
+  const bool models = o1.getObjectType() == fcl::OT_BVH && o2.getObjectType() == fcl::OT_BVH;
   throw std::invalid_argument(std::string("fcl_kios: ") + query + " of " + typeName(o1) + " and " +
-                              typeName(o2) + " is not supported; build both as " +
-                              "fcl::BVHModel<kios::kIOS>, or both without it.");
+                              typeName(o2) + " is not supported" +
+                              (models
+                                   ? "; convert the other model by kios::toKIOS(model)."
+                                   : "; replace the other by a mesh, built by kios::makeModel()."));
 }
 
 template <typename S>
