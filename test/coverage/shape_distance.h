@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fcl_kios/fcl_kios.h"
-#include "scenes/shapes.h"
+#include "scenes/oracle.h"
 
 // Distance of a triangle to each of FCL's nine convex shapes, with nothing of FCL or of the
 // library: the distance of a point to a convex set is convex, so nested golden sections over the
