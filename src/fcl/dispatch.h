@@ -11,6 +11,7 @@
 #include "fcl/narrowphase/distance.h"
 #include "fcl/shape_solid.h"
 #include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/fcl/octree_queries.h"
 #include "fcl_kios/fcl/shape_queries.h"
 
 namespace kios {
@@ -30,6 +31,15 @@ const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
 /// The C++ name of the geometry's type, for messages.
 template <typename S>
 std::string typeName(const fcl::CollisionGeometry<S>& geometry);
+
+/// The octree behind a geometry, by its types as FCL does; nullptr if it is none.
+#if FCL_HAVE_OCTOMAP
+template <typename S>
+const fcl::OcTree<S>* asOctree(const fcl::CollisionGeometry<S>& geometry) {
+  if (geometry.getObjectType() != fcl::OT_OCTREE) return nullptr;
+  return static_cast<const fcl::OcTree<S>*>(&geometry);
+}
+#endif
 
 template <typename S>
 [[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
@@ -51,6 +61,13 @@ std::size_t collide(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S
   // The mesh is the first object of the result whatever the order, as in FCL.
   if (model1 && isShape(*o2)) return collideShape(*model1, tf1, *o2, tf2, request, result);
   if (model2 && isShape(*o1)) return collideShape(*model2, tf2, *o1, tf1, request, result);
+#if FCL_HAVE_OCTOMAP
+  if (model1 || model2) {  // the octree is the first object whatever the order, as in FCL
+    const auto *octree1 = asOctree(*o1), *octree2 = asOctree(*o2);
+    if (octree1) return collideOctree(*octree1, tf1, *model2, tf2, request, result);
+    if (octree2) return collideOctree(*octree2, tf2, *model1, tf1, request, result);
+  }
+#endif
   if (model1 || model2) refusePair("collide", *o1, *o2);
   return fcl::collide<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }
@@ -63,6 +80,13 @@ S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
   if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
   if (model1 && isShape(*o2)) return distanceShape(*model1, tf1, *o2, tf2, request, result);
   if (model2 && isShape(*o1)) return distanceShape(*model2, tf2, *o1, tf1, request, result);
+#if FCL_HAVE_OCTOMAP
+  if (model1 || model2) {  // the octree is the first object whatever the order, as in FCL
+    const auto *octree1 = asOctree(*o1), *octree2 = asOctree(*o2);
+    if (octree1) return distanceOctree(*octree1, tf1, *model2, tf2, request, result);
+    if (octree2) return distanceOctree(*octree2, tf2, *model1, tf1, request, result);
+  }
+#endif
   if (model1 || model2) refusePair("distance", *o1, *o2);
   return fcl::distance<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }

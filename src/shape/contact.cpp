@@ -39,10 +39,10 @@ struct Exit {
   }
 };
 
-/// Descent on the sphere of directions, by steps that halve: 2^-20 rad is the last.
+/// Descent on the sphere of directions, by steps that halve: 2^-7 rad is the last.
 void descend(Exit& exit) {
   double step = 0.25;
-  for (int i = 0; i < 200 && step > 0x1p-20; ++i) {
+  for (int i = 0; i < 24 && step >= 0x1p-7; ++i) {
     const Vec n = exit.normal, u = n.unitOrthogonal(), v = n.cross(u);
     const bool better = exit.offer(n + step * u) || exit.offer(n - step * u) ||
                         exit.offer(n + step * v) || exit.offer(n - step * v);
@@ -66,9 +66,10 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
     exit.offerBoth(axis);
     for (const Vec& edge : edges) exit.offerBoth(axis.cross(edge));
   }
-  // These are all the directions that a box needs.
-  if (s.kind != Kind::kBox) {
+  // These are all the directions that a box and a capsule need.
+  if (s.kind != Kind::kBox && s.kind != Kind::kCapsule) {
     exit.offer(core.point);  // away from the solid's origin
+    exit.offer({core.point.x(), core.point.y(), 0});
     descend(exit);
   }
   return {core.point, exit.normal, std::max(0.0, exit.depth)};

@@ -19,7 +19,7 @@ using Triangle = TriangleVertices<double>;
 bool intersects(const Solid& solid, const Triangle& triangle);
 
 struct TriangleShapeDistance {
-  double distance;  ///< 0 if and only if intersects(); else within max_error(L) above the exact one
+  double distance;  ///< 0 if and only if intersects(); else within 2^-43 L of the exact one
   double lower;     ///< proven by a separating slab (but for rounding); distance - lower bounds the
                     ///< error of the distance
   Vec on_triangle;  ///< witness points; one common point at distance 0
@@ -36,9 +36,9 @@ struct TriangleShapeContact {
   double depth;  ///< >= 0
 };
 
-/// For a pair that intersects(). Depth and normal are the least translation for spheres, boxes,
-/// half-spaces and planes (for the plane FCL's: the side with less of the triangle), a local
-/// minimum for the other solids.
+/// For a pair that intersects(). Depth and normal are the least translation for spheres, capsules,
+/// boxes, half-spaces and planes (for the plane FCL's: the side with less of the triangle); for the
+/// other solids they end the overlap too, but are a local minimum to 2^-7 rad only.
 TriangleShapeContact contact(const Solid& solid, const Triangle& triangle);
 
 }  // namespace kios::shape
