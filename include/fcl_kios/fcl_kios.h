@@ -11,6 +11,7 @@
 #include "fcl/narrowphase/distance.h"
 #include "fcl_kios/bv/kios.h"
 #include "fcl_kios/bv/separation.h"
+#include "fcl_kios/continuous.h"
 #include "fcl_kios/fcl/bv_traits.h"
 #include "fcl_kios/fcl/bvh_build.h"
 #include "fcl_kios/fcl/mesh_nodes.h"

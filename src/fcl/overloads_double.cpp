@@ -2,18 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl/dispatch.h"
 #include "fcl/narrowphase/continuous_collision.h"
+#include "fcl_kios/continuous.h"
 #include "fcl_kios/overloads.h"
 
 namespace fcl {
 inline namespace kios_overloads {
-
-namespace {
-
-void refuseContinuous(const CollisionGeometry<double>* o1, const CollisionGeometry<double>* o2) {
-  if (kios::holdsModel(o1) || kios::holdsModel(o2)) kios::refusePair("continuousCollide", *o1, *o2);
-}
-
-}  // namespace
 
 std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                     const CollisionRequest<double>& request, CollisionResult<double>& result) {
@@ -43,7 +36,11 @@ double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<d
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  refuseContinuous(o1, o2);
+  const kios::Modeld *model1 = kios::asModel(o1), *model2 = kios::asModel(o2);
+  if (model1 && model2) {
+    return kios::continuousCollideMeshes(*model1, motion1, *model2, motion2, request, result);
+  }
+  if (model1 || model2) kios::refusePair("continuousCollide", *o1, *o2);
   return fcl::continuousCollide<double>(o1, motion1, o2, motion2, request, result);
 }
 
@@ -52,7 +49,12 @@ double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<d
                          const Transform3<double>& tf2_beg, const Transform3<double>& tf2_end,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  refuseContinuous(o1, o2);
+  const kios::Modeld *model1 = kios::asModel(o1), *model2 = kios::asModel(o2);
+  if (model1 && model2) {
+    return kios::continuousCollideMeshes(*model1, tf1_beg, tf1_end, *model2, tf2_beg, tf2_end,
+                                         request, result);
+  }
+  if (model1 || model2) kios::refusePair("continuousCollide", *o1, *o2);
   return fcl::continuousCollide<double>(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
                                         result);
 }
