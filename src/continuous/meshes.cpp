@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "bv/rounding.h"
+#include "bv/balls.h"
 #include "fcl/mesh_pair.h"
 #include "fcl_kios/fcl/mesh_queries.h"
 #include "fcl_kios/triangle/distance.h"
@@ -30,11 +30,6 @@ struct Edges {
   }
   Vector3d along[3], normal;
 };
-
-/// The central sphere of a node of B in frame A.
-Ball placed(const kIOSd& bv, const RelativePose<double>& X_AB) {
-  return {X_AB * bv.center0, bv.radius0 * (1 + X_AB.stretch)};
-}
 
 }  // namespace
 
@@ -74,13 +69,29 @@ MovingMeshes::NodePair MovingMeshes::leafPairNear(const RelativeVelocities& v) c
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
   ++counts_.volume_tests;
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
-  const Ball ball_a = {a.center0, a.radius0}, ball_b = placed(b, v.pose());
-  const double approach = v.approach(ball_a, ball_b, duration);
-  const Vector3d between = ball_b.center - ball_a.center;
-  const double length = between.norm(), gap = length - ball_a.radius - ball_b.radius;
-  if (gap >= approach) return true;
-  if (gap > 0 && v.apartAlong(between / length, ball_a, ball_b, gap, duration)) return true;
-  return separation(a, b, v.pose(), approach) >= approach;
+  const double stretch = 1 + v.pose().stretch;
+  const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
+  const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
+  if (v.apart(central_a, central_b, duration)) return true;
+  // All pairs of spheres, most of them off at the first glance.
+  MovingBall caps_b[kIOSd::kCaps];
+  const int num_a = a.k() - 1, num_b = b.k() - 1;
+  for (int j = 0; j < num_b; ++j) {
+    const double unit = scaled(1.0, b.exponent);
+    const Vector3d cap(b.cap_x[j] * unit, b.cap_y[j] * unit, b.cap_z[j] * unit);
+    caps_b[j] = v.ballOfB(central_b.center + v.pose().R * cap, b.cap_r[j] * unit * stretch);
+    if (v.apart(central_a, caps_b[j], duration)) return true;
+  }
+  for (int i = 0; i < num_a; ++i) {
+    const double unit = scaled(1.0, a.exponent);
+    const Vector3d cap(a.cap_x[i] * unit, a.cap_y[i] * unit, a.cap_z[i] * unit);
+    const MovingBall cap_a = v.ballOfA(a.center0 + cap, a.cap_r[i] * unit);
+    if (v.apart(cap_a, central_b, duration)) return true;
+    for (int j = 0; j < num_b; ++j) {
+      if (v.apart(cap_a, caps_b[j], duration)) return true;
+    }
+  }
+  return false;
 }
 
 double MovingMeshes::trianglesApart(NodePair pair, const RelativeVelocities& v, double enough) {
@@ -90,9 +101,10 @@ double MovingMeshes::trianglesApart(NodePair pair, const RelativeVelocities& v, 
   const TriangleDistance<double> nearest = triangleDistance(p, q);
   if (!(nearest.distance > 0)) return 0;
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
-  const Ball ball_a = {a.center0, a.radius0}, ball_b = placed(b, v.pose());
   // The distance is off by 32 u of the pair's extent, which the pad for rounding covers.
-  double best = v.apartTime(ball_a, ball_b, nearest.distance);
+  double best = v.apartTime(v.ballOfA(a.center0, a.radius0),
+                            v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.pose().stretch)),
+                            nearest.distance);
   const Vector3d witness = (nearest.point_b - nearest.point_a).stableNormalized();
   if (best < enough) best = std::max(best, v.slabTime(witness, p, q));
   // The slab that lasts longest need not be the widest one: what slides along a face stays on its
@@ -118,7 +130,10 @@ double MovingMeshes::trianglesApart(NodePair pair, const RelativeVelocities& v, 
   return best;
 }
 
+// Long steps have many triangles in each other's reach, short ones advance little: a step is halved
+// whenever it has cost another kBudget tests. What was pruned before stays apart.
 double MovingMeshes::apartFor(double t) {
+  constexpr long long kBudget = 1000;
   if (motion_.still()) return 1;
   const double left = 1 - t;
   const double window = motion_.steady() ? left : std::min(left, window_);
@@ -126,9 +141,14 @@ double MovingMeshes::apartFor(double t) {
 
   // What ended the last step will probably end this one: a first upper bound of it.
   if (last_.a < 0) last_ = leafPairNear(v);
-  double h = std::min(window, trianglesApart(last_, v, window));
+  double h = std::min({window, trianglesApart(last_, v, window), 4 * last_step_});
   stack_.assign(1, {0, 0});
+  long long budget_ends = counts_.volume_tests + kBudget;
   while (!stack_.empty() && h > 0) {
+    if (counts_.volume_tests >= budget_ends) {
+      h *= 0.5;
+      budget_ends += kBudget;
+    }
     const NodePair pair = stack_.back();
     stack_.pop_back();
     if (nodesApart(pair, v, h)) continue;
@@ -154,6 +174,7 @@ double MovingMeshes::apartFor(double t) {
     stack_.push_back(near);
   }
   window_ = std::min(1.0, 8 * h);
+  last_step_ = h;
   return h;
 }
 

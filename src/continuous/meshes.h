@@ -32,7 +32,7 @@ class MovingMeshes final : public MovingPair {
   const Modeld &a_, &b_;
   const RelativeMotion motion_;
   ContinuousCounts& counts_;
-  double window_ = 1;
+  double window_ = 1, last_step_ = 1;
   NodePair last_ = {-1, -1};  ///< leaves that ended the last step
   std::vector<NodePair> stack_;
 };

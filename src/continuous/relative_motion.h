@@ -9,10 +9,12 @@
 
 namespace kios::continuous {
 
-/// Points of a body within `radius` of `center`, in frame A.
-struct Ball {
+/// A ball that is fixed to a body: whatever of the body it contains, it contains always.
+struct MovingBall {
   Eigen::Vector3d center;
   double radius;
+  Eigen::Vector3d velocity;  ///< of the centre
+  double acceleration;       ///< bound of the centre's over the window
 };
 
 /// How two bodies A and B move at a time t and, by bounds, until t + window. Everything is in frame
@@ -21,15 +23,18 @@ class RelativeVelocities {
  public:
   RelativeVelocities(const Motion& a, const Motion& b, double t, double window, double pad);
 
-  /// Bound of how much nearer the contents of two balls may come within `duration` (at most the
-  /// window), rounding included: contents farther apart than that at t can't touch.
-  double approach(const Ball& a, const Ball& b, double duration) const;
-  /// For how long the contents of two balls, at least `gap` apart, can't touch.
-  double apartTime(const Ball& a, const Ball& b, double gap) const;
-  /// True if the contents of two balls can't touch within `duration`, as a slab across the unit
-  /// vector n, of width `gap`, is between them at t; n points from A to B.
-  bool apartAlong(const Eigen::Vector3d& n, const Ball& a, const Ball& b, double gap,
-                  double duration) const;
+  /// Balls of either body, given in frame A, with their velocities.
+  MovingBall ballOfA(const Eigen::Vector3d& center, double radius) const {
+    return {center, radius, a_.at(center), a_.acceleration(center)};
+  }
+  MovingBall ballOfB(const Eigen::Vector3d& center, double radius) const {
+    return {center, radius, b_.at(center), b_.acceleration(center)};
+  }
+  /// True if two balls, and so what they contain, are proven apart for `duration`, at most the
+  /// window.
+  bool apart(const MovingBall& a, const MovingBall& b, double duration) const;
+  /// For how long the contents of two balls are proven apart that are `gap` apart at t.
+  double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
   /// For how long no point of A's polygon reaches a point of B's, as the slab between them across
   /// n (of any length near 1) tells; 0 if none is between them.
   template <typename VerticesA, typename VerticesB>
@@ -41,12 +46,6 @@ class RelativeVelocities {
   const RelativePose<double>& pose() const { return X_AB_; }
 
  private:
-  /// Relative speeds and accelerations of the contents of two balls.
-  struct Speeds {
-    double now, most, change;
-  };
-  Speeds speeds(const Ball& a, const Ball& b) const;
-
   fcl::Transform3d X_WA_, X_WB_;
   RelativePose<double> X_AB_;
   VelocityField a_, b_;

@@ -33,7 +33,7 @@ struct VelocityField {
     return origin_acceleration + turn_acceleration * ((x0 - origin).norm() + radius);
   }
   /// As accelerationAlong() for every unit vector n.
-  double acceleration(const Eigen::Vector3d& x0, double radius) const {
+  double acceleration(const Eigen::Vector3d& x0, double radius = 0) const {
     if (steady) {
       const double w = angular.norm();
       return w * (angular.cross(x0 - origin).norm() + radius * w);
