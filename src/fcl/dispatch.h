@@ -9,7 +9,9 @@
 
 #include "fcl/narrowphase/collision.h"
 #include "fcl/narrowphase/distance.h"
+#include "fcl/shape_solid.h"
 #include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/fcl/shape_queries.h"
 
 namespace kios {
 
@@ -43,6 +45,9 @@ std::size_t collide(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
   if (model1 && model2) return collideMeshes(*model1, tf1, *model2, tf2, request, result);
+  // The mesh is the first object of the result whatever the order, as in FCL.
+  if (model1 && isShape(*o2)) return collideShape(*model1, tf1, *o2, tf2, request, result);
+  if (model2 && isShape(*o1)) return collideShape(*model2, tf2, *o1, tf1, request, result);
   if (model1 || model2) refusePair("collide", *o1, *o2);
   return fcl::collide<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }
@@ -53,6 +58,8 @@ S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
   if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
+  if (model1 && isShape(*o2)) return distanceShape(*model1, tf1, *o2, tf2, request, result);
+  if (model2 && isShape(*o1)) return distanceShape(*model2, tf2, *o1, tf1, request, result);
   if (model1 || model2) refusePair("distance", *o1, *o2);
   return fcl::distance<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }

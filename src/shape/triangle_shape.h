@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "shape/solid.h"
+
+// A triangle against a solid, both in the solid's own frame, in double. Triangles may degenerate to
+// segments and points. L below is the extent of the pair as seen from the solid's origin: the
+// largest |coordinate| of the triangle plus the solid's reach. No coordinate or length may exceed
+// 2^300, and L should be above 2^-300 (squares of smaller lengths underflow).
+
+namespace kios::shape {
+
+using Triangle = TriangleVertices<double>;
+
+/// True if the closed triangle and the closed, full solid have a point in common. By direct tests,
+/// right but for rounding: a pair whose overlap or gap is below 2^-46 L may be judged either way
+/// (convex shapes and capsules: 2^-42 L).
+bool intersects(const Solid& solid, const Triangle& triangle);
+
+struct TriangleShapeDistance {
+  double distance;  ///< 0 if and only if intersects(); else within 2^-43 L of the exact one
+  double lower;     ///< proven by a separating slab (but for rounding); distance - lower bounds the
+                    ///< error of the distance
+  Vec on_triangle;  ///< witness points; one common point at distance 0
+  Vec on_shape;
+};
+
+/// Distance of a triangle and a solid. Ends early once the pair is proven farther than `enough`;
+/// `distance` is then above that, but no more than an upper bound.
+TriangleShapeDistance distance(const Solid& solid, const Triangle& triangle, double enough);
+
+struct TriangleShapeContact {
+  Vec position;  ///< a point of both (half-space: halfway from the deepest corner to the surface)
+  Vec normal;    ///< unit; moving the triangle by normal * depth ends the overlap
+  double depth;  ///< >= 0
+};
+
+/// For a pair that intersects(). Depth and normal are the least translation for spheres, capsules,
+/// boxes, half-spaces and planes (for the plane FCL's: the side with less of the triangle); for the
+/// other solids they end the overlap too, but are a local minimum to 2^-7 rad only.
+TriangleShapeContact contact(const Solid& solid, const Triangle& triangle);
+
+}  // namespace kios::shape
