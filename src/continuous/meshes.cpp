@@ -14,13 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Bound of the distance of the mesh's points from the origin of its frame.
-double reachOf(const Modeld& model) {
-  requireFinished(model);
-  const kIOSd& root = model.getBV(0).bv;
-  return (root.center0.norm() + root.radius0) * (1 + 0x1p-50);
-}
-
 /// Directions of a triangle's edges and of its normal.
 struct Edges {
   explicit Edges(const TriangleVertices<double>& t)
@@ -33,10 +26,6 @@ struct Edges {
 
 }  // namespace
 
-MovingMeshes::MovingMeshes(const Modeld& a, const Motion& motion_a, const Modeld& b,
-                           const Motion& motion_b, ContinuousCounts& counts)
-    : a_(a), b_(b), motion_(motion_a, motion_b, reachOf(a), reachOf(b)), counts_(counts) {}
-
 bool MovingMeshes::touching(double t) {
   fcl::CollisionResultd result;
   return collideMeshes(a_, motion_.a().pose(t), b_, motion_.b().pose(t), fcl::CollisionRequestd(),
@@ -48,26 +37,23 @@ double MovingMeshes::centersGap(NodePair pair, const RelativeVelocities& v) cons
   return (v.pose() * b.center0 - a.center0).norm() - a.radius0 - b.radius0;
 }
 
-/// Descends to the nearer child each time.
-MovingMeshes::NodePair MovingMeshes::leafPairNear(const RelativeVelocities& v) const {
-  NodePair pair = {0, 0};
-  for (;;) {
-    const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
-    if (a.isLeaf() && b.isLeaf()) return pair;
-    NodePair left = pair, right = pair;
-    if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
-      left.a = a.leftChild();
-      right.a = a.rightChild();
-    } else {
-      left.b = b.leftChild();
-      right.b = b.rightChild();
-    }
-    pair = centersGap(left, v) <= centersGap(right, v) ? left : right;
+bool MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair& near,
+                         NodePair& far) const {
+  const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
+  if (a.isLeaf() && b.isLeaf()) return false;
+  near = far = pair;
+  if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
+    near.a = a.leftChild();
+    far.a = a.rightChild();
+  } else {
+    near.b = b.leftChild();
+    far.b = b.rightChild();
   }
+  if (centersGap(far, v) < centersGap(near, v)) std::swap(near, far);
+  return true;
 }
 
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
-  ++counts_.volume_tests;
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
   const double stretch = 1 + v.pose().stretch;
   const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
@@ -94,8 +80,7 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
   return false;
 }
 
-double MovingMeshes::trianglesApart(NodePair pair, const RelativeVelocities& v, double enough) {
-  ++counts_.leaf_tests;
+double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
   const auto p = cornersOf(a_, a_.getBV(pair.a).primitiveId());
   const auto q = transformed(cornersOf(b_, b_.getBV(pair.b).primitiveId()), v.pose());
   const TriangleDistance<double> nearest = triangleDistance(p, q);
@@ -128,54 +113,6 @@ double MovingMeshes::trianglesApart(NodePair pair, const RelativeVelocities& v, 
     for (const Vector3d& edge_q : edges_q.along) attempt(edge_p.cross(edge_q));
   }
   return best;
-}
-
-// Long steps have many triangles in each other's reach, short ones advance little: a step is halved
-// whenever it has cost another kBudget tests. What was pruned before stays apart.
-double MovingMeshes::apartFor(double t) {
-  constexpr long long kBudget = 1000;
-  if (motion_.still()) return 1;
-  const double left = 1 - t;
-  const double window = motion_.steady() ? left : std::min(left, window_);
-  const RelativeVelocities v = motion_.at(t, window);
-
-  // What ended the last step will probably end this one: a first upper bound of it.
-  if (last_.a < 0) last_ = leafPairNear(v);
-  double h = std::min({window, trianglesApart(last_, v, window), 4 * last_step_});
-  stack_.assign(1, {0, 0});
-  long long budget_ends = counts_.volume_tests + kBudget;
-  while (!stack_.empty() && h > 0) {
-    if (counts_.volume_tests >= budget_ends) {
-      h *= 0.5;
-      budget_ends += kBudget;
-    }
-    const NodePair pair = stack_.back();
-    stack_.pop_back();
-    if (nodesApart(pair, v, h)) continue;
-    const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
-    if (a.isLeaf() && b.isLeaf()) {
-      const double apart = trianglesApart(pair, v, h);
-      if (apart < h) {
-        h = apart;
-        last_ = pair;
-      }
-      continue;
-    }
-    NodePair near = pair, far = pair;
-    if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
-      near.a = a.leftChild();
-      far.a = a.rightChild();
-    } else {
-      near.b = b.leftChild();
-      far.b = b.rightChild();
-    }
-    if (centersGap(far, v) < centersGap(near, v)) std::swap(near, far);
-    stack_.push_back(far);
-    stack_.push_back(near);
-  }
-  window_ = std::min(1.0, 8 * h);
-  last_step_ = h;
-  return h;
 }
 
 }  // namespace kios::continuous

@@ -2,39 +2,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "continuous/advance.h"
-#include "continuous/relative_motion.h"
-#include "fcl_kios/fcl/model.h"
+#include "continuous/pair_search.h"
 
 namespace kios::continuous {
 
-/// Two moving meshes. Source of the search: Tang, Kim & Manocha, "C2A: controlled conservative
-/// advancement for continuous collision detection of polygonal models" (2009).
-class MovingMeshes final : public MovingPair {
+/// Two moving meshes.
+class MovingMeshes final : public PairSearch {
  public:
   MovingMeshes(const Modeld& a, const Motion& motion_a, const Modeld& b, const Motion& motion_b,
-               ContinuousCounts& counts);
+               ContinuousCounts& counts)
+      : PairSearch(motion_a, reachOf(a), motion_b, reachOf(b), counts), a_(a), b_(b) {}
 
   bool touching(double t) override;
-  double apartFor(double t) override;
 
  private:
-  struct NodePair {
-    int a, b;
-  };
-
-  bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration);
-  /// Time for which two triangles are proven apart; any time of at least `enough` will do.
-  double trianglesApart(NodePair pair, const RelativeVelocities& v, double enough);
-  NodePair leafPairNear(const RelativeVelocities& v) const;
+  bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
+  double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
+  bool split(NodePair pair, const RelativeVelocities& v, NodePair& near,
+             NodePair& far) const override;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
   const Modeld &a_, &b_;
-  const RelativeMotion motion_;
-  ContinuousCounts& counts_;
-  double window_ = 1, last_step_ = 1;
-  NodePair last_ = {-1, -1};  ///< leaves that ended the last step
-  std::vector<NodePair> stack_;
 };
 
 }  // namespace kios::continuous

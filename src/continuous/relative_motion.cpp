@@ -48,4 +48,28 @@ double RelativeVelocities::apartTime(const MovingBall& a, const MovingBall& b, d
   return std::max(closingTime(gap - pad_, speed, change), closingTime(gap - pad_, most, 0));
 }
 
+// In A's frame a point x of B has the acceleration x'' - (that of A's point there) - 2 w_A x its
+// velocity in that frame. Seen from A's origin it gets farther by at most `farther`.
+RelativeVelocities::Drift RelativeVelocities::driftFromA(const Vector3d& center, double radius,
+                                                         double duration, const Vector3d* n) const {
+  const double farther = duration * (origins_speed_ + b_.turnSpeed(center, radius));
+  const double around = radius + farther;
+  const double turn = turnOfA();
+  const Vector3d velocity = b_.at(center) - a_.at(center);
+  const double spin = radius * (b_.angular - a_.angular).norm();
+  Drift drift;
+  drift.most = origins_speed_ + b_.turnSpeed(center, radius) + a_.turnSpeed(center, around);
+  if (n) {
+    const double turn_along = a_.steady ? n->cross(a_.angular).norm() : turn;
+    drift.speed = spin - n->dot(velocity);
+    drift.change = b_.accelerationAlong(*n, center, radius) +
+                   a_.accelerationAlong(*n, center, around) + 2 * turn_along * drift.most;
+  } else {
+    drift.speed = spin + velocity.norm();
+    drift.change =
+        b_.acceleration(center, radius) + a_.acceleration(center, around) + 2 * turn * drift.most;
+  }
+  return drift;
+}
+
 }  // namespace kios::continuous

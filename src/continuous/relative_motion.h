@@ -40,9 +40,20 @@ class RelativeVelocities {
   template <typename VerticesA, typename VerticesB>
   double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b) const;
 
+  /// How points of B move as seen from body A, which may turn: their speed at t, the largest one,
+  /// and what the former may change by a time, all within `duration`. Points of the ball; `n`
+  /// names the one direction that counts (`speed` is along -n), null: any.
+  struct Drift {
+    double speed, most, change;
+  };
+  Drift driftFromA(const Eigen::Vector3d& center, double radius, double duration,
+                   const Eigen::Vector3d* n = nullptr) const;
   /// Velocity of A's point at x less that of B's.
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const { return a_.at(x) - b_.at(x); }
 
+  double pad() const { return pad_; }
+  /// Bound of the angular speed of A.
+  double turnOfA() const { return a_.steady ? a_.angular.norm() : a_.angular_speed; }
   const RelativePose<double>& pose() const { return X_AB_; }
 
  private:

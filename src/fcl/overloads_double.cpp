@@ -8,6 +8,16 @@
 namespace fcl {
 inline namespace kios_overloads {
 
+namespace {
+
+/// Both are looked at: null geometries are refused there.
+bool anyModel(const CollisionGeometry<double>* o1, const CollisionGeometry<double>* o2) {
+  const bool first = kios::holdsModel(o1), second = kios::holdsModel(o2);
+  return first || second;
+}
+
+}  // namespace
+
 std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                     const CollisionRequest<double>& request, CollisionResult<double>& result) {
   return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),
@@ -36,11 +46,9 @@ double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<d
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  const kios::Modeld *model1 = kios::asModel(o1), *model2 = kios::asModel(o2);
-  if (model1 && model2) {
-    return kios::continuousCollideMeshes(*model1, motion1, *model2, motion2, request, result);
+  if (anyModel(o1, o2)) {
+    return kios::firstContact(*o1, motion1, *o2, motion2, request, result);
   }
-  if (model1 || model2) kios::refusePair("continuousCollide", *o1, *o2);
   return fcl::continuousCollide<double>(o1, motion1, o2, motion2, request, result);
 }
 
@@ -49,12 +57,9 @@ double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<d
                          const Transform3<double>& tf2_beg, const Transform3<double>& tf2_end,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  const kios::Modeld *model1 = kios::asModel(o1), *model2 = kios::asModel(o2);
-  if (model1 && model2) {
-    return kios::continuousCollideMeshes(*model1, tf1_beg, tf1_end, *model2, tf2_beg, tf2_end,
-                                         request, result);
+  if (anyModel(o1, o2)) {
+    return kios::firstContact(*o1, tf1_beg, tf1_end, *o2, tf2_beg, tf2_end, request, result);
   }
-  if (model1 || model2) kios::refusePair("continuousCollide", *o1, *o2);
   return fcl::continuousCollide<double>(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
                                         result);
 }

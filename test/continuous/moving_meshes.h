@@ -86,8 +86,8 @@ inline Answer ask(const Pair& pair, const fcl::MotionBased& a, const fcl::Motion
                   double toc_err) {
   Answer answer;
   const double returned =
-      firstContact(*pair.a, &a, *pair.b, &b, requestFor(fcl::CCDM_TRANS, toc_err),
-                              answer.result, &answer.counts);
+      firstContact(*pair.a, &a, *pair.b, &b, requestFor(fcl::CCDM_TRANS, toc_err), answer.result,
+                   &answer.counts);
   EXPECT_EQ(returned, answer.result.time_of_contact);
   return answer;
 }
