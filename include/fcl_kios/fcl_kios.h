@@ -18,6 +18,7 @@
 #include "fcl_kios/fcl/mesh_queries.h"
 #include "fcl_kios/fcl/model.h"
 #include "fcl_kios/fcl/motion_bounds.h"
+#include "fcl_kios/fcl/octree_queries.h"
 #include "fcl_kios/fcl/shape_queries.h"
 #include "fcl_kios/fit/fit.h"
 #include "fcl_kios/overloads.h"

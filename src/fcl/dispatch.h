@@ -11,6 +11,7 @@
 #include "fcl/narrowphase/distance.h"
 #include "fcl/shape_solid.h"
 #include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/fcl/octree_queries.h"
 #include "fcl_kios/fcl/shape_queries.h"
 
 namespace kios {
@@ -39,16 +40,44 @@ template <typename S>
                               "fcl::BVHModel<kios::kIOS>, or both without it.");
 }
 
+/// A mesh over k-IOS against anything but another. Results have FCL's order, whatever that of the
+/// call: mesh and shape, octree and mesh.
+template <typename S>
+std::size_t collideOther(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  if (isShape(other)) return collideShape(model, X_WM, other, X_WO, request, result);
+#if FCL_HAVE_OCTOMAP
+  if (other.getObjectType() == fcl::OT_OCTREE) {
+    return collideOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, model, X_WM, request,
+                         result);
+  }
+#endif
+  refusePair<S>("collide", model, other);
+}
+
+template <typename S>
+S distanceOther(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
+  if (isShape(other)) return distanceShape(model, X_WM, other, X_WO, request, result);
+#if FCL_HAVE_OCTOMAP
+  if (other.getObjectType() == fcl::OT_OCTREE) {
+    return distanceOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, model, X_WM, request,
+                          result);
+  }
+#endif
+  refusePair<S>("distance", model, other);
+}
+
 template <typename S>
 std::size_t collide(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
                     const fcl::CollisionGeometry<S>* o2, const fcl::Transform3<S>& tf2,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
   if (model1 && model2) return collideMeshes(*model1, tf1, *model2, tf2, request, result);
-  // The mesh is the first object of the result whatever the order, as in FCL.
-  if (model1 && isShape(*o2)) return collideShape(*model1, tf1, *o2, tf2, request, result);
-  if (model2 && isShape(*o1)) return collideShape(*model2, tf2, *o1, tf1, request, result);
-  if (model1 || model2) refusePair("collide", *o1, *o2);
+  if (model1) return collideOther(*model1, tf1, *o2, tf2, request, result);
+  if (model2) return collideOther(*model2, tf2, *o1, tf1, request, result);
   return fcl::collide<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }
 
@@ -58,9 +87,8 @@ S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
   if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
-  if (model1 && isShape(*o2)) return distanceShape(*model1, tf1, *o2, tf2, request, result);
-  if (model2 && isShape(*o1)) return distanceShape(*model2, tf2, *o1, tf1, request, result);
-  if (model1 || model2) refusePair("distance", *o1, *o2);
+  if (model1) return distanceOther(*model1, tf1, *o2, tf2, request, result);
+  if (model2) return distanceOther(*model2, tf2, *o1, tf1, request, result);
   return fcl::distance<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "bv/balls.h"
 #include "fcl_kios/bv/separation.h"
 
 namespace kios {
@@ -68,21 +67,43 @@ fcl::Vector3<S> PosedSolid<S>::directionToWorld(const shape::Vec& n) const {
 // kernels add less than 2^-48 (|p|_1 + reach) and a few roundings of r. All that is below
 // 2^-46 (1.8 |c|_1 + |T|_1 + reach + 4 r).
 template <typename S>
-double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
+Ball PosedSolid<S>::placeCentral(const kIOS<S>& bv, double& lengths) const {
   const shape::Vec c_M = bv.center0.template cast<double>() * per_unit_;
   const shape::Vec c = R_ * c_M + T_;
-  const double lengths = 1.8 * c_M.lpNorm<1>() + offsets_;
-  const double r0 = bv.radius0 * per_unit_;
-  double best = shape::pointBound(solid_, c) - r0 - (0x1p-46 * (lengths + 4 * r0) + stretch_ * r0);
-  if (best > enough) return best;
-  const double cap_unit = scaled(per_unit_, bv.exponent);
-  const double reach = bv.reach * cap_unit;
+  lengths = 1.8 * c_M.lpNorm<1>() + offsets_;
+  const double r = bv.radius0 * per_unit_;
+  return {c.x(), c.y(), c.z(), r + (0x1p-46 * (lengths + 4 * r) + stretch_ * r)};
+}
+
+template <typename S>
+Ball PosedSolid<S>::placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const {
+  const double unit = scaled(per_unit_, bv.exponent), reach = bv.reach * unit;
+  const shape::Vec o = R_ * (shape::Vec(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]) * unit);
   const double pad = 0x1p-46 * (lengths + 4 * reach) + stretch_ * reach;
+  return {central.x + o.x(), central.y + o.y(), central.z + o.z(), bv.cap_r[i] * unit + pad};
+}
+
+template <typename S>
+double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
+  const auto boundOf = [this](const Ball& b) {
+    return shape::pointBound(solid_, {b.x, b.y, b.z}) - b.r;
+  };
+  double lengths;
+  const Ball central = placeCentral(bv, lengths);
+  double best = boundOf(central);
+  if (best > enough) return best;
   for (int i = 0; i + 1 < bv.k(); ++i) {
-    const shape::Vec cap = shape::Vec(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]) * cap_unit;
-    best = std::max(best, shape::pointBound(solid_, c + R_ * cap) - bv.cap_r[i] * cap_unit - pad);
+    best = std::max(best, boundOf(placeCap(bv, i, central, lengths)));
   }
   return best;
+}
+
+template <typename S>
+int PosedSolid<S>::placeSpheres(const kIOS<S>& bv, Ball* spheres) const {
+  double lengths;
+  spheres[0] = placeCentral(bv, lengths);
+  for (int i = 0; i + 1 < bv.k(); ++i) spheres[i + 1] = placeCap(bv, i, spheres[0], lengths);
+  return bv.k();
 }
 
 template class PosedSolid<double>;

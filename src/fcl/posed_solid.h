@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "bv/balls.h"
 #include "fcl_kios/bv/kios.h"
 #include "fcl_kios/triangle/triangle.h"
 #include "shape/solid.h"
@@ -40,8 +41,14 @@ class PosedSolid {
   /// mesh, whose posed points may be rounded; negative values order overlapping ones. Once the
   /// central sphere's bound exceeds `enough`, that is returned.
   double bound(const kIOS<S>& bv, double enough) const;
+  /// The spheres of a volume of the mesh in the solid's frame and units, grown by all that bound()
+  /// subtracts, so that each contains the posed content however that is rounded. Returns k.
+  int placeSpheres(const kIOS<S>& bv, Ball* spheres) const;
 
  private:
+  Ball placeCentral(const kIOS<S>& bv, double& lengths) const;
+  Ball placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const;
+
   shape::Solid solid_;
   Eigen::Matrix3d R_, R_WS_;
   shape::Vec T_, t_WS_;

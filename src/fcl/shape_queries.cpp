@@ -6,11 +6,10 @@
 #include <limits>
 #include <vector>
 
+#include "fcl/approximate_cost.h"
 #include "fcl/mesh_pair.h"
-#include "fcl/geometry/shape/box.h"
 #include "fcl/posed_solid.h"
 #include "fcl/shape_solid.h"
-#include "fcl_kios/overloads.h"
 #include "shape/triangle_shape.h"
 
 namespace kios {
@@ -112,27 +111,6 @@ class ShapeCollision {
   const PosedSolid<S> posed_;
   fcl::AABB<S> shape_box_;
 };
-
-/// FCL's approximate cost: that of the root volume's box against the shape, by FCL.
-template <typename S>
-void addApproximateCost(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                        const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& tf2,
-                        const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  fcl::Box<S> box;
-  fcl::Transform3<S> box_tf = fcl::Transform3<S>::Identity();
-  constructBox(model.getBV(0).bv, tf1, box, box_tf);
-  box.cost_density = model.cost_density;
-  box.threshold_occupied = model.threshold_occupied;
-  box.threshold_free = model.threshold_free;
-  fcl::CollisionResult<S> only_costs;
-  const fcl::CollisionGeometry<S>* root = &box;
-  fcl::collide(root, box_tf, &other, tf2,
-               fcl::CollisionRequest<S>(1, false, request.num_max_cost_sources, true, false),
-               only_costs);
-  std::vector<fcl::CostSource<S>> sources;
-  only_costs.getCostSources(sources);
-  for (const auto& source : sources) result.addCostSource(source, request.num_max_cost_sources);
-}
 
 }  // namespace
 
