@@ -93,8 +93,9 @@ float distance(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
                const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
                const DistanceRequest<float>& request, DistanceResult<float>& result);
 
-/// Refuse every pair with a kIOS model for now, instead of FCL's wrong answer. Double only, as
-/// FCL 0.7's continuousCollide<float> doesn't compile.
+/// The first contact of two moving objects: kios::firstContact's contract, by one method
+/// for every solver and motion type; FCL's own misses contacts. Motions and models are only read.
+/// Double only, as FCL 0.7's continuousCollide<float> doesn't compile.
 double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<double>* motion1,
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
                          const ContinuousCollisionRequest<double>& request,

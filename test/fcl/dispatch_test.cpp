@@ -170,34 +170,6 @@ TEST_F(Dispatch, FormsWithASolver) {
   expectHit(libccd);
 }
 
-TEST_F(Dispatch, ContinuousCollisionOfTwoKiosModelsIsRefused) {
-  fcl::ContinuousCollisionResultd result;
-  const fcl::ContinuousCollisionRequestd request;
-  expectRefused(
-      [&] {
-        fcl::continuousCollide(model_.get(), kHere, kThere, model_.get(), kHere, kThere, request,
-                               result);
-      },
-      "continuousCollide", "kIOS");
-}
-
-// FCL's name for two moving objects is collide(), which its default continuous callback calls.
-TEST_F(Dispatch, MovingObjectsAreRefusedUnderFclsNameToo) {
-  const auto motion = std::make_shared<fcl::TranslationMotiond>(kHere, kThere);
-  fcl::ContinuousCollisionObjectd moving(model_, motion);
-  fcl::ContinuousCollisionObjectd ball(std::make_shared<fcl::Sphered>(1), motion);
-  for (const auto& [o1, o2] :
-       {std::pair(&moving, &moving), std::pair(&moving, &ball), std::pair(&ball, &moving)}) {
-    fcl::ContinuousCollisionResultd result;
-    const fcl::ContinuousCollisionRequestd request;
-    expectRefused([&, a = o1, b = o2] { fcl::collide(a, b, request, result); }, "continuousCollide",
-                  "kIOS");
-    fcl::DefaultContinuousCollisionData<double> data;
-    expectRefused([&, a = o1, b = o2] { fcl::DefaultContinuousCollisionFunction(a, b, &data); },
-                  "continuousCollide", "kIOS");
-  }
-}
-
 TEST_F(Dispatch, PairsWithoutKiosAreFcls) {
   const auto others = othersThanKios();
   for (const auto& [a, b] : {std::pair("Box", "Sphere"), std::pair("OBBRSS", "OBBRSS"),
