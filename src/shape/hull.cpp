@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "shape/hull.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "fcl_kios/triangle/distance.h"
@@ -24,10 +25,15 @@ bool anyFace(const Solid& s, const F& f) {
   return false;
 }
 
+Vec middleOf(const Solid& s) {
+  Vec sum = Vec::Zero();
+  for (const Vec& q : s.points) sum += q;
+  return sum / static_cast<double>(s.points.size());
+}
+
 /// Every face has p on the side of the hull's middle, whichever way its corners run.
 bool contains(const Solid& s, const Vec& p) {
-  Vec middle = Vec::Zero();
-  for (const Vec& q : s.points) middle += q / static_cast<double>(s.points.size());
+  const Vec middle = middleOf(s);
   return !anyFace(s, [&](const Triangle& t) {
     const Vec n = (t[1] - t[0]).cross(t[2] - t[0]);
     const double inner = n.dot(middle - t[0]), height = n.dot(p - t[0]);
@@ -52,6 +58,22 @@ TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t) {
       best.on_triangle = d.point_a;
       best.on_shape = d.point_b;
     }
+    return false;
+  });
+  return best;
+}
+
+FaceExit leastFaceExit(const Solid& s, const Triangle& t) {
+  const Vec middle = middleOf(s);
+  FaceExit best = {Vec::UnitZ(), std::numeric_limits<double>::infinity()};
+  anyFace(s, [&](const Triangle& face) {
+    Vec n = (face[1] - face[0]).cross(face[2] - face[0]);
+    if (n.dot(middle - face[0]) > 0) n = -n;
+    const double length = n.norm();
+    if (!(length > 0)) return false;
+    const double depth =
+        (n.dot(face[0]) - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])})) / length;
+    if (depth < best.depth) best = {n / length, depth};
     return false;
   });
   return best;

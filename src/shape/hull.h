@@ -15,4 +15,11 @@ bool meetsHull(const Solid& convex, const Triangle& triangle);
 /// of the extent.
 TriangleShapeDistance distanceToHull(const Solid& convex, const Triangle& triangle);
 
+/// The face, its unit normal outwards, by which a triangle leaves the hull on the shortest way.
+struct FaceExit {
+  Vec normal;
+  double depth;
+};
+FaceExit leastFaceExit(const Solid& convex, const Triangle& triangle);
+
 }  // namespace kios::shape

@@ -43,9 +43,10 @@ struct TriangleShapeContact {
   double depth;  ///< >= 0
 };
 
-/// For a pair that intersects(). Depth and normal are the least translation for spheres, capsules,
-/// boxes, half-spaces and planes (for the plane FCL's: the side with less of the triangle); for the
-/// other solids they end the overlap too, but are a local minimum to 2^-7 rad only.
+/// For a pair that intersects(). Moving by depth along the normal always ends the overlap. It is
+/// the least such move for spheres, capsules, boxes, half-spaces and planes (for the plane FCL's:
+/// to the side that has more of the triangle); the least along the normals of the faces and of the
+/// triangle for convex shapes; a local minimum to 2^-7 rad for the others.
 TriangleShapeContact contact(const Solid& solid, const Triangle& triangle);
 
 }  // namespace kios::shape
