@@ -3,6 +3,7 @@
 #include "shape/gjk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Points of hull - core with what they are made of; the nearest is sum weight y.
 struct Simplex {
   int size = 0;
-  Vec y[4], on_core[4];
+  std::array<Vec, 4> y, on_core;
   int corner[4];
   double weight[4];
 };

@@ -154,7 +154,7 @@ void checkCollisions(Shape kind) {
   scenes::Random random(17);
   std::size_t contacts = 0, clear = 0;
   for (const Mesh& mesh : meshes()) {
-    for (int i = 0; i < (kind == Shape::kConvex ? 2 : 4); ++i) {  // a slow oracle
+    for (int i = 0; i < (kind == Shape::kConvex ? 3 : 4); ++i) {  // a slow oracle
       Scene<S> scene(mesh, randomShape(kind, random));
       scene.pose(randomFrames(1, 1, 100 * i + 9).front());
       std::set<int> sure, either;
