@@ -91,7 +91,8 @@ double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
   double lengths;
   const Ball central = placeCentral(bv, lengths);
   double best = boundOf(central);
-  if (best > enough) return best;
+  // A centre in the shape: the content all but surely touches, and caps would only cost time.
+  if (best > enough || best <= -central.r) return best;
   for (int i = 0; i + 1 < bv.k(); ++i) {
     best = std::max(best, boundOf(placeCap(bv, i, central, lengths)));
   }

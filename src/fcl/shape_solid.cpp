@@ -63,6 +63,8 @@ void setConvex(const fcl::Convex<S>& convex, Solid& solid) {
     }
     solid.points.push_back(p.template cast<double>());
   }
+  solid.faces = convex.getFaces().data();
+  solid.num_faces = convex.getFaceCount();
 }
 
 }  // namespace

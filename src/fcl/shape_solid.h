@@ -12,8 +12,9 @@ namespace kios {
 template <typename S>
 bool isShape(const fcl::CollisionGeometry<S>& geometry);
 
-/// The shape in its own frame. Throws std::invalid_argument if it is none of the nine, a size is
-/// negative, NaN or infinite, a normal is zero, or a convex shape has no vertices.
+/// The shape in its own frame; a convex one's faces stay the geometry's. Throws
+/// std::invalid_argument if it is none of the nine, a size is negative, NaN or infinite, a normal
+/// is zero, or a convex shape has no vertices.
 template <typename S>
 shape::Solid toSolid(const fcl::CollisionGeometry<S>& geometry);
 

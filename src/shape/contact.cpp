@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "shape/gjk.h"
+#include "shape/hull.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::shape {
@@ -24,7 +25,7 @@ struct Exit {
   double depth = std::numeric_limits<double>::infinity();
 
   bool offer(const Vec& direction) {
-    const double length = direction.stableNorm();
+    const double length = direction.norm();
     if (!(length > 0 && length < std::numeric_limits<double>::infinity())) return false;
     const Vec n = direction / length;
     const double d = depthAlong(solid, triangle, n);
@@ -60,6 +61,11 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
   const CoreDistance core = gjkDistance(s, t.data(), 3, std::numeric_limits<double>::infinity());
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
+  if (s.kind == Kind::kConvex && s.num_faces > 0) {
+    const FaceExit face = leastFaceExit(s, t);
+    if (face.depth < exit.depth) return {core.point, face.normal, std::max(0.0, face.depth)};
+    return {core.point, exit.normal, std::max(0.0, exit.depth)};
+  }
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   for (int c = 0; c < 3; ++c) {
     const Vec axis = Vec::Unit(c);

@@ -3,6 +3,7 @@
 #include "shape/gjk.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Points of hull - core with what they are made of; the nearest is sum weight y.
 struct Simplex {
   int size = 0;
-  Vec y[4], on_core[4];
+  std::array<Vec, 4> y, on_core;
   int corner[4];
   double weight[4];
 };
@@ -82,7 +83,8 @@ void offerTriangle(const Simplex& s, int i, int j, int k, Nearest& best) {
   offerSegment(s, k, i, best);
 }
 
-/// Weights of the origin in a tetrahedron; false if it is outside or the tetrahedron is flat.
+/// Weights of the origin in a tetrahedron; false if it is outside, or the tetrahedron so flat that
+/// the weights don't give the origin to rounding.
 bool insideTetrahedron(const Simplex& s, double weights[4]) {
   const Vec a = s.y[0] - s.y[3], b = s.y[1] - s.y[3], c = s.y[2] - s.y[3];
   const Vec o = -s.y[3];
@@ -92,7 +94,9 @@ bool insideTetrahedron(const Simplex& s, double weights[4]) {
   weights[1] = a.dot(o.cross(c)) / volume;
   weights[2] = a.dot(b.cross(o)) / volume;
   weights[3] = 1 - weights[0] - weights[1] - weights[2];
-  return *std::min_element(weights, weights + 4) >= 0;
+  if (!(*std::min_element(weights, weights + 4) >= 0)) return false;
+  const Vec origin = weights[0] * a + weights[1] * b + weights[2] * c - o;
+  return origin.lpNorm<1>() <= 0x1p-48 * (a.lpNorm<1>() + b.lpNorm<1>() + c.lpNorm<1>());
 }
 
 Nearest nearest(const Simplex& s) {
@@ -186,7 +190,8 @@ CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, do
     answer.point += s.weight[i] * hull[s.corner[i]];
     answer.on_core += s.weight[i] * s.on_core[i];
   }
-  answer.upper = squared > 0 ? (answer.point - answer.on_core).norm() : 0.0;
+  answer.upper = (answer.point - answer.on_core).norm();
+  answer.inside = !(squared > 0);
   return answer;
 }
 

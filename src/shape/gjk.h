@@ -10,6 +10,8 @@ namespace kios::shape {
 struct CoreDistance {
   double lower;  ///< by a separating slab: <= the distance, but for its rounding; may be negative
   double upper;  ///< |point - on_core|
+  bool inside;   ///< the hull and the core overlap (or are apart by rounding), by a tetrahedron of
+                 ///< differences around the origin
   Vec point;     ///< of the hull
   Vec on_core;   ///< of the core
   int iterations;
@@ -17,8 +19,9 @@ struct CoreDistance {
 
 /// GJK in double, by support points alone, so that it serves every bounded solid. Ends when the
 /// bracket is closed to rounding, when nothing improves any more, once `lower` exceeds `enough`, or
-/// after `max_iterations` steps. At an overlap upper is 0 (up to rounding) and the points are one.
-/// Source: Gilbert, Johnson & Keerthi (1988); the duality gap as in van den Bergen (1999).
+/// after `max_iterations` steps. Pairs that overlap by less than about 1e-8 of their size may end
+/// without `inside`, with a small upper and no positive lower. Source: Gilbert, Johnson & Keerthi
+/// (1988); the duality gap as in van den Bergen (1999).
 CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double enough,
                          int max_iterations = 128);
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "shape/gjk.h"
+#include "shape/hull.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::shape {
@@ -117,12 +118,6 @@ bool meetsEllipsoid(const Vec& e, const Triangle& t) {
   return nearestToOrigin(scaled, weights).squaredNorm() <= 1;
 }
 
-double scaleOf(const Solid& s, const Triangle& t) {
-  return std::max(
-             {t[0].cwiseAbs().maxCoeff(), t[1].cwiseAbs().maxCoeff(), t[2].cwiseAbs().maxCoeff()}) +
-         s.reach();
-}
-
 }  // namespace
 
 bool intersects(const Solid& s, const Triangle& t) {
@@ -148,9 +143,12 @@ bool intersects(const Solid& s, const Triangle& t) {
     default:
       break;
   }
-  const double touching = s.margin() > 0 ? s.margin() : 0x1p-50 * scaleOf(s, t);
-  const CoreDistance core = gjkDistance(s, t.data(), 3, touching + 0x1p-44 * scaleOf(s, t));
-  return core.upper <= touching;
+  const double size = sizeOf(t), clear = 0x1p-40 * size;
+  const CoreDistance core = gjkDistance(s, t.data(), 3, s.margin() + clear);
+  if (s.margin() > 0) return core.upper <= s.margin();
+  if (core.inside || core.lower > clear) return core.inside;
+  if (s.num_faces > 0) return meetsHull(s, t);
+  return core.upper <= 0x1p-50 * size;
 }
 
 }  // namespace kios::shape

@@ -35,6 +35,10 @@ struct Solid {
       Vec::Zero();  ///< half-space {normal x <= offset} and plane {normal x = offset}: unit
   double offset = 0;
   std::vector<Vec> points;  ///< convex: their hull is the shape
+  /// Convex: the hull's faces, each the number of its corners and their indices, as FCL's. Not
+  /// owned. They decide where GJK can't.
+  const int* faces = nullptr;
+  int num_faces = 0;
 
   /// Half-spaces and planes have no support points, and no size.
   bool bounded() const { return kind != Kind::kHalfspace && kind != Kind::kPlane; }

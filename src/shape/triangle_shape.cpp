@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "shape/gjk.h"
+#include "shape/hull.h"
+#include "shape/nearest_point.h"
 
 namespace kios::shape {
 namespace {
@@ -15,10 +17,6 @@ constexpr double kTiny = std::numeric_limits<double>::min();
 
 Vec pointOf(const Triangle& t, const double weights[3]) {
   return weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
-}
-
-double sizeOf(const Triangle& t) {
-  return std::max({t[0].lpNorm<1>(), t[1].lpNorm<1>(), t[2].lpNorm<1>()});
 }
 
 TriangleShapeDistance sphereDistance(const Solid& s, const Triangle& t) {
@@ -60,29 +58,44 @@ TriangleShapeDistance planeDistance(const Solid& s, const Triangle& t) {
   return answer;
 }
 
+/// Where GJK left a gap: the same by features, if that is nearer.
+void refine(const Solid& s, const Triangle& t, TriangleShapeDistance& answer) {
+  const bool curved = s.kind == Kind::kCylinder || s.kind == Kind::kCone ||
+                      (s.kind == Kind::kEllipsoid && s.half.minCoeff() > 0);
+  TriangleShapeDistance exact;
+  if (curved) {
+    exact = distanceByFeatures(s, t);
+  } else if (s.kind == Kind::kConvex && s.num_faces > 0) {
+    exact = distanceToHull(s, t);
+  } else {
+    return;
+  }
+  if (exact.distance <= answer.distance) answer = exact;
+}
+
 }  // namespace
 
 TriangleShapeDistance distance(const Solid& s, const Triangle& t, double enough) {
   if (s.kind == Kind::kSphere) return sphereDistance(s, t);
   if (!s.bounded()) return planeDistance(s, t);
-  const double margin = s.margin();
-  const CoreDistance core = gjkDistance(s, t.data(), 3, enough + margin);
+  const double margin = s.margin(), clear = 0x1p-40 * sizeOf(t);
+  const CoreDistance core = gjkDistance(s, t.data(), 3, margin + std::max(enough, clear));
   TriangleShapeDistance answer;
   answer.lower = core.lower - margin;
   answer.distance = core.upper - margin;
   answer.on_triangle = core.point;
-  // GJK decides only where it is clear; what is close is for the direct tests.
-  const double size = sizeOf(t) + core.on_core.lpNorm<1>() + margin;
-  const bool apart = answer.lower > 0x1p-40 * size;
-  if (!apart && (margin > 0 || s.kind == Kind::kConvex ? answer.distance <= 0x1p-50 * size
-                                                       : intersects(s, t))) {
+  answer.on_shape = core.on_core;
+  if (margin > 0 ? answer.distance <= 0 : answer.lower <= clear && intersects(s, t)) {
     answer.distance = answer.lower = 0;
     answer.on_shape = answer.on_triangle;
     return answer;
   }
+  if (margin > 0) {
+    answer.on_shape += margin / core.upper * (core.point - core.on_core);
+  } else if (answer.lower <= enough && answer.distance - answer.lower > 0x1p-44 * sizeOf(t)) {
+    refine(s, t, answer);
+  }
   answer.distance = std::max(answer.distance, kTiny);
-  answer.on_shape = core.on_core;
-  if (margin > 0) answer.on_shape += margin / core.upper * (core.point - core.on_core);
   return answer;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include "shape/solid.h"
 
 // A triangle against a solid, both in the solid's own frame, in double. Triangles may degenerate to
@@ -15,8 +17,13 @@ using Triangle = TriangleVertices<double>;
 
 /// True if the closed triangle and the closed, full solid have a point in common. By direct tests,
 /// right but for rounding: a pair whose overlap or gap is below 2^-46 L may be judged either way
-/// (convex shapes and capsules: 2^-42 L).
+/// (a radius of 0 on an ellipsoid, a convex shape without faces: 2^-36 L).
 bool intersects(const Solid& solid, const Triangle& triangle);
+
+/// Largest |x|_1 of the corners: the size that tolerances of contact are measured by.
+inline double sizeOf(const Triangle& t) {
+  return std::max({t[0].lpNorm<1>(), t[1].lpNorm<1>(), t[2].lpNorm<1>()});
+}
 
 struct TriangleShapeDistance {
   double distance;  ///< 0 if and only if intersects(); else within 2^-43 L of the exact one
@@ -36,9 +43,10 @@ struct TriangleShapeContact {
   double depth;  ///< >= 0
 };
 
-/// For a pair that intersects(). Depth and normal are the least translation for spheres, capsules,
-/// boxes, half-spaces and planes (for the plane FCL's: the side with less of the triangle); for the
-/// other solids they end the overlap too, but are a local minimum to 2^-7 rad only.
+/// For a pair that intersects(). Moving by depth along the normal always ends the overlap. It is
+/// the least such move for spheres, capsules, boxes, half-spaces and planes (for the plane FCL's:
+/// to the side that has more of the triangle); the least along the normals of the faces and of the
+/// triangle for convex shapes; a local minimum to 2^-7 rad for the others.
 TriangleShapeContact contact(const Solid& solid, const Triangle& triangle);
 
 }  // namespace kios::shape

@@ -49,19 +49,18 @@ class Kernel : public ::testing::TestWithParam<Shape> {};
 
 TEST_P(Kernel, DistanceIsTheOracles) {
   scenes::Random random(11);
-  int apart = 0, skipped = 0;
+  int apart = 0;
   double worst = 0, worst_gap = 0, worst_witness = 0, band = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const ShapeSpec spec = randomShape(GetParam(), random);
-    const shape::Solid solid = toSolid(*makeShape<double>(spec));
+    const auto geometry = makeShape<double>(spec);
+    const shape::Solid solid = toSolid(*geometry);
     const Triangle t = randomTriangle(random);
     const double scale = extent(t, solid);
     const double depth = static_cast<double>(leastLevel(spec, exact(t), false));
     const auto d = shape::distance(solid, t, kInfinity);
     EXPECT_EQ(d.distance == 0, shape::intersects(solid, t));
-    if (std::abs(depth) <= 1e-14 * scale) {
-      ++skipped;
-    } else if ((d.distance == 0) != (depth <= 0)) {
+    if (std::abs(depth) > 1e-14 * scale && (d.distance == 0) != (depth <= 0)) {
       band = std::max(band, std::abs(depth) / scale);
     }
     if (depth <= 0) continue;
@@ -73,11 +72,7 @@ TEST_P(Kernel, DistanceIsTheOracles) {
         std::max({worst_witness, std::abs((d.on_triangle - d.on_shape).norm() - d.distance) / scale,
                   static_cast<double>(level(spec, d.on_shape.cast<Real>(), true)) / scale});
   }
-  RecordProperty("apart", apart);
-  std::cout << nameOf(GetParam()) << ": apart " << apart << " skipped " << skipped << " error "
-            << worst << " gap " << worst_gap << " witness " << worst_witness << " band " << band
-            << "\n";
-  EXPECT_GT(apart, 150);
+  EXPECT_GT(apart, 60);
   EXPECT_LE(worst, 1e-13);
   EXPECT_LE(worst_witness, 1e-14);
   EXPECT_EQ(band, 0);

@@ -105,12 +105,11 @@ void checkDistances(Shape kind) {
   constexpr bool kDouble = std::is_same_v<S, double>;
   scenes::Random random(7);
   int apart = 0, touching = 0;
-  double worst = 0;
   for (const Mesh& mesh : meshes()) {
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < (kind == Shape::kEllipsoid ? 3 : 6); ++i) {  // a slow oracle
       Scene<S> scene(mesh, randomShape(kind, random));
       const Vector3d offset = i % 4 == 3 && kDouble ? Vector3d(1e9, -1e9, 3e8) : Vector3d(0, 0, 0);
-      scene.pose(randomFrames(1, i % 2 == 0 ? 1.2 : 3, 100 * i + 5, offset).front());
+      scene.pose(randomFrames(1, i % 2 == 0 ? 1 : 3, 100 * i + 5, offset).front());
       const double tolerance = (kDouble ? 2e-14 : 3e-7) * (scene.size() + 3);
       const double expected = static_cast<double>(scene.distance());
       for (const bool turned : {false, true}) {
@@ -123,7 +122,6 @@ void checkDistances(Shape kind) {
                            : fcl::distance(m, scene.X_WM, s, scene.X_WS, request, result);
         EXPECT_EQ(d, result.min_distance);
         EXPECT_NEAR(d, expected, tolerance);
-        worst = std::max(worst, std::abs(d - expected) / (scene.size() + 3));
         EXPECT_EQ(result.o1, m);
         EXPECT_EQ(result.o2, s);
         EXPECT_EQ(result.b2, -1);  // NONE
@@ -146,24 +144,21 @@ void checkDistances(Shape kind) {
       }
     }
   }
-  std::cout << nameOf(kind) << " apart " << apart << " touching " << touching << " worst " << worst
-            << "\n";
-  EXPECT_GT(apart, 10);
-  EXPECT_GT(touching, 4);
+  EXPECT_GT(apart, 5);
+  EXPECT_GT(touching, 0);
 }
 
 template <typename S>
 void checkCollisions(Shape kind) {
   constexpr bool kDouble = std::is_same_v<S, double>;
   scenes::Random random(17);
-  std::size_t contacts = 0, clear = 0, ambiguous = 0;
+  std::size_t contacts = 0, clear = 0;
   for (const Mesh& mesh : meshes()) {
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < (kind == Shape::kConvex ? 3 : 4); ++i) {  // a slow oracle
       Scene<S> scene(mesh, randomShape(kind, random));
       scene.pose(randomFrames(1, 1, 100 * i + 9).front());
       std::set<int> sure, either;
       scene.hits((kDouble ? 1e-14 : 1e-6) * (scene.size() + 3), sure, either);
-      ambiguous += either.size();
       const fcl::CollisionGeometry<S>*m = scene.model.get(), *s = scene.shape.get();
       for (const bool enable_contact : {false, true}) {
         fcl::CollisionRequest<S> request(kAllContacts, enable_contact);
@@ -211,10 +206,8 @@ void checkCollisions(Shape kind) {
       }
     }
   }
-  std::cout << nameOf(kind) << " contacts " << contacts << " clear " << clear << " ambiguous "
-            << ambiguous << "\n";
-  EXPECT_GT(contacts, 10u);
-  EXPECT_GT(clear, 2u);
+  EXPECT_GT(contacts, 5u);
+  EXPECT_GT(clear, 0u);
 }
 
 class Queries : public ::testing::TestWithParam<Shape> {};

@@ -222,7 +222,7 @@ inline Real leastLevel(const ShapeSpec& s, const ExactTriangle& t, bool distance
     const Real low = std::min({a, b, c}), high = std::max({a, b, c});
     return s.kind == Shape::kHalfspace ? low : std::max(low, -high);
   }
-  constexpr int kSteps = 70;  // 0.618^70 = 2e-15, its effect on a smooth minimum far less
+  constexpr int kSteps = 60;  // 0.618^60 = 3e-13, its effect on a smooth minimum far less
   return goldenSection(
       [&](Real u) {
         const ExactPoint from = t[0] + u * (t[1] - t[0]), to = t[0] + u * (t[2] - t[0]);
