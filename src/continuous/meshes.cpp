@@ -37,10 +37,10 @@ double MovingMeshes::centersGap(NodePair pair, const RelativeVelocities& v) cons
   return (v.pose() * b.center0 - a.center0).norm() - a.radius0 - b.radius0;
 }
 
-bool MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair& near,
-                         NodePair& far) const {
+int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
   const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
-  if (a.isLeaf() && b.isLeaf()) return false;
+  if (a.isLeaf() && b.isLeaf()) return 0;
+  NodePair &near = parts[0], &far = parts[1];
   near = far = pair;
   if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
     near.a = a.leftChild();
@@ -50,7 +50,7 @@ bool MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair& n
     far.b = b.rightChild();
   }
   if (centersGap(far, v) < centersGap(near, v)) std::swap(near, far);
-  return true;
+  return 2;
 }
 
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
