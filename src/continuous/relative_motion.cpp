@@ -16,10 +16,14 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
       a_(a.velocities(t, X_WA_, window)),
       b_(b.velocities(t, X_WB_, window)) {
   origins_speed_ =
-      (a_.linear - b_.linear).norm() + window * (a_.origin_acceleration + b_.origin_acceleration);
+      (a_.linear - b_.linear).norm() + window * (a_.originAcceleration() + b_.originAcceleration());
   for (VelocityField* field : {&a_, &b_}) {
     field->linear = X_WA_.linear().transpose() * field->linear;
     field->angular = X_WA_.linear().transpose() * field->angular;
+    field->axis = X_WA_.linear().transpose() * field->axis;
+    for (Vector3d& acceleration : field->acceleration_at) {
+      acceleration = X_WA_.linear().transpose() * acceleration;
+    }
     field->origin = X_WA_.linear().transpose() * (field->origin - X_WA_.translation());
   }
   // Rotations are orthonormal to 16 u, so that is what the change of frame takes off.
@@ -54,20 +58,18 @@ RelativeVelocities::Drift RelativeVelocities::driftFromA(const Vector3d& center,
                                                          double duration, const Vector3d* n) const {
   const double farther = duration * (origins_speed_ + b_.turnSpeed(center, radius));
   const double around = radius + farther;
-  const double turn = turnOfA();
   const Vector3d velocity = b_.at(center) - a_.at(center);
   const double spin = radius * (b_.angular - a_.angular).norm();
   Drift drift;
   drift.most = origins_speed_ + b_.turnSpeed(center, radius) + a_.turnSpeed(center, around);
   if (n) {
-    const double turn_along = a_.steady ? n->cross(a_.angular).norm() : turn;
     drift.speed = spin - n->dot(velocity);
     drift.change = b_.accelerationAlong(*n, center, radius) +
-                   a_.accelerationAlong(*n, center, around) + 2 * turn_along * drift.most;
+                   a_.accelerationAlong(*n, center, around) + 2 * a_.turnOf(*n) * drift.most;
   } else {
     drift.speed = spin + velocity.norm();
-    drift.change =
-        b_.acceleration(center, radius) + a_.acceleration(center, around) + 2 * turn * drift.most;
+    drift.change = b_.acceleration(center, radius) + a_.acceleration(center, around) +
+                   2 * a_.angular_speed * drift.most;
   }
   return drift;
 }

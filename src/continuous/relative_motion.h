@@ -53,7 +53,7 @@ class RelativeVelocities {
 
   double pad() const { return pad_; }
   /// Bound of the angular speed of A.
-  double turnOfA() const { return a_.steady ? a_.angular.norm() : a_.angular_speed; }
+  double turnOfA() const { return a_.angular_speed; }
   const RelativePose<double>& pose() const { return X_AB_; }
 
  private:
