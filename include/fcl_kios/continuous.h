@@ -23,7 +23,7 @@ struct ContinuousCounts {
 ///
 /// `result.is_collide == false` proves that they never touch. If it is true, time_of_contact is at
 /// most the time of the first contact, which lies at most request.toc_err later. A pair that comes
-/// so near without touching that no interval of toc_err / 2^20 can be proven free (or after 100000
+/// so near without touching that no interval of toc_err / 2^20 can be proven free (or after 20000
 /// steps) counts as contact too. contact_tf1 and contact_tf2 are the poses at time_of_contact, 1 if
 /// there is no contact, which is also what is returned.
 ///

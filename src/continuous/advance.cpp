@@ -16,7 +16,7 @@ FirstContact advance(MovingPair& pair, double toc_err, ContinuousCounts& counts)
             << ", but must be >= 0.";
     throw std::invalid_argument(message.str());
   }
-  constexpr long long kMostSteps = 100000;
+  constexpr long long kMostSteps = 20000;
   const double tolerance = std::clamp(toc_err, 0x1p-48, 1.0);
   const double least = std::max(0x1p-20 * tolerance, 0x1p-52);
 

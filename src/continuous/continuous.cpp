@@ -3,10 +3,13 @@
 #include "fcl_kios/continuous.h"
 
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "continuous/fcl_motion.h"
-#include "continuous/mesh_and_solid.h"
+#include "continuous/mesh_and_solids.h"
 #include "continuous/meshes.h"
+#include "continuous/octree_cells.h"
 #include "fcl/dispatch.h"
 
 namespace kios {
@@ -16,22 +19,47 @@ using continuous::Motion;
 using continuous::MovingPair;
 using fcl::CollisionGeometryd;
 
+/// The solids of a geometry that is no mesh; false if it can't be served.
+bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Modeld& mesh,
+              const Motion& mesh_motion, std::vector<continuous::SolidNode>& solids) {
+  if (isShape(geometry)) {
+    solids.resize(1);
+    solids[0].solid = toSolid(geometry);
+    return true;
+  }
+#if FCL_HAVE_OCTOMAP
+  if (geometry.getObjectType() == fcl::OT_OCTREE) {
+    const auto& octree = static_cast<const fcl::OcTree<double>&>(geometry);
+    solids = continuous::cellsNear(octree, motion, mesh, mesh_motion);
+    return true;
+  }
+#endif
+  return false;
+}
+
 std::unique_ptr<MovingPair> movingPair(const CollisionGeometryd& o1, const Motion& motion1,
                                        const CollisionGeometryd& o2, const Motion& motion2,
                                        ContinuousCounts& counts) {
-  using continuous::MovingMeshAndSolid;
-  using continuous::MovingMeshes;
   const Modeld *model1 = asModel(&o1), *model2 = asModel(&o2);
   if (model1 && model2) {
-    return std::make_unique<MovingMeshes>(*model1, motion1, *model2, motion2, counts);
+    return std::make_unique<continuous::MovingMeshes>(*model1, motion1, *model2, motion2, counts);
   }
-  if (model1 && isShape(o2)) {
-    return std::make_unique<MovingMeshAndSolid>(*model1, motion1, o2, toSolid(o2), motion2, counts);
+  if (!model1 && !model2) refusePair("continuousCollide", o1, o2);
+  const Modeld& mesh = model1 ? *model1 : *model2;
+  const Motion &mesh_motion = model1 ? motion1 : motion2, &motion = model1 ? motion2 : motion1;
+  const CollisionGeometryd& geometry = model1 ? o2 : o1;
+  requireFinished(mesh);
+  std::vector<continuous::SolidNode> solids;
+  if (!solidsOf(geometry, motion, mesh, mesh_motion, solids)) {
+    refusePair("continuousCollide", o1, o2);
   }
-  if (model2 && isShape(o1)) {
-    return std::make_unique<MovingMeshAndSolid>(*model2, motion2, o1, toSolid(o1), motion1, counts);
-  }
-  refusePair("continuousCollide", o1, o2);
+  const auto touching = [&mesh, &geometry](const fcl::Transform3d& X_mesh,
+                                           const fcl::Transform3d& X_solids) {
+    fcl::CollisionResultd result;
+    return collideOther(mesh, X_mesh, geometry, X_solids, fcl::CollisionRequestd(), result) > 0;
+  };
+  return std::make_unique<continuous::MovingMeshAndSolids>(mesh, mesh_motion, std::move(solids),
+                                                           motion, touching, counts);
 }
 
 double firstContact(const CollisionGeometryd& o1, const Motion& motion1,
@@ -40,7 +68,10 @@ double firstContact(const CollisionGeometryd& o1, const Motion& motion1,
   ContinuousCounts unused;
   ContinuousCounts& count = counts ? *counts : unused;
   const auto pair = movingPair(o1, motion1, o2, motion2, count);
-  const continuous::FirstContact contact = continuous::advance(*pair, toc_err, count);
+  // As in collide(): what isn't occupied touches nothing.
+  const bool occupied = o1.isOccupied() && o2.isOccupied();
+  const continuous::FirstContact contact =
+      occupied ? continuous::advance(*pair, toc_err, count) : continuous::FirstContact{false, 1};
   result.is_collide = contact.found;
   result.time_of_contact = contact.time;
   result.contact_tf1 = motion1.pose(contact.time);

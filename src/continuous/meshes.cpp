@@ -37,10 +37,10 @@ double MovingMeshes::centersGap(NodePair pair, const RelativeVelocities& v) cons
   return (v.pose() * b.center0 - a.center0).norm() - a.radius0 - b.radius0;
 }
 
-bool MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair& near,
-                         NodePair& far) const {
+int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
   const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
-  if (a.isLeaf() && b.isLeaf()) return false;
+  if (a.isLeaf() && b.isLeaf()) return 0;
+  NodePair &near = parts[0], &far = parts[1];
   near = far = pair;
   if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
     near.a = a.leftChild();
@@ -50,7 +50,7 @@ bool MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair& n
     far.b = b.rightChild();
   }
   if (centersGap(far, v) < centersGap(near, v)) std::swap(near, far);
-  return true;
+  return 2;
 }
 
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
@@ -59,23 +59,30 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
   const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
   const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
   if (v.apart(central_a, central_b, duration)) return true;
-  // All pairs of spheres, most of them off at the first glance.
-  MovingBall caps_b[kIOSd::kCaps];
-  const int num_a = a.k() - 1, num_b = b.k() - 1;
-  for (int j = 0; j < num_b; ++j) {
-    const double unit = scaled(1.0, b.exponent);
-    const Vector3d cap(b.cap_x[j] * unit, b.cap_y[j] * unit, b.cap_z[j] * unit);
-    caps_b[j] = v.ballOfB(central_b.center + v.pose().R * cap, b.cap_r[j] * unit * stretch);
-    if (v.apart(central_a, caps_b[j], duration)) return true;
-  }
-  for (int i = 0; i < num_a; ++i) {
-    const double unit = scaled(1.0, a.exponent);
-    const Vector3d cap(a.cap_x[i] * unit, a.cap_y[i] * unit, a.cap_z[i] * unit);
-    const MovingBall cap_a = v.ballOfA(a.center0 + cap, a.cap_r[i] * unit);
-    if (v.apart(cap_a, central_b, duration)) return true;
-    for (int j = 0; j < num_b; ++j) {
-      if (v.apart(cap_a, caps_b[j], duration)) return true;
-    }
+  // All other pairs of spheres; caps that k doesn't count repeat the central sphere.
+  if (a.k() == 1 && b.k() == 1) return false;
+  const auto capsOf = [](const kIOSd& bv, const Eigen::Matrix3d& R, const Vector3d& center,
+                         Eigen::Array4d* caps) {
+    const double unit = scaled(1.0, bv.exponent);
+    const Eigen::Array4d x = Eigen::Map<const Eigen::Array4f>(bv.cap_x).cast<double>() * unit;
+    const Eigen::Array4d y = Eigen::Map<const Eigen::Array4f>(bv.cap_y).cast<double>() * unit;
+    const Eigen::Array4d z = Eigen::Map<const Eigen::Array4f>(bv.cap_z).cast<double>() * unit;
+    for (int c = 0; c < 3; ++c) caps[c] = R(c, 0) * x + R(c, 1) * y + R(c, 2) * z + center[c];
+    return Eigen::Array4d(Eigen::Map<const Eigen::Array4f>(bv.cap_r).cast<double>() * unit);
+  };
+  Eigen::Array4d centers[3];
+  const Eigen::Array4d radii_b = capsOf(b, v.pose().R, central_b.center, centers) * stretch;
+  const FourBalls caps_b = v.ballsOfB(centers, radii_b);
+  if (v.anyApart(central_a, caps_b, duration)) return true;
+  const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
+  const FourBalls caps_a = v.ballsOfA(centers, radii_a);
+  if (v.anyApart(central_b, caps_a, duration)) return true;
+  for (int i = 0; i < a.k() - 1; ++i) {
+    const MovingBall cap = {{caps_a.center[0][i], caps_a.center[1][i], caps_a.center[2][i]},
+                            caps_a.radius[i],
+                            {caps_a.velocity[0][i], caps_a.velocity[1][i], caps_a.velocity[2][i]},
+                            caps_a.acceleration[i]};
+    if (v.anyApart(cap, caps_b, duration)) return true;
   }
   return false;
 }

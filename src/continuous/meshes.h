@@ -18,8 +18,7 @@ class MovingMeshes final : public PairSearch {
  private:
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
   double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
-  bool split(NodePair pair, const RelativeVelocities& v, NodePair& near,
-             NodePair& far) const override;
+  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
   const Modeld &a_, &b_;

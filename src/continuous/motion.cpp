@@ -101,6 +101,12 @@ Motion Motion::spline(const Points& translations, const Points& rotations) {
   m.kind_ = Kind::kSpline;
   m.Td_ = translations;
   m.Rd_ = rotations;
+  m.axis_ = Vector3d::UnitX();
+  for (const Vector3d& w : rotations) {
+    if (w.norm() > 0) m.axis_ = w.normalized();
+  }
+  m.fixed_axis_ = true;
+  for (const Vector3d& w : rotations) m.fixed_axis_ &= w.cross(m.axis_).isZero(0);
   m.check();
   return m;
 }
@@ -170,28 +176,33 @@ Transform3d Motion::pose(double t) const {
 
 VelocityField Motion::velocities(double t, const Transform3d& X, double window) const {
   VelocityField v;
-  v.steady = steady();
   if (kind_ == Kind::kTwist) {
     const double s = std::sin(angle_ * t), c = std::cos(angle_ * t);
     const Vector3d across = axis_.cross(arm_), inward = axis_.cross(across);
     v.linear = velocity_;
     v.angular = axis_ * angle_;
     v.origin = X.translation() - (arm_ + s * across + (1 - c) * inward);
-    v.origin_acceleration = 0;
-    v.turn_acceleration = angle_ * angle_;
+    v.acceleration_at[0] = v.acceleration_at[1] = Vector3d::Zero();
+    v.fixed_axis = true;
+    v.axis = axis_;
     v.angular_speed = std::abs(angle_);
+    v.turn_acceleration = angle_ * angle_;
     return v;
   }
   // Rotation vectors w(t): |angular| <= |w'|, as the Jacobian is a mean of rotations; its
   // derivative is at most |w'| / 2, so that |angular'| <= |w''| + |w'|^2 / 2. Points of the body
-  // get |angular'| + |angular|^2 of acceleration per length.
+  // get |angular'| + |angular|^2 of acceleration per length. About a fixed axis, angular = w'.
   const double speed = speedBound(Rd_, t, window);
   v.linear = combine(Td_, weights1(t));
   v.angular = angularVelocity(combine(Rd_, weights(t)), combine(Rd_, weights1(t)));
   v.origin = X.translation();
-  v.origin_acceleration = accelerationBound(Td_, t, window);
-  v.turn_acceleration = accelerationBound(Rd_, t, window) + 1.5 * speed * speed;
+  v.acceleration_at[0] = combine(Td_, weights2(t));
+  v.acceleration_at[1] = combine(Td_, weights2(t + window));
+  v.fixed_axis = fixed_axis_;
+  v.axis = axis_;
   v.angular_speed = speed;
+  v.turn_acceleration =
+      accelerationBound(Rd_, t, window) + (fixed_axis_ ? 1.0 : 1.5) * speed * speed;
   return v;
 }
 

@@ -53,8 +53,9 @@ class Motion {
   Eigen::Matrix3d R0_;
   Eigen::Vector3d T0_, velocity_, axis_, arm_;
   double angle_ = 0;
-  // kSpline
+  // kSpline; axis_ as well, if all rotation vectors are along it.
   Points Td_, Rd_;
+  bool fixed_axis_ = true;
 };
 
 }  // namespace kios::continuous

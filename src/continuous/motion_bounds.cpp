@@ -7,8 +7,8 @@
 
 namespace kios {
 
-// The speed now, the acceleration, and at most the rest of the time. FCL's motions tell no time,
-// but for splines: what is steady is bounded from 0 on, by its largest speed.
+// FCL's motions tell no time, but for splines: the bound is that from 0 on. Points of a body turn
+// with at most angular speed times their distance from a fixed axis, and across it.
 double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
                   const fcl::MotionBase<double>& motion) {
   const continuous::Motion m = continuous::motionOf(&motion);
@@ -16,13 +16,9 @@ double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
   const continuous::VelocityField v = m.velocities(0, X, 1);
   const fcl::Vector3d center = X * bv.center0;
   const double rounding = m.rounding(bv.center0.norm() + bv.radius0);
-  if (v.steady) {  // n . (w x r) = (n x w) . r, and r keeps its part across the axis
-    const double w = v.angular.norm();
-    const double across = w > 0 ? v.angular.cross(center - v.origin).norm() / w + bv.radius0 : 0.0;
-    return n.dot(v.linear) + n.cross(v.angular).norm() * across + rounding;
-  }
-  return n.dot(v.linear) + n.norm() * (v.origin_acceleration + v.turnSpeed(center, bv.radius0)) +
-         rounding;
+  const double turn = v.turnSpeed(center, bv.radius0);
+  return n.dot(v.linear) + n.norm() * v.originAcceleration() +
+         (v.fixed_axis ? n.cross(v.axis).norm() : n.norm()) * turn + rounding;
 }
 
 }  // namespace kios

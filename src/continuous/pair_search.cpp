@@ -22,9 +22,9 @@ double PairSearch::apartFor(double t) {
   const RelativeVelocities v = motion_.at(t, window);
 
   // What ended the last step will probably end this one: a first upper bound of it.
-  NodePair near, far;
+  NodePair parts[kMostParts];
   if (last_.a < 0) {
-    for (last_ = {0, 0}; split(last_, v, near, far);) last_ = near;
+    for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];
   }
   double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_});
   long long budget_ends = counts_.volume_tests + kBudget;
@@ -38,9 +38,8 @@ double PairSearch::apartFor(double t) {
     stack_.pop_back();
     ++counts_.volume_tests;
     if (nodesApart(pair, v, h)) continue;
-    if (split(pair, v, near, far)) {
-      stack_.push_back(far);
-      stack_.push_back(near);
+    if (const int count = split(pair, v, parts); count > 0) {
+      for (int i = count; i-- > 0;) stack_.push_back(parts[i]);
       continue;
     }
     ++counts_.leaf_tests;

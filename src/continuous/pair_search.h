@@ -34,9 +34,10 @@ class PairSearch : public MovingPair {
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
   /// Time for which two leaves are proven apart; any time of at least `enough` will do.
   virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;
-  /// The two pairs that a pair consists of, the nearer one first; false for a pair of leaves.
-  virtual bool split(NodePair pair, const RelativeVelocities& v, NodePair& near,
-                     NodePair& far) const = 0;
+  static constexpr int kMostParts = 8;
+  /// Writes the pairs that a pair consists of, the nearest first, and returns how many; 0 for a
+  /// pair of leaves.
+  virtual int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const = 0;
 
   const RelativeMotion motion_;
   ContinuousCounts& counts_;

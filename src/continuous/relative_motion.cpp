@@ -16,10 +16,14 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
       a_(a.velocities(t, X_WA_, window)),
       b_(b.velocities(t, X_WB_, window)) {
   origins_speed_ =
-      (a_.linear - b_.linear).norm() + window * (a_.origin_acceleration + b_.origin_acceleration);
+      (a_.linear - b_.linear).norm() + window * (a_.originAcceleration() + b_.originAcceleration());
   for (VelocityField* field : {&a_, &b_}) {
     field->linear = X_WA_.linear().transpose() * field->linear;
     field->angular = X_WA_.linear().transpose() * field->angular;
+    field->axis = X_WA_.linear().transpose() * field->axis;
+    for (Vector3d& acceleration : field->acceleration_at) {
+      acceleration = X_WA_.linear().transpose() * acceleration;
+    }
     field->origin = X_WA_.linear().transpose() * (field->origin - X_WA_.translation());
   }
   // Rotations are orthonormal to 16 u, so that is what the change of frame takes off.
@@ -39,6 +43,65 @@ bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double 
   return (between + s * velocity).squaredNorm() > least * least;
 }
 
+// As apart(), without branches. The least double > 0 keeps 0 / 0 out: it matters for speeds only
+// that are below 2^-490, less than the pad.
+bool RelativeVelocities::anyApart(const MovingBall& ball, const FourBalls& four,
+                                  double duration) const {
+  using Eigen::Array4d;
+  Array4d between[3], velocity[3];
+  for (int c = 0; c < 3; ++c) {
+    between[c] = four.center[c] - ball.center[c];
+    velocity[c] = four.velocity[c] - ball.velocity[c];
+  }
+  const Array4d approach =
+      -(between[0] * velocity[0] + between[1] * velocity[1] + between[2] * velocity[2]);
+  const Array4d square =
+      velocity[0].square() + velocity[1].square() + velocity[2].square() + 0x1p-1022;
+  const Array4d s = (approach / square).max(0.0).min(duration);
+  const Array4d length = between[0].abs() + between[1].abs() + between[2].abs() +
+                         duration * (velocity[0].abs() + velocity[1].abs() + velocity[2].abs());
+  const Array4d reach = four.radius + (ball.radius + pad_) +
+                        0.5 * duration * duration * (four.acceleration + ball.acceleration);
+  const Array4d least = reach + 0x1p-48 * (length + reach);
+  const Array4d nearest = (between[0] + s * velocity[0]).square() +
+                          (between[1] + s * velocity[1]).square() +
+                          (between[2] + s * velocity[2]).square();
+  return (nearest > least.square()).any();
+}
+
+namespace {
+
+FourBalls balls(const VelocityField& field, const Eigen::Array4d* center,
+                const Eigen::Array4d& radius) {
+  FourBalls four;
+  four.radius = radius;
+  Eigen::Array4d arm[3];
+  for (int c = 0; c < 3; ++c) {
+    four.center[c] = center[c];
+    arm[c] = center[c] - field.origin[c];
+  }
+  Eigen::Array4d squared = Eigen::Array4d::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const int d = (c + 1) % 3, e = (c + 2) % 3;
+    four.velocity[c] = field.linear[c] + field.angular[d] * arm[e] - field.angular[e] * arm[d];
+    squared += field.fixed_axis ? (field.axis[d] * arm[e] - field.axis[e] * arm[d]).square().eval()
+                                : arm[c].square().eval();
+  }
+  four.acceleration = field.originAcceleration() + field.turn_acceleration * squared.sqrt();
+  return four;
+}
+
+}  // namespace
+
+FourBalls RelativeVelocities::ballsOfA(const Eigen::Array4d* center,
+                                       const Eigen::Array4d& radius) const {
+  return balls(a_, center, radius);
+}
+FourBalls RelativeVelocities::ballsOfB(const Eigen::Array4d* center,
+                                       const Eigen::Array4d& radius) const {
+  return balls(b_, center, radius);
+}
+
 double RelativeVelocities::apartTime(const MovingBall& a, const MovingBall& b, double gap) const {
   const double turn = a_.angular.norm() * a.radius + b_.angular.norm() * b.radius;
   const double speed = (a.velocity - b.velocity).norm() + turn;
@@ -54,20 +117,18 @@ RelativeVelocities::Drift RelativeVelocities::driftFromA(const Vector3d& center,
                                                          double duration, const Vector3d* n) const {
   const double farther = duration * (origins_speed_ + b_.turnSpeed(center, radius));
   const double around = radius + farther;
-  const double turn = turnOfA();
   const Vector3d velocity = b_.at(center) - a_.at(center);
   const double spin = radius * (b_.angular - a_.angular).norm();
   Drift drift;
   drift.most = origins_speed_ + b_.turnSpeed(center, radius) + a_.turnSpeed(center, around);
   if (n) {
-    const double turn_along = a_.steady ? n->cross(a_.angular).norm() : turn;
     drift.speed = spin - n->dot(velocity);
     drift.change = b_.accelerationAlong(*n, center, radius) +
-                   a_.accelerationAlong(*n, center, around) + 2 * turn_along * drift.most;
+                   a_.accelerationAlong(*n, center, around) + 2 * a_.turnOf(*n) * drift.most;
   } else {
     drift.speed = spin + velocity.norm();
-    drift.change =
-        b_.acceleration(center, radius) + a_.acceleration(center, around) + 2 * turn * drift.most;
+    drift.change = b_.acceleration(center, radius) + a_.acceleration(center, around) +
+                   2 * a_.angular_speed * drift.most;
   }
   return drift;
 }

@@ -17,6 +17,11 @@ struct MovingBall {
   double acceleration;       ///< bound of the centre's over the window
 };
 
+/// Four balls that are fixed to a body, a lane each, as MovingBall.
+struct FourBalls {
+  Eigen::Array4d center[3], radius, velocity[3], acceleration;
+};
+
 /// How two bodies A and B move at a time t and, by bounds, until t + window. Everything is in frame
 /// A: the axes and origin of body A at t, standing still from then on.
 class RelativeVelocities {
@@ -30,9 +35,13 @@ class RelativeVelocities {
   MovingBall ballOfB(const Eigen::Vector3d& center, double radius) const {
     return {center, radius, b_.at(center), b_.acceleration(center)};
   }
+  FourBalls ballsOfA(const Eigen::Array4d* center, const Eigen::Array4d& radius) const;
+  FourBalls ballsOfB(const Eigen::Array4d* center, const Eigen::Array4d& radius) const;
   /// True if two balls, and so what they contain, are proven apart for `duration`, at most the
   /// window.
   bool apart(const MovingBall& a, const MovingBall& b, double duration) const;
+  /// True if that holds for one of four; the ball is of one body, the four of the other one.
+  bool anyApart(const MovingBall& ball, const FourBalls& four, double duration) const;
   /// For how long the contents of two balls are proven apart that are `gap` apart at t.
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
   /// For how long no point of A's polygon reaches a point of B's, as the slab between them across
@@ -53,7 +62,7 @@ class RelativeVelocities {
 
   double pad() const { return pad_; }
   /// Bound of the angular speed of A.
-  double turnOfA() const { return a_.steady ? a_.angular.norm() : a_.angular_speed; }
+  double turnOfA() const { return a_.angular_speed; }
   const RelativePose<double>& pose() const { return X_AB_; }
 
  private:

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,36 +15,44 @@ namespace kios::continuous {
 /// `origin` is a point of the body, also when it turns later.
 struct VelocityField {
   Eigen::Vector3d linear, angular, origin;
-  bool steady;  ///< constant angular velocity, and an origin without acceleration
-  // Bounds over the window; used only if not steady.
-  double origin_acceleration;  ///< of the origin
-  double turn_acceleration;    ///< of x - origin, per length of it
-  double angular_speed;
+  // Over the window:
+  Eigen::Vector3d acceleration_at[2];  ///< the origin's at both ends; between them it is linear
+  bool fixed_axis;                     ///< whether the body turns about `axis` alone
+  Eigen::Vector3d axis;                ///< of unit length, if fixed
+  double angular_speed;                ///< bound
+  double turn_acceleration;            ///< bound of |x'' - origin''| per length of x - origin
 
   Eigen::Vector3d at(const Eigen::Vector3d& x) const { return linear + angular.cross(x - origin); }
 
   /// Bound of |n . x''| over the window, for points x within `radius` of the point `x0` of the
-  /// body. Steady: x'' = -w^2 (part of x - origin across the axis), whose length stays.
+  /// body. About a fixed axis, points keep their distance from it, and accelerate across it.
   double accelerationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& x0,
                            double radius) const {
-    if (steady) {
-      return n.cross(angular).norm() *
-             (angular.cross(x0 - origin).norm() + radius * angular.norm());
-    }
-    return origin_acceleration + turn_acceleration * ((x0 - origin).norm() + radius);
+    const double turn = turn_acceleration * distance(x0, radius);
+    return std::max(std::abs(n.dot(acceleration_at[0])), std::abs(n.dot(acceleration_at[1]))) +
+           (fixed_axis ? n.cross(axis).norm() * turn : n.norm() * turn);
   }
   /// As accelerationAlong() for every unit vector n.
   double acceleration(const Eigen::Vector3d& x0, double radius = 0) const {
-    if (steady) {
-      const double w = angular.norm();
-      return w * (angular.cross(x0 - origin).norm() + radius * w);
-    }
-    return origin_acceleration + turn_acceleration * ((x0 - origin).norm() + radius);
+    return originAcceleration() + turn_acceleration * distance(x0, radius);
+  }
+  double originAcceleration() const {
+    return std::sqrt(std::max(acceleration_at[0].squaredNorm(), acceleration_at[1].squaredNorm()));
   }
   /// Bound over the window of the speed relative to the origin.
   double turnSpeed(const Eigen::Vector3d& x0, double radius) const {
-    if (steady) return angular.cross(x0 - origin).norm() + radius * angular.norm();
-    return angular_speed * ((x0 - origin).norm() + radius);
+    return angular_speed * distance(x0, radius);
+  }
+  /// Bound over the window of how fast a unit vector n that is fixed to the body turns.
+  double turnOf(const Eigen::Vector3d& n) const {
+    return angular_speed * (fixed_axis ? n.cross(axis).norm() : 1.0);
+  }
+
+ private:
+  /// Of points from the axis, or from the origin.
+  double distance(const Eigen::Vector3d& x0, double radius) const {
+    const Eigen::Vector3d arm = x0 - origin;
+    return (fixed_axis ? axis.cross(arm).norm() : arm.norm()) + radius;
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "continuous/mesh_and_solid.h"
+#include "continuous/mesh_and_solids.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,7 +9,6 @@
 
 #include "bv/balls.h"
 #include "fcl/mesh_pair.h"
-#include "fcl_kios/fcl/shape_queries.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::continuous {
@@ -32,60 +31,82 @@ int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers,
   return bv.k();
 }
 
+double reachOf(const std::vector<SolidNode>& solids) {
+  double reach = 0;
+  for (const SolidNode& part : solids) {
+    reach = std::max(reach, part.center.norm() + part.solid.reach());
+  }
+  return reach;
+}
+
 }  // namespace
 
-MovingMeshAndSolid::MovingMeshAndSolid(const Modeld& mesh, const Motion& mesh_motion,
-                                       const fcl::CollisionGeometryd& geometry, shape::Solid solid,
-                                       const Motion& solid_motion, ContinuousCounts& counts)
-    : PairSearch(solid_motion, solid.reach(), mesh_motion, reachOf(mesh), counts),
+MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion,
+                                         std::vector<SolidNode> solids, const Motion& solids_motion,
+                                         Touching touching, ContinuousCounts& counts)
+    : PairSearch(solids_motion, reachOf(solids), mesh_motion, continuous::reachOf(mesh), counts),
       mesh_(mesh),
-      geometry_(geometry),
-      solid_(std::move(solid)),
-      reach_(solid_.reach() + reachOf(mesh)) {
+      solids_(std::move(solids)),
+      touching_(std::move(touching)),
+      reach_(reachOf(solids_) + continuous::reachOf(mesh)) {
   if (reach_ <= 0x1p300) return;
   throw std::invalid_argument("fcl_kios: a mesh or shape is too large for continuous collision.");
 }
 
-bool MovingMeshAndSolid::touching(double t) {
-  fcl::CollisionResultd result;
-  return collideShape(mesh_, motion_.b().pose(t), geometry_, motion_.a().pose(t),
-                      fcl::CollisionRequestd(), result) > 0;
+bool MovingMeshAndSolids::touching(double t) {
+  return !solids_.empty() && touching_(motion_.b().pose(t), motion_.a().pose(t));
 }
 
 // Four times the tolerance of the kernels, at the largest extent of a triangle and the shape; the
 // shape's velocities are rounded likewise where the mesh is.
-double MovingMeshAndSolid::pad(const RelativeVelocities& v) const {
+double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
   return v.pad() + 0x1p-40 * (reach_ + v.pose().T_norm1) * (1 + 0x1p-8 * v.turnOfA()) + 0x1p-290;
 }
 
-bool MovingMeshAndSolid::split(NodePair pair, const RelativeVelocities& v, NodePair& near,
-                               NodePair& far) const {
+int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
+  if (solids_.empty()) return 0;
   const auto& node = mesh_.getBV(pair.a);
-  if (node.isLeaf()) return false;
-  near.a = node.leftChild();
-  far.a = node.rightChild();
-  near.b = far.b = 0;
-  const auto gap = [&](int id) {
-    const kIOSd& bv = mesh_.getBV(id).bv;
-    return shape::pointBound(solid_, v.pose() * bv.center0) - bv.radius0;
-  };
-  if (gap(far.a) < gap(near.a)) std::swap(near, far);
-  return true;
+  const SolidNode& part = solids_[pair.b];
+  int count = 0;
+  if (part.count > 0 && (node.isLeaf() || part.solid.reach() > node.bv.radius0)) {
+    for (int i = 0; i < part.count; ++i) parts[count++] = {pair.a, part.first + i};
+  } else if (!node.isLeaf()) {
+    parts[count++] = {node.leftChild(), pair.b};
+    parts[count++] = {node.rightChild(), pair.b};
+  }
+  double gaps[kMostParts];
+  for (int i = 0; i < count; ++i) {
+    const kIOSd& bv = mesh_.getBV(parts[i].a).bv;
+    const SolidNode& solid = solids_[parts[i].b];
+    const double gap =
+        shape::pointBound(solid.solid, v.pose() * bv.center0 - solid.center) - bv.radius0;
+    int at = i;  // insertion sort
+    for (const NodePair moved = parts[i]; at > 0 && gaps[at - 1] > gap; --at) {
+      gaps[at] = gaps[at - 1];
+      parts[at] = parts[at - 1];
+      parts[at - 1] = moved;
+    }
+    gaps[at] = gap;
+  }
+  return count;
 }
 
-bool MovingMeshAndSolid::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
+bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
+  if (solids_.empty() || solids_[pair.b].empty) return true;
   const kIOSd& bv = mesh_.getBV(pair.a).bv;
+  const SolidNode& part = solids_[pair.b];
+  const shape::Solid& solid = part.solid;
   Vector3d centers[kIOSd::kMaxSpheres];
   double radii[kIOSd::kMaxSpheres];
   const int k = spheresOf(bv, v.pose(), centers, radii);
   const double pad = this->pad(v);
-  if (solid_.bounded() && v.apart(v.ballOfA(Vector3d::Zero(), solid_.reach() + pad),
-                                  v.ballOfB(centers[0], radii[0]), duration)) {
+  if (solid.bounded() && v.apart(v.ballOfA(part.center, solid.reach() + pad),
+                                 v.ballOfB(centers[0], radii[0]), duration)) {
     return true;
   }
   // Balls that don't get as far as the shape is.
   for (int i = 0; i < k; ++i) {
-    const double gap = shape::pointBound(solid_, centers[i]) - radii[i] - pad;
+    const double gap = shape::pointBound(solid, centers[i] - part.center) - radii[i] - pad;
     if (!(gap > 0)) continue;
     const auto drift = v.driftFromA(centers[i], 0, duration);
     if (gap > duration * std::min(drift.most, drift.speed + 0.5 * duration * drift.change)) {
@@ -94,7 +115,7 @@ bool MovingMeshAndSolid::nodesApart(NodePair pair, const RelativeVelocities& v, 
   }
   // Slabs: across the shape's normal, or across that which did best for triangles.
   const auto behindSlab = [&](const Vector3d& n) {
-    const double extent = shape::extentAlong(solid_, n);
+    const double extent = n.dot(part.center) + shape::extentAlong(solid, n);
     for (int i = 0; i < k; ++i) {
       const double gap = n.dot(centers[i]) - radii[i] - extent - pad;
       if (!(gap > 0)) continue;
@@ -103,12 +124,13 @@ bool MovingMeshAndSolid::nodesApart(NodePair pair, const RelativeVelocities& v, 
     }
     return false;
   };
-  if (solid_.bounded()) return behindSlab(slab_);
-  return behindSlab(solid_.normal) || behindSlab(-solid_.normal);
+  if (solid.bounded()) return behindSlab(slab_);
+  return behindSlab(solid.normal) || behindSlab(-solid.normal);
 }
 
-double MovingMeshAndSolid::slabTime(const Vector3d& n, const std::array<Vector3d, 3>& corners,
-                                    const RelativeVelocities& v, double duration) const {
+double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
+                                     const std::array<Vector3d, 3>& corners,
+                                     const RelativeVelocities& v, double duration) const {
   double low = kInfinity, speed = -kInfinity, change = 0;
   for (const Vector3d& x : corners) {
     const auto drift = v.driftFromA(x, 0, duration, &n);
@@ -116,14 +138,19 @@ double MovingMeshAndSolid::slabTime(const Vector3d& n, const std::array<Vector3d
     speed = std::max(speed, drift.speed);
     change = std::max(change, drift.change);
   }
-  const double extent = shape::extentAlong(solid_, n);
+  const double extent = n.dot(part.center) + shape::extentAlong(part.solid, n);
   return std::min(duration, closingTime(low - extent - pad(v), speed, change));
 }
 
-double MovingMeshAndSolid::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
+double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
+  if (solids_.empty() || solids_[pair.b].empty) return enough;
   const auto& node = mesh_.getBV(pair.a);
   const auto corners = transformed(cornersOf(mesh_, node.primitiveId()), v.pose());
-  const auto nearest = shape::distance(solid_, corners, kInfinity);
+  const SolidNode& part = solids_[pair.b];
+  const shape::Solid& solid = part.solid;
+  const auto nearest = shape::distance(
+      solid, {corners[0] - part.center, corners[1] - part.center, corners[2] - part.center},
+      kInfinity);
   const double gap = std::min(nearest.lower, nearest.distance) - pad(v);
   double best = 0;
   if (gap > 0) {
@@ -137,21 +164,21 @@ double MovingMeshAndSolid::leavesApart(NodePair pair, const RelativeVelocities& 
   const auto attempt = [&](const Vector3d& normal) {
     if (best >= enough || !(normal.squaredNorm() > 0)) return;
     const Vector3d n = normal.stableNormalized();
-    const double time = slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), corners, v, enough);
+    const double time = slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), part, corners, v, enough);
     if (!(time > best)) return;
     best = time;
     slab_ = n.dot(witness) >= 0 ? n : Vector3d(-n);
   };
-  if (!solid_.bounded()) {
-    if (best < enough) best = std::max(best, slabTime(solid_.normal, corners, v, enough));
-    if (best < enough) best = std::max(best, slabTime(-solid_.normal, corners, v, enough));
+  if (!solid.bounded()) {
+    if (best < enough) best = std::max(best, slabTime(solid.normal, part, corners, v, enough));
+    if (best < enough) best = std::max(best, slabTime(-solid.normal, part, corners, v, enough));
     return best;
   }
   attempt(witness);
   const Vector3d edges[3] = {corners[1] - corners[0], corners[2] - corners[1],
                              corners[0] - corners[2]};
   const Vector3d normal = edges[0].stableNormalized().cross(edges[1].stableNormalized());
-  const Vector3d velocity = v.velocityAt(nearest.on_triangle).stableNormalized();
+  const Vector3d velocity = v.velocityAt(nearest.on_triangle + part.center).stableNormalized();
   attempt(normal);
   for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i));
   for (const Vector3d& edge : edges) attempt(edge.stableNormalized().cross(velocity));
