@@ -40,7 +40,7 @@ std::vector<Case> casesOf() {
       {"spinning rod", rod, ball, at({0, 0, 0}), at({0, 0, 0}, 2.5), at({0.1, 1.3, 0}),
        at({0.1, 1.2, 0})},
       {"passing by", box, ball, at({-3, 0, 0}), at({3, 0, 0}), at({0, 1.2, 0}), at({0, 1.2, 0})}};
-  const auto poses = randomPoses(80, 2, 601);
+  const auto poses = randomPoses(48, 2, 601);
   for (std::size_t i = 0; i + 3 < poses.size(); i += 4) {
     cases.push_back(
         {"random", bumpyTorus(100), ball, poses[i], poses[i + 1], poses[i + 2], poses[i + 3]});
@@ -50,7 +50,11 @@ std::vector<Case> casesOf() {
 
 Motion motionOf(fcl::CCDMotionType type, const Transform3d& X0, const Transform3d& X1) {
   if (type == fcl::CCDM_TRANS) return std::make_shared<fcl::TranslationMotiond>(X0, X1);
-  if (type == fcl::CCDM_LINEAR) return std::make_shared<fcl::InterpMotion<double>>(X0, X1);
+  if (type == fcl::CCDM_LINEAR) {
+    // The form that sets every member.
+    return std::make_shared<fcl::InterpMotion<double>>(X0.linear(), X0.translation(), X1.linear(),
+                                                       X1.translation(), Vector3d::Zero());
+  }
   return std::make_shared<fcl::ScrewMotion<double>>(X0, X1);
 }
 
@@ -61,14 +65,14 @@ Transform3d poseAt(const Motion& motion, double t) {
   return X;
 }
 
-constexpr int kSamples = 500;
+constexpr int kSamples = 300;
 
 // The first sample that collides, kSamples + 1 if none; and how near the others come.
 struct Truth {
   int first = kSamples + 1;
   double least = 1e300;
 };
-Truth truthOf(const Case& c, const scenes::MeshOracle& oracle, const Motion& a, const Motion& b) {
+Truth truthOf(const scenes::MeshOracle& oracle, const Motion& a, const Motion& b) {
   Truth truth;
   for (int i = 0; i <= kSamples; ++i) {
     const double d =
@@ -81,13 +85,25 @@ Truth truthOf(const Case& c, const scenes::MeshOracle& oracle, const Motion& a, 
   return truth;
 }
 
+// Of all cases; sampled once for all volumes and solvers.
+const std::vector<Truth>& truthsOf(fcl::CCDMotionType type) {
+  static std::map<fcl::CCDMotionType, std::vector<Truth>> truths;
+  std::vector<Truth>& known = truths[type];
+  if (!known.empty()) return known;
+  for (const Case& c : casesOf()) {
+    const scenes::MeshOracle oracle(c.a, c.b);
+    known.push_back(truthOf(oracle, motionOf(type, c.a0, c.a1), motionOf(type, c.b0, c.b1)));
+  }
+  return known;
+}
+
 template <typename BV>
 void checkMotion(fcl::CCDSolverType solver, const std::string& solver_name, fcl::CCDMotionType type,
                  const std::string& motion_name) {
-  for (const Case& c : casesOf()) {
-    const scenes::MeshOracle oracle(c.a, c.b);
-    const Motion a = motionOf(type, c.a0, c.a1), b = motionOf(type, c.b0, c.b1);
-    const Truth truth = truthOf(c, oracle, a, b);
+  const std::vector<Case> cases = casesOf();
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Case& c = cases[i];
+    const Truth truth = truthsOf(type)[i];
     const bool hits = truth.first <= kSamples;
     if (!hits && truth.least < 0.02) continue;  // sampling can't tell
     // Built for each query: FCL's polynomial solver moves the models.
