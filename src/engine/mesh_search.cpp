@@ -252,7 +252,8 @@ BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery
   bool offered = false, done = false;
   if (exists(query.start, pair)) {
     const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};
-    if (!exact) {
+    const bool near = query.near_enough > 0 && distance <= query.near_enough;
+    if (!query.isExact() || query.hasBudget() || near) {
       done = judge.start(query.start, distance);
     } else if (distance > 0) {
       judge.offer(upToFloat(distance + 256 * kUlp<S> * pair.frames.scale));

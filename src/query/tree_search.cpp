@@ -82,8 +82,9 @@ class TreeSearch {
   bool begin() {
     const auto [id1, id2] = query_.start;
     if (!exists(query_.start)) return false;
-    if (!query_.isExact() || query_.endsEarly()) return evaluate(id1, id2);
     const double distance = double{distanceOf(id1, id2).distance};
+    const bool near = query_.near_enough > 0 && distance <= query_.near_enough;
+    if (!query_.isExact() || query_.hasBudget() || near) return evaluate(id1, id2);
     offered_ = distance > 0;
     if (offered_) prune_at_ = std::min(prune_at_, distance + rounding_);
     return false;

@@ -97,9 +97,19 @@ TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
         DistanceOptions<S> options;
         options.warm_start = start;
         const auto warm = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
-        ASSERT_TRUE(same(warm, cold)) << warm.distance << " " << cold.distance;
         ASSERT_EQ(start->triangle1, cold.triangle1);
         ASSERT_EQ(start->triangle2, cold.triangle2);
+        ASSERT_TRUE(same(warm, cold)) << warm.distance << " " << cold.distance;
+        // Bounds that don't stop the search change nothing either, but what is proven.
+        options.near_enough = S(0.5) * cold.distance;
+        options.far_enough = 2 * cold.distance + S(1);
+        const auto bounded = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        ASSERT_EQ(bounded.distance, cold.distance);
+        if (cold.distance > 0) {
+          ASSERT_EQ(bounded.triangle1, cold.triangle1);
+          ASSERT_EQ(bounded.triangle2, cold.triangle2);
+          ASSERT_EQ(bounded.stop, DistanceStop::kTolerance);
+        }
       }
     }
   }
