@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "fcl_kios/scene/scene_distance.h"
@@ -26,19 +27,27 @@ class ManagerQuery<S>::Impl {
     closest_ = closest;
     bound_ = margin;
     pairs.clear();
+    asked_.clear();
     counts = SceneCounts();
   }
 
   bool ask(const Object* o1, const Object* o2, S& dist) {
     dist = bound_;
     if (done()) return true;
+    Known *a = &meet(o1), *b = &meet(o2);
+    if (b->id < a->id) std::swap(a, b);
+    // Some managers come up with a pair twice.
+    if (!asked_
+             .insert(std::uint64_t{static_cast<std::uint32_t>(a->id)} << 32 |
+                     static_cast<std::uint32_t>(b->id))
+             .second) {
+      return false;
+    }
     ++counts.total;
     if (filter_ && !filter_(o1, o2)) {
       ++counts.filtered;
       return false;
     }
-    Known *a = &meet(o1), *b = &meet(o2);
-    if (b->id < a->id) std::swap(a, b);
     scene::PairQuery<S> pair(a->id, a->body, b->id, b->body, memory_);
     const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
     const auto answer = answerOf(pair, limit);
@@ -122,6 +131,7 @@ class ManagerQuery<S>::Impl {
 
   Filter filter_;
   std::unordered_map<const Object*, Known> bodies_;
+  std::unordered_set<std::uint64_t> asked_;  // pairs, in this query
   PairMemory memory_{SceneDistance<S>::kMaxRemembered};
   std::size_t met_ = 0;
   int next_id_ = 0;
