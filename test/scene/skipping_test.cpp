@@ -121,6 +121,31 @@ TEST(SceneSkipping, MemoryIsBoundedByWhatComesNear) {
   EXPECT_LE(scene.rememberedPairs(), 1024u);
 }
 
+TEST(SceneSkipping, DeformationsOfWhatStandsStillAreNoticed) {
+  for (const int deforming : {0, 1}) {
+    Row row(2, 2);
+    const Mesh mesh = scenes::icosphere(0.5, 2);
+    for (int frame = 0; frame < 12; ++frame) {
+      auto vertices = mesh.vertices;
+      for (Vector3d& p : vertices) p *= 1 + 0.1 * (frame % 5);
+      if (frame % 3 == 1) {
+        update(*row.models[deforming], vertices, frame % 2 == 0, true);
+      } else if (frame > 0) {
+        row.models[deforming] = scenes::buildModel<kIOSd>({vertices, mesh.triangles});
+        row.scene.remove(deforming);
+        ASSERT_EQ(row.scene.add(row.models[deforming], at(2 * deforming)), deforming);
+      }
+      fcl::DistanceResultd result;
+      const double exact = fcl::distance(row.models[0].get(), at(0), row.models[1].get(), at(2),
+                                         fcl::DistanceRequestd(), result);
+      EXPECT_EQ(row.scene.closestPair()->distance, exact) << frame;
+      EXPECT_EQ(row.scene.clearances()[0].distance, exact) << frame;
+      EXPECT_EQ(row.scene.pairsWithin(exact).size(), 0u) << frame;
+      EXPECT_EQ(row.scene.pairsWithin(std::nextafter(exact, 9.0)).size(), 1u) << frame;
+    }
+  }
+}
+
 TEST(SceneSkipping, ObstaclesAreNotAskedAboutEachOther) {
   SceneDistance<double> scene;
   const auto model = kiosModel(scenes::icosphere(0.5, 1));
