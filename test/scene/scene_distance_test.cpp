@@ -113,19 +113,19 @@ void runFrames(const SceneSettings& settings, int frames, std::uint64_t seed) {
 }
 
 TEST(SceneDistance, EqualsBruteForceWhereCrowded) {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) runFrames({6, 1}, 150, seed);
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) runFrames({6, 1}, 150, seed);
 }
 
 TEST(SceneDistance, EqualsBruteForceWhereLoose) {
-  for (std::uint64_t seed = 20; seed < 32; ++seed) runFrames({7, 4}, 150, seed);
+  for (std::uint64_t seed = 20; seed < 60; ++seed) runFrames({7, 4}, 150, seed);
 }
 
 TEST(SceneDistance, EqualsBruteForceWhereSparse) {
-  for (std::uint64_t seed = 40; seed < 46; ++seed) runFrames({8, 40}, 150, seed);
+  for (std::uint64_t seed = 140; seed < 160; ++seed) runFrames({8, 40}, 150, seed);
 }
 
 TEST(SceneDistance, EqualsBruteForceFarFromTheOrigin) {
-  for (std::uint64_t seed = 60; seed < 66; ++seed) {
+  for (std::uint64_t seed = 160; seed < 175; ++seed) {
     runFrames({6, 2, Vector3d(1e9, -2e9, 5e8)}, 120, seed);
   }
 }
@@ -133,7 +133,58 @@ TEST(SceneDistance, EqualsBruteForceFarFromTheOrigin) {
 TEST(SceneDistance, EqualsBruteForceAmongObstacles) {
   SceneSettings settings{9, 3};
   settings.obstacles = true;
-  for (std::uint64_t seed = 80; seed < 86; ++seed) runFrames(settings, 120, seed);
+  for (std::uint64_t seed = 180; seed < 200; ++seed) runFrames(settings, 120, seed);
+}
+
+// Many bodies that fly straight: near pairs are listed for several frames.
+TEST(SceneDistance, EqualsBruteForceInAStream) {
+  constexpr int kBodies = 24;
+  scenes::Random random(7);
+  std::vector<std::shared_ptr<Modeld>> models;
+  std::vector<Vector3d> velocities;
+  SceneDistance<double> scene;
+  auto poses = scenes::randomPoses(kBodies, 3, 70);
+  for (int i = 0; i < kBodies; ++i) {
+    models.push_back(kiosModel(i % 2 == 0 ? scenes::icosphere(0.2, 0) : scenes::bumpyTorus(100)));
+    velocities.emplace_back(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    scene.add(models.back(), poses[i]);
+  }
+  for (int frame = 0; frame < 500; ++frame) {
+    const double speed = frame < 250 ? 0.02 : 0.1;
+    for (int i = 0; i < kBodies; ++i) {
+      Vector3d t = poses[i].translation() + speed * velocities[i];
+      for (int axis = 0; axis < 3; ++axis) {
+        if (std::abs(t[axis]) > 3) velocities[i][axis] = -velocities[i][axis];
+      }
+      poses[i].translation() += speed * velocities[i];
+      scene.move(i, poses[i]);
+    }
+    std::vector<std::tuple<double, int, int>> truth;
+    for (int a = 0; a < kBodies; ++a) {
+      for (int b = a + 1; b < kBodies; ++b) {
+        fcl::DistanceResultd result;
+        const double distance = fcl::distance(models[a].get(), poses[a], models[b].get(), poses[b],
+                                              fcl::DistanceRequestd(), result);
+        truth.emplace_back(distance, a, b);
+      }
+    }
+    std::sort(truth.begin(), truth.end());
+    if (frame % 3 != 0) {
+      const auto closest = scene.closestPair();
+      expectSum(scene.counts(), kBodies);
+      ASSERT_EQ(std::tuple(closest->distance, closest->a, closest->b), truth[0]) << frame;
+    }
+    const double margin = frame % 100 < 50 ? 0.05 : 0.3;
+    std::vector<std::tuple<double, int, int>> within;
+    for (const auto& pair : scene.pairsWithin(margin)) {
+      within.emplace_back(pair.distance, pair.a, pair.b);
+    }
+    expectSum(scene.counts(), kBodies);
+    std::sort(within.begin(), within.end());
+    truth.erase(std::lower_bound(truth.begin(), truth.end(), std::tuple(margin, -1, -1)),
+                truth.end());
+    ASSERT_EQ(within, truth) << frame;
+  }
 }
 
 }  // namespace
