@@ -61,11 +61,15 @@ class RelativeVelocities {
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const { return a_.at(x) - b_.at(x); }
 
   double pad() const { return pad_; }
-  /// Bound of the angular speed of A.
-  double turnOfA() const { return a_.angular_speed; }
+  /// Bound of the sum of both angular speeds.
+  double turn() const { return a_.angular_speed + b_.angular_speed; }
   const RelativePose<double>& pose() const { return X_AB_; }
 
  private:
+  /// Rounding per length of what concerns the centres of balls, which may be farther off than the
+  /// bodies reach: 32 u of positions, and of velocities times the duration.
+  double rounding(double duration) const { return 0x1p-48 * (1 + duration * turn()); }
+
   fcl::Transform3d X_WA_, X_WB_;
   RelativePose<double> X_AB_;
   VelocityField a_, b_;
