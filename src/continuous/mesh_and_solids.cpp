@@ -141,8 +141,20 @@ double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
     speed = std::max(speed, drift.speed);
     change = std::max(change, drift.change);
   }
+  const auto support = [&part](const Vector3d& m) {
+    const double length = m.norm();
+    if (!(length > 0)) return 0.0;
+    return m.dot(part.center) + length * shape::extentAlong(part.solid, m / length);
+  };
   const double extent = n.dot(part.center) + shape::extentAlong(part.solid, n);
-  return std::min(duration, closingTime(low - extent - pad(v), speed, change));
+  const double pad = this->pad(v);
+  double time = closingTime(low - extent - pad, speed, change);
+  // A slab that doesn't turn, as for what turns on a table.
+  if (part.solid.bounded() && v.turn() > 0) {
+    time =
+        std::max(time, v.solidSlabTime(n, support, part.center, part.solid.reach(), corners, pad));
+  }
+  return std::min(duration, time);
 }
 
 double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
