@@ -31,10 +31,11 @@ int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers,
   return bv.k();
 }
 
+/// Of the solids that count.
 double reachOf(const std::vector<SolidNode>& solids) {
   double reach = 0;
   for (const SolidNode& part : solids) {
-    reach = std::max(reach, part.center.norm() + part.solid.reach());
+    if (part.count == 0) reach = std::max(reach, part.center.norm() + part.solid.reach());
   }
   return reach;
 }
@@ -57,10 +58,11 @@ bool MovingMeshAndSolids::touching(double t) {
   return !solids_.empty() && touching_(motion_.b().pose(t), motion_.a().pose(t));
 }
 
-// Four times the tolerance of the kernels, at the largest extent of a triangle and the shape; the
-// shape's velocities are rounded likewise where the mesh is.
+// Four times the tolerance of the kernels, at the largest extent of a triangle and a solid; the
+// solids' velocities are rounded where the mesh is.
 double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
-  return v.pad() + 0x1p-40 * (reach_ + v.pose().T_norm1) * (1 + 0x1p-8 * v.turnOfA()) + 0x1p-290;
+  const double lengths = reach_ + v.pose().T_norm1;
+  return v.pad() + (0x1p-40 + 0x1p-46 * v.turn()) * lengths + 0x1p-290;
 }
 
 int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
@@ -99,7 +101,8 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
   Vector3d centers[kIOSd::kMaxSpheres];
   double radii[kIOSd::kMaxSpheres];
   const int k = spheresOf(bv, v.pose(), centers, radii);
-  const double pad = this->pad(v);
+  // Inner nodes may be larger than what counts in them.
+  const double pad = this->pad(v) + 0x1p-46 * (1 + v.turn()) * (part.center.norm() + solid.reach());
   if (solid.bounded() && v.apart(v.ballOfA(part.center, solid.reach() + pad),
                                  v.ballOfB(centers[0], radii[0]), duration)) {
     return true;
@@ -138,8 +141,20 @@ double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
     speed = std::max(speed, drift.speed);
     change = std::max(change, drift.change);
   }
+  const auto support = [&part](const Vector3d& m) {
+    const double length = m.norm();
+    if (!(length > 0)) return 0.0;
+    return m.dot(part.center) + length * shape::extentAlong(part.solid, m / length);
+  };
   const double extent = n.dot(part.center) + shape::extentAlong(part.solid, n);
-  return std::min(duration, closingTime(low - extent - pad(v), speed, change));
+  const double pad = this->pad(v);
+  double time = closingTime(low - extent - pad, speed, change);
+  // A slab that doesn't turn, as for what turns on a table.
+  if (part.solid.bounded() && v.turn() > 0) {
+    time =
+        std::max(time, v.solidSlabTime(n, support, part.center, part.solid.reach(), corners, pad));
+  }
+  return std::min(duration, time);
 }
 
 double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {

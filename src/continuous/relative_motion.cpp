@@ -39,7 +39,7 @@ bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double 
   const double length = between.lpNorm<1>() + duration * velocity.lpNorm<1>();
   const double reach =
       a.radius + b.radius + 0.5 * duration * duration * (a.acceleration + b.acceleration) + pad_;
-  const double least = reach + 0x1p-48 * (length + reach);
+  const double least = reach + rounding(duration) * (length + reach);
   return (between + s * velocity).squaredNorm() > least * least;
 }
 
@@ -62,7 +62,7 @@ bool RelativeVelocities::anyApart(const MovingBall& ball, const FourBalls& four,
                          duration * (velocity[0].abs() + velocity[1].abs() + velocity[2].abs());
   const Array4d reach = four.radius + (ball.radius + pad_) +
                         0.5 * duration * duration * (four.acceleration + ball.acceleration);
-  const Array4d least = reach + 0x1p-48 * (length + reach);
+  const Array4d least = reach + rounding(duration) * (length + reach);
   const Array4d nearest = (between[0] + s * velocity[0]).square() +
                           (between[1] + s * velocity[1]).square() +
                           (between[2] + s * velocity[2]).square();
@@ -122,9 +122,13 @@ RelativeVelocities::Drift RelativeVelocities::driftFromA(const Vector3d& center,
   Drift drift;
   drift.most = origins_speed_ + b_.turnSpeed(center, radius) + a_.turnSpeed(center, around);
   if (n) {
+    // n turns with A, and so gets out of the directions in which it is spared.
+    const bool turns = a_.angular_speed > 0;
     drift.speed = spin - n->dot(velocity);
-    drift.change = b_.accelerationAlong(*n, center, radius) +
-                   a_.accelerationAlong(*n, center, around) + 2 * a_.turnOf(*n) * drift.most;
+    drift.change = 2 * a_.turnOf(*n) * drift.most;
+    drift.change +=
+        turns ? b_.acceleration(center, radius) + a_.acceleration(center, around)
+              : b_.accelerationAlong(*n, center, radius) + a_.accelerationAlong(*n, center, around);
   } else {
     drift.speed = spin + velocity.norm();
     drift.change = b_.acceleration(center, radius) + a_.acceleration(center, around) +

@@ -61,11 +61,22 @@ class RelativeVelocities {
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const { return a_.at(x) - b_.at(x); }
 
   double pad() const { return pad_; }
-  /// Bound of the angular speed of A.
-  double turnOfA() const { return a_.angular_speed; }
+  /// Bound of the sum of both angular speeds.
+  double turn() const { return a_.angular_speed + b_.angular_speed; }
+  /// As above for a solid of A within `reach` of `center`: support(m) is the largest m . x in it.
+  /// `pad` is taken off the gap.
+  template <typename Support, typename Vertices>
+  double solidSlabTime(const Eigen::Vector3d& n, const Support& support,
+                       const Eigen::Vector3d& center, double reach, const Vertices& b,
+                       double pad) const;
+
   const RelativePose<double>& pose() const { return X_AB_; }
 
  private:
+  /// Rounding per length of what concerns the centres of balls, which may be farther off than the
+  /// bodies reach: 32 u of positions, and of velocities times the duration.
+  double rounding(double duration) const { return 0x1p-48 * (1 + duration * turn()); }
+
   fcl::Transform3d X_WA_, X_WB_;
   RelativePose<double> X_AB_;
   VelocityField a_, b_;
@@ -108,6 +119,22 @@ double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a
   }
   return closingTime(low_b - high_a - pad_, n.dot(a_.linear - b_.linear) + (speed_a - speed_b),
                      acceleration_a + acceleration_b);
+}
+
+template <typename Support, typename Vertices>
+double RelativeVelocities::solidSlabTime(const Eigen::Vector3d& n, const Support& support,
+                                         const Eigen::Vector3d& center, double reach,
+                                         const Vertices& b, double pad) const {
+  const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
+  double low_b = std::numeric_limits<double>::infinity(), speed_b = low_b, acceleration_b = 0;
+  for (const Eigen::Vector3d& x : b) {
+    low_b = std::min(low_b, n.dot(x));
+    speed_b = std::min(speed_b, turn_b.dot(x - b_.origin));
+    acceleration_b = std::max(acceleration_b, b_.accelerationAlong(n, x, 0));
+  }
+  const double speed_a = support(turn_a) - turn_a.dot(a_.origin);
+  return closingTime(low_b - support(n) - pad, n.dot(a_.linear - b_.linear) + (speed_a - speed_b),
+                     a_.accelerationAlong(n, center, reach) + acceleration_b);
 }
 
 }  // namespace kios::continuous

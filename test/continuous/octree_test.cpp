@@ -74,7 +74,7 @@ TEST(OctreeContact, RandomMotionsAgreeWithDenseSampling) {
   int hits = 0, queries = 0;
   ContinuousCounts counts;
   for (auto type : kMotionTypes) {
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < 60; ++i) {
       const auto motion = [&]() -> Motion {
         const auto pose = [&] {
           const Vector3d p = point(3);

@@ -126,7 +126,7 @@ TEST(ShapeContact, RandomMotionsAgreeWithDenseSampling) {
   ContinuousCounts counts;
   for (const auto& [name, solid] : shapes()) {
     for (auto type : kMotionTypes) {
-      for (int i = 0; i < 6; ++i) {
+      for (int i = 0; i < 45; ++i) {
         SCOPED_TRACE(name + " " + std::to_string(type) + " " + std::to_string(i));
         const Geometry& mesh = meshes[i % 3];
         const Motion a = motion(type), b = motion(type);
@@ -156,7 +156,7 @@ TEST(ShapeContact, RandomMotionsAgreeWithDenseSampling) {
         fcl::DistanceResultd distance;
         fcl::distance(mesh.get(), poseAt(*a, toc), solid.get(), poseAt(*b, toc),
                       fcl::DistanceRequestd(), distance);
-        EXPECT_LE(distance.min_distance, 1e-8);
+        EXPECT_LE(distance.min_distance, 1e-2 * toc_err);
       }
     }
   }
