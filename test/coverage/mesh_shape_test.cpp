@@ -59,9 +59,12 @@ void checkShape(const std::string& name, const ShapeCase<typename BV::S>& shape,
   const scenes::Mesh mesh = rounded<S>(given);
   const auto model = scenes::buildModel<BV>(mesh);
   const double margin = 1e-6 + tolerance<S>(8);  // of iterative solvers, and of our oracle
+  bool any_hit = false, any_miss = false;
   for (Frame frame : testing::randomFrames(12, 0.9, seed)) {
     frame = {rounded<S>(frame.X_WA), rounded<S>(frame.X_WB)};
     const Truth truth = truthOf(mesh, frame, shape.distance, margin);
+    any_hit = any_hit || !truth.surely.empty();
+    any_miss = any_miss || truth.possibly.empty();
     for (const bool mesh_first : {true, false}) {
       for (const auto solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
         const fcl::CollisionGeometry<S>*g1 = model.get(), *g2 = shape.geometry.get();
@@ -116,6 +119,7 @@ void checkShape(const std::string& name, const ShapeCase<typename BV::S>& shape,
       }
     }
   }
+  EXPECT_TRUE(any_hit && any_miss) << name;
 }
 
 template <typename BV>
