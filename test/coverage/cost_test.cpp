@@ -4,6 +4,8 @@
 // Cost sources of a mesh and each shape: FCL.md 3, 10 and 23. Contacts need both occupied, sources
 // neither free; sources lie where mesh and shape do, in the world.
 
+#include <gtest/gtest.h>
+
 #include "coverage/shape_distance.h"
 #include "fcl/mesh_cases.h"
 

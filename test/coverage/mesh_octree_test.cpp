@@ -69,6 +69,7 @@ TYPED_TEST(MeshOctree, BruteForce) {
   const std::vector<Cell> cells = cellsOf(*tree);
   const fcl::OcTree<S> octree(tree);
   const double margin = 1e-6 + tolerance<S>(8);
+  bool any_hit = false, any_miss = false;
   for (Frame frame : testing::randomFrames(30, 1.8, 502)) {
     frame = {rounded<S>(frame.X_WA), rounded<S>(frame.X_WB)};
     const fcl::Transform3d X = frame.X_WB.inverse(Eigen::Isometry) * frame.X_WA;
@@ -88,6 +89,8 @@ TYPED_TEST(MeshOctree, BruteForce) {
         }
       }
     }
+    any_hit = any_hit || !surely.empty();
+    any_miss = any_miss || possibly.empty();
     for (const bool mesh_first : {true, false}) {
       const fcl::CollisionGeometry<S>*g1 = model.get(), *g2 = &octree;
       fcl::Transform3<S> X1 = frame.X_WA.cast<S>(), X2 = frame.X_WB.cast<S>();
@@ -118,6 +121,7 @@ TYPED_TEST(MeshOctree, BruteForce) {
           std::to_string(d) + " for " + std::to_string(exact));
     }
   }
+  EXPECT_TRUE(any_hit && any_miss);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 //
 // Models that can't be queried, at every entry point: one clear error each, no crash, no answer.
 
+#include <gtest/gtest.h>
+
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/math/motion/translation_motion.h>
 #include <fcl/narrowphase/detail/gjk_solver_indep.h>

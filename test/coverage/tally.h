@@ -85,8 +85,7 @@ void check(const std::string& row, bool right, const std::string& note = "") {
   if (kOurs<BV> && tally.wrong <= 5) {
     ADD_FAILURE() << row << " over " << kName<BV> << ": " << note;
   } else if (kOurs<BV>) {
-    ::testing::Test::RecordProperty("more_wrong", static_cast<int>(tally.wrong));
-    FAIL();
+    ADD_FAILURE();
   }
 }
 
@@ -97,7 +96,7 @@ inline void expectSeen(const std::string& row) {
   EXPECT_GT(tally.wrong, 0) << row << ": is FCL mended?";
 }
 
-/// Forces the volumes in one order: ours, in float, and what FCL recommends.
+/// Ours, ours in float, and what FCL recommends.
 using Volumes = ::testing::Types<kIOSd, kIOSf, fcl::OBBRSSd>;
 using DoubleVolumes = ::testing::Types<kIOSd, fcl::OBBRSSd>;
 

@@ -4,6 +4,8 @@
 // One model shared by eight threads that do everything const with it: what they get is what one
 // thread gets.
 
+#include <gtest/gtest.h>
+
 #include <atomic>
 #include <thread>
 
