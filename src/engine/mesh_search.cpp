@@ -122,7 +122,7 @@ class NearestJudge final : public Judge {
   void offer(float upper_bound) override {
     if (!(upper_bound < keep_to)) return;
     keep_to = upper_bound;
-    prune_at = std::min(prune_at, upToFloat(enough(upper_bound)));
+    prune_at = std::min(prune_at, offers_stand ? upToFloat(enough(upper_bound)) : upper_bound);
   }
 
   /// Triangles to begin with, their distance known. True to end the search.
@@ -137,6 +137,8 @@ class NearestJudge final : public Judge {
   TriangleDistance<S> certified() const {
     return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
   }
+
+  bool offers_stand = false;  ///< whether the search keeps what it offers, so that errors apply
 
  private:
   /// Extents of edges are at most four times the scale.
@@ -231,11 +233,11 @@ TrianglePairIds nearestTriangles(const PreparedPair<S>& pair, const DistanceBoun
   Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit};
   Bracket bracket;
   search.bracket = &bracket;
-  if (bounds.rel_err == 0 && bounds.abs_err == 0) {
-    kernels().distance(search);
-  } else {
-    kernels().bracket(search);
-  }
+  BracketQuery<S> query;
+  query.rel_err = double{bounds.rel_err};
+  query.abs_err = double{bounds.abs_err};
+  judge.offers_stand = !query.isNearlyExact();
+  (query.isNearlyExact() ? kernels().distance : kernels().bracket)(search);
   if (judge.ids().a < 0) return {};
   nearest = judge.certified();
   return nearest.distance < bounds.at_most ? judge.ids() : TrianglePairIds();
@@ -248,7 +250,8 @@ BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
-  const bool exact = query.isExact() && !query.endsEarly();
+  const bool exact = query.isNearlyExact() && !query.endsEarly();
+  judge.offers_stand = !exact;
   bool offered = false, done = false;
   if (exists(query.start, pair)) {
     const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};

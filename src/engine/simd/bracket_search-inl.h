@@ -176,7 +176,8 @@ class BracketSearch {
     const bool done =
         nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
     if (search_.judge.keep_to < known) offered_ = false;
-    if (!done) current_ = kInfinity;
+    // What of them was not judged is not nearer than either.
+    if (!done) current_ = std::max(bound, search_.judge.prune_at);
     lowerTo(search_.judge.prune_at);
     return done;
   }

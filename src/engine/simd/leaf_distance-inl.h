@@ -112,7 +112,10 @@ class LeafDistances {
   /// Judges everything that may be within judge.keep_to, the nearest by float first.
   bool judgeNear(float least, float pad, Judge& judge, long long& exact) const {
     if (!(least <= squaredLimit(judge, pad))) return false;
-    return judgeRows(least, true, pad, judge, exact) || judgeRows(least, false, pad, judge, exact);
+    if (judgeRows(least, true, pad, judge, exact)) return true;
+    // Where an error is allowed the others need not be told from the nearest.
+    if (std::sqrt(std::max(least, 0.0F)) - pad >= judge.prune_at) return false;
+    return judgeRows(least, false, pad, judge, exact);
   }
 
  private:
