@@ -24,7 +24,13 @@ class KiosScene final : public SceneCompetitor {
   void load(const scenes::BodyScene& scene) override {
     bodies_.load(scene);
     for (int body = 0; body < scene.size(); ++body) {
-      query_.add(bodies_.objects[body].get(), scene.obstacle[body] ? Role::kObstacle : Role::kBody);
+      const auto* const object = bodies_.objects[body].get();
+      const Role role = scene.obstacle[body] ? Role::kObstacle : Role::kBody;
+      if (body < scene.moving()) {
+        query_.add(object, role);
+      } else {
+        query_.add(object->collisionGeometry(), object->getTransform(), role);
+      }
     }
     for (const auto& [a, b] : scene.excluded) query_.exclude(a, b);
   }
@@ -38,8 +44,10 @@ class KiosScene final : public SceneCompetitor {
     };
     if (query == SceneQuery::kClosest) {
       if (const auto closest = query_.closestPair()) add(*closest);
-    } else if (query == SceneQuery::kWithin) {
-      for (const auto& pair : query_.pairsWithin(margin)) add(pair);
+    } else if (query != SceneQuery::kClearances) {
+      SceneRequest request;
+      request.exact = query == SceneQuery::kWithin;
+      for (const auto& pair : query_.pairsWithin(margin, request)) add(pair);
     } else {
       for (const auto& pair : query_.clearances()) add(pair);
     }

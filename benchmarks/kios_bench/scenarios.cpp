@@ -22,8 +22,9 @@ const std::vector<Scenario>& scenarios() {
       {"robots", "two arms side by side, all pairs of links: UR5 (data) and generated 7-link arms",
        runRobots},
       {"robot_scenes",
-       "two arms, UR5s or humanoids, self-distance too: closest pair, pairs within 0.1, all pairs; "
-       "smooth and random motion",
+       "scene queries of two arms, UR5s (data) or humanoids, self-distance too: closest pair, "
+       "pairs "
+       "within 0.1, clearances; smooth and random motion",
        runRobotScenes},
       {"scene", "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles",
        runScene},

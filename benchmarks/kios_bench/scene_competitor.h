@@ -13,9 +13,9 @@
 
 namespace kios::bench {
 
-/// The nearest admissible pair; all that are nearer than a margin, with their distances; the
-/// distance of each.
-enum class SceneQuery { kClosest, kWithin, kClearances };
+/// The nearest admissible pair; all that are nearer than a margin, with their distances; just which
+/// these are; the distance of each.
+enum class SceneQuery { kClosest, kWithin, kVerdicts, kClearances };
 
 struct SceneAnswer {
   int a, b;

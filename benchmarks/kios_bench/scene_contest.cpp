@@ -61,7 +61,7 @@ void compare(const SceneTask& task, const std::vector<SceneAnswer>& answers,
   for (const auto& [ids, truth] : true_ones) {
     const auto it = found.find(ids);
     if (it != found.end()) {
-      errors.compare(it->second, truth, tolerance);
+      if (task.query != SceneQuery::kVerdicts) errors.compare(it->second, truth, tolerance);
     } else if (std::abs(truth - task.margin) > tolerance) {
       ++errors.wrong;
     }
@@ -146,7 +146,9 @@ std::vector<Row> SceneContest::rows(const SceneTask& task) {
     row.triangles = triangles_;
     row.frames = lane.frames;
     row.rel_err = row.abs_err = 0;
-    if (task.query == SceneQuery::kWithin) row.threshold = task.margin;
+    if (task.query == SceneQuery::kWithin || task.query == SceneQuery::kVerdicts) {
+      row.threshold = task.margin;
+    }
     std::vector<double> per_frame;
     for (const auto& us : lane.us) {
       double sum = 0;

@@ -81,7 +81,7 @@ class ScenePairs final : public SceneCompetitor {
     const fcl::DistanceRequestd request;
     for (const auto& [a, b] : pairs_) {
       fcl::DistanceResultd result;
-      if (bounded_) result.min_distance = query == SceneQuery::kWithin ? margin : closest.distance;
+      if (bounded_) result.min_distance = query == SceneQuery::kClosest ? closest.distance : margin;
       Distance::ask(bodies_.objects[a].get(), bodies_.objects[b].get(), request, result);
       const double distance = result.min_distance;
       if (query == SceneQuery::kClosest) {

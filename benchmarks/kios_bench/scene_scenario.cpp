@@ -19,9 +19,10 @@ SceneEntrant entrant(std::unique_ptr<SceneCompetitor> competitor, int stride = 1
 void reportQueries(const std::string& scenario, SceneContest& contest,
                    const std::vector<SceneQuery>& queries, Report& report) {
   for (const SceneQuery query : queries) {
-    const char* const kind = query == SceneQuery::kClosest  ? "closest"
-                             : query == SceneQuery::kWithin ? "within"
-                                                            : "clearances";
+    const char* const kind = query == SceneQuery::kClosest    ? "closest"
+                             : query == SceneQuery::kWithin   ? "within"
+                             : query == SceneQuery::kVerdicts ? "verdicts"
+                                                              : "clearances";
     report.add(contest.rows({scenario + "/" + kind, query, kMargin}));
   }
 }
@@ -41,8 +42,10 @@ void reportRobots(const std::string& scenario, const scenes::Robot& robot,
     entrants.push_back(entrant(makeFclBoundedPairs(), stride));
     entrants.push_back(entrant(makeFclManager(), stride));
     SceneContest contest(scene, std::move(entrants), options);
-    reportQueries(scenario + (smooth ? "/smooth" : "/random"), contest,
-                  {SceneQuery::kClosest, SceneQuery::kWithin, SceneQuery::kClearances}, report);
+    reportQueries(
+        scenario + (smooth ? "/smooth" : "/random"), contest,
+        {SceneQuery::kClosest, SceneQuery::kWithin, SceneQuery::kVerdicts, SceneQuery::kClearances},
+        report);
   }
 }
 

@@ -166,13 +166,13 @@ void renew(Body<S>& body) {
   measure(body);
 }
 
-#define KIOS_INSTANTIATE(S)                                                       \
-  template void place(Body<S>&, std::shared_ptr<const fcl::CollisionGeometry<S>>, \
-                      const fcl::Transform3<S>&);                                 \
-  template void move(Body<S>&, const fcl::Transform3<S>&);                        \
-  template void renew(Body<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template void place(Body<double>&, std::shared_ptr<const fcl::CollisionGeometry<double>>,
+                    const fcl::Transform3<double>&);
+template void move(Body<double>&, const fcl::Transform3<double>&);
+template void renew(Body<double>&);
+template void place(Body<float>&, std::shared_ptr<const fcl::CollisionGeometry<float>>,
+                    const fcl::Transform3<float>&);
+template void move(Body<float>&, const fcl::Transform3<float>&);
+template void renew(Body<float>&);
 
 }  // namespace kios::scene

@@ -20,26 +20,28 @@ namespace kios::scene {
 /// An object of a scene as the last query found it.
 template <typename S>
 struct Body {
-  std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
-  const Model<S>* model = nullptr;                    ///< the geometry if it is a mesh over k-IOS
-  const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set
-  Role role = Role::kBody;
+  // First what every query looks at in every body.
 
-  fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
-  double rotation_error = 0;  ///< >= |R^T R - I|_2
   /// Unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
   /// object.
   std::uint64_t state = 0;
+  /// What every point of the content has moved so far in this state, at most; grows with each move.
+  double path = 0;
+  double rotation_error = 0;  ///< >= |R^T R - I|_2
+  /// In the world, around the content, so wide that the gap of two bodies' boxes, less a share
+  /// boxShare() of it, is at most the distance that the narrow phase would compute.
+  Box box;
+  const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set
+  Role role = Role::kBody;
+
+  std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
+  const Model<S>* model = nullptr;  ///< the geometry if it is a mesh over k-IOS
+  fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
   Sphere sphere;     ///< around the content, infinite for planes and the like
   double reach = 0;  ///< the sphere's
   /// More spheres around the content: the caps of its k-IOS.
   std::array<Sphere, kIOS<S>::kCaps> caps;
   int num_caps = 0;
-  /// What every point of the content has moved so far in this state, at most; grows with each move.
-  double path = 0;
-  /// In the world, around the content, so wide that the gap of two bodies' boxes, less a share
-  /// boxShare() of it, is at most the distance that the narrow phase would compute.
-  Box box;
 
   bool used() const { return state != 0; }
 };

@@ -27,7 +27,7 @@ void NearList<S>::follow(const std::vector<Body<S>>& bodies) {
 
 template <typename S>
 double NearList<S>::startFor(double limit, const std::vector<Body<S>>& bodies) {
-  constexpr double kMostQueries = 8, kLeastQueries = 2, kLimitShare = 0.125, kSizeShare = 0.5;
+  constexpr double kMostQueries = 16, kLeastQueries = 2, kLimitShare = 0.125, kSizeShare = 1;
   valid_ = false;
   if (resting_ > 0) return limit;
   const double per_query = 2 * moved_ / static_cast<double>(std::max(1LL, age_));

@@ -78,8 +78,8 @@ void SceneDistance<S>::exclude(int a, int b, bool excluded) {
 }
 
 template <typename S>
-void SceneDistance<S>::setFilter(Filter filter) {
-  impl_->filter = std::move(filter);
+void SceneDistance<S>::setFilter(const Filter& filter) {
+  impl_->filter = filter;
 }
 
 template <typename S>

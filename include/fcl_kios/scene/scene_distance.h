@@ -59,7 +59,7 @@ class SceneDistance {
   /// Excludes a pair, or admits it again. Forgotten when one of the two is removed.
   void exclude(int a, int b, bool excluded = true);
   /// Replaces the filter; an empty one admits all.
-  void setFilter(Filter filter);
+  void setFilter(const Filter& filter);
 
   /// The nearest admissible pair; none if there is no admissible pair.
   std::optional<ScenePair<S>> closestPair(const SceneRequest& request = {});
