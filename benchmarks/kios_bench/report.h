@@ -28,6 +28,10 @@ struct Row {
   std::optional<double> ratio_to_fcl_obbrss;  // above 1: faster than FCL's OBBRSS
   std::optional<double> max_abs_error;        // against the oracle
   std::optional<double> max_rel_error;
+  std::optional<double> mean_abs_error;
+  std::optional<double> mean_rel_error;  // over frames without contact
+  std::optional<double> bracket_width;   // mean of distance - proven lower bound
+  std::optional<double> budget;          // expansions that a query may make
   std::optional<std::size_t> wrong_verdicts;
   std::optional<double> bv_tests;  // per frame
   std::optional<double> leaf_tests;

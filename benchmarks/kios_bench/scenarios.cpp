@@ -32,6 +32,10 @@ const std::vector<Scenario>& scenarios() {
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
        runScaling},
+      {"error",
+       "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
+       "with their error members set",
+       runError},
       {"stability", "triangle distance and intersection over hard classes of pairs, and FCL's",
        runStability},
   };

@@ -38,6 +38,8 @@
 //
 #include "engine/simd/leaf_distance-inl.h"
 //
+#include "engine/simd/leaf_bracket-inl.h"
+//
 #include "engine/simd/bracket_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();

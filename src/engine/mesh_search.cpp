@@ -23,6 +23,9 @@ float downToFloat(double v) {
 }
 
 template <typename S>
+constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+
+template <typename S>
 bool exists(const TrianglePairIds& ids, const PreparedPair<S>& pair) {
   return ids.a >= 0 && static_cast<std::size_t>(ids.a) < pair.a.mesh.num_triangles && ids.b >= 0 &&
          static_cast<std::size_t>(ids.b) < pair.b.mesh.num_triangles;
@@ -73,7 +76,10 @@ template <typename S>
 class NearestJudge final : public Judge {
  public:
   NearestJudge(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds)
-      : corners_(pair), rel_err_(bounds.rel_err), abs_err_(bounds.abs_err) {
+      : corners_(pair),
+        rel_err_(bounds.rel_err),
+        abs_err_(bounds.abs_err),
+        least_shared_(leastShared(pair)) {
     best_ = bounds.at_most;
     if (bounds.at_most < std::numeric_limits<S>::max()) lowerTo(bounds.at_most);
   }
@@ -82,7 +88,9 @@ class NearestJudge final : public Judge {
         rel_err_(query.rel_err),
         abs_err_(query.abs_err),
         near_enough_(query.near_enough),
-        best_(std::numeric_limits<double>::infinity()) {
+        by_faces_(query.hasBudget()),
+        best_(std::numeric_limits<double>::infinity()),
+        least_shared_(leastShared(pair)) {
     prune_at = keep_to = upToFloat(query.far_enough);
   }
 
@@ -93,17 +101,18 @@ class NearestJudge final : public Judge {
       take(0, idsOf(c));
       return true;
     }
+    if (c.kind == PairKind::kFaces) return judgeFaces(idsOf(c));
     const FeatureDistance found = distanceOf(c);
     double distance = found.distance;
     // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.
-    constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-    if (distance <= 64 * kUlp * found.extent) {
+    if (distance <= 64 * kUlp<S> * found.extent) {
       distance = double{corners_.distanceOf(idsOf(c)).distance};
     }
     least_ = std::min(least_, distance);
     const TrianglePairIds ids = idsOf(c);
+    if (by_faces_) return distance < best_ && judgeFaces(ids);
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
-      if (distance < best_ + 64 * kUlp * found.extent) take(distance, ids);
+      if (distance < best_ + 64 * kUlp<S> * found.extent) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
       take(distance, ids);
     }
@@ -113,7 +122,7 @@ class NearestJudge final : public Judge {
   void offer(float upper_bound) override {
     if (!(upper_bound < keep_to)) return;
     keep_to = upper_bound;
-    prune_at = std::min(prune_at, upToFloat(enough(upper_bound)));
+    prune_at = std::min(prune_at, offers_stand ? upToFloat(enough(upper_bound)) : upper_bound);
   }
 
   /// Triangles to begin with, their distance known. True to end the search.
@@ -125,14 +134,24 @@ class NearestJudge final : public Judge {
 
   TrianglePairIds ids() const { return ids_; }
   double least() const { return least_; }  ///< of all that was judged
-  TriangleDistance<S> certified() const { return corners_.distanceOf(ids_); }
+  TriangleDistance<S> certified() const {
+    return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
+  }
+
+  bool offers_stand = false;  ///< whether the search keeps what it offers, so that errors apply
 
  private:
+  /// Extents of edges are at most four times the scale.
+  static double leastShared(const PreparedPair<S>& pair) {
+    return 64 * kUlp<S> * 4 * double{pair.frames.scale};
+  }
+
   FeatureDistance distanceOf(const Candidate& c) {
     if (c.kind == PairKind::kEdgeEdge) {
       const Eigen::Vector3d p0 = corners_.ofA(c.a), p1 = corners_.ofA(c.a, 1);
       const Eigen::Vector3d q0 = corners_.ofB(c.b), q1 = corners_.ofB(c.b, 1);
-      if (ends_.distance > 0 && nearestAt(ends_, p0, p1, q0, q1)) return {ends_.distance, 0};
+      if (ends_.distance > least_shared_ && nearestAt(ends_, p0, p1, q0, q1))
+        return {ends_.distance, 0};
       return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
@@ -141,6 +160,16 @@ class NearestJudge final : public Judge {
     }
     return faceDistance(corners_.ofB(c.b),
                         {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
+  }
+
+  /// Triangles as a whole: they may be nearer than the features that named them.
+  bool judgeFaces(const TrianglePairIds& ids) {
+    faces_ = ids;
+    of_faces_ = corners_.distanceOf(ids);
+    const double distance = double{of_faces_.distance};
+    least_ = std::min(least_, distance);
+    if (distance < best_) take(distance, ids);
+    return distance <= near_enough_;
   }
 
   void take(double distance, const TrianglePairIds& ids) {
@@ -163,10 +192,13 @@ class NearestJudge final : public Judge {
   const Corners<S> corners_;
   const double rel_err_, abs_err_;
   const double near_enough_ = 0;
-  double best_;  ///< of ids_, or what was asked for
+  const bool by_faces_ = false;  ///< whether what was found must not get worse by going on
+  double best_;                  ///< of ids_, or what was asked for
   double least_ = std::numeric_limits<double>::infinity();
-  TrianglePairIds ids_;
+  TrianglePairIds ids_, faces_;  ///< the nearest; those judged as faces
+  TriangleDistance<S> of_faces_;
   NearestEnds ends_;
+  const double least_shared_;  ///< nearer edges need their own extent; see judge()
 };
 
 template <typename S>
@@ -201,11 +233,11 @@ TrianglePairIds nearestTriangles(const PreparedPair<S>& pair, const DistanceBoun
   Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit};
   Bracket bracket;
   search.bracket = &bracket;
-  if (bounds.rel_err == 0 && bounds.abs_err == 0) {
-    kernels().distance(search);
-  } else {
-    kernels().bracket(search);
-  }
+  BracketQuery<S> query;
+  query.rel_err = double{bounds.rel_err};
+  query.abs_err = double{bounds.abs_err};
+  judge.offers_stand = !query.isNearlyExact();
+  (query.isNearlyExact() ? kernels().distance : kernels().bracket)(search);
   if (judge.ids().a < 0) return {};
   nearest = judge.certified();
   return nearest.distance < bounds.at_most ? judge.ids() : TrianglePairIds();
@@ -218,15 +250,16 @@ BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
-  const bool exact = query.isExact() && !query.endsEarly();
+  const bool exact = query.isNearlyExact() && !query.endsEarly();
+  judge.offers_stand = !exact;
   bool offered = false, done = false;
   if (exists(query.start, pair)) {
     const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};
-    if (!exact) {
+    const bool near = query.near_enough > 0 && distance <= query.near_enough;
+    if (!query.isExact() || query.hasBudget() || near) {
       done = judge.start(query.start, distance);
     } else if (distance > 0) {
-      constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-      judge.offer(upToFloat(distance + 256 * kUlp * pair.frames.scale));
+      judge.offer(upToFloat(distance + 256 * kUlp<S> * pair.frames.scale));
       offered = true;
     }
   }

@@ -42,6 +42,7 @@ struct TrianglePairIds {
   int a = -1, b = -1;
 
   bool operator<(const TrianglePairIds& o) const { return a != o.a ? a < o.a : b < o.b; }
+  bool operator==(const TrianglePairIds& o) const { return a == o.a && b == o.b; }
 };
 
 /// The nearest triangles: d - d_exact <= max(rel_err * d_exact, abs_err), and 16 eps L where both
@@ -61,14 +62,15 @@ struct BracketQuery {
   TrianglePairIds start;  ///< triangles to begin with, if any; exact answers don't depend on them
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
-  bool endsEarly() const {
-    return near_enough > 0 || max_expansions != std::numeric_limits<long long>::max();
-  }
+  /// The search of exact answers is then as fast as that of brackets.
+  bool isNearlyExact() const { return rel_err <= 0.01 && abs_err == 0; }
+  bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
+  bool endsEarly() const { return near_enough > 0 || hasBudget(); }
 };
 
 template <typename S>
 struct BracketResult {
-  TrianglePairIds ids;          ///< the nearest that were found, if any were looked at
+  TrianglePairIds ids;               ///< the nearest that were found, if any were looked at
   TriangleDistance<S> nearest = {};  ///< of ids
   /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
   double least_evaluated = std::numeric_limits<double>::infinity();

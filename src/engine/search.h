@@ -33,8 +33,8 @@ class Judge {
  public:
   /// Evaluates a candidate, which may lower the bounds below. Returns true to end the search.
   virtual bool judge(const Candidate& candidate) = 0;
-  /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is nearer
-  /// than keep_to.
+  /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is
+  /// nearer than keep_to.
   virtual void offer(float upper_bound) = 0;
 
   float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far

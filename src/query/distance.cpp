@@ -112,7 +112,7 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
     answer.stop = DistanceStop::kFar;
     return answer;
   }
-  if (query.far_enough < kInfinity || query.max_expansions == 0) {
+  if (query.far_enough < kInfinity || query.hasBudget()) {
     const double enough = std::min(query.far_enough, 0x1p1000);
     const double roots = separation(models.root1(), models.root2(), models.X_12, enough);
     answer.lower_bound = roundDown<S>(std::max(0.0, roots));

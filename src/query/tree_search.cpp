@@ -27,9 +27,10 @@ class TreeSearch {
         prune_at_(query.far_enough) {}
 
   engine::BracketResult<S> run() {
-    bool done = begin();
+    if (begin()) return result_;
+    bool done = false;
     long long left = query_.max_expansions;
-    if (!done) push(0, 0, -kInfinity);
+    push(0, 0, -kInfinity);
     while (!done && !waiting_.empty() && waiting_.front().bound < prune_at_) {
       const Pair at = waiting_.front();
       const auto &node1 = model1_.getBV(at.node1), &node2 = model2_.getBV(at.node2);
@@ -81,8 +82,9 @@ class TreeSearch {
   bool begin() {
     const auto [id1, id2] = query_.start;
     if (!exists(query_.start)) return false;
-    if (!query_.isExact() || query_.endsEarly()) return evaluate(id1, id2);
     const double distance = double{distanceOf(id1, id2).distance};
+    const bool near = query_.near_enough > 0 && distance <= query_.near_enough;
+    if (!query_.isExact() || query_.hasBudget() || near) return evaluate(id1, id2);
     offered_ = distance > 0;
     if (offered_) prune_at_ = std::min(prune_at_, distance + rounding_);
     return false;
