@@ -37,7 +37,7 @@ struct Robot {
 Robot robotOf(const Arm& arm);
 
 /// Humanoid of 19 links, 1.8 high: pelvis, chest and head, two arms and two legs of 4 links each;
-/// 1.0k to 4.7k triangles a link.
+/// 1.2k to 3.0k triangles a link.
 Robot humanoid();
 
 /// Poses of the meshes with the base at X_WB and the joints at `angles`.

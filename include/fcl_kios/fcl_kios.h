@@ -25,6 +25,8 @@
 #include "fcl_kios/fit/fit.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/distance.h"
+#include "fcl_kios/scene/manager_query.h"
+#include "fcl_kios/scene/scene_distance.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "fcl_kios/version.h"
