@@ -15,9 +15,10 @@ namespace {
 constexpr double kOn = 8 * kUlpDouble;
 /// Vertices found to lie farther outside belong to no corner of the body.
 constexpr double kNotOn = 1e-9;
-/// A lens that is thinner than its radii are exact is taken as a disc of this radius: spheres that
-/// touch from outside pass it at 2^-53. Without it normals at the rim couldn't add up.
-constexpr double kLeastRim = 0x1p-26;
+/// A lens that is thinner than its radii are exact is taken as a disc of this radius, which passes
+/// for a part of the spheres: it lies 2^-49 outside. Normals at the rim of a point couldn't add up;
+/// the bound loses half a rim by it, and 2^-50 over the rim by rounding.
+constexpr double kLeastRim = 0x1p-24;
 
 }  // namespace
 

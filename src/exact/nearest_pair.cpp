@@ -51,6 +51,7 @@ class Pair {
   Slab widest(Slab slab);
   Slab search(Slab slab, NearestPair& result);
   bool inBoth(const Vector3d& p) const;
+  double converged() const { return 4 * kUlpDouble * size_; }
   Vector3d farthestSpheres() const;
   double provenHeight(const Slab& slab) const;
 
@@ -148,34 +149,36 @@ double Pair::provenHeight(const Slab& s) const {
 
 /// Whether p is in both bodies, but for rounding.
 bool Pair::inBoth(const Vector3d& p) const {
-  const double rounding = 4 * kUlpDouble * size_;
-  return unit_a_ * a_.violation(p / unit_a_) <= rounding &&
-         unit_b_ * b_.violation(R_.transpose() * (p - offset_) / unit_b_) <= rounding;
+  return unit_a_ * a_.violation(p / unit_a_) <= converged() &&
+         unit_b_ * b_.violation(R_.transpose() * (p - offset_) / unit_b_) <= converged();
 }
 
-/// A slab with h > 0, or a common point (in result).
-// The algorithm of Gilbert, Johnson and Keerthi decides, as it does for any convex bodies; where
-// they hardly touch it would take long, but its direction leads Newton's method to the widest slab
-// near, or to the middle of the overlap.
-Pair::Slab Pair::search(Slab slab_found, NearestPair& result) {
-  constexpr int kIterations = 200;
+/// The widest slab and nearest points where Newton's method alone didn't get there: when it knows
+/// no slab to start from, or creeps along the kinks of very uneven volumes.
+// The algorithm of Gilbert, Johnson and Keerthi converges for all convex bodies, if slowly where
+// these are round and close; it gives Newton's method new places to start from, and takes its
+// support points in turn.
+Pair::Slab Pair::search(Slab best, NearestPair& result) {
+  constexpr int kIterations = 100;
   Simplex simplex;
-  Slab best = slab_found;
-  for (int i = 0; i < kIterations && !(best.height > 0); ++i) {
-    simplex.add(best.x, best.y);
+  Slab last = best;
+  for (int i = 0; i < kIterations; ++i) {
+    simplex.add(last.x, last.y);
     const Vector3d v = simplex.q() - simplex.p();
     result.p = simplex.p();
     result.q = simplex.q();
     result.upper = v.norm();
-    if (result.upper <= 4 * kUlpDouble * size_) break;
-    best = slab(v);
-    if (i % 4 != 3 || best.height > 0) continue;
-    const Slab local = widest(best);
-    if (local.height > 0) return local;
-    const Vector3d middle = (local.x + local.y) / 2;
-    if (inBoth(middle)) {
+    if (result.upper - std::max(0.0, best.height) <= converged()) break;
+    last = slab(v);
+    if (i % 4 == 3 || (last.height > 0 && !(best.height > 0))) last = widest(last);
+    if (last.height > best.height) best = last;
+    if (best.height > 0) {
+      if (best.tangential().norm() <= converged()) break;
+    } else if (i % 4 == 3) {
+      const Vector3d middle = (last.x + last.y) / 2;
+      if (!inBoth(middle)) continue;
       result.p = result.q = middle;
-      result.upper = 4 * kUlpDouble * size_;
+      result.upper = converged();
       break;
     }
   }
@@ -185,27 +188,30 @@ Pair::Slab Pair::search(Slab slab_found, NearestPair& result) {
 NearestPair Pair::solve() {
   NearestPair result;
   result.exponent = exponent_;
+  result.upper = std::numeric_limits<double>::infinity();
   Slab best = slab(farthestSpheres());
-  if (!(best.height > 0)) best = search(best, result);
   if (best.height > 0) best = widest(best);
+  if (!(best.height > 0 && best.tangential().norm() <= converged())) best = search(best, result);
   result.probes = probes_;
   result.normal = best.n;
-  if (best.height > 0) {
+  if (!(best.height > 0)) return result;
+  result.lower = provenHeight(best);
+  // Had the spheres that hold x and y grown by what these lie outside of them, x and y would be
+  // feasible; the distance would change by that times the spheres' shares in n.
+  double outside = 0;
+  for (int i = 0; i < best.on_a.active; ++i) {
+    outside += unit_a_ * best.on_a.part[i].norm() * std::max(0.0, best.on_a.violation);
+  }
+  for (int i = 0; i < best.on_b.active; ++i) {
+    outside += unit_b_ * best.on_b.part[i].norm() * std::max(0.0, best.on_b.violation);
+  }
+  const double between = best.between().norm() + outside;
+  if (between < result.upper) {
+    result.upper = between;
     result.p = best.x;
     result.q = best.y;
-    result.q_arm = best.y - offset_;
-    result.lower = provenHeight(best);
-    // Had the spheres that hold p and q grown by what these lie outside of them, p and q would be
-    // feasible; the distance would change by that times the spheres' shares in n.
-    double outside = 0;
-    for (int i = 0; i < best.on_a.active; ++i) {
-      outside += unit_a_ * best.on_a.part[i].norm() * std::max(0.0, best.on_a.violation);
-    }
-    for (int i = 0; i < best.on_b.active; ++i) {
-      outside += unit_b_ * best.on_b.part[i].norm() * std::max(0.0, best.on_b.violation);
-    }
-    result.upper = best.between().norm() + outside;
   }
+  result.q_arm = result.q - offset_;
   return result;
 }
 
