@@ -127,7 +127,7 @@ TEST(ExactDegenerate, LensWithoutThickness) {
       for (const kIOSd* b : {&lens, &crossed}) {
         const ExactDistance exact = exactDistance(*a, *b, X);
         ASSERT_LE(exact.distance, gap) << i;
-        ASSERT_GE(exact.distance, gap - (a == &crossed || b == &crossed ? 1e-4 : 1e-6)) << i;
+        ASSERT_GE(exact.distance, gap - (a == &crossed || b == &crossed ? 1e-3 : 1e-6)) << i;
         ASSERT_LE((exact.q - exact.p).norm(), gap + 1e-6) << i;
         if (a == &lens && b == &lens) {
           ASSERT_LE(exact.error, 1e-6) << i;
@@ -146,8 +146,8 @@ TEST(ExactDegenerate, LensWithoutThickness) {
     const Bracket truth = interiorPointDistance(stored, stored, R.cast<Real>(), T.cast<Real>(),
                                                 Real3::Zero(), Real3::Zero());
     ASSERT_LE(exact.distance, truth.upper) << i;
-    ASSERT_GE(exact.distance, truth.lower - 1e-11L) << i;
-    ASSERT_LE(exact.error, 1e-11) << i;
+    ASSERT_GE(exact.distance, truth.lower - 1e-10L) << i;
+    ASSERT_LE(exact.error, 1e-10) << i;
   }
 }
 

@@ -16,7 +16,7 @@ struct ExactDistance {
   /// The volumes' true distance is within [distance, distance + error]. In double that is 1e-12 of
   /// the pair's size (reaches of the caps and all) plus 32 roundings of its coordinates; in float
   /// those roundings, of 2^-24, are the larger part. 1e-6 where two spheres of a volume touch from
-  /// outside, so that it depends on their radii by a square root; 1e-4 where four do.
+  /// outside, so that it depends on their radii by a square root; 1e-3 where four do.
   double error = 0;
   /// Nearest points of a and of b in frame A, unique while the volumes are apart; when they meet,
   /// a point of each, `error` apart. On the volumes to the same accuracy.
