@@ -6,19 +6,20 @@
 //
 // usage: optimise_trajectory [FILE.csv]
 // Writes path, s, x, y, angle, then clearance and its slope by s: the smooth minimum over k-IOS,
-// the plain minimum, and FCL's RSS around the same meshes. scripts/plot_trajectory.py plots it.
+// the plain minimum, and the minimum over FCL's RSS at the same
+// level of its tree. scripts/plot_trajectory.py plots it.
 #include <fcl_kios/query/clearance.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <vector>
 
+#include "fcl/geometry/bvh/BVH_model.h"
 #include "fcl/math/bv/RSS.h"
-#include "fcl/math/bv/utility.h"
 
 namespace {
 
@@ -62,15 +63,37 @@ Box box(const fcl::Vector3d& size, int n) {
   return mesh;
 }
 
-struct Scene {
-  Scene()
-      : block(box({0.9, 0.9, 0.9}, 6)),
-        rod(box({1.2, 0.2, 0.2}, 6)),
-        block_cover(*kios::makeModel(block.vertices, block.triangles), kLevel),
-        rod_cover(*kios::makeModel(rod.vertices, rod.triangles), kLevel) {
-    fcl::fit(block.vertices.data(), static_cast<int>(block.vertices.size()), block_rss);
-    fcl::fit(rod.vertices.data(), static_cast<int>(rod.vertices.size()), rod_rss);
+/// FCL's counterpart of a cover: the RSS of the nodes at kLevel of its own tree.
+std::vector<fcl::RSSd> rssCover(const Box& mesh) {
+  fcl::BVHModel<fcl::RSSd> model;
+  model.beginModel();
+  model.addSubModel(mesh.vertices, mesh.triangles);
+  model.endModel();
+  std::vector<int> nodes = {0};
+  for (int level = 0; level < kLevel; ++level) {
+    std::vector<int> next;
+    for (const int node : nodes) {
+      const auto& bv = model.getBV(node);
+      if (bv.isLeaf()) {
+        next.push_back(node);
+      } else {
+        next.insert(next.end(), {bv.leftChild(), bv.rightChild()});
+      }
+    }
+    nodes = next;
   }
+  std::vector<fcl::RSSd> cover;
+  for (const int node : nodes) cover.push_back(model.getBV(node).bv);
+  return cover;
+}
+
+struct Scene {
+  Scene() : Scene(box({0.9, 0.9, 0.9}, 6), box({1.2, 0.2, 0.2}, 6)) {}
+  Scene(const Box& block, const Box& rod)
+      : block_cover(*kios::makeModel(block.vertices, block.triangles), kLevel),
+        rod_cover(*kios::makeModel(rod.vertices, rod.triangles), kLevel),
+        block_rss(rssCover(block)),
+        rod_rss(rssCover(rod)) {}
 
   static kios::RelativePose<double> pose(const Point& at) {
     return {fcl::AngleAxisd(at[2], fcl::Vector3d::UnitZ()).toRotationMatrix(), {at[0], at[1], 0}};
@@ -83,12 +106,15 @@ struct Scene {
   }
   double rss(const Point& at) const {
     const auto X = pose(at);
-    return fcl::distance(X.R, X.T, block_rss, rod_rss);
+    double least = HUGE_VAL;
+    for (const fcl::RSSd& a : block_rss) {
+      for (const fcl::RSSd& b : rod_rss) least = std::min(least, fcl::distance(X.R, X.T, a, b));
+    }
+    return least;
   }
 
-  Box block, rod;
   kios::Cover<double> block_cover, rod_cover;
-  fcl::RSSd block_rss, rod_rss;
+  std::vector<fcl::RSSd> block_rss, rod_rss;
 };
 
 Point gradientOf(const kios::Clearance& c) {
@@ -145,13 +171,12 @@ Point at(const Path& path, double s) {
   const int last = static_cast<int>(path.size()) - 1;
   const int i = std::min(last - 1, static_cast<int>(s * last));
   const double t = s * last - i;
-  const auto point = [&](int k) {
-    return path[static_cast<std::size_t>(std::max(0, std::min(last, k)))];
-  };
+  const auto point = [&](int k) -> const Point& { return path[static_cast<std::size_t>(k)]; };
   Point p;
   for (int c = 0; c < 3; ++c) {
     const double p0 = point(i)[c], p1 = point(i + 1)[c];
-    const double m0 = (p1 - point(i - 1)[c]) / 2, m1 = (point(i + 2)[c] - p0) / 2;
+    const double m0 = i == 0 ? p1 - p0 : (p1 - point(i - 1)[c]) / 2;
+    const double m1 = i + 1 == last ? p1 - p0 : (point(i + 2)[c] - p0) / 2;
     p[c] = p0 + t * (m0 + t * (3 * (p1 - p0) - 2 * m0 - m1 + t * (2 * (p0 - p1) + m0 + m1)));
   }
   return p;
