@@ -15,6 +15,8 @@ namespace {
 constexpr double kOn = 8 * kUlpDouble;
 /// Vertices found to lie farther outside belong to no corner of the body.
 constexpr double kNotOn = 1e-9;
+/// The same before a vertex is refined: 2^-53 / 1e-12, the least sine allowed, is far below.
+constexpr double kNowhereNear = 1e-2;
 /// A lens that is thinner than its radii are exact is taken as a disc of this radius, which passes
 /// for a part of the spheres: it lies 2^-49 outside. Normals at the rim of a point couldn't add up;
 /// the bound loses half a rim by it, and 2^-50 over the rim by rounding.
@@ -104,6 +106,7 @@ void BallBody::addVertices(int i, int j, int k) {
 }
 
 void BallBody::addVertex(int i, int j, int k, Vector3d x) {
+  if (violation(x) > kNowhereNear) return;
   Vertex& vertex = vertex_[vertices_];
   vertex.sphere = {i, j, k};
   for (int step = 0; step < 3; ++step) {
@@ -129,8 +132,11 @@ BallBody::Extreme BallBody::support(const Vector3d& v) const {
   Extreme best;
   best.violation = std::numeric_limits<double>::infinity();
   const auto better = [&](const Vector3d& x) {
-    const double outside = violation(x);
-    if (!(outside < best.violation)) return false;
+    double outside = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < spheres_; ++i) {
+      outside = std::max(outside, (x - sphere_[i].c).norm() - sphere_[i].r);
+      if (!(outside < best.violation)) return false;
+    }
     best.violation = outside;
     best.x = x;
     return true;
