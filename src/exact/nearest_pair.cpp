@@ -149,8 +149,11 @@ double Pair::provenHeight(const Slab& s) const {
 
 /// Whether p is in both bodies, but for rounding.
 bool Pair::inBoth(const Vector3d& p) const {
-  return unit_a_ * a_.violation(p / unit_a_) <= converged() &&
-         unit_b_ * b_.violation(R_.transpose() * (p - offset_) / unit_b_) <= converged();
+  const auto outside = [](const BallBody& body, double unit, const Vector3d& x) {
+    return unit > 0 ? unit * body.violation(x / unit) : x.norm();
+  };
+  return outside(a_, unit_a_, p) <= converged() &&
+         outside(b_, unit_b_, R_.transpose() * (p - offset_)) <= converged();
 }
 
 /// The widest slab and nearest points where Newton's method alone didn't get there: when it knows

@@ -14,7 +14,7 @@ struct ExactDistance {
   /// one is empty. Never below separation().
   double distance = 0;
   /// The volumes' true distance is within [distance, distance + error]. In double that is 1e-12 of
-  /// the pair's size (reaches of the caps and all) plus 32 roundings of its coordinates; in float
+  /// the pair's size (reaches of the caps and all) plus 200 roundings of its coordinates; in float
   /// those roundings, of 2^-24, are the larger part. 1e-6 where two spheres of a volume touch from
   /// outside, so that it depends on their radii by a square root; 1e-3 where four do.
   double error = 0;
