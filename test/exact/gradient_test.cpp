@@ -213,6 +213,7 @@ TEST(ExactGradient, IsContinuousAcrossTheFeatures) {
     if (!(f.norm() > 0.1)) continue;
     constexpr int kSteps = 4'000;
     ExactDistance before;
+    fcl::Vector3d T_before = fcl::Vector3d::Zero();
     for (int s = 0; s <= kSteps; ++s) {
       const double angle = 2 * fcl::constants<double>::pi() * s / kSteps;
       const fcl::Vector3d T =
@@ -224,8 +225,13 @@ TEST(ExactGradient, IsContinuousAcrossTheFeatures) {
         // A step is 0.0071 long; the bodies are at least 1 apart and of radius at most 2.
         ASSERT_LE((now.normal - before.normal).norm(), 0.03) << i << " at step " << s;
         ASSERT_LE((now.p - before.p).norm() + (now.q - before.q).norm(), 0.1) << i;
+        // Convex: the change lies between what the gradients at both ends foresee.
+        const double change = now.distance - before.distance;
+        ASSERT_GE(change, before.normal.dot(T - T_before) - 1e-12) << i << " at step " << s;
+        ASSERT_LE(change, now.normal.dot(T - T_before) + 1e-12) << i << " at step " << s;
       }
       before = now;
+      T_before = T;
     }
   }
 }
