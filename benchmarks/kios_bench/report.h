@@ -28,6 +28,10 @@ struct Row {
   std::optional<double> ratio_to_fcl_obbrss;  // above 1: faster than FCL's OBBRSS
   std::optional<double> max_abs_error;        // against the oracle
   std::optional<double> max_rel_error;
+  std::optional<double> mean_abs_error;
+  std::optional<double> mean_rel_error;  // over frames without contact
+  std::optional<double> bracket_width;   // mean of distance - proven lower bound
+  std::optional<double> budget;          // expansions that a query may make
   std::optional<std::size_t> wrong_verdicts;
   std::optional<double> bv_tests;  // per frame
   std::optional<double> leaf_tests;
@@ -35,6 +39,8 @@ struct Row {
   std::optional<double> build_us_per_triangle;
   std::optional<std::size_t> skipped_pairs;
   std::optional<std::size_t> total_pairs;  // of all frames, where a frame has several
+  std::optional<double> narrow_queries;    // per frame, of the pairs of a scene
+  std::optional<std::size_t> prepared_models;
   std::optional<std::string> simd_target;
   std::uint64_t seed = 0;
   // Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles, whose

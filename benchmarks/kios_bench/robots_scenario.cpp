@@ -20,11 +20,13 @@ void runRobots(const Options& options, Report& report) {
   const auto data = findData(options);
   if (!data || !scenes::holdsUr5(*data)) {
     std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
+    runRobotScenes(options, report);
     return;
   }
   TwoArms ur5{scenes::loadUr5(*data), fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
   ur5.X_W2.translation().y() = 0.5;
   reportArms("robots/ur5", ur5, kFrames, options, report);
+  runRobotScenes(options, report);
 }
 
 }  // namespace kios::bench

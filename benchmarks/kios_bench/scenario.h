@@ -40,8 +40,11 @@ void runThreshold(const Options& options, Report& report);
 void runRootReject(const Options& options, Report& report);
 void runStrips(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);
+void runRobotScenes(const Options& options, Report& report);
+void runScene(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
+void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
 
 }  // namespace kios::bench

@@ -21,15 +21,24 @@ const std::vector<Scenario>& scenarios() {
       {"strips", "two chains of cylinders made of 100 to 400 long thin strips", runStrips},
       {"robots", "two arms side by side, all pairs of links: UR5 (data) and generated 7-link arms",
        runRobots},
+      {"robot_scenes",
+       "scene queries of two arms, UR5s (data) or humanoids, self-distance too: closest pair, "
+       "pairs "
+       "within 0.1, clearances; smooth and random motion",
+       runRobotScenes},
+      {"scene", "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles",
+       runScene},
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
        runScaling},
       {"refit",
-       "tori that sway by a tenth of their size: rebuild, top-down and bottom-up refit, and "
-       "queries "
-       "after each",
+       "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
        runRefit},
+      {"error",
+       "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
+       "with their error members set",
+       runError},
       {"stability", "triangle distance and intersection over hard classes of pairs, and FCL's",
        runStability},
   };

@@ -17,9 +17,9 @@
 // contact); write fcl::collide(...). In C++20, fcl::collide<double>(...) and
 // fcl::distance<double>(...) without a solver come here too.
 //
-// Two finished meshes over k-IOS are served; any other pair with a kIOS model throws
-// std::invalid_argument and names both types. So does an unfinished model or a pose that isn't
-// rigid. Without a kIOS model everything is as in FCL.
+// A finished mesh over k-IOS is served against another, FCL's nine shapes and octrees; any other
+// pair with a kIOS model throws std::invalid_argument and names both types. So does an unfinished
+// model or a pose that isn't rigid. Without a kIOS model everything is as in FCL.
 
 namespace fcl {
 
@@ -93,8 +93,9 @@ float distance(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
                const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
                const DistanceRequest<float>& request, DistanceResult<float>& result);
 
-/// Refuse every pair with a kIOS model for now, instead of FCL's wrong answer. Double only, as
-/// FCL 0.7's continuousCollide<float> doesn't compile.
+/// The first contact of two moving objects: kios::firstContact's contract, by one method
+/// for every solver and motion type; FCL's own misses contacts. Motions and models are only read.
+/// Double only, as FCL 0.7's continuousCollide<float> doesn't compile.
 double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<double>* motion1,
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
                          const ContinuousCollisionRequest<double>& request,
@@ -113,8 +114,8 @@ double collide(const ContinuousCollisionObject<double>* o1,
                const ContinuousCollisionRequest<double>& request,
                ContinuousCollisionResult<double>& result);
 
-/// The forms with a GJK solver, which meshes don't need. Templates, so that only files which call
-/// them pay for FCL's, and more specialised than FCL's.
+/// The forms with a GJK solver, which pairs with a kIOS model don't need. Templates, so that only
+/// files which call them pay for FCL's, and more specialised than FCL's.
 template <typename S, template <typename> class Solver>
 std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
                     const CollisionGeometry<S>* o2, const Transform3<S>& tf2,

@@ -21,6 +21,15 @@ double removePart(const Vec& direction, double square, Vec& v) {
   return t;
 }
 
+/// Whether edges from p and q to other ends are nearest in p and q, by a margin that exceeds the
+/// rounding of the products. The distance of two edges is convex: no other ends are then.
+bool leadAway(const Vec& p, const Vec& other_p, const Vec& q, const Vec& other_q) {
+  constexpr double kMargin2 = 0x1p-80;
+  const Vec w = q - p, a = other_p - p, b = other_q - q;
+  const double aw = a.dot(w), bw = b.dot(w), ww = kMargin2 * w.squaredNorm();
+  return aw < 0 && bw > 0 && aw * aw > ww * a.squaredNorm() && bw * bw > ww * b.squaredNorm();
+}
+
 }  // namespace
 
 // By the cross product, not by aa bb - ab^2: a parameter then errs by eps / sin. What that adds to
@@ -36,10 +45,18 @@ FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const 
   const Vec y = v < 0.5 ? Vec(t + v * b) : Vec((q1 - p0) - (1 - v) * b);
   s = clamp01(y.dot(a) / aa);
   const double extent = std::sqrt(aa) + std::sqrt(bb) + t.lpNorm<Eigen::Infinity>();
-  if ((s == 0 || s == 1) && (v == 0 || v == 1)) {  // the same for all edges that end there
-    const Vec &p = s == 0 ? p0 : p1, &q = v == 0 ? q0 : q1;
+  // Of nearly parallel edges s and v may be anything: all ends are tried.
+  const bool parallel = !(n.squaredNorm() > 0x1p-20 * aa * bb);
+  for (int i = 0; i < 4; ++i) {
+    const bool s_low = (i & 1) == 0, v_low = (i & 2) == 0;
+    if (!parallel && (s_low != (s < 0.5) || v_low != (v < 0.5))) continue;
+    const Vec &p = s_low ? p0 : p1, &q = v_low ? q0 : q1;
+    if (!leadAway(p, s_low ? p1 : p0, q, v_low ? q1 : q0)) continue;
     ends = {p, q, (q - p).norm()};
     return {ends.distance, extent};
+  }
+  if ((s == 0 || s == 1) && (v == 0 || v == 1)) {
+    return {((v == 0 ? q0 : q1) - (s == 0 ? p0 : p1)).norm(), extent};
   }
   const Vec w = s < 0.5 ? Vec(y - s * a) : Vec((y - a) + (1 - s) * a);
   return {w.norm(), extent};
@@ -49,8 +66,7 @@ bool nearestAt(const NearestEnds& ends, const Vec& p0, const Vec& p1, const Vec&
                const Vec& q1) {
   const auto& [p, q, distance] = ends;
   if ((p0 != p && p1 != p) || (q0 != q && q1 != q)) return false;
-  const Vec w = q - p;
-  return ((p0 == p ? p1 : p0) - p).dot(w) <= 0 && ((q0 == q ? q1 : q0) - q).dot(w) >= 0;
+  return leadAway(p, p0 == p ? p1 : p0, q, q0 == q ? q1 : q0);
 }
 
 // The plane by Gram-Schmidt on the longest edge, twice: right for any aspect.

@@ -12,19 +12,20 @@ struct FeatureDistance {
   double extent;
 };
 
-/// Two vertices in which edges were nearest.
+/// Two vertices in which edges were nearest, and from which both led away: not square to the line
+/// between, so that no rounding can move the nearest points.
 struct NearestEnds {
   Eigen::Vector3d p, q;
   double distance = -1;  ///< < 0: none yet
 };
 
-/// Edges p0 p1 and q0 q1, of any length. Sets `ends` if they are nearest in two ends.
+/// Edges p0 p1 and q0 q1, of any length. Sets `ends` if they are nearest in two such ends.
 FeatureDistance edgeDistance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                              const Eigen::Vector3d& q0, const Eigen::Vector3d& q1,
                              NearestEnds& ends);
 
-/// True if these edges too end in those vertices and are nearest there, as both lead away. Most
-/// edges that a search finds equally near are.
+/// True if these edges too end in those vertices and lead away, as most do that a search finds
+/// equally near: edgeDistance() would give the same distance, bit for bit.
 bool nearestAt(const NearestEnds& ends, const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 

@@ -37,6 +37,10 @@
 #include "engine/simd/leaf_pair-inl.h"
 //
 #include "engine/simd/leaf_distance-inl.h"
+//
+#include "engine/simd/leaf_bracket-inl.h"
+//
+#include "engine/simd/bracket_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -130,6 +134,8 @@ class DistanceSearch {
 
 void distance(const Search& search) { DistanceSearch(search).run(); }
 
+void bracket(const Search& search) { BracketSearch(search).run(); }
+
 /// Depth first, of the last children the deepest first: what overlaps deepest is the likeliest hit.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
@@ -162,7 +168,8 @@ void contact(const Search& search) { touching(search, contactOfLeaves); }
 void contacts(const Search& search) { touching(search, contactsOfLeaves); }
 
 extern const Kernels kKernels;
-const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2], &distance, &contact, &contacts};  // after N_
+const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2], &distance, &bracket, &contact,
+                          &contacts};  // after N_
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -17,6 +17,20 @@ float upToFloat(double v) {
   return v < 0x1p127 ? roundUpFloat(v) : std::numeric_limits<float>::infinity();
 }
 
+float downToFloat(double v) {
+  if (v < 0) return -1;
+  return v < 0x1p127 ? roundDown<float>(v) : 0x1p127F;
+}
+
+template <typename S>
+constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+
+template <typename S>
+bool exists(const TrianglePairIds& ids, const PreparedPair<S>& pair) {
+  return ids.a >= 0 && static_cast<std::size_t>(ids.a) < pair.a.mesh.num_triangles && ids.b >= 0 &&
+         static_cast<std::size_t>(ids.b) < pair.b.mesh.num_triangles;
+}
+
 /// Features in the common frame, whose coordinates are rounded to S.
 template <typename S>
 class Corners {
@@ -38,6 +52,10 @@ class Corners {
     const auto& m = pair_.b.mesh;
     return {pair_.X_AB * m.corner(t, 0), pair_.X_AB * m.corner(t, 1), pair_.X_AB * m.corner(t, 2)};
   }
+  TriangleDistance<S> distanceOf(const TrianglePairIds& ids) const {
+    return triangleDistance(triangleOfA(static_cast<std::uint32_t>(ids.a)),
+                            triangleOfB(static_cast<std::uint32_t>(ids.b)));
+  }
   bool intersect(const Candidate& c) const {
     return trianglesIntersect(triangleOfA(c.a.triangle()), triangleOfB(c.b.triangle()));
   }
@@ -58,52 +76,82 @@ template <typename S>
 class NearestJudge final : public Judge {
  public:
   NearestJudge(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds)
-      : corners_(pair), rel_err_(bounds.rel_err), abs_err_(bounds.abs_err) {
+      : corners_(pair),
+        rel_err_(bounds.rel_err),
+        abs_err_(bounds.abs_err),
+        least_shared_(leastShared(pair)) {
     best_ = bounds.at_most;
     if (bounds.at_most < std::numeric_limits<S>::max()) lowerTo(bounds.at_most);
+  }
+  NearestJudge(const PreparedPair<S>& pair, const BracketQuery<S>& query)
+      : corners_(pair),
+        rel_err_(query.rel_err),
+        abs_err_(query.abs_err),
+        near_enough_(query.near_enough),
+        by_faces_(query.hasBudget()),
+        best_(std::numeric_limits<double>::infinity()),
+        least_shared_(leastShared(pair)) {
+    prune_at = keep_to = upToFloat(query.far_enough);
   }
 
   bool judge(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
       if (!corners_.intersect(c)) return false;
+      least_ = 0;
       take(0, idsOf(c));
       return true;
     }
+    if (c.kind == PairKind::kFaces) return judgeFaces(idsOf(c));
     const FeatureDistance found = distanceOf(c);
     double distance = found.distance;
     // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.
-    constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-    if (distance <= 64 * kUlp * found.extent) {
-      distance = double{triangleDistance(corners_.triangleOfA(c.a.triangle()),
-                                         corners_.triangleOfB(c.b.triangle()))
-                            .distance};
+    if (distance <= 64 * kUlp<S> * found.extent) {
+      distance = double{corners_.distanceOf(idsOf(c)).distance};
     }
+    least_ = std::min(least_, distance);
     const TrianglePairIds ids = idsOf(c);
+    if (by_faces_) return distance < best_ && judgeFaces(ids);
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
-      if (distance < best_ + 64 * kUlp * found.extent) take(distance, ids);
+      if (distance < best_ + 64 * kUlp<S> * found.extent) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
       take(distance, ids);
     }
-    return distance == 0;
+    return distance <= near_enough_;
   }
 
   void offer(float upper_bound) override {
-    keep_to = std::min(keep_to, upper_bound);
-    prune_at = std::min(prune_at, upper_bound);
+    if (!(upper_bound < keep_to)) return;
+    keep_to = upper_bound;
+    prune_at = std::min(prune_at, offers_stand ? upToFloat(enough(upper_bound)) : upper_bound);
+  }
+
+  /// Triangles to begin with, their distance known. True to end the search.
+  bool start(const TrianglePairIds& ids, double distance) {
+    least_ = distance;
+    take(distance, ids);
+    return distance <= near_enough_;
   }
 
   TrianglePairIds ids() const { return ids_; }
+  double least() const { return least_; }  ///< of all that was judged
   TriangleDistance<S> certified() const {
-    return triangleDistance(corners_.triangleOfA(static_cast<std::uint32_t>(ids_.a)),
-                            corners_.triangleOfB(static_cast<std::uint32_t>(ids_.b)));
+    return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
   }
 
+  bool offers_stand = false;  ///< whether the search keeps what it offers, so that errors apply
+
  private:
+  /// Extents of edges are at most four times the scale.
+  static double leastShared(const PreparedPair<S>& pair) {
+    return 64 * kUlp<S> * 4 * double{pair.frames.scale};
+  }
+
   FeatureDistance distanceOf(const Candidate& c) {
     if (c.kind == PairKind::kEdgeEdge) {
       const Eigen::Vector3d p0 = corners_.ofA(c.a), p1 = corners_.ofA(c.a, 1);
       const Eigen::Vector3d q0 = corners_.ofB(c.b), q1 = corners_.ofB(c.b, 1);
-      if (ends_.distance > 0 && nearestAt(ends_, p0, p1, q0, q1)) return {ends_.distance, 0};
+      if (ends_.distance > least_shared_ && nearestAt(ends_, p0, p1, q0, q1))
+        return {ends_.distance, 0};
       return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
@@ -112,6 +160,16 @@ class NearestJudge final : public Judge {
     }
     return faceDistance(corners_.ofB(c.b),
                         {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
+  }
+
+  /// Triangles as a whole: they may be nearer than the features that named them.
+  bool judgeFaces(const TrianglePairIds& ids) {
+    faces_ = ids;
+    of_faces_ = corners_.distanceOf(ids);
+    const double distance = double{of_faces_.distance};
+    least_ = std::min(least_, distance);
+    if (distance < best_) take(distance, ids);
+    return distance <= near_enough_;
   }
 
   void take(double distance, const TrianglePairIds& ids) {
@@ -123,15 +181,24 @@ class NearestJudge final : public Judge {
   void lowerTo(double distance) {
     best_ = distance;
     keep_to = std::min(keep_to, upToFloat(distance));
-    const double enough = std::min(distance - abs_err_, distance / (1 + rel_err_));
-    prune_at = std::min(prune_at, upToFloat(std::max(0.0, enough)));
+    prune_at = std::min(prune_at, upToFloat(enough(distance)));
+  }
+
+  /// What need not be told from a pair so far apart.
+  double enough(double distance) const {
+    return std::max(0.0, std::min(distance - abs_err_, distance / (1 + rel_err_)));
   }
 
   const Corners<S> corners_;
   const double rel_err_, abs_err_;
-  double best_ = 0;  ///< of ids_, or what was asked for
-  TrianglePairIds ids_;
+  const double near_enough_ = 0;
+  const bool by_faces_ = false;  ///< whether what was found must not get worse by going on
+  double best_;                  ///< of ids_, or what was asked for
+  double least_ = std::numeric_limits<double>::infinity();
+  TrianglePairIds ids_, faces_;  ///< the nearest; those judged as faces
+  TriangleDistance<S> of_faces_;
   NearestEnds ends_;
+  const double least_shared_;  ///< nearer edges need their own extent; see judge()
 };
 
 template <typename S>
@@ -163,10 +230,54 @@ template <typename S>
 TrianglePairIds nearestTriangles(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds,
                                  TriangleDistance<S>& nearest, SearchCounts& counts) {
   NearestJudge<S> judge(pair, bounds);
-  kernels().distance({pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit});
+  Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit};
+  Bracket bracket;
+  search.bracket = &bracket;
+  BracketQuery<S> query;
+  query.rel_err = double{bounds.rel_err};
+  query.abs_err = double{bounds.abs_err};
+  judge.offers_stand = !query.isNearlyExact();
+  (query.isNearlyExact() ? kernels().distance : kernels().bracket)(search);
   if (judge.ids().a < 0) return {};
   nearest = judge.certified();
   return nearest.distance < bounds.at_most ? judge.ids() : TrianglePairIds();
+}
+
+template <typename S>
+BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery<S>& query,
+                                 SearchCounts& counts) {
+  NearestJudge<S> judge(pair, query);
+  Bracket bracket;
+  bracket.near_enough = downToFloat(query.near_enough);
+  bracket.max_expansions = query.max_expansions;
+  const bool exact = query.isNearlyExact() && !query.endsEarly();
+  judge.offers_stand = !exact;
+  bool offered = false, done = false;
+  if (exists(query.start, pair)) {
+    const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};
+    const bool near = query.near_enough > 0 && distance <= query.near_enough;
+    if (!query.isExact() || query.hasBudget() || near) {
+      done = judge.start(query.start, distance);
+    } else if (distance > 0) {
+      judge.offer(upToFloat(distance + 256 * kUlp<S> * pair.frames.scale));
+      offered = true;
+    }
+  }
+  Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit, &bracket};
+  if (!done) (exact ? kernels().distance : kernels().bracket)(search);
+  BracketResult<S> result;
+  result.ids = judge.ids();
+  if (result.ids.a >= 0) result.nearest = judge.certified();
+  if (offered && result.ids.a >= 0 &&
+      result.nearest.distance == 0) {  // any pair that intersects: which must not depend
+    BracketQuery<S> cold = query;      // on where it began
+    cold.start = {};
+    return bracketDistance(pair, cold, counts);
+  }
+  result.least_evaluated = judge.least();
+  result.least_other = std::max(0.0F, exact ? judge.prune_at : bracket.proven);
+  result.out_of_budget = bracket.out_of_budget;
+  return result;
 }
 
 template <typename S>
@@ -186,6 +297,8 @@ std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, 
 #define KIOS_INSTANTIATE(S)                                                                        \
   template TrianglePairIds nearestTriangles(const PreparedPair<S>&, const DistanceBounds<S>&,      \
                                             TriangleDistance<S>&, SearchCounts&);                  \
+  template BracketResult<S> bracketDistance(const PreparedPair<S>&, const BracketQuery<S>&,        \
+                                            SearchCounts&);                                        \
   template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&, std::size_t, \
                                                               SearchCounts&);
 KIOS_INSTANTIATE(double)

@@ -33,7 +33,8 @@ class Judge {
  public:
   /// Evaluates a candidate, which may lower the bounds below. Returns true to end the search.
   virtual bool judge(const Candidate& candidate) = 0;
-  /// Tells that some pair is at most so far apart: it will turn up as a candidate.
+  /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is
+  /// nearer than keep_to.
   virtual void offer(float upper_bound) = 0;
 
   float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far
@@ -55,6 +56,15 @@ class Audit {
   ~Audit() = default;
 };
 
+/// When a search that brackets the distance may end, and what it proved.
+struct Bracket {
+  float near_enough = -std::numeric_limits<float>::infinity();  ///< a pair so near ends it
+  long long max_expansions = std::numeric_limits<long long>::max();
+  /// All that was not judged is at least so far apart.
+  float proven = -std::numeric_limits<float>::infinity();
+  bool out_of_budget = false;
+};
+
 struct Search {
   const Tree& a;
   const Tree& b;
@@ -62,6 +72,7 @@ struct Search {
   Judge& judge;
   SearchCounts& counts;
   Audit* audit = nullptr;
+  Bracket* bracket = nullptr;  ///< of Kernels::bracket
 };
 
 /// The traversals of one instruction set.
@@ -70,6 +81,9 @@ struct Kernels {
   /// Every feature pair that may be nearer than judge.keep_to, and every edge and face that may
   /// cross, is judged.
   void (*distance)(const Search& search);
+  /// Feature pairs that may be nearer than judge.prune_at are judged, and one of the nearest that
+  /// were offered; may end early, and tells what was proven.
+  void (*bracket)(const Search& search);
   /// Every edge and face that may touch is judged.
   void (*contact)(const Search& search);
   /// Every pair of triangles that may touch is judged.

@@ -9,7 +9,10 @@
 
 #include "fcl/narrowphase/collision.h"
 #include "fcl/narrowphase/distance.h"
+#include "fcl/shape_solid.h"
 #include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/fcl/octree_queries.h"
+#include "fcl_kios/fcl/shape_queries.h"
 
 namespace kios {
 
@@ -32,9 +35,42 @@ std::string typeName(const fcl::CollisionGeometry<S>& geometry);
 template <typename S>
 [[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
                              const fcl::CollisionGeometry<S>& o2) {
+  const bool models = o1.getObjectType() == fcl::OT_BVH && o2.getObjectType() == fcl::OT_BVH;
   throw std::invalid_argument(std::string("fcl_kios: ") + query + " of " + typeName(o1) + " and " +
-                              typeName(o2) + " is not supported; build both as " +
-                              "fcl::BVHModel<kios::kIOS>, or both without it.");
+                              typeName(o2) + " is not supported" +
+                              (models
+                                   ? "; convert the other model by kios::toKIOS(model)."
+                                   : "; replace the other by a mesh, built by kios::makeModel()."));
+}
+
+/// A mesh over k-IOS against anything but another. Results have FCL's order, whatever that of the
+/// call: mesh and shape, octree and mesh.
+template <typename S>
+std::size_t collideOther(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  if (isShape(other)) return collideShape(model, X_WM, other, X_WO, request, result);
+#if FCL_HAVE_OCTOMAP
+  if (other.getObjectType() == fcl::OT_OCTREE) {
+    return collideOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, model, X_WM, request,
+                         result);
+  }
+#endif
+  refusePair<S>("collide", model, other);
+}
+
+template <typename S>
+S distanceOther(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
+  if (isShape(other)) return distanceShape(model, X_WM, other, X_WO, request, result);
+#if FCL_HAVE_OCTOMAP
+  if (other.getObjectType() == fcl::OT_OCTREE) {
+    return distanceOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, model, X_WM, request,
+                          result);
+  }
+#endif
+  refusePair<S>("distance", model, other);
 }
 
 template <typename S>
@@ -43,7 +79,8 @@ std::size_t collide(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
   if (model1 && model2) return collideMeshes(*model1, tf1, *model2, tf2, request, result);
-  if (model1 || model2) refusePair("collide", *o1, *o2);
+  if (model1) return collideOther(*model1, tf1, *o2, tf2, request, result);
+  if (model2) return collideOther(*model2, tf2, *o1, tf1, request, result);
   return fcl::collide<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }
 
@@ -53,7 +90,8 @@ S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
   if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
-  if (model1 || model2) refusePair("distance", *o1, *o2);
+  if (model1) return distanceOther(*model1, tf1, *o2, tf2, request, result);
+  if (model2) return distanceOther(*model2, tf2, *o1, tf1, request, result);
   return fcl::distance<S>(o1, tf1, o2, tf2, request, result);  // FCL's template
 }
 

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "fcl_kios/fcl/convert.h"
+
 namespace kios {
 namespace {
 
@@ -55,16 +57,23 @@ void requireIndices(const fcl::Triangle* triangles, std::size_t n, std::size_t n
   }
 }
 
-[[noreturn]] void refuseUnfinished(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
-                                   int num_bvs) {
-  const bool finished =
+bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
+  const bool processed =
+      state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
+  return processed && num_tris > 0 && num_bvs == 2 * num_tris - 1;
+}
+
+// `what` ends before "it is ...".
+[[noreturn]] void refuseUnfinished(const char* what, fcl::BVHBuildState state,
+                                   fcl::BVHModelType type, int num_tris, int num_bvs) {
+  const bool processed =
       state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
   std::ostringstream message;
-  message << "the BVHModel<kios::kIOS> can't be queried: ";
-  if (!finished) {
+  message << what << ": ";
+  if (!processed) {
     message << "it is " << stateName(state) << ".";
   } else if (type == fcl::BVH_MODEL_POINTCLOUD) {
-    message << "it is a point cloud, and this query needs triangles.";
+    message << "it is a point cloud, and triangles are needed.";
   } else {
     message << "it has " << num_tris << " triangles but a tree of " << num_bvs
             << " nodes; geometry was added after it was built: build or refit it.";
@@ -90,10 +99,15 @@ std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices
 
 template <typename S>
 void requireFinished(const Model<S>& model) {
-  const bool finished = model.build_state == fcl::BVH_BUILD_STATE_PROCESSED ||
-                        model.build_state == fcl::BVH_BUILD_STATE_UPDATED;
-  if (finished && model.num_tris > 0 && model.getNumBVs() == 2 * model.num_tris - 1) return;
-  refuseUnfinished(model.build_state, model.getModelType(), model.num_tris, model.getNumBVs());
+  if (isFinished(model.build_state, model.num_tris, model.getNumBVs())) return;
+  refuseUnfinished("the BVHModel<kios::kIOS> can't be queried", model.build_state,
+                   model.getModelType(), model.num_tris, model.getNumBVs());
+}
+
+void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
+                        int num_bvs) {
+  if (isFinished(state, num_tris, num_bvs)) return;
+  refuseUnfinished("the model can't be converted to k-IOS", state, type, num_tris, num_bvs);
 }
 
 template <typename S>

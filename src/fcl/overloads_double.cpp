@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl/dispatch.h"
 #include "fcl/narrowphase/continuous_collision.h"
+#include "fcl_kios/continuous.h"
 #include "fcl_kios/overloads.h"
 
 namespace fcl {
@@ -9,8 +10,10 @@ inline namespace kios_overloads {
 
 namespace {
 
-void refuseContinuous(const CollisionGeometry<double>* o1, const CollisionGeometry<double>* o2) {
-  if (kios::holdsModel(o1) || kios::holdsModel(o2)) kios::refusePair("continuousCollide", *o1, *o2);
+/// Both are looked at: null geometries are refused there.
+bool anyModel(const CollisionGeometry<double>* o1, const CollisionGeometry<double>* o2) {
+  const bool first = kios::holdsModel(o1), second = kios::holdsModel(o2);
+  return first || second;
 }
 
 }  // namespace
@@ -43,7 +46,9 @@ double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<d
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  refuseContinuous(o1, o2);
+  if (anyModel(o1, o2)) {
+    return kios::firstContact(*o1, motion1, *o2, motion2, request, result);
+  }
   return fcl::continuousCollide<double>(o1, motion1, o2, motion2, request, result);
 }
 
@@ -52,7 +57,9 @@ double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<d
                          const Transform3<double>& tf2_beg, const Transform3<double>& tf2_end,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  refuseContinuous(o1, o2);
+  if (anyModel(o1, o2)) {
+    return kios::firstContact(*o1, tf1_beg, tf1_end, *o2, tf2_beg, tf2_end, request, result);
+  }
   return fcl::continuousCollide<double>(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
                                         result);
 }

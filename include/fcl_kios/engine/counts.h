@@ -12,6 +12,16 @@ struct SearchCounts {
   long long leaf_kernels = 0;   ///< of these, those that no separating direction excluded
   long long exact = 0;          ///< feature and triangle pairs evaluated in double
   long long tree_searches = 0;  ///< queries that fell back to FCL's tree
+
+  SearchCounts& operator+=(const SearchCounts& o) {
+    expansions += o.expansions;
+    volume_tests += o.volume_tests;
+    leaf_pairs += o.leaf_pairs;
+    leaf_kernels += o.leaf_kernels;
+    exact += o.exact;
+    tree_searches += o.tree_searches;
+    return *this;
+  }
 };
 
 }  // namespace kios

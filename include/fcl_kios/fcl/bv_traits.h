@@ -6,6 +6,7 @@
 #include "fcl/geometry/shape/box.h"
 #include "fcl/math/bv/utility.h"
 #include "fcl_kios/bv/kios.h"
+#include "fcl_kios/fcl/motion_bounds.h"
 #include "fcl_kios/fit/fit.h"
 
 // The specialisations through which FCL's generic code handles kios::kIOS as a volume. They stand

@@ -112,7 +112,10 @@ class LeafDistances {
   /// Judges everything that may be within judge.keep_to, the nearest by float first.
   bool judgeNear(float least, float pad, Judge& judge, long long& exact) const {
     if (!(least <= squaredLimit(judge, pad))) return false;
-    return judgeRows(least, true, pad, judge, exact) || judgeRows(least, false, pad, judge, exact);
+    if (judgeRows(least, true, pad, judge, exact)) return true;
+    // Where an error is allowed the others need not be told from the nearest.
+    if (std::sqrt(std::max(least, 0.0F)) - pad >= judge.prune_at) return false;
+    return judgeRows(least, false, pad, judge, exact);
   }
 
  private:
@@ -252,10 +255,10 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
-  LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   // Only what overlaps can cross.
   if (bound <= 0 && edgesCross(search, a, b, vertices_b)) return true;
+  LeafDistances distances(a, b);
+  const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
 }
 

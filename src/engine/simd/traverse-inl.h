@@ -57,6 +57,18 @@ class Frontier {
   }
 
   bool empty() const { return filled_ == 0; }
+
+  /// The least bound of all; infinity if empty.
+  HWY_NOINLINE float least() const {
+    float least = std::numeric_limits<float>::infinity();
+    if (empty()) return least;
+    uint32_t entry = head_[hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_)];
+    for (; entry != kEnd; entry = entries_[entry].next) {
+      least = std::min(least, entries_[entry].bound);
+    }
+    return least;
+  }
+
   Entry pop() {
     const size_t bucket = hwy::Num0BitsBelowLS1Bit_Nonzero64(filled_);
     const uint32_t entry = head_[bucket];
@@ -149,6 +161,7 @@ struct Expansion {
   const Node* parent;
   const Node* other;
   uint32_t near;  ///< children that matter, as bits
+  float bound;    ///< of the pair; not used by all searches
   alignas(32) float bounds[kLanes];
 };
 
@@ -188,16 +201,29 @@ class Expander {
     search_.counts.volume_tests += childrenOf(e).count;
   }
 
-  /// The children that matter join the frontier, the nearest last.
-  void spread(Expansion& e, Frontier& frontier) const {
+  Frontier::Pair childPair(const Expansion& e, uint32_t lane) const {
+    const uint32_t child = e.parent->first_child + lane;
+    return e.side == 0 ? Frontier::Pair{child, e.at.b} : Frontier::Pair{e.at.a, child};
+  }
+
+  /// The children that matter join the frontier, the nearest last. If kInherit, bounds are at least
+  /// the pair's, and those `taken` (bits) don't join.
+  template <bool kInherit = false>
+  void spread(Expansion& e, Frontier& frontier, uint32_t taken = 0) const {
+    if constexpr (kInherit) {
+      const V limit = hn::Set(d, search_.judge.prune_at), least = hn::Set(d, e.bound);
+      uint32_t near = 0;
+      for (size_t l = 0; l < kLanes; l += step()) {
+        const V bounds = hn::Max(hn::Load(d, e.bounds + l), least);
+        hn::Store(bounds, d, e.bounds + l);
+        near |= bitsOf(hn::Lt(bounds, limit)) << l;
+      }
+      e.near &= near & ~taken;
+    }
     const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
     if (flat != 0 && boxes_) testBoxes(e, flat);
-    if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e);
+    if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
     if (e.near == 0) return;
-    const auto pairOf = [&](uint32_t lane) {
-      const uint32_t child = e.parent->first_child + lane;
-      return e.side == 0 ? Frontier::Pair{child, e.at.b} : Frontier::Pair{e.at.a, child};
-    };
     frontier.reserve(kLanes);
     uint32_t nearest = firstOf(e.near);
     for (uint32_t left = e.near & (e.near - 1); left != 0; left &= left - 1) {
@@ -205,10 +231,10 @@ class Expander {
       const bool nearer = e.bounds[lane] < e.bounds[nearest];
       const uint32_t other = nearer ? nearest : lane;
       nearest = nearer ? lane : nearest;
-      frontier.push(e.bounds[other], pairOf(other));
+      frontier.push(e.bounds[other], childPair(e, other));
       prefetchNode(e, other);
     }
-    frontier.push(e.bounds[nearest], pairOf(nearest));
+    frontier.push(e.bounds[nearest], childPair(e, nearest));
     prefetchNode(e, nearest);
   }
 
@@ -240,8 +266,8 @@ class Expander {
     }
   }
 
-  HWY_NOINLINE void reportPruned(const Expansion& e) const {
-    for (uint32_t left = childrenOf(e).all() & ~e.near; left != 0; left &= left - 1) {
+  HWY_NOINLINE void reportPruned(const Expansion& e, uint32_t taken) const {
+    for (uint32_t left = childrenOf(e).all() & ~e.near & ~taken; left != 0; left &= left - 1) {
       const uint32_t lane = firstOf(left), child = e.parent->first_child + lane;
       search_.audit->pruned(e.side == 0 ? child : e.at.a, e.side == 0 ? e.at.b : child,
                             e.bounds[lane]);

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <type_traits>
+
+#include "fcl/common/types.h"
+#include "fcl_kios/engine/counts.h"
+#include "fcl_kios/fcl/model.h"
+
+// Distance of two meshes with what FCL's request can't say: a proven bracket instead of a number,
+// bounds at which to stop, a budget, a start from the last frame's answer.
+
+namespace kios {
+
+/// The triangles of an earlier answer, from which a search may start: the caller's, one for each
+/// pair of models. Any content is allowed; ids that a model doesn't have are ignored. An exact
+/// answer (both tolerances 0, no budget, not stopped by near_enough or far_enough) is bitwise the
+/// same with and without.
+struct WarmStart {
+  int triangle1 = -1, triangle2 = -1;
+};
+
+/// What is asked for. A search stops as soon as one of these holds; the defaults ask for the exact
+/// distance. Lengths are in the models' units.
+template <typename S>
+struct DistanceOptions {
+  /// The distance may exceed the exact one by max(rel_err * exact, abs_err): either suffices. >= 0.
+  S rel_err = 0, abs_err = 0;
+  /// The models are proven at least so far apart. Not NaN; nothing is looked at if <= 0.
+  S far_enough = std::numeric_limits<S>::infinity();
+  /// Two triangles at most so far apart are found. Not NaN.
+  S near_enough = 0;
+  /// So many pairs of nodes were expanded. A larger budget never gives a wider bracket. >= 0.
+  long long max_expansions = std::numeric_limits<long long>::max();
+  /// Whether to set the nearest points.
+  bool nearest_points = true;
+  /// Read at the start, and set to the answer's triangles if there are any. No other thread may use
+  /// it meanwhile.
+  WarmStart* warm_start = nullptr;
+};
+
+/// Why a search ended; of several reasons the first.
+enum class DistanceStop {
+  kTolerance,  ///< the distance is as exact as was asked for
+  kFar,        ///< lower_bound >= far_enough
+  kNear,       ///< distance <= near_enough
+  kBudget      ///< the budget was spent before any of these
+};
+
+/// What was proven. In every case lower_bound <= exact distance <= upper_bound, for the models'
+/// vertices and poses as they are given, in the common frame of docs/guarantees.md.
+template <typename S>
+struct DistanceAnswer {
+  /// Distance of the triangles below, right to 16 eps of their extent; 0 if and only if they
+  /// intersect. Infinity if no pair of triangles was looked at.
+  S distance = std::numeric_limits<S>::infinity();
+  S lower_bound = 0;  ///< proven; 0 at contact
+  /// `distance` with its own error and the common frame's; infinity if that is.
+  S upper_bound = std::numeric_limits<S>::infinity();
+  int triangle1 = -1, triangle2 = -1;  ///< of the models; -1 if no pair was looked at
+  /// Nearest points of those triangles in the world frame; NaN if there are none, or none were
+  /// asked for.
+  fcl::Vector3<S> point1 = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
+  fcl::Vector3<S> point2 = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
+  DistanceStop stop = DistanceStop::kTolerance;
+  SearchCounts counts;  ///< work done
+};
+
+/// Distance of two meshes at poses X_W1, X_W2 in the world. Where both tolerances are 0 and nothing
+/// else stops the search, `distance` and the triangles are fcl::distance's. Safe from many threads.
+/// Throws std::invalid_argument if a model is not a finished mesh, a pose is not rigid, or an
+/// option is out of range. Source of the search: paper, Algorithm 2 and IV, best first.
+template <typename S>
+DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W1,
+                           const Model<S>& model2, const fcl::Transform3<S>& X_W2,
+                           const DistanceOptions<S>& options = {});
+
+/// Whether the models are at most t apart: true if and only if the exact distance(...).distance
+/// <= t, bit for bit. Much faster than that where the answer is clear: a pair of triangles nearer
+/// than t ends the search, and all that is farther is left out. False for t < 0, true for
+/// +infinity. Throws as distance() does, and if t is NaN.
+///
+/// The certificate, if asked for, proves the verdict: a pair of triangles with distance <= t, or
+/// lower_bound > t; where t is within rounding of the distance, an exact answer decides. Its points
+/// are not set.
+template <typename S>
+bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Model<S>& model2,
+                const fcl::Transform3<S>& X_W2, std::common_type_t<S> t,
+                DistanceAnswer<S>* certificate = nullptr, WarmStart* warm_start = nullptr);
+
+}  // namespace kios

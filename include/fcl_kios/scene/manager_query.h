@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fcl/narrowphase/collision_object.h"
+#include "fcl_kios/scene/scene_types.h"
+
+namespace kios {
+
+/// Scene queries over any broadphase manager of FCL: its distance callback, with a memory of the
+/// pairs from query to query, so that a pair which stood still or moved too little is not searched
+/// again.
+///
+///     kios::ManagerQuery<double> query;
+///     query.findWithin(0.1);                       // or query.findClosest()
+///     manager->distance(&query, kios::ManagerQuery<double>::callback);
+///     for (const auto& pair : query.pairs()) ...
+///
+/// The manager leaves out pairs by the objects' AABBs, which are the caller's to keep up to date:
+/// computeAABB() and update() after moves and, as FCL doesn't, computeLocalAABB() after a model was
+/// replaced or updated. Not to be used from two threads at once.
+template <typename S>
+class ManagerQuery {
+ public:
+  using Object = fcl::CollisionObject<S>;
+  /// Whether to look at the pair.
+  using Filter = std::function<bool(const Object*, const Object*)>;
+
+  struct Pair {
+    const Object *a = nullptr, *b = nullptr;
+    S distance = 0;  ///< fcl::distance(a, b), bit for bit
+    std::intptr_t triangle_a = -1, triangle_b = -1;
+  };
+
+  explicit ManagerQuery(Filter filter = {});
+  ~ManagerQuery();
+  ManagerQuery(ManagerQuery&&) noexcept;
+  ManagerQuery& operator=(ManagerQuery&&) noexcept;
+
+  /// Starts a query: of a nearest pair; of all pairs with distance < margin, which must not be NaN.
+  void findClosest();
+  void findWithin(S margin);
+
+  /// FCL's DistanceCallBack; `query` is a ManagerQuery<S> that was started. Throws
+  /// std::invalid_argument as fcl::distance does.
+  static bool callback(Object* o1, Object* o2, void* query, S& dist);
+
+  /// Of findClosest(): at most one.
+  const std::vector<Pair>& pairs() const;
+  /// Of the pairs that the manager came up with.
+  const SceneCounts& counts() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+extern template class ManagerQuery<double>;
+extern template class ManagerQuery<float>;
+
+}  // namespace kios

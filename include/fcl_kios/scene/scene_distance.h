@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fcl/geometry/collision_geometry.h"
+#include "fcl/narrowphase/collision_object.h"
+#include "fcl_kios/scene/scene_types.h"
+
+namespace kios {
+
+/// Distances in a scene of many objects over many frames. Answers equal fcl::distance over all
+/// admissible pairs, bit for bit, with the object of the smaller id as the first argument; ties go
+/// to the smallest ids. What a query needn't look at, it leaves out, and says so in counts().
+///
+/// A pair is admissible unless it is excluded, refused by the filter, or both are obstacles. Two
+/// meshes over k-IOS are never asked twice at one relative pose, nor while their last proven
+/// distance minus a bound on their motion since then exceeds what is asked. Models may be replaced,
+/// updated and refitted between queries; that is noticed by their root volumes. Models that nobody
+/// came near are never prepared. Docs: docs/scene.md.
+///
+/// Not to be used from two threads at once; several scenes may share models.
+template <typename S>
+class SceneDistance {
+ public:
+  using Geometry = fcl::CollisionGeometry<S>;
+  using Pose = fcl::Transform3<S>;
+  /// Whether to look at the pair, a < b. Asked only about pairs that are near enough to matter;
+  /// must give the same answer throughout a query.
+  using Filter = std::function<bool(int a, int b)>;
+
+  SceneDistance();
+  ~SceneDistance();
+  SceneDistance(SceneDistance&&) noexcept;
+  SceneDistance& operator=(SceneDistance&&) noexcept;
+
+  /// Adds an object at its pose in the world and returns its id, the least that is free. A geometry
+  /// other than a mesh over k-IOS has its local AABB computed, as fcl::CollisionObject does, which
+  /// is no const use; it must not change later without changed(). Throws std::invalid_argument if
+  /// the geometry is null or an unfinished mesh, or the pose is not rigid.
+  int add(std::shared_ptr<const Geometry> geometry, const Pose& X_W, Role role = Role::kBody);
+  /// The same, but the pose is read from the object at each query. It must outlive its stay here.
+  int add(const fcl::CollisionObject<S>* object, Role role = Role::kBody);
+  /// Throw std::invalid_argument if there is no such object; move() also if the pose is not rigid
+  /// or not finite, or is read from an fcl::CollisionObject.
+  void remove(int id);
+  void move(int id, const Pose& X_W);
+  /// To be called after a geometry that is no mesh over k-IOS was changed in place.
+  void changed(int id);
+  bool contains(int id) const;
+  std::size_t size() const;
+
+  /// Excludes a pair, or admits it again. Forgotten when one of the two is removed.
+  void exclude(int a, int b, bool excluded = true);
+  /// Replaces the filter; an empty one admits all.
+  void setFilter(const Filter& filter);
+
+  /// The nearest admissible pair; none if there is no admissible pair.
+  std::optional<ScenePair<S>> closestPair(const SceneRequest& request = {});
+  /// All admissible pairs with distance < margin, in ascending order of (a, b). Throws
+  /// std::invalid_argument if margin is NaN.
+  std::vector<ScenePair<S>> pairsWithin(S margin, const SceneRequest& request = {});
+  /// The distance of every admissible pair, in ascending order of (a, b).
+  std::vector<ScenePair<S>> clearances(const SceneRequest& request = {});
+
+  /// Of the last query.
+  const SceneCounts& counts() const;
+  /// Pairs of which something is remembered: at most twice those that the last query came near,
+  /// plus 1024, and never more than kMaxRemembered.
+  std::size_t rememberedPairs() const;
+  static constexpr std::size_t kMaxRemembered = std::size_t{1} << 18;
+  /// Forgets all that was learnt of pairs; answers don't depend on it.
+  void forget();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+extern template class SceneDistance<double>;
+extern template class SceneDistance<float>;
+
+}  // namespace kios

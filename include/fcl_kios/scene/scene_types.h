@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "fcl/common/types.h"
+#include "fcl_kios/engine/counts.h"
+
+namespace kios {
+
+/// Two obstacles are never asked about each other.
+enum class Role : std::uint8_t { kBody, kObstacle };
+
+/// What a scene query is asked for besides the distances.
+struct SceneRequest {
+  bool nearest_points = false;
+  /// If false, pairsWithin() may report any distance of two points of the pair below the margin,
+  /// which spares most of the search; which pairs are reported doesn't depend on it.
+  bool exact = true;
+};
+
+/// Two objects of a scene, a < b.
+template <typename S>
+struct ScenePair {
+  int a = -1, b = -1;
+  S distance = 0;
+  /// The triangles that realise the distance; -1 for geometries that have none.
+  std::intptr_t triangle_a = -1, triangle_b = -1;
+  /// In the world; set if asked for.
+  fcl::Vector3<S> nearest_a = fcl::Vector3<S>::Zero(), nearest_b = fcl::Vector3<S>::Zero();
+};
+
+/// What became of the pairs of a scene query; all but `proven_farther` and `search` add up to
+/// `total`.
+struct SceneCounts {
+  long long total = 0;      ///< n (n - 1) / 2
+  long long filtered = 0;   ///< excluded, refused by the filter, or two obstacles, where reached
+  long long far_boxes = 0;  ///< farther by the boxes around their root volumes
+  long long far_roots = 0;  ///< farther by their root volumes
+  long long still = 0;      ///< at the relative pose of the last proof, which suffices
+  long long moved_too_little = 0;  ///< the last proof minus the motion since then suffices
+  long long near_by_proof = 0;     ///< known nearer than the margin, where that was all to know
+  long long ties = 0;              ///< no distance is small enough: after a contact, or margin <= 0
+  long long queried = 0;           ///< searched by the narrow phase
+  long long proven_farther = 0;    ///< of those, proven farther than what was asked
+  SearchCounts search;             ///< the work of the narrow phase
+
+  long long skipped() const { return total - queried; }
+};
+
+}  // namespace kios

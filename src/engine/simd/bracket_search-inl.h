@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+/// As DistanceSearch, with a proven lower bound, and less work where an error is allowed: it begins
+/// with the leaves that a descent ends at, and two vertices are an upper bound that prunes, as
+/// their triangles are judged in the end if nothing nearer was found.
+///
+/// What was not judged is still in the frontier or in flight, or was left out as not nearer than
+/// prune_at, which only falls. So min(prune_at, bounds of what waits) bounds it at any time, and
+/// the largest such value of a search is what it proved. Bounds of what waits never fall, as pairs
+/// inherit their parents': it suffices to look whenever prune_at is about to fall.
+class BracketSearch {
+ public:
+  explicit BracketSearch(const Search& search)
+      : search_(search),
+        bracket_(*search.bracket),
+        expander_(search),
+        budget_(search.bracket->max_expansions) {}
+
+  void run() {
+    // Any triangles, so that even the smallest budget has an upper bound.
+    bool done = budgeted() && judgeFaces(search_.a.leaves[0], 0, search_.b.leaves[0], 0);
+    lowerTo(search_.judge.prune_at);
+    done = done || descend();
+    while (!done && !frontier_.empty()) {
+      if (budget_ < static_cast<long long>(kBatch)) {  // whole batches: more never differs
+        bracket_.out_of_budget = true;
+        break;
+      }
+      done = expandNearest();
+    }
+    prove();
+    if (offered_) judgeVertices();
+  }
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr size_t kBatch = 4;
+  static constexpr uint32_t kWaiting = 1U << 31;  ///< instead of node a: an index of waiting_
+  static constexpr uint32_t kMaxWaiting = 256;
+  static constexpr size_t kMaxDepth = 32;
+
+  const Node& nodeA(Frontier::Pair at) const { return search_.a.nodes[at.a]; }
+  const Node& nodeB(Frontier::Pair at) const { return search_.b.nodes[at.b]; }
+  bool isInner(Frontier::Pair at) const {
+    return (at.a & kWaiting) == 0 && !(nodeA(at).isLeaf() && nodeB(at).isLeaf());
+  }
+
+  void prove() {
+    const float least = std::min({in_flight_, current_, frontier_.least()});
+    bracket_.proven = std::max(bracket_.proven, std::min(prune_at_, least));
+  }
+
+  void lowerTo(float prune_at) {
+    if (!(prune_at < prune_at_)) return;
+    prove();
+    prune_at_ = prune_at;
+    frontier_.setUpperBound(prune_at);
+  }
+
+  /// From the roots to the nearest child, each time, for an upper bound: all that is passed by
+  /// joins the frontier when one is known. True to end the search.
+  bool descend() {
+    Expansion path[kMaxDepth];
+    uint32_t taken[kMaxDepth];
+    size_t depth = 0;
+    Frontier::Entry at = {-kInfinity, {0, 0}, 0};
+    in_flight_ = kInfinity;
+    while (isInner(at.pair) && depth < kMaxDepth && budget_ > 0) {
+      Expansion& e = path[depth];
+      expander_.start(at.pair, e);
+      expander_.test(e);
+      --budget_;
+      e.bound = at.bound;
+      taken[depth] = e.near;
+      ++depth;
+      if (e.near == 0) break;
+      uint32_t nearest = firstOf(e.near);
+      float second = kInfinity;
+      for (uint32_t left = e.near & (e.near - 1); left != 0; left &= left - 1) {
+        const uint32_t lane = firstOf(left);
+        const bool nearer = e.bounds[lane] < e.bounds[nearest];
+        second = std::min(second, e.bounds[nearer ? nearest : lane]);
+        nearest = nearer ? lane : nearest;
+      }
+      in_flight_ = std::min(in_flight_, std::max(second, e.bound));
+      taken[depth - 1] = 1U << nearest;
+      at = {std::max(at.bound, e.bounds[nearest]), expander_.childPair(e, nearest), 0};
+    }
+    const bool lost = depth > 0 && path[depth - 1].near == 0;
+    current_ = lost ? kInfinity : at.bound;
+    if (!lost && !isInner(at.pair) && leaves(at)) return true;
+    for (size_t i = 0; i < depth; ++i) expander_.spread<true>(path[i], frontier_, taken[i]);
+    if (!lost && isInner(at.pair)) {  // the budget is spent, or the trees are very deep
+      frontier_.reserve(1);
+      frontier_.push(at.bound, at.pair);
+    }
+    in_flight_ = current_ = kInfinity;
+    return false;
+  }
+
+  /// Looks at the nearest leaves, and expands a batch of nearest pairs. True to end the search.
+  bool expandNearest() {
+    Expansion batch[kBatch];
+    size_t n = 0;
+    while (n < kBatch && !frontier_.empty()) {
+      const Frontier::Entry entry = frontier_.pop();
+      if (entry.bound >= prune_at_) continue;
+      if (isInner(entry.pair)) {
+        in_flight_ = std::min(in_flight_, entry.bound);
+        expander_.start(entry.pair, batch[n]);
+        batch[n++].bound = entry.bound;
+      } else {
+        current_ = entry.bound;
+        if (leaves(entry)) return true;
+        current_ = kInfinity;
+      }
+    }
+    budget_ -= static_cast<long long>(n);
+    for (size_t i = 0; i < n; ++i) expander_.test(batch[i]);
+    for (size_t i = 0; i < n; ++i) expander_.spread<true>(batch[i], frontier_);
+    in_flight_ = kInfinity;
+    return false;
+  }
+
+  /// True to end the search.
+  bool leaves(const Frontier::Entry& entry) {
+    if ((entry.pair.a & kWaiting) != 0) {
+      return judgeFeatures(waiting_[entry.pair.a & ~kWaiting], entry.bound);
+    }
+    ++search_.counts.leaf_pairs;
+    Bracketed& pair = waiting_[num_waiting_];
+    pair.nodes = entry.pair;
+    bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), hint_, pair);
+    hint_ = pair.slab.w;
+    const bool nearer = !pair.slab.apart && pair.upper < search_.judge.keep_to;
+    if (nearer) {
+      search_.judge.offer(pair.upper);
+      best_ = pair.vertices;
+      offered_ = true;
+    }
+    const float bound = std::max(entry.bound, pair.lower);
+    if (pair.slab.apart || (!nearer && bound >= prune_at_)) {
+      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, prune_at_);
+      return false;
+    }
+    // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
+    const bool ends = nearer && search_.judge.keep_to <= bracket_.near_enough;
+    if (nearer && (ends || budgeted()) && judgeVertices()) return true;
+    // What may be nearer than its own upper bound is judged at once, so that better ones come
+    // early.
+    const bool open = bound < search_.judge.prune_at;
+    if ((nearer && open) || num_waiting_ + 1 == kMaxWaiting) return judgeFeatures(pair, bound);
+    current_ = bound;
+    lowerTo(search_.judge.prune_at);
+    if (open) {
+      frontier_.reserve(1);
+      frontier_.push(bound, {kWaiting | num_waiting_, 0});
+    }
+    ++num_waiting_;
+    return false;
+  }
+
+  bool budgeted() const { return bracket_.max_expansions != std::numeric_limits<long long>::max(); }
+
+  const Leaf& leafA(Frontier::Pair at) const { return search_.a.leaves[nodeA(at).leaf()]; }
+  const Leaf& leafB(Frontier::Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
+
+  /// True to end the search.
+  bool judgeFeatures(const Bracketed& pair, float bound) {
+    const float known = search_.judge.keep_to;
+    const bool done =
+        nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
+    if (search_.judge.keep_to < known) offered_ = false;
+    // What of them was not judged is not nearer than either.
+    if (!done) current_ = std::max(bound, search_.judge.prune_at);
+    lowerTo(search_.judge.prune_at);
+    return done;
+  }
+
+  /// Judges triangles of the vertices that are the upper bound: the edges and faces there may
+  /// belong to other leaves, and be left out. True to end the search.
+  bool judgeVertices() {
+    offered_ = false;
+    const Leaf &a = leafA(best_.nodes), &b = leafB(best_.nodes);
+    return judgeFaces(a, faceAt(a, best_.a), b, faceAt(b, best_.b));
+  }
+
+  bool judgeFaces(const Leaf& a, uint32_t face_a, const Leaf& b, uint32_t face_b) {
+    ++search_.counts.exact;
+    return search_.judge.judge({PairKind::kFaces, LeafView(search_.a, a).face(face_a),
+                                LeafView(search_.b, b).face(face_b)});
+  }
+
+  static uint32_t faceAt(const Leaf& leaf, uint32_t vertex) {
+    uint32_t corner = 3U * leaf.num_faces - 1;
+    while (corner > 0 && leaf.corners[corner] != vertex) --corner;
+    return corner / 3;
+  }
+
+  const Search& search_;
+  Bracket& bracket_;
+  const Expander expander_;
+  Frontier frontier_;
+  long long budget_;
+  float prune_at_ = kInfinity;
+  float in_flight_ = kInfinity;  ///< least bound of what is being expanded
+  float current_ = -kInfinity;   ///< bound of what is at hand
+  Vec3 hint_ = {1, 0, 0};        ///< the last direction that told leaves apart
+  VertexPair best_;
+  bool offered_ = false;  ///< whether they are the upper bound
+  uint32_t num_waiting_ = 0;
+  Bracketed waiting_[kMaxWaiting];
+};
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene/body.h"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "bv/rounding.h"
+#include "bv/stamp.h"
+
+namespace kios::scene {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("fcl_kios: " + what);
+}
+
+/// An upper bound of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
+template <typename S>
+double requireRigid(const fcl::Transform3<S>& X) {
+  const auto& R = X.linear();
+  const auto& t = X.translation();
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      double dot = i == j ? -1 : 0;
+      for (int k = 0; k < 3; ++k) dot += double{R(k, i)} * double{R(k, j)};
+      square += dot * dot;
+    }
+  }
+  const double error = std::sqrt(square);
+  constexpr double kRigid = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
+  if (!(error <= kRigid)) {
+    std::ostringstream message;
+    message << "the pose of an object of the scene is not rigid: |R^T R - I| = " << error
+            << ", at most " << kRigid << " is allowed.";
+    refuse(message.str());
+  }
+  const double size = std::abs(double{t[0]}) + std::abs(double{t[1]}) + std::abs(double{t[2]});
+  if (!(size <= kMaxCoordinate<S> / 4)) {
+    refuse("the translation of an object of the scene is NaN, infinite or too large.");
+  }
+  // A power of two, so that it stays the same while rounding errors come and go.
+  return std::ldexp(1.0, std::ilogb(error + 0x1p-48) + 1);
+}
+
+template <typename S>
+bool samePose(const fcl::Transform3<S>& a, const fcl::Transform3<S>& b) {
+  return a.linear() == b.linear() && a.translation() == b.translation();
+}
+
+template <typename S>
+Sphere sphereOf(const kIOS<S>& root, int i) {
+  const fcl::Vector3<S> c = root.sphereCenter(i);
+  return {{double{c[0]}, double{c[1]}, double{c[2]}}, double{root.sphereRadius(i)}};
+}
+
+/// FCL's own local AABB, which place() and renew() made afresh. Its radius has no margin, and FCL's
+/// GJK is off by up to its tolerance, 1e-6, so that distances may come out smaller.
+template <typename S>
+Sphere sphereOf(const fcl::CollisionGeometry<S>& geometry) {
+  const double radius = geometry.aabb_radius * (1 + 1e-4) + 1e-5;
+  const auto& c = geometry.aabb_center;
+  if (!(std::isfinite(radius) && c.allFinite())) return {{0, 0, 0}, kInfinity};
+  return {{double{c[0]}, double{c[1]}, double{c[2]}}, radius};
+}
+
+// A sphere of the world is around X c; R c + t takes 6 roundings of 2^-53. R stretches by at most
+// 1 + |E|. What the narrow phase computes, in the first body's frame, differs from the world's
+// distance d by at most: |E| (d + reach) from a frame that isn't orthonormal; 16 eps L from the
+// triangles' distance, L <= d + 2 r + 2 r'; 8 eps (2 reach' + |t' - t|) from the common frame,
+// where |t' - t| <= d + reach + reach'. The terms in d are boxShare()'s, the rest is split over the
+// boxes.
+template <typename S>
+void encloseInBox(const Body<S>& body, const Sphere& sphere, Box& box) {
+  constexpr double kEps = std::numeric_limits<S>::epsilon();
+  const double error = body.rotation_error;
+  const double pads = (2 * error + 64 * kEps) * body.reach + 32 * kEps * body.sphere.radius;
+  for (int i = 0; i < 3; ++i) {
+    double at = double{body.X_W.translation()[i]}, terms = std::abs(at);
+    for (int j = 0; j < 3; ++j) {
+      const double term = double{body.X_W.linear()(i, j)} * sphere.center[j];
+      at += term;
+      terms += std::abs(term);
+    }
+    const double r =
+        (sphere.radius * (1 + error) + pads + 0x1p-48 * terms + 0x1p-1000) * (1 + 0x1p-50);
+    box.lower[i] = std::max(box.lower[i], at - r);
+    box.upper[i] = std::min(box.upper[i], at + r);
+  }
+}
+
+constexpr Box kWholeSpace = {{-kInfinity, -kInfinity, -kInfinity},
+                             {kInfinity, kInfinity, kInfinity}};
+
+/// The content is in all spheres of the root volume, so in the intersection of their boxes.
+template <typename S>
+Box boxOf(const Body<S>& body) {
+  Box box = kWholeSpace;
+  if (!(body.sphere.radius < kInfinity)) return box;
+  encloseInBox(body, body.sphere, box);
+  for (int i = 0; i < body.num_caps; ++i) encloseInBox(body, body.caps[i], box);
+  return box;
+}
+
+template <typename S>
+void newState(Body<S>& body) {
+  body.state = nextStamp();
+  body.path = 0;
+}
+
+template <typename S>
+void measure(Body<S>& body) {
+  if (body.model) {
+    const kIOS<S>& root = body.model->getBV(0).bv;
+    body.sphere = sphereOf(root, 0);
+    body.num_caps = std::max(0, root.k() - 1);
+    for (int i = 0; i < body.num_caps; ++i) body.caps[i] = sphereOf(root, i + 1);
+  } else {
+    // As fcl::CollisionObject does at its construction.
+    const_cast<fcl::CollisionGeometry<S>&>(*body.geometry).computeLocalAABB();
+    body.sphere = sphereOf(*body.geometry);
+    body.num_caps = 0;
+  }
+  body.reach = body.sphere.reach();
+  newState(body);
+  body.box = boxOf(body);
+}
+
+}  // namespace
+
+template <typename S>
+void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geometry,
+           const fcl::Transform3<S>& X_W) {
+  if (!geometry) refuse("the geometry of an object of the scene is null.");
+  const double error = requireRigid(X_W);
+  const auto* const model = dynamic_cast<const Model<S>*>(geometry.get());
+  if (model) requireFinished(*model);
+  body.geometry = std::move(geometry);
+  body.model = model;
+  body.X_W = X_W;
+  body.rotation_error = error;
+  measure(body);
+}
+
+template <typename S>
+void move(Body<S>& body, const fcl::Transform3<S>& X_W) {
+  if (samePose(body.X_W, X_W)) return;
+  body.rotation_error = requireRigid(X_W);
+  const double moved = displacement<S>(body.X_W.linear(), body.X_W.translation(), X_W.linear(),
+                                       X_W.translation(), body.sphere);
+  body.path = addUp(body.path, moved);
+  body.X_W = X_W;
+  body.box = boxOf(body);
+  // A sum that has grown out of all proportion would round small steps up to large ones; an
+  // infinite one would seem to stand still.
+  if (!(body.path < kInfinity && body.path <= 0x1p30 * body.sphere.radius)) newState(body);
+}
+
+template <typename S>
+void renew(Body<S>& body) {
+  measure(body);
+}
+
+template void place(Body<double>&, std::shared_ptr<const fcl::CollisionGeometry<double>>,
+                    const fcl::Transform3<double>&);
+template void move(Body<double>&, const fcl::Transform3<double>&);
+template void renew(Body<double>&);
+template void place(Body<float>&, std::shared_ptr<const fcl::CollisionGeometry<float>>,
+                    const fcl::Transform3<float>&);
+template void move(Body<float>&, const fcl::Transform3<float>&);
+template void renew(Body<float>&);
+
+}  // namespace kios::scene

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "engine/tree_cache.h"
+#include "fcl/geometry/collision_geometry.h"
+#include "fcl/narrowphase/collision_object.h"
+#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/scene/scene_types.h"
+#include "scene/box.h"
+#include "scene/motion_bound.h"
+
+namespace kios::scene {
+
+/// An object of a scene as the last query found it.
+template <typename S>
+struct Body {
+  // First what every query looks at in every body.
+
+  /// Unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
+  /// object.
+  std::uint64_t state = 0;
+  /// What every point of the content has moved so far in this state, at most; grows with each move.
+  double path = 0;
+  double rotation_error = 0;  ///< >= |R^T R - I|_2
+  /// In the world, around the content, so wide that the gap of two bodies' boxes, less a share
+  /// boxShare() of it, is at most the distance that the narrow phase would compute.
+  Box box;
+  const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set
+  Role role = Role::kBody;
+
+  std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
+  const Model<S>* model = nullptr;  ///< the geometry if it is a mesh over k-IOS
+  fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
+  Sphere sphere;     ///< around the content, infinite for planes and the like
+  double reach = 0;  ///< the sphere's
+  /// More spheres around the content: the caps of its k-IOS.
+  std::array<Sphere, kIOS<S>::kCaps> caps;
+  int num_caps = 0;
+
+  bool used() const { return state != 0; }
+};
+
+/// Makes the body that of a geometry at a pose.
+template <typename S>
+void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geometry,
+           const fcl::Transform3<S>& X_W);
+
+/// Moves the body. Throws std::invalid_argument if the pose is not rigid; the body then is as it
+/// was.
+template <typename S>
+void move(Body<S>& body, const fcl::Transform3<S>& X_W);
+
+/// Measures the body's geometry anew, which has changed.
+template <typename S>
+void renew(Body<S>& body);
+
+/// What a model's root volume and arrays tell of its state.
+template <typename S>
+engine::TreeKey keyOf(const Model<S>& model) {
+  return {model.getBV(0).bv.stamp, model.vertices, model.tri_indices,
+          static_cast<std::size_t>(model.num_vertices), static_cast<std::size_t>(model.num_tris)};
+}
+
+/// See Body::box: `error` is the largest rotation error of the scene.
+template <typename S>
+double boxShare(double error) {
+  return 2 * error + 128 * double{std::numeric_limits<S>::epsilon()};
+}
+
+}  // namespace kios::scene

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace kios::scene {
+
+/// Axis-aligned box in the world.
+struct Box {
+  double lower[3], upper[3];
+
+  void grow(const Box& o) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], o.lower[i]);
+      upper[i] = std::max(upper[i], o.upper[i]);
+    }
+  }
+};
+
+/// Squared distance of two boxes, up to 6 roundings; infinite boxes touch.
+inline double squaredGap(const Box& a, const Box& b) {
+  const auto larger = [](double x, double y) { return x > y ? x : y; };  // without a branch
+  const auto side = [&](int i) {
+    return larger(0.0, larger(a.lower[i] - b.upper[i], b.lower[i] - a.upper[i]));
+  };
+  const double x = side(0), y = side(1), z = side(2);
+  return x * x + y * y + z * z;
+}
+
+/// What squaredGap() exceeds only if the distance exceeds `limit`: roundings are covered, and what
+/// underflows.
+inline double squaredLimit(double limit) {
+  if (limit < 0) limit = 0;  // bodies of FCL that overlap have negative distances
+  return limit * limit * (1 + 0x1p-40) + 1e-300;
+}
+
+}  // namespace kios::scene

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/scene/manager_query.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include "fcl_kios/scene/scene_distance.h"
+#include "scene/pair_query.h"
+
+namespace kios {
+
+template <typename S>
+class ManagerQuery<S>::Impl {
+ public:
+  explicit Impl(Filter filter) : filter_(std::move(filter)) {}
+
+  void start(bool closest, S margin) {
+    memory_.endQuery();
+    if (bodies_.size() > 2 * met_ + PairMemory::kSpare) forgetUnmet();
+    memory_.beginQuery();
+    met_ = 0;
+    closest_ = closest;
+    bound_ = margin;
+    pairs.clear();
+    asked_.clear();
+    counts = SceneCounts();
+  }
+
+  bool ask(const Object* o1, const Object* o2, S& dist) {
+    dist = bound_;
+    if (done()) return true;
+    Known *a = &meet(o1), *b = &meet(o2);
+    if (b->id < a->id) std::swap(a, b);
+    // Some managers come up with a pair twice.
+    if (!asked_
+             .insert(std::uint64_t{static_cast<std::uint32_t>(a->id)} << 32 |
+                     static_cast<std::uint32_t>(b->id))
+             .second) {
+      return false;
+    }
+    ++counts.total;
+    if (filter_ && !filter_(o1, o2)) {
+      ++counts.filtered;
+      return false;
+    }
+    scene::PairQuery<S> pair(a->id, a->body, b->id, b->body, memory_);
+    const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
+    const auto answer = answerOf(pair, limit);
+    if (answer.within) {
+      if (closest_) {
+        pairs.clear();
+        dist = bound_ = answer.distance;
+      }
+      pairs.push_back({a->body.followed, b->body.followed, answer.distance, answer.triangle_a,
+                       answer.triangle_b});
+    }
+    return done();
+  }
+
+  std::vector<Pair> pairs;
+  SceneCounts counts;
+
+ private:
+  using PairMemory = scene::PairMemory<S>;
+
+  /// An object, and its model's state when it was last met.
+  struct Known {
+    scene::Body<S> body;
+    engine::TreeKey key;
+    int id = 0;
+    std::uint64_t met = 0;
+  };
+
+  bool done() const { return closest_ && bound_ <= 0; }
+
+  Known& meet(const Object* object) {
+    const auto [it, is_new] = bodies_.try_emplace(object);
+    Known& known = it->second;
+    if (known.met == memory_.query()) return known;
+    scene::Body<S>& body = known.body;
+    if (is_new) known.id = next_id_++;
+    if (body.geometry != object->collisionGeometry()) {
+      scene::place<S>(body, object->collisionGeometry(), object->getTransform());
+      body.followed = object;
+    } else {
+      scene::move(body, object->getTransform());
+      if (body.model) {
+        requireFinished(*body.model);
+        if (!(scene::keyOf(*body.model) == known.key)) scene::renew(body);
+      }
+    }
+    if (body.model) known.key = scene::keyOf(*body.model);
+    known.met = memory_.query();
+    ++met_;
+    return known;
+  }
+
+  typename scene::PairQuery<S>::Answer answerOf(scene::PairQuery<S>& pair, double limit) {
+    using Source = scene::Knowledge::Source;
+    if (pair.least() > limit) {
+      ++counts.ties;
+      return {};
+    }
+    const scene::Knowledge known = pair.know(limit);
+    if (known.exact) {
+      ++counts.still;
+      return pair.proven(limit);
+    }
+    if (known.bound > limit) {
+      ++(known.source == Source::kStill    ? counts.still
+         : known.source == Source::kMotion ? counts.moved_too_little
+                                           : counts.far_roots);
+      return {};
+    }
+    ++counts.queried;
+    const auto answer = pair.search(limit, true, counts.search);
+    if (!answer.within) ++counts.proven_farther;
+    return answer;
+  }
+
+  void forgetUnmet() {
+    for (auto it = bodies_.begin(); it != bodies_.end();) {
+      it = it->second.met == memory_.query() ? std::next(it) : bodies_.erase(it);
+    }
+  }
+
+  Filter filter_;
+  std::unordered_map<const Object*, Known> bodies_;
+  std::unordered_set<std::uint64_t> asked_;  // pairs, in this query
+  PairMemory memory_{SceneDistance<S>::kMaxRemembered};
+  std::size_t met_ = 0;
+  int next_id_ = 0;
+  bool closest_ = true;
+  S bound_ = std::numeric_limits<S>::max();  // pairs as far don't matter
+};
+
+template <typename S>
+ManagerQuery<S>::ManagerQuery(Filter filter) : impl_(std::make_unique<Impl>(std::move(filter))) {
+  findClosest();
+}
+template <typename S>
+ManagerQuery<S>::~ManagerQuery() = default;
+template <typename S>
+ManagerQuery<S>::ManagerQuery(ManagerQuery&&) noexcept = default;
+template <typename S>
+ManagerQuery<S>& ManagerQuery<S>::operator=(ManagerQuery&&) noexcept = default;
+
+template <typename S>
+void ManagerQuery<S>::findClosest() {
+  impl_->start(true, std::numeric_limits<S>::max());
+}
+
+template <typename S>
+void ManagerQuery<S>::findWithin(S margin) {
+  if (!(margin == margin)) throw std::invalid_argument("fcl_kios: a margin is NaN.");
+  impl_->start(false, margin);
+}
+
+template <typename S>
+bool ManagerQuery<S>::callback(Object* o1, Object* o2, void* query, S& dist) {
+  return static_cast<ManagerQuery*>(query)->impl_->ask(o1, o2, dist);
+}
+
+template <typename S>
+const std::vector<typename ManagerQuery<S>::Pair>& ManagerQuery<S>::pairs() const {
+  return impl_->pairs;
+}
+
+template <typename S>
+const SceneCounts& ManagerQuery<S>::counts() const {
+  return impl_->counts;
+}
+
+template class ManagerQuery<double>;
+template class ManagerQuery<float>;
+
+}  // namespace kios

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+
+#include "scene/body.h"
+
+namespace kios::scene {
+
+/// What the narrow phase said last of two bodies, and where they were. It says nothing of other
+/// states of their geometries.
+template <typename S>
+struct Proof {
+  std::uint64_t state_a = 0, state_b = 0;  ///< 0: nothing was proven
+  fcl::Matrix3<S> R;                       ///< pose of b in a, as RelativePose has it
+  fcl::Vector3<S> T;
+  double path_a = 0, path_b = 0;
+  double rotation_error = 0;  ///< of a's pose
+  double apart = 0;           ///< the narrow phase would compute at least that there
+  S distance = 0;             ///< what it computes there, if `exact`
+  bool exact = false;
+  std::intptr_t triangle_a = -1, triangle_b = -1;  ///< near each other there, if not negative
+  std::uint64_t made = 0, used = 0;                ///< numbers of the queries that last did
+
+  bool tellsOf(const Body<S>& a, const Body<S>& b) const {
+    return state_a == a.state && state_b == b.state;
+  }
+};
+
+/// The proofs of the pairs that queries came near: bounded, as each query forgets what it had no
+/// use for as soon as that is more than what it used, and kSpare.
+template <typename S>
+class PairMemory {
+ public:
+  static constexpr std::size_t kSpare = 1024;
+
+  explicit PairMemory(std::size_t capacity) : capacity_(capacity) {}
+
+  void beginQuery() {
+    ++query_;
+    used_ = 0;
+  }
+  void endQuery();
+  std::uint64_t query() const { return query_; }
+
+  /// The proof of the pair in their present states; nullptr if there is none.
+  Proof<S>* find(int id_a, const Body<S>& a, int id_b, const Body<S>& b);
+  /// A place for a proof; nullptr if there is no room.
+  Proof<S>* obtain(int id_a, int id_b);
+
+  std::size_t size() const { return proofs_.size(); }
+  void clear() { proofs_.clear(); }
+
+ private:
+  static std::uint64_t keyOf(int a, int b) {
+    return std::uint64_t{static_cast<std::uint32_t>(a)} << 32 | static_cast<std::uint32_t>(b);
+  }
+  struct Hash {
+    std::size_t operator()(std::uint64_t key) const {
+      key *= 0x9e3779b97f4a7c15U;
+      return key ^ key >> 32;
+    }
+  };
+  void use(Proof<S>& proof) {
+    if (proof.used != query_) ++used_;
+    proof.used = query_;
+  }
+
+  std::unordered_map<std::uint64_t, Proof<S>, Hash> proofs_;
+  std::size_t capacity_;
+  std::uint64_t query_ = 0;
+  std::size_t used_ = 0;
+};
+
+}  // namespace kios::scene

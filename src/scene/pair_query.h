@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "scene/body.h"
+#include "scene/pair_memory.h"
+
+namespace kios::scene {
+
+/// What is known of a pair without a search.
+struct Knowledge {
+  enum class Source { kNothing, kStill, kMotion, kRoots };
+  /// The narrow phase would compute at least that; below 0 for root volumes that overlap, deeper
+  /// ones first.
+  double bound;
+  Source source;  ///< of the bound
+  bool exact;     ///< it would compute just the proof's distance
+};
+
+/// A pair of bodies in a scene query: what it can spare the narrow phase, and the narrow phase.
+template <typename S>
+class PairQuery {
+ public:
+  PairQuery(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
+
+  /// Gathers bounds, the cheapest first, until one exceeds `limit`.
+  Knowledge know(double limit) const;
+
+  /// The answer of the narrow phase.
+  struct Answer {
+    bool within = false;  ///< `distance` is at most the limit; else the pair is farther than that
+    S distance = 0;
+    std::intptr_t triangle_a = -1, triangle_b = -1;
+  };
+  /// Asks the narrow phase for the distance if that is at most `limit`; of two meshes, if `exact`
+  /// is false, for any that is at most that.
+  Answer search(double limit, bool exact, SearchCounts& counts);
+
+  /// The last search's or the proof's answer, where know() said that it is exact.
+  Answer proven(double limit) const;
+
+  /// The distance of the triangles of the last proof, which lie somewhere near; +infinity if there
+  /// are none.
+  double upperBound() const;
+  /// A little more: the narrow phase computes at most that.
+  double ceiling() const;
+  /// Whether the narrow phase would compute just the proof's distance.
+  bool stoodStill() const;
+  /// What it computes is at least that, wherever the bodies are.
+  double least() const { return meshes() ? 0 : -std::numeric_limits<double>::infinity(); }
+  /// An answer with these triangles, if that proves that the narrow phase's is at most the limit.
+  Answer nearby(double limit) const;
+
+ private:
+  bool meshes() const { return a_.model && b_.model; }
+  double afterMotion(double moved, double T_norm) const;
+  /// How far computed distances may be from exact ones in the common frame, for distances about d.
+  double roundingOf(double d) const;
+  double outlook(double limit) const;
+  Answer searchMeshes(double limit, SearchCounts& counts);
+  Answer decideMeshes(double limit, SearchCounts& counts);
+  void remember(double apart, bool exact, const Answer& answer);
+
+  const int id_a_, id_b_;
+  const Body<S>&a_, &b_;
+  PairMemory<S>& memory_;
+  const Proof<S>* proof_;
+};
+
+/// The points that realise a pair's distance, in the world.
+template <typename S>
+void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair);
+
+}  // namespace kios::scene

@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/scene.h"
+
+namespace kios::scene {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What is at most that is below x.
+template <typename S>
+double below(S x) {
+  return std::nextafter(x, -std::numeric_limits<S>::infinity());
+}
+
+/// Two parts of the tree, or two bodies, whose distances are at least `bound`.
+struct Waiting {
+  double bound;
+  int a, b;
+  enum class Kind { kNodes, kBodies } kind;
+  Knowledge::Source source;
+
+  bool operator<(const Waiting& o) const { return bound > o.bound; }  // least first in a heap
+};
+
+class Queue {
+ public:
+  bool empty() const { return items_.empty(); }
+  double leastBound() const { return items_.empty() ? kInfinity : items_.front().bound; }
+  void push(const Waiting& item) {
+    items_.push_back(item);
+    std::push_heap(items_.begin(), items_.end());
+  }
+  Waiting pop() {
+    std::pop_heap(items_.begin(), items_.end());
+    const Waiting item = items_.back();
+    items_.pop_back();
+    return item;
+  }
+  const std::vector<Waiting>& items() const { return items_; }
+
+ private:
+  std::vector<Waiting> items_;
+};
+
+}  // namespace
+
+template <typename S>
+template <typename Visit>
+void Scene<S>::forChildren(int n, int m, const Visit& visit) {
+  const auto visitPair = [&](int i, int j) {
+    const BoxTree::Node &a = tree_[i], &b = tree_[j];
+    if (i == j && a.isLeaf()) return;
+    if (a.bodies + b.bodies == 0) {
+      counts.filtered += i == j ? a.pairs() : a.pairsWith(b);
+    } else {
+      visit(i, j);
+    }
+  };
+  const BoxTree::Node &a = tree_[n], &b = tree_[m];
+  if (n == m) {
+    visitPair(a.left, a.left);
+    visitPair(a.right, a.right);
+    visitPair(a.left, a.right);
+  } else if (b.isLeaf() || (!a.isLeaf() && a.count >= b.count)) {
+    visitPair(a.left, m);
+    visitPair(a.right, m);
+  } else {
+    visitPair(n, b.left);
+    visitPair(n, b.right);
+  }
+}
+
+template <typename S>
+template <typename Visit>
+void Scene<S>::forNearPairs(double limit, const Visit& visit) {
+  const double gap_limit = gapLimit(limit);
+  const auto visitIfNear = [&](int a, int b) {
+    const double square = squaredGap(bodies_[a].box, bodies_[b].box);
+    if (square > gap_limit) {
+      ++counts.far_boxes;
+    } else {
+      visit(a, b, square);
+    }
+  };
+  if (near_.covers(limit)) {
+    const auto listed = static_cast<long long>(near_.pairs().size());
+    const long long of_obstacles = num_obstacles_ * (num_obstacles_ - 1) / 2;
+    counts.filtered += of_obstacles;
+    counts.far_boxes += counts.total - of_obstacles - listed;
+    for (const auto& [a, b] : near_.pairs()) visitIfNear(a, b);
+    return;
+  }
+
+  const double reach = near_.startFor(limit, bodies_);
+  bool listing = reach > limit;
+  updateTree();
+  if (tree_.nodes().size() < 2) return;
+  const double reach_limit = gapLimit(reach);
+  std::vector<std::pair<int, int>> stack = {{0, 0}};
+  const auto push = [&](int n, int m) {
+    const BoxTree::Node &a = tree_[n], &b = tree_[m];
+    if (n != m && squaredGap(a.box, b.box) > (listing ? reach_limit : gap_limit)) {
+      counts.far_boxes += a.pairsWith(b);
+    } else if (n != m && a.isLeaf() && b.isLeaf()) {
+      const auto [low, high] = std::minmax({a.object, b.object});
+      if (listing) listing = near_.add(low, high);
+      visitIfNear(low, high);
+    } else {
+      stack.emplace_back(n, m);
+    }
+  };
+  while (!stack.empty()) {
+    const auto [n, m] = stack.back();
+    stack.pop_back();
+    forChildren(n, m, push);
+  }
+}
+
+template <typename S>
+void Scene<S>::countSkipped(Knowledge::Source source) {
+  switch (source) {
+    case Knowledge::Source::kNothing:
+      ++counts.far_boxes;
+      break;
+    case Knowledge::Source::kStill:
+      ++counts.still;
+      break;
+    case Knowledge::Source::kMotion:
+      ++counts.moved_too_little;
+      break;
+    case Knowledge::Source::kRoots:
+      ++counts.far_roots;
+  }
+}
+
+template <typename S>
+typename Scene<S>::Answer Scene<S>::search(PairQuery<S>& pair, double limit, bool exact) {
+  ++counts.queried;
+  const Answer answer = pair.search(limit, exact, counts.search);
+  if (!answer.within) ++counts.proven_farther;
+  return answer;
+}
+
+template <typename S>
+ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
+                              const SceneRequest& request) const {
+  ScenePair<S> pair;
+  pair.a = a;
+  pair.b = b;
+  pair.distance = answer.distance;
+  pair.triangle_a = answer.triangle_a;
+  pair.triangle_b = answer.triangle_b;
+  if (request.nearest_points) nearestPoints(bodies_[a], bodies_[b], pair);
+  return pair;
+}
+
+// Best first: what waits with the least bound is next, and the search ends when that exceeds the
+// best distance so far.
+template <typename S>
+std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
+  beginQuery();
+  bool found = false;
+  std::pair<int, int> best;
+  Answer nearest;
+  double limit = kInfinity;  // pairs farther than that don't matter
+  const auto [last_a, last_b] = last_closest_;
+  if (contains(last_a) && contains(last_b) && admissible(last_a, last_b)) {
+    limit = std::min(limit, pairOf(last_a, last_b).ceiling());
+  }
+
+  Queue queue;
+  const auto enqueuePair = [&](int a, int b, double square) {
+    queue.push({boxBound(square), a, b, Waiting::Kind::kBodies, Knowledge::Source::kNothing});
+  };
+  const auto enqueue = [&](int n, int m) {
+    const BoxTree::Node &a = tree_[n], &b = tree_[m];
+    const double square = n == m ? 0 : squaredGap(a.box, b.box);
+    if (square > gapLimit(limit)) {
+      counts.far_boxes += a.pairsWith(b);
+    } else if (n != m && a.isLeaf() && b.isLeaf()) {
+      const auto [low, high] = std::minmax({a.object, b.object});
+      enqueuePair(low, high, square);
+    } else {
+      queue.push({boxBound(square), n, m, Waiting::Kind::kNodes, Knowledge::Source::kNothing});
+    }
+  };
+  if (limit < kInfinity) {
+    forNearPairs(limit, enqueuePair);
+  } else {
+    updateTree();
+    if (tree_.nodes().size() > 1) enqueue(0, 0);
+  }
+
+  while (!queue.empty() && !(queue.leastBound() > limit)) {
+    const Waiting next = queue.pop();
+    if (next.kind == Waiting::Kind::kNodes) {
+      forChildren(next.a, next.b, enqueue);
+      continue;
+    }
+    const std::pair<int, int> ids(next.a, next.b);
+    if (next.source == Knowledge::Source::kNothing && !admissible(next.a, next.b)) {
+      ++counts.filtered;
+      continue;
+    }
+    PairQuery<S> pair = pairOf(next.a, next.b);
+    const double matters = found && best < ids ? below(nearest.distance) : limit;
+    if (pair.least() > matters) {
+      ++counts.ties;
+      continue;
+    }
+    Answer answer;
+    if (next.source == Knowledge::Source::kNothing) {
+      const Knowledge known = pair.know(matters);
+      if (known.exact) {
+        ++counts.still;
+        answer = pair.proven(matters);
+      } else if (known.bound > matters) {
+        countSkipped(known.source);
+        continue;
+      } else if (known.bound > queue.leastBound()) {
+        queue.push({known.bound, next.a, next.b, Waiting::Kind::kBodies, known.source});
+        continue;
+      } else {
+        answer = search(pair, matters, true);
+      }
+    } else {
+      answer = search(pair, matters, true);
+    }
+    if (!answer.within) continue;
+    found = true;
+    best = ids;
+    nearest = answer;
+    limit = std::min(limit, double{answer.distance});
+  }
+  for (const Waiting& item : queue.items()) {
+    if (item.kind == Waiting::Kind::kBodies) {
+      countSkipped(item.source);
+    } else {
+      counts.far_boxes +=
+          item.a == item.b ? tree_[item.a].pairs() : tree_[item.a].pairsWith(tree_[item.b]);
+    }
+  }
+  memory.endQuery();
+  last_closest_ = found ? best : std::pair<int, int>(-1, -1);
+  if (!found) return std::nullopt;
+  return report(best.first, best.second, nearest, request);
+}
+
+template <typename S>
+std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& request) {
+  beginQuery();
+  const double limit = below(margin);
+  std::vector<ScenePair<S>> pairs;
+  const auto ask = [&](int a, int b, double /*square*/) {
+    if (!admissible(a, b)) {
+      ++counts.filtered;
+      return;
+    }
+    PairQuery<S> pair = pairOf(a, b);
+    if (pair.least() > limit) {
+      ++counts.ties;
+      return;
+    }
+    const Knowledge known = pair.know(limit);
+    Answer answer;
+    if (known.exact) {
+      ++counts.still;
+      answer = pair.proven(limit);
+    } else if (known.bound > limit) {
+      countSkipped(known.source);
+    } else {
+      if (!request.exact) answer = pair.nearby(limit);
+      if (answer.within) {
+        ++counts.near_by_proof;
+      } else {
+        answer = search(pair, limit, request.exact);
+      }
+    }
+    if (answer.within) pairs.push_back(report(a, b, answer, request));
+  };
+
+  forNearPairs(limit, ask);
+  memory.endQuery();
+  std::sort(pairs.begin(), pairs.end(), [](const ScenePair<S>& x, const ScenePair<S>& y) {
+    return std::pair(x.a, x.b) < std::pair(y.a, y.b);
+  });
+  return pairs;
+}
+
+template <typename S>
+std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
+  beginQuery();
+  std::vector<ScenePair<S>> pairs;
+  const int end = static_cast<int>(bodies_.size());
+  for (int a = 0; a < end; ++a) {
+    for (int b = a + 1; bodies_[a].used() && b < end; ++b) {
+      if (!bodies_[b].used()) continue;
+      if (!admissible(a, b)) {
+        ++counts.filtered;
+        continue;
+      }
+      PairQuery<S> pair = pairOf(a, b);
+      const bool still = pair.stoodStill();
+      if (still) ++counts.still;
+      const Answer answer = still ? pair.proven(kInfinity) : search(pair, kInfinity, true);
+      pairs.push_back(report(a, b, answer, request));
+    }
+  }
+  memory.endQuery();
+  return pairs;
+}
+
+template std::optional<ScenePair<double>> Scene<double>::closestPair(const SceneRequest&);
+template std::vector<ScenePair<double>> Scene<double>::pairsWithin(double, const SceneRequest&);
+template std::vector<ScenePair<double>> Scene<double>::clearances(const SceneRequest&);
+template std::optional<ScenePair<float>> Scene<float>::closestPair(const SceneRequest&);
+template std::vector<ScenePair<float>> Scene<float>::pairsWithin(float, const SceneRequest&);
+template std::vector<ScenePair<float>> Scene<float>::clearances(const SceneRequest&);
+
+}  // namespace kios::scene

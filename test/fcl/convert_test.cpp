@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// kios::toKIOS() from models over FCL's volumes, and scenes that mix volumes.
+
+#include <gtest/gtest.h>
+
+#include "fcl/mesh_cases.h"
+
+namespace kios::testing {
+namespace {
+
+const Transform3d kHere = Transform3d::Identity();
+
+template <typename BV>
+class Convert : public ::testing::Test {};
+using Volumes =
+    ::testing::Types<fcl::AABBd, fcl::OBBd, fcl::RSSd, fcl::OBBRSSd, fcl::kIOSd, fcl::KDOPd<16>,
+                     fcl::KDOPd<18>, fcl::KDOPd<24>, kIOSd, kIOSf, fcl::OBBRSSf>;
+TYPED_TEST_SUITE(Convert, Volumes);
+
+TYPED_TEST(Convert, KeepsGeometryAndSettings) {
+  using S = typename TypeParam::S;
+  const Mesh mesh = scenes::bumpyTorus(150);
+  const auto source = scenes::buildModel<TypeParam>(mesh);
+  int user = 0;
+  source->user_data = &user;
+  source->cost_density = S(3);
+  source->threshold_occupied = S(0.75);
+  source->threshold_free = S(0.25);
+  source->computeLocalAABB();
+  const std::shared_ptr<Model<S>> converted = toKIOS(*source);
+  EXPECT_NO_THROW(validate(*converted));
+  ASSERT_EQ(converted->num_vertices, source->num_vertices);
+  ASSERT_EQ(converted->num_tris, source->num_tris);
+  EXPECT_TRUE(
+      std::equal(source->vertices, source->vertices + source->num_vertices, converted->vertices));
+  for (int i = 0; i < source->num_tris; ++i) {
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(converted->tri_indices[i][c], source->tri_indices[i][c]);
+  }
+  EXPECT_EQ(converted->user_data, &user);
+  EXPECT_EQ(converted->cost_density, S(3));
+  EXPECT_EQ(converted->threshold_occupied, S(0.75));
+  EXPECT_EQ(converted->threshold_free, S(0.25));
+  EXPECT_TRUE(converted->aabb_local.equal(source->aabb_local));
+  EXPECT_EQ(converted->aabb_center, source->aabb_center);
+  EXPECT_EQ(converted->aabb_radius, source->aabb_radius);
+}
+
+TYPED_TEST(Convert, AnswersAsTheMesh) {
+  using S = typename TypeParam::S;
+  const Mesh mesh = scenes::bumpyTorus(150), other = scenes::icosphere(0.6, 1);
+  const auto a = toKIOS(*scenes::buildModel<TypeParam>(mesh));
+  const auto b = scenes::buildModel<kIOS<S>>(other);
+  const scenes::MeshOracle oracle(mesh, other);
+  for (const Frame& frame : randomFrames(20, 1.5, 21)) {
+    const fcl::Transform3<S> X_WA = frame.X_WA.cast<S>(), X_WB = frame.X_WB.cast<S>();
+    fcl::DistanceResult<S> result;
+    const fcl::DistanceRequest<S> request;
+    EXPECT_NEAR(fcl::distance(a.get(), X_WA, b.get(), X_WB, request, result),
+                oracle.distance(X_WA.template cast<double>(), X_WB.template cast<double>()),
+                64 * std::numeric_limits<S>::epsilon());
+  }
+}
+
+template <typename BV>
+void expectRefused(const fcl::BVHModel<BV>& model, const std::string& part) {
+  try {
+    toKIOS(model);
+    ADD_FAILURE() << "not refused: " << part;
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.rfind("fcl_kios: ", 0), 0u) << message;
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+TYPED_TEST(Convert, RefusesWhatIsNoMesh) {
+  using S = typename TypeParam::S;
+  ::testing::internal::CaptureStderr();  // FCL's warnings
+  using Source = fcl::BVHModel<TypeParam>;
+  expectRefused(Source(), "empty");
+  const auto good = scenes::buildModel<TypeParam>(scenes::icosphere(1, 0));
+  std::vector<fcl::Vector3<S>> points(good->vertices, good->vertices + good->num_vertices);
+  Source begun;
+  begun.beginModel();
+  begun.addSubModel(points);
+  expectRefused(begun, "begun");
+  ASSERT_EQ(begun.endModel(), fcl::BVH_OK);
+  expectRefused(begun, "point cloud");
+  Source nothing;
+  nothing.beginModel();
+  nothing.endModel();
+  expectRefused(nothing, "begun");
+  Source replacing(*good);
+  replacing.beginReplaceModel();
+  expectRefused(replacing, "replace");
+  Source updating(*good);
+  updating.beginUpdateModel();
+  expectRefused(updating, "update");
+  Source bad(*good);
+  bad.vertices[3][1] = std::numeric_limits<S>::quiet_NaN();
+  expectRefused(bad, "vertex 3 ");
+  Source wild(*good);
+  wild.tri_indices[2] = fcl::Triangle(0, 1, 999);
+  expectRefused(wild, "triangle 2 refers to vertex 999");
+  ::testing::internal::GetCapturedStderr();
+}
+
+TEST(ConvertStale, TheBoxIsThatOfTheVerticesNow) {
+  const Mesh mesh = scenes::icosphere(1, 1);
+  const auto source = scenes::buildModel<fcl::OBBRSSd>(mesh);
+  source->computeLocalAABB();
+  std::vector<Vector3d> vertices = mesh.vertices;
+  for (Vector3d& p : vertices) p *= 7;
+  source->beginReplaceModel();
+  source->replaceSubModel(vertices);
+  source->endReplaceModel();
+  EXPECT_LT(source->aabb_radius, 2);  // FCL leaves it
+  EXPECT_NEAR(toKIOS(*source)->aabb_radius, 7, 1e-9);
+}
+
+// The message of a scene that mixes volumes names both types, and the remedy, which works.
+template <typename BV>
+void expectRemedy(const std::string& name) {
+  const Mesh mesh = scenes::icosphere(1, 1);
+  const auto ours = kiosModel(mesh);
+  const auto other = scenes::buildModel<BV>(mesh);
+  const Transform3d there(Eigen::Translation3d(0.5, 0.25, 0.125));
+  const fcl::CollisionGeometryd *g1 = ours.get(), *g2 = other.get();
+  for (int order = 0; order < 2; ++order, std::swap(g1, g2)) {
+    for (const bool distance : {false, true}) {
+      fcl::CollisionResultd contacts;
+      fcl::DistanceResultd result;
+      try {
+        if (distance) fcl::distance(g1, kHere, g2, there, fcl::DistanceRequestd(), result);
+        if (!distance) fcl::collide(g1, kHere, g2, there, fcl::CollisionRequestd(), contacts);
+        ADD_FAILURE() << "not refused: " << name;
+      } catch (const std::invalid_argument& error) {
+        const std::string message = error.what();
+        for (const std::string& part :
+             {std::string("kios::kIOS<double>"), name, std::string("kios::toKIOS(model)")}) {
+          EXPECT_NE(message.find(part), std::string::npos) << message;
+        }
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      }
+    }
+  }
+  fcl::CollisionResultd contacts;
+  EXPECT_GT(fcl::collide(ours.get(), kHere, toKIOS(*other).get(), there, {}, contacts), 0u);
+}
+
+TEST(MixedScenes, AreRefusedByNameAndRemedy) {
+  expectRemedy<fcl::AABBd>("AABB");
+  expectRemedy<fcl::OBBd>("OBB");
+  expectRemedy<fcl::RSSd>("RSS");
+  expectRemedy<fcl::OBBRSSd>("OBBRSS");
+  expectRemedy<fcl::kIOSd>("fcl::kIOS");
+  expectRemedy<fcl::KDOPd<16>>("KDOP");
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# usage: coverage.sh SOURCE_DIR
+# Every test that docs/fcl-coverage.md names as `folder/file_test.cpp: Suite.Name, ...` exists, and
+# each of its rows names one or says why there is none.
+set -euo pipefail
+
+cd "$1"
+doc=docs/fcl-coverage.md
+status=0
+count=0
+fail() {
+  echo "$doc: $*"
+  status=1
+}
+
+while IFS= read -r reference; do
+  file=test/${reference%%:*}
+  if [[ ! -f $file ]]; then
+    fail "no file $file"
+    continue
+  fi
+  IFS=', ' read -ra names <<<"${reference#*: }"
+  for name in "${names[@]}"; do
+    count=$((count + 1))
+    # The macro may break its arguments over two lines.
+    tr -s '\n ' '  ' <"$file" |
+      grep -qE "(TEST|TEST_F|TEST_P|TYPED_TEST)\( ?${name%%.*}, ?${name##*.} ?\)" ||
+      fail "no test $name in $file"
+  done
+done < <(grep -oE '`[a-z_]+/[a-z_]+_test\.cpp: [^`]+`' "$doc" | tr -d '`')
+
+while IFS= read -r row; do
+  grep -qE '_test\.cpp: |not reachable' <<<"$row" || fail "a row without a test: $row"
+done < <(grep -E '^\|' "$doc" | grep -vE '^\|[-:| ]+\|$|^\| (FCL entry point|#) ')
+
+if ((count < 30)); then fail "only $count tests are named"; fi
+((status == 0)) && echo "$doc: $count named tests exist"
+exit "$status"

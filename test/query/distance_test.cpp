@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the options of kios::distance promise: exact answers are fcl::distance's whatever they start
+// from, budgets are monotone, tolerances are honoured everywhere, threads agree.
+
+#include "fcl_kios/query/distance.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "query/query_cases.h"
+
+namespace kios::testing {
+namespace {
+
+template <typename S>
+struct Scene {
+  const char* name;
+  Mesh a, b;
+  std::shared_ptr<Model<S>> model_a, model_b;
+  std::vector<Poses<S>> poses;
+};
+
+/// Pairs on their way and at random poses; by the engine and in FCL's tree.
+template <typename S>
+std::vector<Scene<S>> scenesOf() {
+  using namespace scenes;
+  std::vector<Scene<S>> all;
+  const auto add = [&all](const char* name, const Mesh& a, const Mesh& b, bool engine,
+                          std::vector<Poses<S>> poses) {
+    all.push_back({name, rounded<S>(a), rounded<S>(b), modelOf<S>(a, engine), modelOf<S>(b, engine),
+                   std::move(poses)});
+  };
+  const auto motion = [](const std::vector<Frame>& frames) {
+    std::vector<Poses<S>> poses;
+    for (const Frame& f : frames)
+      poses.push_back({f.X_WA.template cast<S>(), f.X_WB.template cast<S>()});
+    return poses;
+  };
+  for (const bool engine : {true, false}) {
+    const int frames = engine ? 150 : 40;
+    add("falling", bentTorus(), knobbyTorus(), engine, motion(fallingMotion(frames)));
+    add("spinning", bumpyBlob(), bentTorus(), engine, motion(spinningMotion(frames / 2)));
+    const Mesh box = subdividedBox({1, 1.5, 2}, 6);
+    std::vector<Frame> grid;  // ties everywhere
+    for (int i = 0; i < frames; ++i) {
+      Frame f{fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
+      f.X_WB.translation() = fcl::Vector3d(i % 5 - 2, 1.75 - i % 3, (i % 7) * 0.5);
+      grid.push_back(f);
+    }
+    add("boxes", box, box, engine, motion(grid));
+    const Mesh soup = randomSoup(80, 1, 1e-2, 1, 3);
+    add("soup", soup, soup, engine, posesOf<S>(soup, soup, frames, 1.2, 4));
+    const Mesh points = degenerateMesh(60, 3, 8);
+    add("degenerate", points, points, engine, posesOf<S>(points, points, frames, 1.2, 5));
+  }
+  return all;
+}
+
+template <typename S>
+bool same(const DistanceAnswer<S>& a, const DistanceAnswer<S>& b) {
+  return a.distance == b.distance && a.triangle1 == b.triangle1 && a.triangle2 == b.triangle2 &&
+         a.point1 == b.point1 && a.point2 == b.point2 && a.lower_bound == b.lower_bound &&
+         a.upper_bound == b.upper_bound && a.stop == b.stop;
+}
+
+template <typename S>
+class Distance : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(Distance, Scalars);
+
+// The last answer, wrong models' ids, random ids: an exact answer shows nothing of its start.
+TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
+  using S = TypeParam;
+  Random random(21);
+  for (const auto& scene : scenesOf<S>()) {
+    SCOPED_TRACE(scene.name);
+    WarmStart last;
+    for (const auto& [X_WA, X_WB] : scene.poses) {
+      const auto cold = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB);
+      fcl::DistanceResult<S> result;
+      SearchCounts counts;
+      distanceMeshes(*scene.model_a, X_WA, *scene.model_b, X_WB, fcl::DistanceRequest<S>(true),
+                     result, &counts);
+      ASSERT_EQ(cold.distance, result.min_distance);
+      if (counts.tree_searches == 0) {
+        ASSERT_EQ(cold.triangle1, result.b1);
+        ASSERT_EQ(cold.triangle2, result.b2);
+        ASSERT_EQ(cold.counts.expansions, counts.expansions);
+        ASSERT_EQ(cold.counts.exact, counts.exact);
+      }
+      WarmStart wrong = {static_cast<int>(random.uniform(-10, 1e4)),
+                         static_cast<int>(random.uniform(-10, 1e2))};
+      for (WarmStart* const start : {&last, &wrong}) {
+        DistanceOptions<S> options;
+        options.warm_start = start;
+        const auto warm = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        ASSERT_EQ(start->triangle1, cold.triangle1);
+        ASSERT_EQ(start->triangle2, cold.triangle2);
+        ASSERT_TRUE(same(warm, cold)) << warm.distance << " " << cold.distance;
+        // Bounds that don't stop the search change nothing either, but what is proven.
+        options.near_enough = S(0.5) * cold.distance;
+        options.far_enough = 2 * cold.distance + S(1);
+        const auto bounded = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        ASSERT_EQ(bounded.distance, cold.distance);
+        if (cold.distance > 0) {
+          ASSERT_EQ(bounded.triangle1, cold.triangle1);
+          ASSERT_EQ(bounded.triangle2, cold.triangle2);
+          ASSERT_EQ(bounded.stop, DistanceStop::kTolerance);
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(Distance, LargerBudgetsNeverGiveWiderBrackets) {
+  using S = TypeParam;
+  for (const auto& scene : scenesOf<S>()) {
+    SCOPED_TRACE(scene.name);
+    for (std::size_t i = 0; i < scene.poses.size(); i += 5) {
+      const auto& [X_WA, X_WB] = scene.poses[i];
+      for (const S rel_err : {S(0), S(0.2)}) {
+        DistanceOptions<S> options;
+        options.rel_err = rel_err;
+        DistanceAnswer<S> last;
+        bool finished = false;
+        for (long long budget = 0; budget < 400; budget = budget * 5 / 4 + 1) {
+          options.max_expansions = budget;
+          const auto answer = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+          ASSERT_LE(answer.counts.expansions, budget);
+          ASSERT_GE(answer.lower_bound, last.lower_bound) << budget;
+          ASSERT_LE(answer.distance, last.distance) << budget;
+          ASSERT_FALSE(finished && answer.stop == DistanceStop::kBudget);
+          finished = answer.stop != DistanceStop::kBudget;
+          last = answer;
+        }
+      }
+    }
+  }
+}
+
+// Work falls as errors grow, in sum, and no answer errs by more than was allowed.
+TYPED_TEST(Distance, TolerancesAreHonouredAndSaveWork) {
+  using S = TypeParam;
+  for (const auto& scene : scenesOf<S>()) {
+    SCOPED_TRACE(scene.name);
+    const double eps = std::numeric_limits<S>::epsilon(), size = scenes::extent(scene.a);
+    long long last_work = std::numeric_limits<long long>::max() / 2;
+    for (const S e : {S(0), S(1e-2), S(0.1), S(0.5), S(10)}) {
+      long long work = 0;
+      for (const auto& [X_WA, X_WB] : scene.poses) {
+        const S exact = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB).distance;
+        fcl::DistanceRequest<S> request;
+        request.rel_err = e;
+        fcl::DistanceResult<S> result;
+        SearchCounts counts;
+        distanceMeshes(*scene.model_a, X_WA, *scene.model_b, X_WB, request, result, &counts);
+        ASSERT_LE(result.min_distance, double{exact} * (1 + double{e}) + 100 * eps * size);
+        ASSERT_EQ(result.min_distance == 0, exact == 0);  // either tolerance, and 0 has none
+        DistanceOptions<S> options;
+        options.abs_err = e;
+        const auto answer = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        ASSERT_LE(answer.distance, double{exact} + double{e} + 100 * eps * size);
+        work += counts.volume_tests + answer.counts.volume_tests;
+      }
+      EXPECT_LE(work, last_work + last_work / 50) << e;
+      last_work = work;
+    }
+  }
+}
+
+TYPED_TEST(Distance, ManyThreadsOneAnswer) {
+  using S = TypeParam;
+  const auto all = scenesOf<S>();
+  const auto& scene = all.front();
+  const auto ask = [&scene](std::vector<DistanceAnswer<S>>& answers) {
+    WarmStart warm;
+    for (const auto& [X_WA, X_WB] : scene.poses) {
+      DistanceOptions<S> options;
+      answers.push_back(kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options));
+      options.rel_err = S(0.1);
+      options.warm_start = &warm;
+      answers.push_back(kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options));
+      DistanceAnswer<S> proof;
+      closerThan(*scene.model_a, X_WA, *scene.model_b, X_WB, S(0.05), &proof);
+      answers.push_back(proof);
+    }
+  };
+  std::vector<std::vector<DistanceAnswer<S>>> answers(4);
+  std::vector<std::thread> threads;
+  for (auto& own : answers) threads.emplace_back(ask, std::ref(own));
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& own : answers) {
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      ASSERT_EQ(own[i].distance, answers[0][i].distance);
+      ASSERT_EQ(own[i].lower_bound, answers[0][i].lower_bound);
+      ASSERT_EQ(own[i].triangle1, answers[0][i].triangle1);
+    }
+  }
+}
+
+TEST(DistanceOptionsTest, BadOnesAreRefused) {
+  const auto model = modelOf<double>(scenes::bumpyTorus(200));
+  const auto X = fcl::Transform3d::Identity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [&](const auto& change) {
+    DistanceOptions<double> options;
+    change(options);
+    EXPECT_THROW(kios::distance(*model, X, *model, X, options), std::invalid_argument);
+  };
+  refused([](auto& o) { o.rel_err = -0.1; });
+  refused([nan](auto& o) { o.rel_err = nan; });
+  refused([](auto& o) { o.abs_err = -1; });
+  refused([nan](auto& o) { o.abs_err = nan; });
+  refused([nan](auto& o) { o.far_enough = nan; });
+  refused([nan](auto& o) { o.near_enough = nan; });
+  refused([](auto& o) { o.max_expansions = -1; });
+  EXPECT_THROW(closerThan(*model, X, *model, X, nan), std::invalid_argument);
+  fcl::Transform3d sheared = X;
+  sheared.linear()(0, 1) = 0.1;
+  EXPECT_THROW(kios::distance(*model, X, *model, sheared), std::invalid_argument);
+  EXPECT_THROW(closerThan(*model, X, *model, sheared, 1), std::invalid_argument);
+  EXPECT_THROW(kios::distance(Modeld(), X, *model, X), std::invalid_argument);
+  EXPECT_THROW(closerThan(Modeld(), X, *model, X, -1), std::invalid_argument);
+}
+
+TEST(DistanceOptionsTest, NothingLookedAt) {
+  const auto model = modelOf<double>(scenes::bumpyTorus(200));
+  const auto X = fcl::Transform3d::Identity();
+  fcl::Transform3d far = X;
+  far.translation().x() = 100;
+  for (const double far_enough : {0.0, -1.0, 50.0}) {
+    DistanceOptions<double> options;
+    options.far_enough = far_enough;
+    WarmStart warm = {7, 8};
+    options.warm_start = &warm;
+    const auto answer = kios::distance(*model, X, *model, far, options);
+    EXPECT_EQ(answer.stop, DistanceStop::kFar);
+    EXPECT_EQ(answer.distance, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(answer.triangle1, -1);
+    EXPECT_TRUE(std::isnan(answer.point1.x()));
+    EXPECT_EQ(warm.triangle1, 7);
+  }
+  EXPECT_EQ(preparedBytes(*model), 0u);
+}
+
+}  // namespace
+}  // namespace kios::testing

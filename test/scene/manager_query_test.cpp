@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The callback for FCL's managers, against fcl::distance over all pairs.
+
+#include "fcl_kios/scene/manager_query.h"
+
+#include <fcl/broadphase/broadphase_SSaP.h>
+#include <fcl/broadphase/broadphase_bruteforce.h>
+
+#include "fcl/deform.h"
+#include "scenes/random.h"
+
+namespace kios::testing {
+namespace {
+
+using Object = fcl::CollisionObjectd;
+using Query = ManagerQuery<double>;
+
+class Bodies {
+ public:
+  Bodies(int count, double spread, std::uint64_t seed) {
+    const std::vector<Mesh> shapes{scenes::icosphere(0.5, 1), scenes::bumpyTorus(100),
+                                   scenes::sheet(1, 1, 3, 3, 0.2)};
+    const auto poses = scenes::randomPoses(count, spread, seed);
+    for (int i = 0; i < count; ++i) {
+      meshes.push_back(shapes[i % shapes.size()]);
+      models.push_back(kiosModel(meshes.back()));
+      objects.push_back(std::make_unique<Object>(models.back(), poses[i]));
+    }
+  }
+  void place(int i, const Transform3d& X) {
+    objects[i]->setTransform(X);
+    objects[i]->computeAABB();
+  }
+  static double distance(const Object* a, const Object* b) {
+    fcl::DistanceResultd result;
+    return fcl::distance(a, b, fcl::DistanceRequestd(), result);
+  }
+  /// Of all pairs, least first.
+  std::vector<double> distances() const {
+    std::vector<double> all;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      for (std::size_t j = i + 1; j < objects.size(); ++j) {
+        all.push_back(distance(objects[i].get(), objects[j].get()));
+      }
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  }
+
+  std::vector<Mesh> meshes;
+  std::vector<std::shared_ptr<Modeld>> models;
+  std::vector<std::unique_ptr<Object>> objects;
+};
+
+template <typename Manager>
+class ManagerQueryOf : public ::testing::Test {};
+using Managers = ::testing::Types<fcl::DynamicAABBTreeCollisionManagerd, fcl::SSaPCollisionManagerd,
+                                  fcl::NaiveCollisionManagerd>;
+TYPED_TEST_SUITE(ManagerQueryOf, Managers);
+
+// Managers ask about a pair in either order, which may differ by rounding.
+constexpr double kOrder = 1e-12;
+
+TYPED_TEST(ManagerQueryOf, EqualsBruteForceOverFrames) {
+  Bodies bodies(9, 3, 5);
+  TypeParam manager;
+  for (const auto& object : bodies.objects) manager.registerObject(object.get());
+  manager.setup();
+  Query query;
+  scenes::Random random(8);
+  long long skipped = 0;
+  for (int frame = 0; frame < 120; ++frame) {
+    for (int i = 0; i < 9; ++i) {
+      if (random.unit() < 0.6) continue;
+      Transform3d X = bodies.objects[i]->getTransform();
+      X.translation().x() += random.uniform(-0.02, 0.02);
+      bodies.place(i, random.unit() < 0.02 ? scenes::randomPoses(1, 3, frame)[0] : X);
+    }
+    if (frame % 20 == 10) {
+      const int i = frame / 20;
+      replace(*bodies.models[i], swayed(bodies.meshes[i], frame), frame % 40 == 10, true);
+      bodies.models[i]->computeLocalAABB();
+      bodies.objects[i]->computeAABB();
+    }
+    manager.update();
+    const auto truth = bodies.distances();
+
+    query.findClosest();
+    manager.distance(&query, Query::callback);
+    ASSERT_EQ(query.pairs().size(), 1u);
+    const auto& closest = query.pairs()[0];
+    EXPECT_NEAR(closest.distance, truth[0], kOrder);
+    EXPECT_EQ(closest.distance, Bodies::distance(closest.a, closest.b));
+    skipped += query.counts().skipped();
+
+    const double margin = random.uniform(0, 2);
+    query.findWithin(margin);
+    manager.distance(&query, Query::callback);
+    const auto within = std::lower_bound(truth.begin(), truth.end(), margin) - truth.begin();
+    ASSERT_EQ(query.pairs().size(), static_cast<std::size_t>(within)) << frame;
+    for (const auto& pair : query.pairs()) {
+      EXPECT_EQ(pair.distance, Bodies::distance(pair.a, pair.b));
+    }
+  }
+  EXPECT_GT(skipped, 100);
+}
+
+TEST(ManagerQuery, SearchesNothingTwice) {
+  Bodies bodies(8, 2, 6);
+  fcl::NaiveCollisionManagerd manager;
+  for (const auto& object : bodies.objects) manager.registerObject(object.get());
+  Query query([&](const Object* a, const Object* b) {
+    return a != bodies.objects[0].get() && b != bodies.objects[0].get();
+  });
+  query.findWithin(5);
+  manager.distance(&query, Query::callback);
+  EXPECT_EQ(query.counts().filtered, 7);
+  EXPECT_EQ(query.counts().queried + query.counts().far_roots, 21);
+  query.findWithin(5);
+  manager.distance(&query, Query::callback);
+  EXPECT_EQ(query.counts().queried, 0);
+  EXPECT_THROW(query.findWithin(std::nan("")), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What scene queries leave out, and what they refuse: counts, laziness, memory, threads, bad input.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <thread>
+
+#include "scene/random_scene.h"
+#include "scenes/robots.h"
+
+namespace kios::testing {
+namespace {
+
+Transform3d at(double x, double y = 0, double z = 0) {
+  return Transform3d(Eigen::Translation3d(x, y, z));
+}
+
+struct Row {
+  explicit Row(int count, double spacing) {
+    for (int i = 0; i < count; ++i) {
+      models.push_back(kiosModel(scenes::icosphere(0.5, 2)));
+      EXPECT_EQ(scene.add(models.back(), at(spacing * i)), i);
+    }
+  }
+  std::vector<std::shared_ptr<Modeld>> models;
+  SceneDistance<double> scene;
+};
+
+TEST(SceneSkipping, ModelsThatNobodyCameNearAreNeverPrepared) {
+  Row row(40, 3);
+  row.scene.move(7, at(3 * 7 + 1.5));  // near 8
+  for (int frame = 0; frame < 10; ++frame) {
+    row.scene.move(7, at(3 * 7 + 1.5 + 0.01 * frame));
+    ASSERT_EQ(row.scene.pairsWithin(0.8).size(), 1u);
+    const auto closest = row.scene.closestPair();
+    ASSERT_TRUE(closest);
+    EXPECT_EQ(closest->a, 7);
+    EXPECT_EQ(closest->b, 8);
+  }
+  for (int i = 0; i < 40; ++i) EXPECT_EQ(preparedBytes(*row.models[i]) > 0, i == 7 || i == 8) << i;
+}
+
+TEST(SceneSkipping, WhatStandsStillIsNotSearchedAgain) {
+  Row row(12, 1.05);
+  EXPECT_EQ(row.scene.pairsWithin(0.3).size(), 11u);
+  EXPECT_EQ(row.scene.counts().queried, 11);
+  EXPECT_EQ(row.scene.pairsWithin(0.3).size(), 11u);
+  EXPECT_EQ(row.scene.counts().queried, 0);
+  EXPECT_EQ(row.scene.counts().still, 11);
+  // A smaller margin needs no more; a larger one whatever it reaches.
+  EXPECT_EQ(row.scene.pairsWithin(0.01).size(), 0u);
+  EXPECT_EQ(row.scene.counts().queried, 0);
+  EXPECT_EQ(row.scene.pairsWithin(1.2).size(), 21u);
+  EXPECT_EQ(row.scene.counts().queried, 10);
+  // One moves: its own pairs only.
+  row.scene.move(5, at(1.05 * 5 + 0.01));
+  EXPECT_EQ(row.scene.pairsWithin(1.2).size(), 21u);
+  EXPECT_EQ(row.scene.counts().queried, 4);
+  // Away and back: the same relative pose again.
+  row.scene.move(5, at(1000));
+  row.scene.move(5, at(1.05 * 5 + 0.01));
+  EXPECT_EQ(row.scene.pairsWithin(1.2).size(), 21u);
+  EXPECT_EQ(row.scene.counts().queried, 0);
+  row.scene.forget();
+  EXPECT_EQ(row.scene.pairsWithin(1.2).size(), 21u);
+  EXPECT_EQ(row.scene.counts().queried, 21);
+}
+
+TEST(SceneSkipping, SmallMotionsOfDistantPairsAndRigidGroupsCostNothing) {
+  // A small ring in a large one: boxes and root volumes overlap, the distance is large.
+  const Mesh ring = scenes::bumpyTorus(800);
+  Mesh thin = ring;
+  for (Vector3d& p : thin.vertices) p *= 0.1;
+  SceneDistance<double> scene;
+  const int a = scene.add(kiosModel(ring), at(0));
+  const int b = scene.add(kiosModel(thin), at(0));
+  EXPECT_TRUE(scene.pairsWithin(0.1).empty());
+  EXPECT_EQ(scene.counts().queried, 1);
+  ASSERT_EQ(scene.clearances().size(), 1u);
+  for (int frame = 1; frame <= 100; ++frame) {
+    scene.move(b, at(1e-3 * frame));
+    EXPECT_TRUE(scene.pairsWithin(0.1).empty());
+    EXPECT_EQ(scene.counts().queried, 0) << frame;
+    EXPECT_EQ(scene.counts().moved_too_little, 1);
+  }
+  // Both move far, but together.
+  for (int frame = 1; frame <= 100; ++frame) {
+    const Transform3d X = at(frame, 3 * frame) * fcl::AngleAxisd(frame, Vector3d::UnitZ());
+    scene.move(a, X);
+    scene.move(b, X * at(0.1));
+    EXPECT_TRUE(scene.pairsWithin(0.1).empty());
+    EXPECT_EQ(scene.counts().queried, 0) << frame;
+  }
+  scene.move(b, at(100, 300));  // the centre again, and then the ring itself
+  EXPECT_TRUE(scene.pairsWithin(0.1).empty());
+  scene.move(a, at(100.6, 300));
+  EXPECT_EQ(scene.pairsWithin(0.1).size(), 1u);
+}
+
+TEST(SceneSkipping, MemoryIsBoundedByWhatComesNear) {
+  SceneDistance<double> scene;
+  const auto model = kiosModel(scenes::icosphere(0.5, 0));
+  constexpr int kObjects = 600;
+  for (int i = 0; i < kObjects; ++i) scene.add(model, at(i % 30, i / 30));
+  for (int frame = 0; frame < 30; ++frame) {
+    const auto poses = scenes::randomPoses(kObjects, 12, frame);
+    for (int i = 0; i < kObjects; ++i) scene.move(i, poses[i]);
+    scene.pairsWithin(0.3);
+    const SceneCounts& counts = scene.counts();
+    const auto near = static_cast<std::size_t>(counts.queried + counts.still + counts.far_roots +
+                                               counts.moved_too_little);
+    EXPECT_LE(scene.rememberedPairs(), 2 * near + 1024);
+  }
+  scene.clearances();
+  EXPECT_LE(scene.rememberedPairs(), SceneDistance<double>::kMaxRemembered);
+  for (int i = 0; i < kObjects; ++i) scene.move(i, at(10 * i));
+  scene.pairsWithin(0.3);
+  EXPECT_LE(scene.rememberedPairs(), 1024u);
+}
+
+TEST(SceneSkipping, DeformationsOfWhatStandsStillAreNoticed) {
+  for (const int deforming : {0, 1}) {
+    Row row(2, 2);
+    const Mesh mesh = scenes::icosphere(0.5, 2);
+    for (int frame = 0; frame < 12; ++frame) {
+      auto vertices = mesh.vertices;
+      for (Vector3d& p : vertices) p *= 1 + 0.1 * (frame % 5);
+      if (frame % 3 == 1) {
+        update(*row.models[deforming], vertices, frame % 2 == 0, true);
+      } else if (frame > 0) {
+        row.models[deforming] = scenes::buildModel<kIOSd>({vertices, mesh.triangles});
+        row.scene.remove(deforming);
+        ASSERT_EQ(row.scene.add(row.models[deforming], at(2 * deforming)), deforming);
+      }
+      fcl::DistanceResultd result;
+      const double exact = fcl::distance(row.models[0].get(), at(0), row.models[1].get(), at(2),
+                                         fcl::DistanceRequestd(), result);
+      EXPECT_EQ(row.scene.closestPair()->distance, exact) << frame;
+      EXPECT_EQ(row.scene.clearances()[0].distance, exact) << frame;
+      EXPECT_EQ(row.scene.pairsWithin(exact).size(), 0u) << frame;
+      EXPECT_EQ(row.scene.pairsWithin(std::nextafter(exact, 9.0)).size(), 1u) << frame;
+    }
+  }
+}
+
+TEST(SceneSkipping, ObstaclesAreNotAskedAboutEachOther) {
+  SceneDistance<double> scene;
+  const auto model = kiosModel(scenes::icosphere(0.5, 1));
+  for (int i = 0; i < 20; ++i) scene.add(model, at(0.1 * i), Role::kObstacle);
+  EXPECT_FALSE(scene.closestPair());
+  EXPECT_EQ(scene.counts().filtered, 190);
+  EXPECT_EQ(preparedBytes(*model), 0u);
+  const int body = scene.add(model, at(0, 1.2));
+  const auto closest = scene.closestPair();
+  ASSERT_TRUE(closest);
+  EXPECT_EQ(closest->b, body);
+}
+
+TEST(SceneSkipping, ThreadsShareModels) {
+  std::vector<std::shared_ptr<Modeld>> models;
+  for (int i = 0; i < 6; ++i) models.push_back(kiosModel(scenes::bumpyTorus(300)));
+  const auto run = [&models](std::uint64_t seed) {
+    SceneDistance<double> scene;
+    for (const auto& model : models) scene.add(model, Transform3d::Identity());
+    double sum = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+      const auto poses = scenes::randomPoses(6, 4, seed + static_cast<std::uint64_t>(frame));
+      for (int i = 0; i < 6; ++i) scene.move(i, poses[i]);
+      sum += scene.closestPair()->distance;
+      for (const auto& pair : scene.pairsWithin(0.5)) sum += pair.distance;
+    }
+    return sum;
+  };
+  std::vector<double> sums(4);
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t) threads.emplace_back([&, t] { sums[t] = run(10 + t % 2); });
+  for (std::thread& thread : threads) thread.join();
+  for (int t = 0; t < 4; ++t) EXPECT_EQ(sums[t], run(10 + t % 2));
+}
+
+TEST(SceneRefuses, BadInput) {
+  SceneDistance<double> scene;
+  const auto model = kiosModel(scenes::icosphere(0.5, 0));
+  const int id = scene.add(model, at(0));
+  Transform3d bad = at(std::nan(""));
+  EXPECT_THROW(scene.move(id, bad), std::invalid_argument);
+  bad = at(0);
+  bad.linear()(0, 0) = std::nan("");
+  EXPECT_THROW(scene.move(id, bad), std::invalid_argument);
+  bad.linear()(0, 0) = 1.1;
+  EXPECT_THROW(scene.add(model, bad), std::invalid_argument);
+  EXPECT_THROW(scene.move(id + 1, at(0)), std::invalid_argument);
+  EXPECT_THROW(scene.remove(-1), std::invalid_argument);
+  EXPECT_THROW(scene.exclude(id, 7), std::invalid_argument);
+  EXPECT_THROW(scene.pairsWithin(std::nan("")), std::invalid_argument);
+  EXPECT_THROW(scene.add(std::shared_ptr<Modeld>(), at(0)), std::invalid_argument);
+  EXPECT_THROW(scene.add(std::make_shared<Modeld>(), at(0)), std::invalid_argument);
+  EXPECT_EQ(scene.size(), 1u);
+  EXPECT_FALSE(scene.closestPair());
+
+  // An object's pose gone bad, and repaired: what moved meanwhile is not forgotten.
+  fcl::CollisionObjectd first(model, at(3)), second(kiosModel(scenes::icosphere(0.5, 1)), at(9));
+  scene.add(&first);
+  scene.add(&second);
+  EXPECT_EQ(scene.closestPair()->b, 1);
+  first.setTransform(at(7.5));
+  second.setTransform(at(std::nan("")));
+  EXPECT_THROW(scene.closestPair(), std::invalid_argument);
+  second.setTransform(at(9));
+  EXPECT_EQ(scene.closestPair()->a, 1);
+  EXPECT_EQ(scene.closestPair()->b, 2);
+  EXPECT_THROW(scene.move(1, at(0)), std::invalid_argument);
+
+  // A model that is being replaced can't be queried; then it can.
+  const auto deforming = kiosModel(scenes::icosphere(0.5, 0));
+  const int far = scene.add(deforming, at(100));
+  ASSERT_EQ(deforming->beginReplaceModel(), fcl::BVH_OK);
+  EXPECT_THROW(scene.closestPair(), std::invalid_argument);
+  std::vector<Vector3d> vertices = scenes::icosphere(0.5, 0).vertices;
+  for (Vector3d& p : vertices) p.x() -= 100;  // now at the first object
+  ASSERT_EQ(deforming->replaceSubModel(vertices), fcl::BVH_OK);
+  ASSERT_EQ(deforming->endReplaceModel(true, true), fcl::BVH_OK);
+  const auto closest = scene.closestPair();
+  EXPECT_EQ(closest->a, id);
+  EXPECT_EQ(closest->b, far);
+  EXPECT_EQ(closest->distance, 0);
+}
+
+TEST(SceneOf, FloatModelsEqualBruteForce) {
+  const Mesh mesh = scenes::bumpyTorus(200);
+  const auto model = scenes::buildModel<kIOSf>(mesh);
+  SceneDistance<float> scene;
+  std::vector<fcl::Transform3f> poses(6, fcl::Transform3f::Identity());
+  for (const auto& pose : poses) scene.add(model, pose);
+  scenes::Random random(3);
+  for (int frame = 0; frame < 400; ++frame) {
+    const double step = std::pow(10, random.uniform(-6, 0.5));
+    for (int i = 0; i < 6; ++i) {
+      poses[i].translation()[i % 3] += static_cast<float>(step * random.uniform(-1, 1));
+      const auto turn = static_cast<float>(step * random.uniform(-1, 1));
+      poses[i].linear() =
+          fcl::AngleAxisf(turn + static_cast<float>(i), fcl::Vector3f::UnitX()).matrix();
+      scene.move(i, poses[i]);
+    }
+    const auto margin = static_cast<float>(random.uniform(0, 1));
+    std::vector<std::tuple<int, int, float>> expected, found;
+    float least = std::numeric_limits<float>::max();
+    for (int a = 0; a < 6; ++a) {
+      for (int b = a + 1; b < 6; ++b) {
+        fcl::DistanceResultf result;
+        const float d = fcl::distance(model.get(), poses[a], model.get(), poses[b],
+                                      fcl::DistanceRequestf(), result);
+        least = std::min(least, d);
+        if (d < margin) expected.emplace_back(a, b, d);
+      }
+    }
+    for (const auto& pair : scene.pairsWithin(margin)) {
+      found.emplace_back(pair.a, pair.b, pair.distance);
+    }
+    EXPECT_EQ(found, expected) << frame;
+    EXPECT_EQ(scene.closestPair()->distance, least) << frame;
+    EXPECT_EQ(scene.clearances().size(), 15u);
+  }
+}
+
+TEST(SceneOf, ShapesOfFclEqualBruteForce) {
+  SceneDistance<double> scene;
+  std::vector<std::shared_ptr<fcl::CollisionGeometryd>> shapes = {
+      std::make_shared<fcl::Sphered>(0.5), std::make_shared<fcl::Boxd>(1, 0.4, 0.6),
+      std::make_shared<fcl::Capsuled>(0.2, 1), std::make_shared<fcl::Sphered>(0.2)};
+  for (const auto& shape : shapes) scene.add(shape, at(0));
+  for (int frame = 0; frame < 200; ++frame) {
+    const auto poses = scenes::randomPoses(4, 2, frame / 2);  // every other stands still
+    for (int i = 0; i < 4; ++i) scene.move(i, poses[i]);
+    if (frame == 100) {
+      std::static_pointer_cast<fcl::Sphered>(shapes[3])->radius = 0.6;
+      scene.changed(3);
+    }
+    double least = 1e300;
+    int within = 0;
+    for (int a = 0; a < 4; ++a) {
+      for (int b = a + 1; b < 4; ++b) {
+        fcl::DistanceResultd result;
+        const double d = fcl::distance(shapes[a].get(), poses[a], shapes[b].get(), poses[b],
+                                       fcl::DistanceRequestd(), result);
+        least = std::min(least, d);
+        within += d < 0.5 ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(scene.closestPair()->distance, least) << frame;
+    EXPECT_EQ(static_cast<int>(scene.pairsWithin(0.5).size()), within) << frame;
+    if (frame % 2 == 1 && frame != 101) {
+      EXPECT_EQ(scene.counts().queried, 0) << frame;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
