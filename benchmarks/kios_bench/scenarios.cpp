@@ -32,8 +32,7 @@ const std::vector<Scenario>& scenarios() {
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
        runScaling},
-      {"refit",
-       "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
+      {"refit", "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
        runRefit},
       {"error",
        "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
