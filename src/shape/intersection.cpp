@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "shape/gjk.h"
 #include "shape/hull.h"
@@ -12,8 +11,6 @@
 
 namespace kios::shape {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Separating axes: three of the box, the triangle's normal, nine cross products of edges. The zero
 /// axes of degenerate triangles separate nothing, and the others suffice for those.
