@@ -50,8 +50,6 @@ TEST_F(Continuous, BadRequestsAreRefused) {
     expectRefused([&] { ask(at(0, 0, 0), result, requestFor(fcl::CCDM_TRANS, toc_err)); },
                   "toc_err");
   }
-  expectRefused([&] { ask(at(0, 0, 0), result, requestFor(static_cast<fcl::CCDMotionType>(9))); },
-                "ccd_motion_type");
   expectRefused([&] { ask(at(nan, 0, 0), result); }, "finite");
   Transform3d skew = at(0, 0, 0);
   skew.linear()(0, 0) = 1.1;
