@@ -43,6 +43,7 @@ void runRobots(const Options& options, Report& report);
 void runRobotScenes(const Options& options, Report& report);
 void runScene(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
+void runRays(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
 void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
