@@ -38,10 +38,10 @@ struct RayInterval {
 };
 
 /// What of the ray, given in the volume's frame, may lie in the volume: a lower bound of the t at
-/// which it has entered all k spheres, and an upper bound of that at which it leaves the first, both
-/// within [t_min, t_max]; none if there is provably nothing. No point of the content that lies on
-/// the ray is ever left out. No wider than for spheres larger by 2^-45 (|origin - c| + reach), as
-/// much longer at both ends, c and reach the centre of S0 and what the spheres reach from there.
+/// which it has entered all k spheres, and an upper bound of that at which it leaves the first,
+/// both within [t_min, t_max]; none if there is provably nothing. No point of the content that lies
+/// on the ray is ever left out. No wider than for spheres larger by 2^-45 (|origin - c| + reach),
+/// as much longer at both ends, c and reach the centre of S0 and what the spheres reach from there.
 template <typename S>
 std::optional<RayInterval<S>> rayInterval(const kIOS<S>& bv, const Ray<S>& ray);
 
