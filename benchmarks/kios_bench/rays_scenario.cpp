@@ -123,9 +123,10 @@ Verdicts judge(RayCaster& caster, const std::vector<Rayd>& rays,
     const bool hit = nearest != exact[i].end();
     const auto first = caster.first(ray);
     bool right = first.has_value() == hit;
-    if (first && hit) {  // one of the triangles in the nearest point
+    if (first && hit) {  // one of the triangles that are nearest as double tells
+      const long double last = nearest->t * (1 + 0x1p-52L);
       right = std::any_of(exact[i].begin(), exact[i].end(), [&](const OracleHit& h) {
-        return h.triangle == first->triangle && h.t == nearest->t;
+        return h.triangle == first->triangle && h.t <= last;
       });
       const double error = std::abs(static_cast<double>(first->t - nearest->t));
       if (right) wrong.error = std::max(wrong.error, error * ray.direction.norm());
