@@ -11,6 +11,7 @@
 
 #include "engine/shapes.h"
 #include "fcl_kios/query/ray.h"
+#include "scenes/foreign_fitter.h"
 #include "scenes/ray_oracle.h"
 
 // Rays and brute force that the tests of ray queries share.
@@ -20,27 +21,11 @@ namespace kios::testing {
 template <typename S>
 const fcl::Transform3<S> kIdentity = fcl::Transform3<S>::Identity();
 
-/// A user's own fitter, with which a model has no prepared tree.
-template <typename S>
-class UsersFitter : public fcl::detail::BVFitterBase<kIOS<S>> {
- public:
-  using V = fcl::Vector3<S>;
-  void set(V* v, fcl::Triangle* t, fcl::BVHModelType type) override { ours_.set(v, t, type); }
-  void set(V* v, V* previous, fcl::Triangle* t, fcl::BVHModelType type) override {
-    ours_.set(v, previous, t, type);
-  }
-  kIOS<S> fit(unsigned int* primitives, int n) override { return ours_.fit(primitives, n); }
-  void clear() override { ours_.clear(); }
-
- private:
-  fcl::detail::BVFitter<kIOS<S>> ours_;
-};
-
 /// A model that must be searched in FCL's tree.
 template <typename S>
 std::shared_ptr<Model<S>> unpreparedModel(const Mesh& mesh) {
   auto model = std::make_shared<Model<S>>();
-  model->bv_fitter.reset(new UsersFitter<S>());
+  model->bv_fitter.reset(new scenes::ForeignFitter<kIOS<S>>());
   model->beginModel();
   model->addSubModel(Shape<S>(mesh).vertices, mesh.triangles);
   EXPECT_EQ(model->endModel(), fcl::BVH_OK);

@@ -81,8 +81,8 @@ struct RayHit {
 /// it in the first point that they share, segments and points (degenerate triangles) likewise.
 ///
 /// Safe from many threads, for the model's first query too (see prepare()). `counts`, if given, is
-/// added to. Throws std::invalid_argument also if the model is not a finished mesh or the pose is
-/// not rigid.
+/// added to (leaf_pairs: leaves reached; exact: triangles tested). Throws std::invalid_argument
+/// also if the model is not a finished mesh or the pose is not rigid.
 template <typename S>
 std::optional<RayHit<S>> firstHit(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                                   const Ray<S>& ray, SearchCounts* counts = nullptr);
