@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+using VU = hn::Vec<DU>;
+
+HWY_INLINE uint32_t firstOf(uint32_t bits) {
+  return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+}
+
+HWY_INLINE uint32_t bitsOf(hn::Mask<D> mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+/// Moves some lanes, given as bits, to the front. hn::Compress() of Highway 1.0 copies its table
+/// to the stack with some compilers.
+class ToFront {
+ public:
+  explicit ToFront(uint32_t bits)
+      : order_(hn::IndicesFromVec(
+            d, hn::PromoteTo(du, hn::LoadU(hn::Rebind<uint8_t, D>(), kLaneOrder[bits].data())))) {}
+
+  V operator()(V v) const { return hn::TableLookupLanes(v, order_); }
+  VU operator()(VU v) const {
+    return hn::BitCast(du, hn::TableLookupLanes(hn::BitCast(d, v), order_));
+  }
+
+ private:
+  const decltype(hn::IndicesFromVec(d, hn::Zero(du))) order_;
+};
+
+/// Nodes of a and b; which fields hold something else is said where it is so.
+struct Pair {
+  uint32_t a, b;
+};
+
+/// Pairs of nodes with lower bounds of their distances, in arrays. Lanes are pushed without a
+/// branch: which of them matter can't be predicted.
+class PairList {
+ public:
+  struct Entry {
+    float bound;
+    Pair pair;
+  };
+
+  bool empty() const { return size_ == 0; }
+
+  /// Room for so many more.
+  void reserve(size_t more) {
+    if (HWY_UNLIKELY(size_ + more + kLanes > capacity_)) grow(2 * (size_ + more + kLanes));
+  }
+
+  /// There must be room: see reserve().
+  void push(float bound, Pair pair) {
+    bounds_[size_] = bound;
+    a_[size_] = pair.a;
+    b_[size_] = pair.b;
+    ++size_;
+  }
+  void push(uint32_t lanes, V bounds, VU a, VU b) {
+    const ToFront to_front(lanes);
+    hn::StoreU(to_front(bounds), d, bounds_ + size_);
+    hn::StoreU(to_front(a), du, a_ + size_);
+    hn::StoreU(to_front(b), du, b_ + size_);
+    size_ += hwy::PopCount(lanes);
+  }
+
+  Entry pop() {
+    --size_;
+    return {bounds_[size_], {a_[size_], b_[size_]}};
+  }
+
+  /// The least bound of all; infinity if empty.
+  float least() const {
+    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    for (size_t i = 0; i < size_; i += step()) {
+      const auto valid = hn::FirstN(d, size_ - i);
+      least = hn::Min(least, hn::IfThenElse(valid, hn::LoadU(d, bounds_ + i), least));
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
+  }
+
+  /// Moves all whose bounds are at most `at_most` to another list, and drops those at least
+  /// `prune_at`.
+  void moveTo(PairList& near, float at_most, float prune_at) {
+    const V most = hn::Set(d, at_most), limit = hn::Set(d, prune_at);
+    const size_t size = size_;
+    near.reserve(size);
+    size_ = 0;
+    for (size_t i = 0; i < size; i += step()) {  // kept in place: what is overwritten was read
+      const V bounds = hn::LoadU(d, bounds_ + i);
+      const VU a = hn::LoadU(du, a_ + i), b = hn::LoadU(du, b_ + i);
+      const uint32_t used = (1U << std::min(size - i, step())) - 1;
+      const uint32_t kept = bitsOf(hn::Lt(bounds, limit)) & used;
+      const uint32_t moved = bitsOf(hn::Le(bounds, most)) & kept;
+      near.push(moved, bounds, a, b);
+      push(kept & ~moved, bounds, a, b);
+    }
+  }
+
+ private:
+  HWY_NOINLINE void grow(size_t capacity) {
+    std::vector<float> bounds(capacity);
+    std::vector<uint32_t> pairs(2 * capacity);
+    std::copy_n(bounds_, size_, bounds.data());
+    std::copy_n(a_, size_, pairs.data());
+    std::copy_n(b_, size_, pairs.data() + capacity);
+    more_bounds_ = std::move(bounds);
+    more_pairs_ = std::move(pairs);
+    bounds_ = more_bounds_.data();
+    a_ = more_pairs_.data();
+    b_ = a_ + capacity;
+    capacity_ = capacity;
+  }
+
+  static constexpr size_t kUsual = 256;
+  float usual_bounds_[kUsual];
+  uint32_t usual_a_[kUsual], usual_b_[kUsual];
+  std::vector<float> more_bounds_;
+  std::vector<uint32_t> more_pairs_;
+  float* bounds_ = usual_bounds_;
+  uint32_t *a_ = usual_a_, *b_ = usual_b_;
+  size_t size_ = 0, capacity_ = kUsual;
+};
+
+/// Pairs that wait. Those that overlap must all be looked at: they are at hand, the last in first.
+/// Those apart wait for their turn in waves, the nearest first.
+class Frontier {
+ public:
+  PairList inner;    ///< at hand: pairs of nodes not both of which are leaves
+  PairList leaves;   ///< at hand: pairs of leaves
+  PairList bounded;  ///< at hand: in `a`, what keep() was told
+
+  /// There is room for a vector of lanes in each list after this.
+  void reserve() {
+    inner.reserve(kLanes);
+    leaves.reserve(kLanes);
+    inner_apart_.reserve(kLanes);
+    leaves_apart_.reserve(kLanes);
+  }
+
+  /// Pushes some lanes, of which some are pairs of leaves. There must be room: see reserve().
+  void push(uint32_t lanes, uint32_t are_leaves, V bounds, VU a, VU b) {
+    const uint32_t overlapping = bitsOf(hn::Le(bounds, hn::Zero(d)));
+    leaves.push(lanes & overlapping & are_leaves, bounds, a, b);
+    inner.push(lanes & overlapping & ~are_leaves, bounds, a, b);
+    leaves_apart_.push(lanes & ~overlapping & are_leaves, bounds, a, b);
+    inner_apart_.push(lanes & ~overlapping & ~are_leaves, bounds, a, b);
+  }
+
+  /// What was bounded, and waits again.
+  void keep(float bound, uint32_t index) {
+    bounded_apart_.reserve(1);
+    bounded_apart_.push(bound, {index, 0});
+  }
+
+  float leastApart() const {
+    return std::min({inner_apart_.least(), leaves_apart_.least(), bounded_apart_.least()});
+  }
+
+  /// Takes at hand what is apart by no more than `at_most`; what is as far as `prune_at` is
+  /// dropped.
+  void nextWave(float at_most, float prune_at) {
+    inner_apart_.moveTo(inner, at_most, prune_at);
+    leaves_apart_.moveTo(leaves, at_most, prune_at);
+    bounded_apart_.moveTo(bounded, at_most, prune_at);
+  }
+
+ private:
+  PairList inner_apart_, leaves_apart_, bounded_apart_;
+};
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
