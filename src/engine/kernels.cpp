@@ -92,7 +92,7 @@ class DistanceSearch {
   bool nextWave() {
     const float least = frontier_.leastApart(), prune_at = search_.judge.prune_at;
     if (!(least < prune_at)) return false;
-    const float at_most = prune_at < kInfinity ? least + (prune_at - least) / 8 : 1.0625F * least;
+    const float at_most = prune_at < kInfinity ? least + (prune_at - least) / 4 : 1.0625F * least;
     frontier_.nextWave(std::max(at_most, least), prune_at);
     return true;
   }
