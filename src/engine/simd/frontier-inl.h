@@ -64,10 +64,13 @@ class PairList {
   }
   void push(uint32_t lanes, V bounds, VU a, VU b) {
     const ToFront to_front(lanes);
-    hn::StoreU(to_front(bounds), d, bounds_ + size_);
-    hn::StoreU(to_front(a), du, a_ + size_);
-    hn::StoreU(to_front(b), du, b_ + size_);
-    size_ += hwy::PopCount(lanes);
+    const size_t at = size_;  // stores may alias members
+    float* const to_bounds = bounds_ + at;
+    uint32_t *const to_a = a_ + at, *const to_b = b_ + at;
+    size_ = at + hwy::PopCount(lanes);
+    hn::StoreU(to_front(bounds), d, to_bounds);
+    hn::StoreU(to_front(a), du, to_a);
+    hn::StoreU(to_front(b), du, to_b);
   }
 
   Entry pop() {

@@ -77,7 +77,7 @@ class Expander {
     const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
     if (flat != 0 && boxes_) testBoxes(e, flat);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
-    const uint32_t leaves = e.other->isLeaf() ? childrenOf(e).leaves : 0U;
+    const uint32_t leaves = childrenOf(e).leaves & (e.other->isLeaf() ? ~0U : 0U);
     const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U), first = hn::Set(du, e.parent->first_child);
     const VU a = hn::Set(du, e.at.a), b = hn::Set(du, e.at.b);
     frontier.reserve();
