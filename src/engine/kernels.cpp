@@ -60,19 +60,14 @@ class DistanceSearch {
 
   void run() {
     (areLeaves(search_, {0, 0}) ? frontier_.leaves : frontier_.inner).push(-kInfinity, {0, 0});
-    Expansion batch[kBatch];
     for (;;) {
       while (!frontier_.leaves.empty()) {
         if (boundLeaves(frontier_.leaves.pop())) return;
       }
-      size_t n = 0;
-      while (n < kBatch && !frontier_.inner.empty()) {
-        const PairList::Entry entry = frontier_.inner.pop();
-        if (entry.bound < search_.judge.prune_at) expander_.start(entry.pair, batch[n++]);
-      }
-      for (size_t i = 0; i < n; ++i) expander_.test(batch[i]);
-      for (size_t i = 0; i < n; ++i) expander_.spread(batch[i], frontier_);
-      if (n == 0 && frontier_.leaves.empty()) {
+      PairList::Entry batch[kBatch];
+      const size_t n = frontier_.inner.pop(batch);
+      expander_.expand(batch, n, frontier_);
+      if (n == 0) {
         if (!nextWave()) return;
         while (!frontier_.bounded.empty()) {
           const PairList::Entry entry = frontier_.bounded.pop();
@@ -143,21 +138,17 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   const Tree &a = search.a, &b = search.b;
   const Expander expander(search);
   Frontier frontier;
-  (areLeaves(search, {0, 0}) ? frontier.leaves : frontier.inner).push(0, {0, 0});
-  Expansion batch[kBatch];
+  (areLeaves(search, {0, 0}) ? frontier.leaves : frontier.inner).push(-1, {0, 0});
   for (;;) {
     while (!frontier.leaves.empty()) {
       ++search.counts.leaf_pairs;
       const Pair at = frontier.leaves.pop().pair;
       if (leaf_pair(search, a.leaves[a.nodes[at.a].leaf()], b.leaves[b.nodes[at.b].leaf()])) return;
     }
-    size_t n = 0;
-    while (n < kBatch && !frontier.inner.empty()) {
-      expander.start(frontier.inner.pop().pair, batch[n++]);
-    }
+    PairList::Entry batch[kBatch];
+    const size_t n = frontier.inner.pop(batch);
     if (n == 0) return;
-    for (size_t i = 0; i < n; ++i) expander.test(batch[i]);
-    for (size_t i = 0; i < n; ++i) expander.spread(batch[i], frontier);
+    expander.expand(batch, n, frontier);
   }
 }
 

@@ -17,6 +17,11 @@ HWY_INLINE uint32_t bitsOf(hn::Mask<D> mask) {
   return bits[0];
 }
 
+HWY_INLINE hn::Mask<DU> maskOf(uint32_t bits) {
+  const uint8_t bytes[8] = {static_cast<uint8_t>(bits)};
+  return hn::LoadMaskBits(du, bytes);
+}
+
 /// Moves some lanes, given as bits, to the front. hn::Compress() of Highway 1.0 copies its table
 /// to the stack with some compilers.
 class ToFront {
@@ -49,6 +54,7 @@ class PairList {
   };
 
   bool empty() const { return size_ == 0; }
+  size_t size() const { return size_; }
 
   /// Room for so many more.
   void reserve(size_t more) {
@@ -78,31 +84,27 @@ class PairList {
     return {bounds_[size_], {a_[size_], b_[size_]}};
   }
 
-  /// The least bound of all; infinity if empty.
-  float least() const {
-    V least = hn::Set(d, std::numeric_limits<float>::infinity());
-    for (size_t i = 0; i < size_; i += step()) {
-      const auto valid = hn::FirstN(d, size_ - i);
-      least = hn::Min(least, hn::IfThenElse(valid, hn::LoadU(d, bounds_ + i), least));
+  /// Pops up to kMax; returns how many.
+  template <size_t kMax>
+  size_t pop(Entry (&out)[kMax]) {
+    static_assert(kMax <= kLanes);
+    const size_t count = std::min(kMax, size_);
+    size_ -= count;
+    for (size_t i = 0; i < kMax; ++i) {  // there is room for all of them beyond the end
+      out[i] = {bounds_[size_ + i], {a_[size_ + i], b_[size_ + i]}};
     }
-    return hn::GetLane(hn::MinOfLanes(d, least));
+    return count;
   }
 
-  /// Moves all whose bounds are at most `at_most` to another list, and drops those at least
-  /// `prune_at`.
-  void moveTo(PairList& near, float at_most, float prune_at) {
-    const V most = hn::Set(d, at_most), limit = hn::Set(d, prune_at);
+  /// Takes everything out, lanes by lanes: take(lanes, bounds, a, b) may push up to as many again.
+  template <class Take>
+  void takeAll(const Take& take) {
     const size_t size = size_;
-    near.reserve(size);
     size_ = 0;
-    for (size_t i = 0; i < size; i += step()) {  // kept in place: what is overwritten was read
+    for (size_t i = 0; i < size; i += step()) {
       const V bounds = hn::LoadU(d, bounds_ + i);
       const VU a = hn::LoadU(du, a_ + i), b = hn::LoadU(du, b_ + i);
-      const uint32_t used = (1U << std::min(size - i, step())) - 1;
-      const uint32_t kept = bitsOf(hn::Lt(bounds, limit)) & used;
-      const uint32_t moved = bitsOf(hn::Le(bounds, most)) & kept;
-      near.push(moved, bounds, a, b);
-      push(kept & ~moved, bounds, a, b);
+      take((1U << std::min(size - i, step())) - 1, bounds, a, b);
     }
   }
 
@@ -135,6 +137,8 @@ class PairList {
 /// Those apart wait for their turn in waves, the nearest first.
 class Frontier {
  public:
+  Frontier() { hn::Store(hn::Set(d, kInfinity), d, least_); }
+
   PairList inner;    ///< at hand: pairs of nodes not both of which are leaves
   PairList leaves;   ///< at hand: pairs of leaves
   PairList bounded;  ///< at hand: in `a`, what keep() was told
@@ -143,39 +147,64 @@ class Frontier {
   void reserve() {
     inner.reserve(kLanes);
     leaves.reserve(kLanes);
-    inner_apart_.reserve(kLanes);
-    leaves_apart_.reserve(kLanes);
+    apart_.reserve(kLanes);
   }
 
   /// Pushes some lanes, of which some are pairs of leaves. There must be room: see reserve().
   void push(uint32_t lanes, uint32_t are_leaves, V bounds, VU a, VU b) {
-    const uint32_t overlapping = bitsOf(hn::Le(bounds, hn::Zero(d)));
-    leaves.push(lanes & overlapping & are_leaves, bounds, a, b);
-    inner.push(lanes & overlapping & ~are_leaves, bounds, a, b);
-    leaves_apart_.push(lanes & ~overlapping & are_leaves, bounds, a, b);
-    inner_apart_.push(lanes & ~overlapping & ~are_leaves, bounds, a, b);
+    const uint32_t overlapping = lanes & bitsOf(hn::Le(bounds, hn::Zero(d)));
+    leaves.push(overlapping & are_leaves, bounds, a, b);
+    inner.push(overlapping & ~are_leaves, bounds, a, b);
+    const VU tag = hn::IfThenElseZero(maskOf(are_leaves), hn::Set(du, kLeaves));
+    pushApart(lanes & ~overlapping, bounds, hn::Or(a, tag), b);
   }
 
   /// What was bounded, and waits again.
   void keep(float bound, uint32_t index) {
-    bounded_apart_.reserve(1);
-    bounded_apart_.push(bound, {index, 0});
+    apart_.reserve(1);
+    apart_.push(bound, {index | kBounded, 0});
+    hn::Store(hn::Min(hn::Load(d, least_), hn::Set(d, bound)), d, least_);
   }
 
-  float leastApart() const {
-    return std::min({inner_apart_.least(), leaves_apart_.least(), bounded_apart_.least()});
-  }
+  /// The least bound of what is apart; infinity if there is nothing.
+  float leastApart() const { return hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_))); }
 
   /// Takes at hand what is apart by no more than `at_most`; what is as far as `prune_at` is
   /// dropped.
   void nextWave(float at_most, float prune_at) {
-    inner_apart_.moveTo(inner, at_most, prune_at);
-    leaves_apart_.moveTo(leaves, at_most, prune_at);
-    bounded_apart_.moveTo(bounded, at_most, prune_at);
+    const V most = hn::Set(d, at_most), limit = hn::Set(d, prune_at);
+    const VU tags = hn::Set(du, kLeaves | kBounded);
+    hn::Store(hn::Set(d, kInfinity), d, least_);
+    inner.reserve(apart_.size());
+    leaves.reserve(apart_.size());
+    bounded.reserve(apart_.size());
+    apart_.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
+      const auto having = [&](uint32_t tag) {
+        return bitsOf(hn::RebindMask(d, hn::Eq(hn::And(a, tags), hn::Set(du, tag))));
+      };
+      const uint32_t kept = lanes & bitsOf(hn::Lt(bounds, limit));
+      const uint32_t near = kept & bitsOf(hn::Le(bounds, most));
+      const VU node = hn::AndNot(tags, a);
+      inner.push(near & having(0), bounds, node, b);
+      leaves.push(near & having(kLeaves), bounds, node, b);
+      bounded.push(near & having(kBounded), bounds, node, b);
+      pushApart(kept & ~near, bounds, a, b);
+    });
   }
 
  private:
-  PairList inner_apart_, leaves_apart_, bounded_apart_;
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr uint32_t kLeaves = 1U << 31, kBounded = 1U << 30;  ///< in `a` of apart_
+
+  void pushApart(uint32_t lanes, V bounds, VU a, VU b) {
+    apart_.push(lanes, bounds, a, b);
+    const auto pushed = hn::RebindMask(d, maskOf(lanes));
+    const V least = hn::Load(d, least_);
+    hn::Store(hn::Min(least, hn::IfThenElse(pushed, bounds, least)), d, least_);
+  }
+
+  PairList apart_;
+  alignas(32) float least_[kLanes];  ///< the least bounds of apart_ are among these
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE

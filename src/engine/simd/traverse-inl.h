@@ -29,7 +29,11 @@ class Expander {
 
   void start(Pair at, Expansion& e) const {
     const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
-    const auto rank = [](const Node& n) { return n.child < 0 ? -1.0F : n.size; };
+    const auto rank = [](const Node& n) {  // sizes order like their bits; a leaf comes below all
+      int32_t bits;
+      std::memcpy(&bits, &n.size, sizeof(bits));
+      return bits | (n.child >> 31);
+    };
     e.at = at;
     e.side = rank(*nodes[0]) > rank(*nodes[1]) ? 0 : 1;
     e.parent = nodes[e.side];
@@ -53,6 +57,18 @@ class Expander {
     e.near &= childrenOf(e).all();
     ++search_.counts.expansions;
     search_.counts.volume_tests += childrenOf(e).count;
+  }
+
+  /// Tests a pair; the children that matter join the frontier.
+  template <size_t kMax>
+  void expand(const PairList::Entry (&pairs)[kMax], size_t count, Frontier& frontier) const {
+    Expansion batch[kMax];
+    size_t n = 0;
+    for (size_t i = 0; i < count; ++i) {
+      if (pairs[i].bound < search_.judge.prune_at) start(pairs[i].pair, batch[n++]);
+    }
+    for (size_t i = 0; i < n; ++i) test(batch[i]);
+    for (size_t i = 0; i < n; ++i) spread(batch[i], frontier);
   }
 
   Pair childPair(const Expansion& e, uint32_t lane) const {
