@@ -42,14 +42,11 @@
 #include "engine/simd/leaf_distance-inl.h"
 //
 #include "engine/simd/leaf_bracket-inl.h"
+//
+#include "engine/simd/bracket_search-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
-
-/// Whether both nodes are leaves.
-HWY_INLINE bool areLeaves(const Search& search, Pair at) {
-  return search.a.nodes[at.a].isLeaf() && search.b.nodes[at.b].isLeaf();
-}
 
 /// Nearly best first: pairs that overlap are expanded at once, as they all must be, the others in
 /// waves by their bounds. A pair of leaves is bounded by a slab and waits again; the features of
@@ -59,16 +56,16 @@ class DistanceSearch {
   explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
 
   void run() {
-    (areLeaves(search_, {0, 0}) ? frontier_.leaves : frontier_.inner).push(-kInfinity, {0, 0});
+    expander_.pushRoots(frontier_);
     for (;;) {
       while (!frontier_.leaves.empty()) {
         if (boundLeaves(frontier_.leaves.pop())) return;
       }
       PairList::Entry batch[kBatch];
       const size_t n = frontier_.inner.pop(batch);
-      expander_.expand(batch, n, frontier_);
+      expander_.expand<false>(batch, n, frontier_);
       if (n == 0) {
-        if (!nextWave()) return;
+        if (!frontier_.nextWave(search_.judge.prune_at)) return;
         while (!frontier_.bounded.empty()) {
           const PairList::Entry entry = frontier_.bounded.pop();
           if (entry.bound >= search_.judge.prune_at) continue;
@@ -79,18 +76,8 @@ class DistanceSearch {
   }
 
  private:
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr size_t kBatch = 4;
   static constexpr uint32_t kMaxWaiting = 256;
-
-  /// False if nothing is left.
-  bool nextWave() {
-    const float least = frontier_.leastApart(), prune_at = search_.judge.prune_at;
-    if (!(least < prune_at)) return false;
-    const float at_most = prune_at < kInfinity ? least + (prune_at - least) / 4 : 1.0625F * least;
-    frontier_.nextWave(std::max(at_most, least), prune_at);
-    return true;
-  }
 
   /// True to end the search.
   bool boundLeaves(const PairList::Entry& entry) {
@@ -129,7 +116,7 @@ class DistanceSearch {
 
 void distance(const Search& search) { DistanceSearch(search).run(); }
 
-void bracket(const Search& search) { DistanceSearch(search).run(); }
+void bracket(const Search& search) { BracketSearch(search).run(); }
 
 /// Depth first: all that overlaps is looked at, until a judge ends it.
 template <class LeafPair>
@@ -138,7 +125,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   const Tree &a = search.a, &b = search.b;
   const Expander expander(search);
   Frontier frontier;
-  (areLeaves(search, {0, 0}) ? frontier.leaves : frontier.inner).push(-1, {0, 0});
+  expander.pushRoots(frontier);
   for (;;) {
     while (!frontier.leaves.empty()) {
       ++search.counts.leaf_pairs;
@@ -148,7 +135,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
     PairList::Entry batch[kBatch];
     const size_t n = frontier.inner.pop(batch);
     if (n == 0) return;
-    expander.expand(batch, n, frontier);
+    expander.expand<false>(batch, n, frontier);
   }
 }
 

@@ -96,6 +96,13 @@ class PairList {
     return count;
   }
 
+  /// The least bound of all; infinity if empty.
+  float least() const {
+    float least = std::numeric_limits<float>::infinity();
+    for (size_t i = 0; i < size_; ++i) least = std::min(least, bounds_[i]);
+    return least;
+  }
+
   /// Takes everything out, lanes by lanes: take(lanes, bounds, a, b) may push up to as many again.
   template <class Take>
   void takeAll(const Take& take) {
@@ -166,13 +173,22 @@ class Frontier {
     hn::Store(hn::Min(hn::Load(d, least_), hn::Set(d, bound)), d, least_);
   }
 
-  /// The least bound of what is apart; infinity if there is nothing.
-  float leastApart() const { return hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_))); }
+  bool empty() const {
+    return inner.empty() && leaves.empty() && bounded.empty() && apart_.empty();
+  }
 
-  /// Takes at hand what is apart by no more than `at_most`; what is as far as `prune_at` is
-  /// dropped.
-  void nextWave(float at_most, float prune_at) {
-    const V most = hn::Set(d, at_most), limit = hn::Set(d, prune_at);
+  /// The least bound of all; infinity if empty.
+  HWY_NOINLINE float least() const {
+    return std::min({inner.least(), leaves.least(), bounded.least(), apart_.least()});
+  }
+
+  /// Takes at hand what is nearest of what is apart: a quarter of the way to `prune_at`. That is
+  /// less than the answer, so that it must be looked at, once `prune_at` is below four times it.
+  /// What is as far as `prune_at` is dropped. False if that is all.
+  bool nextWave(float prune_at) {
+    const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
+    const float at_most = prune_at < kInfinity ? least + (prune_at - least) / 4 : 1.0625F * least;
+    const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
     const VU tags = hn::Set(du, kLeaves | kBounded);
     hn::Store(hn::Set(d, kInfinity), d, least_);
     inner.reserve(apart_.size());
@@ -190,6 +206,7 @@ class Frontier {
       bounded.push(near & having(kBounded), bounds, node, b);
       pushApart(kept & ~near, bounds, a, b);
     });
+    return least < prune_at;
   }
 
  private:

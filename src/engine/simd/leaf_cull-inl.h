@@ -131,8 +131,7 @@ HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Acr
     if (proves(slab.bottom_b - slab.top_a, slab.w)) return;
     if (i == 0) {
       const auto turned = [&](const Across& x) {
-        return dot(x.normal, between) > 0 ? x
-                                          : Across{-1.0F * x.normal, -x.top, -x.bottom};
+        return dot(x.normal, between) > 0 ? x : Across{-1.0F * x.normal, -x.top, -x.bottom};
       };
       const Across of_a = turned(across_a), of_b = turned(across_b);
       if (proves(-b.top(-1.0F * of_a.normal) - of_a.top, of_a.normal)) return;

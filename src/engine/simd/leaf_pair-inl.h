@@ -77,8 +77,8 @@ HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, uint32
   for (size_t i = 0; i < leaf.leaf.num_edges; i += step()) {
     const auto ends = hn::PromoteTo(du, hn::LoadU(du16, leaf.leaf.ends + i));
     const auto index = hn::Iota(du, static_cast<uint32_t>(i));
-    const auto either = hn::Or(hn::Shr(wanted, hn::And(ends, byte)),
-                               hn::Shr(wanted, hn::ShiftRight<8>(ends)));
+    const auto either =
+        hn::Or(hn::Shr(wanted, hn::And(ends, byte)), hn::Shr(wanted, hn::ShiftRight<8>(ends)));
     const auto taken = hn::And(hn::Ne(hn::And(either, one), hn::Zero(du)),
                                hn::Lt(index, hn::Set(du, uint32_t{leaf.leaf.num_edges})));
     const uint32_t bits = bitsOf(hn::RebindMask(d, taken));

@@ -59,16 +59,25 @@ class Expander {
     search_.counts.volume_tests += childrenOf(e).count;
   }
 
-  /// Tests a pair; the children that matter join the frontier.
-  template <size_t kMax>
+  /// Tests pairs, several at once as their steps overlap; the children that matter join the
+  /// frontier.
+  template <bool kInherit, size_t kMax>
   void expand(const PairList::Entry (&pairs)[kMax], size_t count, Frontier& frontier) const {
     Expansion batch[kMax];
     size_t n = 0;
     for (size_t i = 0; i < count; ++i) {
-      if (pairs[i].bound < search_.judge.prune_at) start(pairs[i].pair, batch[n++]);
+      if (pairs[i].bound >= search_.judge.prune_at) continue;
+      batch[n].bound = pairs[i].bound;
+      start(pairs[i].pair, batch[n++]);
     }
     for (size_t i = 0; i < n; ++i) test(batch[i]);
-    for (size_t i = 0; i < n; ++i) spread(batch[i], frontier);
+    for (size_t i = 0; i < n; ++i) spread<kInherit>(batch[i], frontier);
+  }
+
+  void pushRoots(Frontier& frontier) const {
+    const bool leaves = trees_[0]->nodes[0].isLeaf() && trees_[1]->nodes[0].isLeaf();
+    (leaves ? frontier.leaves : frontier.inner)
+        .push(-std::numeric_limits<float>::infinity(), {0, 0});
   }
 
   Pair childPair(const Expansion& e, uint32_t lane) const {
@@ -78,7 +87,7 @@ class Expander {
 
   /// The children that matter join the frontier. If kInherit, bounds are at least the pair's, and
   /// those `taken` (bits) don't join.
-  template <bool kInherit = false>
+  template <bool kInherit>
   void spread(Expansion& e, Frontier& frontier, uint32_t taken = 0) const {
     if constexpr (kInherit) {
       const V limit = hn::Set(d, search_.judge.prune_at), least = hn::Set(d, e.bound);
@@ -94,15 +103,16 @@ class Expander {
     if (flat != 0 && boxes_) testBoxes(e, flat);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
     const uint32_t leaves = childrenOf(e).leaves & (e.other->isLeaf() ? ~0U : 0U);
-    const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U), first = hn::Set(du, e.parent->first_child);
+    const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U),
+             first = hn::Set(du, e.parent->first_child);
     const VU a = hn::Set(du, e.at.a), b = hn::Set(du, e.at.b);
     frontier.reserve();
     const uint32_t kAllLanes = (1U << step()) - 1;
     for (size_t l = 0; l < kLanes; l += step()) {
       const V bounds = hn::Load(d, e.bounds + l);
       const VU child = hn::Add(first, hn::Iota(du, static_cast<uint32_t>(l)));
-      frontier.push(e.near >> l & kAllLanes, leaves >> l, bounds, hn::IfVecThenElse(expanded, child, a),
-                    hn::IfVecThenElse(expanded, b, child));
+      frontier.push(e.near >> l & kAllLanes, leaves >> l, bounds,
+                    hn::IfVecThenElse(expanded, child, a), hn::IfVecThenElse(expanded, b, child));
     }
   }
 
