@@ -65,7 +65,7 @@ class DistanceSearch {
       const size_t n = frontier_.inner.pop(batch);
       expander_.expand<false>(batch, n, frontier_);
       if (n == 0) {
-        if (!frontier_.nextWave(search_.judge.prune_at)) return;
+        if (!frontier_.nextWave(search_.judge.prune_at, kWave)) return;
         while (!frontier_.bounded.empty()) {
           const PairList::Entry entry = frontier_.bounded.pop();
           if (entry.bound >= search_.judge.prune_at) continue;
@@ -77,6 +77,7 @@ class DistanceSearch {
 
  private:
   static constexpr size_t kBatch = 4;
+  static constexpr float kWave = 0.125F;
   static constexpr uint32_t kMaxWaiting = 256;
 
   /// True to end the search.

@@ -40,6 +40,7 @@ class BracketSearch {
  private:
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr size_t kBatch = 4;
+  static constexpr float kWave = 0.125F;
   static constexpr uint32_t kMaxWaiting = 256;
   static constexpr size_t kMaxDepth = 32;
 
@@ -101,6 +102,11 @@ class BracketSearch {
 
   /// Looks at some of what is at hand, or takes more. True to end the search.
   bool advance() {
+    if (!frontier_.bounded.empty()) {
+      const PairList::Entry entry = frontier_.bounded.pop();
+      return entry.bound < prune_at_ &&
+             current(entry, [&] { return judgeFeatures(waiting_[entry.pair.a], entry.bound); });
+    }
     if (!frontier_.leaves.empty()) {
       const PairList::Entry entry = frontier_.leaves.pop();
       return entry.bound < prune_at_ && current(entry, [&] { return leaves(entry); });
@@ -114,12 +120,7 @@ class BracketSearch {
       in_flight_ = kInfinity;
       return false;
     }
-    if (!frontier_.bounded.empty()) {
-      const PairList::Entry entry = frontier_.bounded.pop();
-      return entry.bound < prune_at_ &&
-             current(entry, [&] { return judgeFeatures(waiting_[entry.pair.a], entry.bound); });
-    }
-    frontier_.nextWave(prune_at_);
+    frontier_.nextWave(prune_at_, kWave);
     return false;
   }
 

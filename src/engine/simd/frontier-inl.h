@@ -79,6 +79,14 @@ class PairList {
     hn::StoreU(to_front(b), du, to_b);
   }
 
+  /// Swaps an entry with the last.
+  void raise(size_t i) {
+    const size_t last = std::max(i + 1, size_) - 1;  // i itself, where there is none
+    std::swap(bounds_[i], bounds_[last]);
+    std::swap(a_[i], a_[last]);
+    std::swap(b_[i], b_[last]);
+  }
+
   Entry pop() {
     --size_;
     return {bounds_[size_], {a_[size_], b_[size_]}};
@@ -98,9 +106,14 @@ class PairList {
 
   /// The least bound of all; infinity if empty.
   float least() const {
-    float least = std::numeric_limits<float>::infinity();
-    for (size_t i = 0; i < size_; ++i) least = std::min(least, bounds_[i]);
-    return least;
+    const V infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = infinity;
+    for (size_t i = 0; i < size_; i += step()) {
+      const uint32_t used = (1U << std::min(size_ - i, step())) - 1;
+      const V bounds = hn::LoadU(d, bounds_ + i);
+      least = hn::Min(least, hn::IfThenElse(hn::RebindMask(d, maskOf(used)), bounds, infinity));
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
   /// Takes everything out, lanes by lanes: take(lanes, bounds, a, b) may push up to as many again.
@@ -182,12 +195,13 @@ class Frontier {
     return std::min({inner.least(), leaves.least(), bounded.least(), apart_.least()});
   }
 
-  /// Takes at hand what is nearest of what is apart: a quarter of the way to `prune_at`. That is
-  /// less than the answer, so that it must be looked at, once `prune_at` is below four times it.
-  /// What is as far as `prune_at` is dropped. False if that is all.
-  bool nextWave(float prune_at) {
+  /// Takes at hand what is nearest of what is apart: a `share` of the way to `prune_at`, all of
+  /// which must be looked at anyway if the answer is beyond. What is as far as `prune_at` is
+  /// dropped. False if that is all.
+  bool nextWave(float prune_at, float share) {
     const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
-    const float at_most = prune_at < kInfinity ? least + (prune_at - least) / 4 : 1.0625F * least;
+    const float at_most =
+        prune_at < kInfinity ? least + share * (prune_at - least) : (1 + share / 4) * least;
     const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
     const VU tags = hn::Set(du, kLeaves | kBounded);
     hn::Store(hn::Set(d, kInfinity), d, least_);

@@ -107,6 +107,7 @@ class Expander {
              first = hn::Set(du, e.parent->first_child);
     const VU a = hn::Set(du, e.at.a), b = hn::Set(du, e.at.b);
     frontier.reserve();
+    const size_t deepest = frontier.inner.size() + deepestOf(e, leaves);
     const uint32_t kAllLanes = (1U << step()) - 1;
     for (size_t l = 0; l < kLanes; l += step()) {
       const V bounds = hn::Load(d, e.bounds + l);
@@ -114,9 +115,31 @@ class Expander {
       frontier.push(e.near >> l & kAllLanes, leaves >> l, bounds,
                     hn::IfVecThenElse(expanded, child, a), hn::IfVecThenElse(expanded, b, child));
     }
+    frontier.inner.raise(deepest);
   }
 
  private:
+  /// How many children that overlap and are not pairs of leaves precede the deepest of them.
+  static uint32_t deepestOf(const Expansion& e, uint32_t leaves) {
+    const uint32_t children = e.near & ~leaves;
+    V least = hn::Zero(d);
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V bounds = hn::Load(d, e.bounds + l);
+      least = hn::Min(least, hn::IfThenElseZero(hn::RebindMask(d, maskOf(children >> l)), bounds));
+    }
+    least = hn::MinOfLanes(d, least);
+    uint32_t overlapping = 0, deepest = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V bounds = hn::Load(d, e.bounds + l);
+      overlapping |= bitsOf(hn::Le(bounds, hn::Zero(d))) << l;
+      deepest |= bitsOf(hn::Eq(bounds, least)) << l;
+    }
+    overlapping &= children;
+    return static_cast<uint32_t>(
+        hwy::PopCount(overlapping & (firstBit(deepest & overlapping) - 1)));
+  }
+  static uint32_t firstBit(uint32_t bits) { return bits & (0U - bits); }  // 0 for none
+
   /// Calls use(lane) for some children, for the nearest last.
   template <class Use>
   static HWY_INLINE void nearestLast(const Expansion& e, uint32_t children, const Use& use) {
