@@ -77,7 +77,7 @@ class DistanceSearch {
 
  private:
   static constexpr size_t kBatch = 4;
-  static constexpr float kWave = 0.125F;
+  static constexpr float kWave = 0.25F;
   static constexpr uint32_t kMaxWaiting = 256;
 
   /// True to end the search.
