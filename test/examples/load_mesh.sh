@@ -6,7 +6,7 @@
 # Good and bad files: what is printed, which status, what the message says.
 set -euo pipefail
 
-run=("$1" "$2" libassimp-dev)
+run=("$(realpath "$1")" "$2" libassimp-dev)
 work=$3
 mkdir -p "$work"
 cd "$work"
@@ -48,7 +48,7 @@ STL
 : >empty.stl
 printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' >lines.obj
 sed 's/vertex 2 0 0/vertex nan 0 0/' plate.stl >nan.stl
-head -c 100 plate.stl >cut.stl
+head -c 60 plate.stl >cut.stl
 echo 'no mesh' >text.xyzzy
 
 failures=0
