@@ -39,7 +39,7 @@ void sleepUntil(long long deadline) {
 template <typename S>
 fcl::Transform3<S> toolPose(long long cycle) {
   const double t = 1e-3 * static_cast<double>(cycle);
-  const fcl::Vector3d place(std::cos(t), std::sin(1.7 * t), 0.95 + 0.35 * std::sin(2.3 * t));
+  const fcl::Vector3d place(std::cos(t), std::sin(1.7 * t), 1.5 + 0.9 * std::sin(2.3 * t));
   fcl::Transform3d X_W = fcl::Transform3d::Identity();
   X_W.linear() = fcl::AngleAxisd(0.8 * t, fcl::Vector3d(2, 1, 2) / 3).toRotationMatrix();
   X_W.translation() = place;

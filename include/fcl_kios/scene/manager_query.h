@@ -48,7 +48,7 @@ class ManagerQuery {
   void findClosest();
   void findWithin(S margin);
 
-  /// FCL's DistanceCallBack; `query` is a ManagerQuery<S> that was started. Throws
+  /// FCL's DistanceCallBack; `query` is a `ManagerQuery<S>` that was started. Throws
   /// std::invalid_argument as fcl::distance does.
   static bool callback(Object* o1, Object* o2, void* query, S& dist);
 
