@@ -27,7 +27,7 @@ fcl::Transform3d poseOf(int i, int frame) {
   const fcl::Vector3d home(i % kSide, i / kSide % kSide, i / (kSide * kSide));
   const fcl::Vector3d sway(std::sin(t + phase), std::sin(1.3 * t + 2 * phase), std::cos(t + phase));
   fcl::Transform3d X_W = fcl::Transform3d::Identity();
-  X_W.translation() = 3 * home + 0.3 * sway;
+  X_W.translation() = 3 * home + 0.37 * sway;
   X_W.linear() =
       fcl::AngleAxisd(t + phase, fcl::Vector3d(1, std::cos(phase), std::sin(phase)).normalized())
           .toRotationMatrix();
