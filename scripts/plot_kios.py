@@ -166,8 +166,8 @@ def main():
     on_p = (p[0] + ux * p[2], p[1] + uy * p[2])
     on_q = (q[0] - ux * q[2], q[1] - uy * q[2])
     drawing.line(on_p, on_q, 'stroke="black" stroke-width="2.5"')
-    drawing.text(2.75, 2.05, "distance ≥ |c − c′| − r − r′, of the best pair of spheres",
-                 'fill="black"')
+    title = "distance ≥ |c − c′| − r − r′, of the best pair of spheres"
+    drawing.text(2.75, 2.05, title, 'fill="black"')
     drawing.text(5.9, -0.12, f"{bound:.2f} of {exact:.2f}", 'fill="black"')
     drawing.write(file, -2.3, 2.3)
     print(f"{file}: bound {bound:.4f}, distance of the contents {exact:.4f}")
