@@ -208,7 +208,8 @@ class LeafDistances {
     const uint32_t i = static_cast<uint32_t>(row.index);
     if (row.kind == PairKind::kEdgeEdge) {
       const uint32_t j = static_cast<uint32_t>(kLanes * row.chunk) + lane;
-      return {row.kind, a_.edge(edges_a_.index[i]), b_.edge(edges_b_.index[j])};
+      return {row.kind, a_.edge(edges_a_.index(row.index)),
+              b_.edge(edges_b_.index(static_cast<int>(j)))};
     }
     if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(i), b_.face(lane)};
     return {row.kind, a_.face(lane), b_.vertex(i)};
@@ -226,7 +227,7 @@ class LeafDistances {
 
 /// Two leaves that were looked at, and no slab proved to be far enough apart.
 struct Slabbed {
-  Frontier::Pair nodes;
+  Pair nodes;
   Slab slab;
 };
 
