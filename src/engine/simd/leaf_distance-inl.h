@@ -65,21 +65,6 @@ HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad
                         hn::Set(d, std::numeric_limits<float>::infinity()));
 }
 
-/// Vertices with w . p >= least, as bits.
-HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
-  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
-  const V leasts = hn::Set(d, least);
-  uint32_t result = 0;
-  for (int c = 0; c < vertices.chunks; ++c) {
-    const Lanes* const rows = vertices.rows + 3 * c;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const V along = dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
-      result |= bitsOf(hn::Ge(along, leasts)) << (kLanes * c + l);
-    }
-  }
-  return result;
-}
-
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
 /// of b's edges; a vertex of a against b's faces; a vertex of b against a's faces.
 class LeafDistances {
@@ -257,7 +242,7 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   // Only what overlaps can cross.
-  if (bound <= 0 && edgesCross(search, a, b, vertices_b)) return true;
+  if (bound <= 0 && edgesCross(search, a, b, vertices_b, slab)) return true;
   LeafDistances distances(a, b);
   const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
@@ -272,7 +257,7 @@ HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, cons
   separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
-  return edgesCross(search, a, b, vertices_b);
+  return edgesCross(search, a, b, vertices_b, slab);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.

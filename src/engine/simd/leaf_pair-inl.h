@@ -128,6 +128,21 @@ HWY_INLINE void separateLeaves(const LeafView& a, const LeafView& b, const Point
   }
 }
 
+/// Vertices with w . p >= least, as bits.
+HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
+  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
+  const V leasts = hn::Set(d, least);
+  uint32_t result = 0;
+  for (int c = 0; c < vertices.chunks; ++c) {
+    const Lanes* const rows = vertices.rows + 3 * c;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V along = dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
+      result |= bitsOf(hn::Ge(along, leasts)) << (kLanes * c + l);
+    }
+  }
+  return result;
+}
+
 struct Faces {
   const Lanes* rows;
   V height(size_t l, V x, V y, V z) const { return plane(kFacePlane, l, x, y, z); }
@@ -172,21 +187,21 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
   return result;
 }
 
-/// Judges the edges of one leaf, in rows moved to the frame of the other, against its faces.
+/// Judges some edges of one leaf, in rows moved to the frame of the other, against its faces.
 template <bool kEdgesOfA>
-HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& all, const LeafView& faces,
+HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const LeafView& faces,
                             float pad, Judge& judge, long long& exact) {
   const uint32_t used = (1U << faces.leaf.num_faces) - 1;
-  for (uint32_t i = 0; i < edges.leaf.num_edges; ++i) {
-    const Points chunk = {all.rows + 6 * (i / kLanes), 1};
+  for (int i = 0; i < some.count; ++i) {
+    const Points chunk = {some.rows + 6 * (i / kLanes), 1};
     const Points directions = {chunk.rows + 3, 1};
-    const int lane = static_cast<int>(i % kLanes);
+    const int lane = i % kLanes;
     uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & used;
     for (; may != 0; may &= may - 1) {
       ++exact;
-      const FeatureId face = faces.face(firstOf(may));
-      if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edges.edge(i), face}
-                                : Candidate{PairKind::kFaceEdge, face, edges.edge(i)})) {
+      const FeatureId face = faces.face(firstOf(may)), edge = edges.edge(some.index(i));
+      if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edge, face}
+                                : Candidate{PairKind::kFaceEdge, face, edge})) {
         return true;
       }
     }
@@ -194,16 +209,22 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& all, const Le
   return false;
 }
 
-/// Judges the edges of either leaf against the faces of the other.
+/// Judges the edges of either leaf against the faces of the other. What meets lies between the
+/// planes of the slab, so that edges beyond can't.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
-                           const Points& vertices_b) {
+                           const Points& vertices_b, const Slab& slab) {
   const FramePair& frames = search.frames;
   long long& exact = search.counts.exact;
+  const float ww = dot(slab.w, slab.w), thickness = frames.pad * std::sqrt(ww);
+  const bool precise = ww >= kLeastSquare;
+  const auto wanted = [&](uint32_t facing) { return precise ? facing : kAllVertices; };
   EdgeRows edges;
-  gatherEdges(b, vertices_b, kAllVertices, edges);
+  gatherEdges(b, vertices_b, wanted(facing(vertices_b, -1.0F * slab.w, -slab.top_a - thickness)),
+              edges);
   if (crossings<false>(b, edges, a, frames.pad, search.judge, exact)) return true;
   VertexRows moved_a;
-  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a), kAllVertices, edges);
+  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a),
+              wanted(facing(a.vertices, slab.w, slab.bottom_b - thickness)), edges);
   return crossings<true>(a, edges, b, frames.pad, search.judge, exact);
 }
 
