@@ -77,14 +77,16 @@ void countEdges(const std::vector<Corners>& corners, Defects& defects) {
   std::sort(edges.begin(), edges.end());
   for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
     while (end < edges.size() && edges[end] == edges[i]) ++end;
+    ++defects.edges;
     if (end - i == 1) ++defects.open_edges;
     if (end - i > 2) ++defects.branching_edges;
   }
 }
 
-std::string triangles(std::size_t n) {
-  return std::to_string(n) + (n == 1 ? " triangle" : " triangles");
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
 }
+std::string triangles(std::size_t n) { return counted(n, "triangle", "triangles"); }
 
 }  // namespace
 
@@ -137,12 +139,12 @@ std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
                      std::to_string(mesh.vertices.size()) + " vertices in no triangle");
   }
   if (defects.branching_edges > 0) {
-    result.push_back(std::to_string(defects.branching_edges) +
-                     (defects.branching_edges == 1 ? " edge" : " edges") +
+    result.push_back(counted(defects.branching_edges, "edge", "edges") +
                      " of more than two triangles");
   }
   if (mesh.other_faces > 0) {
-    result.push_back(std::to_string(mesh.other_faces) + " points or lines left out");
+    result.push_back(counted(mesh.other_faces, "point or line", "points or lines") +
+                     " left out");
   }
   return result;
 }

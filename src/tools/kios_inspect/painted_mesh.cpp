@@ -66,7 +66,7 @@ Color colorOf(const VolumeTree& tree, int node, std::size_t place) {
   return color;
 }
 
-Color meshColor(int which) { return which == 0 ? Color{176, 182, 190} : Color{196, 164, 120}; }
+Color meshColor(int which) { return which == 0 ? Color{214, 218, 224} : Color{226, 196, 150}; }
 
 std::vector<PaintedMesh> paintLevel(const VolumeTree& tree, int level, int detail) {
   std::vector<PaintedMesh> result;

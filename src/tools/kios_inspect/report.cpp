@@ -46,8 +46,9 @@ std::string bytes(std::size_t n) {
   return text;
 }
 
-std::string edges(const Defects& defects) {
+std::string surface(const Defects& defects) {
   if (defects.closed()) return "closed";
+  if (defects.open_edges == 0) return "not a surface";
   std::string text;
   print(text, "open, %zu edges of one triangle", defects.open_edges);
   return text;
@@ -71,6 +72,7 @@ Json toJson(const Inspection& i) {
   return {{"file", i.file},
           {"parts", i.mesh.parts},
           {"triangles", i.mesh.triangles.size()},
+          {"surface", surface(i.defects)},
           {"vertices", i.mesh.vertices.size()},
           {"distinct_vertices", i.defects.distinct_vertices},
           {"box", {{"lower", toJson(i.box.min())}, {"upper", toJson(i.box.max())}}},
@@ -121,9 +123,9 @@ std::string toText(const Inspection& i) {
   std::string out;
   out += i.file + "\n";
   print(out, "  triangles  %zu in %d %s, %s\n", i.mesh.triangles.size(), i.mesh.parts,
-        i.mesh.parts == 1 ? "mesh" : "meshes", edges(i.defects).c_str());
-  print(out, "  vertices   %zu, %zu distinct\n", i.mesh.vertices.size(),
-        i.defects.distinct_vertices);
+        i.mesh.parts == 1 ? "mesh" : "meshes", surface(i.defects).c_str());
+  print(out, "  vertices   %zu distinct of %zu as read\n", i.defects.distinct_vertices,
+        i.mesh.vertices.size());
   print(out, "  box        %g x %g x %g, from (%g, %g, %g)\n", sizes[0], sizes[1], sizes[2],
         i.box.min()[0], i.box.min()[1], i.box.min()[2]);
   print(out, "  nodes      %d in %d levels; k = 1: %zu, 3: %zu, 5: %zu\n", i.nodes(),

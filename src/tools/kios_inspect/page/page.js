@@ -14,7 +14,7 @@ class Camera {
     this.rotation = [1, 0, 0, 0];
     this.turn([0, 0, 1], -0.6);
     this.turn([1, 0, 0], -1.2);
-    this.distance = 1.12 * this.radius / Math.sin(this.fieldOfView / 2);
+    this.distance = 0.95 * this.radius / Math.sin(this.fieldOfView / 2);
     this.offset = [0, 0];
   }
 
@@ -67,7 +67,7 @@ const content = JSON.parse(byId('scene').textContent);
 const {scene, report} = content;
 const canvas = byId('canvas');
 const camera = new Camera(scene.radius);
-const shown = {level: scene.level, opacity: 0.35, volumes: true, mesh: true, edges: false,
+const shown = {level: scene.level, opacity: report.pair ? 0.25 : 0.45, volumes: true, mesh: true, edges: false,
   ratio: 1};
 let renderer = null;
 let waiting = false;
@@ -128,15 +128,13 @@ function describePair(panel, pair) {
 }
 
 function describeMesh(panel, mesh, index, names) {
-  const title = add(panel, 'h2', names[index] + ' ');
+  const title = add(panel, 'h2', (names.length > 1 ? names[index] : 'Mesh') + ' ');
   add(title, 'span', '', 'swatch').style.background = `rgb(${scene.meshes[index].color.join()})`;
   for (const warning of mesh.warnings) add(panel, 'p', warning, 'warning');
   const sizes = mesh.box.upper.map((u, i) => short(u - mesh.box.lower[i])).join(' × ');
-  const open = mesh.defects.open_edges, branching = mesh.defects.branching_edges;
   list(panel, [
-    ['triangles', count(mesh.triangles) +
-      (open + branching === 0 ? ', closed' : open > 0 ? `, open (${count(open)} edges)` : '')],
-    ['vertices', `${count(mesh.vertices)}, ${count(mesh.distinct_vertices)} distinct`],
+    ['triangles', `${count(mesh.triangles)}, ${mesh.surface}`],
+    ['vertices', `${count(mesh.distinct_vertices)} distinct of ${count(mesh.vertices)}`],
     ['box', sizes],
     ['nodes', `${count(mesh.nodes)} in ${mesh.depth + 1} levels`],
     ['spheres', `k = 1: ${count(mesh.k[1])}, 3: ${count(mesh.k[3])}, 5: ${count(mesh.k[5])}`],
@@ -207,6 +205,7 @@ function chooseLevel(level) {
 function connectControls() {
   byId('level').max = Math.max(...scene.meshes.map((mesh) => mesh.levels.length)) - 1;
   byId('level').addEventListener('input', (event) => chooseLevel(Number(event.target.value)));
+  byId('opacity').value = shown.opacity;
   byId('opacity').addEventListener('input', (event) => {
     shown.opacity = Number(event.target.value);
     redraw();
