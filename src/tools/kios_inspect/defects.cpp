@@ -143,8 +143,7 @@ std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
                      " of more than two triangles");
   }
   if (mesh.other_faces > 0) {
-    result.push_back(counted(mesh.other_faces, "point or line", "points or lines") +
-                     " left out");
+    result.push_back(counted(mesh.other_faces, "point or line", "points or lines") + " left out");
   }
   return result;
 }

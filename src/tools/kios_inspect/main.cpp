@@ -142,7 +142,8 @@ int run(const Options& options) {
   bool warned = false;
   for (const Inspection& i : inspections) warned |= !warnings(i.mesh, i.defects).empty();
   if (options.json) {
-    Json report = {{"version", FCL_KIOS_VERSION_STRING}, {"meshes", Json::array()}, {"pair", nullptr}};
+    Json report = {
+        {"version", FCL_KIOS_VERSION_STRING}, {"meshes", Json::array()}, {"pair", nullptr}};
     for (const Inspection& i : inspections) report["meshes"].push_back(toJson(i));
     if (pair) report["pair"] = toJson(*pair);
     std::printf("%s\n", report.dump(2, ' ', false, Json::error_handler_t::replace).c_str());

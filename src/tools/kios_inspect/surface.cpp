@@ -147,6 +147,29 @@ class Triangulation {
     return found->second = add(from + low * (to - from));
   }
 
+  /// Where the spheres of a triangle's corners meet, by Newton's method with differences; the
+  /// middle if it leaves the triangle.
+  Vec corner(const std::array<std::uint32_t, 3>& t) const {
+    const Vec &a = directions_[t[0]], b = directions_[t[1]] - a, c = directions_[t[2]] - a;
+    const auto gaps = [&](const Eigen::Vector2d& x) {
+      const Vec direction = a + x[0] * b + x[1] * c;
+      const double first = caster_.leave(balls_[t[0]], direction);
+      return Eigen::Vector2d(caster_.leave(balls_[t[1]], direction) - first,
+                             caster_.leave(balls_[t[2]], direction) - first);
+    };
+    const Eigen::Vector2d middle(1.0 / 3, 1.0 / 3);
+    Eigen::Vector2d x = middle;
+    for (int step = 0; step < 12; ++step) {
+      constexpr double h = 1e-6;
+      const Eigen::Vector2d f = gaps(x);
+      Eigen::Matrix2d slope;
+      slope << (gaps(x + Eigen::Vector2d(h, 0)) - f) / h, (gaps(x + Eigen::Vector2d(0, h)) - f) / h;
+      x -= slope.fullPivLu().solve(f);
+      if (!(x.minCoeff() > 0 && x.sum() < 1)) x = middle;
+    }
+    return a + x[0] * b + x[1] * c;
+  }
+
   std::uint32_t add(const Vec& direction) {
     int first = 0;
     surface_.vertices.push_back(caster_.cast(direction, first));
@@ -165,9 +188,7 @@ class Triangulation {
       face(ab, c, ca, balls_[b]);
       return;
     }
-    // Three spheres: about where they meet.
-    const std::uint32_t middle =
-        add((directions_[t[0]] + directions_[t[1]] + directions_[t[2]]) / 3);
+    const std::uint32_t middle = add(corner(t));
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t a = t[i], b = t[(i + 1) % 3], c = t[(i + 2) % 3];
       const std::uint32_t ab = crease(a, b), ca = crease(c, a);
