@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: page.sh KIOS_INSPECT DIR
-# Pages of a generated mesh, of two meshes and of one whose name is markup, in headless Chromium:
+# Pages of a generated mesh, and of two, one with a path that is markup, in headless Chromium:
 # see browser.py. Leaves their pictures in DIR; docs/images/inspect.png is DIR/knot.png. Skipped
 # without Chromium or Python.
 set -euo pipefail
@@ -42,6 +42,7 @@ awk 'BEGIN {
     print "f", p, r, s, q
   }
 }' >knot.obj
+mkdir -p '<'
 cp knot.obj '</script><b>knot.obj'
 
 browse() { "$python" "$here/browser.py" "$chromium" "$@"; }
