@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -107,6 +109,19 @@ std::vector<PaintedMesh> paint(const Inspection& inspection, const Options& opti
   return painted;
 }
 
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Refuses a level that none of the meshes has.
+void requireLevel(const Options& options, const std::vector<Inspection>& inspections) {
+  int deepest = 0;
+  for (const Inspection& i : inspections) deepest = std::max(deepest, i.tree->depth());
+  if (options.level <= deepest) return;
+  throw UsageError("--level " + std::to_string(options.level) + ": the deepest level is " +
+                   std::to_string(deepest) + ".");
+}
+
 /// The commonest reason why a file can't be written, before minutes of work.
 void requireDirectory(const std::filesystem::path& file) {
   const std::filesystem::path parent = file.parent_path();
@@ -121,6 +136,8 @@ int run(const Options& options) {
   const bool two = options.meshes.size() == 2;
   std::vector<Inspection> inspections;
   for (const auto& file : options.meshes) inspections.push_back(inspect(file, !two, progress));
+
+  requireLevel(options, inspections);
 
   std::optional<PairQuery> pair;
   if (two) {
@@ -179,6 +196,9 @@ int main(int argc, char** argv) {
   }
   try {
     return run(options);
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "kios_inspect: %s\n", error.what());
+    return kUsage;
   } catch (const InputError& error) {
     std::fprintf(stderr, "kios_inspect: %s\n", error.what());
     return kBadInput;

@@ -8,7 +8,8 @@
 
 namespace kios::inspect {
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(bool quiet)
+    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), said_(Clock::now()) {}
 
 void Progress::step(const std::string& what) {
   done();
@@ -22,10 +23,12 @@ void Progress::step(const std::string& what) {
 
 double Progress::done() {
   if (what_.empty()) return 0;
-  const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
-  if (!quiet_) {
-    if (terminal_) std::fprintf(stderr, "\r\033[K");
-    if (!terminal_ && seconds > 1) std::fprintf(stderr, "%s: %.1f s\n", what_.c_str(), seconds);
+  const Clock::time_point now = Clock::now();
+  const double seconds = std::chrono::duration<double>(now - begun_).count();
+  if (terminal_ && !quiet_) std::fprintf(stderr, "\r\033[K");
+  if (!terminal_ && !quiet_ && now - said_ > std::chrono::seconds(1)) {
+    std::fprintf(stderr, "%s: %.1f s\n", what_.c_str(), seconds);
+    said_ = now;
   }
   what_.clear();
   return seconds;

@@ -8,7 +8,8 @@
 namespace kios::inspect {
 
 /// Says on stderr what the program is at: on a terminal at once, on a line that the next step
-/// overwrites; elsewhere a line for each step that took more than a second.
+/// overwrites; elsewhere, once more than a second has passed since it last said something, when a
+/// step ends.
 class Progress {
  public:
   explicit Progress(bool quiet);
@@ -25,7 +26,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   const bool quiet_, terminal_;
   std::string what_;
-  Clock::time_point begun_;
+  Clock::time_point begun_, said_;
 };
 
 }  // namespace kios::inspect

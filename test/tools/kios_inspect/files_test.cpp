@@ -7,15 +7,19 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <cstring>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "inspection.h"
 #include "mesh_file.h"
+#include "page.h"
 #include "painted_mesh.h"
 #include "sample_files.h"
 #include "scenes/shapes.h"
+#include "surface.h"
 #include "surface_check.h"
 #include "volume_file.h"
 
@@ -183,6 +187,61 @@ TEST(Files, ScenesAreFlattenedByTheirTransforms) {
   for (int i = 0; i < 2; ++i) {
     for (int c = 0; c < 3; ++c) {
       EXPECT_LT((mesh.vertices[mesh.triangles[i][c]] - expected[i][c]).norm(), 1e-6) << i << c;
+    }
+  }
+}
+
+std::vector<float> floatsOf(const std::string& base64) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int held = 0;
+  for (const char c : base64) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(digits.find(c));
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes += static_cast<char>(bits >> held & 0xff);
+  }
+  std::vector<float> result(bytes.size() / sizeof(float));
+  std::memcpy(result.data(), bytes.data(), result.size() * sizeof(float));
+  return result;
+}
+
+TEST(Files, APageHoldsTheVolumesThatItDraws) {
+  // What renderer.js evaluates is 0 on the surface of each volume, and negative inside.
+  std::vector<Inspection> inspections;
+  inspections.push_back(inspected(writeStl("torus.stl", scenes::knobbyTorus())));
+  const Inspection& inspection = inspections[0];
+  const std::string html = page(inspections, nullptr, {});
+  const std::string mark = "id=\"scene\">";
+  const std::size_t begin = html.find(mark) + mark.size();
+  const auto scene =
+      nlohmann::json::parse(html.substr(begin, html.find('<', begin) - begin))["scene"];
+  const auto& levels = scene["meshes"][0]["levels"];
+  ASSERT_EQ(static_cast<int>(levels.size()), inspection.tree->depth() + 1);
+  const double scale = inspection.box.diagonal().norm();
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const std::vector<float> records = floatsOf(levels[level]);
+    const std::vector<int> nodes = inspection.tree->level(static_cast<int>(level));
+    ASSERT_EQ(records.size(), 32 * nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); i += 1 + nodes.size() / 40) {
+      const float* const r = &records[32 * i];
+      const fcl::Vector3d middle(r[0], r[1], r[2]);
+      const double kappa[5] = {r[7], r[8], r[9], r[10], r[11]};
+      const kIOSd& volume = inspection.tree->volume(nodes[i]);
+      for (const fcl::Vector3d& v : triangulate(volume, 1).vertices) {
+        const fcl::Vector3d x = (v + volume.center0 - inspection.box.center()) / scale - middle;
+        double f = -HUGE_VAL;
+        for (int s = 0; s < 5; ++s) {
+          const float* const u = r + 12 + 4 * s;
+          f = std::max(
+              f, 0.5 * kappa[s] * x.squaredNorm() - x.dot(fcl::Vector3d(u[0], u[1], u[2])) + u[3]);
+        }
+        EXPECT_NEAR(f, 0, 1e-6);
+        for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(x[axis]), r[4 + axis] + 1e-6);
+      }
     }
   }
 }

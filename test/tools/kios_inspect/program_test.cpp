@@ -135,10 +135,11 @@ TEST(Program, WrongCommandLinesAreRefused) {
   for (const std::string& arguments :
        {std::string(), mesh + " " + mesh + " " + mesh, mesh + " --unknown", mesh + " --level -1",
         mesh + " --out volumes.ply", mesh + " --level 1 --out volumes.stl", mesh + " --level x",
-        mesh + " --pose-a 1,2,3", mesh + " " + mesh + " --level 1 --out volumes.ply",
-        mesh + " " + mesh + " --pose-b 1,2", mesh + " " + mesh + " --pose-b 1,2,x",
-        mesh + " " + mesh + " --pose-b 1,2,nan", mesh + " " + mesh + " --pose-b 0,0,0,1,1,0,0",
-        mesh + " " + mesh + " --pose-b 1,2,3,", mesh + " " + mesh + " --repeats 0"}) {
+        mesh + " --level 999", mesh + " --pose-a 1,2,3",
+        mesh + " " + mesh + " --level 1 --out volumes.ply", mesh + " " + mesh + " --pose-b 1,2",
+        mesh + " " + mesh + " --pose-b 1,2,x", mesh + " " + mesh + " --pose-b 1,2,nan",
+        mesh + " " + mesh + " --pose-b 0,0,0,1,1,0,0", mesh + " " + mesh + " --pose-b 1,2,3,",
+        mesh + " " + mesh + " --repeats 0"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.code, 2) << arguments;
     EXPECT_FALSE(outcome.err.empty()) << arguments;
@@ -208,6 +209,15 @@ TEST(Program, PagesStandAloneAndSayWhatTheyLeaveOut) {
   EXPECT_LT(small.size(), 600000u);
   EXPECT_TRUE(contains(small, "The mesh itself is left out"));
   EXPECT_TRUE(contains(small, "are left out, as the page would be too large"));
+}
+
+TEST(Program, LongWorkIsReportedOnStderr) {
+  const std::string mesh = quoted(writeStl("mesh.stl", scenes::bumpyTorus(400000)));
+  const Outcome loud = run(mesh + " --json");
+  EXPECT_EQ(loud.code, 0);
+  EXPECT_TRUE(contains(loud.err, " s\n")) << loud.err;
+  EXPECT_FALSE(Json::parse(loud.out, nullptr, false).is_discarded());
+  EXPECT_TRUE(run(mesh + " --quiet").err.empty());
 }
 
 }  // namespace
