@@ -6,7 +6,9 @@
 #include <sys/wait.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -195,6 +197,25 @@ TEST(Program, TheDistanceOfTwoMeshesIsTheLibrarys) {
   EXPECT_TRUE(contains(run(files + " --pose-b 1,0,0").out, "touch or intersect"));
 }
 
+TEST(Program, VolumesAreSeeThroughOnlyAroundTheMesh) {
+  const std::string mesh = quoted(writeStl("mesh.stl", scenes::bentTorus()));
+  const auto file = sampleFile("volumes.glb");
+  for (const std::string& with : {std::string(), std::string(" --with-mesh")}) {
+    ASSERT_EQ(run(mesh + " --level 2 --detail 1 --out " + quoted(file) + with).code, 0);
+    const std::string glb = contentOf(file);
+    // The JSON chunk follows 12 bytes of header and 8 of its own.
+    std::uint32_t length = 0;
+    ASSERT_GT(glb.size(), 20u);
+    std::memcpy(&length, &glb[12], sizeof length);
+    const Json document = Json::parse(glb.substr(20, length));
+    ASSERT_EQ(document["nodes"].size(), with.empty() ? 4u : 5u);
+    std::size_t blended = 0;
+    for (const Json& material : document["materials"]) blended += material.count("alphaMode");
+    EXPECT_EQ(blended, with.empty() ? 0u : 4u);
+    EXPECT_EQ(document["nodes"][0]["name"] == "mesh.stl", !with.empty());
+  }
+}
+
 TEST(Program, PagesStandAloneAndSayWhatTheyLeaveOut) {
   const std::string mesh = quoted(writeStl("mesh.stl", scenes::bumpyTorus(20000)));
   const auto file = sampleFile("page.html");
@@ -212,7 +233,7 @@ TEST(Program, PagesStandAloneAndSayWhatTheyLeaveOut) {
 }
 
 TEST(Program, LongWorkIsReportedOnStderr) {
-  const std::string mesh = quoted(writeStl("mesh.stl", scenes::bumpyTorus(400000)));
+  const std::string mesh = quoted(writeStl("mesh.stl", scenes::bumpyTorus(200000)));
   const Outcome loud = run(mesh + " --json");
   EXPECT_EQ(loud.code, 0);
   EXPECT_TRUE(contains(loud.err, " s\n")) << loud.err;
