@@ -80,14 +80,14 @@ struct Units {
 };
 
 Json columnMajor(const fcl::Transform3d& X) {
-  const Eigen::Matrix4d m = X.matrix();
+  const Eigen::Matrix4d& m = X.matrix();
   return std::vector<double>(m.data(), m.data() + m.size());
 }
 
-/// Levels from the root on, as long as they fit into `budget` bytes; what is left of it.
-Json levels(const Inspection& inspection, const Units& units, double& budget, Json& volumes) {
+/// Adds `levels` from the root on, as many as fit into `budget` bytes, and their numbers of
+/// `volumes`. The root's is there always.
+void addLevels(const Inspection& inspection, const Units& units, double budget, Json& mesh) {
   constexpr double kBytes = 128 * 4 / 3.0;
-  Json result = Json::array();
   std::vector<int> nodes = {0};
   for (int level = 0; level <= inspection.tree->depth(); ++level) {
     if (level > 0) nodes = inspection.tree->deeper(nodes);
@@ -98,8 +98,46 @@ Json levels(const Inspection& inspection, const Units& units, double& budget, Js
       units.append(inspection.tree->volume(nodes[i]), inspection,
                    colorOf(*inspection.tree, nodes[i], i), records);
     }
-    result.push_back(base64(records));
-    volumes.push_back(nodes.size());
+    mesh["levels"].push_back(base64(records));
+    mesh["volumes"].push_back(nodes.size());
+  }
+}
+
+/// A mesh of the scene in at most `budget` bytes, and sentences about what it leaves out.
+Json sceneMesh(const Inspection& inspection, const Units& units, double budget, Json& notes) {
+  const std::string what = inspection.file + ": ";
+  const std::string why = " left out, as the page would be too large: see --html-limit.";
+  Json mesh = {{"positions", nullptr}, {"triangles", nullptr}};
+  const double bytes = 16.0 * static_cast<double>(inspection.mesh.vertices.size() +
+                                                  inspection.mesh.triangles.size());
+  if (bytes <= budget / 2) {
+    budget -= bytes;
+    mesh["positions"] = base64(units.positions(inspection));
+    std::vector<std::uint32_t> corners;
+    for (const fcl::Triangle& t : inspection.mesh.triangles) {
+      for (int c = 0; c < 3; ++c) corners.push_back(static_cast<std::uint32_t>(t[c]));
+    }
+    mesh["triangles"] = base64(corners);
+  } else {
+    notes.push_back(what + "the mesh itself is" + why);
+  }
+  addLevels(inspection, units, budget, mesh);
+  const std::size_t first_missing = mesh["levels"].size();
+  const int deepest = inspection.tree->depth();
+  if (static_cast<int>(first_missing) <= deepest) {
+    notes.push_back(what + "levels " + std::to_string(first_missing) + " to " +
+                    std::to_string(deepest) + " are" + why);
+  }
+  return mesh;
+}
+
+/// The deepest level at which a mesh has at most 64 volumes: they can be told apart.
+int levelToLookAt(const Json& meshes) {
+  int result = 0;
+  for (const Json& mesh : meshes) {
+    for (std::size_t level = 0; level < mesh["volumes"].size(); ++level) {
+      if (mesh["volumes"][level] <= 64) result = std::max(result, static_cast<int>(level));
+    }
   }
   return result;
 }
@@ -129,41 +167,12 @@ std::string page(const std::vector<Inspection>& inspections, const PairQuery* pa
   Json notes = Json::array();
   Json meshes = Json::array();
   const double share = 1e6 * options.limit_megabytes / static_cast<double>(inspections.size());
-  int first_level = 0;
   for (std::size_t i = 0; i < inspections.size(); ++i) {
-    const Inspection& inspection = inspections[i];
     fcl::Transform3d X = poses[i];
-    X.translation() = (poses[i] * inspection.box.center() - world.center()) / units.scale;
-    Json mesh = {{"color", meshColor(static_cast<int>(i))}, {"matrix", columnMajor(X)}};
-    double budget = share;
-    const double mesh_bytes = 16.0 * static_cast<double>(inspection.mesh.vertices.size() +
-                                                         inspection.mesh.triangles.size());
-    const std::string name = inspections.size() > 1 ? inspection.file + ": " : "";
-    if (mesh_bytes <= share / 2) {
-      budget -= mesh_bytes;
-      mesh["positions"] = base64(units.positions(inspection));
-      std::vector<std::uint32_t> corners;
-      for (const fcl::Triangle& t : inspection.mesh.triangles) {
-        for (int c = 0; c < 3; ++c) corners.push_back(static_cast<std::uint32_t>(t[c]));
-      }
-      mesh["triangles"] = base64(corners);
-    } else {
-      mesh["positions"] = nullptr;
-      notes.push_back(name + "The mesh itself is left out, as the page would be too large: see " +
-                      "--html-limit.");
-    }
-    Json volumes = Json::array();
-    mesh["levels"] = levels(inspection, units, budget, volumes);
-    const int last = static_cast<int>(volumes.size()) - 1;
-    if (last < inspection.tree->depth()) {
-      notes.push_back(name + "Levels " + std::to_string(last + 1) + " to " +
-                      std::to_string(inspection.tree->depth()) +
-                      " are left out, as the page would be too large: see --html-limit.");
-    }
-    for (int level = 0; level <= last; ++level) {
-      if (volumes[level] <= 64) first_level = std::max(first_level, level);
-    }
-    mesh["volumes"] = volumes;
+    X.translation() = (poses[i] * inspections[i].box.center() - world.center()) / units.scale;
+    Json mesh = sceneMesh(inspections[i], units, share, notes);
+    mesh["color"] = meshColor(static_cast<int>(i));
+    mesh["matrix"] = columnMajor(X);
     meshes.push_back(std::move(mesh));
   }
 
@@ -179,8 +188,8 @@ std::string page(const std::vector<Inspection>& inspections, const PairQuery* pa
       {"notes", notes},
       {"scene",
        {{"radius", world.diagonal().norm() / (2 * units.scale)},
-        {"level", options.level < 0 ? first_level : options.level},
-        {"meshes", std::move(meshes)},
+        {"level", options.level < 0 ? levelToLookAt(meshes) : options.level},
+        {"meshes", meshes},
         {"segment",
          pair ? Json{placed(pair->answer.point1), placed(pair->answer.point2)} : Json(nullptr)}}}};
   std::string data = content.dump(-1, ' ', false, Json::error_handler_t::replace);

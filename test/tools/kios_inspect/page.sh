@@ -33,7 +33,8 @@ awk 'BEGIN {
     a = sqrt(ax * ax + ay * ay + az * az); b = sqrt(bx * bx + by * by + bz * bz)
     for (j = 0; j < m; ++j) {
       c = 0.42 * cos(turn * j / m); s = 0.42 * sin(turn * j / m)
-      print "v", x + c * ax / a + s * bx / b, y + c * ay / a + s * by / b, z + c * az / a + s * bz / b
+      u = c / a; v = s / b
+      print "v", x + u * ax + v * bx, y + u * ay + v * by, z + u * az + v * bz
     }
   }
   for (i = 0; i < n; ++i) for (j = 0; j < m; ++j) {

@@ -67,8 +67,8 @@ const content = JSON.parse(byId('scene').textContent);
 const {scene, report} = content;
 const canvas = byId('canvas');
 const camera = new Camera(scene.radius);
-const shown = {level: scene.level, opacity: report.pair ? 0.25 : 0.45, volumes: true, mesh: true, edges: false,
-  ratio: 1};
+const shown = {level: scene.level, opacity: report.pair ? 0.25 : 0.45, ratio: 1,
+  volumes: true, mesh: true, edges: false};
 let renderer = null;
 let waiting = false;
 

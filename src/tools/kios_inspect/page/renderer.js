@@ -3,8 +3,8 @@
 'use strict';
 
 // Volumes are not triangulated: each is the back of a box, whose fragments solve for where their
-// ray enters all of its spheres. A sphere is f(x) = kappa/2 |x|^2 - u.x + h <= 0 about the middle of
-// its box, with kappa = 1/r and u = c/r: no digits are lost where r is large.
+// ray enters all of its spheres. A sphere is f(x) = kappa/2 |x|^2 - u.x + h <= 0 about the middle
+// of its box, with kappa = 1/r and u = c/r: no digits are lost where r is large.
 const VOLUME_VERTEX = `#version 300 es
 precision highp float;
 layout(location = 0) in vec3 corner;
