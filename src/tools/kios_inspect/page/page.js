@@ -14,7 +14,7 @@ class Camera {
     this.rotation = [1, 0, 0, 0];
     this.turn([0, 0, 1], -0.6);
     this.turn([1, 0, 0], -1.2);
-    this.distance = 0.95 * this.radius / Math.sin(this.fieldOfView / 2);
+    this.distance = 0.88 * this.radius / Math.sin(this.fieldOfView / 2);
     this.offset = [0, 0];
   }
 
@@ -45,7 +45,8 @@ class Camera {
       60 * this.radius);
   }
 
-  matrices(width, height) {
+  /** `covered`: the part of the height, from below, that controls hide: the scene is above it. */
+  matrices(width, height, covered) {
     const [w, x, y, z] = this.rotation;
     const view = [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0,
       2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0,
@@ -53,11 +54,11 @@ class Camera {
       this.offset[0], this.offset[1], -this.distance, 1];
     const near = Math.max(this.distance - 2 * this.radius, 0.01 * this.distance);
     const far = this.distance + 2 * this.radius;
-    // The scene fits the shorter side.
-    const slope = Math.tan(this.fieldOfView / 2) * Math.max(1, height / width);
+    // The scene fits the shorter side of what is free.
+    const slope = Math.tan(this.fieldOfView / 2) * Math.max(1 / (1 - covered), height / width);
     const f = 1 / slope, depth = near - far;
     const projection = [f * height / width, 0, 0, 0, 0, f, 0, 0,
-      0, 0, (far + near) / depth, -1, 0, 0, 2 * far * near / depth, 0];
+      0, -covered, (far + near) / depth, -1, 0, 0, 2 * far * near / depth, 0];
     return {view, projection, pixel: 2 * slope / height};
   }
 }
@@ -84,7 +85,8 @@ function redraw() {
       canvas.width = width;
       canvas.height = height;
     }
-    renderer.draw(camera.matrices(width, height), shown);
+    const covered = Math.min(0.5, byId('controls').offsetHeight / canvas.clientHeight);
+    renderer.draw(camera.matrices(width, height, covered), shown);
     document.body.dataset.state = 'drawn';
   });
 }
