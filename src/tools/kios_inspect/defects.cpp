@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "defects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace kios::inspect {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+/// For each vertex the number of its coordinates, from 0, in lexicographic order (-0 = +0).
+std::pair<std::vector<std::uint32_t>, std::size_t> weld(const Mesh& mesh,
+                                                        const std::vector<bool>& used) {
+  const auto less = [&](std::uint32_t a, std::uint32_t b) {
+    const fcl::Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b];
+    return std::tie(p[0], p[1], p[2]) < std::tie(q[0], q[1], q[2]);
+  };
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
+    if (used[i]) order.push_back(i);
+  }
+  std::sort(order.begin(), order.end(), less);
+  std::vector<std::uint32_t> welded(mesh.vertices.size());
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && less(order[i - 1], order[i])) ++count;
+    welded[order[i]] = count;
+  }
+  return {std::move(welded), order.empty() ? 0 : count + 1};
+}
+
+/// The height over the longest edge, in units of it; 0 if all corners coincide.
+double relativeHeight(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c) {
+  const fcl::Vector3d edges[3] = {b - a, c - b, a - c};
+  double longest = 0;
+  for (const fcl::Vector3d& edge : edges) longest = std::max(longest, edge.cwiseAbs().maxCoeff());
+  if (longest == 0) return 0;
+  // Scaled, as the squares of tiny and of huge edges are out of range.
+  const fcl::Vector3d u = edges[0] / longest, v = edges[2] / longest, w = edges[1] / longest;
+  const double squared = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+  return u.cross(v).norm() / squared;
+}
+
+void countDuplicates(std::vector<Corners> corners, Defects& defects) {
+  std::vector<std::size_t> order(corners.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    order[i] = i;
+    std::sort(corners[i].begin(), corners[i].end());
+  }
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tie(corners[a], a) < std::tie(corners[b], b);
+  });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    if (corners[order[i]] != corners[order[i - 1]]) continue;
+    if (defects.duplicates == 0 || order[i] < defects.first_duplicate) {
+      defects.first_duplicate = order[i];
+    }
+    ++defects.duplicates;
+  }
+}
+
+void countEdges(const std::vector<Corners>& corners, Defects& defects) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(3 * corners.size());
+  for (const Corners& c : corners) {
+    for (int i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(c[i], c[(i + 1) % 3]);
+      if (low != high) edges.emplace_back(low, high);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    while (end < edges.size() && edges[end] == edges[i]) ++end;
+    ++defects.edges;
+    if (end - i == 1) ++defects.open_edges;
+    if (end - i > 2) ++defects.branching_edges;
+  }
+}
+
+std::string counted(std::size_t n, const std::string& one, const std::string& many) {
+  return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+std::string triangles(std::size_t n) { return counted(n, "triangle", "triangles"); }
+
+}  // namespace
+
+Defects findDefects(const Mesh& mesh) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  Defects result;
+  std::vector<bool> used(mesh.vertices.size());
+  for (const fcl::Triangle& t : mesh.triangles) used[t[0]] = used[t[1]] = used[t[2]] = true;
+  result.unreferenced = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+
+  const auto [welded, distinct] = weld(mesh, used);
+  result.distinct_vertices = distinct;
+  std::vector<Corners> corners;
+  corners.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const fcl::Triangle& t = mesh.triangles[i];
+    corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    const double height =
+        relativeHeight(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+    if (height <= kRounding) {
+      if (result.zero_area++ == 0) result.first_zero_area = i;
+    } else if (height < kSliverHeight) {
+      if (result.slivers++ == 0) result.first_sliver = i;
+    }
+  }
+  countEdges(corners, result);
+  countDuplicates(std::move(corners), result);
+  return result;
+}
+
+std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
+  std::vector<std::string> result;
+  if (defects.zero_area > 0) {
+    result.push_back(triangles(defects.zero_area) + " of no area, the first is " +
+                     std::to_string(defects.first_zero_area) +
+                     ": corners coincide or lie on a line");
+  }
+  if (defects.slivers > 0) {
+    result.push_back(triangles(defects.slivers) +
+                     " more than 1000 times as long as high, the first is " +
+                     std::to_string(defects.first_sliver) + ": spheres fit slivers badly");
+  }
+  if (defects.duplicates > 0) {
+    result.push_back(triangles(defects.duplicates) +
+                     " with the corners of an earlier one, the first is " +
+                     std::to_string(defects.first_duplicate));
+  }
+  if (defects.unreferenced > 0) {
+    result.push_back(std::to_string(defects.unreferenced) + " of " +
+                     std::to_string(mesh.vertices.size()) + " vertices in no triangle");
+  }
+  if (defects.branching_edges > 0) {
+    result.push_back(counted(defects.branching_edges, "edge", "edges") +
+                     " of more than two triangles");
+  }
+  if (mesh.other_faces > 0) {
+    result.push_back(counted(mesh.other_faces, "point or line", "points or lines") + " left out");
+  }
+  return result;
+}
+
+}  // namespace kios::inspect

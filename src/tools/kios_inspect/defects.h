@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mesh.h"
+
+namespace kios::inspect {
+
+/// A triangle whose height over its longest edge is below this part of that edge is a sliver.
+constexpr double kSliverHeight = 1e-3;
+
+/// What is odd about a mesh. Queries answer exactly for all of it; it costs time, or shows that an
+/// exporter went wrong. Corners count as the same where their coordinates are equal.
+struct Defects {
+  std::size_t distinct_vertices = 0;  ///< by coordinates, of those that a triangle uses
+  std::size_t unreferenced = 0;       ///< vertices that no triangle uses
+  std::size_t zero_area = 0;          ///< corners that coincide, or lie on a line to rounding
+  std::size_t slivers = 0;            ///< thinner than kSliverHeight, but of some area
+  std::size_t duplicates = 0;         ///< triangles with the corners of an earlier one
+  std::size_t edges = 0;              ///< between distinct corners
+  std::size_t open_edges = 0;         ///< of one triangle
+  std::size_t branching_edges = 0;    ///< of three triangles or more
+  std::size_t first_zero_area = 0;    ///< a triangle of each kind, if there is one
+  std::size_t first_sliver = 0;
+  std::size_t first_duplicate = 0;
+
+  bool closed() const { return edges > 0 && open_edges == 0 && branching_edges == 0; }
+};
+
+Defects findDefects(const Mesh& mesh);
+
+/// A sentence for each thing that a user may want to repair; none for a clean mesh. An open mesh is
+/// no defect and has no sentence.
+std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects);
+
+}  // namespace kios::inspect

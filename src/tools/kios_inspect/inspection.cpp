@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "inspection.h"
+
+#include <stdexcept>
+
+#include "fcl_kios/fcl/mesh_queries.h"
+#include "mesh_file.h"
+
+namespace kios::inspect {
+namespace {
+
+std::size_t bytesOf(const Modeld& model) {
+  const auto bytes = [](std::size_t size, int count) {
+    return size * static_cast<std::size_t>(count);
+  };
+  return sizeof(model) + bytes(sizeof(fcl::Vector3d), model.num_vertices) +
+         bytes(sizeof(fcl::Triangle) + sizeof(unsigned), model.num_tris) +
+         bytes(sizeof(fcl::BVNode<kIOSd>), model.getNumBVs());
+}
+
+}  // namespace
+
+Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress) {
+  Inspection result;
+  result.file = file.string();
+  progress.step("reading " + result.file);
+  result.mesh = readMesh(file);
+  result.read_seconds = progress.done();
+
+  const std::string triangles = std::to_string(result.mesh.triangles.size()) + " triangles";
+  progress.step("looking for defects in " + triangles);
+  result.defects = findDefects(result.mesh);
+  for (const fcl::Triangle& t : result.mesh.triangles) {
+    for (int corner = 0; corner < 3; ++corner) result.box.extend(result.mesh.vertices[t[corner]]);
+  }
+
+  progress.step("building the tree of " + triangles);
+  try {
+    result.model = makeModel(result.mesh.vertices, result.mesh.triangles);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(result.file + ": " + error.what());
+  }
+  result.build_seconds = progress.done();
+  progress.step("preparing " + triangles);
+  prepare(*result.model);
+  result.prepare_seconds = progress.done();
+
+  result.tree = std::make_unique<VolumeTree>(*result.model);
+  for (int node = 0; node < result.nodes(); ++node) ++result.k[result.tree->volume(node).k() / 2];
+  result.model_bytes = bytesOf(*result.model);
+  result.prepared_bytes = preparedBytes(*result.model);
+  if (!tightness) return result;
+
+  std::vector<int> nodes = {0};
+  for (int level = 0; level <= result.tree->depth(); ++level) {
+    progress.step("measuring level " + std::to_string(level) + " of " +
+                  std::to_string(result.tree->depth()));
+    if (level > 0) nodes = result.tree->deeper(nodes);
+    result.levels.push_back(measure(*result.tree, level, nodes));
+  }
+  return result;
+}
+
+}  // namespace kios::inspect

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "defects.h"
+#include "mesh.h"
+#include "progress.h"
+#include "tightness.h"
+#include "volume_tree.h"
+
+namespace kios::inspect {
+
+/// A mesh, its model and its tree, and what there is to tell about them.
+struct Inspection {
+  std::string file;
+  Mesh mesh;
+  Defects defects;
+  std::shared_ptr<Modeld> model;
+  std::unique_ptr<VolumeTree> tree;
+  Eigen::AlignedBox3d box;            ///< around the triangles
+  std::array<std::size_t, 3> k = {};  ///< nodes of 1, 3 and 5 spheres
+  std::size_t model_bytes = 0;        ///< vertices, indices and tree of volumes
+  std::size_t prepared_bytes = 0;     ///< of the tree that queries search; 0: they don't use one
+  std::vector<LevelTightness> levels;
+  double read_seconds = 0, build_seconds = 0, prepare_seconds = 0;
+
+  int nodes() const { return model->getNumBVs(); }
+};
+
+/// Reads and examines a file. Throws InputError as readMesh() does, and where a mesh is beyond the
+/// library's range. `tightness`: whether to measure the levels.
+Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress);
+
+}  // namespace kios::inspect

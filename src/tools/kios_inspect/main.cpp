@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "fcl_kios/version.h"
+#include "inspection.h"
+#include "options.h"
+#include "page.h"
+#include "painted_mesh.h"
+#include "pair_query.h"
+#include "progress.h"
+#include "report.h"
+#include "volume_file.h"
+
+namespace kios::inspect {
+namespace {
+
+// Exit codes, as docs/inspect.md and --help list them.
+constexpr int kFine = 0, kWarned = 1, kUsage = 2, kBadInput = 3, kNotWritten = 4;
+
+const char* const kFooter = R"(
+The table by level: volumes of the level (with the leaves above it, so that they contain the whole
+mesh) by k, the mean size of their contents (diagonal of the box), and their slack: how far volumes
+reach beyond their contents, mean over 162 directions and up to 100 volumes, in parts of the
+content's size; the largest; and the mean for sphere S0 alone. Distance bounds are too low by about
+the slack, so queries are the faster the sooner it falls.
+
+Coordinates, lengths and triangle numbers are the file's; meshes of a scene are placed by its
+transforms and numbered through.
+
+exit codes: 0 done; 1 done, with warnings, under --strict; 2 wrong command line; 3 a file can't be
+read or is no mesh that queries can use; 4 a file can't be written)";
+
+std::string checkPose(const std::string& text) {
+  try {
+    parsePose(text);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void declare(CLI::App& app, Options& options) {
+  app.add_option("MESH", options.meshes,
+                 "one mesh to look at, or two for their distance: STL, OBJ, PLY, DAE, glTF, OFF "
+                 "and whatever else assimp reads")
+      ->required()
+      ->expected(1, 2);
+  app.add_option("--pose-a", options.pose_a,
+                 "pose of the first of two meshes, x,y,z or x,y,z,qw,qx,qy,qz")
+      ->check(checkPose);
+  app.add_option("--pose-b", options.pose_b, "pose of the second one")->check(checkPose);
+  app.add_option("--repeats", options.repeats, "distance queries that are timed")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  auto* const level =
+      app.add_option("--level", options.level,
+                     "level of the tree, 0 is the root: for --out, and shown first by --html")
+          ->check(CLI::NonNegativeNumber);
+  app.add_option("--out", options.out,
+                 "write the volumes of --level as meshes, one colour each: FILE.ply or FILE.glb")
+      ->check([](const std::string& file) {
+        return isMeshFile(file) ? std::string() : file + " is neither a .ply nor a .glb file";
+      })
+      ->needs(level);
+  app.add_option("--detail", options.detail,
+                 "20 * 4^detail triangles a volume, 0 to 5 (default: the fewer the more volumes)")
+      ->check(CLI::Range(0, 5));
+  app.add_flag("--with-mesh", options.with_mesh, "the mesh, too, in --out");
+  app.add_option("--html", options.html,
+                 "write one self-contained page that shows meshes and volumes, to turn");
+  app.add_option("--html-limit", options.html_limit,
+                 "size of the page in MB; the page says what it leaves out")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "print JSON instead of text");
+  app.add_flag("--strict", options.strict, "exit with 1 if there is a warning");
+  app.add_flag("--quiet", options.quiet, "no progress on stderr");
+  app.footer(kFooter);
+  app.set_version_flag("--version", std::string("kios_inspect ") + FCL_KIOS_VERSION_STRING);
+}
+
+/// Volumes of the level as meshes, and the mesh if it is asked for.
+std::vector<PaintedMesh> paint(const Inspection& inspection, const Options& options) {
+  const std::size_t volumes = inspection.tree->level(options.level).size();
+  int detail = options.detail;
+  if (detail < 0) detail = volumes <= 64 ? 4 : volumes <= 1024 ? 3 : volumes <= 16384 ? 2 : 1;
+  constexpr double kMostTriangles = 4e7;
+  if (static_cast<double>(volumes) * 20 * std::pow(4, detail) > kMostTriangles) {
+    throw OutputError(options.out.string() + ": " + std::to_string(volumes) +
+                      " volumes at detail " + std::to_string(detail) +
+                      " are more than 40 million triangles; choose a lower --level or --detail.");
+  }
+  std::vector<PaintedMesh> painted = paintLevel(*inspection.tree, options.level, detail);
+  if (options.with_mesh) {
+    for (PaintedMesh& volume : painted) volume.see_through = true;
+    painted.insert(painted.begin(), paintMesh(inspection));
+  }
+  return painted;
+}
+
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Refuses a level that none of the meshes has.
+void requireLevel(const Options& options, const std::vector<Inspection>& inspections) {
+  int deepest = 0;
+  for (const Inspection& i : inspections) deepest = std::max(deepest, i.tree->depth());
+  if (options.level <= deepest) return;
+  throw UsageError("--level " + std::to_string(options.level) + ": the deepest level is " +
+                   std::to_string(deepest) + ".");
+}
+
+/// The commonest reason why a file can't be written, before minutes of work.
+void requireDirectory(const std::filesystem::path& file) {
+  const std::filesystem::path parent = file.parent_path();
+  if (file.empty() || parent.empty() || std::filesystem::is_directory(parent)) return;
+  throw OutputError(file.string() + ": there is no directory " + parent.string() + ".");
+}
+
+int run(const Options& options) {
+  requireDirectory(options.out);
+  requireDirectory(options.html);
+  Progress progress(options.quiet);
+  const bool two = options.meshes.size() == 2;
+  std::vector<Inspection> inspections;
+  for (const auto& file : options.meshes) inspections.push_back(inspect(file, !two, progress));
+
+  requireLevel(options, inspections);
+
+  std::optional<PairQuery> pair;
+  if (two) {
+    progress.step("querying the distance");
+    pair = queryPair(*inspections[0].model, parsePose(options.pose_a), *inspections[1].model,
+                     parsePose(options.pose_b), options.repeats);
+  }
+  if (!options.out.empty()) {
+    progress.step("writing " + options.out.string());
+    writeMeshes(options.out, paint(inspections[0], options));
+  }
+  if (!options.html.empty()) {
+    progress.step("writing " + options.html.string());
+    writeFile(options.html,
+              page(inspections, pair ? &*pair : nullptr, {options.level, options.html_limit}));
+  }
+  progress.done();
+
+  bool warned = false;
+  for (const Inspection& i : inspections) warned |= !warnings(i.mesh, i.defects).empty();
+  if (options.json) {
+    Json report = {
+        {"version", FCL_KIOS_VERSION_STRING}, {"meshes", Json::array()}, {"pair", nullptr}};
+    for (const Inspection& i : inspections) report["meshes"].push_back(toJson(i));
+    if (pair) report["pair"] = toJson(*pair);
+    std::printf("%s\n", report.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  } else {
+    for (const Inspection& i : inspections) std::printf("%s\n", toText(i).c_str());
+    if (pair) std::printf("%s", toText(*pair).c_str());
+    for (const auto& file : {options.out, options.html}) {
+      if (!file.empty()) std::printf("wrote %s\n", file.string().c_str());
+    }
+  }
+  return warned && options.strict ? kWarned : kFine;
+}
+
+}  // namespace
+}  // namespace kios::inspect
+
+int main(int argc, char** argv) {
+  using namespace kios::inspect;
+  Options options;
+  CLI::App app{"A mesh and the k-IOS volumes that fcl_kios builds for it, to look at.",
+               "kios_inspect"};
+  try {
+    declare(app, options);
+    app.parse(argc, argv);
+    if (options.meshes.size() == 2 && !options.out.empty()) {
+      throw CLI::ValidationError("--out", "takes one mesh, not two");
+    }
+    if (options.meshes.size() == 1 && app.count("--pose-a") + app.count("--pose-b") > 0) {
+      throw CLI::ValidationError("--pose-a, --pose-b", "are for two meshes");
+    }
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? kFine : kUsage;
+  }
+  try {
+    return run(options);
+  } catch (const UsageError& error) {
+    std::fprintf(stderr, "kios_inspect: %s\n", error.what());
+    return kUsage;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "kios_inspect: %s\n", error.what());
+    return kBadInput;
+  } catch (const OutputError& error) {
+    std::fprintf(stderr, "kios_inspect: %s\n", error.what());
+    return kNotWritten;
+  }
+}

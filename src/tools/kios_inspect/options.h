@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace kios::inspect {
+
+/// What the command line asks for.
+struct Options {
+  std::vector<std::filesystem::path> meshes;  // one, or two for their distance
+  std::string pose_a = "0,0,0", pose_b = "0,0,0";
+  int repeats = 101;
+  int level = -1;   // -1: not given
+  int detail = -1;  // -1: by the number of volumes
+  std::filesystem::path out;
+  bool with_mesh = false;
+  std::filesystem::path html;
+  double html_limit = 20;
+  bool json = false;
+  bool strict = false;
+  bool quiet = false;
+};
+
+}  // namespace kios::inspect

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "fcl_kios/fcl/model.h"
+
+namespace kios::inspect {
+
+/// A model's tree of volumes together with what each node contains. Refers to the model.
+class VolumeTree {
+ public:
+  /// The model must be finished.
+  explicit VolumeTree(const Modeld& model);
+
+  const Modeld& model() const { return *model_; }
+  const kIOSd& volume(int node) const { return model_->getBV(node).bv; }
+  bool isLeaf(int node) const { return model_->getBV(node).isLeaf(); }
+  int depth() const { return depth_; }  ///< the deepest leaf's level; the root's is 0
+
+  /// The nodes at this level, and the leaves above it: together they contain the model. At most
+  /// 2^level, in the order of their content. The deepest level's beyond it.
+  std::vector<int> level(int level) const;
+  /// The next level, of a level's nodes.
+  std::vector<int> deeper(const std::vector<int>& nodes) const;
+
+  /// Triangles in an order in which each node's are contiguous, and the node's part of it.
+  const std::vector<int>& triangles() const { return triangles_; }
+  int first(int node) const { return first_[node]; }
+  int last(int node) const { return first_[node] + count_[node]; }
+
+ private:
+  const Modeld* model_;
+  std::vector<int> triangles_;
+  std::vector<int> first_, count_;
+  int depth_ = 0;
+};
+
+}  // namespace kios::inspect
