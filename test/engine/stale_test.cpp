@@ -15,7 +15,7 @@ namespace kios::testing {
 namespace {
 
 /// A fitter of the user's own, which no tree can be kept by.
-class PlainFitter : public fcl::detail::BVFitterBase<kIOSd> {
+class PlainFitter final : public fcl::detail::BVFitterBase<kIOSd> {
  public:
   void set(Vector3d* v, fcl::Triangle* t, fcl::BVHModelType type) override {
     ours_.set(v, t, type);
