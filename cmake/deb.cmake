@@ -26,7 +26,8 @@ Library's meshes: collision and exact distance by FCL's own calls.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME ${dev_package})
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEV_DESCRIPTION "${text}\n.\nThis package holds the headers and what builds need.")
+set(CPACK_COMPONENT_DEV_DESCRIPTION
+  "${text}\n.\nThis package holds the headers and what builds need.")
 set(dev_depends "libfcl-dev (>= 0.7)" libccd-dev libeigen3-dev liboctomap-dev)
 if(BUILD_SHARED_LIBS)
   list(PREPEND CPACK_COMPONENTS_ALL runtime)

@@ -15,7 +15,8 @@ for directory in "${eigen[@]}"; do flags+=(-isystem "$directory"); done
 
 seconds() { # of processor time
   local TIMEFORMAT=%U
-  { time "$cxx" "${flags[@]}" "$@" -c "$source_dir/test/package/header_cost.cpp" -o /dev/null; } 2>&1
+  { time "$cxx" "${flags[@]}" "$@" -c "$source_dir/test/package/header_cost.cpp" -o /dev/null; } \
+    2>&1
 }
 median() { printf '%s\n' "$@" | sort -g | sed -n 2p; }
 
