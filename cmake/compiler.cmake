@@ -21,6 +21,13 @@ endif()
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
+string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
+if("${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}" MATCHES
+    "-Ofast|-f(fast|unsafe|associative|finite|reciprocal)-math")
+  message(FATAL_ERROR "fcl_kios: bounds and predicates are proven for IEEE arithmetic; leave out "
+    "${CMAKE_MATCH_0}.")
+endif()
+
 if(NOT MSVC)
   # Answers are bitwise reproducible only if no multiplication is fused with an addition.
   add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off)

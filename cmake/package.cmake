@@ -4,10 +4,19 @@
 # Installation: library, headers, CMake package, pkg-config file, ROS manifest. All relocatable.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS fcl_kios fcl_kios_force_include EXPORT fcl_kiosTargets)
+# Two components: `runtime`, what a program that is linked to the shared library needs, and `dev`.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
+install(TARGETS fcl_kios fcl_kios_force_include EXPORT fcl_kiosTargets
+  LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
+  ARCHIVE COMPONENT dev)
 install(DIRECTORY include/ ${PROJECT_BINARY_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN *.h)
 install(FILES package.xml LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/fcl_kios)
+
+# The empty file by which ROS 2 knows that a package is installed in this prefix.
+file(WRITE ${PROJECT_BINARY_DIR}/ament_marker "")
+install(FILES ${PROJECT_BINARY_DIR}/ament_marker RENAME fcl_kios
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/ament_index/resource_index/packages)
 
 # CMake package.
 set(cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/fcl_kios)
@@ -39,6 +48,12 @@ cmake_path(GET fcl_file PARENT_PATH fcl_library_dir)
 set(pc_fcl_libdir "")
 if(NOT fcl_library_dir IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES)
   set(pc_fcl_libdir " -L${fcl_library_dir}")
+endif()
+
+# pkg-config wants the file of a private requirement even where nobody links statically.
+set(pc_requires_private "")
+if(NOT BUILD_SHARED_LIBS)
+  set(pc_requires_private libhwy)
 endif()
 
 configure_file(cmake/fcl_kios.pc.in fcl_kios.pc @ONLY)

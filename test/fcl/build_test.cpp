@@ -180,7 +180,7 @@ TEST(Build, TrianglesOneByOneAndSeveralSubModels) {
 }
 
 // A fitter and a splitter as a user may write them.
-class OwnFitter : public BVFitterBase<kIOSd> {
+class OwnFitter final : public BVFitterBase<kIOSd> {
  public:
   void set(Vector3d* vertices, fcl::Triangle* triangles, fcl::BVHModelType) override {
     vertices_ = vertices;
@@ -208,7 +208,7 @@ class OwnFitter : public BVFitterBase<kIOSd> {
   fcl::Triangle* triangles_ = nullptr;
 };
 
-class SplitAtCenterAlongX : public BVSplitterBase<kIOSd> {
+class SplitAtCenterAlongX final : public BVSplitterBase<kIOSd> {
  public:
   void set(Vector3d*, fcl::Triangle*, fcl::BVHModelType) override {}
   void computeRule(const kIOSd& bv, unsigned int*, int) override { x_ = bv.center()[0]; }

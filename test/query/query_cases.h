@@ -21,7 +21,7 @@ using scenes::Frame;
 
 /// A fitter that is not ours: its models have no prepared trees, and are searched in FCL's tree.
 template <typename S>
-class PlainFitter : public fcl::detail::BVFitterBase<kIOS<S>> {
+class PlainFitter final : public fcl::detail::BVFitterBase<kIOS<S>> {
  public:
   void set(fcl::Vector3<S>*, fcl::Triangle*, fcl::BVHModelType) override {}
   void set(fcl::Vector3<S>*, fcl::Vector3<S>*, fcl::Triangle*, fcl::BVHModelType) override {}

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# usage: use.sh SOURCE_DIR PREFIX WORK_DIR CMAKE CXX CXXFLAGS
+# Builds and runs the consumer against the package installed in PREFIX, shared or static: by
+# find_package, with assertions, and by pkg-config with a plain compiler call, without them and with
+# multiplications fused where the machine can.
+set -euo pipefail
+
+source_dir=$1 prefix=$2 work=$3 cmake=$4 cxx=$5
+read -ra flags <<<"$6"
+here=$source_dir/test/consumer
+version=$(<"$source_dir/VERSION")
+fail() {
+  echo "$*"
+  exit 1
+}
+
+library=$(find "$prefix" \( -name libfcl_kios.so -o -name libfcl_kios.a \) -print -quit)
+pc_file=$(find "$prefix" -name fcl_kios.pc -print -quit)
+[[ -n $library && -n $pc_file ]] || fail "no library or no fcl_kios.pc in $prefix"
+if [[ $prefix != /usr ]]; then
+  export LD_LIBRARY_PATH=${library%/*}${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+  export PKG_CONFIG_PATH=${pc_file%/*}${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}
+fi
+[[ -f $prefix/share/ament_index/resource_index/packages/fcl_kios ]] || fail "no ament marker"
+[[ -f $prefix/share/fcl_kios/package.xml ]] || fail "no package.xml"
+mkdir -p "$work/plain"
+
+echo "== find_package, ${library##*/}"
+"$cmake" -S "$here" -B "$work/cmake" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$cxx" \
+  -DCMAKE_CXX_FLAGS="${flags[*]}" -DCMAKE_BUILD_TYPE=Debug -DEXPECTED_VERSION="$version" >/dev/null
+found=$(sed -n 's/^fcl_kios_DIR:PATH=//p' "$work/cmake/CMakeCache.txt")
+[[ $found == "$prefix"/* ]] || fail "find_package found $found, not $prefix"
+"$cmake" --build "$work/cmake"
+"$work/cmake/consumer"
+
+echo "== pkg-config"
+static=()
+if [[ $library == *.a ]]; then static=(--static); fi
+[[ $(pkg-config --modversion fcl_kios) == "$version" ]] || fail "fcl_kios.pc has another version"
+package=(-std=c++17 -O1 -DNDEBUG -ffp-contract=fast "${flags[@]}")
+read -ra package_cflags <<<"$(pkg-config --cflags fcl_kios)"
+read -ra package_libs <<<"$(pkg-config "${static[@]}" --libs fcl_kios)"
+read -ra force_include <<<"$(pkg-config --variable=force_include fcl_kios)"
+if [[ " ${package_cflags[*]}" == *" -std="* ]]; then
+  fail "fcl_kios.pc sets the language standard: ${package_cflags[*]}"
+fi
+"$cxx" "${package[@]}" "${package_cflags[@]}" "${force_include[@]}" -c "$here/generic.cpp" \
+  -o "$work/plain/generic.o"
+"$cxx" "${package[@]}" "$here/main.cpp" "$work/plain/generic.o" "${package_cflags[@]}" \
+  "${package_libs[@]}" -o "$work/plain/consumer"
+"$work/plain/consumer"
