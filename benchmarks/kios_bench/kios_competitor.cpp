@@ -24,6 +24,8 @@ struct KiosTraits {
     fcl::collide(a, b, request, result);
   }
 
+  static std::nullptr_t fitter() { return nullptr; }
+
   // Volumes tested and pairs of leaves (of up to eight triangles each) reached.
   static void countDistance(const kios::Modeld& a, const kios::Modeld& b,
                             const scenes::Frame& poses, fcl::DistanceResultd& result,

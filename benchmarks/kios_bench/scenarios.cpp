@@ -28,6 +28,15 @@ const std::vector<Scenario>& scenarios() {
        runRobotScenes},
       {"scene", "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles",
        runScene},
+      {"paper",
+       "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "
+       "engine, FCL's RSS",
+       runPaper},
+      {"packing",
+       "tests of two k-IOS in SIMD: four sphere pairs at a time as the paper, eight nodes at a "
+       "time",
+       runPacking},
+      {"exact", "exact distance of two k-IOS beside its bound and FCL's RSS", runExact},
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
