@@ -12,6 +12,7 @@
 
 #include "mesh_set.h"
 #include "node_queries.h"
+#include "shape_competitor.h"
 
 namespace kios::bench {
 namespace {
@@ -89,6 +90,10 @@ constexpr Entry kCompetitors[] = {
 };
 
 }  // namespace
+
+std::unique_ptr<ShapeCompetitor> makeObbrssShapeCompetitor() {
+  return std::make_unique<MeshAndShape<ObbrssTraits>>();
+}
 
 const char* name(Query query) {
   switch (query) {

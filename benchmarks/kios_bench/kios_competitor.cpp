@@ -4,6 +4,7 @@
 #include <fcl_kios/fcl_kios.h>
 
 #include "mesh_set.h"
+#include "shape_competitor.h"
 
 namespace kios::bench {
 namespace {
@@ -51,6 +52,10 @@ struct KiosTraits {
 };
 
 }  // namespace
+
+std::unique_ptr<ShapeCompetitor> makeKiosShapeCompetitor() {
+  return std::make_unique<MeshAndShape<KiosTraits>>();
+}
 
 std::unique_ptr<Competitor> makeKiosCompetitor() { return std::make_unique<MeshSet<KiosTraits>>(); }
 

@@ -43,6 +43,7 @@ void runRobots(const Options& options, Report& report);
 void runRobotScenes(const Options& options, Report& report);
 void runScene(const Options& options, Report& report);
 void runPaper(const Options& options, Report& report);
+void runFits(const Options& options, Report& report);
 void runPacking(const Options& options, Report& report);
 void runExact(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);

@@ -32,6 +32,11 @@ const std::vector<Scenario>& scenarios() {
        "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "
        "engine, FCL's RSS",
        runPaper},
+      {"fits",
+       "every construction of k-IOS, choice of k and angle, and spheres, boxes, RSS and k-DOPs "
+       "over "
+       "one tree and traversal",
+       runFits},
       {"packing",
        "tests of two k-IOS in SIMD: four sphere pairs at a time as the paper, eight nodes at a "
        "time",
