@@ -59,16 +59,16 @@ class Build {
   void requireFitter(const void* fitter) const { requireOwner(fitter, fitter_owner_); }
   void requireSplitter(const void* splitter) const { requireOwner(splitter, splitter_owner_); }
 
-  kIOS<S> fit(const unsigned int* primitives, int n, FitMethod method) {
+  kIOS<S> fit(const unsigned int* primitives, int n, const FitOptions& options) {
     if (n == 1 && type_ == fcl::BVH_MODEL_TRIANGLES && !prev_vertices_) {
       const fcl::Triangle& t = triangles_[primitives[0]];
       const fcl::Vector3<S> corners[3] = {vertices_[t[0]], vertices_[t[1]], vertices_[t[2]]};
-      return fitter_.fit(corners, 3, method);
+      return fitter_.fit(corners, 3, options);
     }
     gather(primitives, n);
     fitted_ = primitives;
     fitted_count_ = n;
-    return fitter_.fit(points_.data(), static_cast<int>(points_.size()), method, &split_);
+    return fitter_.fit(points_.data(), static_cast<int>(points_.size()), options, &split_);
   }
 
   void computeRule(const unsigned int* primitives, int n, fcl::detail::SplitMethodType method) {
@@ -210,8 +210,10 @@ namespace fcl {
 namespace detail {
 
 template <typename S>
-BVFitter<kios::kIOS<S>>::BVFitter(kios::FitMethod method)
-    : method_(method), trees_(std::make_unique<kios::engine::TreeCache>()) {}
+BVFitter<kios::kIOS<S>>::BVFitter(const kios::FitOptions& options)
+    : options_(options), trees_(std::make_unique<kios::engine::TreeCache>()) {
+  kios::requireUsable(options);
+}
 
 template <typename S>
 BVFitter<kios::kIOS<S>>::~BVFitter() = default;
@@ -231,7 +233,7 @@ template <typename S>
 kios::kIOS<S> BVFitter<kios::kIOS<S>>::fit(unsigned int* primitive_indices, int num_primitives) {
   auto& build = kios::Build<S>::ofThread();
   build.requireFitter(this);
-  return build.fit(primitive_indices, num_primitives, method_);
+  return build.fit(primitive_indices, num_primitives, options_);
 }
 
 template <typename S>

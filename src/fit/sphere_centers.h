@@ -2,24 +2,43 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "fcl_kios/fit/fit.h"
 #include "fit/point_lanes.h"
 #include "fit/principal_frame.h"
 
 namespace kios {
 
 /// Where a fit puts the spheres of a node: k of them, along the frame's axes, relative to its
-/// middle. Sphere 0 is S0; 1, 2 lie along the shortest axis, 3, 4 along the middle one.
+/// middle. Sphere 0 is S0; 1, 2 lie along the shortest axis, 3, 4 along the middle one, and 5, 6,
+/// which a kIOS has no place for, along the longest.
 struct SphereCenters {
+  static constexpr int kMost = 7;
   int k = 1;
-  float sphere[5][3] = {};
+  float sphere[kMost][3] = {};
   double least_cap_radius = 0;  ///< > 0 where all caps share a radius, as published
 };
 
+/// Which axis of the frame the caps i, 1 <= i < k, lie along.
+inline int axisOfCap(const PrincipalFrame& frame, int i) { return frame.order[2 - (i - 1) / 2]; }
+
 /// The tuned fit: S0 nearly minimal; each cap starts as a sphere through the rim of the far face
-/// of the box, half opening angle 30 degrees, and is re-centred in its plane.
-SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& frame);
+/// of the box, half opening angle 30 degrees by default, and is re-centred in its plane. At most
+/// `most` spheres, 5 or 7.
+SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
+                           const FitOptions& options, int most);
 
 /// Method II as published: paper, III-B.2 and III-C.
-SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame& frame);
+SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
+                               const FitOptions& options);
+
+/// Method I as published: paper, III-B.1 and III-C. `frame` is that of the smallest enclosing
+/// ellipsoid: its centre, axes and semi-axes a >= b >= c. Its caps have the radius a^2 / c, which
+/// has no limit as the content gets flat: c is taken as a/256 at least, where what float spheres of
+/// that size add to a bound by their rounding is as much as they cut off.
+SphereCenters ellipsoidCenters(const PrincipalFrame& frame, const FitOptions& options);
+
+/// Drops pairs of caps by SphereCount::kByGain, then moves caps as FitOptions::shared_radius asks.
+void adjustCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
+                   const FitOptions& options, SphereCenters& centers);
 
 }  // namespace kios

@@ -11,6 +11,7 @@
 #include "bv/assemble.h"
 #include "bv/balls.h"
 #include "bv/rounding.h"
+#include "fit/ellipsoid_frame.h"
 #include "fit/measure.h"
 #include "fit/triangle_fit.h"
 
@@ -85,14 +86,37 @@ kIOS<S> SphereFitter<S>::placed(const fcl::Vector3<S>* points, int n, const Prin
 }
 
 template <typename S>
-kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, FitMethod method, Split* split) {
+SphereCenters SphereFitter<S>::centersFor(PrincipalFrame& frame, const FitOptions& options,
+                                          int most) {
+  SphereCenters centers;
+  switch (options.method) {
+    case FitMethod::kTuned:
+      centers = tunedCenters(in_frame_, frame, options, most);
+      break;
+    case FitMethod::kMethodI:
+      frame = ellipsoidFrame(relative_, in_frame_, frame);
+      centers = ellipsoidCenters(frame, options);
+      break;
+    case FitMethod::kMethodII:
+      centers = publishedCenters(in_frame_, frame, options);
+      break;
+  }
+  if (options.shared_radius || options.count == SphereCount::kByGain) {
+    adjustCenters(in_frame_, frame, options, centers);
+  }
+  return centers;
+}
+
+template <typename S>
+kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, const FitOptions& options,
+                             Split* split) {
   if (n == 0) return kIOS<S>();
-  if (n == 3 && method == FitMethod::kTuned && !split) {
+  if (n == 3 && !split && options.plain()) {
     requireUsable(points, n);
     return fitTriangle(points);
   }
   loadRelative(points, n);
-  const PrincipalFrame frame = principalFrame(relative_, in_frame_);
+  PrincipalFrame frame = principalFrame(relative_, in_frame_);
   if (split) {
     const Eigen::Vector3f middle(frame.middle[0], frame.middle[1], frame.middle[2]);
     const Eigen::Vector3f center = frame.axes * middle;
@@ -102,9 +126,39 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, FitMethod met
     split->axis = frame.axes.col(frame.order[0]).template cast<double>();
     split->axes = frame.axes;
   }
-  return placed(points, n, frame,
-                method == FitMethod::kTuned ? tunedCenters(in_frame_, frame)
-                                            : publishedCenters(in_frame_, frame));
+  const SphereCenters centers = centersFor(frame, options, kIOS<S>::kMaxSpheres);
+  kIOS<S> bv = placed(points, n, frame, centers);
+  if (options.shared_radius && centers.k > 1) {
+    // Rounding outwards may have told them apart.
+    std::fill_n(bv.cap_r, centers.k - 1, *std::max_element(bv.cap_r, bv.cap_r + centers.k - 1));
+    completeCaps(bv, centers.k);
+  }
+  return bv;
+}
+
+template <typename S>
+typename SphereFitter<S>::Placement SphereFitter<S>::placement(const fcl::Vector3<S>* points, int n,
+                                                               const FitOptions& options,
+                                                               int most) {
+  loadRelative(points, n);
+  PrincipalFrame frame = principalFrame(relative_, in_frame_);
+  const SphereCenters centers = centersFor(frame, options, most);
+  Placement result;
+  result.k = centers.k;
+  const Eigen::Matrix3d axes = frame.axes.template cast<double>();
+  const auto at = [&](int i) {
+    const float* const c = centers.sphere[i];
+    return Eigen::Vector3d(frame.middle[0] + c[0], frame.middle[1] + c[1], frame.middle[2] + c[2]);
+  };
+  const Eigen::Vector3d s0 = at(0);
+  for (int i = 0; i < centers.k; ++i) {
+    const Eigen::Vector3d in_units = axes * (i == 0 ? s0 : Eigen::Vector3d(at(i) - s0));
+    Eigen::Vector3d& out = i == 0 ? result.center0 : result.cap[i - 1];
+    for (int c = 0; c < 3; ++c) {
+      out[c] = (i == 0 ? double{points[0][c]} : 0.0) + scaled(in_units[c], exponent_);
+    }
+  }
+  return result;
 }
 
 template <typename S>
@@ -114,16 +168,25 @@ void SphereFitter<S>::releaseLarge() {
   if (in_frame_.capacity() > kKeep) in_frame_.release();
 }
 
+void requireUsable(const FitOptions& options) {
+  constexpr double kHalfPi = 1.5707963267948966;
+  if (options.angle > 0 && options.angle < kHalfPi) return;
+  std::ostringstream message;
+  message << "fcl_kios: the angle of a fit must be in (0, pi/2), not " << options.angle << ".";
+  throw std::invalid_argument(message.str());
+}
+
 template <typename S>
-void fit(const fcl::Vector3<S>* points, int n, kIOS<S>& bv, FitMethod method) {
+void fit(const fcl::Vector3<S>* points, int n, kIOS<S>& bv, const FitOptions& options) {
+  requireUsable(options);
   thread_local SphereFitter<S> fitter;
-  bv = fitter.fit(points, n, method);
+  bv = fitter.fit(points, n, options);
   fitter.releaseLarge();
 }
 
 template class SphereFitter<double>;
 template class SphereFitter<float>;
-template void fit(const fcl::Vector3<double>*, int, kIOS<double>&, FitMethod);
-template void fit(const fcl::Vector3<float>*, int, kIOS<float>&, FitMethod);
+template void fit(const fcl::Vector3<double>*, int, kIOS<double>&, const FitOptions&);
+template void fit(const fcl::Vector3<float>*, int, kIOS<float>&, const FitOptions&);
 
 }  // namespace kios

@@ -22,13 +22,25 @@ class SphereFitter {
   };
 
   /// Throws std::invalid_argument unless every coordinate is finite and below kMaxCoordinate<S>.
-  kIOS<S> fit(const fcl::Vector3<S>* points, int n, FitMethod method, Split* split = nullptr);
+  kIOS<S> fit(const fcl::Vector3<S>* points, int n, const FitOptions& options,
+              Split* split = nullptr);
+
+  /// Where the spheres of a fit lie: S0 in the model's frame, k - 1 caps relative to it.
+  struct Placement {
+    int k = 0;
+    Eigen::Vector3d center0 = Eigen::Vector3d::Zero();
+    Eigen::Vector3d cap[SphereCenters::kMost - 1];
+  };
+  /// As fit(), but at most `most` (5 or, for the tuned fit, 7) spheres and no radii. n > 0.
+  Placement placement(const fcl::Vector3<S>* points, int n, const FitOptions& options, int most);
 
   /// Frees buffers of more than a few thousand points.
   void releaseLarge();
 
  private:
   void loadRelative(const fcl::Vector3<S>* points, int n);
+  /// Changes `frame` to the one that the centers are in.
+  SphereCenters centersFor(PrincipalFrame& frame, const FitOptions& options, int most);
   kIOS<S> placed(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
                  const SphereCenters& centers) const;
 

@@ -24,12 +24,14 @@ namespace detail {
 /// Fits a node's kIOS to the distinct vertices of its triangles (or to its points). fit() throws
 /// std::invalid_argument at a NaN or infinite vertex; the model then stays unfinished.
 /// `model.bv_fitter.reset(new BVFitter<kios::kIOSd>(kios::FitMethod::kMethodII))` before
-/// endModel() chooses the published fit.
+/// endModel() chooses the published fit;
+/// kios::FitOptions chooses more. What queries prepare fits for itself, whatever is chosen here.
 template <typename S_>
 class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
  public:
   using S = S_;
-  explicit BVFitter(kios::FitMethod method = kios::FitMethod::kTuned);
+  /// Throws std::invalid_argument for an angle out of range.
+  explicit BVFitter(const kios::FitOptions& options = {});
   virtual ~BVFitter();
 
   void set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) override;
@@ -42,7 +44,7 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   kios::engine::TreeCache& trees() const { return *trees_; }
 
  private:
-  const kios::FitMethod method_;
+  const kios::FitOptions options_;
   const std::unique_ptr<kios::engine::TreeCache> trees_;
 };
 

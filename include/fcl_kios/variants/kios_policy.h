@@ -15,7 +15,7 @@ class KiosPolicy {
   using Store = VolumeArray<Volume>;
   using Placed = RelativePose<double>;
 
-  explicit KiosPolicy(FitMethod method = FitMethod::kTuned) : options_(method) {}
+  explicit KiosPolicy(const FitOptions& options = {}) : options_(options) {}
 
   Shared share(const fcl::Vector3d* /*points*/, int /*n*/) const { return {}; }
   Volume fit(const fcl::Vector3d* points, int n, const Shared& /*model*/) const {
@@ -35,7 +35,7 @@ class KiosPolicy {
   }
 
  private:
-  FitMethod options_;
+  FitOptions options_;
 };
 
 }  // namespace kios
