@@ -8,6 +8,8 @@
 namespace kios::bench {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 using Entrants = std::vector<std::unique_ptr<FitEntrant>>;
 
 /// Spheres with their own radii, or with one that all but S0 share.
@@ -17,9 +19,24 @@ VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
   return {shares ? 4.0 + 3 * (k - 1) + 1 : 4.0 * k, static_cast<double>(k)};
 }
 
-void addKios(Entrants& all, const std::string& name, FitMethod method) {
+void addKios(Entrants& all, const std::string& name, const FitOptions& options) {
+  const bool shared = options.shared_radius;
   all.push_back(std::make_unique<VariantEntrant<KiosPolicy>>(
-      name, KiosPolicy(method), [](const kIOSd& bv) { return sizeOf(bv, false); }));
+      name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); }));
+}
+
+/// The paper's choices of k, and angles about its pi/6, of one method.
+void addChoices(Entrants& all, const std::string& name, FitMethod method) {
+  FitOptions options(method);
+  options.count = SphereCount::kAll;
+  addKios(all, name + "_k5", options);
+  options.count = SphereCount::kByGain;
+  addKios(all, name + "_by_gain", options);
+  options.count = SphereCount::kByRatio;
+  for (const int degrees : {15, 22, 45}) {
+    options.angle = degrees == 22 ? kPi / 8 : kPi * degrees / 180;
+    addKios(all, name + "_" + std::to_string(degrees) + "deg", options);
+  }
 }
 
 template <typename Policy>
@@ -36,8 +53,16 @@ void addOther(Entrants& all, const std::string& name, double numbers, bool serve
 
 std::vector<std::unique_ptr<FitEntrant>> fitEntrants() {
   Entrants all;
+  addKios(all, "kios_method_i", FitMethod::kMethodI);
   addKios(all, "kios_method_ii", FitMethod::kMethodII);
+  FitOptions shared(FitMethod::kMethodII);
+  shared.shared_radius = true;
+  addKios(all, "kios_method_ii_shared", shared);
+  addChoices(all, "kios_method_ii", FitMethod::kMethodII);
   addKios(all, "kios_tuned", FitMethod::kTuned);
+  shared.method = FitMethod::kTuned;
+  addKios(all, "kios_tuned_shared", shared);
+  addChoices(all, "kios_tuned", FitMethod::kTuned);
   // In the paper's words: centre and radius, two corners, axes and half extents, ...
   addOther<SpherePolicy>(all, "sphere", 4);
   addOther<AabbPolicy>(all, "fcl_aabb", 6);

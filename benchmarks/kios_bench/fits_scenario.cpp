@@ -31,8 +31,8 @@ struct Scene {
   std::vector<scenes::Frame> frames;
 };
 
-/// Pairs of nodes of up to 64 triangles and of similar size, nearer than three times their size and
-/// farther than a hundredth of it, each with its true distance.
+/// Pairs of nodes of up to 64 triangles and of similar size, a hundredth of their size to that size
+/// apart, each with its true distance.
 std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, const Poses& poses,
                                   int count, std::uint64_t seed) {
   constexpr int kMostTriangles = 64;
@@ -51,7 +51,7 @@ std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, const 
     if (std::min(m.extent, n.extent) < 0.3 * size) continue;
     const fcl::Vector3d at_a = a.corners(a.triangle(m.first))[0];
     const fcl::Vector3d at_b = X_AB * b.corners(b.triangle(n.first))[0];
-    if ((at_a - at_b).norm() > 6 * size) continue;
+    if ((at_a - at_b).norm() > 4 * size) continue;
     double distance = 1e300;
     for (int s = 0; s < m.count; ++s) {
       const TriangleVertices<double> p = a.corners(a.triangle(m.first + s));
@@ -61,7 +61,7 @@ std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, const 
         distance = std::min(distance, triangleDistance(p, q).distance);
       }
     }
-    if (distance < 0.01 * size || distance > 3 * size) continue;
+    if (distance < 0.01 * size || distance > size) continue;
     pairs.push_back({static_cast<int>(i), static_cast<int>(j), &X_AB, distance});
   }
   return pairs;

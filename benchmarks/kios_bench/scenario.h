@@ -46,6 +46,8 @@ void runPaper(const Options& options, Report& report);
 void runFits(const Options& options, Report& report);
 void runPacking(const Options& options, Report& report);
 void runExact(const Options& options, Report& report);
+void runShapes(const Options& options, Report& report);
+void runOctrees(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
 void runError(const Options& options, Report& report);

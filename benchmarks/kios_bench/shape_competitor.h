@@ -43,8 +43,7 @@ class MeshAndShape final : public ShapeCompetitor {
 
   void load(const scenes::Mesh& mesh,
             const std::shared_ptr<fcl::CollisionGeometryd>& geometry) override {
-    mesh_ = std::make_unique<fcl::CollisionObjectd>(
-        scenes::buildModel<typename Traits::BV>(mesh));
+    mesh_ = std::make_unique<fcl::CollisionObjectd>(scenes::buildModel<typename Traits::BV>(mesh));
     shape_ = std::make_unique<fcl::CollisionObjectd>(geometry);
   }
 
@@ -53,8 +52,8 @@ class MeshAndShape final : public ShapeCompetitor {
     for (std::size_t i = begin; i < end; ++i) {
       mesh_->setTransform(frames[i].X_WA);
       shape_->setTransform(frames[i].X_WB);
-      answers[i] = query == ShapeQuery::kDistance ? distance()
-                                                  : contacts(query == ShapeQuery::kAllContacts);
+      answers[i] =
+          query == ShapeQuery::kDistance ? distance() : contacts(query == ShapeQuery::kAllContacts);
     }
   }
 

@@ -43,9 +43,8 @@ Geometry convexOf(const scenes::Mesh& hull) {
     faces->push_back(3);
     for (int corner = 0; corner < 3; ++corner) faces->push_back(static_cast<int>(t[corner]));
   }
-  return std::make_shared<fcl::Convexd>(
-      std::make_shared<std::vector<fcl::Vector3d>>(hull.vertices),
-      static_cast<int>(hull.triangles.size()), faces);
+  return std::make_shared<fcl::Convexd>(std::make_shared<std::vector<fcl::Vector3d>>(hull.vertices),
+                                        static_cast<int>(hull.triangles.size()), faces);
 }
 
 /// Occupied cells of 0.05 about the surface of a sphere of radius 0.4.
@@ -69,8 +68,8 @@ class BruteForce {
 
   double operator()(ShapeQuery query, const scenes::Frame& frame) const {
     const fcl::Matrix3d R = frame.X_WB.linear().transpose() * frame.X_WA.linear();
-    const fcl::Vector3d t = frame.X_WB.linear().transpose() *
-                            (frame.X_WA.translation() - frame.X_WB.translation());
+    const fcl::Vector3d t =
+        frame.X_WB.linear().transpose() * (frame.X_WA.translation() - frame.X_WB.translation());
     double nearest = std::numeric_limits<double>::infinity(), contacts = 0;
     for (const fcl::Triangle& ids : mesh_.triangles) {
       shape::Triangle triangle;
@@ -141,8 +140,7 @@ void reportGeometry(const std::string& scenario, const scenes::Mesh& mesh, const
         Lane& lane = lanes[(turn + static_cast<std::size_t>(repeat)) % lanes.size()];
         const double start = nowMicroseconds();
         lane.competitor->answer(query, frames, 0, frames.size(), lane.answers);
-        lane.repeat_us.push_back((nowMicroseconds() - start) /
-                                 static_cast<double>(frames.size()));
+        lane.repeat_us.push_back((nowMicroseconds() - start) / static_cast<double>(frames.size()));
       }
     }
     for (const Lane& lane : lanes) {
