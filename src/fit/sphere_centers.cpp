@@ -29,7 +29,7 @@ template <typename Real>
 int sphereCount(Real a, Real b, Real c, Real ratio, SphereCount count, int most) {
   if (!(a > 0)) return 1;
   if (count != SphereCount::kByRatio) return most;
-  return a <= ratio * c ? 1 : (a <= ratio * b ? 3 : most);
+  return a <= ratio * c ? 1 : std::min(most, a <= ratio * b ? 3 : most);
 }
 
 constexpr double kPublishedRatio = 1.5;

@@ -23,7 +23,7 @@ inline int axisOfCap(const PrincipalFrame& frame, int i) { return frame.order[2 
 
 /// The tuned fit: S0 nearly minimal; each cap starts as a sphere through the rim of the far face
 /// of the box, half opening angle 30 degrees by default, and is re-centred in its plane. At most
-/// `most` spheres, 5 or 7.
+/// `most` spheres: 1, 3, 5 or 7.
 SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
                            const FitOptions& options, int most);
 

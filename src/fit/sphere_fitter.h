@@ -31,7 +31,7 @@ class SphereFitter {
     Eigen::Vector3d center0 = Eigen::Vector3d::Zero();
     Eigen::Vector3d cap[SphereCenters::kMost - 1];
   };
-  /// As fit(), but at most `most` (5 or, for the tuned fit, 7) spheres and no radii. n > 0.
+  /// As fit(), but at most `most` spheres (7 by the tuned fit alone) and no radii. n > 0.
   Placement placement(const fcl::Vector3<S>* points, int n, const FitOptions& options, int most);
 
   /// Frees buffers of more than a few thousand points.

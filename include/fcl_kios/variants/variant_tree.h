@@ -36,10 +36,12 @@ class VariantTree {
       : split_(std::move(split)), policy_(std::move(policy)) {
     const std::vector<fcl::Vector3d> all = split_->points(split_->nodes()[0]);
     shared_ = policy_.share(all.data(), static_cast<int>(all.size()));
+    typename Policy::Store store;
     for (const MeshSplit::Node& node : split_->nodes()) {
       const std::vector<fcl::Vector3d> points = split_->points(node);
-      store_.add(policy_.fit(points.data(), static_cast<int>(points.size()), shared_));
+      store.add(policy_.fit(points.data(), static_cast<int>(points.size()), shared_));
     }
+    store_ = store;  // a copy has no room to spare
   }
 
   const MeshSplit& split() const { return *split_; }

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bv/exact_spheres.h"
+#include "fcl_kios/variants/kios_policy.h"
+#include "fcl_kios/variants/packed_policy.h"
+
+namespace kios::test {
+
+/// Every method with every choice of k, own and shared radii, and two other angles.
+inline std::vector<FitOptions> allFits() {
+  std::vector<FitOptions> fits;
+  for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
+    for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
+      for (const bool shared : {false, true}) {
+        FitOptions options = method;
+        options.count = count;
+        options.shared_radius = shared;
+        fits.push_back(options);
+      }
+    }
+  }
+  for (const double angle : {0.05, 1.3}) {
+    for (const auto method : {FitMethod::kTuned, FitMethod::kMethodII}) {
+      fits.emplace_back(method);
+      fits.back().angle = angle;
+    }
+  }
+  return fits;
+}
+
+inline std::string nameOf(const FitOptions& options) {
+  const char* const methods[] = {"tuned", "Method I", "Method II"};
+  const char* const counts[] = {"by ratio", "all", "by gain"};
+  return std::string(methods[static_cast<int>(options.method)]) + ", k " +
+         counts[static_cast<int>(options.count)] +
+         (options.shared_radius ? ", shared radius" : "") + ", angle " +
+         std::to_string(options.angle);
+}
+
+/// Calls visit(name, policy) for kIOS with all fits and for all packed variants.
+template <typename Visit>
+void forEachPackedPolicy(Visit visit) {
+  for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
+    for (const bool shared : {false, true}) {
+      FitOptions options;
+      options.count = count;
+      options.shared_radius = shared;
+      const std::string name = nameOf(options);
+      visit("oriented 1, " + name, OrientedKios<1>(options));
+      visit("oriented 3, " + name, OrientedKios<3>(options));
+      visit("oriented 5, " + name, OrientedKios<5>(options));
+      visit("oriented 7, " + name, OrientedKios<7>(options));
+      visit("axis-aligned, " + name, AxisAlignedKios(options));
+      visit("fixed directions, " + name, FixedDirectionKios(options));
+      // As the faces of an octahedron, not of unit length.
+      const std::vector<fcl::Vector3d> given = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-3, 3, 3}};
+      visit("given directions, " + name, FixedDirectionKios(given, options));
+      options.method = FitMethod::kMethodI;
+      visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
+      options.method = FitMethod::kMethodII;
+      visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
+    }
+  }
+}
+
+template <typename Visit>
+void forEachPolicy(Visit visit) {
+  for (const FitOptions& options : allFits())
+    visit("kIOS, " + nameOf(options), KiosPolicy(options));
+  forEachPackedPolicy(visit);
+}
+
+}  // namespace kios::test
