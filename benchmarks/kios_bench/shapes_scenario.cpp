@@ -134,6 +134,7 @@ void reportGeometry(const std::string& scenario, const scenes::Mesh& mesh, const
     for (Lane& lane : lanes) {
       lane.answers.assign(frames.size(), 0);
       lane.repeat_us.clear();
+      lane.competitor->answer(query, frames, 0, frames.size(), lane.answers);  // warms up
     }
     for (int repeat = 0; repeat < options.repeats; ++repeat) {
       for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
