@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/ray_search.h"
 #include "engine/search.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -31,6 +32,8 @@
 #include "engine/simd/box_test-inl.h"
 //
 #include "engine/simd/traverse-inl.h"
+//
+#include "engine/simd/ray-inl.h"
 //
 #include "engine/simd/leaf_cull-inl.h"
 //
@@ -168,8 +171,8 @@ void contact(const Search& search) { touching(search, contactOfLeaves); }
 void contacts(const Search& search) { touching(search, contactsOfLeaves); }
 
 extern const Kernels kKernels;
-const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2], &distance, &bracket, &contact,
-                          &contacts};  // after N_
+const Kernels kKernels = {
+    &HWY_STR(HWY_NAMESPACE)[2], &distance, &bracket, &contact, &contacts, &ray};  // after N_
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -65,6 +65,8 @@ struct Bracket {
   bool out_of_budget = false;
 };
 
+struct RaySearch;
+
 struct Search {
   const Tree& a;
   const Tree& b;
@@ -88,6 +90,8 @@ struct Kernels {
   void (*contact)(const Search& search);
   /// Every pair of triangles that may touch is judged.
   void (*contacts)(const Search& search);
+  /// Every triangle that the ray may meet is judged, those ahead first.
+  void (*ray)(const RaySearch& search);
 };
 
 /// The best instruction set of this machine, or that which the environment variable

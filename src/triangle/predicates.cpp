@@ -6,7 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
-#include "triangle/expansion.h"
+#include "triangle/determinant.h"
 
 namespace kios {
 namespace {
@@ -163,26 +163,14 @@ double PairPredicates::crossing2d(int i, int j, int k, int l, int axis) const {
 
 PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l,
                                                       double margin) const {
-  // In twofold numbers, which is off by at most 63 u^2 permanent (a minor by 15, its product with
-  // the third difference by 20 more, their sum by 28); what underflows adds
-  // less than 2^-800. If that does not tell, exactly.
+  // In twofold numbers; if they don't tell, exactly.
   const int rows[3] = {i, j, k};
   Twofold d[3][3];
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) d[r][c] = twofoldDifference(scaled_[rows[r]][c], scaled_[l][c]);
   }
-  double permanent = 0;
-  Twofold det = {0, 0};
-  for (int r = 0; r < 3; ++r) {
-    const Twofold &x = d[(r + 1) % 3][0], &y = d[(r + 1) % 3][1];
-    const Twofold &u = d[(r + 2) % 3][0], &v = d[(r + 2) % 3][1];
-    const Twofold left = x * v, right = u * y;
-    det = det + (left - right) * d[r][2];
-    permanent += (std::abs(left.high) + std::abs(right.high)) * std::abs(d[r][2].high);
-  }
-  const double value = det.high + det.low;
-  constexpr double kUlp = 0x1p-53;
-  if (std::abs(value) > margin * (80 * kUlp * kUlp * permanent + 0x1p-800)) return {value, 0};
+  const TwofoldDeterminant det = determinant(d);
+  if (std::abs(det.rounded()) > margin * det.error()) return {det.rounded(), 0};
 
   if (!expansions_exact_) {
     cpp_int m[3][3];
@@ -198,12 +186,7 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
   for (int r = 0; r < 3; ++r) {
     for (int c = 0; c < 3; ++c) m[r][c] = difference(scaled_[rows[r]][c], scaled_[l][c]);
   }
-  const auto exact_minor = [&m](int r, int s) {
-    return sum(product(m[r][0], m[s][1]), negated(product(m[s][0], m[r][1])));
-  };
-  return roundedExpansion<Rounded>(
-      sum(sum(product(exact_minor(1, 2), m[0][2]), product(exact_minor(2, 0), m[1][2])),
-          product(exact_minor(0, 1), m[2][2])));
+  return roundedExpansion<Rounded>(determinant(m));
 }
 
 PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis,

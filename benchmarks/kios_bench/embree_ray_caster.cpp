@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Compiled where Embree 3 is installed (Debian: libembree-dev).
+
+#include <embree3/rtcore.h>
+
+#include <stdexcept>
+
+#include "ray_caster.h"
+
+namespace kios::bench {
+namespace {
+
+/// All hits: each is written down and refused, so that the ray goes on.
+struct Collecting {
+  RTCIntersectContext context;  // first, so that Embree's pointer is one to this
+  std::vector<CastHit>* hits;
+
+  static void collect(const RTCFilterFunctionNArguments* args) {
+    auto* const self = reinterpret_cast<Collecting*>(args->context);
+    const auto* const ray = reinterpret_cast<const RTCRay*>(args->ray);
+    const auto* const hit = reinterpret_cast<const RTCHit*>(args->hit);
+    self->hits->push_back({double{ray->tfar}, static_cast<int>(hit->primID)});
+    args->valid[0] = 0;
+  }
+};
+
+class EmbreeCaster : public RayCaster {
+ public:
+  explicit EmbreeCaster(const scenes::Mesh& mesh) : device_(rtcNewDevice("threads=1")) {
+    if (!device_) throw std::runtime_error("Embree: no device");
+    scene_ = made(mesh, RTC_SCENE_FLAG_ROBUST);
+    collecting_ = made(mesh, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
+                                                        RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+  }
+  EmbreeCaster(const EmbreeCaster&) = delete;
+  EmbreeCaster& operator=(const EmbreeCaster&) = delete;
+  ~EmbreeCaster() override {
+    rtcReleaseScene(collecting_);
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+
+  std::string name() const override { return "embree"; }
+
+  std::optional<CastHit> first(const Rayd& ray) override {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // fastest of both for single rays
+    RTCRayHit cast = {made(ray), {}};
+    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &cast);
+    if (cast.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return CastHit{double{cast.ray.tfar}, static_cast<int>(cast.hit.primID)};
+  }
+
+  bool any(const Rayd& ray) override {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay cast = made(ray);
+    rtcOccluded1(scene_, &context, &cast);
+    return cast.tfar < 0;
+  }
+
+  void all(const Rayd& ray, std::vector<CastHit>& hits) override {
+    hits.clear();
+    Collecting collecting;
+    rtcInitIntersectContext(&collecting.context);
+    collecting.context.filter = &Collecting::collect;
+    collecting.hits = &hits;
+    RTCRayHit cast = {made(ray), {}};
+    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(collecting_, &collecting.context, &cast);
+  }
+
+ private:
+  static RTCRay made(const Rayd& ray) {
+    RTCRay made = {};
+    made.org_x = static_cast<float>(ray.origin[0]);
+    made.org_y = static_cast<float>(ray.origin[1]);
+    made.org_z = static_cast<float>(ray.origin[2]);
+    made.dir_x = static_cast<float>(ray.direction[0]);
+    made.dir_y = static_cast<float>(ray.direction[1]);
+    made.dir_z = static_cast<float>(ray.direction[2]);
+    made.tnear = static_cast<float>(ray.t_min);
+    made.tfar = static_cast<float>(ray.t_max);
+    made.mask = ~0U;
+    return made;
+  }
+
+  RTCScene made(const scenes::Mesh& mesh, RTCSceneFlags flags) const {
+    const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* const v = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.vertices.size()));
+    auto* const ids = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+      for (int c = 0; c < 3; ++c) v[3 * i + c] = static_cast<float>(mesh.vertices[i][c]);
+    }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        ids[3 * i + c] = static_cast<unsigned>(mesh.triangles[i][c]);
+      }
+    }
+    rtcCommitGeometry(geometry);
+    const RTCScene scene = rtcNewScene(device_);
+    rtcSetSceneFlags(scene, flags);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+  }
+
+  RTCDevice device_;
+  RTCScene scene_ = nullptr, collecting_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<RayCaster> makeEmbreeCaster(const scenes::Mesh& mesh) {
+  return std::make_unique<EmbreeCaster>(mesh);
+}
+
+}  // namespace kios::bench

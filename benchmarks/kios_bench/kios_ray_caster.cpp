@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include "fcl_kios/fcl/mesh_queries.h"
+#include "ray_caster.h"
+
+namespace kios::bench {
+namespace {
+
+// A model with a fitter that isn't ours has no prepared tree.
+class ForeignFitter : public fcl::detail::BVFitterBase<kIOSd> {
+ public:
+  using V = fcl::Vector3d;
+  void set(V* v, fcl::Triangle* t, fcl::BVHModelType type) override { ours_.set(v, t, type); }
+  void set(V* v, V* previous, fcl::Triangle* t, fcl::BVHModelType type) override {
+    ours_.set(v, previous, t, type);
+  }
+  kIOSd fit(unsigned int* primitives, int n) override { return ours_.fit(primitives, n); }
+  void clear() override { ours_.clear(); }
+
+ private:
+  fcl::detail::BVFitter<kIOSd> ours_;
+};
+
+class KiosCaster : public RayCaster {
+ public:
+  KiosCaster(const scenes::Mesh& mesh, bool prepared)
+      : model_(scenes::buildModel<kIOSd>(mesh)), prepared_(prepared) {
+    if (!prepared) model_->bv_fitter.reset(new ForeignFitter());
+    prepare(*model_);
+  }
+
+  std::string name() const override { return prepared_ ? "kios" : "kios_fcl_tree"; }
+
+  std::optional<CastHit> first(const Rayd& ray) override {
+    const auto hit = firstHit(*model_, pose_, ray, &counts_);
+    if (!hit) return std::nullopt;
+    return CastHit{hit->t, hit->triangle};
+  }
+  bool any(const Rayd& ray) override { return anyHit(*model_, pose_, ray, &counts_); }
+  void all(const Rayd& ray, std::vector<CastHit>& hits) override {
+    hits.clear();
+    constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+    for (const auto& hit : allHits(*model_, pose_, ray, kAll, &counts_)) {
+      hits.push_back({hit.t, hit.triangle});
+    }
+  }
+  std::optional<SearchCounts> counts() const override { return counts_; }
+
+ private:
+  const std::shared_ptr<Modeld> model_;
+  const bool prepared_;
+  const fcl::Transform3d pose_ = fcl::Transform3d::Identity();
+  SearchCounts counts_;
+};
+
+}  // namespace
+
+std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh, bool prepared) {
+  return std::make_unique<KiosCaster>(mesh, prepared);
+}
+
+#ifndef KIOS_HAVE_EMBREE
+std::unique_ptr<RayCaster> makeEmbreeCaster(const scenes::Mesh&) { return nullptr; }
+#endif
+
+}  // namespace kios::bench

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+/// A ray against a tree, front to back: eight children, or eight faces, at once.
+class RayTraversal {
+ public:
+  explicit RayTraversal(const RaySearch& search)
+      : search_(search), tree_(search.tree), ray_(search.ray) {}
+
+  void run() {
+    // Of each level that was opened at most seven children wait.
+    const size_t room = static_cast<size_t>(tree_.depth) * (kLanes - 1) + kLanes;
+    std::vector<Entry> more;
+    Entry usual[kUsual];
+    Entry* waiting = usual;
+    if (HWY_UNLIKELY(room > kUsual)) {
+      more.resize(room);
+      waiting = more.data();
+    }
+    size_t n = 0;
+    waiting[n++] = {-std::numeric_limits<float>::infinity(), 0};
+    while (n > 0) {
+      const Entry at = waiting[--n];
+      if (at.enter > search_.judge.end) continue;
+      const Node& node = tree_.nodes[at.node];
+      if (node.isLeaf()) {
+        if (leaf(tree_.leaves[node.leaf()])) return;
+      } else {
+        n = open(node, waiting, n);
+      }
+    }
+  }
+
+ private:
+  struct Entry {
+    float enter;  ///< lower bound, the pad taken off
+    uint32_t node;
+  };
+  static constexpr size_t kUsual = 256;
+
+  V set(float v) const { return hn::Set(d, v); }
+  V alongRay(V x, V y, V z) const {
+    return dot(x, y, z, set(ray_.direction[0]), set(ray_.direction[1]), set(ray_.direction[2]));
+  }
+
+  /// Cuts [low, high] to what of the line a sphere contains; `square` gets negative if there is
+  /// nothing.
+  HWY_INLINE void clip(V x, V y, V z, V r, V& low, V& high, V& square) const {
+    x = hn::Sub(x, set(ray_.origin[0]));
+    y = hn::Sub(y, set(ray_.origin[1]));
+    z = hn::Sub(z, set(ray_.origin[2]));
+    const V b = alongRay(x, y, z);
+    const V off =
+        kios::engine::HWY_NAMESPACE::square(hn::Sub(x, hn::Mul(b, set(ray_.direction[0]))),
+                                            hn::Sub(y, hn::Mul(b, set(ray_.direction[1]))),
+                                            hn::Sub(z, hn::Mul(b, set(ray_.direction[2]))));
+    r = hn::Add(r, set(ray_.pad));
+    const V h2 = hn::Sub(hn::Mul(r, r), off);
+    square = hn::Min(square, h2);
+    const V h = hn::Sqrt(hn::Max(h2, hn::Zero(d)));
+    low = hn::Max(low, hn::Sub(b, h));
+    high = hn::Min(high, hn::Add(b, h));
+  }
+
+  /// The children that the ray may enter before the end join those that wait, the nearest last.
+  HWY_INLINE size_t open(const Node& node, Entry* waiting, size_t n) const {
+    const Block& block = tree_.blocks[static_cast<size_t>(node.child)];
+    const Children& children = tree_.children[static_cast<size_t>(node.child)];
+    ++search_.counts.expansions;
+    search_.counts.volume_tests += children.count;
+    alignas(32) float enters[kLanes];
+    uint32_t near = 0;
+    const V pad = set(ray_.pad), begin = set(ray_.begin), end = set(search_.judge.end);
+    for (size_t l = 0; l < kLanes; l += step()) {
+      V low = set(-std::numeric_limits<float>::infinity()), high = hn::Neg(low), h2 = high;
+      clip(load(block.x[kCentral], l), load(block.y[kCentral], l), load(block.z[kCentral], l),
+           load(block.r[kCentral], l), low, high, h2);
+      for (const int middle : {int{kMiddle2}, int{kMiddle1}}) {
+        const int half = middle + 1;
+        const V mx = load(block.x[middle], l), hx = load(block.x[half], l);
+        const V my = load(block.y[middle], l), hy = load(block.y[half], l);
+        const V mz = load(block.z[middle], l), hz = load(block.z[half], l);
+        const V mr = load(block.r[middle], l), hr = load(block.r[half], l);
+        clip(hn::Add(mx, hx), hn::Add(my, hy), hn::Add(mz, hz), hn::Add(mr, hr), low, high, h2);
+        clip(hn::Sub(mx, hx), hn::Sub(my, hy), hn::Sub(mz, hz), hn::Sub(mr, hr), low, high, h2);
+      }
+      low = hn::Sub(low, pad);
+      high = hn::Add(high, pad);
+      const auto inside = hn::And(hn::And(hn::Ge(h2, hn::Zero(d)), hn::Le(low, high)),
+                                  hn::And(hn::Le(low, end), hn::Ge(high, begin)));
+      hn::Store(low, d, enters + l);
+      near |= bitsOf(inside) << l;
+    }
+    const size_t first = n;
+    for (near &= children.all(); near != 0; near &= near - 1) {
+      const uint32_t lane = firstOf(near);
+      const float enter = enters[lane];
+      size_t place = n++;
+      for (; place > first && waiting[place - 1].enter < enter; --place) {
+        waiting[place] = waiting[place - 1];
+      }
+      waiting[place] = {enter, node.first_child + lane};
+      hwy::Prefetch(&tree_.nodes[node.first_child + lane]);
+    }
+    return n;
+  }
+
+  /// Judges the faces that the ray may meet: true to end the search.
+  HWY_INLINE bool leaf(const Leaf& leaf) const {
+    ++search_.counts.leaf_pairs;
+    const Lanes* const rows = &tree_.lanes[leaf.offset + 3 * leaf.vertexChunks()];
+    uint32_t near = 0;
+    const V pad = set(2 * ray_.pad), begin = set(ray_.begin), end = set(search_.judge.end);
+    const V sign = hn::SignBit(d);
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const auto height = [&](int row) {
+        const V h = dot(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l),
+                        set(ray_.origin[0]), set(ray_.origin[1]), set(ray_.origin[2]));
+        return hn::Add(h, load(rows[row + 3], l));
+      };
+      const auto slope = [&](int row) {
+        return alongRay(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l));
+      };
+      const V H = height(kFacePlane), D = slope(kFacePlane);
+      const V flip = hn::And(D, sign), steep = hn::Abs(D);
+      const V way = hn::Neg(hn::Xor(H, flip));  // to the plane, times |D|
+      auto inside = hn::And(hn::Le(way, hn::Add(hn::Mul(end, steep), pad)),
+                            hn::Ge(way, hn::Sub(hn::Mul(begin, steep), pad)));
+      for (int k = 0; k < 3; ++k) {
+        const int row = kEdgePlanes + 4 * k;
+        const V above = hn::Sub(hn::Mul(height(row), D), hn::Mul(H, slope(row)));
+        inside = hn::And(inside, hn::Ge(hn::Xor(above, flip), hn::Neg(pad)));
+      }
+      // A face that the ray runs along, and one too thin for planes, is for the exact stage.
+      inside = hn::Or(inside, hn::Le(steep, set(0x1p-20F)));
+      near |= bitsOf(inside) << l;
+    }
+    near &= (1U << leaf.num_faces) - 1;
+    if (near != 0) ++search_.counts.leaf_kernels;
+    for (; near != 0; near &= near - 1) {
+      const FeatureId id = tree_.features[leaf.feature_offset + firstOf(near)];
+      if (search_.judge.judge(id.triangle())) return true;
+    }
+    return false;
+  }
+
+  const RaySearch& search_;
+  const Tree& tree_;
+  const FloatRay& ray_;
+};
+
+void ray(const RaySearch& search) { RayTraversal(search).run(); }
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

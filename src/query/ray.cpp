@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/query/ray.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "bv/balls.h"
+#include "bv/ray_interval.h"
+#include "bv/rounding.h"
+#include "engine/ray_search.h"
+#include "engine/search.h"
+#include "fcl/prepared.h"
+#include "fcl_kios/bv/separation.h"
+#include "triangle/ray_triangle.h"
+
+namespace kios {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <typename T>
+[[noreturn]] void refuse(const char* what, const T& value, const std::string& must) {
+  std::ostringstream message;
+  message << "fcl_kios: the ray's " << what << " is " << value << ", but must be " << must << ".";
+  throw std::invalid_argument(message.str());
+}
+
+template <typename S>
+void requireValid(const Ray<S>& ray) {
+  const auto inRange = [](const fcl::Vector3<S>& v) {
+    return v.allFinite() && double{v.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>;
+  };
+  const std::string range =
+      std::string("finite, and at most ") + (sizeof(S) == sizeof(double) ? "2^1000" : "2^120");
+  if (!inRange(ray.origin)) refuse("origin", ray.origin.transpose(), range);
+  if (!inRange(ray.direction)) refuse("direction", ray.direction.transpose(), range);
+  if (ray.direction.isZero(0)) refuse("direction", "zero", "another");
+  if (!std::isfinite(ray.t_min)) refuse("t_min", ray.t_min, "finite");
+  if (std::isnan(ray.t_max)) refuse("t_max", ray.t_max, "a number or infinity");
+  if (ray.t_min > ray.t_max) {
+    refuse("t_max", ray.t_max, "at least t_min, which is " + std::to_string(ray.t_min));
+  }
+}
+
+/// The ray in a frame at R, T in its own. Directions are enlarged first if need be, so that what is
+/// turned doesn't underflow.
+///
+/// Cofactors of R are off by 3 u, its determinant by 8 u and quotients by 14 u in all, u = 2^-53;
+/// origin - T by u, sums of three products by 3 u more: 2^-48 = 32 u cover them.
+template <typename S>
+GivenRay mapped(const Ray<S>& ray, const fcl::Transform3<S>& X) {
+  const fcl::Matrix3d inverse = X.linear().template cast<double>().inverse();
+  const fcl::Vector3d from =
+      ray.origin.template cast<double>() - X.translation().template cast<double>();
+  fcl::Vector3d direction = ray.direction.template cast<double>();
+  int exponent = 0;
+  if (direction.cwiseAbs().maxCoeff() < 0x1p-400) {
+    direction *= 0x1p600;
+    exponent = -600;
+  }
+  const double t_max = std::min<double>(ray.t_max, std::numeric_limits<S>::max());
+  return {inverse * from, inverse * direction, exponent, ray.t_min, t_max};
+}
+
+/// The search for the first hits of one ray, by t and then by triangle.
+template <typename S>
+class RayCast final : public engine::RayJudge {
+ public:
+  struct Found {
+    TriangleHit hit;
+    int triangle;
+    bool operator<(const Found& o) const {
+      return hit.t != o.hit.t ? hit.t < o.hit.t : triangle < o.triangle;
+    }
+  };
+
+  RayCast(const Model<S>& model, const GivenRay& ray, std::size_t limit, bool any,
+          SearchCounts& counts)
+      : model_(model),
+        ray_(ray, largestOf(model)),
+        line_(ray.origin, ray.direction, ray.exponent),
+        limit_(limit),
+        any_(any),
+        counts_(counts),
+        last_(ray.t_max) {}
+
+  std::vector<Found> run() {
+    if (limit_ > 0) search();
+    std::sort(found_.begin(), found_.end());
+    return std::move(found_);
+  }
+
+  bool judge(std::uint32_t triangle) override {
+    ++counts_.exact;
+    const fcl::Triangle& ids = model_.tri_indices[triangle];
+    TriangleVertices<double> corners;
+    for (int i = 0; i < 3; ++i) corners[i] = model_.vertices[ids[i]].template cast<double>();
+    Found found = {{}, static_cast<int>(triangle)};
+    if (!ray_.hits(corners, found.hit)) return false;
+    if (found_.size() == limit_) {  // a heap, the last hit on top
+      if (!(found < found_.front())) return false;
+      std::pop_heap(found_.begin(), found_.end());
+      found_.pop_back();
+    }
+    found_.push_back(found);
+    std::push_heap(found_.begin(), found_.end());
+    if (found_.size() == limit_) {
+      last_ = found_.front().hit.t;
+      if (tree_) end = engine::toLength(*tree_, line_.lengthOf(last_, near_.t, 0));
+    }
+    return any_;
+  }
+
+ private:
+  static double largestOf(const Model<S>& model) {
+    const kIOS<S>& root = model.getBV(0).bv;
+    return double{root.center0.cwiseAbs().maxCoeff()} + double{root.radius0};
+  }
+
+  void search() {
+    double enter, exit;
+    if (!reaches(0, enter, exit)) return;
+    const engine::TreeCache::Use tree = preparedTree(model_);
+    engine::FloatRay ray;
+    const GivenRay& given = ray_.given();
+    const engine::RayFit fit =
+        tree ? engine::makeFloatRay(*tree, line_, given.t_min, given.t_max, near_, ray)
+             : engine::RayFit::kRefused;
+    if (fit == engine::RayFit::kMiss) return;
+    if (fit == engine::RayFit::kRefused) return searchFCLTree(enter);
+    tree_ = &*tree;
+    end = ray.end;
+    engine::kernels().ray({*tree, ray, *this, counts_});
+  }
+
+  /// Front to back, in double.
+  void searchFCLTree(double enter) {
+    ++counts_.tree_searches;
+    struct Waiting {
+      double enter;
+      int node;
+    };
+    std::vector<Waiting> waiting = {{enter, 0}};
+    while (!waiting.empty()) {
+      const Waiting at = waiting.back();
+      waiting.pop_back();
+      if (at.enter > last_) continue;
+      const auto& node = model_.getBV(at.node);
+      if (node.isLeaf()) {
+        ++counts_.leaf_pairs;
+        if (judge(static_cast<std::uint32_t>(node.primitiveId()))) return;
+        continue;
+      }
+      ++counts_.expansions;
+      counts_.volume_tests += 2;
+      Waiting children[2] = {{0, node.leftChild()}, {0, node.rightChild()}};
+      double exit;
+      const bool left = reaches(children[0].node, children[0].enter, exit);
+      const bool right = reaches(children[1].node, children[1].enter, exit);
+      const bool left_first = !right || (left && children[0].enter <= children[1].enter);
+      if (left_first) std::swap(children[0], children[1]);  // the nearest last
+      if (left_first ? right : left) waiting.push_back(children[0]);
+      if (left_first ? left : right) waiting.push_back(children[1]);
+    }
+  }
+
+  /// A hit's t is rounded, so that it may lie beyond the exact one by half an ulp.
+  bool reaches(int node, double& enter, double& exit) const {
+    return rayInterval(model_.getBV(node).bv, line_, enter, exit) && exit >= ray_.given().t_min &&
+           enter <= std::nextafter(last_, kInfinity);
+  }
+
+  const Model<S>& model_;
+  const ExactRay ray_;
+  const RayLine line_;
+  const std::size_t limit_;
+  const bool any_;
+  SearchCounts& counts_;
+  double last_;  ///< hits at a larger t don't matter
+  std::vector<Found> found_;
+  const engine::Tree* tree_ = nullptr;
+  RayLine::Near near_ = {};
+};
+
+template <typename S>
+std::vector<typename RayCast<S>::Found> cast(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                                             const Ray<S>& ray, std::size_t limit, bool any,
+                                             SearchCounts* counts) {
+  requireFinished(model);
+  requireValid(ray);
+  const RelativePose<S> rigid(X_WM.linear(), X_WM.translation());  // or it throws
+  SearchCounts unused;
+  return RayCast<S>(model, mapped(ray, X_WM), limit, any, counts ? *counts : unused).run();
+}
+
+template <typename S>
+RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model,
+                  const fcl::Transform3<S>& X_WM) {
+  const fcl::Triangle& ids = model.tri_indices[found.triangle];
+  const double* const w = found.hit.weights;
+  const fcl::Vector3d p = model.vertices[ids[0]].template cast<double>(),
+                      q = model.vertices[ids[1]].template cast<double>(),
+                      r = model.vertices[ids[2]].template cast<double>();
+  const fcl::Vector3d point = X_WM.template cast<double>() * (p + w[1] * (q - p) + w[2] * (r - p));
+  RayHit<S> hit;
+  hit.t = static_cast<S>(found.hit.t);
+  hit.point = point.template cast<S>();
+  for (int i = 0; i < 3; ++i) hit.weights[i] = static_cast<S>(w[i]);
+  hit.triangle = found.triangle;
+  hit.side = found.hit.side < 0 ? RaySide::kFront
+                                : (found.hit.side > 0 ? RaySide::kBack : RaySide::kEdgeOn);
+  return hit;
+}
+
+/// v rounded to S, not above (-infinity) or not below (+infinity) it.
+template <typename S>
+S outward(double v, S direction) {
+  constexpr double kMax = std::numeric_limits<S>::max();
+  const S rounded = static_cast<S>(std::clamp(v, -kMax, kMax));
+  return double{rounded} == v ? rounded : std::nextafter(rounded, direction);
+}
+
+}  // namespace
+
+template <typename S>
+std::optional<RayInterval<S>> rayInterval(const kIOS<S>& bv, const Ray<S>& ray) {
+  requireValid(ray);
+  const RayLine line(ray.origin.template cast<double>(), ray.direction.template cast<double>(), 0);
+  double enter, exit;
+  if (!rayInterval(bv, line, enter, exit)) return std::nullopt;
+  constexpr S kMax = std::numeric_limits<S>::max();
+  const S t_max = std::min(ray.t_max, kMax);
+  const RayInterval<S> interval = {std::max(ray.t_min, std::min(outward<S>(enter, -kMax), kMax)),
+                                   std::min(t_max, outward<S>(exit, kMax))};
+  if (interval.enter > interval.exit) return std::nullopt;
+  return interval;
+}
+
+template <typename S>
+bool overlap(const Ray<S>& ray, const kIOS<S>& bv) {
+  return rayInterval(bv, ray).has_value();
+}
+
+template <typename S>
+std::optional<RayHit<S>> firstHit(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                                  const Ray<S>& ray, SearchCounts* counts) {
+  const auto found = cast(model, X_WM, ray, 1, false, counts);
+  if (found.empty()) return std::nullopt;
+  return inWorld(found[0], model, X_WM);
+}
+
+template <typename S>
+bool anyHit(const Model<S>& model, const fcl::Transform3<S>& X_WM, const Ray<S>& ray,
+            SearchCounts* counts) {
+  return !cast(model, X_WM, ray, 1, true, counts).empty();
+}
+
+template <typename S>
+std::vector<RayHit<S>> allHits(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                               const Ray<S>& ray, std::size_t limit, SearchCounts* counts) {
+  std::vector<RayHit<S>> hits;
+  for (const auto& found : cast(model, X_WM, ray, limit, false, counts)) {
+    hits.push_back(inWorld<S>(found, model, X_WM));
+  }
+  return hits;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                       \
+  template std::optional<RayInterval<S>> rayInterval(const kIOS<S>&, const Ray<S>&);              \
+  template bool overlap(const Ray<S>&, const kIOS<S>&);                                           \
+  template std::optional<RayHit<S>> firstHit(const Model<S>&, const fcl::Transform3<S>&,          \
+                                             const Ray<S>&, SearchCounts*);                       \
+  template bool anyHit(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&, SearchCounts*); \
+  template std::vector<RayHit<S>> allHits(const Model<S>&, const fcl::Transform3<S>&,             \
+                                          const Ray<S>&, std::size_t, SearchCounts*);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "fcl_kios/triangle/triangle.h"
+
+namespace kios {
+
+/// The points origin + t direction 2^exponent, t_min <= t <= t_max, all of them finite; direction
+/// not zero.
+struct GivenRay {
+  Point<double> origin, direction;
+  int exponent;
+  double t_min, t_max;
+};
+
+/// Where a ray first meets a closed triangle.
+struct TriangleHit {
+  double t;           ///< the exact parameter, rounded to nearest
+  double weights[3];  ///< barycentric coordinates, >= 0, each to 2^-51
+  int side;           ///< sign of the direction along (p1 - p0) x (p2 - p0); 0: none crosses a face
+};
+
+/// A ray for exact tests of triangles, which may be segments or points. Verdicts, t and sides are
+/// exact for all finite coordinates; they depend on nothing but the ray and the triangle's points.
+class ExactRay {
+ public:
+  /// `largest`: about the largest coordinate of the triangles; scales what is computed first.
+  ExactRay(const GivenRay& ray, double largest);
+
+  /// Whether they meet; sets `hit` if so.
+  bool hits(const TriangleVertices<double>& corners, TriangleHit& hit) const;
+
+  const GivenRay& given() const { return given_; }
+
+ private:
+  struct Scaled;
+
+  enum Sign { kMinus = -1, kZero = 0, kPlus = 1, kUnknown = 2 };
+  /// Of direction . ((corner i - origin) x (corner j - corner i)): the side on which the ray passes
+  /// the edge.
+  Sign filteredSide(const Scaled& t, int i, int j) const;
+  Sign exactSide(const Scaled& t, int i, int j) const;
+  /// Of a face that the ray's line crosses. False if rounding leaves something open.
+  bool cross(const Scaled& t, TriangleHit& hit, bool& in_range) const;
+
+  const GivenRay given_;
+  double origin_[3], direction_[3];  ///< scaled: the latter's largest coordinate is 1 to 2
+  double unit_;                      ///< of points
+  int shift_;                        ///< t = that of the scaled ray times 2^shift
+  bool exact_ = true;                ///< nothing of the ray is lost by that
+  double least_, largest_;           ///< of the scaled ray's coordinates that aren't 0
+};
+
+/// The same in integers of any size.
+bool hitInIntegers(const GivenRay& ray, const TriangleVertices<double>& corners, TriangleHit& hit);
+
+}  // namespace kios
