@@ -19,7 +19,7 @@ namespace kios::bench {
 /// Two nodes of the splits of both meshes at a pose, and the distance of their triangles.
 struct NodePair {
   int a, b;
-  const RelativePose<double>* X_AB;
+  RelativePose<double> X_AB;
   double distance;
 };
 
@@ -82,7 +82,7 @@ class VariantEntrant final : public FitEntrant {
   }
   double bound(const NodePair& pair) const override {
     return policy_.separation(a_->store()[pair.a], b_->store()[pair.b],
-                              policy_.place(a_->shared(), b_->shared(), *pair.X_AB),
+                              policy_.place(a_->shared(), b_->shared(), pair.X_AB),
                               std::numeric_limits<double>::infinity());
   }
   double numbers() const override { return mean(&VolumeSize::numbers); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "fit_entrant.h"
 #include "motion_report.h"
 #include "scenario.h"
+#include "scenes/motions.h"
 #include "scenes/pqp_data.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
@@ -31,38 +33,49 @@ struct Scene {
   std::vector<scenes::Frame> frames;
 };
 
-/// Pairs of nodes of up to 64 triangles and of similar size, a hundredth of their size to that size
-/// apart, each with its true distance.
-std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, const Poses& poses,
-                                  int count, std::uint64_t seed) {
+double distanceOf(const MeshSplit& a, const MeshSplit::Node& m, const MeshSplit& b,
+                  const MeshSplit::Node& n, const RelativePose<double>& X_AB) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (int s = 0; s < m.count; ++s) {
+    const TriangleVertices<double> p = a.corners(a.triangle(m.first + s));
+    for (int t = 0; t < n.count; ++t) {
+      TriangleVertices<double> q = b.corners(b.triangle(n.first + t));
+      for (Point<double>& corner : q) corner = X_AB * corner;
+      distance = std::min(distance, triangleDistance(p, q).distance);
+    }
+  }
+  return distance;
+}
+
+/// Pairs of nodes of up to 64 triangles and of similar size, turned at random and moved to between
+/// a hundredth of their size and that size apart, each with its true distance.
+std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, int count,
+                                  std::uint64_t seed) {
   constexpr int kMostTriangles = 64;
   scenes::Random random(seed);
-  const auto below = [&random](std::size_t n) {
-    return static_cast<std::size_t>(random.unit() * static_cast<double>(n));
+  const auto draw = [&random](const MeshSplit& of) {
+    for (;;) {
+      const int i = static_cast<int>(random.unit() * static_cast<double>(of.nodes().size()));
+      if (of.nodes()[static_cast<std::size_t>(i)].count <= kMostTriangles) return i;
+    }
   };
+  const auto poses = scenes::randomPoses(100 * count, 1, seed);
   std::vector<NodePair> pairs;
-  for (long long tries = 0; static_cast<int>(pairs.size()) < count; ++tries) {
-    if (tries > 1000000) throw std::runtime_error("fits: too few pairs of nodes are near");
-    const RelativePose<double>& X_AB = poses[below(poses.size())];
-    const std::size_t i = below(a.nodes().size()), j = below(b.nodes().size());
-    const MeshSplit::Node &m = a.nodes()[i], &n = b.nodes()[j];
+  for (fcl::Transform3d X : poses) {
+    if (static_cast<int>(pairs.size()) == count) break;
+    const int i = draw(a), j = draw(b);
+    const MeshSplit::Node &m = a.nodes()[static_cast<std::size_t>(i)],
+                          &n = b.nodes()[static_cast<std::size_t>(j)];
     const double size = std::max(m.extent, n.extent);
-    if (m.count > kMostTriangles || n.count > kMostTriangles) continue;
     if (std::min(m.extent, n.extent) < 0.3 * size) continue;
     const fcl::Vector3d at_a = a.corners(a.triangle(m.first))[0];
-    const fcl::Vector3d at_b = X_AB * b.corners(b.triangle(n.first))[0];
-    if ((at_a - at_b).norm() > 4 * size) continue;
-    double distance = 1e300;
-    for (int s = 0; s < m.count; ++s) {
-      const TriangleVertices<double> p = a.corners(a.triangle(m.first + s));
-      for (int t = 0; t < n.count; ++t) {
-        TriangleVertices<double> q = b.corners(b.triangle(n.first + t));
-        for (Point<double>& corner : q) corner = X_AB * corner;
-        distance = std::min(distance, triangleDistance(p, q).distance);
-      }
-    }
+    const fcl::Vector3d at_b = b.corners(b.triangle(n.first))[0];
+    const fcl::Vector3d apart = X.translation().normalized() * (2.5 * random.unit() * size);
+    X.translation() = at_a + apart - X.linear() * at_b;
+    const RelativePose<double> X_AB(X.linear(), X.translation());
+    const double distance = distanceOf(a, m, b, n, X_AB);
     if (distance < 0.01 * size || distance > size) continue;
-    pairs.push_back({static_cast<int>(i), static_cast<int>(j), &X_AB, distance});
+    pairs.push_back({i, j, X_AB, distance});
   }
   return pairs;
 }
@@ -156,7 +169,7 @@ void reportScene(const Scene& scene, const Options& options, Report& report) {
   for (const scenes::Frame& frame : frames) poses.emplace_back(frame.X_WA, frame.X_WB);
   const auto a = std::make_shared<MeshSplit>(scene.a.vertices, scene.a.triangles);
   const auto b = std::make_shared<MeshSplit>(scene.b.vertices, scene.b.triangles);
-  const auto nodes = sampleNodes(*a, *b, poses, options.quick ? 100 : 1000, options.seed);
+  const auto nodes = sampleNodes(*a, *b, options.quick ? 100 : 1000, options.seed);
   const scenes::MeshOracle oracle(scene.a, scene.b);
   const double extent = std::max(scenes::extent(scene.a), scenes::extent(scene.b));
 
