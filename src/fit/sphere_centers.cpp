@@ -120,7 +120,9 @@ void adjustCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
   for (int i = 0; i < centers.k; ++i) {
     const float* const c = centers.sphere[i];
     radius[i] = std::sqrt(double{in_frame.farthest(c[0], c[1], c[2]).squared_distance});
-    if (i > 0) axis[i] = axisOfCap(frame, i);
+    if (i == 0) continue;
+    axis[i] = axisOfCap(frame, i);
+    radius[i] = std::max(radius[i], centers.least_cap_radius);
   }
   if (options.count == SphereCount::kByGain) {
     constexpr double kLeastGain = 0.1;

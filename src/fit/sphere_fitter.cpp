@@ -128,7 +128,9 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, const FitOpti
   }
   const SphereCenters centers = centersFor(frame, options, kIOS<S>::kMaxSpheres);
   kIOS<S> bv = placed(points, n, frame, centers);
-  if (options.shared_radius && centers.k > 1) {
+  if (!options.plain() && sizeof(S) == sizeof(float) && bv.reach > scaled(0x1p126, -bv.exponent)) {
+    completeCaps(bv, 1);  // accessors could not return such spheres
+  } else if (options.shared_radius && centers.k > 1) {
     // Rounding outwards may have told them apart.
     std::fill_n(bv.cap_r, centers.k - 1, *std::max_element(bv.cap_r, bv.cap_r + centers.k - 1));
     completeCaps(bv, centers.k);
@@ -169,10 +171,10 @@ void SphereFitter<S>::releaseLarge() {
 }
 
 void requireUsable(const FitOptions& options) {
-  constexpr double kHalfPi = 1.5707963267948966;
-  if (options.angle > 0 && options.angle < kHalfPi) return;
+  constexpr double kLeast = 1.0 / 256, kHalfPi = 1.5707963267948966;
+  if (options.angle >= kLeast && options.angle < kHalfPi) return;
   std::ostringstream message;
-  message << "fcl_kios: the angle of a fit must be in (0, pi/2), not " << options.angle << ".";
+  message << "fcl_kios: the angle of a fit must be in [1/256, pi/2), not " << options.angle << ".";
   throw std::invalid_argument(message.str());
 }
 

@@ -9,6 +9,7 @@
 
 #include "bv/exact_spheres.h"
 #include "fcl_kios/fit/fit.h"
+#include "fit/all_fits.h"
 
 namespace kios::test {
 namespace {
@@ -24,18 +25,22 @@ std::string describe(const Points<S>& points) {
   return text.str();
 }
 
-/// Fits by both methods and checks both volumes; shows the first set of each kind of violation.
+/// Fits in several ways and checks the volumes; shows the first set of each kind of violation.
 template <typename S>
 class Checker {
  public:
+  /// The tuned fit, Method II, and one of all the others in turn.
   void check(const Points<S>& points) {
-    for (const FitMethod method : {FitMethod::kTuned, FitMethod::kMethodII}) {
+    static const std::vector<FitOptions> all = allFits();
+    for (const FitOptions& options :
+         {FitOptions(FitMethod::kTuned), FitOptions(FitMethod::kMethodII),
+          all[next_++ % all.size()]}) {
       kIOS<S> v;
-      fit(points.data(), static_cast<int>(points.size()), v, method);
+      fit(points.data(), static_cast<int>(points.size()), v, options);
       std::string wrong = violation(v, points);
       if (wrong.empty()) wrong = measureViolation(v, points);
       if (wrong.empty()) continue;
-      wrong += method == FitMethod::kTuned ? ", tuned" : ", Method II";
+      wrong += ", " + nameOf(options);
       if (++violations_[wrong] == 1) ADD_FAILURE() << wrong << ": " << describe(points);
     }
   }
@@ -45,6 +50,7 @@ class Checker {
 
  private:
   std::map<std::string, int> violations_;
+  std::size_t next_ = 0;
 };
 
 template <typename S>

@@ -9,6 +9,7 @@
 
 #include "bv/exact_spheres.h"
 #include "fcl_kios/fit/fit.h"
+#include "fit/all_fits.h"
 
 namespace kios::test {
 namespace {
@@ -18,14 +19,14 @@ class FitInput : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(FitInput, Scalars);
 
-constexpr FitMethod kMethods[] = {FitMethod::kTuned, FitMethod::kMethodII};
+const std::vector<FitOptions> kFits = allFits();
 
 TYPED_TEST(FitInput, NoPointsGiveTheEmptyVolume) {
   using S = TypeParam;
-  for (const FitMethod method : kMethods) {
+  for (const FitOptions& options : kFits) {
     kIOS<S> v;
     v += fcl::Vector3<S>(1, 2, 3);
-    fit(static_cast<const fcl::Vector3<S>*>(nullptr), 0, v, method);
+    fit(static_cast<const fcl::Vector3<S>*>(nullptr), 0, v, options);
     EXPECT_EQ(v.k(), 0);
     EXPECT_TRUE(bitwiseEqual(v, kIOS<S>()));
   }
@@ -34,9 +35,9 @@ TYPED_TEST(FitInput, NoPointsGiveTheEmptyVolume) {
 TYPED_TEST(FitInput, OnePointGivesThePoint) {
   using S = TypeParam;
   const fcl::Vector3<S> p(S(0.1), S(-2.3), S(4e7));
-  for (const FitMethod method : kMethods) {
+  for (const FitOptions& options : kFits) {
     kIOS<S> v;
-    fit(&p, 1, v, method);
+    fit(&p, 1, v, options);
     EXPECT_EQ(v.k(), 1);
     EXPECT_EQ(v.center0, p);
     EXPECT_EQ(v.radius0, 0);
@@ -45,12 +46,12 @@ TYPED_TEST(FitInput, OnePointGivesThePoint) {
 
 /// The message with which `points` are refused, or "" if they are not; v must not change.
 template <typename S>
-std::string refusal(const Points<S>& points, FitMethod method) {
+std::string refusal(const Points<S>& points, const FitOptions& options) {
   kIOS<S> v;
   v += fcl::Vector3<S>(1, 2, 3);
   const kIOS<S> before = v;
   try {
-    fit(points.data(), static_cast<int>(points.size()), v, method);
+    fit(points.data(), static_cast<int>(points.size()), v, options);
   } catch (const std::invalid_argument& e) {
     EXPECT_TRUE(bitwiseEqual(v, before));
     return e.what();
@@ -68,8 +69,8 @@ TYPED_TEST(FitInput, CoordinatesThatAreNotFiniteAreRefusedByName) {
     for (int i = 0; i < 9; ++i) {
       auto points = place<S>(random, shapePoints(random, Shape::kRandom, n), 0, 1);
       points[below(random, n)][i % 3] = bad[i / 3];
-      for (const FitMethod method : kMethods) {
-        const std::string message = refusal(points, method);
+      for (const FitOptions& options : kFits) {
+        const std::string message = refusal(points, options);
         EXPECT_NE(message.find("fcl_kios: "), std::string::npos) << "n = " << n;
         EXPECT_NE(message.find(names[i / 3]), std::string::npos) << message;
       }
@@ -85,14 +86,14 @@ TYPED_TEST(FitInput, CoordinatesThatAreTooLargeAreRefused) {
   for (int n = 1; n < 12; ++n) {
     for (int at = 0; at < n; ++at) {
       for (const S sign : {S(1), S(-1)}) {
-        for (const FitMethod method : kMethods) {
+        for (const FitOptions& options : kFits) {
           Points<S> points(n, fcl::Vector3<S>(sign * limit, 0, 0));
-          EXPECT_EQ(refusal(points, method), "");
+          EXPECT_EQ(refusal(points, options), "");
           points[at][0] = sign * beyond;
-          EXPECT_NE(refusal(points, method).find(is_double ? "1.07" : "1.3"), std::string::npos)
-              << "n = " << n << " at " << at << ": " << refusal(points, method);
+          EXPECT_NE(refusal(points, options).find(is_double ? "1.07" : "1.3"), std::string::npos)
+              << "n = " << n << " at " << at << ": " << refusal(points, options);
           points[at] = fcl::Vector3<S>(0, 0, std::numeric_limits<S>::max());
-          EXPECT_NE(refusal(points, method), "") << "n = " << n << " at " << at;
+          EXPECT_NE(refusal(points, options), "") << "n = " << n << " at " << at;
         }
       }
     }

@@ -199,7 +199,7 @@ TEST(Variants, CoordinatesThatCannotBeBoundedAreRefused) {
 
 TEST(Variants, OptionsThatMeanNothingAreRefused) {
   using Directions = std::vector<fcl::Vector3d>;
-  for (const double angle : {0.0, -1.0, 1.6, double{NAN}}) {
+  for (const double angle : {0.0, -1.0, 1e-3, 1.6, double{NAN}}) {
     FitOptions options;
     options.angle = angle;
     EXPECT_THROW(OrientedKios<5>{options}, std::invalid_argument) << angle;

@@ -8,39 +8,9 @@
 #include "bv/exact_spheres.h"
 #include "fcl_kios/variants/kios_policy.h"
 #include "fcl_kios/variants/packed_policy.h"
+#include "fit/all_fits.h"
 
 namespace kios::test {
-
-/// Every method with every choice of k, own and shared radii, and two other angles.
-inline std::vector<FitOptions> allFits() {
-  std::vector<FitOptions> fits;
-  for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
-    for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
-      for (const bool shared : {false, true}) {
-        FitOptions options = method;
-        options.count = count;
-        options.shared_radius = shared;
-        fits.push_back(options);
-      }
-    }
-  }
-  for (const double angle : {0.05, 1.3}) {
-    for (const auto method : {FitMethod::kTuned, FitMethod::kMethodII}) {
-      fits.emplace_back(method);
-      fits.back().angle = angle;
-    }
-  }
-  return fits;
-}
-
-inline std::string nameOf(const FitOptions& options) {
-  const char* const methods[] = {"tuned", "Method I", "Method II"};
-  const char* const counts[] = {"by ratio", "all", "by gain"};
-  return std::string(methods[static_cast<int>(options.method)]) + ", k " +
-         counts[static_cast<int>(options.count)] +
-         (options.shared_radius ? ", shared radius" : "") + ", angle " +
-         std::to_string(options.angle);
-}
 
 /// Calls visit(name, policy) for kIOS with all fits and for all packed variants.
 template <typename Visit>

@@ -29,7 +29,7 @@ struct FitOptions {
   /// All caps get the largest of their radii and move outwards by what they gain, so that each
   /// still touches the content (paper, end of III-B).
   bool shared_radius = false;
-  /// Half opening angle of a cap over the rim of the box, in (0, pi/2); no meaning in Method I. A
+  /// Half opening angle of a cap over the rim of the box, in [1/256, pi/2); no meaning in Method I. A
   /// smaller angle gives larger spheres. Paper, III-B.2: pi/6.
   double angle = kPublishedAngle;
 
@@ -54,7 +54,7 @@ void fit(const fcl::Vector3<S>* points, int n, kIOS<S>& bv) {
   fit(points, n, bv, FitMethod::kTuned);
 }
 
-/// Throws std::invalid_argument if the angle is not in (0, pi/2).
+/// Throws std::invalid_argument if the angle is not in [1/256, pi/2).
 void requireUsable(const FitOptions& options);
 
 }  // namespace kios
