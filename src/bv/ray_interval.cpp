@@ -18,8 +18,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 RayLine::RayLine(const fcl::Vector3d& origin, const fcl::Vector3d& direction, int exponent)
     : origin_(origin) {
-  const int turn = std::ilogb(direction.cwiseAbs().maxCoeff());
-  for (int c = 0; c < 3; ++c) direction_[c] = std::ldexp(direction[c], -turn);
+  const int turn = std::clamp(std::ilogb(direction.cwiseAbs().maxCoeff()), -1000, 1000);
+  direction_ = direction * std::ldexp(1.0, -turn);
   exponent_ = exponent + turn;
   squared_length_ = direction_.squaredNorm();
   length_ = std::sqrt(squared_length_);

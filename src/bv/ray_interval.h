@@ -6,8 +6,7 @@
 
 namespace kios {
 
-/// A ray as tests of volumes see it: origin + t direction 2^exponent, the direction's largest
-/// coordinate 1 to 2; coordinates of the origin up to 2^1000.
+/// A ray as tests of volumes see it: origin + t direction 2^exponent; coordinates up to 2^1000.
 class RayLine {
  public:
   RayLine(const fcl::Vector3d& origin, const fcl::Vector3d& direction, int exponent);

@@ -23,7 +23,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename T>
-[[noreturn]] void refuse(const char* what, const T& value, const std::string& must) {
+[[noreturn]] void refuse(const char* what, const T& value, const char* must) {
   std::ostringstream message;
   message << "fcl_kios: the ray's " << what << " is " << value << ", but must be " << must << ".";
   throw std::invalid_argument(message.str());
@@ -34,16 +34,14 @@ void requireValid(const Ray<S>& ray) {
   const auto inRange = [](const fcl::Vector3<S>& v) {
     return v.allFinite() && double{v.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>;
   };
-  const std::string range =
-      std::string("finite, and at most ") + (sizeof(S) == sizeof(double) ? "2^1000" : "2^120");
+  constexpr const char* range =
+      sizeof(S) == sizeof(double) ? "finite, and at most 2^1000" : "finite, and at most 2^120";
   if (!inRange(ray.origin)) refuse("origin", ray.origin.transpose(), range);
   if (!inRange(ray.direction)) refuse("direction", ray.direction.transpose(), range);
   if (ray.direction.isZero(0)) refuse("direction", "zero", "another");
   if (!std::isfinite(ray.t_min)) refuse("t_min", ray.t_min, "finite");
   if (std::isnan(ray.t_max)) refuse("t_max", ray.t_max, "a number or infinity");
-  if (ray.t_min > ray.t_max) {
-    refuse("t_max", ray.t_max, "at least t_min, which is " + std::to_string(ray.t_min));
-  }
+  if (ray.t_min > ray.t_max) refuse("t_max", ray.t_max, "at least t_min");
 }
 
 /// The ray in a frame at R, T in its own. Directions are enlarged first if need be, so that what is

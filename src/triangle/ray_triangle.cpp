@@ -51,16 +51,16 @@ ExactRay::ExactRay(const GivenRay& ray, double largest) : given_(ray) {
   for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(ray.origin[c]));
   const bool ordinary = largest >= 0x1p-200 && largest <= 0x1p200;
   const int unit = ordinary || !(largest > 0) ? 0 : std::clamp(-std::ilogb(largest), -1000, 1000);
-  const int turn = -std::ilogb(ray.direction.cwiseAbs().maxCoeff());
+  const int turn = std::clamp(-std::ilogb(ray.direction.cwiseAbs().maxCoeff()), -1000, 1000);
+  const double scale = std::ldexp(1.0, turn);
   unit_ = std::ldexp(1.0, unit);
   shift_ = turn - ray.exponent - unit;
   least_ = std::numeric_limits<double>::infinity();
   largest_ = 0;
   for (int c = 0; c < 3; ++c) {
     origin_[c] = ray.origin[c] * unit_;
-    direction_[c] = std::ldexp(ray.direction[c], turn);
-    exact_ &=
-        origin_[c] / unit_ == ray.origin[c] && std::ldexp(direction_[c], -turn) == ray.direction[c];
+    direction_[c] = ray.direction[c] * scale;
+    exact_ &= origin_[c] / unit_ == ray.origin[c] && direction_[c] / scale == ray.direction[c];
     widen(origin_[c], least_, largest_);
     widen(direction_[c], least_, largest_);
   }

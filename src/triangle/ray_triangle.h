@@ -47,7 +47,7 @@ class ExactRay {
   bool cross(const Scaled& t, TriangleHit& hit, bool& in_range) const;
 
   const GivenRay given_;
-  double origin_[3], direction_[3];  ///< scaled: the latter's largest coordinate is 1 to 2
+  double origin_[3], direction_[3];  ///< scaled: of the latter at most 2
   double unit_;                      ///< of points
   int shift_;                        ///< t = that of the scaled ray times 2^shift
   bool exact_ = true;                ///< nothing of the ray is lost by that
