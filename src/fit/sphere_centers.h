@@ -34,7 +34,8 @@ SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame&
 /// Method I as published: paper, III-B.1 and III-C. `frame` is that of the smallest enclosing
 /// ellipsoid: its centre, axes and semi-axes a >= b >= c. Its caps have the radius a^2 / c, which
 /// has no limit as the content gets flat: c is taken as a/256 at least, where what float spheres of
-/// that size add to a bound by their rounding is as much as they cut off.
+/// that size add to a bound by their rounding is as much as they cut off. For kMethodIAtAngle c is
+/// a sin(angle) at least, the sine of the half angle under which a cap of radius a^2 / c sees a.
 SphereCenters ellipsoidCenters(const PrincipalFrame& frame, const FitOptions& options);
 
 /// Drops pairs of caps by SphereCount::kByGain, then moves caps as FitOptions::shared_radius asks.

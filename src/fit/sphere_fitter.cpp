@@ -94,6 +94,7 @@ SphereCenters SphereFitter<S>::centersFor(PrincipalFrame& frame, const FitOption
       centers = tunedCenters(in_frame_, frame, options, most);
       break;
     case FitMethod::kMethodI:
+    case FitMethod::kMethodIAtAngle:
       frame = ellipsoidFrame(relative_, in_frame_, frame);
       centers = ellipsoidCenters(frame, options);
       break;

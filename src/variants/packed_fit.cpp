@@ -8,8 +8,8 @@
 
 #include "bv/balls.h"
 #include "bv/rounding.h"
-#include "fcl_kios/variants/packed_policy.h"
 #include "fit/sphere_fitter.h"
+#include "variants/visit_caps.h"
 
 namespace kios {
 namespace {
@@ -187,7 +187,10 @@ void PackedPolicy::placeAlong(const std::vector<fcl::Vector3f>& directions,
     if ((v.pairs >> i & 1) == 0) continue;
     for (int side = 0; side < 2; ++side, ++cap) {
       if (v.shared_radius) v.height[cap] += (side == 0 ? 1.0F : -1.0F) * (shared - wanted[cap]);
-      alongDirection(directions[i], cap, v);
+      const fcl::Vector3f o = placeAt(v.height[cap], directions[i]);
+      v.x[cap] = o[0];
+      v.y[cap] = o[1];
+      v.z[cap] = o[2];
     }
   }
 }

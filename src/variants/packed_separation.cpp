@@ -7,7 +7,7 @@
 #include "bv/balls.h"
 #include "bv/lanes.h"
 #include "bv/rounding.h"
-#include "fcl_kios/variants/packed_policy.h"
+#include "variants/visit_caps.h"
 
 namespace kios {
 namespace {
@@ -18,21 +18,19 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct LaneCaps {
   float x[CapSpheres::kMostCaps], y[CapSpheres::kMostCaps], z[CapSpheres::kMostCaps],
       r[CapSpheres::kMostCaps];
-  int padded = 0;
+  int caps = 0;
   float reach = 0;  ///< >= |offset| + radius of every sphere
 
-  LaneCaps(const CapSpheres& v, float unit) {
-    padded = (v.caps + 3) & ~3;
-    reach = v.radius * unit;
-    for (int i = 0; i < padded; ++i) {
-      const bool stored = i < v.caps;
-      x[i] = stored ? v.x[i] * unit : 0;
-      y[i] = stored ? v.y[i] * unit : 0;
-      z[i] = stored ? v.z[i] * unit : 0;
-      r[i] = stored ? v.r[i] * unit : v.radius * unit;
-      reach = std::max(reach, std::abs(x[i]) + std::abs(y[i]) + std::abs(z[i]) + r[i]);
-    }
-    reach *= 1 + 0x1p-20F;  // sums of four floats: within 3 u of theirs
+  void set(int i, float ox, float oy, float oz, float radius) {
+    x[i] = ox;
+    y[i] = oy;
+    z[i] = oz;
+    r[i] = radius;
+    reach = std::max(reach, std::abs(ox) + std::abs(oy) + std::abs(oz) + radius);
+  }
+  void complete(float radius0) {
+    for (int i = caps; i < ((caps + 3) & ~3); ++i) set(i, 0, 0, 0, radius0);
+    reach = std::max(reach, radius0) * (1 + 0x1p-20F);  // sums of four floats: within 3 u
   }
 };
 
@@ -92,31 +90,40 @@ double PackedPolicy::separation(PackedStore::Packed pa, PackedStore::Packed pb, 
 
   // All other pairs in float lanes, centres relative to a's S0. Each lane has at most 16 u of
   // error, u = 2^-24, of |D| and the reaches, as src/bv/separation.cpp counts; 2^-19 is 32 u.
-  const CapSpheres a = unpack(pa, *X.a), b = unpack(pb, *X.b);
-  const LaneCaps sa(a, static_cast<float>(X.unit_a)), sb(b, static_cast<float>(X.unit_b));
+  LaneCaps a, b;
+  const auto decode = [this](PackedStore::Packed v, const Shared& model, double unit, LaneCaps& s) {
+    const auto u = static_cast<float>(unit);
+    visitCaps(v, model, [&s, u](int i, float /*height*/, float x, float y, float z, float r) {
+      s.set(i, x * u, y * u, z * u, r * u);
+      s.caps = i + 1;
+    });
+    s.complete(v.data[3] * u);
+  };
+  decode(pa, *X.a, X.unit_a, a);
+  decode(pb, *X.b, X.unit_b, b);
   const auto fx = static_cast<float>(dx), fy = static_cast<float>(dy), fz = static_cast<float>(dz);
   const auto ra0 = static_cast<float>(ra), rb0 = static_cast<float>(rb);
   Float4 best = lanes::broadcast(-std::numeric_limits<float>::infinity());
-  for (int i = 0; i < sa.padded; i += 4) {
-    const Float4 x = fx - lanes::load(sa.x + i), y = fy - lanes::load(sa.y + i),
-                 z = fz - lanes::load(sa.z + i);
-    best = lanes::max(best, lanes::sqrt(x * x + y * y + z * z) - lanes::load(sa.r + i) - rb0);
+  for (int i = 0; i < a.caps; i += 4) {
+    const Float4 x = fx - lanes::load(a.x + i), y = fy - lanes::load(a.y + i),
+                 z = fz - lanes::load(a.z + i);
+    best = lanes::max(best, lanes::sqrt(x * x + y * y + z * z) - lanes::load(a.r + i) - rb0);
   }
-  for (int j = 0; j < sb.padded; j += 4) {
-    const Float4 ox = lanes::load(sb.x + j), oy = lanes::load(sb.y + j), oz = lanes::load(sb.z + j);
-    const Float4 r = lanes::load(sb.r + j);
+  for (int j = 0; j < b.caps; j += 4) {
+    const Float4 ox = lanes::load(b.x + j), oy = lanes::load(b.y + j), oz = lanes::load(b.z + j);
+    const Float4 r = lanes::load(b.r + j);
     const Float4 x = X.Rf[0][0] * ox + X.Rf[0][1] * oy + X.Rf[0][2] * oz + fx;
     const Float4 y = X.Rf[1][0] * ox + X.Rf[1][1] * oy + X.Rf[1][2] * oz + fy;
     const Float4 z = X.Rf[2][0] * ox + X.Rf[2][1] * oy + X.Rf[2][2] * oz + fz;
     best = lanes::max(best, lanes::sqrt(x * x + y * y + z * z) - r - ra0);
     for (int i = 0; i < a.caps; ++i) {
-      const Float4 wx = x - sa.x[i], wy = y - sa.y[i], wz = z - sa.z[i];
-      best = lanes::max(best, lanes::sqrt(wx * wx + wy * wy + wz * wz) - r - sa.r[i]);
+      const Float4 wx = x - a.x[i], wy = y - a.y[i], wz = z - a.z[i];
+      best = lanes::max(best, lanes::sqrt(wx * wx + wy * wy + wz * wz) - r - a.r[i]);
     }
   }
-  const double lengths = distance * 1.8 + sa.reach + sb.reach;
+  const double lengths = distance * 1.8 + a.reach + b.reach;
   const double caps =
-      lanes::horizontalMax(best) - (0x1p-19 * lengths + X.stretch * sb.reach + X.pad);
+      lanes::horizontalMax(best) - (0x1p-19 * lengths + X.stretch * b.reach + X.pad);
   return std::max(central, caps) * X.length;
 }
 

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
-#include "fcl_kios/variants/packed_policy.h"
+#include "variants/visit_caps.h"
 
 namespace kios {
 
@@ -34,35 +35,17 @@ CapSpheres PackedPolicy::unpack(PackedStore::Packed v, const Shared& model) cons
   s.shared_radius = options_.shared_radius;
   s.pairs = v.pairs;
   if (s.empty) return s;
-  const float* in = v.data;
-  for (float& c : s.center) c = *in++;
-  s.radius = *in++;
-  float shared = 0;
-  if (s.shared_radius && v.pairs != 0) shared = *in++;
-  for (int pair = 0; v.pairs >> pair != 0; ++pair) {
-    if ((v.pairs >> pair & 1) == 0) continue;
-    for (int side = 0; side < 2; ++side) {
-      const int i = s.caps++;
-      if (s.by_height) {
-        s.height[i] = *in++;
-        alongDirection(directions(model)[pair], i, s);
-      } else {
-        s.x[i] = *in++;
-        s.y[i] = *in++;
-        s.z[i] = *in++;
-      }
-      s.r[i] = s.shared_radius ? shared : *in++;
-    }
-  }
+  std::copy_n(v.data, 3, s.center);
+  s.radius = v.data[3];
+  visitCaps(v, model, [&s](int i, float height, float x, float y, float z, float r) {
+    s.caps = i + 1;
+    s.height[i] = height;
+    s.x[i] = x;
+    s.y[i] = y;
+    s.z[i] = z;
+    s.r[i] = r;
+  });
   return s;
-}
-
-/// A cap's place by its height: rounded alike whenever it is computed, so that the radius that was
-/// measured from there still is the right one.
-void PackedPolicy::alongDirection(const fcl::Vector3f& direction, int i, CapSpheres& v) {
-  v.x[i] = v.height[i] * direction[0];
-  v.y[i] = v.height[i] * direction[1];
-  v.z[i] = v.height[i] * direction[2];
 }
 
 const std::vector<fcl::Vector3f>& PackedPolicy::directions(const Shared& model) const {

@@ -9,6 +9,7 @@
 
 #include "fcl/mesh_cases.h"
 #include "fcl/tree_check.h"
+#include "fit/all_fits.h"
 
 namespace kios::testing {
 namespace {
@@ -22,7 +23,7 @@ using fcl::detail::SplitMethodType;
 constexpr SplitMethodType kSplits[] = {fcl::detail::SPLIT_METHOD_MEAN,
                                        fcl::detail::SPLIT_METHOD_MEDIAN,
                                        fcl::detail::SPLIT_METHOD_BV_CENTER};
-constexpr FitMethod kFits[] = {FitMethod::kTuned, FitMethod::kMethodII};
+const std::vector<FitOptions> kFits = test::allFits();
 
 template <typename S>
 void fill(Model<S>& model, const Mesh& mesh) {
@@ -77,7 +78,7 @@ std::vector<Mesh> buildCases() {
 TEST(Build, EverySplitterAndFitterGivesAValidTree) {
   for (const Mesh& mesh : buildCases()) {
     for (const SplitMethodType split : kSplits) {
-      for (const FitMethod fit : kFits) {
+      for (const FitOptions& fit : kFits) {
         Modeld model;
         model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
         model.bv_fitter.reset(new BVFitter<kIOSd>(fit));
@@ -145,6 +146,9 @@ TEST(Build, SplittersDifferAndBalance) {
   published.bv_fitter.reset(new BVFitter<kIOSd>(FitMethod::kMethodII));
   fill(published, mesh);
   EXPECT_FALSE(sameTree(tuned, published));
+  FitOptions options;
+  options.angle = 0;
+  EXPECT_THROW(BVFitter<kIOSd>{options}, std::invalid_argument);
 }
 
 TEST(Build, LocalBoxIsThatOfTheVertices) {

@@ -12,7 +12,8 @@ namespace kios::test {
 /// Every method with every choice of k, own and shared radii, and two other angles.
 inline std::vector<FitOptions> allFits() {
   std::vector<FitOptions> fits;
-  for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
+  for (const auto method :
+       {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodIAtAngle, FitMethod::kMethodII}) {
     for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
       for (const bool shared : {false, true}) {
         FitOptions options = method;
@@ -23,7 +24,8 @@ inline std::vector<FitOptions> allFits() {
     }
   }
   for (const double angle : {0.004, 1.3}) {
-    for (const auto method : {FitMethod::kTuned, FitMethod::kMethodII}) {
+    for (const auto method :
+         {FitMethod::kTuned, FitMethod::kMethodIAtAngle, FitMethod::kMethodII}) {
       fits.emplace_back(method);
       fits.back().angle = angle;
     }
@@ -32,7 +34,7 @@ inline std::vector<FitOptions> allFits() {
 }
 
 inline std::string nameOf(const FitOptions& options) {
-  const char* const methods[] = {"tuned", "Method I", "Method II"};
+  const char* const methods[] = {"tuned", "Method I", "Method I at angle", "Method II"};
   const char* const counts[] = {"by ratio", "all", "by gain"};
   return std::string(methods[static_cast<int>(options.method)]) + ", k " +
          counts[static_cast<int>(options.count)] +

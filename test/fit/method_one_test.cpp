@@ -96,6 +96,20 @@ TEST(MethodOne, FlatContentHasFiniteSpheresThatCutItOff) {
   }
 }
 
+// The limit moves no sphere of an ellipsoid that isn't flatter.
+TEST(MethodOne, AtAnAngleIsMethodOneUnlessFlat) {
+  Random random(6);
+  for (int set = 0; set < 200; ++set) {
+    const Vec half(1, 0.6, random.uniform(0.52, 0.6));
+    const auto points = ellipsoidPoints(random, half, randomRotation(random), {0, 0, 0});
+    ASSERT_TRUE(bitwiseEqual(fitWith(points, FitMethod::kMethodI),
+                             fitWith(points, FitMethod::kMethodIAtAngle)));
+    const auto flat = ellipsoidPoints(random, {1, 0.6, 0.1}, randomRotation(random), {0, 0, 0});
+    const kIOSd v = fitWith(flat, FitMethod::kMethodIAtAngle);
+    ASSERT_NEAR(capOffset(v, 0).norm(), 2 - 0.5, 0.05);  // r1 = 2 a, c = a/2
+  }
+}
+
 TEST(FitOptions, KIsChosenAsAsked) {
   Random random(3);
   // Half extents, and k of the published methods by ratio.
@@ -105,7 +119,8 @@ TEST(FitOptions, KIsChosenAsAsked) {
   } cases[] = {{{1, 0.9, 0.8}, 1}, {{1, 0.8, 0.5}, 3}, {{1, 0.5, 0.4}, 5}, {{1, 0.3, 0.01}, 5}};
   for (const auto& box : cases) {
     const auto points = ellipsoidPoints(random, box.half, randomRotation(random), {0, 0, 0});
-    for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
+    for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodIAtAngle,
+                              FitMethod::kMethodII}) {
       EXPECT_EQ(fitWith(points, optionsOf(method, SphereCount::kAll)).k(), 5);
       // A pair that takes a tenth off S0 is kept; the published radii are large enough for that.
       const int k = fitWith(points, optionsOf(method, SphereCount::kByGain)).k();
@@ -162,8 +177,9 @@ TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {
 TEST(FitOptions, ASmallerAngleGivesLargerAndFlatterCaps) {
   Random random(5);
   for (int set = 0; set < 200; ++set) {
-    const auto points = ellipsoidPoints(random, {1, 0.6, 0.1}, randomRotation(random), {0, 0, 0});
-    for (const auto method : {FitMethod::kTuned, FitMethod::kMethodII}) {
+    const auto points = ellipsoidPoints(random, {1, 0.6, 0.03}, randomRotation(random), {0, 0, 0});
+    for (const auto method :
+         {FitMethod::kTuned, FitMethod::kMethodIAtAngle, FitMethod::kMethodII}) {
       double radius = 0, side = 1e9;
       for (const double angle : {1.0, FitOptions::kPublishedAngle, 0.2, 0.05}) {
         FitOptions options = optionsOf(method, SphereCount::kAll);

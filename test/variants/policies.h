@@ -32,6 +32,8 @@ void forEachPackedPolicy(Visit visit) {
       visit("given directions, " + name, FixedDirectionKios(given, options));
       options.method = FitMethod::kMethodI;
       visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
+      options.method = FitMethod::kMethodIAtAngle;
+      visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
       options.method = FitMethod::kMethodII;
       visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
     }

@@ -8,8 +8,9 @@ namespace kios {
 
 /// How spheres are fitted to points.
 enum class FitMethod {
-  kTuned,     ///< Near-minimal S0; each cap re-centred in its plane, with its own radius (default).
-  kMethodI,   ///< Caps from the curvature of the smallest enclosing ellipsoid (paper, III-B.1).
+  kTuned,    ///< Near-minimal S0; each cap re-centred in its plane, with its own radius (default).
+  kMethodI,  ///< Caps from the curvature of the smallest enclosing ellipsoid (paper, III-B.1).
+  kMethodIAtAngle,  ///< As Method I, its shortest semi-axis taken as a sin(angle) at least.
   kMethodII,  ///< As published: PCA, caps at pi/6, k by the ratio 1.5, the shift (paper, III-B.2).
 };
 
@@ -29,8 +30,8 @@ struct FitOptions {
   /// All caps get the largest of their radii and move outwards by what they gain, so that each
   /// still touches the content (paper, end of III-B).
   bool shared_radius = false;
-  /// Half opening angle of a cap over the rim of the box, in [1/256, pi/2); no meaning in Method I. A
-  /// smaller angle gives larger spheres. Paper, III-B.2: pi/6.
+  /// Half opening angle of a cap over the rim of the box, in [1/256, pi/2); without meaning in
+  /// kMethodI. A smaller angle gives larger spheres. Paper, III-B.2: pi/6.
   double angle = kPublishedAngle;
 
   /// Whether this is the tuned fit without changes.

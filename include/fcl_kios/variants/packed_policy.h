@@ -89,7 +89,9 @@ class PackedPolicy {
   static std::vector<fcl::Vector3f> unitDirections(const std::vector<fcl::Vector3d>& directions);
 
  private:
-  static void alongDirection(const fcl::Vector3f& direction, int cap, CapSpheres& v);
+  /// Calls visit(i, height, x, y, z, r) for each stored cap.
+  template <typename Visit>
+  void visitCaps(PackedStore::Packed v, const Shared& model, Visit visit) const;
   const std::vector<fcl::Vector3f>& directions(const Shared& model) const;
   void placeAlong(const std::vector<fcl::Vector3f>& directions, const std::vector<fcl::Vector3d>& q,
                   CapSpheres& v) const;
