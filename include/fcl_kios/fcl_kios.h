@@ -27,6 +27,7 @@
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/clearance.h"
 #include "fcl_kios/query/distance.h"
+#include "fcl_kios/query/ray.h"
 #include "fcl_kios/scene/manager_query.h"
 #include "fcl_kios/scene/scene_distance.h"
 #include "fcl_kios/triangle/distance.h"

@@ -22,8 +22,9 @@ namespace kios::engine {
 ///   20 u R for the ends, all in all below 40 u R;
 /// - faces: x lies within 4 u R of the plane n and above the edge planes m as they are stored
 ///   (heights of vertices; see leaf_data.cpp). With H = height of the near point over n, D = n . f,
-///   M and E likewise for m: M D - H E has D's sign to 8 u R + 8 u R + 2 e, as computed to 42 u R
-///   more; D has its sign beyond 8 u. |H + s D| <= 10 u R + e.
+///   M and E likewise for m: |H + s D| <= 10 u R + e, and M D - H E has D's sign to 16 u R + 2 e,
+///   as computed to 42 u R more. D may have the wrong sign below 8 u; but then |H| <= 26 u R + e,
+///   and both are below 58 u R + 2 e in magnitude. Faces too thin for planes have H = D = E = 0.
 /// 2^-18 R = 64 u R, and twice the pad for faces, cover each.
 struct FloatRay {
   float origin[3], direction[3];  ///< the near point; a unit vector

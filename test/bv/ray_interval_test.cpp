@@ -79,6 +79,62 @@ TYPED_TEST(RayIntervalTest, NeverCutsOffContent) {
   EXPECT_GT(inside, 2000);
 }
 
+// Rays that only touch a sphere, at a point of the content, from which they start both ways.
+TYPED_TEST(RayIntervalTest, TangentAtContent) {
+  using S = TypeParam;
+  Random random(8);
+  for (int i = 0; i < 20000; ++i) {
+    const int n = randomCount(random);
+    const Points<S> points = hardPointSet<S>(random, n);
+    kIOS<S> bv;
+    fit(points.data(), n, bv, FitMethod::kTuned);
+    Ray<S> ray;
+    ray.origin = points[below(random, n)];
+    const int sphere = below(random, bv.k());
+    const fcl::Vector3d radius = (ray.origin - bv.sphereCenter(sphere)).template cast<double>();
+    ray.direction = radius.normalized().cross(randomDirection(random)).template cast<S>();
+    ray.t_min = -std::numeric_limits<S>::max();
+    if (ray.direction.isZero(0)) continue;
+    const auto interval = rayInterval(bv, ray);
+    ASSERT_TRUE(interval) << "case " << i;
+    EXPECT_LE(interval->enter, 0) << "case " << i;
+    EXPECT_GE(interval->exit, 0) << "case " << i;
+  }
+}
+
+// The same from afar, on grids where that is exact: most digits of the origin cancel.
+TYPED_TEST(RayIntervalTest, TangentFromAfar) {
+  using S = TypeParam;
+  Random random(18);
+  const bool is_double = sizeof(S) == sizeof(double);
+  const double grid = is_double ? 0x1p20 : 0x1p8, turn = is_double ? 0x1p10 : 0x1p6;
+  const auto on = [](const fcl::Vector3d& v, double per_unit) {
+    return fcl::Vector3d((v * per_unit).array().round() / per_unit);
+  };
+  for (int i = 0; i < 20000; ++i) {
+    const int n = 3 + below(random, 6);
+    Points<S> points;
+    for (const auto& p : shapePoints(random, Shape::kRandom, n)) {
+      points.push_back(on(p, grid).template cast<S>());
+    }
+    kIOS<S> bv;
+    fit(points.data(), n, bv, FitMethod::kTuned);
+    const fcl::Vector3d p = points[below(random, n)].template cast<double>();
+    const fcl::Vector3d center = bv.sphereCenter(below(random, bv.k())).template cast<double>();
+    const fcl::Vector3d direction =
+        on((p - center).normalized().cross(randomDirection(random)), turn);
+    if (direction.isZero(0)) continue;
+    Ray<S> ray;
+    ray.origin = (p - grid * direction).template cast<S>();
+    ray.direction = direction.template cast<S>();
+    ASSERT_EQ((ray.origin.template cast<double>() + grid * direction), p);
+    const auto interval = rayInterval(bv, ray);
+    ASSERT_TRUE(interval) << "case " << i;
+    EXPECT_LE(interval->enter, grid) << "case " << i;
+    EXPECT_GE(interval->exit, grid) << "case " << i;
+  }
+}
+
 TYPED_TEST(RayIntervalTest, ChordsAndTangents) {
   using S = TypeParam;
   const S eps = std::numeric_limits<S>::epsilon();
@@ -143,8 +199,8 @@ TYPED_TEST(RayIntervalTest, FarOrigins) {
     }
     if (off > 1 - 1e-3 || !interval) continue;
     const long double half = std::sqrt((1 - off) * (1 + off)) / d.norm();
-    const long double slack =
-        8 * (pad / std::sqrt(1 - off) / d.norm() + std::numeric_limits<S>::epsilon() * (std::abs(t) + half));
+    const long double slack = 8 * (pad / std::sqrt(1 - off) / d.norm() +
+                                   std::numeric_limits<S>::epsilon() * (std::abs(t) + half));
     EXPECT_LE(interval->enter, t - half + 1e-18L * t);
     EXPECT_GE(interval->exit, t + half - 1e-18L * t);
     EXPECT_GE(interval->enter, t - half - slack);

@@ -55,6 +55,31 @@ void ask(const Model<S>& a, const fcl::Transform3<S>& X_A, const Model<S>& b,
   }
 }
 
+/// Rays at vertices, along edges and anywhere, from around a mesh.
+template <typename S>
+void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed) {
+  Random random(seed);
+  for (int i = 0; i < 24; ++i) {
+    const auto t = static_cast<int>(random.unit() * model.num_tris);
+    const fcl::Triangle& ids = model.tri_indices[t];
+    Ray<S> ray;
+    for (S& c : ray.origin) c = static_cast<S>(random.uniform(-3, 3));
+    ray.direction = X * model.vertices[ids[0]] - ray.origin;
+    if (i % 3 == 1) ray.direction = X.linear() * (model.vertices[ids[1]] - model.vertices[ids[0]]);
+    if (ray.direction.isZero(0)) ray.direction = -ray.origin;
+    for (const std::size_t most : {1, 100000}) {
+      SearchCounts counts;
+      for (const RayHit<S>& hit : allHits(model, X, ray, most, &counts)) {
+        std::printf("%d %a", hit.triangle, double{hit.t});
+        print<S>(hit.point);
+        print<S>(hit.weights);
+      }
+      print(counts);
+      std::printf("\n");
+    }
+  }
+}
+
 template <typename S>
 void askAll() {
   std::vector<NamedMesh> meshes = unitMeshes();
@@ -67,6 +92,7 @@ void askAll() {
     for (std::size_t i = 0; i < poses.size(); i += 2) {
       ask<S>(*a, poses[i].template cast<S>(), *b, poses[i + 1].template cast<S>());
       ask<S>(*b, poses[i].template cast<S>(), *a, poses[i + 1].template cast<S>());
+      cast<S>(*a, poses[i].template cast<S>(), i);
     }
   }
   // Ties, at a pose that rounds nothing.

@@ -135,8 +135,6 @@ class RayTraversal {
         const V above = hn::Sub(hn::Mul(height(row), D), hn::Mul(H, slope(row)));
         inside = hn::And(inside, hn::Ge(hn::Xor(above, flip), hn::Neg(pad)));
       }
-      // A face that the ray runs along, and one too thin for planes, is for the exact stage.
-      inside = hn::Or(inside, hn::Le(steep, set(0x1p-20F)));
       near |= bitsOf(inside) << l;
     }
     near &= (1U << leaf.num_faces) - 1;
