@@ -98,6 +98,7 @@ void addOther(Entrants& all, const std::string& name, double numbers, bool serve
 std::vector<std::unique_ptr<FitEntrant>> fitEntrants() {
   Entrants all;
   addKios(all, "kios_method_i", FitMethod::kMethodI);
+  addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);
   addKios(all, "kios_method_ii", FitMethod::kMethodII);
   FitOptions shared(FitMethod::kMethodII);
   shared.shared_radius = true;

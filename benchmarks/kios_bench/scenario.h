@@ -48,6 +48,7 @@ void runPacking(const Options& options, Report& report);
 void runExact(const Options& options, Report& report);
 void runShapes(const Options& options, Report& report);
 void runOctrees(const Options& options, Report& report);
+void runContinuous(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);

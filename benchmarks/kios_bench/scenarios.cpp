@@ -44,6 +44,8 @@ const std::vector<Scenario>& scenarios() {
       {"exact", "exact distance of two k-IOS beside its bound and FCL's RSS", runExact},
       {"shapes", "a mesh of 20k triangles against seven of FCL's shapes", runShapes},
       {"octrees", "the same mesh against an octree", runOctrees},
+      {"continuous", "first contact in time of two tori on random motions, and FCL's",
+       runContinuous},
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
