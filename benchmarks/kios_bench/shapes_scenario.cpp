@@ -59,12 +59,20 @@ Geometry shellOctree() {
   return std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree));
 }
 
-/// Answers by testing every triangle with the kernel of one triangle and one shape, which the tests
-/// compare with an oracle of their own.
+/// Answers by testing every triangle with the shape, or with every occupied cell of an octree, by
+/// the kernel of one triangle and one shape, which the tests compare with an oracle of their own.
 class BruteForce {
  public:
-  BruteForce(const scenes::Mesh& mesh, const fcl::CollisionGeometryd& shape)
-      : mesh_(mesh), solid_(toSolid(shape)) {}
+  BruteForce(const scenes::Mesh& mesh, const fcl::CollisionGeometryd& geometry) : mesh_(mesh) {
+    if (geometry.getObjectType() != fcl::OT_OCTREE) {
+      solids_.push_back({toSolid(geometry), fcl::Vector3d::Zero(), 0});
+      return;
+    }
+    for (const auto& [x, y, z, size, occupancy, threshold] :
+         static_cast<const fcl::OcTreed&>(geometry).toBoxes()) {
+      solids_.push_back({toSolid<double>(fcl::Boxd(size, size, size)), {x, y, z}, 0.87 * size});
+    }
+  }
 
   double operator()(ShapeQuery query, const scenes::Frame& frame) const {
     const fcl::Matrix3d R = frame.X_WB.linear().transpose() * frame.X_WA.linear();
@@ -74,10 +82,21 @@ class BruteForce {
     for (const fcl::Triangle& ids : mesh_.triangles) {
       shape::Triangle triangle;
       for (int c = 0; c < 3; ++c) triangle[c] = R * mesh_.vertices[ids[c]] + t;
-      if (query == ShapeQuery::kDistance) {
-        nearest = std::min(nearest, shape::distance(solid_, triangle, nearest).distance);
-      } else if (shape::intersects(solid_, triangle)) {
-        contacts += 1;
+      const double reach =
+          std::max((triangle[1] - triangle[0]).norm(), (triangle[2] - triangle[0]).norm());
+      for (const PlacedSolid& placed : solids_) {
+        const double enough = query == ShapeQuery::kDistance ? nearest : 0;
+        if (placed.radius > 0 &&
+            (triangle[0] - placed.center).norm() - reach - placed.radius > enough) {
+          continue;
+        }
+        shape::Triangle local = triangle;
+        for (shape::Vec& corner : local) corner -= placed.center;
+        if (query == ShapeQuery::kDistance) {
+          nearest = std::min(nearest, shape::distance(placed.solid, local, nearest).distance);
+        } else if (shape::intersects(placed.solid, local)) {
+          contacts += 1;
+        }
       }
     }
     if (query == ShapeQuery::kDistance) return nearest;
@@ -85,8 +104,14 @@ class BruteForce {
   }
 
  private:
+  struct PlacedSolid {
+    shape::Solid solid;
+    fcl::Vector3d center;
+    double radius;  ///< of a sphere about it, 0 if not known
+  };
+
   const scenes::Mesh& mesh_;
-  shape::Solid solid_;
+  std::vector<PlacedSolid> solids_;
 };
 
 /// The frames of each query: apart for distances, touching or near for contacts.
@@ -95,11 +120,10 @@ std::vector<scenes::Frame> framesOf(ShapeQuery query, int count, std::uint64_t s
   return scenes::farMotion(count, 0.4, 1.9, seed + 1);
 }
 
-/// Sets errors and wrong verdicts of the row from a few frames; none for an octree.
+/// Sets errors and wrong verdicts of the row from a few frames.
 void judge(const scenes::Mesh& mesh, const Geometry& geometry, ShapeQuery query,
            const std::vector<scenes::Frame>& frames, const std::vector<double>& answers, int count,
            Row& row) {
-  if (geometry->getObjectType() == fcl::OT_OCTREE) return;
   const BruteForce exact(mesh, *geometry);
   row.wrong_verdicts = 0;
   const auto wanted = std::min(frames.size(), static_cast<std::size_t>(count));
