@@ -162,67 +162,47 @@ void print(const FitEntrant& entrant, const Row* distance, const Row& collide, s
   std::printf(" %5zu\n", wrong);
 }
 
-void reportScene(const Scene& scene, const Options& options, Report& report) {
-  const std::vector<scenes::Frame> frames = chosenFrames(scene.frames, options);
-  const std::size_t triangles = scene.a.triangles.size() + scene.b.triangles.size();
-  Poses poses;
-  for (const scenes::Frame& frame : frames) poses.emplace_back(frame.X_WA, frame.X_WB);
-  const auto a = std::make_shared<MeshSplit>(scene.a.vertices, scene.a.triangles);
-  const auto b = std::make_shared<MeshSplit>(scene.b.vertices, scene.b.triangles);
-  const auto nodes = sampleNodes(*a, *b, options.quick ? 100 : 1000, options.seed);
-  const scenes::MeshOracle oracle(scene.a, scene.b);
-  const double extent = std::max(scenes::extent(scene.a), scenes::extent(scene.b));
-
-  const auto entrants = fitEntrants();
+std::vector<Lane> built(const std::vector<std::unique_ptr<FitEntrant>>& entrants,
+                        const FitEntrant::Split& a, const FitEntrant::Split& b, int repeats) {
   std::vector<Lane> lanes;
   for (const auto& entrant : entrants) {
     Lane lane{entrant.get(), {}, {}, {}, 0, 0};
-    for (int repeat = 0; repeat < options.repeats; ++repeat) {
+    for (int repeat = 0; repeat < repeats; ++repeat) {
       const double start = nowMicroseconds();
       entrant->build(a, b);
       lane.build_us.push_back(nowMicroseconds() - start);
     }
     lanes.push_back(lane);
   }
+  return lanes;
+}
 
-  std::vector<Row> rows;
-  for (const Query query : {Query::kDistance, Query::kCollide}) {
-    const bool collide = query == Query::kCollide;
-    ask(collide, poses, options.repeats, lanes);
-    const std::vector<Question> questions = pairTask("", query, frames).questions;
-    const Verdicts verdicts =
-        judge([&oracle](std::size_t, std::size_t) -> const scenes::MeshOracle& { return oracle; },
-              query, questions, options.oracle_frames);
-    for (const Lane& lane : lanes) {
-      if (!collide && !lane.entrant->servesDistance()) continue;
-      const auto count = static_cast<double>(poses.size());
-      Row row;
-      row.scenario = scene.name;
-      row.query = name(query);
-      row.bv = lane.entrant->name();
-      row.triangles = triangles;
-      row.frames = poses.size();
-      row.median_us = median(lane.repeat_us);
-      row.min_us = *std::min_element(lane.repeat_us.begin(), lane.repeat_us.end());
-      row.bv_tests = static_cast<double>(lane.bv_tests) / count;
-      row.leaf_tests = static_cast<double>(lane.leaf_tests) / count;
-      row.build_us_per_triangle = median(lane.build_us) / static_cast<double>(triangles);
-      row.floats_per_bv = lane.entrant->numbers();
-      row.bytes_per_triangle = 2 * lane.entrant->bytes();  // of volumes
-      if (lane.entrant->spheres() > 0) row.mean_spheres = lane.entrant->spheres();
-      row.seed = options.seed;
-      row.extent = extent;
-      compare(lane.answers, verdicts, query, questions, extent, row);
-      if (lane.entrant->servesDistance()) {
-        const Bounds bounds = boundsOf(*lane.entrant, nodes);
-        row.tightness = bounds.tightness;
-        *row.wrong_verdicts += bounds.wrong;
-      }
-      rows.push_back(row);
-    }
-  }
+/// What ask() and built() measured of a lane.
+Row rowOf(const Lane& lane, const Scene& scene, Query query) {
+  const auto triangles = scene.a.triangles.size() + scene.b.triangles.size();
+  const auto frames = static_cast<double>(lane.answers.size());
+  Row row;
+  row.scenario = scene.name;
+  row.query = name(query);
+  row.bv = lane.entrant->name();
+  row.triangles = triangles;
+  row.frames = lane.answers.size();
+  row.median_us = median(lane.repeat_us);
+  row.min_us = *std::min_element(lane.repeat_us.begin(), lane.repeat_us.end());
+  row.bv_tests = static_cast<double>(lane.bv_tests) / frames;
+  row.leaf_tests = static_cast<double>(lane.leaf_tests) / frames;
+  row.build_us_per_triangle = median(lane.build_us) / static_cast<double>(triangles);
+  row.floats_per_bv = lane.entrant->numbers();
+  row.bytes_per_triangle = 2 * lane.entrant->bytes();  // of volumes
+  if (lane.entrant->spheres() > 0) row.mean_spheres = lane.entrant->spheres();
+  row.extent = std::max(scenes::extent(scene.a), scenes::extent(scene.b));
+  return row;
+}
 
-  printHeading(scene.name, poses.size());
+void printTable(const std::string& scenario,
+                const std::vector<std::unique_ptr<FitEntrant>>& entrants,
+                const std::vector<Row>& rows) {
+  printHeading(scenario, rows.front().frames);
   for (const auto& entrant : entrants) {
     const auto find = [&](const char* query) {
       return std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
@@ -235,6 +215,40 @@ void reportScene(const Scene& scene, const Options& options, Report& report) {
           *collide->wrong_verdicts + (has_distance ? *distance->wrong_verdicts : 0));
   }
   std::printf("\n");
+}
+
+void reportScene(const Scene& scene, const Options& options, Report& report) {
+  const std::vector<scenes::Frame> frames = chosenFrames(scene.frames, options);
+  Poses poses;
+  for (const scenes::Frame& frame : frames) poses.emplace_back(frame.X_WA, frame.X_WB);
+  const auto a = std::make_shared<MeshSplit>(scene.a.vertices, scene.a.triangles);
+  const auto b = std::make_shared<MeshSplit>(scene.b.vertices, scene.b.triangles);
+  const auto nodes = sampleNodes(*a, *b, options.quick ? 100 : 1000, options.seed);
+  const scenes::MeshOracle oracle(scene.a, scene.b);
+  const auto entrants = fitEntrants();
+  std::vector<Lane> lanes = built(entrants, a, b, options.repeats);
+
+  std::vector<Row> rows;
+  for (const Query query : {Query::kDistance, Query::kCollide}) {
+    ask(query == Query::kCollide, poses, options.repeats, lanes);
+    const std::vector<Question> questions = pairTask("", query, frames).questions;
+    const Verdicts verdicts =
+        judge([&oracle](std::size_t, std::size_t) -> const scenes::MeshOracle& { return oracle; },
+              query, questions, options.oracle_frames);
+    for (const Lane& lane : lanes) {
+      if (query == Query::kDistance && !lane.entrant->servesDistance()) continue;
+      Row row = rowOf(lane, scene, query);
+      row.seed = options.seed;
+      compare(lane.answers, verdicts, query, questions, row.extent, row);
+      if (lane.entrant->servesDistance()) {
+        const Bounds bounds = boundsOf(*lane.entrant, nodes);
+        row.tightness = bounds.tightness;
+        *row.wrong_verdicts += bounds.wrong;
+      }
+      rows.push_back(row);
+    }
+  }
+  printTable(scene.name, entrants, rows);
   report.addUnprinted(rows);
 }
 

@@ -194,7 +194,7 @@ scenes::Robot rounded(scenes::Robot robot) {
 void runPaper(const Options& options, Report& report) {
   Options ours = options;
   ours.bvs = {"kios_method_ii", "kios_tree", "kios", kSsv, "fcl_obbrss"};
-  const auto data = findData(options);
+  const auto data = options.quick ? std::nullopt : findData(options);
   if (data) {
     constexpr int kSpinningFrames = 2400;
     const scenes::MovingPair falling = scenes::loadFalling(*data);
@@ -202,7 +202,7 @@ void runPaper(const Options& options, Report& report) {
     const scenes::MovingPair spinning = scenes::loadSpinning(*data, kSpinningFrames);
     reportFigure5("paper/spinning", spinning.a, spinning.b, spinning.frames, ours, report);
   } else {
-    std::printf("generated shapes stand in for the PQP data: name its folder by --data\n");
+    std::printf("generated shapes stand in for the PQP data, which --data or KIOS_DATA names\n");
     constexpr int kFrames = 1200;
     reportFigure5("paper/falling_generated", scenes::bentTorus(), scenes::knobbyTorus(),
                   scenes::fallingMotion(kFrames), ours, report);
@@ -213,6 +213,7 @@ void runPaper(const Options& options, Report& report) {
     reportFigure6("paper/arms_ur5", scenes::robotOf(scenes::loadUr5(*data)), 0.7, ours, report);
   }
   reportFigure6("paper/arms", scenes::robotOf(scenes::cadArm()), 0.7, ours, report);
+  if (options.quick) return;
   reportFigure6("paper/humanoids", scenes::humanoid(), 0.8, ours, report);
   reportFigure6("paper/humanoids_rounded", rounded(scenes::humanoid()), 0.8, ours, report);
 }
