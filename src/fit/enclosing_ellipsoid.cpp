@@ -60,8 +60,9 @@ class WeightSearch {
       weights_.setConstant(1.0 / count);
       return;
     }
-    for (int direction = 1; direction < 14; ++direction) {  // half of the 26 of a cube
-      const Eigen::Vector3d v(direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1);
+    for (int direction = 0; direction < 13; ++direction) {  // half of the 26 of a cube
+      const int x = direction % 3 - 1, y = direction / 3 % 3 - 1, z = direction / 9 - 1;
+      const Eigen::Vector3d v(x, y, z);
       Eigen::Index low = 0, high = 0;
       const Eigen::RowVectorXd heights = v.transpose() * points_;
       heights.minCoeff(&low);

@@ -25,8 +25,9 @@ struct EnclosingEllipsoid {
 };
 
 /// The smallest enclosing ellipsoid of points (coordinates of about 1) in their affine hull, the
-/// directions in which they spread less than 1e-6 of the most left out; gap <= tolerance
-/// unless that takes more than a thousand rounds, as 1e-4 may for points within 1e-10 of a sphere.
+/// directions in which they spread less than 1e-6 of the most left out; gap <= tolerance unless
+/// that takes more than a thousand rounds: below 1e-3 it may, where more points than fix the
+/// ellipsoid lie next to it (a sphere's, a cube's corners).
 ///
 /// Khachiyan's dual problem (1996), as Todd and Yildirim pose it ("On Khachiyan's algorithm for the
 /// computation of minimum-volume enclosing ellipsoids", 2007). Their away steps take hundreds of

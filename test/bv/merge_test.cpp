@@ -8,6 +8,7 @@
 
 #include "bv/exact_spheres.h"
 #include "fcl_kios/fit/fit.h"
+#include "fit/all_fits.h"
 
 namespace kios::test {
 namespace {
@@ -64,6 +65,7 @@ TYPED_TEST(Merge, BottomUpTreesContainTheirPoints) {
 
 TYPED_TEST(Merge, ContainsBothAndCommutesBitwise) {
   using S = TypeParam;
+  const std::vector<FitOptions> fits = allFits();
   Random random(2);
   for (int pair = 0; pair < 40'000; ++pair) {
     auto points = hardPointSet<S>(random, randomCount(random));
@@ -77,7 +79,7 @@ TYPED_TEST(Merge, ContainsBothAndCommutesBitwise) {
     }
     kIOS<S> b;
     fit(others.data(), static_cast<int>(others.size()), b,
-        pair % 3 ? FitMethod::kTuned : FitMethod::kMethodII);
+        pair % 3 ? FitOptions(FitMethod::kTuned) : fits[pair / 3 % fits.size()]);
     const kIOS<S> sum = a + b;
     ASSERT_TRUE(bitwiseEqual(sum, b + a)) << "pair " << pair;
     kIOS<S> assigned = a;
