@@ -3,30 +3,16 @@
 
 #include "fcl_kios/fcl/mesh_queries.h"
 #include "ray_caster.h"
+#include "scenes/foreign_fitter.h"
 
 namespace kios::bench {
 namespace {
-
-// A model with a fitter that isn't ours has no prepared tree.
-class ForeignFitter : public fcl::detail::BVFitterBase<kIOSd> {
- public:
-  using V = fcl::Vector3d;
-  void set(V* v, fcl::Triangle* t, fcl::BVHModelType type) override { ours_.set(v, t, type); }
-  void set(V* v, V* previous, fcl::Triangle* t, fcl::BVHModelType type) override {
-    ours_.set(v, previous, t, type);
-  }
-  kIOSd fit(unsigned int* primitives, int n) override { return ours_.fit(primitives, n); }
-  void clear() override { ours_.clear(); }
-
- private:
-  fcl::detail::BVFitter<kIOSd> ours_;
-};
 
 class KiosCaster : public RayCaster {
  public:
   KiosCaster(const scenes::Mesh& mesh, bool prepared)
       : model_(scenes::buildModel<kIOSd>(mesh)), prepared_(prepared) {
-    if (!prepared) model_->bv_fitter.reset(new ForeignFitter());
+    if (!prepared) model_->bv_fitter.reset(new scenes::ForeignFitter<kIOSd>());
     prepare(*model_);
   }
 

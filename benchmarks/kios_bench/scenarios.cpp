@@ -53,8 +53,9 @@ const std::vector<Scenario>& scenarios() {
       {"refit", "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
        runRefit},
       {"rays",
-       "first, any and all hits of camera rays, random rays and rays at edges, bumpy tori; FCL has "
-       "no rays",
+       "first, any and all hits of camera rays, random rays and rays at edges, bumpy tori and "
+       "strips; "
+       "FCL has no rays",
        runRays},
       {"error",
        "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "

@@ -20,6 +20,7 @@ namespace kios::engine {
 /// s;
 /// - spheres: as in bv/ray_interval.cpp, with sums for centres and radii: 26 u R for the radius,
 ///   20 u R for the ends, all in all below 40 u R;
+/// - boxes: heights of x over a slab's middle 22 u R + e, the ends 12 u R;
 /// - faces: x lies within 4 u R of the plane n and above the edge planes m as they are stored
 ///   (heights of vertices; see leaf_data.cpp). With H = height of the near point over n, D = n . f,
 ///   M and E likewise for m: |H + s D| <= 10 u R + e, and M D - H E has D's sign to 16 u R + 2 e,

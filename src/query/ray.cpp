@@ -267,14 +267,21 @@ std::vector<RayHit<S>> allHits(const Model<S>& model, const fcl::Transform3<S>& 
   return hits;
 }
 
+template <typename S>
+using Interval = std::optional<RayInterval<S>>;
+template <typename S>
+using FirstHit = std::optional<RayHit<S>>;
+template <typename S>
+using AllHits = std::vector<RayHit<S>>;
+
 #define KIOS_INSTANTIATE(S)                                                                       \
-  template std::optional<RayInterval<S>> rayInterval(const kIOS<S>&, const Ray<S>&);              \
+  template Interval<S> rayInterval(const kIOS<S>&, const Ray<S>&);                                \
   template bool overlap(const Ray<S>&, const kIOS<S>&);                                           \
-  template std::optional<RayHit<S>> firstHit(const Model<S>&, const fcl::Transform3<S>&,          \
-                                             const Ray<S>&, SearchCounts*);                       \
+  template FirstHit<S> firstHit(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&,        \
+                                SearchCounts*);                                                   \
   template bool anyHit(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&, SearchCounts*); \
-  template std::vector<RayHit<S>> allHits(const Model<S>&, const fcl::Transform3<S>&,             \
-                                          const Ray<S>&, std::size_t, SearchCounts*);
+  template AllHits<S> allHits(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&,          \
+                              std::size_t, SearchCounts*);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -10,25 +10,12 @@
 
 #include "fcl/deform.h"
 #include "fcl/mesh_cases.h"
+#include "scenes/foreign_fitter.h"
 
 namespace kios::testing {
 namespace {
 
-/// A fitter of the user's own, which no tree can be kept by.
-class PlainFitter : public fcl::detail::BVFitterBase<kIOSd> {
- public:
-  void set(Vector3d* v, fcl::Triangle* t, fcl::BVHModelType type) override {
-    ours_.set(v, t, type);
-  }
-  void set(Vector3d* v, Vector3d* previous, fcl::Triangle* t, fcl::BVHModelType type) override {
-    ours_.set(v, previous, t, type);
-  }
-  kIOSd fit(unsigned int* primitives, int n) override { return ours_.fit(primitives, n); }
-  void clear() override { ours_.clear(); }
-
- private:
-  fcl::detail::BVFitter<kIOSd> ours_;
-};
+using PlainFitter = scenes::ForeignFitter<kIOSd>;
 
 class Stale : public ::testing::Test {
  protected:

@@ -11,6 +11,7 @@
 
 #include "engine/shapes.h"
 #include "fcl_kios/query/ray.h"
+#include "scenes/foreign_fitter.h"
 #include "scenes/ray_oracle.h"
 
 // Rays and brute force that the tests of ray queries share.
@@ -20,27 +21,11 @@ namespace kios::testing {
 template <typename S>
 const fcl::Transform3<S> kIdentity = fcl::Transform3<S>::Identity();
 
-/// A user's own fitter, with which a model has no prepared tree.
-template <typename S>
-class UsersFitter : public fcl::detail::BVFitterBase<kIOS<S>> {
- public:
-  using V = fcl::Vector3<S>;
-  void set(V* v, fcl::Triangle* t, fcl::BVHModelType type) override { ours_.set(v, t, type); }
-  void set(V* v, V* previous, fcl::Triangle* t, fcl::BVHModelType type) override {
-    ours_.set(v, previous, t, type);
-  }
-  kIOS<S> fit(unsigned int* primitives, int n) override { return ours_.fit(primitives, n); }
-  void clear() override { ours_.clear(); }
-
- private:
-  fcl::detail::BVFitter<kIOS<S>> ours_;
-};
-
 /// A model that must be searched in FCL's tree.
 template <typename S>
 std::shared_ptr<Model<S>> unpreparedModel(const Mesh& mesh) {
   auto model = std::make_shared<Model<S>>();
-  model->bv_fitter.reset(new UsersFitter<S>());
+  model->bv_fitter.reset(new scenes::ForeignFitter<kIOS<S>>());
   model->beginModel();
   model->addSubModel(Shape<S>(mesh).vertices, mesh.triangles);
   EXPECT_EQ(model->endModel(), fcl::BVH_OK);
@@ -107,6 +92,27 @@ std::vector<RayHit<S>> askAll(const Model<S>& model, const fcl::Transform3<S>& X
   return all;
 }
 
+/// The weights' point lies on the ray at t, and is what is told.
+template <typename S>
+void expectOnBoth(const Model<S>& model, const Ray<S>& ray, const RayHit<S>& hit) {
+  using Long = Eigen::Matrix<long double, 3, 1>;
+  const Long start = ray.origin.template cast<long double>(),
+             way = hit.t * ray.direction.template cast<long double>();
+  Long point = Long::Zero();
+  long double size = start.norm() + way.norm();
+  for (int i = 0; i < 3; ++i) {
+    const Long corner =
+        model.vertices[model.tri_indices[hit.triangle][i]].template cast<long double>();
+    point += hit.weights[i] * corner;
+    size += corner.norm();
+  }
+  // What is below the least number is rounded absolutely.
+  const long double bound = 8 * std::numeric_limits<S>::epsilon() * size +
+                            8 * static_cast<long double>(std::numeric_limits<S>::denorm_min());
+  EXPECT_LE((start + way - point).norm(), bound);
+  EXPECT_LE((hit.point.template cast<long double>() - point).norm(), bound);
+}
+
 /// All queries against brute force, the model at the world's origin. Returns the number of hits.
 template <typename S>
 std::size_t expectBruteForce(const Model<S>& model, const Ray<S>& ray) {
@@ -125,6 +131,7 @@ std::size_t expectBruteForce(const Model<S>& model, const Ray<S>& ray) {
     const auto& hit = exact[i].hit;
     EXPECT_EQ(hits[i].side, !hit.crosses ? RaySide::kEdgeOn
                                          : (hit.along_normal ? RaySide::kBack : RaySide::kFront));
+    expectOnBoth(model, ray, hits[i]);
   }
   return hits.size();
 }

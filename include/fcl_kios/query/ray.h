@@ -38,10 +38,10 @@ struct RayInterval {
 };
 
 /// What of the ray, given in the volume's frame, may lie in the volume: a lower bound of the t at
-/// which it has entered all k spheres, and an upper bound of that at which it leaves the first, both
-/// within [t_min, t_max]; none if there is provably nothing. No point of the content that lies on
-/// the ray is ever left out. No wider than for spheres larger by 2^-45 (|origin - c| + reach), as
-/// much longer at both ends, c and reach the centre of S0 and what the spheres reach from there.
+/// which it has entered all k spheres, and an upper bound of that at which it leaves the first,
+/// both within [t_min, t_max]; none if there is provably nothing. No point of the content that lies
+/// on the ray is ever left out. No wider than for spheres larger by 2^-45 (|origin - c| + reach),
+/// as much longer at both ends, c and reach the centre of S0 and what the spheres reach from there.
 template <typename S>
 std::optional<RayInterval<S>> rayInterval(const kIOS<S>& bv, const Ray<S>& ray);
 
@@ -81,8 +81,8 @@ struct RayHit {
 /// it in the first point that they share, segments and points (degenerate triangles) likewise.
 ///
 /// Safe from many threads, for the model's first query too (see prepare()). `counts`, if given, is
-/// added to. Throws std::invalid_argument also if the model is not a finished mesh or the pose is
-/// not rigid.
+/// added to (leaf_pairs: leaves reached; exact: triangles tested). Throws std::invalid_argument
+/// also if the model is not a finished mesh or the pose is not rigid.
 template <typename S>
 std::optional<RayHit<S>> firstHit(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                                   const Ray<S>& ray, SearchCounts* counts = nullptr);

@@ -66,6 +66,30 @@ class RayTraversal {
     high = hn::Min(high, hn::Add(b, h));
   }
 
+  /// Whether the ray may meet a box before the end; raises the lower bound of where.
+  HWY_INLINE bool meets(const Box& box, float& enter) const {
+    const float* const o = ray_.origin;
+    const float* const f = ray_.direction;
+    const float* const c = box.center;
+    alignas(16) float lows[4], highs[4];
+    for (size_t l = 0; l < 4; l += hn::Lanes(d4)) {
+      const V4 at = combine(o[0] - c[0], o[1] - c[1], o[2] - c[2], box, l);
+      const V4 slope = combine(f[0], f[1], f[2], box, l), least = hn::Set(d4, 0x1p-60F);
+      // Within the model a slope that small moves nothing by more than the pad.
+      const V4 way = hn::IfThenElse(hn::Lt(hn::Abs(slope), least), least, slope);
+      const V4 half = hn::Add(hn::Load(d4, box.half + l), hn::Set(d4, ray_.pad));
+      const V4 one = hn::Div(hn::Neg(hn::Add(half, at)), way);
+      const V4 other = hn::Div(hn::Sub(half, at), way);
+      hn::Store(hn::Min(one, other), d4, lows + l);
+      hn::Store(hn::Max(one, other), d4, highs + l);
+    }
+    // The fourth axis is 0.
+    const float low = std::max(std::max(lows[0], lows[1]), lows[2]) - ray_.pad;
+    const float high = std::min(std::min(highs[0], highs[1]), highs[2]) + ray_.pad;
+    enter = std::max(enter, low);
+    return low <= high && enter <= search_.judge.end && high >= ray_.begin;
+  }
+
   /// The children that the ray may enter before the end join those that wait, the nearest last.
   HWY_INLINE size_t open(const Node& node, Entry* waiting, size_t n) const {
     const Block& block = tree_.blocks[static_cast<size_t>(node.child)];
@@ -95,8 +119,15 @@ class RayTraversal {
       hn::Store(low, d, enters + l);
       near |= bitsOf(inside) << l;
     }
+    near &= children.all();
+    if (!tree_.boxes.empty()) {
+      for (uint32_t flat = near & children.flat; flat != 0; flat &= flat - 1) {
+        const uint32_t lane = firstOf(flat);
+        if (!meets(tree_.boxes[node.first_child + lane], enters[lane])) near ^= 1U << lane;
+      }
+    }
     const size_t first = n;
-    for (near &= children.all(); near != 0; near &= near - 1) {
+    for (; near != 0; near &= near - 1) {
       const uint32_t lane = firstOf(near);
       const float enter = enters[lane];
       size_t place = n++;
