@@ -102,6 +102,7 @@ SphereCenters SphereFitter<S>::centersFor(PrincipalFrame& frame, const FitOption
       centers = publishedCenters(in_frame_, frame, options);
       break;
   }
+  centers.k = std::min(centers.k, most);
   if (options.shared_radius || options.count == SphereCount::kByGain) {
     adjustCenters(in_frame_, frame, options, centers);
   }

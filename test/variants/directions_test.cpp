@@ -162,7 +162,13 @@ TEST(FloatsPerVolume, FallWithEachStepOfThePaper) {
   EXPECT_EQ(floats(AxisAlignedKios(own)), 16);
   EXPECT_EQ(floats(FixedDirectionKios(own)), 16);
   EXPECT_EQ(floats(FixedDirectionKios(shared)), 11);
-  EXPECT_EQ(floats(OrientedKios<1>(own)), 4);
+  for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
+    FitOptions by_method = own;
+    by_method.method = method;
+    EXPECT_EQ(floats(OrientedKios<5>(by_method)), 20);
+    EXPECT_EQ(floats(OrientedKios<3>(by_method)), 12);
+    EXPECT_EQ(floats(OrientedKios<1>(by_method)), 4);
+  }
   EXPECT_EQ(floats(KiosPolicy()), sizeof(kIOSd) / 4);
   // With k by the content: below the paper's 9.6 to 9.9 for axis-aligned and fixed directions.
   const double ratio = floats(FixedDirectionKios(options(SphereCount::kByRatio, true)));

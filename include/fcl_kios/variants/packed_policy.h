@@ -62,8 +62,8 @@ class PackedPolicy {
   using Volume = CapSpheres;
   using Store = PackedStore;
 
-  /// Pose of B in A between the models' units, in units of 2^exponent, and the rounding of all
-  /// that.
+  /// Pose of B in A between the models' units, in units of 2^exponent, and its rounding. Refers to
+  /// both models' data, which must outlive it.
   struct Placed {
     const Shared *a, *b;
     double R[3][3], T[3];
@@ -103,8 +103,8 @@ class PackedPolicy {
 };
 
 /// Oriented k-IOS (paper, III-A): caps along the principal axes of each volume's content, as the
-/// fit of `options` places them; k = 1, 3, 5 or, by the tuned fit alone, 7. Floats: 4 + 4 (k - 1),
-/// with a shared radius 5 + 3 (k - 1).
+/// fit of `options` places them; k = 1, 3, 5 or, by the tuned fit alone, 7 (by ratio, where the
+/// paper gives 5), at most K. Floats: 4 + 4 (k - 1), with a shared radius 5 + 3 (k - 1).
 template <int K>
 class OrientedKios : public PackedPolicy {
   static_assert(K == 1 || K == 3 || K == 5 || K == 7, "S0 and up to three pairs of caps");
