@@ -20,51 +20,28 @@
 
 #include "fcl/geometry/bvh/BVH_model.h"
 #include "fcl/math/bv/RSS.h"
+#include "shapes.h"
 
 namespace {
 
 using Point = std::array<double, 3>;  // x, y and the angle about z of the rod
 using Path = std::vector<Point>;
+using Mesh = shapes::Mesh<double>;
 
 constexpr double kAsked = 0.3;  // clearance, in the lengths of the scene
 constexpr double kBeta = 40;    // the smooth minimum lies at most log(pairs) / kBeta lower
 constexpr int kLevel = 4;       // 16 volumes a model
 constexpr int kWaypoints = 33;
 
-struct Box {
-  std::vector<fcl::Vector3d> vertices;
-  std::vector<fcl::Triangle> triangles;
-};
-
-/// Box around the origin with n x n squares of two triangles on each face.
-Box box(const fcl::Vector3d& size, int n) {
-  Box mesh;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double side : {-0.5, 0.5}) {
-      const std::size_t first = mesh.vertices.size();
-      for (int i = 0; i <= n; ++i) {
-        for (int j = 0; j <= n; ++j) {
-          fcl::Vector3d p;
-          p[axis] = side;
-          p[(axis + 1) % 3] = static_cast<double>(i) / n - 0.5;
-          p[(axis + 2) % 3] = static_cast<double>(j) / n - 0.5;
-          mesh.vertices.push_back(p.cwiseProduct(size));
-        }
-      }
-      for (int i = 0; i < n; ++i) {
-        for (int j = 0; j < n; ++j) {
-          const std::size_t v = first + static_cast<std::size_t>(i * (n + 1) + j), w = v + n + 1;
-          mesh.triangles.emplace_back(v, w, v + 1);
-          mesh.triangles.emplace_back(w, w + 1, v + 1);
-        }
-      }
-    }
-  }
+/// Box around the origin with 6 x 6 squares on each face.
+Mesh box(const fcl::Vector3d& size) {
+  Mesh mesh;
+  shapes::addBox<double>(mesh, size, fcl::Vector3d::Zero(), 6);
   return mesh;
 }
 
 /// FCL's counterpart of a cover: the RSS of the nodes at kLevel of its own tree.
-std::vector<fcl::RSSd> rssCover(const Box& mesh) {
+std::vector<fcl::RSSd> rssCover(const Mesh& mesh) {
   fcl::BVHModel<fcl::RSSd> model;
   model.beginModel();
   model.addSubModel(mesh.vertices, mesh.triangles);
@@ -88,8 +65,8 @@ std::vector<fcl::RSSd> rssCover(const Box& mesh) {
 }
 
 struct Scene {
-  Scene() : Scene(box({0.9, 0.9, 0.9}, 6), box({1.2, 0.2, 0.2}, 6)) {}
-  Scene(const Box& block, const Box& rod)
+  Scene() : Scene(box({0.9, 0.9, 0.9}), box({1.2, 0.2, 0.2})) {}
+  Scene(const Mesh& block, const Mesh& rod)
       : block_cover(*kios::makeModel(block.vertices, block.triangles), kLevel),
         rod_cover(*kios::makeModel(rod.vertices, rod.triangles), kLevel),
         block_rss(rssCover(block)),

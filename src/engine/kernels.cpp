@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/lane_order.h"
 #include "engine/ray_search.h"
 #include "engine/search.h"
 
@@ -30,6 +31,8 @@
 #include "engine/simd/node_test-inl.h"
 //
 #include "engine/simd/box_test-inl.h"
+//
+#include "engine/simd/frontier-inl.h"
 //
 #include "engine/simd/traverse-inl.h"
 //
@@ -48,81 +51,62 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Nearly best first: the pairs of the least bounds are expanded; a pair of leaves is bounded by a
-/// slab and waits again; the features of one that waited are judged. Depth first where pairs
-/// overlap, as they must all be expanded, and until a first upper bound is known.
+/// Nearly best first: pairs that overlap are expanded at once, as they all must be, the others in
+/// waves by their bounds. A pair of leaves is bounded by a slab and waits again; the features of
+/// one that waited are judged.
 class DistanceSearch {
  public:
   explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
 
   void run() {
-    frontier_.push(-kInfinity, {0, 0});
-    lowerTo(search_.judge.prune_at);
-    Expansion batch[kBatch];
+    expander_.pushRoots(frontier_);
     for (;;) {
-      const size_t wanted = prune_at_ < kInfinity ? kBatch : 1;
-      size_t n = 0;
-      while (n < wanted && !frontier_.empty()) {
-        const Frontier::Entry entry = frontier_.pop();
-        if (entry.bound >= prune_at_) continue;
-        if (isInner(entry.pair)) {
-          expander_.start(entry.pair, batch[n++]);
-        } else {
-          if (leaves(entry)) return;
-          lowerTo(search_.judge.prune_at);
+      while (!frontier_.leaves.empty()) {
+        if (boundLeaves(frontier_.leaves.pop())) return;
+      }
+      PairList::Entry batch[kBatch];
+      const size_t n = frontier_.inner.pop(batch);
+      expander_.expand<false>(batch, n, frontier_);
+      if (n == 0) {
+        if (!frontier_.nextWave(search_.judge.prune_at, kWave)) return;
+        while (!frontier_.bounded.empty()) {
+          const PairList::Entry entry = frontier_.bounded.pop();
+          if (entry.bound >= search_.judge.prune_at) continue;
+          if (judgeFeatures(waiting_[entry.pair.a], entry.bound)) return;
         }
       }
-      if (n == 0) return;
-      for (size_t i = 0; i < n; ++i) expander_.test(batch[i]);
-      for (size_t i = 0; i < n; ++i) expander_.spread(batch[i], frontier_);
     }
   }
 
  private:
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr size_t kBatch = 4;
-  static constexpr uint32_t kWaiting = 1U << 31;  ///< instead of node a: an index of waiting_
+  static constexpr float kWave = 0.25F;
   static constexpr uint32_t kMaxWaiting = 256;
 
-  const Node& nodeA(Frontier::Pair at) const { return search_.a.nodes[at.a]; }
-  const Node& nodeB(Frontier::Pair at) const { return search_.b.nodes[at.b]; }
-  bool isInner(Frontier::Pair at) const {
-    return (at.a & kWaiting) == 0 && !(nodeA(at).isLeaf() && nodeB(at).isLeaf());
-  }
-
-  void lowerTo(float prune_at) {
-    if (!(prune_at < prune_at_)) return;
-    prune_at_ = prune_at;
-    frontier_.setUpperBound(prune_at);
-  }
-
   /// True to end the search.
-  bool leaves(const Frontier::Entry& entry) {
-    if ((entry.pair.a & kWaiting) != 0) {
-      const Slabbed& slabbed = waiting_[entry.pair.a & ~kWaiting];
-      return nearest(slabbed, entry.bound);
-    }
+  bool boundLeaves(const PairList::Entry& entry) {
+    if (entry.bound >= search_.judge.prune_at) return false;
     ++search_.counts.leaf_pairs;
     Slabbed& slabbed = waiting_[num_waiting_];
     slabbed.nodes = entry.pair;
     const float by_slab =
         boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
     const float bound = std::max(entry.bound, by_slab);
-    lowerTo(search_.judge.prune_at);
-    if (bound >= prune_at_) {
-      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, prune_at_);
+    if (bound >= search_.judge.prune_at) {
+      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, search_.judge.prune_at);
       return false;
     }
-    if (num_waiting_ + 1 == kMaxWaiting) return nearest(slabbed, bound);  // no room to wait
-    frontier_.reserve(1);
-    frontier_.push(bound, {kWaiting | num_waiting_++, 0});
+    // What overlaps needs not wait, nor can what finds no room.
+    if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return judgeFeatures(slabbed, bound);
+    frontier_.keep(bound, num_waiting_++);
     return false;
   }
 
-  const Leaf& leafA(Frontier::Pair at) const { return search_.a.leaves[nodeA(at).leaf()]; }
-  const Leaf& leafB(Frontier::Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
+  const Leaf& leafA(Pair at) const { return search_.a.leaves[search_.a.nodes[at.a].leaf()]; }
+  const Leaf& leafB(Pair at) const { return search_.b.leaves[search_.b.nodes[at.b].leaf()]; }
 
-  bool nearest(const Slabbed& slabbed, float bound) {
+  /// True to end the search.
+  bool judgeFeatures(const Slabbed& slabbed, float bound) {
     return nearestOfLeaves(search_, leafA(slabbed.nodes), leafB(slabbed.nodes), slabbed.slab,
                            bound);
   }
@@ -130,7 +114,6 @@ class DistanceSearch {
   const Search& search_;
   const Expander expander_;
   Frontier frontier_;
-  float prune_at_ = kInfinity;
   uint32_t num_waiting_ = 0;
   Slabbed waiting_[kMaxWaiting];
 };
@@ -139,30 +122,24 @@ void distance(const Search& search) { DistanceSearch(search).run(); }
 
 void bracket(const Search& search) { BracketSearch(search).run(); }
 
-/// Depth first, of the last children the deepest first: what overlaps deepest is the likeliest hit.
+/// Depth first: all that overlaps is looked at, until a judge ends it.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;
   const Tree &a = search.a, &b = search.b;
   const Expander expander(search);
-  Frontier frontier;  // of one bucket: a stack
-  frontier.push(0, {0, 0});
-  Expansion batch[kBatch];
+  Frontier frontier;
+  expander.pushRoots(frontier);
   for (;;) {
-    size_t n = 0;
-    while (n < kBatch && !frontier.empty()) {
-      const Frontier::Pair at = frontier.pop().pair;
-      const Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
-      if (!node_a.isLeaf() || !node_b.isLeaf()) {
-        expander.start(at, batch[n++]);
-        continue;
-      }
+    while (!frontier.leaves.empty()) {
       ++search.counts.leaf_pairs;
-      if (leaf_pair(search, a.leaves[node_a.leaf()], b.leaves[node_b.leaf()])) return;
+      const Pair at = frontier.leaves.pop().pair;
+      if (leaf_pair(search, a.leaves[a.nodes[at.a].leaf()], b.leaves[b.nodes[at.b].leaf()])) return;
     }
+    PairList::Entry batch[kBatch];
+    const size_t n = frontier.inner.pop(batch);
     if (n == 0) return;
-    for (size_t i = 0; i < n; ++i) expander.test(batch[i]);
-    for (size_t i = 0; i < n; ++i) expander.spread(batch[i], frontier);
+    expander.expand<false>(batch, n, frontier);
   }
 }
 

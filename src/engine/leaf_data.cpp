@@ -122,8 +122,8 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
     std::copy_n(content.triangles[i].vertices, 3, leaf.corners + 3 * i);
   }
   for (int i = 0; i < leaf.num_edges; ++i) {
-    leaf.ends[2 * i] = content.edges[i].start;
-    leaf.ends[2 * i + 1] = content.edges[i].end;
+    const LeafEdge& edge = content.edges[i];
+    leaf.ends[i] = static_cast<std::uint16_t>(edge.start | edge.end << 8);
   }
   tree.lanes.resize(tree.lanes.size() + 3 * leaf.vertexChunks() + kFaceRows);
   placeLeaf(content.vertices.data(), content.faces.data(), leaf, tree);

@@ -103,6 +103,7 @@ class Preparation {
               {static_cast<std::uint32_t>(tree_->nodes.size()), children[lane], at.depth + 1});
           tree_->nodes.push_back(fitted(children[lane]));
           of_block.flat |= static_cast<std::uint8_t>(tree_->nodes.back().flat << lane);
+          of_block.leaves |= static_cast<std::uint8_t>(binary_[children[lane]].isLeaf() << lane);
         }
         const bool used = lane < static_cast<int>(children.size());
         writeLane(tree_->nodes[tree_->nodes[at.node].first_child + (used ? lane : 0)], lane, block);

@@ -73,10 +73,10 @@ struct Leaf {
   std::uint32_t offset = 0, feature_offset = 0;
   std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
   float centroid[3] = {};
-  float normal[3] = {};                          ///< mean direction of the faces, of length 1 or 0
-  float normal_bottom = 0, normal_top = 0;       ///< where the vertices lie along it
-  std::uint8_t corners[kMaxLeafFeatures] = {};   ///< vertices of each face
-  std::uint8_t ends[2 * kMaxLeafFeatures] = {};  ///< vertices of each edge
+  float normal[3] = {};                         ///< mean direction of the faces, of length 1 or 0
+  float normal_bottom = 0, normal_top = 0;      ///< where the vertices lie along it
+  std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
+  std::uint16_t ends[kMaxLeafFeatures] = {};    ///< vertices of each edge: start, and end << 8
 
   int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }
 };
@@ -86,9 +86,9 @@ struct Leaf {
 /// candidate.
 enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
-/// How many children a block has, and which of them are flat.
+/// How many children a block has, and which of them are flat, or leaves.
 struct Children {
-  std::uint8_t count = 0, flat = 0;
+  std::uint8_t count = 0, flat = 0, leaves = 0;
   std::uint32_t all() const { return (1U << count) - 1; }
 };
 

@@ -177,7 +177,7 @@ DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W
 template <typename S>
 bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Model<S>& model2,
                 const fcl::Transform3<S>& X_W2, std::common_type_t<S> t,
-                DistanceAnswer<S>* certificate, WarmStart* warm_start) {
+                std::common_type_t<DistanceAnswer<S>>* certificate, WarmStart* warm_start) {
   require(!std::isnan(t), "the distance asked for", t, "a number");
   const ModelPair<S> models(model1, X_W1, model2, X_W2);
   DistanceAnswer<S> unused;

@@ -224,8 +224,8 @@ class TreeOf {
     for (std::uint32_t i = 0; i < leaf.num_edges; ++i) {
       const FeatureId id = ids[leaf.num_faces + i];
       for (std::uint32_t k = 0; k < 2; ++k) {
-        EXPECT_LT(leaf.ends[2 * i + k], leaf.num_vertices);
-        EXPECT_EQ(vector(leaf.offset, 3, leaf.ends[2 * i + k], 0),
+        EXPECT_LT((leaf.ends[i] >> 8 * k & 0xFF), leaf.num_vertices);
+        EXPECT_EQ(vector(leaf.offset, 3, (leaf.ends[i] >> 8 * k & 0xFF), 0),
                   relative(cornerOf(id, k)).template cast<float>());
       }
       EXPECT_TRUE(edge_owner_

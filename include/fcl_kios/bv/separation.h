@@ -20,11 +20,11 @@ struct RelativePose {
   /// A point of B in A.
   fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return R * x_B + T; }
 
-  fcl::Matrix3<S> R;
-  fcl::Vector3<S> T;
-  float Rf[3][3];  ///< R rounded to float.
-  double T_norm1;  ///< |T|_1.
-  double stretch;  ///< |R|_2 - 1 <= stretch.
+  fcl::Matrix3<S> R;  ///< as given, or R1^T R2
+  fcl::Vector3<S> T;  ///< origin of B in A
+  float Rf[3][3];     ///< R rounded to float.
+  double T_norm1;     ///< |T|_1.
+  double stretch;     ///< |R|_2 - 1 <= stretch.
 
  private:
   void precompute(double squared_errors);

@@ -25,8 +25,8 @@ class Cover {
   Cover(Cover&&) noexcept;
   Cover& operator=(Cover&&) noexcept;
 
-  int size() const;
-  const kIOS<S>& volume(int i) const;
+  int size() const;                    ///< number of volumes
+  const kIOS<S>& volume(int i) const;  ///< in the model's frame, 0 <= i < size()
 
  private:
   struct Parts;
@@ -38,7 +38,7 @@ class Cover {
 /// Distance of two covers, with its gradient by the pose of B in A as in ExactDistance: by B's
 /// translation in A, and by a rotation vector in A that turns B about its own origin.
 struct Clearance {
-  double value = 0;
+  double value = 0;  ///< in the models' units
   fcl::Vector3d by_translation = fcl::Vector3d::Zero();
   fcl::Vector3d by_rotation = fcl::Vector3d::Zero();
   int pairs = 0;      ///< of volumes in all

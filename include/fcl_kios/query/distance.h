@@ -88,6 +88,7 @@ DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W
 template <typename S>
 bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Model<S>& model2,
                 const fcl::Transform3<S>& X_W2, std::common_type_t<S> t,
-                DistanceAnswer<S>* certificate = nullptr, WarmStart* warm_start = nullptr);
+                std::common_type_t<DistanceAnswer<S>>* certificate = nullptr,
+                WarmStart* warm_start = nullptr);
 
 }  // namespace kios

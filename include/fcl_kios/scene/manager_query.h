@@ -33,22 +33,26 @@ class ManagerQuery {
   /// Whether to look at the pair.
   using Filter = std::function<bool(const Object*, const Object*)>;
 
+  /// Two objects, as the manager ordered them.
   struct Pair {
     const Object *a = nullptr, *b = nullptr;
     S distance = 0;  ///< fcl::distance(a, b), bit for bit
+    /// The triangles that realise the distance; -1 for geometries that have none.
     std::intptr_t triangle_a = -1, triangle_b = -1;
   };
 
+  /// An empty filter admits all pairs.
   explicit ManagerQuery(Filter filter = {});
   ~ManagerQuery();
   ManagerQuery(ManagerQuery&&) noexcept;
   ManagerQuery& operator=(ManagerQuery&&) noexcept;
 
-  /// Starts a query: of a nearest pair; of all pairs with distance < margin, which must not be NaN.
+  /// Starts a query: of a nearest pair; of all pairs with distance < margin, in the models' units.
+  /// Throws std::invalid_argument if margin is NaN.
   void findClosest();
   void findWithin(S margin);
 
-  /// FCL's DistanceCallBack; `query` is a ManagerQuery<S> that was started. Throws
+  /// FCL's DistanceCallBack; `query` is a `ManagerQuery<S>` that was started. Throws
   /// std::invalid_argument as fcl::distance does.
   static bool callback(Object* o1, Object* o2, void* query, S& dist);
 

@@ -54,7 +54,7 @@ class SceneDistance {
   /// To be called after a geometry that is no mesh over k-IOS was changed in place.
   void changed(int id);
   bool contains(int id) const;
-  std::size_t size() const;
+  std::size_t size() const;  ///< number of objects
 
   /// Excludes a pair, or admits it again. Forgotten when one of the two is removed.
   void exclude(int a, int b, bool excluded = true);

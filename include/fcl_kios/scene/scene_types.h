@@ -14,7 +14,7 @@ enum class Role : std::uint8_t { kBody, kObstacle };
 
 /// What a scene query is asked for besides the distances.
 struct SceneRequest {
-  bool nearest_points = false;
+  bool nearest_points = false;  ///< whether to set ScenePair::nearest_a and nearest_b
   /// If false, pairsWithin() may report any distance of two points of the pair below the margin,
   /// which spares most of the search; which pairs are reported doesn't depend on it.
   bool exact = true;
@@ -23,8 +23,8 @@ struct SceneRequest {
 /// Two objects of a scene, a < b.
 template <typename S>
 struct ScenePair {
-  int a = -1, b = -1;
-  S distance = 0;
+  int a = -1, b = -1;  ///< ids
+  S distance = 0;      ///< in the models' units; 0 at contact
   /// The triangles that realise the distance; -1 for geometries that have none.
   std::intptr_t triangle_a = -1, triangle_b = -1;
   /// In the world; set if asked for.
@@ -46,6 +46,7 @@ struct SceneCounts {
   long long proven_farther = 0;    ///< of those, proven farther than what was asked
   SearchCounts search;             ///< the work of the narrow phase
 
+  /// Pairs that the narrow phase was spared.
   long long skipped() const { return total - queried; }
 };
 

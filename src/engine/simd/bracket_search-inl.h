@@ -31,7 +31,7 @@ class BracketSearch {
         bracket_.out_of_budget = true;
         break;
       }
-      done = expandNearest();
+      done = advance();
     }
     prove();
     if (offered_) judgeVertices();
@@ -40,15 +40,13 @@ class BracketSearch {
  private:
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr size_t kBatch = 4;
-  static constexpr uint32_t kWaiting = 1U << 31;  ///< instead of node a: an index of waiting_
+  static constexpr float kWave = 0.125F;
   static constexpr uint32_t kMaxWaiting = 256;
   static constexpr size_t kMaxDepth = 32;
 
-  const Node& nodeA(Frontier::Pair at) const { return search_.a.nodes[at.a]; }
-  const Node& nodeB(Frontier::Pair at) const { return search_.b.nodes[at.b]; }
-  bool isInner(Frontier::Pair at) const {
-    return (at.a & kWaiting) == 0 && !(nodeA(at).isLeaf() && nodeB(at).isLeaf());
-  }
+  const Node& nodeA(Pair at) const { return search_.a.nodes[at.a]; }
+  const Node& nodeB(Pair at) const { return search_.b.nodes[at.b]; }
+  bool isInner(Pair at) const { return !(nodeA(at).isLeaf() && nodeB(at).isLeaf()); }
 
   void prove() {
     const float least = std::min({in_flight_, current_, frontier_.least()});
@@ -59,7 +57,6 @@ class BracketSearch {
     if (!(prune_at < prune_at_)) return;
     prove();
     prune_at_ = prune_at;
-    frontier_.setUpperBound(prune_at);
   }
 
   /// From the roots to the nearest child, each time, for an upper bound: all that is passed by
@@ -68,7 +65,7 @@ class BracketSearch {
     Expansion path[kMaxDepth];
     uint32_t taken[kMaxDepth];
     size_t depth = 0;
-    Frontier::Entry at = {-kInfinity, {0, 0}, 0};
+    PairList::Entry at = {-kInfinity, {0, 0}};
     in_flight_ = kInfinity;
     while (isInner(at.pair) && depth < kMaxDepth && budget_ > 0) {
       Expansion& e = path[depth];
@@ -89,49 +86,54 @@ class BracketSearch {
       }
       in_flight_ = std::min(in_flight_, std::max(second, e.bound));
       taken[depth - 1] = 1U << nearest;
-      at = {std::max(at.bound, e.bounds[nearest]), expander_.childPair(e, nearest), 0};
+      at = {std::max(at.bound, e.bounds[nearest]), expander_.childPair(e, nearest)};
     }
     const bool lost = depth > 0 && path[depth - 1].near == 0;
     current_ = lost ? kInfinity : at.bound;
     if (!lost && !isInner(at.pair) && leaves(at)) return true;
     for (size_t i = 0; i < depth; ++i) expander_.spread<true>(path[i], frontier_, taken[i]);
     if (!lost && isInner(at.pair)) {  // the budget is spent, or the trees are very deep
-      frontier_.reserve(1);
-      frontier_.push(at.bound, at.pair);
+      frontier_.reserve();
+      frontier_.inner.push(at.bound, at.pair);
     }
     in_flight_ = current_ = kInfinity;
     return false;
   }
 
-  /// Looks at the nearest leaves, and expands a batch of nearest pairs. True to end the search.
-  bool expandNearest() {
-    Expansion batch[kBatch];
-    size_t n = 0;
-    while (n < kBatch && !frontier_.empty()) {
-      const Frontier::Entry entry = frontier_.pop();
-      if (entry.bound >= prune_at_) continue;
-      if (isInner(entry.pair)) {
-        in_flight_ = std::min(in_flight_, entry.bound);
-        expander_.start(entry.pair, batch[n]);
-        batch[n++].bound = entry.bound;
-      } else {
-        current_ = entry.bound;
-        if (leaves(entry)) return true;
-        current_ = kInfinity;
-      }
+  /// Looks at some of what is at hand, or takes more. True to end the search.
+  bool advance() {
+    if (!frontier_.bounded.empty()) {
+      const PairList::Entry entry = frontier_.bounded.pop();
+      return entry.bound < prune_at_ &&
+             current(entry, [&] { return judgeFeatures(waiting_[entry.pair.a], entry.bound); });
     }
-    budget_ -= static_cast<long long>(n);
-    for (size_t i = 0; i < n; ++i) expander_.test(batch[i]);
-    for (size_t i = 0; i < n; ++i) expander_.spread<true>(batch[i], frontier_);
-    in_flight_ = kInfinity;
+    if (!frontier_.leaves.empty()) {
+      const PairList::Entry entry = frontier_.leaves.pop();
+      return entry.bound < prune_at_ && current(entry, [&] { return leaves(entry); });
+    }
+    if (!frontier_.inner.empty()) {
+      PairList::Entry batch[kBatch];
+      const size_t n = frontier_.inner.pop(batch);
+      for (size_t i = 0; i < n; ++i) in_flight_ = std::min(in_flight_, batch[i].bound);
+      budget_ -= static_cast<long long>(n);
+      expander_.expand<true>(batch, n, frontier_);
+      in_flight_ = kInfinity;
+      return false;
+    }
+    frontier_.nextWave(prune_at_, kWave);
+    return false;
+  }
+
+  template <class Look>
+  bool current(const PairList::Entry& entry, const Look& look) {
+    current_ = entry.bound;
+    if (look()) return true;
+    current_ = kInfinity;
     return false;
   }
 
   /// True to end the search.
-  bool leaves(const Frontier::Entry& entry) {
-    if ((entry.pair.a & kWaiting) != 0) {
-      return judgeFeatures(waiting_[entry.pair.a & ~kWaiting], entry.bound);
-    }
+  bool leaves(const PairList::Entry& entry) {
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
@@ -158,8 +160,7 @@ class BracketSearch {
     current_ = bound;
     lowerTo(search_.judge.prune_at);
     if (open) {
-      frontier_.reserve(1);
-      frontier_.push(bound, {kWaiting | num_waiting_, 0});
+      frontier_.keep(bound, num_waiting_);
     }
     ++num_waiting_;
     return false;
@@ -167,8 +168,8 @@ class BracketSearch {
 
   bool budgeted() const { return bracket_.max_expansions != std::numeric_limits<long long>::max(); }
 
-  const Leaf& leafA(Frontier::Pair at) const { return search_.a.leaves[nodeA(at).leaf()]; }
-  const Leaf& leafB(Frontier::Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
+  const Leaf& leafA(Pair at) const { return search_.a.leaves[nodeA(at).leaf()]; }
+  const Leaf& leafB(Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
 
   /// True to end the search.
   bool judgeFeatures(const Bracketed& pair, float bound) {

@@ -7,13 +7,13 @@ namespace kios::engine::HWY_NAMESPACE {
 
 /// Two vertices, by their leaves.
 struct VertexPair {
-  Frontier::Pair nodes;
+  Pair nodes;
   uint32_t a, b;
 };
 
 /// Two leaves that were looked at.
 struct Bracketed {
-  Frontier::Pair nodes;
+  Pair nodes;
   Slab slab;            ///< the one that proves most; no points are set
   float lower, upper;   ///< bounds of the distance
   VertexPair vertices;  ///< the nearest so far: the upper bound

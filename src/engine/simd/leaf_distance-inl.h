@@ -65,21 +65,6 @@ HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad
                         hn::Set(d, std::numeric_limits<float>::infinity()));
 }
 
-/// Vertices with w . p >= least, as bits.
-HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
-  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
-  const V leasts = hn::Set(d, least);
-  uint32_t result = 0;
-  for (int c = 0; c < vertices.chunks; ++c) {
-    const Lanes* const rows = vertices.rows + 3 * c;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const V along = dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
-      result |= bitsOf(hn::Ge(along, leasts)) << (kLanes * c + l);
-    }
-  }
-  return result;
-}
-
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
 /// of b's edges; a vertex of a against b's faces; a vertex of b against a's faces.
 class LeafDistances {
@@ -208,7 +193,8 @@ class LeafDistances {
     const uint32_t i = static_cast<uint32_t>(row.index);
     if (row.kind == PairKind::kEdgeEdge) {
       const uint32_t j = static_cast<uint32_t>(kLanes * row.chunk) + lane;
-      return {row.kind, a_.edge(edges_a_.index[i]), b_.edge(edges_b_.index[j])};
+      return {row.kind, a_.edge(edges_a_.index(row.index)),
+              b_.edge(edges_b_.index(static_cast<int>(j)))};
     }
     if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(i), b_.face(lane)};
     return {row.kind, a_.face(lane), b_.vertex(i)};
@@ -226,7 +212,7 @@ class LeafDistances {
 
 /// Two leaves that were looked at, and no slab proved to be far enough apart.
 struct Slabbed {
-  Frontier::Pair nodes;
+  Pair nodes;
   Slab slab;
 };
 
@@ -256,7 +242,7 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   // Only what overlaps can cross.
-  if (bound <= 0 && edgesCross(search, a, b, vertices_b)) return true;
+  if (bound <= 0 && edgesCross(search, a, b, vertices_b, slab)) return true;
   LeafDistances distances(a, b);
   const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
   return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
@@ -271,7 +257,7 @@ HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, cons
   separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
-  return edgesCross(search, a, b, vertices_b);
+  return edgesCross(search, a, b, vertices_b, slab);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.

@@ -33,8 +33,11 @@ struct EdgeRows {
   int chunks() const { return (count + kLanes - 1) / kLanes; }
 
   Lanes rows[6 * kMaxChunks];
-  uint8_t index[kMaxLeafFeatures];  ///< of the leaf's edges
+  /// Which of the leaf's edges, << 16, and its ends as in Leaf. A vector more than fits is written.
+  alignas(32) uint32_t edges[kMaxLeafFeatures + kLanes];
   int count;
+
+  uint32_t index(int i) const { return edges[i] >> 16; }
 };
 
 HWY_INLINE Points moveVertices(const LeafView& leaf, const FloatPose& X, VertexRows& out) {
@@ -44,27 +47,59 @@ HWY_INLINE Points moveVertices(const LeafView& leaf, const FloatPose& X, VertexR
   return {out.rows, leaf.vertices.chunks};
 }
 
+/// Coordinate i of the points that the lanes of `at` name.
+HWY_INLINE V lookUp(const Points& points, int i, hn::Vec<DU> at) {
+  if constexpr (hn::MaxLanes(d) == kLanes) {
+    const auto lane = hn::IndicesFromVec(d, hn::And(at, hn::Set(du, kLanes - 1)));
+    V found = hn::TableLookupLanes(load(points.rows[i], 0), lane);
+    for (int c = 1; c < points.chunks; ++c) {
+      const V of_chunk = hn::TableLookupLanes(load(points.rows[3 * c + i], 0), lane);
+      const auto there = hn::Gt(at, hn::Set(du, static_cast<uint32_t>(kLanes * c - 1)));
+      found = hn::IfThenElse(hn::RebindMask(d, there), of_chunk, found);
+    }
+    return found;
+  } else {
+    uint32_t which[kLanes];
+    float found[kLanes];
+    hn::StoreU(at, du, which);
+    for (size_t l = 0; l < step(); ++l) {
+      found[l] = points.rows[3 * (which[l] / kLanes) + i].v[which[l] % kLanes];
+    }
+    return hn::LoadU(d, found);
+  }
+}
+
 /// The edges that have an end in `vertices_wanted` (bits), between vertices in some frame.
 HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, uint32_t vertices_wanted,
                             EdgeRows& out) {
-  const uint8_t* const ends = leaf.leaf.ends;
+  const auto wanted = hn::Set(du, vertices_wanted), byte = hn::Set(du, 0xFF), one = hn::Set(du, 1);
   out.count = 0;
-  for (int i = 0; i < leaf.leaf.num_edges; ++i) {
-    out.index[out.count] = static_cast<uint8_t>(i);
-    out.count += ((vertices_wanted >> ends[2 * i]) | (vertices_wanted >> ends[2 * i + 1])) & 1U;
+  for (size_t i = 0; i < leaf.leaf.num_edges; i += step()) {
+    const auto ends = hn::PromoteTo(du, hn::LoadU(du16, leaf.leaf.ends + i));
+    const auto index = hn::Iota(du, static_cast<uint32_t>(i));
+    const auto either =
+        hn::Or(hn::Shr(wanted, hn::And(ends, byte)), hn::Shr(wanted, hn::ShiftRight<8>(ends)));
+    const auto taken = hn::And(hn::Ne(hn::And(either, one), hn::Zero(du)),
+                               hn::Lt(index, hn::Set(du, uint32_t{leaf.leaf.num_edges})));
+    const uint32_t bits = bitsOf(hn::RebindMask(d, taken));
+    hn::StoreU(ToFront(bits)(hn::Or(hn::ShiftLeft<16>(index), ends)), du, out.edges + out.count);
+    out.count += static_cast<int>(hwy::PopCount(bits));
   }
-  for (int i = 0; i < kLanes * out.chunks(); ++i) {
-    const int edge = out.index[std::min(i, out.count - 1)];
-    const Vec3 start = vertices.at(ends[2 * edge]);
-    const Vec3 along = vertices.at(ends[2 * edge + 1]) - start;
-    Lanes* const chunk = out.rows + 6 * (i / kLanes);
-    const int lane = i % kLanes;
-    chunk[0].v[lane] = start.x;
-    chunk[1].v[lane] = start.y;
-    chunk[2].v[lane] = start.z;
-    chunk[3].v[lane] = along.x;
-    chunk[4].v[lane] = along.y;
-    chunk[5].v[lane] = along.z;
+  if (out.count == 0) return;
+  for (size_t l = 0; l < kLanes; l += step()) {
+    hn::StoreU(hn::Set(du, out.edges[out.count - 1]), du, out.edges + out.count + l);
+  }
+  for (int c = 0; c < out.chunks(); ++c) {
+    Lanes* const chunk = out.rows + 6 * c;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const auto edges = hn::Load(du, out.edges + c * kLanes + l);
+      const auto starts = hn::And(edges, byte), ends = hn::And(hn::ShiftRight<8>(edges), byte);
+      for (int i = 0; i < 3; ++i) {
+        const V start = lookUp(vertices, i, starts);
+        hn::Store(start, d, chunk[i].v + l);
+        hn::Store(hn::Sub(lookUp(vertices, i, ends), start), d, chunk[3 + i].v + l);
+      }
+    }
   }
 }
 
@@ -91,6 +126,21 @@ HWY_INLINE void separateLeaves(const LeafView& a, const LeafView& b, const Point
   } else {
     between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));
   }
+}
+
+/// Vertices with w . p >= least, as bits.
+HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
+  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
+  const V leasts = hn::Set(d, least);
+  uint32_t result = 0;
+  for (int c = 0; c < vertices.chunks; ++c) {
+    const Lanes* const rows = vertices.rows + 3 * c;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V along = dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
+      result |= bitsOf(hn::Ge(along, leasts)) << (kLanes * c + l);
+    }
+  }
+  return result;
 }
 
 struct Faces {
@@ -137,21 +187,21 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
   return result;
 }
 
-/// Judges the edges of one leaf, in rows moved to the frame of the other, against its faces.
+/// Judges some edges of one leaf, in rows moved to the frame of the other, against its faces.
 template <bool kEdgesOfA>
-HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& all, const LeafView& faces,
+HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const LeafView& faces,
                             float pad, Judge& judge, long long& exact) {
   const uint32_t used = (1U << faces.leaf.num_faces) - 1;
-  for (uint32_t i = 0; i < edges.leaf.num_edges; ++i) {
-    const Points chunk = {all.rows + 6 * (i / kLanes), 1};
+  for (int i = 0; i < some.count; ++i) {
+    const Points chunk = {some.rows + 6 * (i / kLanes), 1};
     const Points directions = {chunk.rows + 3, 1};
-    const int lane = static_cast<int>(i % kLanes);
+    const int lane = i % kLanes;
     uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & used;
     for (; may != 0; may &= may - 1) {
       ++exact;
-      const FeatureId face = faces.face(firstOf(may));
-      if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edges.edge(i), face}
-                                : Candidate{PairKind::kFaceEdge, face, edges.edge(i)})) {
+      const FeatureId face = faces.face(firstOf(may)), edge = edges.edge(some.index(i));
+      if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edge, face}
+                                : Candidate{PairKind::kFaceEdge, face, edge})) {
         return true;
       }
     }
@@ -159,16 +209,22 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& all, const Le
   return false;
 }
 
-/// Judges the edges of either leaf against the faces of the other.
+/// Judges the edges of either leaf against the faces of the other. What meets lies between the
+/// planes of the slab, so that edges beyond can't.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
-                           const Points& vertices_b) {
+                           const Points& vertices_b, const Slab& slab) {
   const FramePair& frames = search.frames;
   long long& exact = search.counts.exact;
+  const float ww = dot(slab.w, slab.w), thickness = frames.pad * std::sqrt(ww);
+  const bool precise = ww >= kLeastSquare;
+  const auto wanted = [&](uint32_t facing) { return precise ? facing : kAllVertices; };
   EdgeRows edges;
-  gatherEdges(b, vertices_b, kAllVertices, edges);
+  gatherEdges(b, vertices_b, wanted(facing(vertices_b, -1.0F * slab.w, -slab.top_a - thickness)),
+              edges);
   if (crossings<false>(b, edges, a, frames.pad, search.judge, exact)) return true;
   VertexRows moved_a;
-  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a), kAllVertices, edges);
+  gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a),
+              wanted(facing(a.vertices, slab.w, slab.bottom_b - thickness)), edges);
   return crossings<true>(a, edges, b, frames.pad, search.judge, exact);
 }
 

@@ -9,7 +9,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Products and sums are never fused, so that all targets give bitwise the same floats.
 using D = hn::CappedTag<float, kLanes>;
 using V = hn::Vec<D>;
+using DU = hn::Rebind<uint32_t, D>;
 constexpr D d;
+constexpr DU du;
+constexpr hn::Rebind<uint16_t, D> du16;
 HWY_INLINE size_t step() { return hn::Lanes(d); }
 
 HWY_INLINE V load(const Lanes& lanes, size_t at) { return hn::Load(d, lanes.v + at); }

@@ -1,0 +1,242 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+using VU = hn::Vec<DU>;
+
+HWY_INLINE uint32_t firstOf(uint32_t bits) {
+  return static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits));
+}
+
+HWY_INLINE uint32_t bitsOf(hn::Mask<D> mask) {
+  uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+HWY_INLINE hn::Mask<DU> maskOf(uint32_t bits) {
+  const uint8_t bytes[8] = {static_cast<uint8_t>(bits)};
+  return hn::LoadMaskBits(du, bytes);
+}
+
+/// Moves some lanes, given as bits, to the front. hn::Compress() of Highway 1.0 copies its table
+/// to the stack with some compilers.
+class ToFront {
+ public:
+  explicit ToFront(uint32_t bits)
+      : order_(hn::IndicesFromVec(
+            d, hn::PromoteTo(du, hn::LoadU(hn::Rebind<uint8_t, D>(), kLaneOrder[bits].data())))) {}
+
+  V operator()(V v) const { return hn::TableLookupLanes(v, order_); }
+  VU operator()(VU v) const {
+    return hn::BitCast(du, hn::TableLookupLanes(hn::BitCast(d, v), order_));
+  }
+
+ private:
+  const decltype(hn::IndicesFromVec(d, hn::Zero(du))) order_;
+};
+
+/// Nodes of a and b; which fields hold something else is said where it is so.
+struct Pair {
+  uint32_t a, b;
+};
+
+/// Pairs of nodes with lower bounds of their distances, in arrays. Lanes are pushed without a
+/// branch: which of them matter can't be predicted.
+class PairList {
+ public:
+  struct Entry {
+    float bound;
+    Pair pair;
+  };
+
+  bool empty() const { return size_ == 0; }
+  size_t size() const { return size_; }
+
+  /// Room for so many more.
+  void reserve(size_t more) {
+    if (HWY_UNLIKELY(size_ + more + kLanes > capacity_)) grow(2 * (size_ + more + kLanes));
+  }
+
+  /// There must be room: see reserve().
+  void push(float bound, Pair pair) {
+    bounds_[size_] = bound;
+    a_[size_] = pair.a;
+    b_[size_] = pair.b;
+    ++size_;
+  }
+  void push(uint32_t lanes, V bounds, VU a, VU b) {
+    const ToFront to_front(lanes);
+    const size_t at = size_;  // stores may alias members
+    float* const to_bounds = bounds_ + at;
+    uint32_t *const to_a = a_ + at, *const to_b = b_ + at;
+    size_ = at + hwy::PopCount(lanes);
+    hn::StoreU(to_front(bounds), d, to_bounds);
+    hn::StoreU(to_front(a), du, to_a);
+    hn::StoreU(to_front(b), du, to_b);
+  }
+
+  /// Swaps an entry with the last.
+  void raise(size_t i) {
+    const size_t last = std::max(i + 1, size_) - 1;  // i itself, where there is none
+    std::swap(bounds_[i], bounds_[last]);
+    std::swap(a_[i], a_[last]);
+    std::swap(b_[i], b_[last]);
+  }
+
+  Entry pop() {
+    --size_;
+    return {bounds_[size_], {a_[size_], b_[size_]}};
+  }
+
+  /// Pops up to kMax; returns how many.
+  template <size_t kMax>
+  size_t pop(Entry (&out)[kMax]) {
+    static_assert(kMax <= kLanes);
+    const size_t count = std::min(kMax, size_);
+    size_ -= count;
+    for (size_t i = 0; i < kMax; ++i) {  // there is room for all of them beyond the end
+      out[i] = {bounds_[size_ + i], {a_[size_ + i], b_[size_ + i]}};
+    }
+    return count;
+  }
+
+  /// The least bound of all; infinity if empty.
+  float least() const {
+    const V infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = infinity;
+    for (size_t i = 0; i < size_; i += step()) {
+      const uint32_t used = (1U << std::min(size_ - i, step())) - 1;
+      const V bounds = hn::LoadU(d, bounds_ + i);
+      least = hn::Min(least, hn::IfThenElse(hn::RebindMask(d, maskOf(used)), bounds, infinity));
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
+  }
+
+  /// Takes everything out, lanes by lanes: take(lanes, bounds, a, b) may push up to as many again.
+  template <class Take>
+  void takeAll(const Take& take) {
+    const size_t size = size_;
+    size_ = 0;
+    for (size_t i = 0; i < size; i += step()) {
+      const V bounds = hn::LoadU(d, bounds_ + i);
+      const VU a = hn::LoadU(du, a_ + i), b = hn::LoadU(du, b_ + i);
+      take((1U << std::min(size - i, step())) - 1, bounds, a, b);
+    }
+  }
+
+ private:
+  HWY_NOINLINE void grow(size_t capacity) {
+    std::vector<float> bounds(capacity);
+    std::vector<uint32_t> pairs(2 * capacity);
+    std::copy_n(bounds_, size_, bounds.data());
+    std::copy_n(a_, size_, pairs.data());
+    std::copy_n(b_, size_, pairs.data() + capacity);
+    more_bounds_ = std::move(bounds);
+    more_pairs_ = std::move(pairs);
+    bounds_ = more_bounds_.data();
+    a_ = more_pairs_.data();
+    b_ = a_ + capacity;
+    capacity_ = capacity;
+  }
+
+  static constexpr size_t kUsual = 256;
+  float usual_bounds_[kUsual];
+  uint32_t usual_a_[kUsual], usual_b_[kUsual];
+  std::vector<float> more_bounds_;
+  std::vector<uint32_t> more_pairs_;
+  float* bounds_ = usual_bounds_;
+  uint32_t *a_ = usual_a_, *b_ = usual_b_;
+  size_t size_ = 0, capacity_ = kUsual;
+};
+
+/// Pairs that wait. Those that overlap must all be looked at: they are at hand, the last in first.
+/// Those apart wait for their turn in waves, the nearest first.
+class Frontier {
+ public:
+  Frontier() { hn::Store(hn::Set(d, kInfinity), d, least_); }
+
+  PairList inner;    ///< at hand: pairs of nodes not both of which are leaves
+  PairList leaves;   ///< at hand: pairs of leaves
+  PairList bounded;  ///< at hand: in `a`, what keep() was told
+
+  /// There is room for a vector of lanes in each list after this.
+  void reserve() {
+    inner.reserve(kLanes);
+    leaves.reserve(kLanes);
+    apart_.reserve(kLanes);
+  }
+
+  /// Pushes some lanes, of which some are pairs of leaves. There must be room: see reserve().
+  void push(uint32_t lanes, uint32_t are_leaves, V bounds, VU a, VU b) {
+    const uint32_t overlapping = lanes & bitsOf(hn::Le(bounds, hn::Zero(d)));
+    leaves.push(overlapping & are_leaves, bounds, a, b);
+    inner.push(overlapping & ~are_leaves, bounds, a, b);
+    const VU tag = hn::IfThenElseZero(maskOf(are_leaves), hn::Set(du, kLeaves));
+    pushApart(lanes & ~overlapping, bounds, hn::Or(a, tag), b);
+  }
+
+  /// What was bounded, and waits again.
+  void keep(float bound, uint32_t index) {
+    apart_.reserve(1);
+    apart_.push(bound, {index | kBounded, 0});
+    hn::Store(hn::Min(hn::Load(d, least_), hn::Set(d, bound)), d, least_);
+  }
+
+  bool empty() const {
+    return inner.empty() && leaves.empty() && bounded.empty() && apart_.empty();
+  }
+
+  /// The least bound of all; infinity if empty.
+  HWY_NOINLINE float least() const {
+    return std::min({inner.least(), leaves.least(), bounded.least(), apart_.least()});
+  }
+
+  /// Takes at hand what is nearest of what is apart: a `share` of the way to `prune_at`, all of
+  /// which must be looked at anyway if the answer is beyond. What is as far as `prune_at` is
+  /// dropped. False if that is all.
+  bool nextWave(float prune_at, float share) {
+    const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
+    const float at_most =
+        prune_at < kInfinity ? least + share * (prune_at - least) : (1 + share / 4) * least;
+    const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
+    const VU tags = hn::Set(du, kLeaves | kBounded);
+    hn::Store(hn::Set(d, kInfinity), d, least_);
+    inner.reserve(apart_.size());
+    leaves.reserve(apart_.size());
+    bounded.reserve(apart_.size());
+    apart_.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
+      const auto having = [&](uint32_t tag) {
+        return bitsOf(hn::RebindMask(d, hn::Eq(hn::And(a, tags), hn::Set(du, tag))));
+      };
+      const uint32_t kept = lanes & bitsOf(hn::Lt(bounds, limit));
+      const uint32_t near = kept & bitsOf(hn::Le(bounds, most));
+      const VU node = hn::AndNot(tags, a);
+      inner.push(near & having(0), bounds, node, b);
+      leaves.push(near & having(kLeaves), bounds, node, b);
+      bounded.push(near & having(kBounded), bounds, node, b);
+      pushApart(kept & ~near, bounds, a, b);
+    });
+    return least < prune_at;
+  }
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr uint32_t kLeaves = 1U << 31, kBounded = 1U << 30;  ///< in `a` of apart_
+
+  void pushApart(uint32_t lanes, V bounds, VU a, VU b) {
+    apart_.push(lanes, bounds, a, b);
+    const auto pushed = hn::RebindMask(d, maskOf(lanes));
+    const V least = hn::Load(d, least_);
+    hn::Store(hn::Min(least, hn::IfThenElse(pushed, bounds, least)), d, least_);
+  }
+
+  PairList apart_;
+  alignas(32) float least_[kLanes];  ///< the least bounds of apart_ are among these
+};
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();

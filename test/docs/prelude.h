@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What the code in the documentation may use without declaring it.
+#pragma once
+
+#include <fcl_kios/fcl_kios.h>
+
+#include <iostream>
+#include <memory>
+#include <vector>
+
+inline std::shared_ptr<kios::Modeld> model, other;
+inline fcl::Transform3d X_W, X_W2, X_W3;
+inline fcl::CollisionObjectd collision_object(std::make_shared<fcl::Sphered>(1));
+inline bool allowed(int a, int b) { return a < b; }
