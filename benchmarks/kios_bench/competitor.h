@@ -91,8 +91,16 @@ std::unique_ptr<Competitor> makeCompetitor(const std::string& name);
 /// Names that makeCompetitor knows, ours first.
 std::vector<std::string> competitorNames();
 
+/// Those that run where none is named.
+std::vector<std::string> defaultCompetitorNames();
+
 /// Ours. In a file of its own, as that file sees the overloads of fcl::distance and fcl::collide:
 /// the rows of FCL's volumes must not pay for their dispatch.
 std::unique_ptr<Competitor> makeKiosCompetitor();
+
+/// Our volume without the engine: FCL's recursion over FCL's binary tree, by our traversal nodes,
+/// with the tuned fit, and with the paper's Method II as published.
+std::unique_ptr<Competitor> makeKiosTreeCompetitor();
+std::unique_ptr<Competitor> makeMethodTwoCompetitor();
 
 }  // namespace kios::bench

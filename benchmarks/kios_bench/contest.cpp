@@ -4,6 +4,7 @@
 #include "contest.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "timing.h"
 #include "verdicts.h"
@@ -250,6 +251,27 @@ std::vector<Row> Contest::queryRows(const Task& task) {
     rows.push_back(std::move(row));
   }
   return rows;
+}
+
+std::map<std::string, std::vector<double>> Contest::frameTimes(const Task& task) {
+  const std::size_t pairs = task.questions.size() / task.frames;
+  std::vector<double> answers(task.questions.size());
+  std::map<std::string, std::vector<double>> best;
+  for (int repeat = 0; repeat < options_.repeats; ++repeat) {
+    for (Entrant& entrant : entrants_) {
+      if (!entrant.competitor->serves(task.query)) continue;
+      std::vector<double>& frames = best[entrant.competitor->name()];
+      frames.resize(task.frames, std::numeric_limits<double>::infinity());
+      for (std::size_t frame = 0; frame < task.frames; ++frame) {
+        const double us = timeOf([&] {
+          entrant.competitor->answer(task.query, task.questions, frame * pairs, (frame + 1) * pairs,
+                                     answers);
+        });
+        frames[frame] = std::min(frames[frame], us);
+      }
+    }
+  }
+  return best;
 }
 
 }  // namespace kios::bench

@@ -55,6 +55,9 @@ class Contest {
   /// with the oracle, and tests are counted in a pass that is not timed.
   std::vector<Row> queryRows(const Task& task);
 
+  /// The least time of each frame over options.repeats, by competitor, in microseconds.
+  std::map<std::string, std::vector<double>> frameTimes(const Task& task);
+
   /// The oracle of two of the meshes, made when first asked for.
   const scenes::MeshOracle& oracle(std::size_t a = 0, std::size_t b = 1);
 

@@ -11,6 +11,8 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "mesh_set.h"
+#include "node_queries.h"
+#include "shape_competitor.h"
 
 namespace kios::bench {
 namespace {
@@ -27,6 +29,7 @@ struct FclQueries {
                       const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
     fcl::collide(a, b, request, result);
   }
+  static std::nullptr_t fitter() { return nullptr; }
   static std::optional<std::string> simdTarget() { return std::nullopt; }
 };
 
@@ -50,6 +53,14 @@ struct RssTraits : FclQueries, CountedByNodes<nodes::MeshDistanceTraversalNodeRS
   static constexpr const char* kName = "fcl_rss";
 };
 
+// Both queries of RSS in the models as they are, by FCL's own nodes.
+struct RssTreeTraits
+    : NodeQueries<nodes::MeshDistanceTraversalNodeRSSd, nodes::MeshCollisionTraversalNodeRSSd> {
+  using BV = fcl::RSSd;
+  static constexpr const char* kName = "fcl_rss_tree";
+  static std::nullptr_t fitter() { return nullptr; }
+};
+
 // FCL has no distance between OBBs.
 struct ObbTraits : FclQueries, CountedByNodes<NoNode, nodes::MeshCollisionTraversalNodeOBBd> {
   using BV = fcl::OBBd;
@@ -64,6 +75,7 @@ std::unique_ptr<Competitor> makeFclCompetitor() {
 struct Entry {
   const char* name;
   std::unique_ptr<Competitor> (*make)();
+  bool by_default = true;
 };
 
 constexpr Entry kCompetitors[] = {
@@ -72,9 +84,16 @@ constexpr Entry kCompetitors[] = {
     {RssTraits::kName, makeFclCompetitor<RssTraits>},
     {ObbrssTraits::kName, makeFclCompetitor<ObbrssTraits>},
     {ObbTraits::kName, makeFclCompetitor<ObbTraits>},
+    {"kios_tree", makeKiosTreeCompetitor, false},
+    {"kios_method_ii", makeMethodTwoCompetitor, false},
+    {RssTreeTraits::kName, makeFclCompetitor<RssTreeTraits>, false},
 };
 
 }  // namespace
+
+std::unique_ptr<ShapeCompetitor> makeObbrssShapeCompetitor() {
+  return std::make_unique<MeshAndShape<ObbrssTraits>>();
+}
 
 const char* name(Query query) {
   switch (query) {
@@ -97,6 +116,14 @@ const char* name(Query query) {
 std::vector<std::string> competitorNames() {
   std::vector<std::string> names;
   for (const Entry& entry : kCompetitors) names.emplace_back(entry.name);
+  return names;
+}
+
+std::vector<std::string> defaultCompetitorNames() {
+  std::vector<std::string> names;
+  for (const Entry& entry : kCompetitors) {
+    if (entry.by_default) names.emplace_back(entry.name);
+  }
   return names;
 }
 

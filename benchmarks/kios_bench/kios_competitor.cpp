@@ -4,6 +4,7 @@
 #include <fcl_kios/fcl_kios.h>
 
 #include "mesh_set.h"
+#include "shape_competitor.h"
 
 namespace kios::bench {
 namespace {
@@ -23,6 +24,8 @@ struct KiosTraits {
                       const fcl::CollisionRequestd& request, fcl::CollisionResultd& result) {
     fcl::collide(a, b, request, result);
   }
+
+  static std::nullptr_t fitter() { return nullptr; }
 
   // Volumes tested and pairs of leaves (of up to eight triangles each) reached.
   static void countDistance(const kios::Modeld& a, const kios::Modeld& b,
@@ -49,6 +52,10 @@ struct KiosTraits {
 };
 
 }  // namespace
+
+std::unique_ptr<ShapeCompetitor> makeKiosShapeCompetitor() {
+  return std::make_unique<MeshAndShape<KiosTraits>>();
+}
 
 std::unique_ptr<Competitor> makeKiosCompetitor() { return std::make_unique<MeshSet<KiosTraits>>(); }
 

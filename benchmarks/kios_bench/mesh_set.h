@@ -80,7 +80,10 @@ struct CountedByNodes {
 ///   kName          name in rows
 ///   distance(a, b, request, result), collide(...)  the call a user makes on two objects
 ///   countDistance(a, b, poses, result, counts), countCollide(...)  the same for two models,
-///   counted preparedBytes(model)  what queries made of a model simdTarget()
+///   counted
+///   fitter()              what fits the nodes, or nullptr
+///   preparedBytes(model)  what queries made of a model
+///   simdTarget()
 template <typename Traits>
 class MeshSet final : public Competitor {
  public:
@@ -105,7 +108,7 @@ class MeshSet final : public Competitor {
   }
 
   void build(const std::vector<scenes::Mesh>& meshes) override {
-    for (const scenes::Mesh& mesh : meshes) scenes::buildModel<BV>(mesh);
+    for (const scenes::Mesh& mesh : meshes) scenes::buildModel<BV>(mesh, Traits::fitter());
   }
 
   void prepare(const std::vector<scenes::Mesh>& meshes, const Question& question) override {
@@ -118,7 +121,7 @@ class MeshSet final : public Competitor {
   void load(const std::vector<scenes::Mesh>& meshes) override {
     bodies_.clear();
     for (const scenes::Mesh& mesh : meshes) {
-      const std::shared_ptr<Model> model = scenes::buildModel<BV>(mesh);
+      const std::shared_ptr<Model> model = scenes::buildModel<BV>(mesh, Traits::fitter());
       bodies_.push_back({model, std::make_unique<fcl::CollisionObjectd>(model),
                          std::make_unique<fcl::CollisionObjectd>(model)});
     }

@@ -37,6 +37,11 @@ struct Row {
   std::optional<double> leaf_tests;
   std::optional<double> bytes_per_triangle;
   std::optional<double> build_us_per_triangle;
+  std::optional<double> mean_spheres;      // k of a node's k-IOS
+  std::optional<double> floats_per_bv;     // as the k-IOS paper counts
+  std::optional<double> tightness;         // mean of bound / true distance of the contents
+  std::optional<double> ratio_to_ssv;      // as ratio_to_fcl_obbrss, to FCL's RSS in its own nodes
+  std::optional<double> max_ratio_to_ssv;  // the largest of all frames
   std::optional<std::size_t> skipped_pairs;
   std::optional<std::size_t> total_pairs;  // of all frames, where a frame has several
   std::optional<double> narrow_queries;    // per frame, of the pairs of a scene

@@ -28,6 +28,24 @@ const std::vector<Scenario>& scenarios() {
        runRobotScenes},
       {"scene", "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles",
        runScene},
+      {"paper",
+       "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "
+       "engine, FCL's RSS",
+       runPaper},
+      {"fits",
+       "every construction of k-IOS, choice of k and angle, and spheres, boxes, RSS and k-DOPs "
+       "over "
+       "one tree and traversal",
+       runFits},
+      {"packing",
+       "tests of two k-IOS in SIMD: four sphere pairs at a time as the paper, eight nodes at a "
+       "time",
+       runPacking},
+      {"exact", "exact distance of two k-IOS beside its bound and FCL's RSS", runExact},
+      {"shapes", "a mesh of 20k triangles against seven of FCL's shapes", runShapes},
+      {"octrees", "the same mesh against an octree", runOctrees},
+      {"continuous", "first contact in time of two tori on random motions, and FCL's",
+       runContinuous},
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fcl/geometry/bvh/BVH_model.h>
@@ -46,16 +47,19 @@ inline Mesh soup(const Mesh& mesh) {
   return result;
 }
 
-/// The mesh as an FCL model over any bounding volume, vertices cast to BV::S.
+/// The mesh as an FCL model over any bounding volume, vertices cast to BV::S, its nodes fitted by
+/// `fitter` if one is given.
 /// Throws std::runtime_error if FCL refuses the mesh (for instance one without triangles).
 template <typename BV>
-std::shared_ptr<fcl::BVHModel<BV>> buildModel(const Mesh& mesh) {
+std::shared_ptr<fcl::BVHModel<BV>> buildModel(
+    const Mesh& mesh, std::shared_ptr<fcl::detail::BVFitterBase<BV>> fitter = nullptr) {
   std::vector<fcl::Vector3<typename BV::S>> vertices;
   vertices.reserve(mesh.vertices.size());
   for (const fcl::Vector3d& p : mesh.vertices) {
     vertices.push_back(p.template cast<typename BV::S>());
   }
   auto model = std::make_shared<fcl::BVHModel<BV>>();
+  if (fitter) model->bv_fitter = std::move(fitter);
   int status = model->beginModel(static_cast<int>(mesh.triangles.size()),
                                  static_cast<int>(mesh.vertices.size()));
   if (status == fcl::BVH_OK) status = model->addSubModel(vertices, mesh.triangles);

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <cmath>
+
+#include "fcl_kios/variants/kios_policy.h"
+#include "fcl_kios/variants/packed_policy.h"
+#include "fcl_policies.h"
+#include "fit_entrant.h"
+
+namespace kios::bench {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+using Entrants = std::vector<std::unique_ptr<FitEntrant>>;
+
+/// Spheres with their own radii, or with one that all but S0 share.
+VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
+  const int k = bv.k();
+  const bool shares = shared_radius && k > 1;
+  return {shares ? 4.0 + 3 * (k - 1) + 1 : 4.0 * k, static_cast<double>(k)};
+}
+
+void addKios(Entrants& all, const std::string& name, const FitOptions& options) {
+  const bool shared = options.shared_radius;
+  all.push_back(std::make_unique<VariantEntrant<KiosPolicy>>(
+      name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); }));
+}
+
+/// The paper's choices of k, and angles about its pi/6, of one method.
+void addChoices(Entrants& all, const std::string& name, FitMethod method) {
+  FitOptions options(method);
+  options.count = SphereCount::kAll;
+  addKios(all, name + "_k5", options);
+  options.count = SphereCount::kByGain;
+  addKios(all, name + "_by_gain", options);
+  options.count = SphereCount::kByRatio;
+  for (const int degrees : {15, 22, 45}) {
+    options.angle = degrees == 22 ? kPi / 8 : kPi * degrees / 180;
+    addKios(all, name + "_" + std::to_string(degrees) + "deg", options);
+  }
+}
+
+/// Volumes that hold no more floats than their kind needs: for each cap its place, of so many
+/// floats, and its radius unless that is shared.
+template <typename Policy>
+void addPacked(Entrants& all, const std::string& name, const Policy& policy, int floats_of_place,
+               bool shared_radius) {
+  const auto size_of = [=](const PackedStore::Packed& bv) {
+    int caps = 0;
+    for (int axis = 0; axis < 8; ++axis) caps += 2 * ((bv.pairs >> axis) & 1);
+    const int shared = shared_radius && caps > 0 ? 1 : 0;
+    const int of_cap = floats_of_place + (shared_radius ? 0 : 1);
+    return VolumeSize{4.0 + shared + of_cap * caps, 1.0 + caps};
+  };
+  all.push_back(std::make_unique<VariantEntrant<Policy>>(name, policy, size_of));
+}
+
+/// The paper's kinds (III-A) and its scale of k (V-B).
+void addKinds(Entrants& all) {
+  FitOptions every, every_shared;
+  every.count = SphereCount::kAll;
+  every_shared = every;
+  every_shared.shared_radius = true;
+  FitOptions published_shared(FitMethod::kMethodII);
+  published_shared.shared_radius = true;
+  addPacked(all, "kios_packed_method_ii", OrientedKios<5>(published_shared), 3, true);
+  addPacked(all, "kios_packed_tuned", OrientedKios<5>(), 3, false);
+  addPacked(all, "kios_k3", OrientedKios<3>(every), 3, false);
+  addPacked(all, "kios_k7", OrientedKios<7>(every), 3, false);
+  addPacked(all, "kios_axis_aligned", AxisAlignedKios(), 1, false);
+  addPacked(all, "kios_axis_aligned_all", AxisAlignedKios(every), 1, false);
+  addPacked(all, "kios_axis_aligned_shared", AxisAlignedKios(every_shared), 1, true);
+  addPacked(all, "kios_fixed_axes", FixedDirectionKios(), 1, false);
+  addPacked(all, "kios_fixed_axes_all", FixedDirectionKios(every), 1, false);
+  addPacked(all, "kios_fixed_axes_shared", FixedDirectionKios(every_shared), 1, true);
+  // Through the corners of an icosahedron: k = 13.
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  const std::vector<fcl::Vector3d> six = {{0, 1, g},  {0, 1, -g}, {1, g, 0},
+                                          {1, -g, 0}, {g, 0, 1},  {-g, 0, 1}};
+  addPacked(all, "kios_fixed_6", FixedDirectionKios(six, every), 1, false);
+  addPacked(all, "kios_fixed_6_shared", FixedDirectionKios(six, every_shared), 1, true);
+}
+
+template <typename Policy>
+void addOther(Entrants& all, const std::string& name, double numbers, bool serves_distance = true) {
+  all.push_back(std::make_unique<VariantEntrant<Policy>>(
+      name, Policy(),
+      [numbers](const auto& /*bv*/) {
+        return VolumeSize{numbers, 0};
+      },
+      serves_distance));
+}
+
+}  // namespace
+
+std::vector<std::unique_ptr<FitEntrant>> fitEntrants() {
+  Entrants all;
+  addKios(all, "kios_method_i", FitMethod::kMethodI);
+  addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);
+  addKios(all, "kios_method_ii", FitMethod::kMethodII);
+  FitOptions shared(FitMethod::kMethodII);
+  shared.shared_radius = true;
+  addKios(all, "kios_method_ii_shared", shared);
+  addChoices(all, "kios_method_ii", FitMethod::kMethodII);
+  addKios(all, "kios_tuned", FitMethod::kTuned);
+  shared.method = FitMethod::kTuned;
+  addKios(all, "kios_tuned_shared", shared);
+  addChoices(all, "kios_tuned", FitMethod::kTuned);
+  addKinds(all);
+  // In the paper's words: centre and radius, two corners, axes and half extents, ...
+  addOther<SpherePolicy>(all, "sphere", 4);
+  addOther<AabbPolicy>(all, "fcl_aabb", 6);
+  addOther<OrientedPolicy<fcl::OBBd>>(all, "fcl_obb", 15, false);
+  addOther<OrientedPolicy<fcl::RSSd>>(all, "fcl_rss", 15);
+  addOther<OrientedPolicy<fcl::OBBRSSd>>(all, "fcl_obbrss", 30);
+  addOther<KdopPolicy<16>>(all, "fcl_kdop16", 16);
+  addOther<KdopPolicy<18>>(all, "fcl_kdop18", 18);
+  addOther<KdopPolicy<24>>(all, "fcl_kdop24", 24);
+  return all;
+}
+
+}  // namespace kios::bench
