@@ -12,9 +12,8 @@ struct Expansion {
   uint32_t side;  ///< whose node is expanded: 0 of a, 1 of b
   const Node* parent;
   const Node* other;
-  uint32_t near;         ///< children that matter, as bits
-  uint32_t overlapping;  ///< children whose bounds are not above 0
-  float bound;           ///< of the pair; not used by all searches
+  uint32_t near;  ///< children that matter, as bits
+  float bound;    ///< of the pair; not used by all searches
   alignas(32) float bounds[kLanes];
 };
 
@@ -47,12 +46,11 @@ class Expander {
     move(*e.other, *to_[e.side], search_.frames.pad, moved);
     const Block& block = blockOf(e);
     const V limit = hn::Set(d, search_.judge.prune_at);
-    e.near = e.overlapping = 0;
+    e.near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
       const V lower = lowerBounds(block, l, moved);
       hn::Store(lower, d, e.bounds + l);
       e.near |= bitsOf(hn::Lt(lower, limit)) << l;
-      e.overlapping |= bitsOf(hn::Le(lower, hn::Zero(d))) << l;
     }
     e.near &= childrenOf(e).all();
     ++search_.counts.expansions;
@@ -108,11 +106,11 @@ class Expander {
     const VU a = hn::Set(du, e.at.a), b = hn::Set(du, e.at.b);
     frontier.reserve();
     const size_t deepest = frontier.inner.size() + deepestOf(e, leaves);
-    const uint32_t kAllLanes = (1U << step()) - 1;
+    const uint32_t all_lanes = (1U << step()) - 1;
     for (size_t l = 0; l < kLanes; l += step()) {
       const V bounds = hn::Load(d, e.bounds + l);
       const VU child = hn::Add(first, hn::Iota(du, static_cast<uint32_t>(l)));
-      frontier.push(e.near >> l & kAllLanes, leaves >> l, bounds,
+      frontier.push(e.near >> l & all_lanes, leaves >> l, bounds,
                     hn::IfVecThenElse(expanded, child, a), hn::IfVecThenElse(expanded, b, child));
     }
     frontier.inner.raise(deepest);
@@ -140,20 +138,6 @@ class Expander {
   }
   static uint32_t firstBit(uint32_t bits) { return bits & (0U - bits); }  // 0 for none
 
-  /// Calls use(lane) for some children, for the nearest last.
-  template <class Use>
-  static HWY_INLINE void nearestLast(const Expansion& e, uint32_t children, const Use& use) {
-    if (children == 0) return;
-    uint32_t nearest = firstOf(children);
-    for (uint32_t left = children & (children - 1); left != 0; left &= left - 1) {
-      const uint32_t lane = firstOf(left);
-      const bool nearer = e.bounds[lane] < e.bounds[nearest];
-      use(nearer ? nearest : lane);
-      nearest = nearer ? lane : nearest;
-    }
-    use(nearest);
-  }
-
   const Block& blockOf(const Expansion& e) const {
     return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
   }
@@ -171,7 +155,6 @@ class Expander {
           boxDistance(tree.boxes[e.parent->first_child + lane], moved_box, search_.frames.pad);
       if (!(lower > 0)) continue;  // 0 says nothing
       e.bounds[lane] = std::max(e.bounds[lane], lower);
-      e.overlapping &= ~(1U << lane);
       if (lower >= search_.judge.prune_at) e.near ^= 1U << lane;
     }
   }
