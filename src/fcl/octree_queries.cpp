@@ -5,11 +5,10 @@
 #if FCL_HAVE_OCTOMAP
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <limits>
 #include <vector>
 
-#include "fcl/approximate_cost.h"
+#include "fcl/collide_with.h"
 #include "fcl/mesh_pair.h"
 #include "fcl/posed_solid.h"
 #include "shape/triangle_shape.h"
@@ -289,23 +288,14 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
                           const Model<S>& model, const fcl::Transform3<S>& tf2,
                           const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                           SearchCounts* counts) {
-  requireFinished(model);
-  if (request.num_max_contacts == 0) {  // FCL's warning and answer
-    std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
-    return 0;
-  }
-  SearchCounts unused;
-  fcl::CollisionRequest<S> no_cost = request;
-  const bool approximate = request.enable_cost && request.use_approximate_cost;
-  if (approximate) no_cost.enable_cost = false;
-  OctreeCollision<S> search(octree, tf1, model, tf2, no_cost, result, counts ? *counts : unused);
-  if (request.isSatisfied(result)) return result.numContacts();
-  search.run();
-  if (approximate) {
-    const fcl::CollisionGeometry<S>& other = octree;
-    addApproximateCost(model, tf2, other, tf1, request, result);
-  }
-  return result.numContacts();
+  const fcl::CollisionGeometry<S>& other = octree;
+  return collideWith(model, tf2, other, tf1, request, result, [&](const auto& asked) {
+    SearchCounts unused;
+    OctreeCollision<S> search(octree, tf1, model, tf2, asked, result, counts ? *counts : unused);
+    if (request.isSatisfied(result)) return false;
+    search.run();
+    return true;
+  });
 }
 
 template <typename S>

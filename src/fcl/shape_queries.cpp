@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/fcl/shape_queries.h"
 
-#include <iostream>
 #include <limits>
 #include <vector>
 
-#include "fcl/approximate_cost.h"
+#include "fcl/collide_with.h"
 #include "fcl/mesh_pair.h"
 #include "fcl/posed_solid.h"
 #include "fcl/shape_solid.h"
@@ -119,20 +118,13 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
                          const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& tf2,
                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                          SearchCounts* counts) {
-  requireFinished(model);
-  if (request.num_max_contacts == 0) {  // FCL's warning and answer
-    std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
-    return 0;
-  }
-  SearchCounts unused;
-  fcl::CollisionRequest<S> no_cost = request;
-  const bool approximate = request.enable_cost && request.use_approximate_cost;
-  if (approximate) no_cost.enable_cost = false;
-  ShapeCollision<S> search(model, tf1, shape, tf2, no_cost, result, counts ? *counts : unused);
-  if (request.isSatisfied(result)) return result.numContacts();
-  search.run();
-  if (approximate) addApproximateCost(model, tf1, shape, tf2, request, result);
-  return result.numContacts();
+  return collideWith(model, tf1, shape, tf2, request, result, [&](const auto& asked) {
+    SearchCounts unused;
+    ShapeCollision<S> search(model, tf1, shape, tf2, asked, result, counts ? *counts : unused);
+    if (request.isSatisfied(result)) return false;
+    search.run();
+    return true;
+  });
 }
 
 template <typename S>
