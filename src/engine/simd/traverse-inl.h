@@ -24,7 +24,8 @@ class Expander {
       : search_(search),
         trees_{&search.a, &search.b},
         to_{&search.frames.a_from_b, &search.frames.b_from_a},
-        boxes_(!search.a.boxes.empty() && !search.b.boxes.empty()) {}
+        boxes_(!search.a.boxes.empty() && !search.b.boxes.empty()),
+        large_(search.a.blocks.size() + search.b.blocks.size() > 512) {}
 
   void start(Pair at, Expansion& e) const {
     const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
@@ -114,6 +115,8 @@ class Expander {
                     hn::IfVecThenElse(expanded, child, a), hn::IfVecThenElse(expanded, b, child));
     }
     frontier.inner.raise(deepest);
+    if (!large_) return;
+    for (uint32_t left = e.near; left != 0; left &= left - 1) prefetchNode(e, firstOf(left));
   }
 
  private:
@@ -137,6 +140,13 @@ class Expander {
         hwy::PopCount(overlapping & (firstBit(deepest & overlapping) - 1)));
   }
   static uint32_t firstBit(uint32_t bits) { return bits & (0U - bits); }  // 0 for none
+
+  /// Pays where caches don't hold the trees.
+  void prefetchNode(const Expansion& e, uint32_t lane) const {
+    const Node* const child = &trees_[e.side]->nodes[e.parent->first_child + lane];
+    hwy::Prefetch(child);
+    hwy::Prefetch(reinterpret_cast<const char*>(child) + sizeof(Node) - 1);
+  }
 
   const Block& blockOf(const Expansion& e) const {
     return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
@@ -171,6 +181,7 @@ class Expander {
   const Tree* trees_[2];
   const FloatPose* to_[2];  ///< the frame of a side from the other's
   const bool boxes_;        ///< both trees have them
+  const bool large_;
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE
