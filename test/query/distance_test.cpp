@@ -165,9 +165,7 @@ TYPED_TEST(Distance, TolerancesAreHonouredAndSaveWork) {
         ASSERT_LE(answer.distance, double{exact} + double{e} + 100 * eps * size);
         work += counts.volume_tests + answer.counts.volume_tests;
       }
-      // Not strictly: where models touch, an error saves nothing, and another order of search may
-      // come upon the contact later.
-      EXPECT_LE(work, last_work + last_work / 8) << e;
+      EXPECT_LE(work, last_work + last_work / 50) << e;
       last_work = work;
     }
   }

@@ -154,9 +154,11 @@ class BracketSearch {
     const bool ends = nearer && search_.judge.keep_to <= bracket_.near_enough;
     if (nearer && (ends || budgeted()) && judgeVertices()) return true;
     // What may be nearer than its own upper bound is judged at once, so that better ones come
-    // early.
+    // early, and what overlaps, as it may touch.
     const bool open = bound < search_.judge.prune_at;
-    if ((nearer && open) || num_waiting_ + 1 == kMaxWaiting) return judgeFeatures(pair, bound);
+    if ((open && (nearer || bound <= 0)) || num_waiting_ + 1 == kMaxWaiting) {
+      return judgeFeatures(pair, bound);
+    }
     current_ = bound;
     lowerTo(search_.judge.prune_at);
     if (open) {
