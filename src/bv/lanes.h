@@ -11,8 +11,10 @@
 
 namespace kios::lanes {
 
-/// Four floats, one operation each: every target that g++ and clang++ know, no compiler flags.
+/// Four floats, or two doubles, one operation each: every target that g++ and clang++ know, no
+/// compiler flags.
 using Float4 = float __attribute__((vector_size(16)));
+using Double2 = double __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 
 inline Float4 broadcast(float v) { return Float4{v, v, v, v}; }

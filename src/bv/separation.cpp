@@ -165,18 +165,35 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   throw std::invalid_argument(message.str());
 }
 
-/// Square of the Frobenius norm of R^T R - I; throws if that is too much for a rotation.
-template <typename S>
-double squaredRotationError(const fcl::Matrix3<S>& R, const char* what) {
-  const auto dot = [&R](int i, int j) {
-    return double{R(0, i)} * R(0, j) + double{R(1, i)} * R(1, j) + double{R(2, i)} * R(2, j);
+/// Square of the Frobenius norm of R^T R - I, R by its entries in any floating type or several in
+/// lanes.
+template <typename Entry>
+auto squaredRotationError(const Entry& r) {
+  const auto dot = [&r](int i, int j) {
+    return r(0, i) * r(0, j) + r(1, i) * r(1, j) + r(2, i) * r(2, j);
   };
-  const double xx = dot(0, 0) - 1, yy = dot(1, 1) - 1, zz = dot(2, 2) - 1;
-  const double xy = dot(0, 1), xz = dot(0, 2), yz = dot(1, 2);
-  const double square = xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
+  const auto xx = dot(0, 0) - 1, yy = dot(1, 1) - 1, zz = dot(2, 2) - 1;
+  const auto xy = dot(0, 1), xz = dot(0, 2), yz = dot(1, 2);
+  return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
+}
+
+/// Throws if that is too much for a rotation, or NaN.
+template <typename S>
+void requireRotation(double squared_error, const char* what) {
   constexpr double kRigid = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
-  if (!(square <= kRigid * kRigid)) refuseRotation(what, std::sqrt(square), kRigid);  // or NaN
-  return square;
+  if (!(squared_error <= kRigid * kRigid)) refuseRotation(what, std::sqrt(squared_error), kRigid);
+}
+
+/// The sum for both poses' rotations, R in lanes; throws if either isn't one.
+template <typename S>
+double squaredRotationErrors(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+  const auto &m1 = X_W1.matrix(), &m2 = X_W2.matrix();
+  const lanes::Double2 squares = squaredRotationError([&](int i, int j) {
+    return lanes::Double2{double{m1(i, j)}, double{m2(i, j)}};
+  });
+  requireRotation<S>(squares[0], "first object's pose");
+  requireRotation<S>(squares[1], "second object's pose");
+  return squares[0] + squares[1];
 }
 
 template <typename S>
@@ -190,15 +207,16 @@ const RelativePose<S>& identityPose() {
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
     : R(R_AB), T(T_AB) {
-  precompute(squaredRotationError(R_AB, "relative pose"));
+  const double square = squaredRotationError([&](int i, int j) { return double{R_AB(i, j)}; });
+  requireRotation<S>(square, "relative pose");
+  precompute(square);
 }
 
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2)
     : R(X_W1.linear().transpose() * X_W2.linear()),
       T(X_W1.linear().transpose() * (X_W2.translation() - X_W1.translation())) {
-  const double first = squaredRotationError<S>(X_W1.linear(), "first object's pose");
-  precompute(first + squaredRotationError<S>(X_W2.linear(), "second object's pose"));
+  precompute(squaredRotationErrors(X_W1, X_W2));
 }
 
 template <typename S>
