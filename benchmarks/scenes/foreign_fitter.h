@@ -10,7 +10,7 @@ namespace kios::scenes {
 /// A fitter of the user's own that fits as FCL's does: a model over k-IOS with it has no prepared
 /// tree.
 template <typename BV>
-class ForeignFitter : public fcl::detail::BVFitterBase<BV> {
+class ForeignFitter final : public fcl::detail::BVFitterBase<BV> {
  public:
   using V = fcl::Vector3<typename BV::S>;
   void set(V* v, fcl::Triangle* t, fcl::BVHModelType type) override { fitter_.set(v, t, type); }

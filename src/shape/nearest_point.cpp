@@ -54,22 +54,29 @@ NearestPoint turned(const Solid& s, const Vec& p) {
   return nearest;
 }
 
-/// x_i = e_i^2 p_i / (e_i^2 + t), with |x / e| = 1 for one t >= 0 outside. Newton from below.
+/// x_i = e_i^2 p_i / (e_i^2 + t), with |x / e| = 1 for one t >= 0 outside. Newton from below. Where
+/// a radius e_i is 0, that holds of the others; t is 0 for points above the inside.
 NearestPoint onEllipsoid(const Solid& s, const Vec& p) {
-  const Vec e2 = s.half.cwiseProduct(s.half), ep = s.half.cwiseProduct(p);
   const double e_max = s.half.maxCoeff();
+  const auto flat = (s.half.array() <= 0x1p-100 * e_max).eval();
+  const Vec e = flat.select(0.0, s.half), e2 = e.cwiseProduct(e), ep = e.cwiseProduct(p);
+  const auto over = [&](const Vec& v, double t) -> Vec {
+    return flat.select(0.0, v.array() / (e2.array() + t));
+  };
   double t = std::max(0.0, ep.norm() - e_max * e_max);
   for (int step = 0; step < 100; ++step) {
-    const Vec w = ep.array() / (e2.array() + t);
-    const double slope = -2 * (w.array().square() / (e2.array() + t)).sum();
+    const Vec w = over(ep, t);
+    const double slope = -2 * w.dot(over(w, t));
     const double next = t - (w.squaredNorm() - 1) / slope;
     if (!(next > t)) break;
     t = next;
   }
-  const Vec n = p.array() / (e2.array() + t);
+  const Vec n = over(p, t), from_shape = flat.select(p, t * n);
+  const double distance = from_shape.norm();
+  if (distance > 0) return {distance, e2.cwiseProduct(n), from_shape / distance};
+  if (flat.any()) return {0, p, flat.select(Vec::Ones(), Vec::Zero()).matrix().normalized()};
   const double length = n.norm();
-  if (!(length > 0)) return {0, p, Vec::UnitZ()};
-  return {t * length, e2.cwiseProduct(n), n / length};
+  return {0, p, length > 0 ? Vec(n / length) : Vec::UnitZ()};
 }
 
 /// Offers the pair of x, on the triangle, and its nearest point.

@@ -16,7 +16,7 @@ struct NearestPoint {
   Vec normal;  ///< unit, the gradient of the distance: accurate however small that is
 };
 
-/// The point of a cylinder, cone or ellipsoid (no radius of which is 0) nearest to p.
+/// The point of a cylinder, cone or ellipsoid nearest to p.
 NearestPoint nearestPoint(const Solid& solid, const Vec& p);
 
 /// Distance of a triangle and a cylinder, cone or ellipsoid that don't intersect, by the triangle's

@@ -60,8 +60,8 @@ TriangleShapeDistance planeDistance(const Solid& s, const Triangle& t) {
 
 /// Where GJK left a gap: the same by features, if that is nearer.
 void refine(const Solid& s, const Triangle& t, TriangleShapeDistance& answer) {
-  const bool curved = s.kind == Kind::kCylinder || s.kind == Kind::kCone ||
-                      (s.kind == Kind::kEllipsoid && s.half.minCoeff() > 0);
+  const bool curved =
+      s.kind == Kind::kCylinder || s.kind == Kind::kCone || s.kind == Kind::kEllipsoid;
   TriangleShapeDistance exact;
   if (curved) {
     exact = distanceByFeatures(s, t);
