@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "continuous/moving_meshes.h"
+#include "fcl/expect_refused.h"
 
 namespace kios::testing {
 namespace {
@@ -22,15 +23,6 @@ class Continuous : public ::testing::Test {
              const fcl::ContinuousCollisionRequestd& request = requestFor(fcl::CCDM_LINEAR)) const {
     return fcl::continuousCollide(model.get(), at(0, 0, 0), at(0, 0, 0), model.get(), at(10, 0, 0),
                                   X_1, request, result);
-  }
-  template <typename Call>
-  void expectRefused(const Call& call, const char* word) const {
-    try {
-      call();
-      ADD_FAILURE() << "not refused: " << word;
-    } catch (const std::invalid_argument& refusal) {
-      EXPECT_NE(std::string(refusal.what()).find(word), std::string::npos) << refusal.what();
-    }
   }
   std::shared_ptr<Modeld> model;
   fcl::ContinuousCollisionResultd result;

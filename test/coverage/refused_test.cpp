@@ -11,6 +11,7 @@
 #include <fcl/narrowphase/detail/gjk_solver_libccd.h>
 
 #include "coverage/shape_distance.h"
+#include "fcl/expect_refused.h"
 #include "fcl/managers.h"
 #include "fcl/mesh_cases.h"
 
@@ -18,6 +19,7 @@ namespace kios::coverage {
 namespace {
 
 using fcl::Transform3d;
+using testing::expectRefused;
 using testing::Vector3d;
 using ModelPtr = std::shared_ptr<Modeld>;
 using Geometry = fcl::CollisionGeometryd;
@@ -73,18 +75,6 @@ class Unusable : public ::testing::Test {
  protected:
   void SetUp() override { ::testing::internal::CaptureStderr(); }  // FCL's warnings
   void TearDown() override { ::testing::internal::GetCapturedStderr(); }
-
-  static void expectRefused(const std::function<void()>& call, const std::string& part) {
-    try {
-      call();
-      ADD_FAILURE() << "not refused: " << part;
-    } catch (const std::invalid_argument& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(message.rfind("fcl_kios: ", 0), 0u) << message;
-      EXPECT_NE(message.find(part), std::string::npos) << message;
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    }
-  }
 
   // Both orders, with and without a solver, geometries and objects.
   template <typename Check>
