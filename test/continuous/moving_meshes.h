@@ -47,6 +47,32 @@ inline Transform3d poseAt(const fcl::MotionBased& motion, double t) {
   return X;
 }
 
+/// Whether two geometries in motion touch, by samples of the time.
+struct Sampling {
+  const fcl::CollisionGeometryd& first;
+  const fcl::MotionBased& motion1;
+  const fcl::CollisionGeometryd& second;
+  const fcl::MotionBased& motion2;
+
+  bool touchAt(double t) const {
+    fcl::CollisionResultd contacts;
+    return fcl::collide(&first, poseAt(motion1, t), &second, poseAt(motion2, t),
+                        fcl::CollisionRequestd(), contacts) > 0;
+  }
+  /// The first of n + 1 times at which they touch; 2 if there is none.
+  double firstOf(int n) const {
+    for (int k = 0; k <= n; ++k) {
+      if (touchAt(1.0 * k / n)) return 1.0 * k / n;
+    }
+    return 2;
+  }
+  bool touchWithin(double t, double length) const {
+    bool touch = false;
+    for (int k = 0; k <= 64 && !touch; ++k) touch = touchAt(std::min(1.0, t + length * k / 64));
+    return touch;
+  }
+};
+
 /// FCL's motion between two poses; splines in de Boor points, as its constructor is empty.
 inline Motion motionOf(fcl::CCDMotionType type, const Transform3d& X_0, const Transform3d& X_1) {
   switch (type) {

@@ -88,15 +88,8 @@ TEST(OctreeContact, RandomMotionsAgreeWithDenseSampling) {
       const Motion a = motion(), b = motion();
       const double toc_err = 1e-5;
       const auto result = askBoth(mesh, *a, *cells, *b, toc_err, &counts);
-      const auto touching = [&](double t) {
-        fcl::CollisionResultd contacts;
-        return fcl::collide(&mesh, poseAt(*a, t), cells.get(), poseAt(*b, t),
-                            fcl::CollisionRequestd(), contacts) > 0;
-      };
-      double first = 2;
-      for (int k = 0; k <= 300 && first > 1; ++k) {
-        if (touching(k / 300.0)) first = k / 300.0;
-      }
+      const Sampling sampling = {mesh, *a, *cells, *b};
+      const double first = sampling.firstOf(300);
       ++queries;
       if (!result.is_collide) {
         EXPECT_EQ(first, 2);
@@ -105,9 +98,7 @@ TEST(OctreeContact, RandomMotionsAgreeWithDenseSampling) {
       ++hits;
       const double toc = result.time_of_contact;
       EXPECT_LE(toc, first);
-      bool near = first <= toc + toc_err;
-      for (int k = 0; k <= 64 && !near; ++k) near = touching(std::min(1.0, toc + toc_err * k / 64));
-      EXPECT_TRUE(near) << type << " " << i;
+      EXPECT_TRUE(first <= toc + toc_err || sampling.touchWithin(toc, toc_err)) << type << " " << i;
     }
   }
   EXPECT_GT(hits, queries / 10);

@@ -132,15 +132,8 @@ TEST(ShapeContact, RandomMotionsAgreeWithDenseSampling) {
         const Motion a = motion(type), b = motion(type);
         const double toc_err = 1e-5;
         const auto result = askBoth(mesh, *a, solid, *b, toc_err, &counts);
-        const auto touching = [&](double t) {
-          fcl::CollisionResultd contacts;
-          return fcl::collide(mesh.get(), poseAt(*a, t), solid.get(), poseAt(*b, t),
-                              fcl::CollisionRequestd(), contacts) > 0;
-        };
-        double first = 2;
-        for (int k = 0; k <= 400 && first > 1; ++k) {
-          if (touching(k / 400.0)) first = k / 400.0;
-        }
+        const Sampling sampling = {*mesh, *a, *solid, *b};
+        const double first = sampling.firstOf(400);
         ++queries;
         if (!result.is_collide) {
           EXPECT_EQ(first, 2);
@@ -149,10 +142,7 @@ TEST(ShapeContact, RandomMotionsAgreeWithDenseSampling) {
         ++hits;
         const double toc = result.time_of_contact;
         EXPECT_LE(toc, first);
-        bool near = first <= toc + toc_err;
-        for (int k = 0; k <= 64 && !near; ++k)
-          near = touching(std::min(1.0, toc + toc_err * k / 64));
-        if (near) continue;
+        if (first <= toc + toc_err || sampling.touchWithin(toc, toc_err)) continue;
         fcl::DistanceResultd distance;
         fcl::distance(mesh.get(), poseAt(*a, toc), solid.get(), poseAt(*b, toc),
                       fcl::DistanceRequestd(), distance);
