@@ -181,7 +181,7 @@ class Expander {
   const Tree* trees_[2];
   const FloatPose* to_[2];  ///< the frame of a side from the other's
   const bool boxes_;        ///< both trees have them
-  const bool large_;
+  const bool large_;        ///< more than a core's caches hold; a limit found by trying
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE
