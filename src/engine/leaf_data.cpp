@@ -14,11 +14,13 @@ using Vec = Eigen::Vector3d;
 /// A coordinate of eight faces.
 using Eight = double[kLanes];
 
-/// Planes and edge planes of up to eight faces; of those that are too thin, planes that hold
-/// everywhere. Adds up the normals. Written without branches, for the compiler to vectorise.
+/// Planes and edge planes of up to eight faces; of those that are too thin or too small, planes
+/// that hold everywhere. Adds up the normals. Written without branches, for the compiler to
+/// vectorise.
 ///
 /// A normal is by the longest edge and the height above it, true to 2^-52 * aspect; a face for
-/// which that is more than a few 2^-30 is too thin.
+/// which that is more than a few 2^-30 is too thin. A face is too small where products of its
+/// squares lose precision or vanish: it is a point to any pad.
 void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_normals) {
   Eight v[3][3];  // by corner and coordinate
   for (int i = 0; i < kLanes; ++i) {
@@ -49,7 +51,7 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
     const double along = (h[0] * e[0] + h[1] * e[1] + h[2] * e[2]) / longest;
     for (int c = 0; c < 3; ++c) h[c] -= along * e[c];
     const double height = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
-    const bool thick = height > 0x1p-40 * longest;  // false where the longest edge is 0
+    const bool thick = height > 0x1p-40 * longest && longest > 0x1p-400;
     const double length = std::sqrt(thick ? longest * height : 1.0);
     usable[i] = thick ? 1.0 : 0.0;
     normal[0][i] = thick ? (e[1] * h[2] - e[2] * h[1]) / length : 0.0;
@@ -99,7 +101,8 @@ void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& 
   Vec sum = Vec::Zero();
   writeFaces(faces, leaf.num_faces, lanes + 3 * leaf.vertexChunks(), sum);
   const Eigen::Vector3f middle = 0.5F * (low + high);
-  const Eigen::Vector3f normal = sum.normalized().cast<float>();  // 0 stays 0
+  if (sum.isZero(0)) sum = Vec::UnitX();
+  const Eigen::Vector3f normal = sum.normalized().cast<float>();
   std::copy_n(middle.data(), 3, leaf.centroid);
   std::copy_n(normal.data(), 3, leaf.normal);
   leaf.normal_bottom = leaf.normal_top = normal.dot(vertices[0]);

@@ -103,20 +103,21 @@ class NearestJudge final : public Judge {
     }
     if (c.kind == PairKind::kFaces) return judgeFaces(idsOf(c));
     const FeatureDistance found = distanceOf(c);
+    const TrianglePairIds ids = idsOf(c);
     double distance = found.distance;
-    // Features that are as near as rounding can tell: their triangles decide between 0 and not 0.
-    if (distance <= 64 * kUlp<S> * found.extent) {
-      distance = double{corners_.distanceOf(idsOf(c)).distance};
+    // Features that are as near as rounding can tell, or so small that their squares vanish: their
+    // triangles decide.
+    if (distance <= 64 * kUlp<S> * found.extent || found.extent < kLeastExtent) {
+      distance = double{corners_.distanceOf(ids).distance};
     }
     least_ = std::min(least_, distance);
-    const TrianglePairIds ids = idsOf(c);
     if (by_faces_) return distance < best_ && judgeFaces(ids);
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
       if (distance < best_ + 64 * kUlp<S> * found.extent) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
       take(distance, ids);
     }
-    return distance <= near_enough_;
+    return distance <= near_enough_ && endsWith(ids);
   }
 
   void offer(float upper_bound) override {
@@ -129,11 +130,12 @@ class NearestJudge final : public Judge {
   bool start(const TrianglePairIds& ids, double distance) {
     least_ = distance;
     take(distance, ids);
-    return distance <= near_enough_;
+    return distance <= near_enough_ && endsWith(ids);
   }
 
   TrianglePairIds ids() const { return ids_; }
   double least() const { return least_; }  ///< of all that was judged
+  bool endedNear() const { return ended_near_; }
   TriangleDistance<S> certified() const {
     return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
   }
@@ -141,6 +143,10 @@ class NearestJudge final : public Judge {
   bool offers_stand = false;  ///< whether the search keeps what it offers, so that errors apply
 
  private:
+  /// The fourth power of a shorter extent, times what parts of it matter, would not be a normal
+  /// number: see features.cpp.
+  static constexpr double kLeastExtent = 0x1p-220;
+
   /// Extents of edges are at most four times the scale.
   static double leastShared(const PreparedPair<S>& pair) {
     return 64 * kUlp<S> * 4 * double{pair.frames.scale};
@@ -151,7 +157,7 @@ class NearestJudge final : public Judge {
       const Eigen::Vector3d p0 = corners_.ofA(c.a), p1 = corners_.ofA(c.a, 1);
       const Eigen::Vector3d q0 = corners_.ofB(c.b), q1 = corners_.ofB(c.b, 1);
       if (ends_.distance > least_shared_ && nearestAt(ends_, p0, p1, q0, q1))
-        return {ends_.distance, 0};
+        return {ends_.distance, ends_.distance};
       return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
@@ -169,7 +175,17 @@ class NearestJudge final : public Judge {
     const double distance = double{of_faces_.distance};
     least_ = std::min(least_, distance);
     if (distance < best_) take(distance, ids);
-    return distance <= near_enough_;
+    return distance <= near_enough_ && endsWith(ids);
+  }
+
+  /// Features were found near enough: whether their triangles are, by the distance that the answer
+  /// states, so that the search ends with them.
+  bool endsWith(const TrianglePairIds& ids) {
+    if (!(faces_ == ids)) of_faces_ = corners_.distanceOf(faces_ = ids);
+    if (!(double{of_faces_.distance} <= near_enough_)) return false;
+    ids_ = ids;
+    ended_near_ = true;
+    return true;
   }
 
   void take(double distance, const TrianglePairIds& ids) {
@@ -197,6 +213,7 @@ class NearestJudge final : public Judge {
   double least_ = std::numeric_limits<double>::infinity();
   TrianglePairIds ids_, faces_;  ///< the nearest; those judged as faces
   TriangleDistance<S> of_faces_;
+  bool ended_near_ = false;
   NearestEnds ends_;
   const double least_shared_;  ///< nearer edges need their own extent; see judge()
 };
@@ -276,7 +293,11 @@ BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery
   }
   result.least_evaluated = judge.least();
   result.least_other = std::max(0.0F, exact ? judge.prune_at : bracket.proven);
-  result.out_of_budget = bracket.out_of_budget;
+  if (judge.endedNear()) {
+    result.end = SearchEnd::kNear;
+  } else if (bracket.out_of_budget) {
+    result.end = SearchEnd::kBudget;
+  }
   return result;
 }
 

@@ -68,6 +68,13 @@ struct BracketQuery {
   bool endsEarly() const { return near_enough > 0 || hasBudget(); }
 };
 
+/// Why a search ended.
+enum class SearchEnd {
+  kDone,   ///< nothing that matters is left
+  kNear,   ///< the triangles of the answer are at most near_enough apart
+  kBudget  ///< max_expansions were spent
+};
+
 template <typename S>
 struct BracketResult {
   TrianglePairIds ids;               ///< the nearest that were found, if any were looked at
@@ -75,7 +82,7 @@ struct BracketResult {
   /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
   double least_evaluated = std::numeric_limits<double>::infinity();
   double least_other = 0;  ///< proven of all pairs that were not evaluated
-  bool out_of_budget = false;
+  SearchEnd end = SearchEnd::kDone;
 };
 
 /// The distance as far as it was asked for. Exact answers are those of nearestTriangles().

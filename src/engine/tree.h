@@ -73,8 +73,8 @@ struct Leaf {
   std::uint32_t offset = 0, feature_offset = 0;
   std::uint8_t num_faces = 0, num_edges = 0, num_owned = 0, num_vertices = 0;
   float centroid[3] = {};
-  float normal[3] = {};                         ///< mean direction of the faces, of length 1 or 0
-  float normal_bottom = 0, normal_top = 0;      ///< where the vertices lie along it
+  float normal[3] = {};                     ///< mean direction of the faces, or any: of length 1
+  float normal_bottom = 0, normal_top = 0;  ///< where the vertices lie along it
   std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
   std::uint16_t ends[kMaxLeafFeatures] = {};    ///< vertices of each edge: start, and end << 8
 
@@ -82,8 +82,8 @@ struct Leaf {
 };
 
 /// Rows of a chunk of faces: unit normal and offset, then three inward unit edge planes; 16 rows.
-/// A face too thin for a normal has height 0 everywhere and lies inside everywhere: it is always a
-/// candidate.
+/// A face too thin or too small for a normal has height 0 everywhere and lies inside everywhere: it
+/// is always a candidate.
 enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
 /// How many children a block has, and which of them are flat, or leaves.

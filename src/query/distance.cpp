@@ -132,11 +132,11 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
   setBounds(models, found, answer);
   if (answer.distance == 0) {
     answer.stop = DistanceStop::kTolerance;
-  } else if (double{answer.distance} <= query.near_enough) {
+  } else if (found.end == engine::SearchEnd::kNear) {
     answer.stop = DistanceStop::kNear;
   } else if (double{answer.lower_bound} >= query.far_enough) {
     answer.stop = DistanceStop::kFar;
-  } else if (found.out_of_budget) {
+  } else if (found.end == engine::SearchEnd::kBudget) {
     answer.stop = DistanceStop::kBudget;
   }
   if (found.ids.a < 0) return answer;
@@ -196,7 +196,7 @@ bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Mo
   query.far_enough = t + 2 * error;
   answer = search(models, X_W1, query, options);
   if (answer.stop == DistanceStop::kFar) return false;
-  if (answer.distance == 0 || answer.stop == DistanceStop::kNear) return true;
+  if (answer.distance == 0 || double{answer.distance} <= query.near_enough) return true;
   const SearchCounts before = answer.counts;
   answer = search(models, X_W1, queryOf(options), options);
   answer.counts += before;

@@ -36,7 +36,7 @@ class TreeSearch {
       const auto &node1 = model1_.getBV(at.node1), &node2 = model2_.getBV(at.node2);
       const bool leaves = node1.isLeaf() && node2.isLeaf();
       if (!leaves && left-- == 0) {
-        result_.out_of_budget = true;
+        result_.end = engine::SearchEnd::kBudget;
         break;
       }
       std::pop_heap(waiting_.begin(), waiting_.end());
@@ -122,7 +122,9 @@ class TreeSearch {
     // All that may be as near by its own rounding is evaluated, whatever the order.
     if (query_.isExact()) enough = distance + rounding_;
     prune_at_ = std::min(prune_at_, std::max(0.0, enough));
-    return distance <= query_.near_enough;
+    if (!(distance <= query_.near_enough)) return false;
+    result_.end = engine::SearchEnd::kNear;
+    return true;
   }
 
   const Model<S>&model1_, &model2_;

@@ -136,7 +136,7 @@ class ManagerQuery<S>::Impl {
   std::size_t met_ = 0;
   int next_id_ = 0;
   bool closest_ = true;
-  S bound_ = std::numeric_limits<S>::max();  // pairs as far don't matter
+  S bound_ = std::numeric_limits<S>::max();  // pairs so far apart don't matter
 };
 
 template <typename S>
@@ -158,7 +158,7 @@ void ManagerQuery<S>::findClosest() {
 template <typename S>
 void ManagerQuery<S>::findWithin(S margin) {
   if (!(margin == margin)) throw std::invalid_argument("fcl_kios: a margin is NaN.");
-  impl_->start(false, margin);
+  impl_->start(false, std::nextafter(margin, std::numeric_limits<S>::infinity()));
 }
 
 template <typename S>

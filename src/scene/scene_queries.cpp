@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What is at most that is below x.
+/// Numbers below x are at most that.
 template <typename S>
 double below(S x) {
   return std::nextafter(x, -std::numeric_limits<S>::infinity());
@@ -254,7 +254,7 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
 template <typename S>
 std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& request) {
   beginQuery();
-  const double limit = below(margin);
+  const double limit = std::min(margin, std::numeric_limits<S>::max());
   std::vector<ScenePair<S>> pairs;
   const auto ask = [&](int a, int b, double /*square*/) {
     if (!admissible(a, b)) {

@@ -50,7 +50,7 @@ void expectWithin(RandomScene& random, const Truth& truth, double margin, bool e
   expectSum(random.scene().counts(), random.objects().size());
   auto it = pairs.begin();
   for (const auto& [ids, result] : truth) {
-    if (!(result.min_distance < margin)) continue;
+    if (!(result.min_distance <= margin)) continue;
     ASSERT_NE(it, pairs.end());
     ASSERT_EQ(std::pair(it->a, it->b), ids);
     if (exact) {
@@ -59,7 +59,7 @@ void expectWithin(RandomScene& random, const Truth& truth, double margin, bool e
     } else {
       // Other triangles with the same nearest points may round otherwise.
       EXPECT_GE(it->distance, result.min_distance * (1 - 1e-13));
-      EXPECT_LT(it->distance, margin);
+      EXPECT_LE(it->distance, margin);
     }
     ++it;
   }

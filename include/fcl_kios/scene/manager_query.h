@@ -47,7 +47,7 @@ class ManagerQuery {
   ManagerQuery(ManagerQuery&&) noexcept;
   ManagerQuery& operator=(ManagerQuery&&) noexcept;
 
-  /// Starts a query: of a nearest pair; of all pairs with distance < margin, in the models' units.
+  /// Starts a query: of a nearest pair; of all pairs with distance <= margin, in the models' units.
   /// Throws std::invalid_argument if margin is NaN.
   void findClosest();
   void findWithin(S margin);

@@ -63,8 +63,8 @@ class SceneDistance {
 
   /// The nearest admissible pair; none if there is no admissible pair.
   std::optional<ScenePair<S>> closestPair(const SceneRequest& request = {});
-  /// All admissible pairs with distance < margin, in ascending order of (a, b). Throws
-  /// std::invalid_argument if margin is NaN.
+  /// All admissible pairs with distance <= margin, in ascending order of (a, b): those that touch,
+  /// for 0. Throws std::invalid_argument if margin is NaN.
   std::vector<ScenePair<S>> pairsWithin(S margin, const SceneRequest& request = {});
   /// The distance of every admissible pair, in ascending order of (a, b).
   std::vector<ScenePair<S>> clearances(const SceneRequest& request = {});

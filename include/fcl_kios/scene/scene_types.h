@@ -15,7 +15,7 @@ enum class Role : std::uint8_t { kBody, kObstacle };
 /// What a scene query is asked for besides the distances.
 struct SceneRequest {
   bool nearest_points = false;  ///< whether to set ScenePair::nearest_a and nearest_b
-  /// If false, pairsWithin() may report any distance of two points of the pair below the margin,
+  /// If false, pairsWithin() may report any distance of two points of the pair up to the margin,
   /// which spares most of the search; which pairs are reported doesn't depend on it.
   bool exact = true;
 };

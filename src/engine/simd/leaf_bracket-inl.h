@@ -30,39 +30,39 @@ class Slabs {
   }
 
   /// Tries a direction. True if it proves the sets at least `distance` apart.
-  bool proves(Vec3 w, float top_a, float bottom_b) {
-    const float ww = dot(w, w), gap = bottom_b - top_a;
-    const float length = std::sqrt(ww);
-    const bool valid = gap > 0 && ww >= kLeastSquare;
-    const float lower = valid ? gap / length : std::min(gap, 0.0F);
+  bool proves(const Direction& along, float top_a, float bottom_b) {
+    const float gap = bottom_b - top_a, lower = gap / along.length;
     if (lower > out_.lower) {
       out_.lower = lower;
-      out_.slab.w = w;
+      out_.slab.along = along;
       out_.slab.top_a = top_a;
       out_.slab.bottom_b = bottom_b;
     }
-    return valid && gap >= distance_ * length;
+    return gap > 0 && gap >= distance_ * along.length;
   }
-  bool proves(Vec3 w) { return proves(w, a_.top(w), -b_.top(-1.0F * w)); }
-  /// A normal of one of the sets, of length 1 or 0, turned to point from a to b.
+  bool proves(const Direction& along) {
+    return proves(along, a_.top(along.w), -b_.top(-1.0F * along.w));
+  }
+  /// The mean normal of one of the sets, turned to point from a to b.
   bool provesByNormalOfA(const Across& across, Vec3 between) {
-    if (dot(across.normal, between) >= 0) {
-      return proves(across.normal, across.top, -b_.top(-1.0F * across.normal));
+    if (dot(across.along.w, between) >= 0) {
+      return proves(across.along, across.top, -b_.top(-1.0F * across.along.w));
     }
-    return proves(-1.0F * across.normal, -across.bottom, -b_.top(across.normal));
+    return proves(-across.along, -across.bottom, -b_.top(across.along.w));
   }
   bool provesByNormalOfB(const Across& across, Vec3 between) {
-    if (dot(across.normal, between) >= 0) {
-      return proves(across.normal, a_.top(across.normal), across.bottom);
+    if (dot(across.along.w, between) >= 0) {
+      return proves(across.along, a_.top(across.along.w), across.bottom);
     }
-    return proves(-1.0F * across.normal, a_.top(-1.0F * across.normal), -across.top);
+    return proves(-across.along, a_.top(-1.0F * across.along.w), -across.top);
   }
 
   /// Steps of Frank-Wolfe towards the nearest points of the hulls.
-  bool steps(Vec3 w, int count) {
+  bool steps(Vec3 v, int count) {
     for (int i = 0;; ++i) {
-      const Support of_a = a_.support(w), of_b = b_.support(-1.0F * w);
-      if (proves(w, of_a.value, -of_b.value)) return true;
+      const Direction along = directionOf(v);
+      const Support of_a = a_.support(along.w), of_b = b_.support(-1.0F * along.w);
+      if (proves(along, of_a.value, -of_b.value)) return true;
       const Vec3 between = b_.at(of_b.index) - a_.at(of_a.index);
       const float square = dot(between, between);
       if (square < out_.upper) {
@@ -71,10 +71,10 @@ class Slabs {
         out_.vertices.b = of_b.index;
       }
       if (i == count) return false;
-      const Vec3 z = between - w;
-      const float zz = dot(z, z), wz = dot(w, z);
-      if (!(wz < 0 && zz > 0)) return false;  // w is as short as it gets
-      w = w + std::min(1.0F, -wz / zz) * z;
+      const Vec3 z = between - v;
+      const float zz = dot(z, z), vz = dot(v, z);
+      if (!(vz < 0 && zz > 0)) return false;  // v is as short as it gets
+      v = v + std::min(1.0F, -vz / zz) * z;
     }
   }
 
@@ -88,7 +88,7 @@ class Slabs {
 /// Brackets the distance of two leaves, or proves them at least `distance` apart: `hint` is tried
 /// first, then the line of centres, both mean normals, steps of Frank-Wolfe.
 HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
-                                Vec3 hint, Bracketed& out) {
+                                const Direction& hint, Bracketed& out) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
   const FloatPose& X = frames.a_from_b;
@@ -98,10 +98,7 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
   const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
     const Vec3 between = moved(X, vec3(leaf_b.centroid)) - vec3(leaf_a.centroid);
-    const Across across_a = {vec3(leaf_a.normal), leaf_a.normal_bottom, leaf_a.normal_top};
-    const Vec3 n = rotated(X, vec3(leaf_b.normal));
-    const float shift = dot(n, vec3(X.t));
-    const Across across_b = {n, leaf_b.normal_bottom + shift, leaf_b.normal_top + shift};
+    const Across across_a = acrossA(leaf_a), across_b = acrossB(leaf_b, X);
     out.slab.apart = slabs.proves(hint) || slabs.provesByNormalOfA(across_a, between) ||
                      slabs.provesByNormalOfB(across_b, between) ||
                      slabs.steps(between, kFrankWolfeSteps);
@@ -118,7 +115,7 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
   }
   if (out.slab.apart) return;
   out.vertices.nodes = out.nodes;
-  out.lower = out.lower > 0 ? out.lower - frames.pad : out.lower;
+  out.lower -= frames.pad;
   out.upper = std::sqrt(out.upper) + frames.pad;
 }
 

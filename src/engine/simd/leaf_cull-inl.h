@@ -94,22 +94,46 @@ class Hull {
   V x_[kVectors], y_[kVectors], z_[kVectors];
 };
 
+/// A direction along which points are compared, made by directionOf() alone. Its square lies in
+/// [2^-60, 2^84], so that neither squares nor products with coordinates vanish where it matters,
+/// also where the processor flushes subnormal numbers to 0.
+struct Direction {
+  Vec3 w;
+  float length;
+
+  Direction operator-() const { return {-1.0F * w, length}; }
+};
+
+/// v scaled by a power of two to a largest coordinate in [1, 2); if it is subnormal or 0 another
+/// direction, as any direction gives a valid slab.
+HWY_NOINLINE Direction rescaled(Vec3 v) {
+  const float largest = std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
+  if (!(largest >= std::numeric_limits<float>::min())) return {{1, 0, 0}, 1};
+  const Vec3 w = std::ldexp(1.0F, -std::ilogb(largest)) * v;
+  return {w, std::sqrt(dot(w, w))};
+}
+
+/// The direction of v, of any length up to 2^42 (what frames allow).
+HWY_INLINE Direction directionOf(Vec3 v) {
+  constexpr float kLeastSquare = 0x1p-60F;
+  const float square = dot(v, v);
+  if (HWY_LIKELY(square >= kLeastSquare)) return {v, std::sqrt(square)};
+  return rescaled(v);
+}
+
 /// What is known of two sets of points a and b. Unset where they are apart.
 struct Slab {
   bool apart;             ///< proven at least the distance apart that was asked for
-  Vec3 w;                 ///< a direction from a to b
+  Direction along;        ///< from a to b
   float top_a, bottom_b;  ///< max w . a, min w . b
   Vec3 point_a, point_b;  ///< where they are attained
 };
 
 /// A direction across a leaf, and where its points lie along it.
 struct Across {
-  Vec3 normal;
+  Direction along;
   float bottom, top;
 };
-
-/// Squares below lose their precision, and then vanish: what is divided by them proves nothing.
-constexpr float kLeastSquare = 0x1p-120F;
 
 /// Looks for a slab that proves the sets at least `distance` apart (pad included): for any w,
 /// (min w . b - max w . a) / |w| bounds the distance. Tries the line of centres, both mean normals
@@ -117,33 +141,33 @@ constexpr float kLeastSquare = 0x1p-120F;
 template <class HullA, class HullB>
 HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Across& across_a,
                          const Across& across_b, float distance, Slab& slab) {
-  // No squares of squares: lengths may be 2^40. No branches but one, as none can be predicted.
-  const auto proves = [&](float gap, Vec3 w) {
-    const float ww = dot(w, w);
-    return (gap > 0) & (ww >= kLeastSquare) & (gap >= distance * std::sqrt(ww));
+  // Few branches, and none that can't be predicted.
+  const auto proves = [&](float gap, const Direction& along) {
+    return (gap > 0) & (gap >= distance * along.length);
   };
-  slab.w = between;
+  Vec3 v = between;  // a difference of points of the hulls, or of their centres
   slab.apart = true;
   for (int i = 0;; ++i) {
-    const Support of_a = a.support(slab.w), of_b = b.support(-1.0F * slab.w);
+    slab.along = directionOf(v);
+    const Support of_a = a.support(slab.along.w), of_b = b.support(-1.0F * slab.along.w);
     slab.top_a = of_a.value;
     slab.bottom_b = -of_b.value;
-    if (proves(slab.bottom_b - slab.top_a, slab.w)) return;
+    if (proves(slab.bottom_b - slab.top_a, slab.along)) return;
     if (i == 0) {
       const auto turned = [&](const Across& x) {
-        return dot(x.normal, between) > 0 ? x : Across{-1.0F * x.normal, -x.top, -x.bottom};
+        return dot(x.along.w, between) > 0 ? x : Across{-x.along, -x.top, -x.bottom};
       };
       const Across of_a = turned(across_a), of_b = turned(across_b);
-      if (proves(-b.top(-1.0F * of_a.normal) - of_a.top, of_a.normal)) return;
-      if (proves(of_b.bottom - a.top(of_b.normal), of_b.normal)) return;
+      if (proves(-b.top(-1.0F * of_a.along.w) - of_a.top, of_a.along)) return;
+      if (proves(of_b.bottom - a.top(of_b.along.w), of_b.along)) return;
     }
     slab.point_a = a.at(of_a.index);
     slab.point_b = b.at(of_b.index);
     if (i == kFrankWolfeSteps) break;
-    const Vec3 z = slab.point_b - slab.point_a - slab.w;
-    const float zz = dot(z, z), wz = dot(slab.w, z);
-    if (!(wz < 0 && zz > 0)) break;  // w is as short as it gets
-    slab.w = slab.w + std::min(1.0F, -wz / zz) * z;
+    const Vec3 z = slab.point_b - slab.point_a - v;
+    const float zz = dot(z, z), vz = dot(v, z);
+    if (!(vz < 0 && zz > 0)) break;  // v is as short as it gets
+    v = v + std::min(1.0F, -vz / zz) * z;
   }
   slab.apart = false;
 }

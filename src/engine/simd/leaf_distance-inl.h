@@ -74,9 +74,10 @@ class LeafDistances {
   /// The least of them. Features that the slab proves farther than `distance` are left out.
   float compute(const Points& vertices_b, const FramePair& frames, const Slab& slab,
                 float distance) {
-    const float thickness = distance * std::sqrt(dot(slab.w, slab.w));
-    const uint32_t near_a = facing(a_.vertices, slab.w, slab.bottom_b - thickness);
-    const uint32_t near_b = facing(vertices_b, -1.0F * slab.w, -slab.top_a - thickness);
+    const Vec3 w = slab.along.w;
+    const float thickness = distance * slab.along.length;
+    const uint32_t near_a = facing(a_.vertices, w, slab.bottom_b - thickness);
+    const uint32_t near_b = facing(vertices_b, -1.0F * w, -slab.top_a - thickness);
     gatherEdges(a_, a_.vertices, near_a, edges_a_);
     gatherEdges(b_, vertices_b, near_b, edges_b_);
     V least = edgeRows(0x1p-24F * frames.scale);
@@ -227,9 +228,7 @@ HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const
   if (slab.apart) return std::numeric_limits<float>::infinity();
   const Vec3 vertices = slab.point_b - slab.point_a;
   search.judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
-  const float gap = slab.bottom_b - slab.top_a, ww = dot(slab.w, slab.w);
-  if (gap > 0 && ww >= kLeastSquare) return gap / std::sqrt(ww) - frames.pad;
-  return std::min(gap, 0.0F);
+  return (slab.bottom_b - slab.top_a) / slab.along.length - frames.pad;
 }
 
 /// Judges all features of two leaves that may be nearest.

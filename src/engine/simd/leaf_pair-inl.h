@@ -103,16 +103,21 @@ HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, uint32
   }
 }
 
-constexpr uint32_t kAllVertices = (1U << kMaxLeafFeatures) - 1;
+/// The leaves' mean normals, both in a's frame.
+HWY_INLINE Across acrossA(const Leaf& a) {
+  return {directionOf(vec3(a.normal)), a.normal_bottom, a.normal_top};
+}
+HWY_INLINE Across acrossB(const Leaf& b, const FloatPose& X) {
+  const Vec3 n = rotated(X, vec3(b.normal));
+  const float shift = dot(n, vec3(X.t));
+  return {directionOf(n), b.normal_bottom + shift, b.normal_top + shift};
+}
 
 /// Both leaves' points in a's frame, and a slab between them.
 HWY_INLINE void separateLeaves(const LeafView& a, const LeafView& b, const Points& moved_b,
                                const FloatPose& X, float distance, Slab& slab) {
   const Vec3 between = moved(X, vec3(b.leaf.centroid)) - vec3(a.leaf.centroid);
-  const Across across_a = {vec3(a.leaf.normal), a.leaf.normal_bottom, a.leaf.normal_top};
-  const Vec3 n = rotated(X, vec3(b.leaf.normal));
-  const float shift = dot(n, vec3(X.t));
-  const Across across_b = {n, b.leaf.normal_bottom + shift, b.leaf.normal_top + shift};
+  const Across across_a = acrossA(a.leaf), across_b = acrossB(b.leaf, X);
   const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
     separate(hull_a, hull_b, between, across_a, across_b, distance, slab);
   };
@@ -215,16 +220,14 @@ HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafVi
                            const Points& vertices_b, const Slab& slab) {
   const FramePair& frames = search.frames;
   long long& exact = search.counts.exact;
-  const float ww = dot(slab.w, slab.w), thickness = frames.pad * std::sqrt(ww);
-  const bool precise = ww >= kLeastSquare;
-  const auto wanted = [&](uint32_t facing) { return precise ? facing : kAllVertices; };
+  const Vec3 w = slab.along.w;
+  const float thickness = frames.pad * slab.along.length;
   EdgeRows edges;
-  gatherEdges(b, vertices_b, wanted(facing(vertices_b, -1.0F * slab.w, -slab.top_a - thickness)),
-              edges);
+  gatherEdges(b, vertices_b, facing(vertices_b, -1.0F * w, -slab.top_a - thickness), edges);
   if (crossings<false>(b, edges, a, frames.pad, search.judge, exact)) return true;
   VertexRows moved_a;
   gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a),
-              wanted(facing(a.vertices, slab.w, slab.bottom_b - thickness)), edges);
+              facing(a.vertices, w, slab.bottom_b - thickness), edges);
   return crossings<true>(a, edges, b, frames.pad, search.judge, exact);
 }
 

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Triangles so small that squares and fourth powers of their edges vanish, in meshes of ordinary
+// size: they have distances, contacts and rays like all others.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fcl/mesh_cases.h"
+#include "fcl_kios/fcl_kios.h"
+#include "scenes/random.h"
+
+namespace kios::testing {
+namespace {
+
+using scenes::Random;
+
+constexpr double kSizes[] = {1e-30, 1e-60,  1e-75,  1e-77,  1e-79,  1e-81,
+                             1e-90, 1e-120, 1e-150, 1e-155, 1e-162, 1e-200};
+
+void addTriangle(Mesh& mesh, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
+  const std::size_t n = mesh.vertices.size();
+  mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
+  mesh.triangles.emplace_back(n, n + 1, n + 2);
+}
+
+/// Uniform in [-1, 1]^3.
+Vector3d inCube(Random& random) {
+  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+  return {x, y, random.uniform(-1, 1)};
+}
+
+/// Triangles far off in two corners, which give a mesh its size.
+Mesh withCorners(double z) {
+  Mesh mesh;
+  addTriangle(mesh, {1, 1, 1}, {1, 0.9, 1}, {0.9, 1, 1});
+  addTriangle(mesh, {-1, -1, -1}, {-1, -0.9, -1}, {-0.9, -1, -1});
+  for (Vector3d& p : mesh.vertices) p.z() += z;
+  return mesh;
+}
+
+TEST(TinyTriangles, MeetAPlane) {
+  const Frame frame = {Transform3d::Identity(), Transform3d::Identity()};
+  for (const double s : kSizes) {
+    SCOPED_TRACE(s);
+    Mesh tiny = withCorners(0), plane = withCorners(3);
+    addTriangle(tiny, {-s, -s, -s}, {s, -s, s}, {0, s, s});
+    addTriangle(plane, {-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+    ASSERT_EQ(leafPairs(tiny, plane, frame), Pairs({{2, 2}}));
+    const auto a = kiosModel(tiny), b = kiosModel(plane);
+    for (const std::size_t limit : {std::size_t{1}, std::size_t{100}}) {
+      fcl::CollisionResultd result;
+      fcl::collide(a.get(), frame.X_WA, b.get(), frame.X_WB, {limit, true}, result);
+      EXPECT_EQ(contactPairs(result), Pairs({{2, 2}})) << limit;
+    }
+    fcl::DistanceResultd distance;
+    fcl::distance(a.get(), frame.X_WA, b.get(), frame.X_WB, fcl::DistanceRequestd(), distance);
+    EXPECT_EQ(distance.min_distance, 0);
+    Rayd ray;
+    ray.origin = {0, 0, 5};
+    ray.direction = {0, 0, -1};
+    const auto hit = firstHit(*a, Transform3d::Identity(), ray);
+    ASSERT_TRUE(hit.has_value());
+    EXPECT_EQ(hit->triangle, 2);
+  }
+}
+
+// Two tiny soups within each other, and nothing else near: contacts, and distances to 16 eps of
+// their own size.
+TEST(TinyTriangles, AmongEachOther) {
+  Random random(5);
+  const Frame frame = {Transform3d::Identity(), Transform3d::Identity()};
+  int meeting = 0, apart = 0;
+  for (const double s : kSizes) {
+    for (int i = 0; i < 60; ++i) {
+      SCOPED_TRACE(::testing::Message() << s << " " << i);
+      Mesh meshes[2] = {withCorners(0), withCorners(5)};
+      for (Mesh& mesh : meshes) {
+        for (int t = 0; t < 4; ++t) {
+          const Vector3d c = s * inCube(random);
+          const double part = i % 2 == 0 ? s : s * 1e-3;
+          addTriangle(mesh, c, c + part * inCube(random), c + part * inCube(random));
+        }
+      }
+      const auto a = kiosModel(meshes[0]), b = kiosModel(meshes[1]);
+      const double exact = leafDistance(meshes[0], meshes[1], frame);
+      fcl::DistanceResultd distance;
+      fcl::distance(a.get(), frame.X_WA, b.get(), frame.X_WB, fcl::DistanceRequestd(), distance);
+      EXPECT_NEAR(distance.min_distance, exact, 1e-14 * s);
+      EXPECT_EQ(distance.min_distance == 0, exact == 0);
+      fcl::CollisionResultd contacts;
+      fcl::collide(a.get(), frame.X_WA, b.get(), frame.X_WB, {kAllContacts, true}, contacts);
+      EXPECT_EQ(contactPairs(contacts), leafPairs(meshes[0], meshes[1], frame));
+      ++(exact == 0 ? meeting : apart);
+    }
+  }
+  EXPECT_GT(meeting, 30);
+  EXPECT_GT(apart, 30);
+}
+
+}  // namespace
+}  // namespace kios::testing
