@@ -3,6 +3,7 @@
 #include "fcl/triangle_contact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fcl/narrowphase/detail/traversal/collision/intersect.h"
 #include "fcl_kios/triangle/intersection.h"
@@ -18,6 +19,12 @@ Point<S> normalOf(const TriangleVertices<S>& t) {
   return n.squaredNorm() > 0 ? Point<S>(n.normalized()) : Point<S>(Point<S>::Zero());
 }
 
+/// FCL squares lengths as they are: its normals of very large or small triangles are 0 or NaN.
+template <typename S>
+bool isUnit(const Point<S>& n) {
+  return std::abs(n.squaredNorm() - 1) < S(1e-3);
+}
+
 }  // namespace
 
 template <typename S>
@@ -31,8 +38,9 @@ TriangleContact<S> triangleContact(const TriangleVertices<S>& a, const TriangleV
     if (fcl::detail::Intersect<S>::intersect_Triangle(a[0], a[1], a[2], b[0], b[1], b[2], points,
                                                       &num_points, &contact.depth,
                                                       &contact.normal) &&
-        num_points > 0 && contact.normal.allFinite()) {
+        num_points > 0 && isUnit(contact.normal)) {
       contact.num_points = std::min(num_points, 2U);
+      contact.depth = std::max(S(0), contact.depth);  // FCL's tolerance is 1e-5 of any unit
       std::copy_n(points, contact.num_points, contact.points);
       return contact;
     }

@@ -100,5 +100,34 @@ TEST(TinyTriangles, AmongEachOther) {
   EXPECT_GT(apart, 30);
 }
 
+// Two triangles that cross, from the smallest to the largest scale whose cross products S can't
+// hold: normals are of length 1, points lie on both.
+template <typename S>
+void expectContactsAt(S scale) {
+  SCOPED_TRACE(scale);
+  using Point = fcl::Vector3<S>;
+  const std::vector<Point> a = {Point(-1, -1, 0) * scale, Point(1, -1, 0) * scale,
+                                Point(0, 1, 0) * scale};
+  const std::vector<Point> b = {Point(0, 0, -1) * scale, Point(0, 0.5, 1) * scale,
+                                Point(0, -0.5, 1) * scale};
+  const auto pose = fcl::Transform3<S>::Identity();
+  const auto model_a = makeModel<S>(a, {{0, 1, 2}}), model_b = makeModel<S>(b, {{0, 1, 2}});
+  fcl::CollisionRequest<S> request(10, true);
+  fcl::CollisionResult<S> result;
+  fcl::collide(model_a.get(), pose, model_b.get(), pose, request, result);
+  ASSERT_GE(result.numContacts(), 1u);
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const auto& contact = result.getContact(i);
+    EXPECT_NEAR(contact.normal.norm(), 1, 1e-5);
+    EXPECT_TRUE(std::isfinite(contact.penetration_depth));
+    EXPECT_LE((contact.pos / scale).cwiseAbs().maxCoeff(), 1 + 1e-5);
+  }
+}
+
+TEST(TinyTriangles, ContactsHaveNormalsAtAnyScale) {
+  for (int e = -60; e <= 60; e += 5) expectContactsAt<float>(std::ldexp(1.0F, e));
+  for (int e = -500; e <= 500; e += 25) expectContactsAt<double>(std::ldexp(1.0, e));
+}
+
 }  // namespace
 }  // namespace kios::testing
