@@ -3,7 +3,7 @@
 #include "fcl/triangle_contact.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "fcl/narrowphase/detail/traversal/collision/intersect.h"
 #include "fcl_kios/triangle/intersection.h"
@@ -19,10 +19,12 @@ Point<S> normalOf(const TriangleVertices<S>& t) {
   return n.squaredNorm() > 0 ? Point<S>(n.normalized()) : Point<S>(Point<S>::Zero());
 }
 
-/// FCL squares lengths as they are: its normals of very large or small triangles are 0 or NaN.
+/// Whether FCL's routine finds the triangle's plane: it squares the area twice, and where that
+/// underflows or overflows it reads a normal that it never set.
 template <typename S>
-bool isUnit(const Point<S>& n) {
-  return std::abs(n.squaredNorm() - 1) < S(1e-3);
+bool hasPlaneForFCL(const TriangleVertices<S>& t) {
+  const S squared = (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm();
+  return squared >= std::numeric_limits<S>::min() && squared <= std::numeric_limits<S>::max();
 }
 
 }  // namespace
@@ -31,14 +33,14 @@ template <typename S>
 TriangleContact<S> triangleContact(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   TriangleContact<S> contact;
   const Point<S> normal_a = normalOf(a), normal_b = normalOf(b);
-  if (!normal_a.isZero(0) && !normal_b.isZero(0)) {
+  if (!normal_a.isZero(0) && !normal_b.isZero(0) && hasPlaneForFCL(a) && hasPlaneForFCL(b)) {
     Point<S> points[3];  // FCL's room for deepest vertices
     unsigned int num_points = 0;
     contact.depth = 0;
     if (fcl::detail::Intersect<S>::intersect_Triangle(a[0], a[1], a[2], b[0], b[1], b[2], points,
                                                       &num_points, &contact.depth,
                                                       &contact.normal) &&
-        num_points > 0 && isUnit(contact.normal)) {
+        num_points > 0 && contact.normal.allFinite()) {
       contact.num_points = std::min(num_points, 2U);
       contact.depth = std::max(S(0), contact.depth);  // FCL's tolerance is 1e-5 of any unit
       std::copy_n(points, contact.num_points, contact.points);
