@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of kios_bench, kept with what a reader must know of them."""
+import datetime
+import json
+import os
+import pathlib
+import platform
+import re
+import subprocess
+import time
+
+PAPER = "--bv kios,kios_method_ii,kios_tree,fcl_rss_tree,fcl_obbrss"
+PAIR = "--bv kios,fcl_obbrss"
+RUNS = {  # scenario: options
+    "falling": f"--frames 2400 --repeats 5 {PAPER}",
+    "spinning": f"--frames 2400 --repeats 5 {PAPER}",
+    "generated": f"--frames 300 --repeats 5 {PAIR}",
+    "rootreject": f"--frames 2000 --repeats 5 {PAIR}",
+    "strips": f"--frames 20 --repeats 5 {PAIR}",
+    "robots": f"--frames 60 --repeats 3 {PAIR}",
+    "scaling": f"--frames 32 --repeats 5 {PAIR}",
+    "refit": f"--repeats 3 --max-triangles 5000 {PAIR}",
+    "error": "--frames 300 --repeats 5 --bv kios,fcl_rss,fcl_obbrss",
+    "scene": "--frames 100 --repeats 3",
+    "shapes": "--frames 60 --repeats 5",
+    "octrees": "--frames 60 --repeats 5",
+    "continuous": "--frames 40 --repeats 5",
+    "rays": "--frames 4096 --repeats 5",
+    "paper": "--frames 20 --repeats 2",
+    "fits": "--frames 100 --repeats 3",
+    "packing": "--repeats 5",
+    "exact": "--repeats 5",
+    "stability": "--frames 2000 --repeats 1",
+}
+
+
+def header(root, scenario, command):
+    def output(*words):
+        return subprocess.run(words, cwd=root, capture_output=True, text=True).stdout.strip()
+    cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
+    commit = output("git", "rev-parse", "--short", "HEAD")
+    changed = output("git", "status", "--porcelain", "--", "src", "include", "benchmarks")
+    return {"run": scenario, "command": command,
+            "machine": f"{cpu[1] if cpu else platform.processor()}, {os.cpu_count()} cores",
+            "load": round(os.getloadavg()[0], 1), "date": datetime.date.today().isoformat(),
+            "commit": commit + (" and changes" if changed else "")}
+
+
+def slim(row):
+    """The row without what is unknown, to five digits."""
+    return {key: float(f"{value:.5g}") if isinstance(value, float) else value
+            for key, value in row.items() if value is not None}
+
+
+def measure(root, folder, scenarios):
+    program = os.environ.get("KIOS_BENCH", root / "build/release/benchmarks/kios_bench")
+    logs = root / "build/report"
+    logs.mkdir(parents=True, exist_ok=True)
+    start = time.monotonic()
+    for i, scenario in enumerate(scenarios, 1):
+        command = f"kios_bench {scenario} {RUNS[scenario]}"
+        print(f"report: {time.monotonic() - start:4.0f} s, {i} of {len(scenarios)}: {command}",
+              flush=True)
+        head, rows = header(root, scenario, command), logs / f"{scenario}.jsonl"
+        with open(logs / f"{scenario}.log", "w", encoding="utf-8") as log:
+            subprocess.run([program, *command.split()[1:], "--json", rows], check=True, stdout=log)
+        lines = [slim(json.loads(line)) for line in rows.read_text().splitlines()]
+        if not lines:
+            raise LookupError(f"{scenario} gave no row; {logs / scenario}.log says why")
+        lines = [json.dumps(line) + "\n" for line in [head, *lines]]
+        (folder / rows.name).write_text("".join(lines))
+    print(f"report: {time.monotonic() - start:4.0f} s, done; now: scripts/report write")

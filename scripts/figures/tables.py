@@ -1,0 +1,348 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The blocks of README.md and docs/*.md by name, as functions of the measured rows.
+
+A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several words, such as
+`<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
+from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
+from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
+
+
+# Phrases.
+
+def run(rows, scenario):
+    """Machine and its load, date and commit of a run."""
+    of = rows.runs[scenario]
+    return f"{of['machine']}, load {of['load']}, {of['date']}, commit {of['commit']}"
+
+
+def ratio(rows, *key):
+    return number(rows.ratio(*key))
+
+
+def ratios(rows, query, *scenarios):
+    """The least and the largest ratio to OBBRSS."""
+    found = sorted(rows.ratio(scenario, query) for scenario in scenarios)
+    return f"{number(found[0])} to {number(found[-1])}"
+
+
+def worst_triangles(rows):
+    """What FCL's triangle kernels get wrong."""
+    def of(query, bv):
+        return [row for row in rows.rows if row["scenario"].startswith("stability/")
+                and (row["query"], row["bv"]) == (query, bv)]
+
+    def wrong(query, bv):
+        return sum(row["wrong_verdicts"] for row in of(query, bv))
+    assert wrong("distance", OURS) == wrong("collide", OURS) == 0
+    distances = of("distance", "fcl")
+    worst = max(row.get("max_abs_error", 0) for row in distances)
+    return (f"of {sum(row['frames'] for row in distances):,} hard pairs of triangles, FCL's "
+            f"distance is 0 for pairs that are apart, or not 0 for pairs that meet, in "
+            f"{wrong('distance', 'fcl'):,}, and off by up to {worst:.2g} of the pair's size or not "
+            f"finite; its intersection test is wrong for {wrong('collide', 'fcl'):,}; ours are "
+            f"wrong for none")
+
+
+# README.md
+
+README = spec("""
+distance, falling tori                           | falling distance fcl_obbrss
+distance, spinning bunny and torus               | spinning distance fcl_obbrss
+distance, two UR5 arms, a pair of links          | robots/ur5 distance fcl_obbrss
+distance, tori of 80,000 triangles, gap 0.001    | scaling/80000/gap_1e-3 distance fcl_obbrss
+distance, strips 600 times as long as wide       | strips distance fcl_obbrss
+first contact, falling tori                      | falling collide fcl_obbrss
+first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
+first contact, strips                            | strips collide fcl_obbrss
+nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_obbrss threshold=1.1
+closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
+distance of a mesh to a cone                     | shapes/cone distance fcl_obbrss
+all contacts of a mesh and a convex shape        | shapes/convex contacts fcl_obbrss
+moving tori, linear motion                       | continuous/linear continuous fcl_obbrss_sampling
+the same | continuous/linear continuous fcl_obbrss_advancement
+moving tori, screw motion                        | continuous/screw continuous fcl_obbrss_sampling
+first hit of a random ray, 80,000 triangles      | rays/80000/random first embree
+build, two tori of 80,000 triangles              | scaling/80000 build fcl_obbrss
+build, prepare and first query                   | scaling/80000 prepare fcl_obbrss
+""")
+OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree":
+          "Embree, single precision", "fcl_obbrss_sampling": "FCL OBBRSS, 1,000 samples",
+          "fcl_obbrss_advancement": "FCL OBBRSS, advancement"}
+
+
+def readme(rows):
+    out = []
+    for label, ((scenario, query, bv), settings) in README:
+        # FCL has nothing to prepare.
+        other = rows.us(scenario, query.replace("prepare", "build"), bv, **settings)
+        out.append([label, time(rows.us(scenario, query, **settings)), time(other), OTHERS[bv],
+                    number(rows.ratio(scenario, query, bv, **settings))])
+    return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
+
+
+# docs/errors.md
+
+PAIRS = ("falling", "spinning", "generated", "generated_spinning", "robots")
+
+
+def errors(rows):
+    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} kios\n"
+                           f"the same, FCL OBBRSS | error/{pair} fcl_obbrss" for pair in PAIRS))
+    columns = spec("\n".join(["exact | rel_err=0 abs_err=0",
+                              *(f"rel_err {e} | rel_err={e} abs_err=0"
+                                for e in (0.01, 0.03, 0.1, 0.3, 0.5)),
+                              *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))]))
+
+    def cell(line, _, settings):
+        us = number(rows.us(line[0], "distance", line[1], **settings))
+        if line[1] == OBBRSS:
+            return us
+        return f"{us} ({number(rows.find(line[0], 'distance', **settings)['ratio_to_fcl_obbrss'])})"
+    return grid("us (times exact OBBRSS)", lines, columns, cell)
+
+
+def thresholds(rows):
+    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} threshold" for pair in PAIRS))
+    columns = spec("\n".join(f"{t} | threshold={t}"
+                             for t in (0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10)))
+    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
+        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
+
+
+# docs/engine.md
+
+def scaling(rows):
+    lines = spec("""
+gap 0.1, distance   | gap_0.1 distance
+gap 0.1, contact    | gap_0.1 collide
+gap 0.001, distance | gap_1e-3 distance
+gap 0.001, contact  | gap_1e-3 collide
+touching, distance  | touching distance
+touching, contact   | touching collide
+""")
+    columns = spec("1k triangles | 1000\n5k | 5000\n20k | 20000\n80k | 80000")
+
+    def cell(line, column, _):
+        key = f"scaling/{column[0]}/{line[0]}", line[1]
+        return f"{number(rows.us(*key))} ({number(rows.ratio(*key))})"
+    return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
+
+
+# docs/scene.md
+
+def scenes(rows):
+    queries = {"closest pair": "closest", "within 0.1, exact": "within",
+               "within 0.1, which": "verdicts", "every clearance": "clearances"}
+    robots = {"two arms": "generated", "two humanoids": "humanoids", "two UR5s": "ur5"}
+    lines = spec("\n".join(f"{name}, {motion}: {label} | robots/{robot}/{motion}/{query}"
+                           for name, robot in robots.items() for motion in ("smooth", "random")
+                           for label, query in queries.items()))
+    columns = spec("""
+SceneDistance | us kios
+pairs         | us kios_pairs
+OBBRSS        | us fcl_obbrss
+bounded       | us fcl_obbrss_bounded
+manager       | us fcl_manager
+OBBRSS / ours | ratio
+searches      | searches
+""")
+
+    def cell(line, column, _):
+        if column[0] == "us":
+            return number(rows.us(line[0], "scene", column[1]))
+        if column[0] == "ratio":
+            return number(rows.ratio(line[0], "scene"))
+        return number(rows.find(line[0], "scene")["narrow_queries"])
+    return grid("us a frame", lines, columns, cell)
+
+
+def crowds(rows):
+    lines = spec("""
+crowd: closest pair   | scene/crowd/closest
+crowd: within 0.1     | scene/crowd/within
+roadmap: closest pair | scene/roadmap/closest
+roadmap: within 0.1   | scene/roadmap/within
+""")
+    columns = spec("""
+SceneDistance      | median_us kios
+FCL's manager      | median_us fcl_manager
+manager / ours     | ratio
+searches           | narrow_queries kios
+manager's searches | narrow_queries fcl_manager
+models prepared    | prepared_models kios
+""")
+    return grid("us a frame", lines, columns, lambda line, column, _: number(
+        rows.ratio(line[0], "scene", "fcl_manager") if column == ["ratio"]
+        else rows.find(line[0], "scene", column[1])[column[0]]))
+
+
+# docs/settings.md
+
+def calls(rows):
+    lines = spec("""
+do they touch? `fcl::collide`, one contact | collide kios
+nearer than ten times the distance? `kios::closerThan` | threshold kios threshold=10
+nearer than 1.1 times | threshold kios threshold=1.1
+nearer than 1.01 times | threshold kios threshold=1.01
+nearer than 0.9 times | threshold kios threshold=0.9
+how far, exactly? `fcl::distance`, `kios::distance` | distance kios rel_err=0 abs_err=0
+how far, within a tenth? `rel_err = 0.1` | distance kios rel_err=0.1 abs_err=0
+how far, within 0.1? `abs_err = 0.1` | distance kios rel_err=0 abs_err=0.1
+what do 32 expansions tell? `max_expansions = 32` | budget kios budget=32
+FCL's OBBRSS: do they touch? | collide fcl_obbrss
+FCL's OBBRSS: how far? | distance fcl_obbrss rel_err=0 abs_err=0
+""")
+    columns = spec("falling | falling\nspinning | spinning\ngenerated | generated")
+
+    def cell(line, column, settings):
+        scenario = f"error/{column[0]}"
+        if line[0] == "collide":
+            scenario = column[0].replace("generated", "generated/falling")
+        return number(rows.us(scenario, *line, **settings))
+    return grid("us", lines, columns, cell)
+
+
+def arms(rows):
+    lines = spec("""
+`SceneDistance`, closest pair | closest kios
+FCL's `DynamicAABBTreeCollisionManager`, OBBRSS, closest pair | closest fcl_manager
+`SceneDistance`, all within 0.1, with distances | within kios
+the same with `exact = false`: only which | verdicts kios
+FCL's manager, all within 0.1 | within fcl_manager
+`SceneDistance`, every clearance | clearances kios
+`fcl::distance` of each pair over k-IOS | clearances kios_pairs
+""")
+    return grid("us a frame", lines, spec("smooth motion | smooth\nrandom poses | random"),
+                lambda line, column, _: number(
+                    rows.us(f"robots/ur5/{column[0]}/{line[0]}", "scene", line[1])))
+
+
+def preparing(rows):
+    lines = spec("""
+build (`endModel`) | scaling/20000 build
+build, prepare and first query | scaling/20000 prepare
+then: a distance at a gap of 0.1 | scaling/20000/gap_0.1 distance
+a distance at contact | scaling/20000/touching distance
+a pair that the root volumes decide: collide | rootreject/far collide
+a pair that they decide: a threshold | rootreject/far threshold
+""")
+    columns = spec("k-IOS | kios\nFCL OBBRSS | fcl_obbrss")
+    return grid("two tori of 20,000 triangles", lines, columns,
+                lambda line, column, _: time(rows.us(*line, *column)))
+
+
+def refits(rows):
+    lines = spec("""
+`endReplaceModel(false)`: rebuild | refit/5000/rebuild kios
+`endReplaceModel(true, false)`: refit top-down | refit/5000/top_down kios
+`endReplaceModel(true, true)`: refit bottom-up | refit/5000/bottom_up kios
+OBBRSS: rebuild | refit/5000/rebuild fcl_obbrss
+OBBRSS: refit bottom-up | refit/5000/bottom_up fcl_obbrss
+""")
+    columns = spec("""
+change and first query | refit median_us
+distance after it | distance median_us
+volume tests | distance bv_tests
+worst error | distance max_abs_error
+""")
+
+    def cell(line, column, _):
+        value = rows.find(line[0], column[0], line[1])[column[1]]
+        if column[1] == "max_abs_error":
+            return f"{value:.0e}"
+        return time(value) if column[1] == "median_us" else number(value)
+    return grid("two tori of 5,000 triangles", lines, columns, cell)
+
+
+# docs/continuous.md, docs/shapes.md, docs/rays.md
+
+def continuous(rows):
+    columns = spec("""
+volume tests       | bv_tests kios
+triangle tests     | leaf_tests kios
+k-IOS              | median_us kios
+wrong              | wrong kios
+FCL, 1,000 samples | median_us fcl_obbrss_sampling
+wrong              | wrong fcl_obbrss_sampling
+FCL, advancement   | median_us fcl_obbrss_advancement
+wrong              | wrong fcl_obbrss_advancement
+""")
+
+    def cell(line, column, _):
+        row = rows.find(f"continuous/{line[0]}", "continuous", column[1])
+        if column[0] == "wrong":
+            return f"{row['wrong_verdicts']} of {row['frames']}"
+        return time(row[column[0]]) if column[0] == "median_us" else number(row[column[0]])
+    motions = spec("\n".join(f"{motion} | {motion}"
+                             for motion in ("translation", "linear", "screw", "spline")))
+    return grid("motion", motions, columns, cell)
+
+
+def shapes(rows):
+    lines = [(scenario.split("/")[1].replace("shell", "octree"), ([scenario], {}))
+             for scenario in rows.scenarios("shapes/*") + rows.scenarios("octrees/*")]
+    columns = spec("""
+distance          | distance
+FCL's worst error | distance error
+first contact     | collide
+all contacts      | contacts
+""")
+
+    def cell(line, column, _):
+        if column[1:]:
+            return f"{rows.find(line[0], 'distance', OBBRSS)['max_abs_error']:.0e}"
+        return f"{number(rows.us(line[0], *column))} ({number(rows.ratio(line[0], *column))})"
+    return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
+
+
+def rays(rows):
+    lines = [(", ".join(scenario.split("/")[1:]), ([scenario], {}))
+             for scenario in rows.scenarios("rays/*")]
+    columns = spec("""
+k-IOS          | us kios
+in FCL's tree  | us kios_fcl_tree
+Embree         | us embree
+volume tests   | bv_tests
+triangle tests | leaf_tests
+Embree differs | wrong embree
+""")
+
+    def cell(line, column, _):
+        if len(column) == 1:
+            return number(rows.find(line[0], "first")[column[0]])
+        asked = [(line[0], query, column[1]) for query in ("first", "any", "all")]
+        return " / ".join(number(rows.us(*key)) if column[0] == "us"
+                          else str(rows.find(*key)["wrong_verdicts"]) for key in asked)
+    return grid("us: first / any / all hits", lines, columns, cell)
+
+
+# docs/stability.md
+
+def stability(rows):
+    lines = [(scenario[10:], ([scenario], {})) for scenario in rows.scenarios("stability/*")]
+    columns = spec("""
+error: k-IOS         | distance max_abs_error kios
+FCL                  | distance max_abs_error fcl
+wrong 0: k-IOS       | distance wrong_verdicts kios
+FCL                  | distance wrong_verdicts fcl
+wrong verdict: k-IOS | collide wrong_verdicts kios
+FCL                  | collide wrong_verdicts fcl
+""")
+
+    def cell(line, column, _):
+        query, key, bv = column
+        value = rows.find(line[0], query, bv).get(key)
+        if value is None:
+            return "not finite"
+        return f"{value:.1e}" if key == "max_abs_error" else str(value)
+    return grid("class", lines, columns, cell)
+
+
+def block(rows, name):
+    """The text of a block; LookupError if there is no such block, or no row for it."""
+    word, *others = name.split()
+    make = globals().get(word)
+    if not callable(make) or word in ("grid", "number", "spec", "table", "time", "block"):
+        raise LookupError(f"scripts/figures/tables.py has no block '{name}'")
+    return make(rows, *others)
