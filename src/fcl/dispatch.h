@@ -45,6 +45,20 @@ template <typename S>
                                    : "; replace the other by a mesh, built by kios::makeModel()."));
 }
 
+/// Throws std::invalid_argument if rel_err is 1 or more. FCL ignores it, so that callers who
+/// confuse the request's arguments never noticed; an error that is meant is smaller.
+template <typename S>
+void requireRelativeError(const fcl::DistanceRequest<S>& request) {
+  if (!(request.rel_err >= 1)) return;  // what is negative or NaN is refused by the query
+  std::ostringstream message;
+  message << "fcl_kios: DistanceRequest::rel_err is " << request.rel_err
+          << ", but must be below 1: fcl::DistanceRequest takes (enable_nearest_points, "
+             "enable_signed_distance, rel_err, abs_err, distance_tolerance, gjk_solver_type); set "
+             "its members by name, rel_err = 0 for exact distances (kios::distance() takes larger "
+             "errors).";
+  throw std::invalid_argument(message.str());
+}
+
 /// A mesh over k-IOS against anything but another. Results have FCL's order, whatever that of the
 /// call: mesh and shape, octree and mesh.
 template <typename S>
@@ -91,6 +105,7 @@ S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
            const fcl::CollisionGeometry<S>* o2, const fcl::Transform3<S>& tf2,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
+  if (model1 || model2) requireRelativeError(request);
   if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
   if (model1) return distanceOther(*model1, tf1, *o2, tf2, request, result);
   if (model2) return distanceOther(*model2, tf2, *o1, tf1, request, result);
