@@ -3,8 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
-#include "fcl/common/types.h"
+#include "fcl_kios/fcl/fcl_own.h"
 
 // fcl::collide, fcl::distance and fcl::continuousCollide for objects that may hold a kios::kIOS
 // model. FCL dispatches through tables inside libfcl that a foreign volume can't join; these
@@ -12,58 +13,21 @@
 // callbacks call them, and hand every pair without a kIOS model to FCL.
 //
 // A translation unit that sees objects only through FCL's headers needs this (light) header too:
-// link the CMake target fcl_kios::force_include. Explicit template arguments, and solver types that
-// aren't templates of the scalar, reach FCL's templates, which know no kIOS (a warning, no
-// contact); write fcl::collide(...). In C++20, fcl::collide<double>(...) and
-// fcl::distance<double>(...) without a solver come here too.
+// link the CMake target fcl_kios::force_include. Before C++20, explicit template arguments, and
+// solver types that aren't templates of the scalar, reach FCL's templates, which know no kIOS (a
+// warning, no contact): write fcl::collide(...). In C++20 these forms come here too.
 //
 // A finished mesh over k-IOS is served against another, FCL's nine shapes and octrees; any other
 // pair with a kIOS model throws std::invalid_argument and names both types. So does an unfinished
-// model or a pose that isn't rigid. Without a kIOS model everything is as in FCL.
-
-namespace fcl {
-
-template <typename S>
-class CollisionGeometry;
-template <typename S>
-class CollisionObject;
-template <typename S>
-struct CollisionRequest;
-template <typename S>
-struct CollisionResult;
-template <typename S>
-struct DistanceRequest;
-template <typename S>
-struct DistanceResult;
-template <typename S>
-class ContinuousCollisionObject;
-template <typename S>
-struct ContinuousCollisionRequest;
-template <typename S>
-struct ContinuousCollisionResult;
-template <typename S>
-class MotionBase;
-
-// FCL's forms with a solver, which ours below hand over to.
-template <typename S, typename NarrowPhaseSolver>
-std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
-                    const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
-                    const NarrowPhaseSolver* nsolver, const CollisionRequest<S>& request,
-                    CollisionResult<S>& result);
-template <typename NarrowPhaseSolver>
-typename NarrowPhaseSolver::S distance(
-    const CollisionGeometry<typename NarrowPhaseSolver::S>* o1,
-    const Transform3<typename NarrowPhaseSolver::S>& tf1,
-    const CollisionGeometry<typename NarrowPhaseSolver::S>* o2,
-    const Transform3<typename NarrowPhaseSolver::S>& tf2, const NarrowPhaseSolver* nsolver,
-    const DistanceRequest<typename NarrowPhaseSolver::S>& request,
-    DistanceResult<typename NarrowPhaseSolver::S>& result);
-}  // namespace fcl
+// model or a pose that isn't rigid, and a null object or geometry in any pair. Without a kIOS model
+// all else is as in FCL.
 
 namespace kios {
 /// True if the geometry is a fcl::BVHModel<kIOS>, finished or not.
 bool holdsModel(const fcl::CollisionGeometry<double>* geometry);
 bool holdsModel(const fcl::CollisionGeometry<float>* geometry);
+/// Throws std::invalid_argument if either is null.
+void requireObjects(const void* object1, const void* object2);
 }  // namespace kios
 
 namespace fcl {
@@ -124,12 +88,13 @@ std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
   if (kios::holdsModel(o1) || kios::holdsModel(o2)) {
     return kios_overloads::collide(o1, tf1, o2, tf2, request, result);
   }
-  return fcl::collide<S, Solver<S>>(o1, tf1, o2, tf2, solver, request, result);
+  return kios::fcl_own::collide(o1, tf1, o2, tf2, solver, request, result);
 }
 template <typename S, template <typename> class Solver>
 std::size_t collide(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
                     const Solver<S>* solver, const CollisionRequest<S>& request,
                     CollisionResult<S>& result) {
+  kios::requireObjects(o1, o2);
   return kios_overloads::collide(o1->collisionGeometry().get(), o1->getTransform(),
                                  o2->collisionGeometry().get(), o2->getTransform(), solver, request,
                                  result);
@@ -141,45 +106,123 @@ S distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1, const Colli
   if (kios::holdsModel(o1) || kios::holdsModel(o2)) {
     return kios_overloads::distance(o1, tf1, o2, tf2, request, result);
   }
-  return fcl::distance<Solver<S>>(o1, tf1, o2, tf2, solver, request, result);
+  return kios::fcl_own::distance(o1, tf1, o2, tf2, solver, request, result);
 }
 template <typename S, template <typename> class Solver>
 S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2, const Solver<S>* solver,
            const DistanceRequest<S>& request, DistanceResult<S>& result) {
+  kios::requireObjects(o1, o2);
   return kios_overloads::distance(o1->collisionGeometry().get(), o1->getTransform(),
                                   o2->collisionGeometry().get(), o2->getTransform(), solver,
                                   request, result);
 }
 
 #if defined(__cpp_concepts) && __cpp_concepts >= 201907L
-// C++20: more constrained than FCL's templates.
+// C++20: more constrained than FCL's templates, which explicit template arguments and other
+// solvers reach otherwise. The return types are deduced so that FCL's `extern template` lines,
+// which name a type, mean FCL's templates and not these.
 template <typename S>
-concept KiosScalar = sizeof(S) == sizeof(double) || sizeof(S) == sizeof(float);
+concept KiosScalar = std::is_same_v<S, double> || std::is_same_v<S, float>;
 
 template <typename S>
-requires KiosScalar<S> std::size_t collide(const CollisionObject<S>* o1,
-                                           const CollisionObject<S>* o2,
-                                           const CollisionRequest<S>& request,
-                                           CollisionResult<S>& result) {
+requires KiosScalar<S> auto collide(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
+                                    const CollisionRequest<S>& request,
+                                    CollisionResult<S>& result) {
   return kios_overloads::collide(o1, o2, request, result);
 }
 template <typename S>
-requires KiosScalar<S> std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
-                                           const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
-                                           const CollisionRequest<S>& request,
-                                           CollisionResult<S>& result) {
+requires KiosScalar<S> auto collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                                    const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                                    const CollisionRequest<S>& request,
+                                    CollisionResult<S>& result) {
   return kios_overloads::collide(o1, tf1, o2, tf2, request, result);
 }
 template <typename S>
-requires KiosScalar<S> S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
-                                  const DistanceRequest<S>& request, DistanceResult<S>& result) {
+requires KiosScalar<S> auto distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
+                                     const DistanceRequest<S>& request, DistanceResult<S>& result) {
   return kios_overloads::distance(o1, o2, request, result);
 }
 template <typename S>
-requires KiosScalar<S> S distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
-                                  const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
-                                  const DistanceRequest<S>& request, DistanceResult<S>& result) {
+requires KiosScalar<S> auto distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                                     const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                                     const DistanceRequest<S>& request, DistanceResult<S>& result) {
   return kios_overloads::distance(o1, tf1, o2, tf2, request, result);
+}
+
+template <typename S>
+requires std::is_same_v<S, double> auto continuousCollide(
+    const CollisionGeometry<S>* o1, const MotionBase<S>* motion1, const CollisionGeometry<S>* o2,
+    const MotionBase<S>* motion2, const ContinuousCollisionRequest<S>& request,
+    ContinuousCollisionResult<S>& result) {
+  return kios_overloads::continuousCollide(o1, motion1, o2, motion2, request, result);
+}
+template <typename S>
+requires std::is_same_v<S, double> auto continuousCollide(
+    const CollisionGeometry<S>* o1, const Transform3<S>& tf1_beg, const Transform3<S>& tf1_end,
+    const CollisionGeometry<S>* o2, const Transform3<S>& tf2_beg, const Transform3<S>& tf2_end,
+    const ContinuousCollisionRequest<S>& request, ContinuousCollisionResult<S>& result) {
+  return kios_overloads::continuousCollide(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
+                                           result);
+}
+template <typename S>
+requires std::is_same_v<S, double> auto continuousCollide(
+    const CollisionObject<S>* o1, const Transform3<S>& tf1_end, const CollisionObject<S>* o2,
+    const Transform3<S>& tf2_end, const ContinuousCollisionRequest<S>& request,
+    ContinuousCollisionResult<S>& result) {
+  return kios_overloads::continuousCollide(o1, tf1_end, o2, tf2_end, request, result);
+}
+template <typename S>
+requires std::is_same_v<S, double> auto collide(const ContinuousCollisionObject<S>* o1,
+                                                const ContinuousCollisionObject<S>* o2,
+                                                const ContinuousCollisionRequest<S>& request,
+                                                ContinuousCollisionResult<S>& result) {
+  return kios_overloads::collide(o1, o2, request, result);
+}
+
+template <typename S, typename NarrowPhaseSolver>
+requires KiosScalar<S> auto collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
+                                    const CollisionGeometry<S>* o2, const Transform3<S>& tf2,
+                                    const NarrowPhaseSolver* solver,
+                                    const CollisionRequest<S>& request,
+                                    CollisionResult<S>& result) {
+  if (kios::holdsModel(o1) || kios::holdsModel(o2)) {
+    return kios_overloads::collide(o1, tf1, o2, tf2, request, result);
+  }
+  return kios::fcl_own::collide(o1, tf1, o2, tf2, solver, request, result);
+}
+template <typename S, typename NarrowPhaseSolver>
+requires KiosScalar<S> auto collide(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
+                                    const NarrowPhaseSolver* solver,
+                                    const CollisionRequest<S>& request,
+                                    CollisionResult<S>& result) {
+  kios::requireObjects(o1, o2);
+  return kios_overloads::collide(o1->collisionGeometry().get(), o1->getTransform(),
+                                 o2->collisionGeometry().get(), o2->getTransform(), solver, request,
+                                 result);
+}
+template <typename NarrowPhaseSolver>
+requires KiosScalar<typename NarrowPhaseSolver::S> auto distance(
+    const CollisionGeometry<typename NarrowPhaseSolver::S>* o1,
+    const Transform3<typename NarrowPhaseSolver::S>& tf1,
+    const CollisionGeometry<typename NarrowPhaseSolver::S>* o2,
+    const Transform3<typename NarrowPhaseSolver::S>& tf2, const NarrowPhaseSolver* solver,
+    const DistanceRequest<typename NarrowPhaseSolver::S>& request,
+    DistanceResult<typename NarrowPhaseSolver::S>& result) {
+  if (kios::holdsModel(o1) || kios::holdsModel(o2)) {
+    return kios_overloads::distance(o1, tf1, o2, tf2, request, result);
+  }
+  return kios::fcl_own::distance(o1, tf1, o2, tf2, solver, request, result);
+}
+template <typename NarrowPhaseSolver>
+requires KiosScalar<typename NarrowPhaseSolver::S> auto distance(
+    const CollisionObject<typename NarrowPhaseSolver::S>* o1,
+    const CollisionObject<typename NarrowPhaseSolver::S>* o2, const NarrowPhaseSolver* solver,
+    const DistanceRequest<typename NarrowPhaseSolver::S>& request,
+    DistanceResult<typename NarrowPhaseSolver::S>& result) {
+  kios::requireObjects(o1, o2);
+  return kios_overloads::distance(o1->collisionGeometry().get(), o1->getTransform(),
+                                  o2->collisionGeometry().get(), o2->getTransform(), solver,
+                                  request, result);
 }
 #endif
 

@@ -58,6 +58,15 @@ inline Float4 sqrt(Float4 v) {
 #endif
 }
 
+/// Whether a < b and c < d in both lanes.
+inline bool bothLess(Double2 a, Double2 b, Double2 c, Double2 d) {
+#if defined(__SSE2__)
+  return _mm_movemask_pd(_mm_and_pd(_mm_cmplt_pd(a, b), _mm_cmplt_pd(c, d))) == 3;
+#else
+  return a[0] < b[0] && a[1] < b[1] && c[0] < d[0] && c[1] < d[1];
+#endif
+}
+
 inline float horizontalMax(Float4 v) {
   const float a = v[0] > v[1] ? v[0] : v[1];
   const float b = v[2] > v[3] ? v[2] : v[3];

@@ -10,6 +10,7 @@
 
 #include "bv/balls.h"
 #include "bv/lanes.h"
+#include "bv/rotation.h"
 #include "bv/rounding.h"
 
 namespace kios {
@@ -158,41 +159,31 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   return lower;
 }
 
-[[noreturn]] void refuseRotation(const char* what, double error, double allowed) {
-  std::ostringstream message;
-  message << "fcl_kios: the " << what << " is not rigid: |R^T R - I| = " << error << ", at most "
-          << allowed << " is allowed.";
-  throw std::invalid_argument(message.str());
-}
-
-/// Square of the Frobenius norm of R^T R - I, R by its entries in any floating type or several in
-/// lanes.
-template <typename Entry>
-auto squaredRotationError(const Entry& r) {
-  const auto dot = [&r](int i, int j) {
-    return r(0, i) * r(0, j) + r(1, i) * r(1, j) + r(2, i) * r(2, j);
-  };
-  const auto xx = dot(0, 0) - 1, yy = dot(1, 1) - 1, zz = dot(2, 2) - 1;
-  const auto xy = dot(0, 1), xz = dot(0, 2), yz = dot(1, 2);
-  return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
-}
-
-/// Throws if that is too much for a rotation, or NaN.
+/// Throws if either isn't a rotation.
 template <typename S>
-void requireRotation(double squared_error, const char* what) {
-  constexpr double kRigid = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
-  if (!(squared_error <= kRigid * kRigid)) refuseRotation(what, std::sqrt(squared_error), kRigid);
+[[gnu::noinline, gnu::cold]] void requireRotations(const fcl::Transform3<S>& X_W1,
+                                                   const fcl::Transform3<S>& X_W2,
+                                                   const lanes::Double2& squares) {
+  const auto determinantOf = [](const fcl::Transform3<S>& X) {
+    return determinant([&X](int i, int j) { return double{X.matrix()(i, j)}; });
+  };
+  requireRotation<S>(squares[0], determinantOf(X_W1), "first object's pose");
+  requireRotation<S>(squares[1], determinantOf(X_W2), "second object's pose");
 }
 
 /// The sum for both poses' rotations, R in lanes; throws if either isn't one.
 template <typename S>
 double squaredRotationErrors(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+  constexpr double kMost = kRotationError<S> * kRotationError<S>;
   const auto &m1 = X_W1.matrix(), &m2 = X_W2.matrix();
-  const lanes::Double2 squares = squaredRotationError([&](int i, int j) {
+  const auto entries = [&](int i, int j) {
     return lanes::Double2{double{m1(i, j)}, double{m2(i, j)}};
-  });
-  requireRotation<S>(squares[0], "first object's pose");
-  requireRotation<S>(squares[1], "second object's pose");
+  };
+  const lanes::Double2 squares = squaredRotationError(entries);
+  if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{kUpright, kUpright},
+                       upright(entries))) {
+    requireRotations<S>(X_W1, X_W2, squares);
+  }
   return squares[0] + squares[1];
 }
 
@@ -204,11 +195,23 @@ const RelativePose<S>& identityPose() {
 
 }  // namespace
 
+void refuseRotation(const char* what, double error, double allowed) {
+  std::ostringstream message;
+  message << "fcl_kios: the " << what << " is not rigid: ";
+  if (error <= allowed) {
+    message << "it is a reflection (det R < 0); mirror the vertices of the mesh instead.";
+  } else {
+    message << "|R^T R - I| = " << error << ", at most " << allowed << " is allowed.";
+  }
+  throw std::invalid_argument(message.str());
+}
+
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
     : R(R_AB), T(T_AB) {
-  const double square = squaredRotationError([&](int i, int j) { return double{R_AB(i, j)}; });
-  requireRotation<S>(square, "relative pose");
+  const auto entries = [&](int i, int j) { return double{R_AB(i, j)}; };
+  const double square = squaredRotationError(entries);
+  requireRotation<S>(square, determinant(entries), "relative pose");
   precompute(square);
 }
 

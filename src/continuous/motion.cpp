@@ -3,9 +3,9 @@
 #include "continuous/motion.h"
 
 #include <algorithm>
-#include <sstream>
 #include <stdexcept>
 
+#include "bv/rotation.h"
 #include "bv/rounding.h"
 
 namespace kios::continuous {
@@ -17,15 +17,10 @@ using fcl::Transform3d;
 
 /// The rotation itself if it is orthonormal to rounding, else that of its quaternion.
 Matrix3d orthonormal(const Matrix3d& R) {
-  constexpr double kRigid = 1e-4, kRounded = 16 * kUlpDouble;
-  const double error = (R.transpose() * R - Matrix3d::Identity()).norm();
-  if (!(error <= kRigid) || !(R.determinant() > 0)) {
-    std::ostringstream message;
-    message << "fcl_kios: a pose of a motion is not rigid: |R^T R - I| = " << error << ", at most "
-            << kRigid << " is allowed, and no reflection.";
-    throw std::invalid_argument(message.str());
-  }
-  if (error <= kRounded) return R;
+  constexpr double kRounded = 16 * kUlpDouble;
+  const double square = squaredRotationError(R);
+  requireRotation<double>(square, determinant(R), "pose of a motion");
+  if (square <= kRounded * kRounded) return R;
   return Eigen::Quaterniond(R).normalized().toRotationMatrix();
 }
 

@@ -20,8 +20,7 @@ bool anyModel(const CollisionGeometry<double>* o1, const CollisionGeometry<doubl
 
 std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                     const CollisionRequest<double>& request, CollisionResult<double>& result) {
-  return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),
-                       o2->collisionGeometry().get(), o2->getTransform(), request, result);
+  return kios::collide(o1, o2, request, result);
 }
 
 std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
@@ -32,8 +31,7 @@ std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double
 
 double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                 const DistanceRequest<double>& request, DistanceResult<double>& result) {
-  return kios::distance(o1->collisionGeometry().get(), o1->getTransform(),
-                        o2->collisionGeometry().get(), o2->getTransform(), request, result);
+  return kios::distance(o1, o2, request, result);
 }
 
 double distance(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
@@ -49,7 +47,7 @@ double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<d
   if (anyModel(o1, o2)) {
     return kios::firstContact(*o1, motion1, *o2, motion2, request, result);
   }
-  return fcl::continuousCollide<double>(o1, motion1, o2, motion2, request, result);
+  return kios::fcl_own::continuousCollide(o1, motion1, o2, motion2, request, result);
 }
 
 double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1_beg,
@@ -60,14 +58,15 @@ double continuousCollide(const CollisionGeometry<double>* o1, const Transform3<d
   if (anyModel(o1, o2)) {
     return kios::firstContact(*o1, tf1_beg, tf1_end, *o2, tf2_beg, tf2_end, request, result);
   }
-  return fcl::continuousCollide<double>(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
-                                        result);
+  return kios::fcl_own::continuousCollide(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
+                                          result);
 }
 
 double continuousCollide(const CollisionObject<double>* o1, const Transform3<double>& tf1_end,
                          const CollisionObject<double>* o2, const Transform3<double>& tf2_end,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
+  kios::requireObjects(o1, o2);
   return continuousCollide(o1->collisionGeometry().get(), o1->getTransform(), tf1_end,
                            o2->collisionGeometry().get(), o2->getTransform(), tf2_end, request,
                            result);
@@ -77,6 +76,7 @@ double collide(const ContinuousCollisionObject<double>* o1,
                const ContinuousCollisionObject<double>* o2,
                const ContinuousCollisionRequest<double>& request,
                ContinuousCollisionResult<double>& result) {
+  kios::requireObjects(o1, o2);
   return continuousCollide(o1->collisionGeometry().get(), o1->getMotion(),
                            o2->collisionGeometry().get(), o2->getMotion(), request, result);
 }

@@ -11,8 +11,7 @@ inline namespace kios_overloads {
 
 std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
                     const CollisionRequest<float>& request, CollisionResult<float>& result) {
-  return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),
-                       o2->collisionGeometry().get(), o2->getTransform(), request, result);
+  return kios::collide(o1, o2, request, result);
 }
 
 std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
@@ -23,8 +22,7 @@ std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>&
 
 float distance(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
                const DistanceRequest<float>& request, DistanceResult<float>& result) {
-  return kios::distance(o1->collisionGeometry().get(), o1->getTransform(),
-                        o2->collisionGeometry().get(), o2->getTransform(), request, result);
+  return kios::distance(o1, o2, request, result);
 }
 
 float distance(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,

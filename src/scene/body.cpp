@@ -3,10 +3,10 @@
 #include "scene/body.h"
 
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "bv/rotation.h"
 #include "bv/rounding.h"
 #include "bv/stamp.h"
 
@@ -24,28 +24,15 @@ template <typename S>
 double requireRigid(const fcl::Transform3<S>& X) {
   const auto& R = X.linear();
   const auto& t = X.translation();
-  double square = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      double dot = i == j ? -1 : 0;
-      for (int k = 0; k < 3; ++k) dot += double{R(k, i)} * double{R(k, j)};
-      square += dot * dot;
-    }
-  }
-  const double error = std::sqrt(square);
-  constexpr double kRigid = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
-  if (!(error <= kRigid)) {
-    std::ostringstream message;
-    message << "the pose of an object of the scene is not rigid: |R^T R - I| = " << error
-            << ", at most " << kRigid << " is allowed.";
-    refuse(message.str());
-  }
+  const auto entries = [&R](int i, int j) { return double{R(i, j)}; };
+  const double square = squaredRotationError(entries);
+  requireRotation<S>(square, determinant(entries), "pose of an object of the scene");
   const double size = std::abs(double{t[0]}) + std::abs(double{t[1]}) + std::abs(double{t[2]});
   if (!(size <= kMaxCoordinate<S> / 4)) {
     refuse("the translation of an object of the scene is NaN, infinite or too large.");
   }
   // A power of two, so that it stays the same while rounding errors come and go.
-  return std::ldexp(1.0, std::ilogb(error + 0x1p-48) + 1);
+  return std::ldexp(1.0, std::ilogb(std::sqrt(square) + 0x1p-48) + 1);
 }
 
 template <typename S>

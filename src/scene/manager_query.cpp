@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/scene/manager_query.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -34,12 +35,12 @@ class ManagerQuery<S>::Impl {
   bool ask(const Object* o1, const Object* o2, S& dist) {
     dist = bound_;
     if (done()) return true;
-    Known *a = &meet(o1), *b = &meet(o2);
-    if (b->id < a->id) std::swap(a, b);
-    // Some managers come up with a pair twice.
+    const Known &a = meet(o1), &b = meet(o2);
+    // Some managers come up with a pair twice, in either order.
+    const auto [low, high] = std::minmax(a.id, b.id);
     if (!asked_
-             .insert(std::uint64_t{static_cast<std::uint32_t>(a->id)} << 32 |
-                     static_cast<std::uint32_t>(b->id))
+             .insert(std::uint64_t{static_cast<std::uint32_t>(low)} << 32 |
+                     static_cast<std::uint32_t>(high))
              .second) {
       return false;
     }
@@ -48,7 +49,8 @@ class ManagerQuery<S>::Impl {
       ++counts.filtered;
       return false;
     }
-    scene::PairQuery<S> pair(a->id, a->body, b->id, b->body, memory_);
+    // What is remembered of (b, a) is no help: its distance may differ in the last bits.
+    scene::PairQuery<S> pair(a.id, a.body, b.id, b.body, memory_);
     const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
     const auto answer = answerOf(pair, limit);
     if (answer.within) {
@@ -56,8 +58,7 @@ class ManagerQuery<S>::Impl {
         pairs.clear();
         dist = bound_ = answer.distance;
       }
-      pairs.push_back({a->body.followed, b->body.followed, answer.distance, answer.triangle_a,
-                       answer.triangle_b});
+      pairs.push_back({o1, o2, answer.distance, answer.triangle_a, answer.triangle_b});
     }
     return done();
   }

@@ -14,6 +14,7 @@
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/math/motion/translation_motion.h>
 
+#include "fcl/expect_refused.h"
 #include "fcl/mesh_cases.h"
 
 namespace kios::testing {
@@ -179,7 +180,7 @@ TEST_F(Dispatch, PairsWithoutKiosAreFcls) {
       const fcl::CollisionRequestd request(kAllContacts, true);
       fcl::CollisionResultd ours, theirs;
       EXPECT_EQ(fcl::collide(g1, frame.X_WA, g2, frame.X_WB, request, ours),
-                fcl::collide<double>(g1, frame.X_WA, g2, frame.X_WB, request, theirs));
+                fcl_own::collide(g1, frame.X_WA, g2, frame.X_WB, request, theirs));
       ASSERT_EQ(ours.numContacts(), theirs.numContacts());
       for (std::size_t i = 0; i < ours.numContacts(); ++i) {
         EXPECT_EQ(ours.getContact(i).b1, theirs.getContact(i).b1);
@@ -190,7 +191,7 @@ TEST_F(Dispatch, PairsWithoutKiosAreFcls) {
       fcl::DistanceResultd d_ours, d_theirs;
       const fcl::DistanceRequestd distance_request(true);
       EXPECT_EQ(fcl::distance(g1, frame.X_WA, g2, frame.X_WB, distance_request, d_ours),
-                fcl::distance<double>(g1, frame.X_WA, g2, frame.X_WB, distance_request, d_theirs));
+                fcl_own::distance(g1, frame.X_WA, g2, frame.X_WB, distance_request, d_theirs));
       EXPECT_EQ(d_ours.min_distance, d_theirs.min_distance);
     }
   }
@@ -255,14 +256,54 @@ TEST_F(Dispatch, ClassesDerivedFromTheModelAreRecognised) {
                std::invalid_argument);
 }
 
-TEST_F(Dispatch, NullGeometryIsRefused) {
+TEST_F(Dispatch, NullIsRefused) {
   const fcl::CollisionGeometryd* none = nullptr;
+  const fcl::CollisionObjectd object(model_, kHere), *no_object = nullptr;
+  const fcl::CollisionObjectd hollow{Geometry()};
+  const fcl::ContinuousCollisionObjectd* no_moving = nullptr;
+  const fcl::MotionBased* no_motion = nullptr;
+  const fcl::detail::GJKSolver_libccd<double> solver;
   fcl::CollisionResultd contacts;
   fcl::DistanceResultd distance;
+  fcl::ContinuousCollisionResultd moving;
+  const fcl::CollisionRequestd collide_request;
   const fcl::DistanceRequestd request;
-  EXPECT_THROW(fcl::collide(none, kHere, model_.get(), kHere, {}, contacts), std::invalid_argument);
-  EXPECT_THROW(fcl::distance(model_.get(), kHere, none, kHere, request, distance),
-               std::invalid_argument);
+  const fcl::ContinuousCollisionRequestd moving_request;
+  const auto expectNull = [](const std::function<void()>& call, const std::string& what) {
+    testing::expectRefused(call, what);
+  };
+  for (const auto* first : {none, static_cast<const fcl::CollisionGeometryd*>(model_.get())}) {
+    const auto* second = first ? none : model_.get();
+    const std::string what = "a collision geometry is null";
+    expectNull([&] { fcl::collide(first, kHere, second, kHere, {}, contacts); }, what);
+    expectNull([&] { fcl::distance(first, kHere, second, kHere, request, distance); }, what);
+    expectNull(
+        [&] { fcl::collide(first, kHere, second, kHere, &solver, collide_request, contacts); },
+        what);
+    expectNull(
+        [&] {
+          fcl::continuousCollide(first, kHere, kHere, second, kHere, kHere, moving_request, moving);
+        },
+        what);
+  }
+  for (const auto* first : {no_object, &object}) {
+    const auto* second = first ? no_object : &object;
+    const std::string what = "a collision object is null";
+    expectNull([&] { fcl::collide(first, second, {}, contacts); }, what);
+    expectNull([&] { fcl::distance(first, second, request, distance); }, what);
+    expectNull([&] { fcl::collide(first, second, &solver, collide_request, contacts); }, what);
+    expectNull([&] { fcl::distance(first, second, &solver, request, distance); }, what);
+    expectNull([&] { fcl::continuousCollide(first, kHere, second, kHere, moving_request, moving); },
+               what);
+  }
+  expectNull([&] { fcl::collide(no_moving, no_moving, moving_request, moving); }, "object is null");
+  expectNull([&] { fcl::collide(&object, &hollow, {}, contacts); }, "geometry is null");
+  expectNull(
+      [&] {
+        fcl::continuousCollide(model_.get(), no_motion, model_.get(), no_motion, moving_request,
+                               moving);
+      },
+      "a motion for each object");
 }
 
 }  // namespace

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <type_traits>
+
+#include <fcl/geometry/octree/octree.h>
 
 #include "fcl/expect_refused.h"
 #include "fcl/mesh_cases.h"
@@ -202,6 +205,88 @@ TEST_F(Refused, PosesWhoseErrorsCancel) {
         fcl::distance(good_.get(), twice, good_.get(), half, fcl::DistanceRequestd(true), distance);
       },
       "rigid");
+}
+
+// A reflection would turn faces inside out: refused by every query, static or moving. Both poses
+// reflected make a relative pose that is none.
+template <typename S>
+void expectReflectionsRefused(const Mesh& mesh) {
+  using Pose = fcl::Transform3<S>;
+  const auto model = scenes::buildModel<kIOS<S>>(mesh);
+  const auto sphere = std::make_shared<fcl::Sphere<S>>(S(0.5));
+  const auto cells = std::make_shared<octomap::OcTree>(0.1);
+  cells->updateNode(octomap::point3d(0, 0, 0), true);
+  const auto octree = std::make_shared<fcl::OcTree<S>>(cells);
+  Pose proper = Pose::Identity();
+  proper.translation().z() = 3;
+  std::vector<Pose> mirrors(4, proper);
+  mirrors[0].linear()(1, 1) = -1;
+  mirrors[1].linear() = -mirrors[1].linear();
+  mirrors[2].linear() = scenes::randomPoses(1, 1, 82)[0].linear().cast<S>() * mirrors[0].linear();
+  mirrors[3].linear() << 0, 1, 0, 1, 0, 0, 0, 0, 1;
+  const std::string part = "not rigid: it is a reflection";
+  for (const Pose& mirror : mirrors) {
+    for (const auto& [X1, X2] :
+         {std::pair(mirror, proper), std::pair(proper, mirror), std::pair(mirror, mirror)}) {
+      const Pose &Y1 = X1, &Y2 = X2;
+      fcl::CollisionResult<S> contacts;
+      fcl::DistanceResult<S> result;
+      const fcl::DistanceRequest<S> request;
+      const std::vector<const fcl::CollisionGeometry<S>*> others{model.get(), sphere.get(),
+                                                                 octree.get()};
+      for (const auto* other : others) {
+        expectRefused([&] { fcl::collide(model.get(), Y1, other, Y2, {}, contacts); }, part);
+        expectRefused([&] { fcl::collide(other, Y1, model.get(), Y2, {}, contacts); }, part);
+        expectRefused([&] { fcl::distance(model.get(), Y1, other, Y2, request, result); }, part);
+        expectRefused([&] { fcl::distance(other, Y1, model.get(), Y2, request, result); }, part);
+      }
+      expectRefused([&] { kios::distance(*model, Y1, *model, Y2); }, part);
+      expectRefused([&] { closerThan(*model, Y1, *model, Y2, S(1)); }, part);
+      fcl::CollisionObject<S> o1(model, Y1), o2(model, Y2);
+      ManagerQuery<S> query;
+      S dist = 1;
+      expectRefused([&] { ManagerQuery<S>::callback(&o1, &o2, &query, dist); }, part);
+      EXPECT_EQ(contacts.numContacts(), 0u);
+      EXPECT_EQ(result.o1, nullptr);
+    }
+    SceneDistance<S> scene;
+    const int id = scene.add(model, proper);
+    expectRefused([&] { scene.add(model, mirror); }, part);
+    expectRefused([&] { scene.add(sphere, mirror); }, part);
+    expectRefused([&] { scene.move(id, mirror); }, part);
+    const Ray<S> ray{fcl::Vector3<S>::Zero(), fcl::Vector3<S>::UnitZ()};
+    expectRefused([&] { firstHit(*model, mirror, ray); }, part);
+    expectRefused([&] { anyHit(*model, mirror, ray); }, part);
+    expectRefused([&] { allHits(*model, mirror, ray); }, part);
+    expectRefused(
+        [&] {
+          RelativePose<S>(fcl::Matrix3<S>(mirror.linear()), fcl::Vector3<S>(mirror.translation()));
+        },
+        part);
+    if constexpr (std::is_same_v<S, double>) {
+      fcl::ContinuousCollisionRequestd request;
+      fcl::ContinuousCollisionResultd result;
+      for (const auto& [begin, end] :
+           {std::pair(mirror, mirror), std::pair(proper, mirror), std::pair(mirror, proper)}) {
+        const Pose &X_0 = begin, &X_1 = end;
+        for (const fcl::CollisionGeometryd* other :
+             {static_cast<const fcl::CollisionGeometryd*>(model.get()),
+              static_cast<const fcl::CollisionGeometryd*>(sphere.get())}) {
+          expectRefused(
+              [&] {
+                fcl::continuousCollide(model.get(), X_0, X_1, other, proper, proper, request,
+                                       result);
+              },
+              part);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Refused, Reflections) {
+  expectReflectionsRefused<double>(mesh_);
+  expectReflectionsRefused<float>(mesh_);
 }
 
 // Six-digit rotations, as in the paper's paths, are taken as given: the oracle takes them too.

@@ -8,6 +8,10 @@
 #include <cmath>
 #include <tuple>
 
+#include <fcl/broadphase/broadphase_bruteforce.h>
+#include <fcl/geometry/octree/octree.h>
+
+#include "fcl/expect_refused.h"
 #include "fcl/mesh_cases.h"
 
 namespace kios::testing {
@@ -51,7 +55,7 @@ class Request : public ::testing::Test {
 
 TEST_F(Request, ErrorBoundsAreKeptAndSaveWork) {
   const std::vector<std::pair<double, double>> bounds{{0, 0},    {1e-3, 0},  {0.1, 0},   {0.5, 0},
-                                                      {3, 0},    {0, 1e-3},  {0, 0.05},  {0, 0.5},
+                                                      {0.99, 0}, {0, 1e-3},  {0, 0.05},  {0, 0.5},
                                                       {0, 1e30}, {0.1, 0.3}, {0.5, 1e-9}};
   std::vector<long> work(bounds.size(), 0);
   for (const Frame& frame : frames_) {
@@ -97,17 +101,69 @@ TEST_F(Request, ErrorBoundsThatAreNoNumbersOrNegativeAreRefused) {
   const Frame& frame = frames_.front();
   for (const double bad : {-1e-300, -1.0, -kInfinity, kNaN}) {
     fcl::DistanceResultd result;
-    EXPECT_THROW(distance(frame, withErrors(bad, 0), result), std::invalid_argument);
-    EXPECT_THROW(distance(frame, withErrors(0, bad), result), std::invalid_argument);
+    expectRefused([&] { distance(frame, withErrors(bad, 0), result); }, "rel_err");
+    expectRefused([&] { distance(frame, withErrors(0, bad), result); }, "abs_err");
     EXPECT_EQ(result.min_distance, kMax);
-    try {
-      distance(frame, withErrors(0, bad), result);
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("abs_err"), std::string::npos);
-    }
   }
   fcl::DistanceResultd result;
   EXPECT_NO_THROW(distance(frame, withErrors(-0.0, -0.0), result));
+}
+
+// Callers who confuse the request's arguments: FCL never looks at rel_err, ours would answer with
+// up to twice the distance and more.
+TEST_F(Request, ArgumentsInTheWrongPlaceAreRefused) {
+  const char* const order = "(enable_nearest_points, enable_signed_distance, rel_err, abs_err";
+  const Transform3d here = Transform3d::Identity(), there(Eigen::Translation3d(9, 0, 0));
+  const auto sphere = std::make_shared<fcl::Sphered>(1);
+  const auto cells = std::make_shared<octomap::OcTree>(0.1);
+  cells->updateNode(octomap::point3d(0, 0, 0), true);
+  const auto octree = std::make_shared<fcl::OcTreed>(cells);
+  const auto float_model = scenes::buildModel<kIOSf>(scenes::icosphere(1, 1));
+  const std::vector<std::shared_ptr<fcl::CollisionGeometryd>> others{b_, sphere, octree};
+  for (const auto& request :
+       {fcl::DistanceRequestd(true, true, fcl::GST_INDEP),  // the solver as the third
+        fcl::DistanceRequestd(true, false, 5.0, 0.01), fcl::DistanceRequestd(false, false, 1),
+        withErrors(kInfinity, 0), withErrors(std::nextafter(1, 2), kInfinity)}) {
+    for (const auto& other : others) {
+      fcl::CollisionObjectd o1(a_, here), o2(other, there);
+      fcl::DistanceResultd result;
+      expectRefused([&] { fcl::distance(&o1, &o2, request, result); }, order);
+      expectRefused([&] { fcl::distance(&o2, &o1, request, result); }, order);
+      expectRefused([&] { fcl::distance(a_.get(), here, other.get(), there, request, result); },
+                    order);
+      fcl::DefaultDistanceData<double> data;
+      data.request = request;
+      double dist = kMax;
+      expectRefused([&] { fcl::DefaultDistanceFunction(&o1, &o2, &data, dist); }, order);
+      fcl::NaiveCollisionManagerd manager;
+      manager.registerObject(&o1);
+      manager.registerObject(&o2);
+      manager.setup();
+      expectRefused([&] { manager.distance(&data, fcl::DefaultDistanceFunction<double>); }, order);
+      EXPECT_EQ(result.o1, nullptr);
+      EXPECT_EQ(data.result.o1, nullptr);
+    }
+    fcl::DistanceRequestf in_float(true);
+    in_float.rel_err = static_cast<float>(request.rel_err);
+    fcl::DistanceResultf result;
+    expectRefused(
+        [&] {
+          fcl::distance(float_model.get(), fcl::Transform3f::Identity(), float_model.get(),
+                        fcl::Transform3f::Identity(), in_float, result);
+        },
+        order);
+    // FCL's own pairs are as in FCL.
+    fcl::DistanceResultd of_spheres;
+    EXPECT_NEAR(fcl::distance(sphere.get(), here, sphere.get(), there, request, of_spheres), 7,
+                1e-5);
+  }
+  // The same error is welcome where it is asked for by name.
+  DistanceOptions<double> options;
+  options.rel_err = 3;
+  EXPECT_NO_THROW(kios::distance(*a_, here, *b_, there, options));
+  fcl::DistanceResultd result;
+  EXPECT_NO_THROW(fcl::distance(a_.get(), here, b_.get(), there,
+                                withErrors(std::nextafter(1, 0), kMax), result));
 }
 
 TEST_F(Request, MinDistanceOnEntryIsAnUpperBound) {
@@ -211,12 +267,19 @@ TEST_F(Request, DistanceIsSymmetric) {
 
 // An error bound without limit still gets the distance of some pair of triangles.
 TEST_F(Request, UnlimitedErrorStillAnswers) {
-  for (const auto& [rel, abs] : {std::pair(kInfinity, 0.0), std::pair(kMax, 0.0),
-                                 std::pair(0.0, kInfinity), std::pair(0.0, kMax)}) {
+  for (const double abs : {kInfinity, kMax}) {
     fcl::DistanceResultd result;
-    const double d = distance(frames_.front(), withErrors(rel, abs), result);
-    EXPECT_LT(d, 100) << rel << ' ' << abs;
-    EXPECT_GE(result.b1, 0) << rel << ' ' << abs;
+    const double d = distance(frames_.front(), withErrors(0, abs), result);
+    EXPECT_LT(d, 100) << abs;
+    EXPECT_GE(result.b1, 0) << abs;
+  }
+  for (const double rel : {kInfinity, kMax}) {
+    DistanceOptions<double> options;
+    options.rel_err = rel;
+    const Frame& frame = frames_.front();
+    const auto answer = kios::distance(*a_, frame.X_WA, *b_, frame.X_WB, options);
+    EXPECT_LT(answer.distance, 100) << rel;
+    EXPECT_GE(answer.triangle1, 0) << rel;
   }
 }
 

@@ -60,7 +60,7 @@ using Managers = ::testing::Types<fcl::DynamicAABBTreeCollisionManagerd, fcl::SS
                                   fcl::NaiveCollisionManagerd>;
 TYPED_TEST_SUITE(ManagerQueryOf, Managers);
 
-// Managers ask about a pair in either order, which may differ by rounding.
+// A manager's order of a pair need not be the test's, and the distance may differ by rounding.
 constexpr double kOrder = 1e-12;
 
 TYPED_TEST(ManagerQueryOf, EqualsBruteForceOverFrames) {
@@ -105,6 +105,45 @@ TYPED_TEST(ManagerQueryOf, EqualsBruteForceOverFrames) {
     }
   }
   EXPECT_GT(skipped, 100);
+}
+
+// Each answer is that of the order in which the manager gave the pair, whichever was first.
+TEST(ManagerQuery, KeepsTheManagersOrder) {
+  Bodies bodies(6, 2, 7);
+  Query query;
+  scenes::Random random(9);
+  int differing = 0;
+  for (int frame = 0; frame < 40; ++frame) {
+    for (const bool closest : {false, true}) {
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < i; ++j) {
+          Object *o1 = bodies.objects[i].get(), *o2 = bodies.objects[j].get();
+          if (random.unit() < 0.5) std::swap(o1, o2);
+          if (closest) {
+            query.findClosest();
+          } else {
+            query.findWithin(100);
+          }
+          double dist = 100;
+          Query::callback(o1, o2, &query, dist);
+          Query::callback(o2, o1, &query, dist);  // the same pair: no matter
+          ASSERT_EQ(query.pairs().size(), 1u);
+          const auto& pair = query.pairs()[0];
+          EXPECT_EQ(pair.a, o1);
+          EXPECT_EQ(pair.b, o2);
+          fcl::DistanceResultd result;
+          EXPECT_EQ(pair.distance, fcl::distance(o1, o2, fcl::DistanceRequestd(), result));
+          if (pair.distance > 0) {
+            EXPECT_EQ(pair.triangle_a, result.b1);
+            EXPECT_EQ(pair.triangle_b, result.b2);
+          }
+          differing += pair.distance != Bodies::distance(o2, o1);
+        }
+      }
+    }
+    bodies.place(frame % 6, scenes::randomPoses(1, 2, 100 + frame)[0]);
+  }
+  EXPECT_GT(differing, 0);  // or the orders could not be told apart
 }
 
 TEST(ManagerQuery, SearchesNothingTwice) {

@@ -10,11 +10,12 @@ namespace kios {
 template <typename S>
 struct RelativePose {
   /// Throws std::invalid_argument if the pose is not finite or not rigid: the Frobenius norm of
-  /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float).
+  /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float), and a reflection is not rigid.
   RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
   /// The pose x -> R1^T (R2 x + (t2 - t1)) of every query, for X_W1 and X_W2 in a common frame W,
-  /// each of which must be rigid. A point is off by at most 4 eps (|R||x| + |t2 - t1|) a
-  /// coordinate.
+  /// each of which must be rigid. A coordinate of a point is off by at most
+  /// 3.5 eps (|R1|^T |R2| |x|) + 2.5 eps (|R1|^T |t2 - t1|), absolute values by entry, so by 4 eps
+  /// (|x|_1 + |t2 - t1|) with room for R1 and R2 that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
 
   /// A point of B in A.

@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Meshes far from their own origins: what the common frame's rounding costs (docs/guarantees.md),
+// measured in long double.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+
+#include "query/query_cases.h"
+#include "scenes/random.h"
+
+namespace kios::testing {
+namespace {
+
+using Long3 = Eigen::Matrix<long double, 3, 1>;
+using LongMatrix3 = Eigen::Matrix<long double, 3, 3>;
+
+template <typename S>
+fcl::Vector3<S> randomPoint(scenes::Random& random, double size) {
+  return fcl::Vector3d(random.uniform(-size, size), random.uniform(-size, size),
+                       random.uniform(-size, size))
+      .cast<S>();
+}
+
+/// The point as a mesh: a degenerate triangle, three times.
+template <typename S>
+std::shared_ptr<Model<S>> pointModel(const fcl::Vector3<S>& p) {
+  return makeModel<S>({p, p, p}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}});
+}
+
+template <typename S>
+class OwnOrigin : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(OwnOrigin, Scalars);
+
+// Two points near each other in the world, each `offset` from its model's origin, poses at random.
+TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {
+  using S = TypeParam;
+  constexpr double kEps = std::numeric_limits<S>::epsilon();
+  scenes::Random random(11);
+  std::uint64_t seed = 0;
+  double worst = 0;
+  for (const double offset : {0.0, 1.0, 1e4, 1e6, 1e8}) {
+    double worst_here = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const fcl::Vector3<S> p = randomPoint<S>(random, offset) + randomPoint<S>(random, 1);
+      const fcl::Vector3<S> x = randomPoint<S>(random, offset) + randomPoint<S>(random, 1);
+      const auto poses = scenes::randomPoses(2, 1, ++seed);
+      fcl::Transform3<S> X_W1 = poses[0].cast<S>(), X_W2 = poses[1].cast<S>();
+      X_W1.translation() -= X_W1.linear() * p;
+      X_W2.translation() -= X_W2.linear() * x;
+
+      // The stored vertices and poses in exact arithmetic, so far as it matters here.
+      const LongMatrix3 R1 = X_W1.linear().template cast<long double>(),
+                        R2 = X_W2.linear().template cast<long double>();
+      const Long3 t = X_W2.translation().template cast<long double>() -
+                      X_W1.translation().template cast<long double>();
+      const Long3 p_1 = p.template cast<long double>(), x_2 = x.template cast<long double>();
+      const long double exact = (R1.transpose() * (R2 * x_2 + t) - p_1).norm();
+      const long double in_world = (R2 * x_2 + t - R1 * p_1).norm();
+
+      const auto a = pointModel<S>(p), b = pointModel<S>(x);
+      const DistanceAnswer<S> answer = kios::distance(*a, X_W1, *b, X_W2);
+      const double size = static_cast<double>(x_2.template lpNorm<1>() + t.norm());
+      const auto error = static_cast<double>(std::abs((long double)(answer.distance) - exact));
+      const double of_triangles = 16 * kEps * static_cast<double>(exact);
+      ASSERT_LE(error, of_triangles + std::sqrt(3.0) * 4 * kEps * size) << offset;
+      ASSERT_LE((long double)(answer.lower_bound), exact) << offset;
+      ASSERT_GE((long double)(answer.upper_bound), exact) << offset;
+      // The world's distance is another as far as R1 isn't orthonormal.
+      const auto E = static_cast<double>((R1.transpose() * R1 - LongMatrix3::Identity()).norm());
+      const auto skew = static_cast<double>(std::abs(in_world - exact));
+      ASSERT_LE(skew, 1.01 * E * static_cast<double>(p_1.norm() + exact)) << offset;
+
+      fcl::DistanceResult<S> result;
+      ASSERT_EQ(fcl::distance(a.get(), X_W1, b.get(), X_W2, fcl::DistanceRequest<S>(), result),
+                answer.distance);
+      worst_here = std::max(worst_here, error / (kEps * size));
+    }
+    std::printf("offset %g: %.3f eps (|x|_1 + |t2 - t1|)\n", offset, worst_here);
+    if (offset < 1e4) continue;            // where the triangles' own error shows
+    EXPECT_GT(worst_here, 0.1) << offset;  // else nothing was measured
+    worst = std::max(worst, worst_here);
+  }
+  EXPECT_LT(worst, 0.75) << "the figure of docs/guarantees.md";
+}
+
+}  // namespace
+}  // namespace kios::testing
