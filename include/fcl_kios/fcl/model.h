@@ -9,6 +9,24 @@
 #include "fcl_kios/fcl/bv_traits.h"
 #include "fcl_kios/fcl/bvh_build.h"
 
+namespace fcl {
+
+// Members of models over k-IOS that differ from FCL's: they keep nothing in fitter or splitter
+// (bvh_build.h).
+template <>
+int BVHModel<kios::kIOS<double>>::buildTree();
+template <>
+int BVHModel<kios::kIOS<double>>::refitTree_topdown();
+template <>
+int BVHModel<kios::kIOS<float>>::buildTree();
+template <>
+int BVHModel<kios::kIOS<float>>::refitTree_topdown();
+
+extern template class BVHModel<kios::kIOS<double>>;
+extern template class BVHModel<kios::kIOS<float>>;
+
+}  // namespace fcl
+
 namespace kios {
 
 /// A mesh over k-IOS.
@@ -37,8 +55,3 @@ extern template void validate(const Model<double>&);
 extern template void validate(const Model<float>&);
 
 }  // namespace kios
-
-namespace fcl {
-extern template class BVHModel<kios::kIOS<double>>;
-extern template class BVHModel<kios::kIOS<float>>;
-}  // namespace fcl
