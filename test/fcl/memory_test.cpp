@@ -359,7 +359,9 @@ TEST_F(Memory, ScenesGoOn) {
     const bool failed = countdown.exchange(0) <= 0;
     objects.move(mover, far_.X_WB);
     const std::size_t count = objects.size();
-    EXPECT_EQ(objects.closestPair()->distance, expected) << n;
+    const auto closest = objects.closestPair();
+    ASSERT_TRUE(closest.has_value()) << n;
+    EXPECT_EQ(closest->distance, expected) << n;
     EXPECT_EQ(objects.clearances().size(), count * (count - 1) / 2) << n;
     EXPECT_EQ(objects.pairsWithin(100).size(), count * (count - 1) / 2) << n;
     if (failed) continue;
