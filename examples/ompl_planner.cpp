@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "shapes.h"
@@ -71,9 +72,11 @@ class World {
  private:
   static std::shared_ptr<fcl::BVHModel<BV>> model(const shapes::Mesh<double>& mesh) {
     auto model = std::make_shared<fcl::BVHModel<BV>>();
-    model->beginModel();
-    model->addSubModel(mesh.vertices, mesh.triangles);
-    model->endModel();
+    if (model->beginModel() != fcl::BVH_OK ||
+        model->addSubModel(mesh.vertices, mesh.triangles) != fcl::BVH_OK ||
+        model->endModel() != fcl::BVH_OK) {
+      throw std::runtime_error("FCL built no model.");
+    }
     return model;
   }
 

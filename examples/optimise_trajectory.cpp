@@ -16,6 +16,7 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <stdexcept>
 #include <vector>
 
 #include "fcl/geometry/bvh/BVH_model.h"
@@ -43,9 +44,11 @@ Mesh box(const fcl::Vector3d& size) {
 /// FCL's counterpart of a cover: the RSS of the nodes at kLevel of its own tree.
 std::vector<fcl::RSSd> rssCover(const Mesh& mesh) {
   fcl::BVHModel<fcl::RSSd> model;
-  model.beginModel();
-  model.addSubModel(mesh.vertices, mesh.triangles);
-  model.endModel();
+  if (model.beginModel() != fcl::BVH_OK ||
+      model.addSubModel(mesh.vertices, mesh.triangles) != fcl::BVH_OK ||
+      model.endModel() != fcl::BVH_OK) {
+    throw std::runtime_error("FCL built no model.");
+  }
   std::vector<int> nodes = {0};
   for (int level = 0; level < kLevel; ++level) {
     std::vector<int> next;

@@ -131,9 +131,11 @@ class MeshSet final : public Competitor {
              const Question& question) override {
     for (std::size_t i = 0; i < meshes.size(); ++i) {
       Model& model = *bodies_[i].model;
-      model.beginReplaceModel();
-      model.replaceSubModel(meshes[i].vertices);
-      model.endReplaceModel(how != Refit::kRebuild, how == Refit::kBottomUp);
+      if (model.beginReplaceModel() != fcl::BVH_OK ||
+          model.replaceSubModel(meshes[i].vertices) != fcl::BVH_OK ||
+          model.endReplaceModel(how != Refit::kRebuild, how == Refit::kBottomUp) != fcl::BVH_OK) {
+        throw std::runtime_error("FCL refused to refit a mesh.");
+      }
     }
     std::vector<double> answer_to(1);
     answer(Query::kDistance, {question}, 0, 1, answer_to);

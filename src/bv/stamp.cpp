@@ -7,12 +7,14 @@
 namespace kios {
 namespace {
 
-/// Stamps are handed out to threads in blocks, so that they share no counter on the way.
+/// Stamps are handed out to threads in blocks, so that they share no counter on the way. A block
+/// has no destructor, so that it may be used to the very end of a thread; and no TLS model, so that
+/// a process can open the library at run time.
 struct Block {
   std::uint64_t next, end;
 };
 std::atomic<std::uint64_t> next_block{1};
-__attribute__((tls_model("initial-exec"))) thread_local Block block{0, 0};
+thread_local Block block{0, 0};
 
 }  // namespace
 

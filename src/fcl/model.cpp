@@ -3,6 +3,7 @@
 #include "fcl_kios/fcl/model.h"
 
 #include <cmath>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -81,6 +82,12 @@ bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
   refuse(message.str());
 }
 
+/// FCL's build calls throw for some of their arrays and return this for others.
+void requireBuilt(int status) {
+  if (status == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (status != fcl::BVH_OK) throw std::logic_error("fcl_kios: FCL refused to build a new model.");
+}
+
 }  // namespace
 
 template <typename S>
@@ -90,9 +97,10 @@ std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices
   requireVertices(vertices.data(), vertices.size());
   requireIndices(triangles.data(), triangles.size(), vertices.size());
   auto model = std::make_shared<Model<S>>();
-  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
-  model->addSubModel(vertices, triangles);
-  model->endModel();
+  requireBuilt(
+      model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size())));
+  requireBuilt(model->addSubModel(vertices, triangles));
+  requireBuilt(model->endModel());
   requireFinished(*model);
   return model;
 }

@@ -5,41 +5,53 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
-#include <vector>
+#include <memory>
 
 #include "bv/lanes.h"
 
 namespace kios {
 
-/// Points as three arrays of floats, padded to whole lanes by repeating the first point.
+/// Points as three arrays of floats, padded to whole lanes by repeating the first point. Small sets
+/// need no memory of their own, so that a fit of one can make its arrays anew.
 class PointLanes {
  public:
+  PointLanes() = default;
+  PointLanes(const PointLanes& o) {
+    resize(o.n_);
+    std::copy_n(o.x_, padded_, x_);
+    std::copy_n(o.y_, padded_, y_);
+    std::copy_n(o.z_, padded_, z_);
+  }
+  PointLanes& operator=(const PointLanes&) = delete;
+
   struct Farthest {
     int index;
     float squared_distance;
   };
 
+  /// The points are lost.
   void resize(int n) {
-    n_ = n;
-    padded_ = (n + 3) & ~3;
-    if (static_cast<int>(x_.size()) < padded_) {
-      const std::size_t capacity = static_cast<std::size_t>(padded_) * 3 / 2 + 64;
-      x_.resize(capacity);
-      y_.resize(capacity);
-      z_.resize(capacity);
+    const int padded = (n + 3) & ~3;
+    if (padded > capacity_) {
+      const std::size_t capacity = static_cast<std::size_t>(padded) * 3 / 2 + 64;
+      large_.reset(new float[3 * capacity]);
+      capacity_ = static_cast<int>(capacity);
+      x_ = large_.get();
+      y_ = x_ + capacity;
+      z_ = y_ + capacity;
     }
+    n_ = n;
+    padded_ = padded;
   }
-  void release() { *this = PointLanes(); }
 
   int size() const { return n_; }
   int paddedSize() const { return padded_; }
-  std::size_t capacity() const { return x_.size(); }
-  float* x() { return x_.data(); }
-  float* y() { return y_.data(); }
-  float* z() { return z_.data(); }
-  const float* x() const { return x_.data(); }
-  const float* y() const { return y_.data(); }
-  const float* z() const { return z_.data(); }
+  float* x() { return x_; }
+  float* y() { return y_; }
+  float* z() { return z_; }
+  const float* x() const { return x_; }
+  const float* y() const { return y_; }
+  const float* z() const { return z_; }
 
   void set(int i, float px, float py, float pz) {
     x_[i] = px;
@@ -81,8 +93,11 @@ class PointLanes {
   }
 
  private:
-  std::vector<float> x_, y_, z_;
-  int n_ = 0, padded_ = 0;
+  static constexpr int kSmall = 64;
+  float small_[3][kSmall];
+  std::unique_ptr<float[]> large_;
+  float *x_ = small_[0], *y_ = small_[1], *z_ = small_[2];
+  int capacity_ = kSmall, n_ = 0, padded_ = 0;
 };
 
 }  // namespace kios

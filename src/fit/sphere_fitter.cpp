@@ -165,13 +165,6 @@ typename SphereFitter<S>::Placement SphereFitter<S>::placement(const fcl::Vector
   return result;
 }
 
-template <typename S>
-void SphereFitter<S>::releaseLarge() {
-  constexpr std::size_t kKeep = 4096;
-  if (relative_.capacity() > kKeep) relative_.release();
-  if (in_frame_.capacity() > kKeep) in_frame_.release();
-}
-
 void requireUsable(const FitOptions& options) {
   constexpr double kLeast = 1.0 / 256, kHalfPi = 1.5707963267948966;
   if (options.angle >= kLeast && options.angle < kHalfPi) return;
@@ -183,9 +176,8 @@ void requireUsable(const FitOptions& options) {
 template <typename S>
 void fit(const fcl::Vector3<S>* points, int n, kIOS<S>& bv, const FitOptions& options) {
   requireUsable(options);
-  thread_local SphereFitter<S> fitter;
+  SphereFitter<S> fitter;
   bv = fitter.fit(points, n, options);
-  fitter.releaseLarge();
 }
 
 template class SphereFitter<double>;

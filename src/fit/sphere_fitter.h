@@ -34,9 +34,6 @@ class SphereFitter {
   /// As fit(), but at most `most` spheres (7 by the tuned fit alone) and no radii. n > 0.
   Placement placement(const fcl::Vector3<S>* points, int n, const FitOptions& options, int most);
 
-  /// Frees buffers of more than a few thousand points.
-  void releaseLarge();
-
  private:
   void loadRelative(const fcl::Vector3<S>* points, int n);
   /// Changes `frame` to the one that the centers are in.

@@ -28,7 +28,7 @@ void NearList<S>::follow(const std::vector<Body<S>>& bodies) {
 template <typename S>
 double NearList<S>::startFor(double limit, const std::vector<Body<S>>& bodies) {
   constexpr double kMostQueries = 16, kLeastQueries = 2, kLimitShare = 0.125, kSizeShare = 1;
-  valid_ = false;
+  valid_ = listing_ = false;
   if (resting_ > 0) return limit;
   const double per_query = 2 * moved_ / static_cast<double>(std::max(1LL, age_));
   const double ahead = std::min(kMostQueries * per_query, kSizeShare * size_);
@@ -49,21 +49,21 @@ double NearList<S>::startFor(double limit, const std::vector<Body<S>>& bodies) {
   pairs_.clear();
   capacity_ = 8 * bodies.size() + 1024;
   reach_ = limit + ahead + kLimitShare * std::max(limit, 0.0);
-  valid_ = reach_ > limit;
-  return valid_ ? reach_ : limit;
+  listing_ = reach_ > limit;
+  return listing_ ? reach_ : limit;
 }
 
 template <typename S>
 bool NearList<S>::add(int a, int b) {
   if (pairs_.size() == capacity_) rest();
-  if (valid_) pairs_.emplace_back(a, b);
-  return valid_;
+  if (listing_) pairs_.emplace_back(a, b);
+  return listing_;
 }
 
 template <typename S>
 void NearList<S>::rest() {
   pairs_.clear();
-  valid_ = false;
+  valid_ = listing_ = false;
   resting_ = 16;
 }
 

@@ -32,6 +32,8 @@ class NearList {
   double startFor(double limit, const std::vector<Body<S>>& bodies);
   /// Adds a pair within reach. Returns false if they have become too many, and there is no list.
   bool add(int a, int b);
+  /// To be called once all pairs within reach were added: a search that throws leaves no list.
+  void finish() { valid_ = listing_; }
 
  private:
   void rest();
@@ -48,7 +50,8 @@ class NearList {
   long long resting_ = 0;  // queries for which no list is tried
   double size_ = 0;        // mean radius of the bodies
   std::size_t capacity_ = 0;
-  bool valid_ = false;
+  bool listing_ = false;  // pairs are being added
+  bool valid_ = false;    // all were
 };
 
 }  // namespace kios::scene

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace kios::scene {
 namespace {
@@ -22,13 +23,18 @@ std::uint64_t keyOf(int a, int b) {
 template <typename S>
 int Scene<S>::add(Body<S> body) {
   int id = static_cast<int>(bodies_.size());
-  if (free_.empty()) {
-    bodies_.emplace_back();
-  } else {
+  watch(body.model);
+  if (!free_.empty()) {
     id = *free_.begin();
     free_.erase(free_.begin());
+  } else {
+    try {
+      bodies_.emplace_back();
+    } catch (...) {
+      unwatch(body.model);
+      throw;
+    }
   }
-  watch(body.model);
   bodies_[id] = std::move(body);
   tree_stale_ = true;
   return id;
@@ -36,9 +42,10 @@ int Scene<S>::add(Body<S> body) {
 
 template <typename S>
 void Scene<S>::remove(int id) {
-  unwatch(body(id).model);
+  const Model<S>* const model = body(id).model;
+  free_.insert(id);  // the only step that may throw
+  unwatch(model);
   bodies_[id] = Body<S>();
-  free_.insert(id);
   for (auto it = excluded_.begin(); it != excluded_.end();) {
     const int a = static_cast<int>(*it >> 32), b = static_cast<int>(*it & 0xffffffffU);
     it = a == id || b == id ? excluded_.erase(it) : std::next(it);
@@ -92,10 +99,11 @@ void Scene<S>::follow(Body<S>& body) {
     move(body, body.followed->getTransform());
     return;
   }
-  const Model<S>* const before = body.model;
-  place<S>(body, geometry, body.followed->getTransform());
-  watch(body.model);
-  unwatch(before);
+  Body<S> placed = body;
+  place<S>(placed, geometry, body.followed->getTransform());
+  watch(placed.model);
+  unwatch(body.model);
+  body = std::move(placed);
 }
 
 template <typename S>

@@ -99,7 +99,10 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
   const double reach = near_.startFor(limit, bodies_);
   bool listing = reach > limit;
   updateTree();
-  if (tree_.nodes().size() < 2) return;
+  if (tree_.nodes().size() < 2) {
+    near_.finish();
+    return;
+  }
   const double reach_limit = gapLimit(reach);
   std::vector<std::pair<int, int>> stack = {{0, 0}};
   const auto push = [&](int n, int m) {
@@ -119,6 +122,7 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
     stack.pop_back();
     forChildren(n, m, push);
   }
+  near_.finish();
 }
 
 template <typename S>

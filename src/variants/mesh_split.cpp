@@ -73,10 +73,9 @@ std::vector<fcl::Vector3d> MeshSplit::points(const Node& node) const {
 
 /// Orders the node's triangles; returns how many go left, by halves if a side would be empty.
 int MeshSplit::partition(const Node& node, const std::vector<fcl::Vector3d>& points) {
-  thread_local SphereFitter<double> fitter;
   SphereFitter<double>::Split split;
+  SphereFitter<double> fitter;
   fitter.fit(points.data(), static_cast<int>(points.size()), FitMethod::kTuned, &split);
-  fitter.releaseLarge();
   // Three times the height of a centroid above the first vertex, along the longest axis.
   const auto height = [&](unsigned int id) {
     double sum = 0;

@@ -18,11 +18,6 @@ namespace {
 // Models smaller than 2^-1000 use the units of one of that size: 2^1000 is still a double.
 constexpr int kLeastExponent = -1000;
 
-SphereFitter<double>& fitterOfThread() {
-  thread_local SphereFitter<double> fitter;
-  return fitter;
-}
-
 /// Radius that encloses the points q around c + o in exact arithmetic. A coordinate of q is known
 /// to u |q| (it was subtracted from the origin), of q - c - o to another 2 u (|q| + |c| + |o|);
 /// squares, sum and root have 3.5 u of the length.
@@ -52,6 +47,9 @@ PackedPolicy::PackedPolicy(Axes axes, int most_spheres, const FitOptions& option
                            std::vector<fcl::Vector3f> directions)
     : axes_(axes), most_spheres_(most_spheres), options_(options), given_(std::move(directions)) {
   requireUsable(options);
+  if (axes_ == Axes::kCoordinates) {
+    given_ = {fcl::Vector3f::UnitX(), fcl::Vector3f::UnitY(), fcl::Vector3f::UnitZ()};
+  }
 }
 
 FixedDirectionKios::FixedDirectionKios(const std::vector<fcl::Vector3d>& directions,
@@ -81,14 +79,14 @@ std::vector<fcl::Vector3f> PackedPolicy::unitDirections(
 PackedPolicy::Shared PackedPolicy::share(const fcl::Vector3d* points, int n) const {
   Shared model;
   model.exponent = kLeastExponent;
-  model.directions = given_;
+  if (axes_ == Axes::kGiven) model.directions = given_;
   if (axes_ == Axes::kOfTheModel) {
     model.directions = {fcl::Vector3f::UnitX(), fcl::Vector3f::UnitY(), fcl::Vector3f::UnitZ()};
   }
   if (n == 0) return model;
   SphereFitter<double>::Split split;  // refuses what can't be bounded
-  fitterOfThread().fit(points, n, FitMethod::kTuned, &split);
-  fitterOfThread().releaseLarge();
+  SphereFitter<double> fitter;
+  fitter.fit(points, n, FitMethod::kTuned, &split);
   for (int i = 0; axes_ == Axes::kOfTheModel && i < 3; ++i) model.directions[i] = split.axes.col(i);
   fcl::Vector3d lower = points[0], upper = points[0];
   for (int i = 1; i < n; ++i) {
@@ -114,9 +112,8 @@ PackedPolicy::Volume PackedPolicy::fit(const fcl::Vector3d* points, int n,
     options = FitMethod::kTuned;
     options.count = SphereCount::kAll;
   }
-  const auto spheres =
-      fitterOfThread().placement(points, n, options, v.by_height ? 1 : most_spheres_);
-  fitterOfThread().releaseLarge();
+  SphereFitter<double> fitter;
+  const auto spheres = fitter.placement(points, n, options, v.by_height ? 1 : most_spheres_);
   const double unit = scaled(1.0, -model.exponent);
   std::vector<fcl::Vector3d> q(n);
   for (int i = 0; i < n; ++i) q[i] = (points[i] - model.origin) * unit;

@@ -49,9 +49,7 @@ CapSpheres PackedPolicy::unpack(PackedStore::Packed v, const Shared& model) cons
 }
 
 const std::vector<fcl::Vector3f>& PackedPolicy::directions(const Shared& model) const {
-  static const std::vector<fcl::Vector3f> coordinate_axes = {
-      fcl::Vector3f::UnitX(), fcl::Vector3f::UnitY(), fcl::Vector3f::UnitZ()};
-  return axes_ == Axes::kCoordinates ? coordinate_axes : model.directions;
+  return axes_ == Axes::kCoordinates ? given_ : model.directions;
 }
 
 }  // namespace kios

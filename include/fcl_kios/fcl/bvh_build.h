@@ -11,12 +11,17 @@
 #include "fcl_kios/fit/fit.h"
 
 // How fcl::BVHModel<kios::kIOS<S>> builds and refits. FCL's copy constructor shares fitter and
-// splitter between models, so neither holds anything of a build: that lives with the thread which
-// builds, from set() to clear(), and models may be built in many threads at once.
+// splitter between models, so neither holds what a build knows: that lives as long as the build
+// (model.h), and models may be built in many threads at once. Only where they are called by FCL's
+// interface, as where one of the two is the user's, each holds one state a thread until clear().
 
-namespace kios::engine {
+namespace kios {
+namespace engine {
 class TreeCache;
 }
+template <typename S>
+class BuildsByThread;
+}  // namespace kios
 
 namespace fcl {
 namespace detail {
@@ -43,9 +48,12 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   /// What queries prepared of the models that share this fitter: a model and its copies.
   kios::engine::TreeCache& trees() const { return *trees_; }
 
+  const kios::FitOptions& options() const { return options_; }
+
  private:
   const kios::FitOptions options_;
   const std::unique_ptr<kios::engine::TreeCache> trees_;
+  const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };
 
 /// Splits a node across the longest principal axis of its vertices: at the mean or the median of
@@ -54,8 +62,8 @@ template <typename S_>
 class BVSplitter<kios::kIOS<S_>> : public BVSplitterBase<kios::kIOS<S_>> {
  public:
   using S = S_;
-  explicit BVSplitter(SplitMethodType method) : method_(method) {}
-  virtual ~BVSplitter() = default;
+  explicit BVSplitter(SplitMethodType method);
+  virtual ~BVSplitter();
 
   void set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) override;
   void computeRule(const kios::kIOS<S>& bv, unsigned int* primitive_indices,
@@ -63,8 +71,11 @@ class BVSplitter<kios::kIOS<S_>> : public BVSplitterBase<kios::kIOS<S_>> {
   bool apply(const Vector3<S>& q) const override;
   void clear() override;
 
+  SplitMethodType method() const { return method_; }
+
  private:
   const SplitMethodType method_;
+  const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };
 
 extern template class BVFitter<kios::kIOS<double>>;

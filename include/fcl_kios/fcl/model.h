@@ -9,6 +9,41 @@
 #include "fcl_kios/fcl/bv_traits.h"
 #include "fcl_kios/fcl/bvh_build.h"
 
+namespace fcl {
+
+// Members of models over k-IOS that differ from FCL's. Those that build keep nothing in fitter or
+// splitter (bvh_build.h); those that get memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is
+// none, and may be called again.
+template <>
+BVHModel<kios::kIOS<double>>::BVHModel(const BVHModel& other);
+template <>
+int BVHModel<kios::kIOS<double>>::beginModel(int num_tris, int num_vertices);
+template <>
+int BVHModel<kios::kIOS<double>>::endModel();
+template <>
+int BVHModel<kios::kIOS<double>>::beginUpdateModel();
+template <>
+int BVHModel<kios::kIOS<double>>::buildTree();
+template <>
+int BVHModel<kios::kIOS<double>>::refitTree_topdown();
+template <>
+BVHModel<kios::kIOS<float>>::BVHModel(const BVHModel& other);
+template <>
+int BVHModel<kios::kIOS<float>>::beginModel(int num_tris, int num_vertices);
+template <>
+int BVHModel<kios::kIOS<float>>::endModel();
+template <>
+int BVHModel<kios::kIOS<float>>::beginUpdateModel();
+template <>
+int BVHModel<kios::kIOS<float>>::buildTree();
+template <>
+int BVHModel<kios::kIOS<float>>::refitTree_topdown();
+
+extern template class BVHModel<kios::kIOS<double>>;
+extern template class BVHModel<kios::kIOS<float>>;
+
+}  // namespace fcl
+
 namespace kios {
 
 /// A mesh over k-IOS.
@@ -18,7 +53,8 @@ using Modeld = Model<double>;
 using Modelf = Model<float>;
 
 /// Builds a model with every check that FCL's own calls can't make. Throws std::invalid_argument
-/// if there is no triangle, an index is out of range, or a vertex (used or not) is not finite.
+/// if there is no triangle, an index is out of range, or a vertex (used or not) is not finite, and
+/// std::bad_alloc if memory runs out.
 template <typename S>
 std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices,
                                     const std::vector<fcl::Triangle>& triangles);
@@ -37,8 +73,3 @@ extern template void validate(const Model<double>&);
 extern template void validate(const Model<float>&);
 
 }  // namespace kios
-
-namespace fcl {
-extern template class BVHModel<kios::kIOS<double>>;
-extern template class BVHModel<kios::kIOS<float>>;
-}  // namespace fcl

@@ -99,7 +99,7 @@ class PackedPolicy {
   Axes axes_;
   int most_spheres_;
   FitOptions options_;
-  std::vector<fcl::Vector3f> given_;
+  std::vector<fcl::Vector3f> given_;  ///< directions that no model stores, or all do
 };
 
 /// Oriented k-IOS (paper, III-A): caps along the principal axes of each volume's content, as the
