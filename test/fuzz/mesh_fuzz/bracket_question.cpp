@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// kios::distance and kios::closerThan: what DistanceAnswer promises for every option.
+
+#include "fcl_kios/query/distance.h"
+
+#include "fuzz/mesh_fuzz/pair.h"
+#include "fuzz/mesh_fuzz/questions.h"
+#include "scenes/oracle.h"
+
+namespace kios::fuzz {
+namespace {
+
+template <typename S>
+class BracketQuestion {
+ public:
+  explicit BracketQuestion(const Case& c)
+      : random_(c.draw),
+        pair_(c),
+        truth_(c.meshes[0], pair_.X, c.meshes[1], pair_.Y),
+        exact_(kios::distance(*pair_.A, pair_.X, *pair_.B, pair_.Y)) {
+    // The exact distance of the vertices and poses as they are given, where that is quick.
+    if (truth_.distances().size() > 60 || !chance(random_, 0.3)) return;
+    Mesh a = c.meshes[0], b = c.meshes[1];
+    for (Mesh* mesh : {&a, &b}) {
+      for (Vector3d& p : mesh->vertices) p = p.cast<S>().template cast<double>();
+    }
+    given_ = scenes::MeshOracle(a, b).distanceBruteForce(pair_.X.template cast<double>(),
+                                                         pair_.Y.template cast<double>());
+  }
+
+  Verdict brackets() {
+    if (auto wrong = judge(exact_, {}, "auto answer = kios::distance(*A, X[0], *B, X[1])"))
+      return wrong;
+    for (int i = 0; i < 8; ++i) {
+      if (auto wrong = withOptions()) return wrong;
+    }
+    return std::nullopt;
+  }
+
+  Verdict closer() {
+    if (auto wrong = judge(exact_, {}, "auto answer = kios::distance(*A, X[0], *B, X[1])"))
+      return wrong;
+    for (int i = 0; i < 10; ++i) {
+      const S t = threshold();
+      WarmStart start = anyStart();
+      const bool warm = chance(random_, 0.3);
+      DistanceAnswer<S> certificate;
+      const bool is = closerThan<S>(*pair_.A, pair_.X, *pair_.B, pair_.Y, t, &certificate,
+                                    warm ? &start : nullptr);
+      const std::string call =
+          "bool closer = kios::closerThan(*A, X[0], *B, X[1], " + literal(t) + ")";
+      if (is != (exact_.distance <= t)) {
+        return failure(Words() << "closerThan(" << t << ") is " << (is ? "true" : "false")
+                               << ", but the distance is " << exact_.distance,
+                       call);
+      }
+      if (t < 0) continue;
+      DistanceOptions<S> any;  // the certificate is no answer to options
+      any.near_enough = certificate.stop == DistanceStop::kNear ? certificate.distance : S{0};
+      any.far_enough = certificate.stop == DistanceStop::kFar ? certificate.lower_bound
+                                                              : std::numeric_limits<S>::infinity();
+      any.nearest_points = false;
+      if (auto wrong = judge(certificate, any, call)) return wrong;
+      const bool proves =
+          is ? certificate.distance <= t : certificate.lower_bound > t || certificate.distance > t;
+      if (!proves && t < std::numeric_limits<S>::infinity()) {
+        return failure(Words() << "a certificate of [" << certificate.lower_bound << ", "
+                               << certificate.distance << "] for " << (is ? "true" : "false"),
+                       call);
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// A length at which something happens: a distance of triangles, of vertices, give or take.
+  S threshold() {
+    if (chance(random_, 0.05)) return chance(random_, 0.5) ? S{0} : S{-1};
+    if (chance(random_, 0.02)) return std::numeric_limits<S>::infinity();
+    const double d = exact_.distance;
+    switch (below(random_, 4)) {
+      case 0:
+        return ulps(exact_.distance, scenes::integer(random_, -6, 6));
+      case 1: {
+        const auto& all = truth_.distances();
+        const auto i = static_cast<std::size_t>(below(random_, static_cast<int>(all.size())));
+        return ulps(all[i], scenes::integer(random_, -6, 6));
+      }
+      case 2:
+        return static_cast<S>(d * (1 + scenes::randomSign(random_) * power(random_, -16, 0)));
+      default:
+        return static_cast<S>((d + 1e-3 * truth_.extentOf(truth_.nearest)) *
+                              random_.uniform(0.1, 3));
+    }
+  }
+
+  WarmStart anyStart() {
+    WarmStart start;
+    if (chance(random_, 0.3)) return {exact_.triangle1, exact_.triangle2};
+    start.triangle1 = scenes::integer(random_, -2, pair_.A->num_tris);
+    start.triangle2 = scenes::integer(random_, -2, pair_.B->num_tris);
+    return start;
+  }
+
+  Verdict withOptions() {
+    DistanceOptions<S> options;
+    const double L = truth_.extentOf(truth_.nearest);
+    if (chance(random_, 0.3)) options.rel_err = static_cast<S>(power(random_, -6, 1));
+    if (chance(random_, 0.2)) options.abs_err = static_cast<S>(L * power(random_, -6, 0));
+    if (chance(random_, 0.5)) options.near_enough = threshold();
+    if (chance(random_, 0.3)) options.far_enough = threshold();
+    if (chance(random_, 0.2)) options.max_expansions = below(random_, 20);
+    options.nearest_points = chance(random_, 0.5);
+    WarmStart start = anyStart();
+    const bool warm = chance(random_, 0.3);
+
+    std::ostringstream call;
+    call << "kios::DistanceOptions<S> o; o.rel_err = " << literal(options.rel_err)
+         << "; o.abs_err = " << literal(options.abs_err)
+         << "; o.near_enough = " << literal(options.near_enough)
+         << "; o.far_enough = " << literal(options.far_enough)
+         << "; o.max_expansions = " << options.max_expansions << "; ";
+    if (warm) {
+      call << "kios::WarmStart w = {" << start.triangle1 << ", " << start.triangle2
+           << "}; o.warm_start = &w; ";
+      options.warm_start = &start;
+    }
+    call << "auto answer = kios::distance(*A, X[0], *B, X[1], o)";
+    const WarmStart before = start;
+    const auto answer = kios::distance(*pair_.A, pair_.X, *pair_.B, pair_.Y, options);
+    if (auto wrong = judge(answer, options, call.str())) return wrong;
+    // A larger budget never gives a wider bracket.
+    constexpr long long kMost = std::numeric_limits<long long>::max();
+    if (options.max_expansions == kMost) return std::nullopt;
+    start = before;
+    options.max_expansions = 2 * options.max_expansions + 1;
+    const auto more = kios::distance(*pair_.A, pair_.X, *pair_.B, pair_.Y, options);
+    if (more.stop != DistanceStop::kFar && more.stop != DistanceStop::kNear &&
+        !(more.lower_bound >= answer.lower_bound && more.distance <= answer.distance)) {
+      return failure(Words() << "a larger budget gives [" << more.lower_bound << ", "
+                             << more.distance << "] after [" << answer.lower_bound << ", "
+                             << answer.distance << "]",
+                     call.str());
+    }
+    return judge(more, options,
+                 call.str() + " with a budget of " + std::to_string(options.max_expansions));
+  }
+
+  Verdict judge(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options,
+                const std::string& call) const {
+    const char* fault = faultOf(answer, options);
+    if (!fault) {
+      const std::pair<int, int> ids = {answer.triangle1, answer.triangle2};
+      const bool points = options.nearest_points && answer.triangle1 >= 0;
+      if (points != answer.point1.allFinite()) {
+        fault = "points that were not asked for, or none";
+      } else if (points) {
+        const auto wrong = faultOfPoints<S>(truth_, ids, answer.point1, answer.point2,
+                                            answer.distance, pair_.X, pair_.Y);
+        if (wrong) return failure(Words() << *wrong, call);
+      }
+    }
+    if (!fault) return std::nullopt;
+    constexpr const char* kStops[] = {"kTolerance", "kFar", "kNear", "kBudget"};
+    Words words;
+    words << fault << ": lower bound " << answer.lower_bound << ", distance " << answer.distance
+          << ", upper bound " << answer.upper_bound << ", triangles (" << answer.triangle1 << ", "
+          << answer.triangle2 << "), stop " << kStops[static_cast<int>(answer.stop)]
+          << "; brute force " << truth_.distance << " of " << text(truth_.nearest)
+          << "; default answer " << exact_.distance;
+    if (given_ >= 0) words << "; as given " << given_;
+    return failure(words, call);
+  }
+
+  const char* faultOf(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options) const {
+    const std::pair<int, int> ids = {answer.triangle1, answer.triangle2};
+    const double lower = answer.lower_bound, distance = answer.distance, upper = answer.upper_bound,
+                 exact = truth_.distance;
+    const double slack = 16 * truth_.kEps * truth_.extentOf(truth_.nearest) + truth_.kLeast;
+    if (!(lower <= exact + slack)) return "the lower bound exceeds the distance";
+    if (!(upper >= exact - slack)) return "the upper bound is below the distance";
+    if (given_ >= 0) {  // right to long double's rounding
+      const double rounding = 0x1p-53 * given_ + slack * (sizeof(S) == 4 ? 1e-9 : 1e-2);
+      if (!(lower <= given_ + rounding)) return "the lower bound exceeds the exact distance";
+      if (!(upper >= given_ - rounding)) return "the upper bound is below the exact distance";
+    }
+    if (!(lower >= 0 && lower <= distance && distance <= upper)) return "bounds out of order";
+    if (answer.triangle1 < 0) {
+      if (!std::isinf(distance) || answer.triangle2 >= 0) return "a distance of no triangles";
+    } else {
+      if (!truth_.contains(ids)) return "triangles that don't exist";
+      if (answer.distance != truth_.distanceOf(ids)) return "not the distance of its triangles";
+    }
+    if (distance == 0 && lower != 0) return "a lower bound at contact";
+    switch (answer.stop) {
+      case DistanceStop::kTolerance: {
+        if (answer.triangle1 < 0) return "no answer";
+        const double allowed = std::max(double{options.rel_err} * exact, double{options.abs_err});
+        if (!(distance <= exact + allowed * (1 + 4 * truth_.kEps) + truth_.tolerance(ids))) {
+          return "error too large";
+        }
+        const bool same = answer.distance == exact_.distance &&
+                          (distance == 0 || (answer.triangle1 == exact_.triangle1 &&
+                                             answer.triangle2 == exact_.triangle2));
+        const bool is_exact = options.rel_err == 0 && options.abs_err == 0 &&
+                              options.max_expansions == std::numeric_limits<long long>::max();
+        return is_exact && !same ? "not the default answer, though exact" : nullptr;
+      }
+      case DistanceStop::kNear:
+        return answer.distance <= options.near_enough ? nullptr : "not near";
+      case DistanceStop::kFar:
+        return answer.lower_bound >= options.far_enough || options.far_enough <= 0 ? nullptr
+                                                                                   : "not far";
+      case DistanceStop::kBudget:
+        return answer.counts.expansions <= options.max_expansions ? nullptr : "over the budget";
+    }
+    return "no reason to stop";
+  }
+
+  Random random_;
+  const ModelPair<S> pair_;
+  const BruteForce<S> truth_;
+  const DistanceAnswer<S> exact_;
+  double given_ = -1;  ///< the exact distance in the exact frame; negative: not computed
+};
+
+}  // namespace
+
+Verdict askBracket(const Case& c) {
+  return c.in_float ? BracketQuestion<float>(c).brackets() : BracketQuestion<double>(c).brackets();
+}
+
+Verdict askCloser(const Case& c) {
+  return c.in_float ? BracketQuestion<float>(c).closer() : BracketQuestion<double>(c).closer();
+}
+
+}  // namespace kios::fuzz

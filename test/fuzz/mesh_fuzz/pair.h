@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <type_traits>
+
+#include "fcl_kios/fcl/model.h"
+#include "fuzz/mesh_fuzz/brute_force.h"
+#include "scenes/foreign_fitter.h"
+
+// What the questions share: models as a case wants them, and how a failure is told.
+
+namespace kios::fuzz {
+
+template <typename S>
+std::shared_ptr<Model<S>> modelOf(const Mesh& mesh, bool foreign) {
+  std::vector<fcl::Vector3<S>> vertices;
+  for (const Vector3d& p : mesh.vertices) vertices.push_back(p.cast<S>());
+  if (!foreign) return makeModel<S>(vertices, mesh.triangles);
+  auto model = std::make_shared<Model<S>>();
+  model->bv_fitter.reset(new scenes::ForeignFitter<kIOS<S>>());
+  model->beginModel();
+  model->addSubModel(vertices, mesh.triangles);
+  model->endModel();
+  return model;
+}
+
+/// The first two meshes of a case as models, at their poses of a frame.
+template <typename S>
+struct ModelPair {
+  std::shared_ptr<Model<S>> A, B;
+  fcl::Transform3<S> X, Y;
+
+  explicit ModelPair(const Case& c, std::size_t frame = 0)
+      : A(modelOf<S>(c.meshes[0], c.foreign)),
+        B(modelOf<S>(c.meshes[1], c.foreign)),
+        X(c.pose(0, frame).template cast<S>()),
+        Y(c.pose(1, frame).template cast<S>()) {}
+};
+
+/// Numbers in decimal and, exactly, in hexadecimal.
+class Words {
+ public:
+  Words() { stream_.precision(9); }
+  template <typename T>
+  Words& operator<<(const T& v) {
+    if constexpr (std::is_floating_point_v<T>) {
+      stream_ << v << " (" << std::hexfloat << v << std::defaultfloat << ")";
+    } else {
+      stream_ << v;
+    }
+    return *this;
+  }
+  std::string text() const { return stream_.str(); }
+
+ private:
+  std::ostringstream stream_;
+};
+
+/// As C++ takes it.
+template <typename T>
+std::string literal(T v) {
+  std::ostringstream stream;
+  if (std::isinf(static_cast<double>(v))) {
+    stream << (v < 0 ? "-" : "") << "INFINITY";
+  } else if (std::is_floating_point_v<T>) {
+    stream << std::hexfloat << v;
+  } else {
+    stream << v;
+  }
+  return stream.str();
+}
+
+inline Verdict failure(const Words& what, std::string call) {
+  return Failure{what.text(), std::move(call)};
+}
+
+inline std::string text(const std::pair<int, int>& ids) {
+  return "(" + std::to_string(ids.first) + ", " + std::to_string(ids.second) + ")";
+}
+
+/// Distance of a point and a triangle, both in the world, by the kernel.
+template <typename S>
+double distanceTo(const fcl::Vector3<S>& p, const TriangleVertices<S>& t,
+                  const fcl::Transform3<S>& X_W) {
+  TriangleVertices<double> world;
+  const fcl::Transform3d X = X_W.template cast<double>();
+  for (int k = 0; k < 3; ++k) world[k] = X * t[k].template cast<double>();
+  const Vector3d q = p.template cast<double>();
+  return triangleDistance<double>({q, q, q}, world).distance;
+}
+
+/// What is wrong with nearest points in the world, if anything: each lies on its triangle, and they
+/// are as far apart as is said, up to rounding of the coordinates in the frames that they pass.
+template <typename S>
+std::optional<std::string> faultOfPoints(const BruteForce<S>& truth, const std::pair<int, int>& ids,
+                                         const fcl::Vector3<S>& p, const fcl::Vector3<S>& q,
+                                         S distance, const fcl::Transform3<S>& X_WA,
+                                         const fcl::Transform3<S>& X_WB) {
+  if (!p.allFinite() || !q.allFinite()) return "points that are not finite";
+  const auto& a = truth.trianglesOfA()[static_cast<std::size_t>(ids.first)];
+  const auto& b = truth.trianglesInB()[static_cast<std::size_t>(ids.second)];
+  double most = 0;
+  for (const auto& v : a) most = std::max(most, v.template cast<double>().stableNorm());
+  for (const auto& v : b) most = std::max(most, v.template cast<double>().stableNorm());
+  most += X_WA.translation().template cast<double>().norm() +
+          X_WB.translation().template cast<double>().norm() + p.template cast<double>().norm() +
+          q.template cast<double>().norm();
+  const double eps = BruteForce<S>::kEps, least = BruteForce<S>::kLeast;
+  const double L = truth.extentOf(ids);
+  // Points of triangles are right to 16 eps L; a matrix that is no rotation skews what its
+  // transpose takes back.
+  const auto error = [](const fcl::Transform3<S>& X) {
+    const fcl::Matrix3d R = X.linear().template cast<double>();
+    return (R.transpose() * R - fcl::Matrix3d::Identity()).norm();
+  };
+  const double skew = 1.1 * (error(X_WA) + error(X_WB)) * most;
+  const double bound = 32 * eps * (most + L) + 4 * least + skew;
+  std::ostringstream words;
+  const double apart = (p - q).template cast<double>().norm();
+  if (!(std::abs(apart - static_cast<double>(distance)) <= bound)) {
+    words << "points are " << apart << " apart, not " << distance << " (bound " << bound << ")";
+    return words.str();
+  }
+  const double from_a = distanceTo(p, a, X_WA), from_b = distanceTo(q, b, X_WB);
+  if (!(from_a <= bound) || !(from_b <= bound)) {
+    words << "points lie " << from_a << " and " << from_b << " from their triangles (bound "
+          << bound << ")";
+    return words.str();
+  }
+  return std::nullopt;
+}
+
+}  // namespace kios::fuzz

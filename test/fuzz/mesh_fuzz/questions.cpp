@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fuzz/mesh_fuzz/questions.h"
+
+namespace kios::fuzz {
+
+const std::vector<Question>& questions() {
+  // name, weight, meshes, frames, least of both, in float too
+  static const std::vector<Question> all = {{"distance", 4, 2, 1, 2, 1, true, askDistance},
+                                            {"bracket", 4, 2, 1, 2, 1, true, askBracket},
+                                            {"closer", 2, 2, 1, 2, 1, true, askCloser},
+                                            {"contacts", 2, 2, 1, 2, 1, true, askContacts},
+                                            {"kernel", 1, 2, 1, 2, 1, true, askKernel},
+                                            {"ray", 2, 1, 1, 1, 1, true, askRay},
+                                            {"scene", 2, 4, 4, 2, 1, true, askScene},
+                                            {"refit", 2, 2, 1, 2, 1, true, askRefit}};
+  return all;
+}
+
+}  // namespace kios::fuzz
