@@ -13,7 +13,10 @@ const std::vector<Question>& questions() {
                                             {"kernel", 1, 2, 1, 2, 1, true, askKernel},
                                             {"ray", 2, 1, 1, 1, 1, true, askRay},
                                             {"scene", 2, 4, 4, 2, 1, true, askScene},
-                                            {"refit", 2, 2, 1, 2, 1, true, askRefit}};
+                                            {"refit", 2, 2, 1, 2, 1, true, askRefit},
+                                            {"shape", 1, 1, 1, 1, 1, false, askShape},
+                                            {"continuous", 0.3, 2, 2, 2, 2, false, askContinuous},
+                                            {"manager", 0.5, 4, 3, 2, 1, false, askManager}};
   return all;
 }
 

@@ -136,7 +136,7 @@ class SceneQuestion {
   Verdict judgeAll(const std::vector<ScenePair<S>>& pairs, S margin, bool exact) {
     std::size_t i = 0;
     for (const auto& [ids, result] : truth_) {
-      if (!(result.min_distance < margin)) continue;
+      if (!(result.min_distance <= margin)) continue;
       if (i == pairs.size() || Ids(pairs[i].a, pairs[i].b) != ids) {
         return failure(Words() << "pair " << text(ids) << " at " << result.min_distance
                                << " is missing within " << margin,
@@ -157,7 +157,7 @@ class SceneQuestion {
     const bool same = pair.distance == d &&
                       (d == 0 || (pair.triangle_a == result.b1 && pair.triangle_b == result.b2));
     // 0 may be told by other triangles than fcl::distance names.
-    if (exact ? same : pair.distance < margin && pair.distance >= 0) {
+    if (exact ? same : pair.distance <= margin && pair.distance >= 0) {
       return exact ? std::nullopt : anyDistance(pair);
     }
     return failure(Words() << "pair " << text({pair.a, pair.b}) << " at " << pair.distance
