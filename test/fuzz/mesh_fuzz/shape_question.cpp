@@ -29,8 +29,8 @@ constexpr Shape kJudged[] = {Shape::kBox,       Shape::kSphere, Shape::kCapsule,
 
 class ShapeQuestion {
  public:
-  explicit ShapeQuestion(const Case& c)
-      : random_(c.draw), model_(modelOf<double>(c.meshes[0], c.foreign)), X_(c.pose(0)) {
+  ShapeQuestion(const Case& c, std::uint64_t draw)
+      : random_(draw), model_(modelOf<double>(c.meshes[0], c.foreign)), X_(c.pose(0)) {
     const auto triangles = BruteForce<double>::trianglesOf(c.meshes[0]);
     Vector3d low = triangles[0][0], high = low;
     for (const auto& t : triangles) {
@@ -76,8 +76,8 @@ class ShapeQuestion {
   };
 
   ShapeSpec drawSpec(double size) {
-    const Shape kind = kJudged[below(random_, 8)];
-    const double relative = chance(random_, 0.5) ? 1 : power(random_, -4, 2);
+    const Shape kind = chance(random_, 0.3) ? Shape::kBox : kJudged[below(random_, 8)];
+    const double relative = chance(random_, 0.3) ? 1 : power(random_, -5, 2);
     ShapeSpec spec = testing::randomShape(kind, random_, size * relative);
     if (kind == Shape::kConvex) {
       spec.hull =
@@ -262,6 +262,11 @@ class ShapeQuestion {
 
 }  // namespace
 
-Verdict askShape(const Case& c) { return ShapeQuestion(c).run(); }
+Verdict askShape(const Case& c) {
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    if (auto wrong = ShapeQuestion(c, c.draw + i).run()) return wrong;
+  }
+  return std::nullopt;
+}
 
 }  // namespace kios::fuzz
