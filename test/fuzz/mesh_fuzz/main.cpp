@@ -107,7 +107,8 @@ class Run {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (failed_.exchange(true)) return;
     current->since = 0;
-    std::cout << "FAILED: mesh_fuzz --seed " << settings_.seed << " --case " << index;
+    std::cout << "FAILED: FCL_KIOS_SIMD=" << simdTarget() << " mesh_fuzz --seed " << settings_.seed
+              << " --case " << index;
     if (settings_.only) std::cout << " --only " << c.question->name;
     std::cout << "  # " << c.question->name << (c.in_float ? ", float" : "") << ": " << first.what
               << "; " << first.call << std::endl;
