@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // usage: mesh_fuzz [--seed N] [--seconds S] [--case K] [--only QUESTION] [--threads N] [--list]
-//                  [--skip QUESTION] [--shrink S]
+//                  [--skip QUESTION]... [--shrink S]
 // Asks cases 0, 1, 2 ... of a seed until the time is up, or --case's alone. At the first failure it
 // prints one line that repeats it, the smallest case that fails alike (searched for --shrink
 // seconds), and exits with 1.
@@ -14,6 +14,7 @@
 #include <cstring>
 #include <iostream>
 #include <mutex>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -32,7 +33,8 @@ struct Settings {
   double seconds = 10, shrink_seconds = 20;
   long long index = -1;  ///< negative: all
   int threads = 1;
-  const Question *only = nullptr, *skip = nullptr;
+  const Question* only = nullptr;
+  std::set<const Question*> skip;
 };
 
 /// What a thread is at, for when it crashes or hangs.
@@ -94,7 +96,7 @@ class Run {
       state.index = i;
       state.since = milliseconds();
       const Case c = drawCase(settings_.seed, i, settings_.only);
-      if (!one && c.question == settings_.skip) continue;
+      if (!one && settings_.skip.count(c.question) > 0) continue;
       const Verdict wrong = ask(c);
       ++cases_;
       if (wrong) report(c, i, *wrong);
@@ -174,7 +176,7 @@ Settings parsed(int argc, char** argv) {
     } else if (option == "--only") {
       settings.only = questionOf(value);
     } else if (option == "--skip") {
-      settings.skip = questionOf(value);
+      settings.skip.insert(questionOf(value));
     } else {
       std::cerr << "mesh_fuzz: no option " << option << "\n";
       std::exit(2);
