@@ -291,5 +291,43 @@ TEST(Collide, TouchingAndDegenerateOnALatticeIsExact) {
   }
 }
 
+// FCL's routine squares areas: where that under- or overflows it reads a normal that it never set.
+template <typename S>
+void expectUnitNormals(double scale) {
+  scenes::Random random(31);
+  std::vector<fcl::Vector3<S>> vertices[2];
+  std::vector<fcl::Triangle> triangles;
+  for (std::size_t i = 0; i < 40; ++i) {
+    for (auto& list : vertices) {
+      for (int k = 0; k < 3; ++k) {
+        const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+        list.push_back((scale * Vector3d(x, y, random.uniform(-1, 1))).cast<S>());
+      }
+    }
+    triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  const auto a = makeModel<S>(vertices[0], triangles), b = makeModel<S>(vertices[1], triangles);
+  const fcl::Transform3<S> X = fcl::Transform3<S>::Identity();
+  fcl::CollisionResult<S> result;
+  fcl::collide(a.get(), X, b.get(), X, fcl::CollisionRequest<S>(kAllContacts, true), result);
+  EXPECT_GT(result.numContacts(), 20u);
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const auto& contact = result.getContact(i);
+    EXPECT_NEAR(contact.normal.norm(), 1, 1e-5);
+    EXPECT_TRUE(contact.pos.allFinite());
+    EXPECT_GE(contact.penetration_depth, 0);
+    EXPECT_LE(double{contact.penetration_depth}, 4 * scale);
+  }
+}
+
+TEST(Collide, NormalsAreUnitVectorsOfAnySize) {
+  for (const int exponent : {-300, -260, -20, 0, 20, 200, 300}) {
+    expectUnitNormals<double>(std::ldexp(1, exponent));
+  }
+  for (const int exponent : {-45, -38, -36, -10, 0, 10, 30, 34, 40}) {
+    expectUnitNormals<float>(std::ldexp(1, exponent));
+  }
+}
+
 }  // namespace
 }  // namespace kios::testing
