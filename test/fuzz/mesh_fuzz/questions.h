@@ -18,6 +18,6 @@ Verdict askShape(const Case& c);       ///< a mesh and one of FCL's shapes
 Verdict askScene(const Case& c);       ///< SceneDistance over frames
 Verdict askManager(const Case& c);     ///< ManagerQuery with an FCL manager
 Verdict askRefit(const Case& c);       ///< models that were replaced, updated or copied
-Verdict askContinuous(const Case& c);  ///< fcl::continuousCollide
+Verdict askContinuous(const Case& c);  ///< kios::firstContact
 
 }  // namespace kios::fuzz
