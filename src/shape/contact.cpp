@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "shape/gjk.h"
 #include "shape/hull.h"
+#include "shape/intersection.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::shape {
@@ -58,12 +58,17 @@ Vec faceNormal(const Triangle& t) {
 
 TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
   Exit exit{s, t};
-  const CoreDistance core = gjkDistance(s, t.data(), 3, std::numeric_limits<double>::infinity());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CoreDistance core = gjkDistance(s, t.data(), 3, kInfinity);
+  if (s.margin() > 0) {
+    core = closedBracket(s, t, kInfinity, core);
+  } else {
+    meetsAt(s, t, core, &core.point);
+  }
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
   if (s.kind == Kind::kConvex && s.num_faces > 0) {
-    const FaceExit face = leastFaceExit(s, t);
-    if (face.depth < exit.depth) return {core.point, face.normal, std::max(0.0, face.depth)};
+    exit.offer(leastFaceExit(s, t).normal);
     return {core.point, exit.normal, std::max(0.0, exit.depth)};
   }
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
@@ -112,9 +117,7 @@ TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
 TriangleShapeContact contact(const Solid& s, const Triangle& t) {
   if (!s.bounded()) return planeContact(s, t);
   if (s.kind != Kind::kSphere) return solidContact(s, t);
-  double weights[3];
-  nearestToOrigin(t, weights);
-  const Vec q = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
+  const Vec q = nearestToOrigin(t);
   const double length = q.norm();
   Vec normal = length > 0 ? Vec(q / length) : faceNormal(t);
   if (!(normal.squaredNorm() > 0)) normal = Vec::UnitZ();
