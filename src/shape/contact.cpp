@@ -7,6 +7,7 @@
 
 #include "shape/hull.h"
 #include "shape/intersection.h"
+#include "shape/nearest_point.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::shape {
@@ -49,11 +50,6 @@ void descend(Exit& exit) {
                         exit.offer(n + step * v) || exit.offer(n - step * v);
     if (!better) step *= 0.5;
   }
-}
-
-Vec faceNormal(const Triangle& t) {
-  const Vec u = t[1] - t[0], v = t[2] - t[0];
-  return u.stableNormalized().cross(v.stableNormalized());
 }
 
 TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {

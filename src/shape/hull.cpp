@@ -7,6 +7,7 @@
 
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
+#include "shape/growing_hull.h"
 #include "triangle/common_point.h"
 #include "triangle/predicates.h"
 
@@ -69,21 +70,6 @@ Vec middleOf(const Solid& s) {
   return sum / static_cast<double>(s.points.size());
 }
 
-/// Whether p lies in the closed tetrahedron of an apex and a face, by exact signs. Flat ones
-/// contain nothing.
-bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p) {
-  constexpr int kApex = 3, kPoint = 4;
-  PairPredicates::Coordinates points;
-  const Vec* given[6] = {&face[0], &face[1], &face[2], &apex, &p, &p};
-  for (int i = 0; i < 6; ++i) points[i] = {given[i]->x(), given[i]->y(), given[i]->z()};
-  const PairPredicates signs(points);
-  const int volume = signs.orient3d(0, 1, 2, kApex);
-  return volume != 0 && signs.orient3d(0, 1, 2, kPoint) * volume >= 0 &&
-         signs.orient3d(kPoint, 1, 2, kApex) * volume >= 0 &&
-         signs.orient3d(0, kPoint, 2, kApex) * volume >= 0 &&
-         signs.orient3d(0, 1, kPoint, kApex) * volume >= 0;
-}
-
 /// Whether p lies in a hull that has a volume: in one of the tetrahedra of a vertex and the faces,
 /// whichever way the corners of those run.
 bool contains(const Solid& s, const Vec& p) {
@@ -98,6 +84,19 @@ bool contains(const Solid& s, const Vec& p) {
 }
 
 }  // namespace
+
+bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p) {
+  constexpr int kApex = 3, kPoint = 4;
+  PairPredicates::Coordinates points;
+  const Vec* given[6] = {&face[0], &face[1], &face[2], &apex, &p, &p};
+  for (int i = 0; i < 6; ++i) points[i] = {given[i]->x(), given[i]->y(), given[i]->z()};
+  const PairPredicates signs(points);
+  const int volume = signs.orient3d(0, 1, 2, kApex);
+  return volume != 0 && signs.orient3d(0, 1, 2, kPoint) * volume >= 0 &&
+         signs.orient3d(kPoint, 1, 2, kApex) * volume >= 0 &&
+         signs.orient3d(0, kPoint, 2, kApex) * volume >= 0 &&
+         signs.orient3d(0, 1, kPoint, kApex) * volume >= 0;
+}
 
 bool hasFaces(const Solid& s) {
   return s.kind == Kind::kBox || s.kind == Kind::kCapsule ||
@@ -142,8 +141,10 @@ CoreDistance closedBracket(const Solid& s, const Triangle& t, double enough,
                            const CoreDistance& core) {
   const double tolerance = 0x1p-48 * (sizeOf(t) + core.on_core.lpNorm<1>());
   const bool decided = core.inside || core.lower > enough;
-  if (decided || core.upper - core.lower <= tolerance || !hasFaces(s)) return core;
-  const TriangleShapeDistance exact = distanceToHull(s, t, core.upper);
+  if (decided || core.upper - core.lower <= tolerance) return core;
+  if (!hasFaces(s) && s.kind != Kind::kConvex) return core;
+  const TriangleShapeDistance exact =
+      hasFaces(s) ? distanceToHull(s, t, core.upper) : distanceToPoints(s, t);
   CoreDistance closed = core;
   if (exact.distance <= core.upper) {
     closed.upper = exact.distance;

@@ -23,8 +23,12 @@ bool meetsHull(const Solid& solid, const Triangle& triangle, Vec* common = nullp
 /// points of the pair or infinite.
 TriangleShapeDistance distanceToHull(const Solid& solid, const Triangle& triangle, double within);
 
+/// Whether p lies in the closed tetrahedron of an apex and a face, by exact signs. Flat ones
+/// contain nothing.
+bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p);
+
 /// GJK's bracket for the pair, or if that is left open beyond rounding around or below `enough`,
-/// and the core has faces, the distance by them.
+/// and the core is a polytope, the distance by its faces or points.
 CoreDistance closedBracket(const Solid& solid, const Triangle& triangle, double enough,
                            const CoreDistance& core);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "shape/growing_hull.h"
 #include "shape/hull.h"
 #include "shape/polygon.h"
 
@@ -166,9 +167,10 @@ bool meets(const Solid& s, const Triangle& t, Vec* common) {
 bool meetsAt(const Solid& s, const Triangle& t, const CoreDistance& core, Vec* common) {
   if (core.inside && common) *common = core.point;
   if (core.inside && s.kind == Kind::kConvex) return true;
-  if (!core.inside && s.kind == Kind::kConvex && !hasFaces(s)) {
-    if (common) *common = core.point;
-    return core.upper <= 0x1p-50 * sizeOf(t);
+  if (s.kind == Kind::kConvex && !hasFaces(s)) {
+    const TriangleShapeDistance d = distanceToPoints(s, t);
+    if (common) *common = d.on_triangle;
+    return d.distance <= 0x1p-50 * sizeOf(t);
   }
   return meets(s, t, core.inside ? nullptr : common);
 }

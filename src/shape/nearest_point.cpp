@@ -105,21 +105,6 @@ void offerEdge(const Triangle& t, const Solid& s, const Vec& a, const Vec& b,
   offer(t, s, a + 0.5 * (low + high) * (b - a), best);
 }
 
-/// The cross product of two edges, each component with nearly all its digits however thin the
-/// triangle is.
-Vec faceNormal(const Triangle& t) {
-  Vec n;
-  for (int c = 0; c < 3; ++c) {
-    const int u = (c + 1) % 3, v = (c + 2) % 3;
-    const auto edge = [&t](int corner, int axis) {
-      return twofoldDifference(t[corner][axis], t[0][axis]);
-    };
-    const Twofold det = edge(1, u) * edge(2, v) - edge(1, v) * edge(2, u);
-    n[c] = det.high + det.low;
-  }
-  return n;
-}
-
 // An inaccurate normal would turn the support point away from the face, and by more than a thin
 // face is wide.
 void offerFace(const Triangle& t, const Solid& s, TriangleShapeDistance& best) {
@@ -150,6 +135,19 @@ void offerFace(const Triangle& t, const Solid& s, TriangleShapeDistance& best) {
 }
 
 }  // namespace
+
+Vec faceNormal(const Triangle& t) {
+  Vec n;
+  for (int c = 0; c < 3; ++c) {
+    const int u = (c + 1) % 3, v = (c + 2) % 3;
+    const auto edge = [&t](int corner, int axis) {
+      return twofoldDifference(t[corner][axis], t[0][axis]);
+    };
+    const Twofold det = edge(1, u) * edge(2, v) - edge(1, v) * edge(2, u);
+    n[c] = det.high + det.low;
+  }
+  return n;
+}
 
 NearestPoint nearestPoint(const Solid& s, const Vec& p) {
   return s.kind == Kind::kEllipsoid ? onEllipsoid(s, p) : turned(s, p);
