@@ -112,8 +112,121 @@ TEST_P(NearContact, PromisesAreKept) {
   }
 }
 
+// A triangle through a point of a shape without an inside, away from both their borders.
+TEST_P(NearContact, PiercedFlatShapesAreMet) {
+  SolidCases cases(41);
+  int checked = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Solid s = cases.solid(GetParam(), Size::kZero);
+    Vec at = Vec::Zero();
+    if (s.kind == Kind::kConvex) {
+      double sum = 0;
+      for (const Vec& p : s.points) {
+        const double weight = 0.5 + cases.unit();
+        at += weight * p;
+        sum += weight;
+      }
+      at /= sum;
+    } else if (s.kind == Kind::kBox || s.kind == Kind::kEllipsoid) {
+      at = 0.5 * cases.vector().cwiseProduct(s.half);
+    } else {
+      at = 0.2 * cases.vector().cwiseProduct(Vec(s.radius, s.radius, s.half_length));
+    }
+    if (!((shape::coreSupport(s, Vec(1, 2, 3)) - shape::coreSupport(s, Vec(-1, -2, -3))).norm() +
+              s.margin() >
+          0.1)) {
+      continue;  // a point
+    }
+    const double size = cases.power(-2, 3);
+    const Vec n = cases.vector().normalized(), u = n.unitOrthogonal(), v = n.cross(u);
+    const Triangle t = {Vec(at + size * u), Vec(at + size * (-0.4 * u + 0.9 * v)),
+                        Vec(at + size * (-0.6 * u - 0.8 * v))};
+    ++checked;
+    EXPECT_TRUE(shape::intersects(s, t)) << i;
+    EXPECT_EQ(shape::distance(s, t, kInfinity).distance, 0) << i;
+  }
+  EXPECT_GT(checked, 1500);
+}
+
 std::string nameOfCase(const ::testing::TestParamInfo<Kind>& info) { return nameOf(info.param); }
 INSTANTIATE_TEST_SUITE_P(Kinds, NearContact, ::testing::ValuesIn(kKinds), nameOfCase);
+
+// A plate and a triangle beside it, in its plane or across.
+TEST(FlatConvex, NothingBesideIsMet) {
+  SolidCases cases(42);
+  for (int i = 0; i < 4000; ++i) {
+    const double thickness = i % 3 == 0 ? 0 : i % 3 == 1 ? 1e-3 : 1e-9;
+    const double gap = cases.power(-12, -2);
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    if (i % 2 == 0) R = Eigen::AngleAxisd(3 * cases.unit(), cases.vector().normalized());
+    Solid plate;
+    plate.kind = Kind::kConvex;
+    for (const double z : {-thickness, thickness}) {
+      for (const Vec& p : {Vec(-1, -1, z), Vec(1, -1, z), Vec(1, 1, z), Vec(-1, 1, z)}) {
+        if (thickness > 0 || plate.points.size() < 4) plate.points.push_back(R * p);
+      }
+    }
+    const std::vector<int> two = {4, 0, 1, 2, 3, 4, 3, 2, 1, 0};
+    const std::vector<int> six = {4, 3, 2, 1, 0, 4, 4, 5, 6, 7, 4, 0, 1, 5, 4,
+                                  4, 1, 2, 6, 5, 4, 2, 3, 7, 6, 4, 3, 0, 4, 7};
+    plate.faces = thickness > 0 ? six.data() : two.data();
+    plate.num_faces = thickness > 0 ? 6 : 2;
+    const double lift = i % 4 < 2 ? 0.0 : 0.5;
+    const Triangle t = {R * Vec(1.5, cases.unit(), lift), R * Vec(1 + gap, 0.3 * cases.unit(), 0),
+                        R * Vec(1.5, -cases.unit(), -lift)};
+    EXPECT_FALSE(shape::intersects(plate, t)) << i;
+    EXPECT_NEAR(shape::distance(plate, t, kInfinity).distance, gap, 1e-14) << i;
+    const Triangle through = {R * Vec(1.5, 0.1, 0.5), R * Vec(0.9, 0.3 * cases.unit(), 0),
+                              R * Vec(1.5, -0.2, -0.5)};
+    EXPECT_TRUE(shape::intersects(plate, through)) << i;
+  }
+}
+
+// Without faces less is promised.
+TEST(FacelessConvex, PromisesAreKept) {
+  SolidCases cases(43);
+  for (const Size size : kSizes) {
+    Real worst = 0;
+    for (int i = 0; i < 1000; ++i) {
+      NearPair pair = nearPair(cases, Kind::kConvex, size);
+      pair.solid.num_faces = 0;
+      const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
+      EXPECT_EQ(d.distance == 0, shape::intersects(pair.solid, pair.triangle));
+      if (!pair.judged) continue;
+      worst = std::max(worst, std::abs(d.distance - pair.distance) / pair.extent);
+      EXPECT_FALSE(pair.distance > 0x1p-36L * pair.extent && d.distance == 0);
+      EXPECT_FALSE(pair.depth > 0x1p-36L * pair.extent && d.distance > 0);
+    }
+    EXPECT_LE(worst, 0x1p-30L) << static_cast<int>(size);
+  }
+}
+
+// A triangle that cuts the plane of an elliptic disk along a tangent of the disk, moved by a part
+// of the disk's size: in units of the radii it is that far from the disk.
+TEST(FlatEllipsoid, VerdictsAreSure) {
+  SolidCases cases(44);
+  for (int i = 0; i < 20000; ++i) {
+    Solid disk;
+    disk.kind = Kind::kEllipsoid;
+    const int axis = cases.pick(3), x = (axis + 1) % 3, y = (axis + 2) % 3;
+    disk.half[x] = 0.2 + 0.8 * cases.unit();
+    disk.half[y] = disk.half[x] * cases.power(-3, 0);
+    const double a = 6.3 * cases.unit(), gap = cases.power(-15, -1) * (cases.pick(2) ? 1 : -1);
+    Vec at = Vec::Zero(), tangent = Vec::Zero(), up = Vec::Zero();
+    at[x] = disk.half[x] * std::cos(a) * (1 + gap);
+    at[y] = disk.half[y] * std::sin(a) * (1 + gap);
+    tangent[x] = -disk.half[x] * std::sin(a);
+    tangent[y] = disk.half[y] * std::cos(a);
+    up[axis] = 1;
+    const double wide = cases.power(-2, 3), high = cases.power(-2, 3);
+    const Triangle t = {Vec(at + wide * tangent + high * up),
+                        Vec(at - wide * tangent + cases.unit() * high * up), Vec(at - high * up)};
+    const double extent = std::max({t[0].norm(), t[1].norm(), t[2].norm()}) + disk.reach();
+    if (std::abs(gap) * disk.half[y] <= 0x1p-46 * extent) continue;
+    EXPECT_EQ(shape::intersects(disk, t), gap < 0) << gap;
+    EXPECT_EQ(shape::distance(disk, t, kInfinity).distance == 0, gap < 0) << gap;
+  }
+}
 
 }  // namespace
 }  // namespace kios::testing

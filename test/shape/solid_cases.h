@@ -160,7 +160,30 @@ struct NearPair {
   bool round() const { return faces.empty(); }
 };
 
-/// Moves the triangle so that the gap is about `gap`, and measures it.
+/// Sets what the oracle says of the pair.
+inline void measure(NearPair& pair) {
+  const shape::Solid& s = pair.solid;
+  const shape::Triangle& t = pair.triangle;
+  const double margin = s.margin();
+  pair.extent = s.reach();
+  for (const shape::Vec& p : t) {
+    pair.extent = std::max(pair.extent, Real(s.reach() + p.lpNorm<Eigen::Infinity>()));
+  }
+  const Real core = coreNearest(s, t, pair.faces).distance;
+  Real level = core - margin;
+  if (pair.round()) level = std::min(core, leastPointLevel(s, exact(t)));
+  if (!pair.round() && margin == 0) {
+    const FaceLevel inside(s, pair.faces);
+    const bool flat = inside.thickness() < 1e-15L;
+    const Real least = flat ? Real(1) : leastOver(exact(t), inside);
+    pair.judged = !(least < 0) || s.kind == shape::Kind::kBox || inside.thickness() > 1e-5L;
+    if (least < 0) level = least;
+  }
+  pair.distance = std::max(Real(0), level);
+  pair.depth = std::max(Real(0), -level);
+}
+
+/// Moves the triangle so that the gap is about `gap`, and measures the pair.
 inline void setGap(double gap, NearPair& pair) {
   const shape::Solid& s = pair.solid;
   shape::Triangle& t = pair.triangle;
@@ -183,22 +206,7 @@ inline void setGap(double gap, NearPair& pair) {
     if (!(length > 0)) break;
     for (shape::Vec& p : t) p += (margin + gap - length) / length * way;
   }
-  pair.extent = s.reach();
-  for (const shape::Vec& p : t) {
-    pair.extent = std::max(pair.extent, Real(s.reach() + p.lpNorm<Eigen::Infinity>()));
-  }
-  const Real core = coreNearest(s, t, pair.faces).distance;
-  Real level = core - margin;
-  if (pair.round()) level = std::min(core, leastPointLevel(s, exact(t)));
-  if (!pair.round() && margin == 0) {
-    const FaceLevel inside(s, pair.faces);
-    const bool flat = inside.thickness() < 1e-15L;
-    const Real least = flat ? Real(1) : leastOver(exact(t), inside);
-    pair.judged = !(least < 0) || s.kind == shape::Kind::kBox || inside.thickness() > 1e-5L;
-    if (least < 0) level = least;
-  }
-  pair.distance = std::max(Real(0), level);
-  pair.depth = std::max(Real(0), -level);
+  measure(pair);
 }
 
 inline NearPair nearPair(SolidCases& cases, shape::Kind kind, Size size) {
