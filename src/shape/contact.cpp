@@ -56,16 +56,14 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
   Exit exit{s, t};
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   CoreDistance core = gjkDistance(s, t.data(), 3, kInfinity);
-  if (s.margin() > 0) {
-    core = closedBracket(s, t, kInfinity, core);
-  } else {
-    meetsAt(s, t, core, &core.point);
-  }
+  if (s.margin() > 0) core = closedBracket(s, t, kInfinity, core);
+  Vec position = core.point;
+  if (s.margin() == 0 && !core.inside) meetsAt(s, t, core, &position);
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
   if (s.kind == Kind::kConvex && s.num_faces > 0) {
-    exit.offer(leastFaceExit(s, t).normal);
-    return {core.point, exit.normal, std::max(0.0, exit.depth)};
+    exit.offer(leastFaceExit(s, t));  // whose depth is that of all points, not of thin faces
+    return {position, exit.normal, std::max(0.0, exit.depth)};
   }
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   for (int c = 0; c < 3; ++c) {
@@ -75,11 +73,11 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
   }
   // These are all the directions that a box and a capsule need.
   if (s.kind != Kind::kBox && s.kind != Kind::kCapsule) {
-    exit.offer(core.point);  // away from the solid's origin
-    exit.offer({core.point.x(), core.point.y(), 0});
+    exit.offer(position);  // away from the solid's origin
+    exit.offer({position.x(), position.y(), 0});
     descend(exit);
   }
-  return {core.point, exit.normal, std::max(0.0, exit.depth)};
+  return {position, exit.normal, std::max(0.0, exit.depth)};
 }
 
 TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {

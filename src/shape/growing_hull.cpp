@@ -59,7 +59,7 @@ TriangleShapeDistance distanceToPoints(const Solid& s, const Triangle& t) {
   TriangleShapeDistance best;
   best.distance = best.lower = std::numeric_limits<double>::infinity();
   std::vector<Vec> chosen = {coreSupport(s, t[0] - s.points[0])};
-  Vec n;
+  Vec n = Vec::Zero();
   const double size = sizeOf(t) + s.reach();
   constexpr int kMost = 32;
   while (true) {

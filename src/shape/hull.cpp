@@ -155,9 +155,10 @@ CoreDistance closedBracket(const Solid& s, const Triangle& t, double enough,
   return closed;
 }
 
-FaceExit leastFaceExit(const Solid& s, const Triangle& t) {
+Vec leastFaceExit(const Solid& s, const Triangle& t) {
   const Vec middle = middleOf(s);
-  FaceExit best = {Vec::UnitZ(), std::numeric_limits<double>::infinity()};
+  Vec best = Vec::UnitZ();
+  double least = std::numeric_limits<double>::infinity();
   anyFace(s, [&](const Triangle& face) {
     Vec n = (face[1] - face[0]).cross(face[2] - face[0]);
     if (n.dot(middle - face[0]) > 0) n = -n;
@@ -165,7 +166,10 @@ FaceExit leastFaceExit(const Solid& s, const Triangle& t) {
     if (!(length > 0)) return false;
     const double depth =
         (n.dot(face[0]) - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])})) / length;
-    if (depth < best.depth) best = {n / length, depth};
+    if (depth < least) {
+      least = depth;
+      best = n / length;
+    }
     return false;
   });
   return best;

@@ -32,12 +32,8 @@ bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p);
 CoreDistance closedBracket(const Solid& solid, const Triangle& triangle, double enough,
                            const CoreDistance& core);
 
-/// The face of a convex shape, its unit normal outwards, by which a triangle leaves the hull on the
-/// shortest way.
-struct FaceExit {
-  Vec normal;
-  double depth;
-};
-FaceExit leastFaceExit(const Solid& convex, const Triangle& triangle);
+/// The unit normal outwards of the face of a convex shape by which a triangle leaves the hull on
+/// the shortest way; the z axis if no face has one.
+Vec leastFaceExit(const Solid& convex, const Triangle& triangle);
 
 }  // namespace kios::shape
