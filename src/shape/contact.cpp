@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "shape/gjk.h"
 #include "shape/hull.h"
+#include "shape/intersection.h"
+#include "shape/nearest_point.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::shape {
@@ -51,20 +52,18 @@ void descend(Exit& exit) {
   }
 }
 
-Vec faceNormal(const Triangle& t) {
-  const Vec u = t[1] - t[0], v = t[2] - t[0];
-  return u.stableNormalized().cross(v.stableNormalized());
-}
-
 TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
   Exit exit{s, t};
-  const CoreDistance core = gjkDistance(s, t.data(), 3, std::numeric_limits<double>::infinity());
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CoreDistance core = gjkDistance(s, t.data(), 3, kInfinity);
+  if (s.margin() > 0) core = closedBracket(s, t, kInfinity, core);
+  Vec position = core.point;
+  if (s.margin() == 0 && !core.inside) meetsAt(s, t, core, &position);
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
   if (s.kind == Kind::kConvex && s.num_faces > 0) {
-    const FaceExit face = leastFaceExit(s, t);
-    if (face.depth < exit.depth) return {core.point, face.normal, std::max(0.0, face.depth)};
-    return {core.point, exit.normal, std::max(0.0, exit.depth)};
+    exit.offer(leastFaceExit(s, t));  // whose depth is that of all points, not of thin faces
+    return {position, exit.normal, std::max(0.0, exit.depth)};
   }
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   for (int c = 0; c < 3; ++c) {
@@ -74,11 +73,11 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t) {
   }
   // These are all the directions that a box and a capsule need.
   if (s.kind != Kind::kBox && s.kind != Kind::kCapsule) {
-    exit.offer(core.point);  // away from the solid's origin
-    exit.offer({core.point.x(), core.point.y(), 0});
+    exit.offer(position);  // away from the solid's origin
+    exit.offer({position.x(), position.y(), 0});
     descend(exit);
   }
-  return {core.point, exit.normal, std::max(0.0, exit.depth)};
+  return {position, exit.normal, std::max(0.0, exit.depth)};
 }
 
 TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
@@ -112,9 +111,7 @@ TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
 TriangleShapeContact contact(const Solid& s, const Triangle& t) {
   if (!s.bounded()) return planeContact(s, t);
   if (s.kind != Kind::kSphere) return solidContact(s, t);
-  double weights[3];
-  nearestToOrigin(t, weights);
-  const Vec q = weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
+  const Vec q = nearestToOrigin(t);
   const double length = q.norm();
   Vec normal = length > 0 ? Vec(q / length) : faceNormal(t);
   if (!(normal.squaredNorm() > 0)) normal = Vec::UnitZ();

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_kios/triangle/distance.h"
+
 namespace kios::shape {
 namespace {
 
@@ -96,7 +98,7 @@ bool insideTetrahedron(const Simplex& s, double weights[4]) {
   weights[3] = 1 - weights[0] - weights[1] - weights[2];
   if (!(*std::min_element(weights, weights + 4) >= 0)) return false;
   const Vec origin = weights[0] * a + weights[1] * b + weights[2] * c - o;
-  return origin.lpNorm<1>() <= 0x1p-48 * (a.lpNorm<1>() + b.lpNorm<1>() + c.lpNorm<1>());
+  return origin.lpNorm<1>() <= 0x1p-50 * std::max({a.lpNorm<1>(), b.lpNorm<1>(), c.lpNorm<1>()});
 }
 
 Nearest nearest(const Simplex& s) {
@@ -172,7 +174,7 @@ CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, do
     const double size = hull[s.corner[s.size - 1]].lpNorm<1>() + s.on_core[s.size - 1].lpNorm<1>();
     bool known = false;  // a point that is there already: nothing is nearer
     for (int i = 0; i < before.size; ++i) known |= before.y[i] == y;
-    if (known || length - answer.lower <= 1e-14 * length + 0.25 * kEps * size) {
+    if (known || length - answer.lower <= 0x1p-48 * length + 0.25 * kEps * size) {
       s = before;
       break;
     }
@@ -195,13 +197,33 @@ CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, do
   return answer;
 }
 
-Vec nearestToOrigin(const TriangleVertices<double>& t, double weights[3]) {
+// A candidate of plain arithmetic is taken if a slab between the origin and the triangle certifies
+// it. The slab lies across the candidate's feature, whose direction keeps its digits where the
+// candidate itself, nearly 0, has lost them. Else the kernel of two triangles answers.
+Vec nearestToOrigin(const TriangleVertices<double>& t) {
   Simplex s;
   s.size = 3;
   for (int i = 0; i < 3; ++i) s.y[i] = t[i];
   const Nearest best = nearest(s);
-  std::copy_n(best.weight, 3, weights);
-  return best.v;
+  int on[3], corners = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (best.weight[i] > 0) on[corners++] = i;
+  }
+  Vec n = best.v;
+  if (corners == 2) {
+    const Vec edge = t[on[1]] - t[on[0]];
+    n -= n.dot(edge) / edge.squaredNorm() * edge;
+  } else if (corners == 3) {
+    n = (t[1] - t[0]).cross(t[2] - t[0]);
+    if (n.dot(best.v) < 0) n = -n;
+  }
+  const double length = n.norm(), distance = std::sqrt(best.squared);
+  const double tolerance =
+      0x1p-49 * std::max({t[0].lpNorm<1>(), t[1].lpNorm<1>(), t[2].lpNorm<1>()});
+  const double low = std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
+  if (distance <= tolerance || (distance - tolerance) * length < low) return best.v;
+  const Vec origin = Vec::Zero();
+  return triangleDistance<double>(t, {origin, origin, origin}).point_a;
 }
 
 }  // namespace kios::shape

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "triangle/expansion.h"
+
 namespace kios::shape {
 namespace {
 
@@ -54,16 +56,17 @@ NearestPoint turned(const Solid& s, const Vec& p) {
   return nearest;
 }
 
-/// x_i = e_i^2 p_i / (e_i^2 + t), with |x / e| = 1 for one t >= 0 outside. Newton from below. Where
-/// a radius e_i is 0, that holds of the others; t is 0 for points above the inside.
+/// x_i = e_i^2 p_i / (e_i^2 + t), with |x / e| = 1 for one t >= 0 outside. Newton from below: one
+/// coordinate alone has |x_i / e_i| = 1 at most there, which leaves |x / e|^2 at most 3 for a start
+/// however flat the ellipsoid is. Where a radius e_i is 0, that holds of the others; t is 0 for
+/// points above the inside.
 NearestPoint onEllipsoid(const Solid& s, const Vec& p) {
-  const double e_max = s.half.maxCoeff();
-  const auto flat = (s.half.array() <= 0x1p-100 * e_max).eval();
+  const Eigen::Array<bool, 3, 1> flat(isFlat(s.half, 0), isFlat(s.half, 1), isFlat(s.half, 2));
   const Vec e = flat.select(0.0, s.half), e2 = e.cwiseProduct(e), ep = e.cwiseProduct(p);
   const auto over = [&](const Vec& v, double t) -> Vec {
     return flat.select(0.0, v.array() / (e2.array() + t));
   };
-  double t = std::max(0.0, ep.norm() - e_max * e_max);
+  double t = std::max(0.0, (ep.cwiseAbs() - e2).maxCoeff());
   for (int step = 0; step < 100; ++step) {
     const Vec w = over(ep, t);
     const double slope = -2 * w.dot(over(w, t));
@@ -102,25 +105,49 @@ void offerEdge(const Triangle& t, const Solid& s, const Vec& a, const Vec& b,
   offer(t, s, a + 0.5 * (low + high) * (b - a), best);
 }
 
+// An inaccurate normal would turn the support point away from the face, and by more than a thin
+// face is wide.
 void offerFace(const Triangle& t, const Solid& s, TriangleShapeDistance& best) {
-  const Vec u = t[1] - t[0], v = t[2] - t[0];
-  Vec n = u.stableNormalized().cross(v.stableNormalized());
+  Vec n = faceNormal(t);
   if (!(n.squaredNorm() > 0)) return;
   n.normalize();
+  // Coordinates along the longest edge, from a to b, and across it, towards c.
+  int longest = 0;
+  for (int i = 1; i < 3; ++i) {
+    if ((t[(i + 1) % 3] - t[i]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm()) {
+      longest = i;
+    }
+  }
+  const Vec &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+  const Vec u = b - a, v = n.cross(u), w = c - a;
+  const double uu = u.squaredNorm(), width = w.dot(v);
+  if (!(width > 0)) return;
   for (const Vec& out : {n, Vec(-n)}) {
     const Vec extreme = coreSupport(s, out);
-    const double height = out.dot(t[0] - extreme);
-    if (!(height > 0)) continue;
-    const Vec x = extreme + height * out - t[0];
-    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-    const double det = uu * vv - uv * uv;
-    const double a = (vv * u.dot(x) - uv * v.dot(x)) / det;
-    const double b = (uu * v.dot(x) - uv * u.dot(x)) / det;
-    if (a >= 0 && b >= 0 && a + b <= 1) offer(t, s, t[0] + a * u + b * v, best);
+    const Vec x = extreme - a;
+    if (out.dot(x) > 0x1p-48 * (sizeOf(t) + s.reach())) continue;  // the plane cuts the solid
+    const double across = x.dot(v) / width;
+    const double along = (x.dot(u) - across * w.dot(u)) / uu;
+    if (across >= 0 && along >= 0 && across + along <= 1) {
+      offer(t, s, a + along * u + across * w, best);
+    }
   }
 }
 
 }  // namespace
+
+Vec faceNormal(const Triangle& t) {
+  Vec n;
+  for (int c = 0; c < 3; ++c) {
+    const int u = (c + 1) % 3, v = (c + 2) % 3;
+    const auto edge = [&t](int corner, int axis) {
+      return twofoldDifference(t[corner][axis], t[0][axis]);
+    };
+    const Twofold det = edge(1, u) * edge(2, v) - edge(1, v) * edge(2, u);
+    n[c] = det.high + det.low;
+  }
+  return n;
+}
 
 NearestPoint nearestPoint(const Solid& s, const Vec& p) {
   return s.kind == Kind::kEllipsoid ? onEllipsoid(s, p) : turned(s, p);

@@ -16,6 +16,10 @@ struct NearestPoint {
   Vec normal;  ///< unit, the gradient of the distance: accurate however small that is
 };
 
+/// The cross product of two edges, each component with nearly all its digits however thin the
+/// triangle is.
+Vec faceNormal(const Triangle& triangle);
+
 /// The point of a cylinder, cone or ellipsoid nearest to p.
 NearestPoint nearestPoint(const Solid& solid, const Vec& p);
 

@@ -49,6 +49,12 @@ struct Solid {
   double reach() const;
 };
 
+/// Whether an ellipsoid's radius counts as 0, since its square may vanish beside that of the
+/// largest.
+inline bool isFlat(const Vec& radii, int axis) {
+  return radii[axis] <= 0x1p-100 * radii.maxCoeff();
+}
+
 /// A point of the core that is extreme along n (bounded shapes; n need not be unit).
 Vec coreSupport(const Solid& solid, const Vec& n);
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "shape/gjk.h"
 #include "shape/hull.h"
+#include "shape/intersection.h"
 #include "shape/nearest_point.h"
 
 namespace kios::shape {
@@ -15,15 +15,9 @@ namespace {
 
 constexpr double kTiny = std::numeric_limits<double>::min();
 
-Vec pointOf(const Triangle& t, const double weights[3]) {
-  return weights[0] * t[0] + weights[1] * t[1] + weights[2] * t[2];
-}
-
 TriangleShapeDistance sphereDistance(const Solid& s, const Triangle& t) {
-  double weights[3];
-  nearestToOrigin(t, weights);
   TriangleShapeDistance answer;
-  answer.on_triangle = pointOf(t, weights);
+  answer.on_triangle = nearestToOrigin(t);
   const double length = answer.on_triangle.norm();
   if (length <= s.radius) {
     answer.distance = answer.lower = 0;
@@ -32,7 +26,7 @@ TriangleShapeDistance sphereDistance(const Solid& s, const Triangle& t) {
   }
   const Vec n = answer.on_triangle / length;
   answer.distance = length - s.radius;
-  answer.lower = std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])}) - s.radius;
+  answer.lower = answer.distance;
   answer.on_shape = s.radius * n;
   return answer;
 }
@@ -58,19 +52,8 @@ TriangleShapeDistance planeDistance(const Solid& s, const Triangle& t) {
   return answer;
 }
 
-/// Where GJK left a gap: the same by features, if that is nearer.
-void refine(const Solid& s, const Triangle& t, TriangleShapeDistance& answer) {
-  const bool curved =
-      s.kind == Kind::kCylinder || s.kind == Kind::kCone || s.kind == Kind::kEllipsoid;
-  TriangleShapeDistance exact;
-  if (curved) {
-    exact = distanceByFeatures(s, t);
-  } else if (s.kind == Kind::kConvex && s.num_faces > 0) {
-    exact = distanceToHull(s, t);
-  } else {
-    return;
-  }
-  if (exact.distance <= answer.distance) answer = exact;
+bool isCurved(const Solid& s) {
+  return s.kind == Kind::kCylinder || s.kind == Kind::kCone || s.kind == Kind::kEllipsoid;
 }
 
 }  // namespace
@@ -78,22 +61,32 @@ void refine(const Solid& s, const Triangle& t, TriangleShapeDistance& answer) {
 TriangleShapeDistance distance(const Solid& s, const Triangle& t, double enough) {
   if (s.kind == Kind::kSphere) return sphereDistance(s, t);
   if (!s.bounded()) return planeDistance(s, t);
-  const double margin = s.margin(), clear = 0x1p-40 * sizeOf(t);
-  const CoreDistance core = gjkDistance(s, t.data(), 3, margin + std::max(enough, clear));
+  const double margin = s.margin();
+  const double beyond = margin + std::max(enough, 0x1p-40 * sizeOf(t));
+  CoreDistance core = gjkDistance(s, t.data(), 3, beyond);
   TriangleShapeDistance answer;
+  if (margin == 0 && core.lower <= clearOf(t, core) && meetsAt(s, t, core, &answer.on_triangle)) {
+    answer.distance = answer.lower = 0;
+    answer.on_shape = answer.on_triangle;
+    return answer;
+  }
+  if (!(core.upper <= margin)) core = closedBracket(s, t, beyond, core);
   answer.lower = core.lower - margin;
   answer.distance = core.upper - margin;
   answer.on_triangle = core.point;
   answer.on_shape = core.on_core;
-  if (margin > 0 ? answer.distance <= 0 : answer.lower <= clear && intersects(s, t)) {
+  if (margin > 0 && answer.distance <= 0) {
     answer.distance = answer.lower = 0;
     answer.on_shape = answer.on_triangle;
     return answer;
   }
   if (margin > 0) {
     answer.on_shape += margin / core.upper * (core.point - core.on_core);
-  } else if (answer.lower <= enough && answer.distance - answer.lower > 0x1p-44 * sizeOf(t)) {
-    refine(s, t, answer);
+  } else if (isCurved(s) && answer.lower <= enough &&
+             answer.distance - answer.lower > 0x1p-45 * sizeOf(t)) {
+    TriangleShapeDistance exact = distanceByFeatures(s, t);
+    exact.lower = std::max(exact.lower, answer.lower);
+    if (exact.distance <= answer.distance) answer = exact;
   }
   answer.distance = std::max(answer.distance, kTiny);
   return answer;

@@ -17,7 +17,7 @@ using Triangle = TriangleVertices<double>;
 
 /// True if the closed triangle and the closed, full solid have a point in common. By direct tests,
 /// right but for rounding: a pair whose overlap or gap is below 2^-46 L may be judged either way
-/// (a convex shape without faces: 2^-36 L; an ellipsoid with a radius of 0: 2^-26 L).
+/// (a convex shape without faces: 2^-36 L).
 bool intersects(const Solid& solid, const Triangle& triangle);
 
 /// Largest |x|_1 of the corners: the size that tolerances of contact are measured by.
