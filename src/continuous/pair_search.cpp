@@ -13,9 +13,10 @@ double reachOf(const Modeld& model) {
 }
 
 // Long steps have many triangles in each other's reach, short ones advance little: a step is halved
-// whenever it has cost another kBudget tests. What was pruned before stays apart.
+// whenever it has cost its budget of tests. What was pruned before stays apart. The budget doubles
+// with each halving, and for the next step: else pairs of which no step is cheap would get ever
+// shorter ones, never reach the end, and count as contact.
 double PairSearch::apartFor(double t) {
-  constexpr long long kBudget = 1000;
   if (motion_.still()) return 1;
   const double left = 1 - t;
   const double window = motion_.steady() ? left : std::min(left, window_);
@@ -27,12 +28,13 @@ double PairSearch::apartFor(double t) {
     for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];
   }
   double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_});
-  long long budget_ends = counts_.volume_tests + kBudget;
+  long long budget = budget_, budget_ends = counts_.volume_tests + budget;
   stack_.assign(1, {0, 0});
   while (!stack_.empty() && h > 0) {
     if (counts_.volume_tests >= budget_ends) {
       h *= 0.5;
-      budget_ends += kBudget;
+      budget *= 2;
+      budget_ends += budget;
     }
     const NodePair pair = stack_.back();
     stack_.pop_back();
@@ -49,6 +51,7 @@ double PairSearch::apartFor(double t) {
       last_ = pair;
     }
   }
+  budget_ = budget > budget_ ? budget : std::max(kLeastBudget, budget / 2);
   window_ = std::min(1.0, 8 * h);
   last_step_ = h;
   return h;

@@ -43,6 +43,8 @@ class PairSearch : public MovingPair {
   ContinuousCounts& counts_;
 
  private:
+  static constexpr long long kLeastBudget = 1000;
+  long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
   double window_ = 1, last_step_ = 1;
   NodePair last_ = {-1, -1};  ///< leaves that ended the last step
   std::vector<NodePair> stack_;

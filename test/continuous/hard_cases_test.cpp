@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "continuous/moving_meshes.h"
+#include "scenes/cad_shapes.h"
 
 namespace kios::testing {
 namespace {
@@ -151,6 +152,25 @@ TEST(HardCases, FreeModels) {
   firstContact(*a, at(0, 0, 0), at(0, 0, 0), *b, at(4, 0, 0), at(-4, 0, 0),
                requestFor(fcl::CCDM_TRANS), result);
   EXPECT_FALSE(result.is_collide);
+}
+
+// Two soups amid each other, all of whose nodes overlap: no step is cheap, and none may be cut down
+// to nothing for it.
+TEST(HardCases, CostlyStepsReachTheEnd) {
+  const Mesh soup = scenes::randomSoup(2000, 1, 1e-3, 2e-3, 5);
+  const Pair pair(soup, scenes::moved(at(0, 0, 0, 0.7, {1, 2, 3}), soup));
+  const double distance = pair.oracle.distance(at(0, 0, 0), at(0, 0, 0));
+  ASSERT_GT(distance, 0);
+  for (auto type : {fcl::CCDM_TRANS, fcl::CCDM_SPLINE}) {
+    for (const double part : {1e-6, 1e-3, 0.1}) {
+      const auto still = motionOf(type, at(0, 0, 0), at(0, 0, 0));
+      const auto moves = motionOf(type, at(0, 0, 0), at(part * distance, 0, 0));
+      const Answer answer = ask(pair, *still, *moves, 1e-3);
+      EXPECT_FALSE(answer.result.is_collide) << type << " " << part;
+      EXPECT_GT(answer.counts.volume_tests, 1000);
+      EXPECT_LT(answer.counts.steps, 50);
+    }
+  }
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Verdict contacts(const Case& c) {
         }
         if (with_points &&
             !(contact.pos.allFinite() && std::abs(double{contact.normal.stableNorm()} - 1) < 1e-3 &&
-              std::isfinite(contact.penetration_depth))) {
+              contact.penetration_depth >= 0 && std::isfinite(contact.penetration_depth))) {
           return failure(Words() << "contact of " << text(ids) << " at " << contact.pos[0] << ", "
                                  << contact.pos[1] << ", " << contact.pos[2] << ", normal "
                                  << contact.normal[0] << ", " << contact.normal[1] << ", "
