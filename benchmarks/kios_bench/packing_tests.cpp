@@ -9,11 +9,11 @@
 #include <limits>
 
 #include "bv/lanes.h"
+#include "engine/simd/targets.h"
 #include "packing_tests.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "kios_bench/packing_tests.cpp"
-#define HWY_DISABLED_TARGETS HWY_SSSE3
 #include <hwy/foreach_target.h>  // NOLINT(llvm-include-order)
 #include <hwy/highway.h>         // NOLINT(llvm-include-order)
 

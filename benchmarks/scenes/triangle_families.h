@@ -99,7 +99,12 @@ inline TrianglePair shifted(const TrianglePair& pair, const Eigen::Vector3d& t) 
 inline TrianglePair posed(Random& random, const TrianglePair& pair) {
   const Eigen::Matrix3d R = rotation(random);
   const Eigen::Vector3d t = point(random);
-  return mapped(pair, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d { return R * p + t; });
+  // R p + t in the order of Eigen's product on x86, which is fused on some machines.
+  return mapped(pair, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return {R(0, 0) * p[0] + R(0, 1) * p[1] + R(0, 2) * p[2] + t[0],
+            R(1, 0) * p[0] + R(1, 1) * p[1] + R(1, 2) * p[2] + t[1],
+            R(2, 0) * p[0] + (R(2, 1) * p[1] + R(2, 2) * p[2]) + t[2]};
+  });
 }
 
 /// Random lattice triangles that touch exactly: see touching_triangles.cpp.

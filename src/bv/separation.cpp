@@ -216,9 +216,10 @@ RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>
 }
 
 template <typename S>
-RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2)
-    : R(X_W1.linear().transpose() * X_W2.linear()),
-      T(X_W1.linear().transpose() * (X_W2.translation() - X_W1.translation())) {
+RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+  const fcl::Matrix3<S> inverse = X_W1.linear().transpose();
+  for (int j = 0; j < 3; ++j) R.col(j) = rotate<S>(inverse, X_W2.linear().col(j));
+  T = rotate<S>(inverse, X_W2.translation() - X_W1.translation());
   precompute(squaredRotationErrors(X_W1, X_W2));
 }
 

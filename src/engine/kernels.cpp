@@ -18,10 +18,10 @@
 #include "engine/lane_order.h"
 #include "engine/ray_search.h"
 #include "engine/search.h"
+#include "engine/simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/kernels.cpp"
-#define HWY_DISABLED_TARGETS HWY_SSSE3
 #define HWY_COMPILE_ALL_ATTAINABLE  // the scalar one too
 #include <hwy/cache_control.h>      // NOLINT(llvm-include-order)
 #include <hwy/foreach_target.h>     // NOLINT(llvm-include-order)
@@ -174,7 +174,7 @@ const Target kTargets[] = {
 #if HWY_TARGETS & HWY_SSE4
     {HWY_SSE4, N_SSE4::kKernels},
 #endif
-#if HWY_TARGETS & HWY_NEON
+#if HWY_ARCH_ARM_A64 && (HWY_TARGETS & HWY_NEON)  // 32-bit ARM's rounds otherwise
     {HWY_NEON, N_NEON::kKernels},
 #endif
 #if HWY_TARGETS & HWY_EMU128
@@ -185,8 +185,17 @@ const Target kTargets[] = {
 #endif
 };
 
+int64_t supportedTargets() {
+#if HWY_ARCH_ARM_A64  // always has NEON; Highway also asks for AES, which no kernel uses
+  const int64_t vectors = HWY_NEON;
+#else
+  const int64_t vectors = hwy::SupportedTargets();
+#endif
+  return vectors | HWY_EMU128 | HWY_SCALAR;
+}
+
 const Kernels& choose() {
-  const int64_t supported = hwy::SupportedTargets() | HWY_EMU128 | HWY_SCALAR;
+  const int64_t supported = supportedTargets();
   const char* const wanted = std::getenv("FCL_KIOS_SIMD");
   std::string available;
   for (const Target& target : kTargets) {

@@ -70,8 +70,8 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
     const auto ids = engine::nearestTriangles(engine.pair(), bounds, nearest, count);
     if (ids.a < 0) return result.min_distance;
     if (request.enable_nearest_points) {
-      result.update(nearest.distance, &model1, &model2, ids.a, ids.b, tf1 * nearest.point_a,
-                    tf1 * nearest.point_b);
+      result.update(nearest.distance, &model1, &model2, ids.a, ids.b,
+                    transform<S>(tf1, nearest.point_a), transform<S>(tf1, nearest.point_b));
     } else {
       result.update(nearest.distance, &model1, &model2, ids.a, ids.b);
     }

@@ -19,7 +19,7 @@ struct Weighted {
 class CoreSet {
  public:
   double u = 0, v = 0, optimum = -1;
-  Weighted support[3];
+  Weighted support[3] = {};
   int size = 0;
 
   /// Adds a constraint; returns false if the centre satisfies it already.

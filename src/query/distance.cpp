@@ -141,8 +141,8 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
   }
   if (found.ids.a < 0) return answer;
   if (options.nearest_points) {
-    answer.point1 = X_W1 * found.nearest.point_a;
-    answer.point2 = X_W1 * found.nearest.point_b;
+    answer.point1 = transform<S>(X_W1, found.nearest.point_a);
+    answer.point2 = transform<S>(X_W1, found.nearest.point_b);
   }
   if (options.warm_start) *options.warm_start = {answer.triangle1, answer.triangle2};
   return answer;

@@ -61,7 +61,8 @@ GivenRay mapped(const Ray<S>& ray, const fcl::Transform3<S>& X) {
     exponent = -600;
   }
   const double t_max = std::min<double>(ray.t_max, std::numeric_limits<S>::max());
-  return {inverse * from, inverse * direction, exponent, ray.t_min, t_max};
+  return {rotate<double>(inverse, from), rotate<double>(inverse, direction), exponent, ray.t_min,
+          t_max};
 }
 
 /// The search for the first hits of one ray, by t and then by triangle.
@@ -203,7 +204,8 @@ RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model
   const fcl::Vector3d p = model.vertices[ids[0]].template cast<double>(),
                       q = model.vertices[ids[1]].template cast<double>(),
                       r = model.vertices[ids[2]].template cast<double>();
-  const fcl::Vector3d point = X_WM.template cast<double>() * (p + w[1] * (q - p) + w[2] * (r - p));
+  const fcl::Vector3d point =
+      transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
   RayHit<S> hit;
   hit.t = static_cast<S>(found.hit.t);
   hit.point = point.template cast<S>();

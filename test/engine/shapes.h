@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -51,6 +52,39 @@ struct NamedMesh {
 inline Mesh transformed(Mesh mesh, double scale, const fcl::Vector3d& offset) {
   for (fcl::Vector3d& p : mesh.vertices) p = scale * p + offset;
   return mesh;
+}
+
+/// Vertices on a grid, so much coarser than the mathematical library errs that its last bits, which
+/// vary by machine, don't matter.
+inline Mesh rounded(Mesh mesh, double grid) {
+  for (fcl::Vector3d& p : mesh.vertices) {
+    for (int i = 0; i < 3; ++i) p[i] = std::nearbyint(p[i] / grid) * grid;
+  }
+  return mesh;
+}
+
+/// A random pose by sums, products and quotients alone: the quaternion is of small whole numbers.
+inline fcl::Transform3d wholePose(Random& random, double half_width) {
+  std::array<double, 4> q;
+  double squared;
+  do {
+    squared = 0;
+    for (double& c : q) {
+      c = std::floor(random.uniform(-20, 21));
+      squared += c * c;
+    }
+  } while (squared == 0);
+  const auto [w, x, y, z] = q;
+  const double rows[3][3] = {
+      {w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)},
+      {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
+      {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}};
+  fcl::Transform3d X = fcl::Transform3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) X(i, j) = rows[i][j] / squared;
+    X(i, 3) = std::floor(random.uniform(-half_width, half_width) * 0x1p20) * 0x1p-20;
+  }
+  return X;
 }
 
 /// Points (0), segments (1) and proper triangles (2), mixed if `kind` is 3.

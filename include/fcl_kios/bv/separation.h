@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fcl_kios/bv/kios.h"
+#include "fcl_kios/bv/rigid.h"
 
 namespace kios {
 
@@ -19,7 +20,7 @@ struct RelativePose {
   RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
 
   /// A point of B in A.
-  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return R * x_B + T; }
+  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return rotate<S>(R, x_B) + T; }
 
   fcl::Matrix3<S> R;  ///< as given, or R1^T R2
   fcl::Vector3<S> T;  ///< origin of B in A

@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+// Highway's names of the instruction sets that kernels are compiled for, whatever else its version
+// knows; to be included before its headers. SVE is not among them: the size of its vectors is known
+// at run time only, so that they can't be members or elements of arrays. Machines with SVE have
+// NEON. What AVX-512 gained later serves no kernel.
+#define HWY_DISABLED_TARGETS \
+  (~(HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON | HWY_EMU128 | HWY_SCALAR))
