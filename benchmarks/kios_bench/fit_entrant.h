@@ -12,9 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/variants/variant_tree.h"
+#include "paper/variant_tree.h"
 
 namespace kios::bench {
+
+using namespace paper;
 
 /// Two nodes of the splits of both meshes at a pose, and the distance of their triangles.
 struct NodePair {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "fcl_kios/variants/kios_policy.h"
-#include "fcl_kios/variants/packed_policy.h"
-#include "fcl_policies.h"
 #include "fit_entrant.h"
+#include "paper/fcl_policies.h"
+#include "paper/kios_policy.h"
+#include "paper/packed_policy.h"
 
 namespace kios::bench {
 namespace {

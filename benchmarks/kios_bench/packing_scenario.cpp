@@ -14,7 +14,7 @@
 #include "engine/rows.h"
 #include "fcl_kios/bv/separation.h"
 #include "fcl_kios/fcl/model.h"
-#include "packing_tests.h"
+#include "paper/packing_tests.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
@@ -23,6 +23,8 @@
 
 namespace kios::bench {
 namespace {
+
+using namespace paper;
 
 using Volumes = std::vector<kIOSf>;
 

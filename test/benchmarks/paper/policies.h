@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "bv/exact_spheres.h"
-#include "fcl_kios/variants/kios_policy.h"
-#include "fcl_kios/variants/packed_policy.h"
 #include "fit/all_fits.h"
+#include "paper/kios_policy.h"
+#include "paper/packed_policy.h"
 
 namespace kios::test {
+
+using namespace paper;
 
 /// Calls visit(name, policy) for kIOS with all fits and for all packed variants.
 template <typename Visit>

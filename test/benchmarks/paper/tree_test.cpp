@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Trees of all fits and variants answer as the oracle does.
-#include "fcl_kios/variants/variant_tree.h"
+#include "paper/variant_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
+#include "benchmarks/paper/policies.h"
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
-#include "variants/policies.h"
 
 namespace kios::test {
 namespace {

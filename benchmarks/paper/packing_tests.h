@@ -11,7 +11,7 @@
 #include "engine/frame_pair.h"
 #include "engine/tree.h"
 
-namespace kios::bench {
+namespace kios::paper {
 
 /// The spheres of a k-IOS in floats, S0 first. Rows go on with the first again, so that four from
 /// any of the k are spheres.
@@ -62,4 +62,4 @@ struct EightNodesTest {
 /// For every instruction set of this machine, the best first.
 std::vector<EightNodesTest> eightNodesTests();
 
-}  // namespace kios::bench
+}  // namespace kios::paper

@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "bv/lanes.h"
-#include "packing_tests.h"
+#include "paper/packing_tests.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kios_bench/packing_tests.cpp"
+#define HWY_TARGET_INCLUDE "paper/packing_tests.cpp"
 #define HWY_DISABLED_TARGETS HWY_SSSE3
 #include <hwy/foreach_target.h>  // NOLINT(llvm-include-order)
 #include <hwy/highway.h>         // NOLINT(llvm-include-order)
@@ -20,7 +20,7 @@
 #include "engine/simd/node_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace kios::bench::HWY_NAMESPACE {
+namespace kios::paper::HWY_NAMESPACE {
 
 void testEightNodes(const PackingPairs& pairs, bool /*overlap*/, float* bounds,
                     PackingCounts& counts) {
@@ -36,11 +36,11 @@ void testEightNodes(const PackingPairs& pairs, bool /*overlap*/, float* bounds,
   }
 }
 
-}  // namespace kios::bench::HWY_NAMESPACE
+}  // namespace kios::paper::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace kios::bench {
+namespace kios::paper {
 namespace {
 
 using lanes::Float4;
@@ -172,5 +172,5 @@ std::vector<EightNodesTest> eightNodesTests() {
   return tests;
 }
 
-}  // namespace kios::bench
+}  // namespace kios::paper
 #endif  // HWY_ONCE

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "fcl_kios/fit/fit.h"
-#include "fcl_kios/variants/volume_policy.h"
+#include "paper/volume_policy.h"
 
-namespace kios {
+namespace kios::paper {
 
 /// S0 and pairs of caps, centres of caps relative to S0's, all floats in a model's units (origin
 /// and power of two, so that neither place nor size of the model matters): what packed variants are
@@ -137,4 +137,4 @@ class FixedDirectionKios : public PackedPolicy {
                               const FitOptions& options = {});
 };
 
-}  // namespace kios
+}  // namespace kios::paper

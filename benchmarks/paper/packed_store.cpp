@@ -4,9 +4,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "variants/visit_caps.h"
+#include "paper/visit_caps.h"
 
-namespace kios {
+namespace kios::paper {
 
 void PackedStore::add(const CapSpheres& v) {
   if (!v.empty) {
@@ -54,4 +54,4 @@ const std::vector<fcl::Vector3f>& PackedPolicy::directions(const Shared& model) 
   return axes_ == Axes::kCoordinates ? coordinate_axes : model.directions;
 }
 
-}  // namespace kios
+}  // namespace kios::paper

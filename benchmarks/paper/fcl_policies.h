@@ -21,9 +21,9 @@
 #include <fcl/math/bv/utility.h>
 
 #include "fcl_kios/fit/fit.h"
-#include "fcl_kios/variants/volume_policy.h"
+#include "paper/volume_policy.h"
 
-namespace kios::bench {
+namespace kios::paper {
 
 /// A bound that proves contents apart and says nothing of how far.
 constexpr double kApart = std::numeric_limits<double>::min();
@@ -238,4 +238,4 @@ struct KdopPolicy {
   }
 };
 
-}  // namespace kios::bench
+}  // namespace kios::paper

@@ -7,10 +7,10 @@
 
 #include <cstring>
 
-#include "fcl_kios/variants/variant_tree.h"
+#include "benchmarks/paper/policies.h"
+#include "paper/variant_tree.h"
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
-#include "variants/policies.h"
 
 namespace kios::test {
 namespace {

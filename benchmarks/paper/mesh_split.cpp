@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/variants/mesh_split.h"
+#include "paper/mesh_split.h"
 
 #include <algorithm>
 #include <numeric>
@@ -10,7 +10,7 @@
 
 #include "fit/sphere_fitter.h"
 
-namespace kios {
+namespace kios::paper {
 namespace {
 
 double longestSide(const std::vector<fcl::Vector3d>& points) {
@@ -93,4 +93,4 @@ int MeshSplit::partition(const Node& node, const std::vector<fcl::Vector3d>& poi
   return middle == begin || middle == end ? node.count / 2 : static_cast<int>(middle - begin);
 }
 
-}  // namespace kios
+}  // namespace kios::paper

@@ -8,8 +8,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "benchmarks/paper/policies.h"
 #include "bv/exact_pairs.h"
-#include "variants/policies.h"
 
 namespace kios::test {
 namespace {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fcl_kios/variants/packed_policy.h"
+#include "paper/packed_policy.h"
 
-namespace kios {
+namespace kios::paper {
 
 /// A cap's place by its height: rounded alike wherever it is computed, so that the radius that was
 /// measured from there stays the right one.
@@ -37,4 +37,4 @@ void PackedPolicy::visitCaps(PackedStore::Packed v, const Shared& model, Visit v
   }
 }
 
-}  // namespace kios
+}  // namespace kios::paper

@@ -10,10 +10,10 @@
 
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
-#include "fcl_kios/variants/mesh_split.h"
-#include "fcl_kios/variants/volume_policy.h"
+#include "paper/mesh_split.h"
+#include "paper/volume_policy.h"
 
-namespace kios {
+namespace kios::paper {
 
 /// Answer and cost of a query of two trees.
 struct VariantResult {
@@ -157,4 +157,4 @@ class VariantTree {
   typename Policy::Store store_;
 };
 
-}  // namespace kios
+}  // namespace kios::paper

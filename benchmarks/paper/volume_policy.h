@@ -7,19 +7,19 @@
 
 #include "fcl_kios/bv/separation.h"
 
-// What a volume must offer to be put over a VariantTree. A volume policy P is a copyable class:
+// A VariantTree takes volumes of any policy. A volume policy P is a copyable class with
 //
 //   P::Shared  what a model stores once for all its volumes (directions, origin); {} if nothing
 //   P::Volume  a volume as the fit returns it
 //   P::Store   the volumes of a tree as memory holds them:
-//                void add(const P::Volume&)          appends one
-//                operator[](int i) const             volume i: what separation() and contains()
-//                take std::size_t floats() const          floats that the volumes take, 4 bytes
-//                each
+//     void add(const P::Volume&)          appends one
+//     operator[](int i) const             volume i as separation() and contains() take it
+//     std::size_t floats() const          floats that the volumes take, 4 bytes each
 //   P::Placed  what the bounds of two models at one pose have in common
 //
-//   Shared share(const fcl::Vector3d* points, int n) const        all vertices of a model, its
-//   frame Volume fit(const fcl::Vector3d* points, int n, const Shared&) const
+//   Shared share(const fcl::Vector3d* points, int n) const
+//     from all vertices of a model, in its frame
+//   Volume fit(const fcl::Vector3d* points, int n, const Shared&) const
 //     a volume around some of them; empty for n = 0. Throws std::invalid_argument if a coordinate
 //     is NaN, infinite or above 2^1000 in magnitude.
 //   Placed place(const Shared& a, const Shared& b, const RelativePose<double>& X_AB) const
@@ -31,7 +31,7 @@
 //   bool contains(stored v, const Shared&, const fcl::Vector3d& p) const
 //     false only if p is not of the content
 
-namespace kios {
+namespace kios::paper {
 
 /// A store of volumes that are all of one size.
 template <typename Volume>
@@ -45,4 +45,4 @@ class VolumeArray {
   std::vector<Volume> volumes_;
 };
 
-}  // namespace kios
+}  // namespace kios::paper

@@ -10,9 +10,9 @@
 #include "bv/balls.h"
 #include "bv/rounding.h"
 #include "fit/sphere_fitter.h"
-#include "variants/visit_caps.h"
+#include "paper/visit_caps.h"
 
-namespace kios {
+namespace kios::paper {
 namespace {
 
 // Models smaller than 2^-1000 use the units of one of that size: 2^1000 is still a double.
@@ -196,4 +196,4 @@ void PackedPolicy::placeAlong(const std::vector<fcl::Vector3f>& directions,
   }
 }
 
-}  // namespace kios
+}  // namespace kios::paper

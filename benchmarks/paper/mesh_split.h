@@ -8,7 +8,7 @@
 #include "fcl/math/triangle.h"
 #include "fcl_kios/triangle/triangle.h"
 
-namespace kios {
+namespace kios::paper {
 
 /// A triangle mesh in its own frame, split into a binary tree with one triangle a leaf: each node
 /// across the longest principal axis of its vertices, at the mean of its triangles' centroids, as
@@ -45,4 +45,4 @@ class MeshSplit {
   std::vector<Node> nodes_;
 };
 
-}  // namespace kios
+}  // namespace kios::paper

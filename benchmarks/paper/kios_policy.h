@@ -3,9 +3,9 @@
 #pragma once
 
 #include "fcl_kios/fit/fit.h"
-#include "fcl_kios/variants/volume_policy.h"
+#include "paper/volume_policy.h"
 
-namespace kios {
+namespace kios::paper {
 
 /// kIOS<double> with any of its fits, as BVHModel's nodes hold it.
 class KiosPolicy {
@@ -38,4 +38,4 @@ class KiosPolicy {
   FitOptions options_;
 };
 
-}  // namespace kios
+}  // namespace kios::paper

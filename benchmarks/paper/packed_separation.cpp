@@ -7,9 +7,9 @@
 #include "bv/balls.h"
 #include "bv/lanes.h"
 #include "bv/rounding.h"
-#include "variants/visit_caps.h"
+#include "paper/visit_caps.h"
 
-namespace kios {
+namespace kios::paper {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -146,4 +146,4 @@ bool PackedPolicy::contains(PackedStore::Packed v, const Shared& model,
   return true;
 }
 
-}  // namespace kios
+}  // namespace kios::paper
