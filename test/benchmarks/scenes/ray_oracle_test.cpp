@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "ray_oracle.h"
+#include "scenes/ray_oracle.h"
 
 #include <gtest/gtest.h>
 

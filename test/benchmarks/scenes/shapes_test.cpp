@@ -9,7 +9,7 @@
 
 #include <fcl/math/bv/OBBRSS.h>
 
-#include "scenes/mesh_checks.h"
+#include "benchmarks/scenes/mesh_checks.h"
 
 namespace kios::scenes {
 namespace {

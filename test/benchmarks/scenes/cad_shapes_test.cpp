@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scenes/mesh_checks.h"
+#include "benchmarks/scenes/mesh_checks.h"
 #include "scenes/shapes.h"
 
 namespace kios::scenes {
