@@ -1,37 +1,35 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #pragma once
 
 #include <cstddef>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "competitor.h"
+#include "mesh_set.h"
 #include "options.h"
-#include "report.h"
 #include "scenes/oracle.h"
+#include "scenes/pqp_data.h"
 
 namespace kios::bench {
 
-/// What a set of rows asks: the questions of all frames in turn, as many for each frame.
+/// A set of rows asks the questions of all frames in turn, as many for each frame.
 struct Task {
   std::string scenario;
   Query query = Query::kDistance;
   std::vector<Question> questions;
   std::size_t frames = 0;
-  std::optional<double> threshold;  // as the rows state it
+  Maybe threshold;  // as the rows state it
 };
 
 /// The task of a scene with the meshes 0 and 1.
 Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames);
 
-/// Measures all competitors on the meshes of a scene. Time is this thread's CPU time where the
-/// system has it, so that other programs disturb it least.
+/// Measures the volumes of options.bvs on the meshes of a scene. Time is this thread's CPU time
+/// where the system has it, so that other programs disturb it least.
 class Contest {
  public:
   /// Builds the models: options.repeats times interleaved for the build rows, once to keep.
@@ -50,36 +48,45 @@ class Contest {
   std::vector<Row> refitRows(const std::string& scenario, const std::vector<scenes::Mesh>& before,
                              Refit how, const Question& question);
 
-  /// Asks all questions, options.repeats times. In a repeat the competitors take turns at blocks of
-  /// questions, each block with another one first. Answers of all competitors are then compared
-  /// with the oracle, and tests are counted in a pass that is not timed.
+  /// Asks all questions, options.repeats times. In a repeat the volumes take turns at blocks of
+  /// questions, each block with another one first. All answers are then compared with the oracle,
+  /// and tests are counted in a pass that is not timed.
   std::vector<Row> queryRows(const Task& task);
 
-  /// The least time of each frame over options.repeats, by competitor, in microseconds.
+  /// The least time of each frame over options.repeats, by volume, in microseconds.
   std::map<std::string, std::vector<double>> frameTimes(const Task& task);
 
   /// The oracle of two of the meshes, made when first asked for.
   const scenes::MeshOracle& oracle(std::size_t a = 0, std::size_t b = 1);
 
  private:
-  struct Entrant {
-    std::unique_ptr<Competitor> competitor;
-    std::vector<double> build_us;  // all models, by repeat
-  };
-
-  void measureBuilds();
-  const Entrant* reference() const;
-  Row rowOf(const Entrant& entrant, const std::string& scenario, Query query) const;
+  /// A competitor for each volume that serves the query: make(its name, its set).
+  template <typename Make>
+  std::vector<Competitor> serving(Query query, Make make) const;
+  /// The competitors' rows, with what is known of all models and no answers.
+  std::vector<Row> rowsOf(const std::string& scenario, Query query, std::size_t frames,
+                          const std::vector<Competitor>& competitors,
+                          const Competitor* reference) const;
 
   Options options_;
   std::vector<scenes::Mesh> meshes_;
   double extent_ = 0;
   std::size_t triangles_ = 0;
   std::map<std::pair<std::size_t, std::size_t>, scenes::MeshOracle> oracles_;
-  std::vector<Entrant> entrants_;
+  std::map<std::string, std::unique_ptr<MeshSet>> sets_;
+  std::vector<Competitor> builds_;
 };
 
 /// `count` of the frames, evenly spaced from the first; all of them for count = 0 or too many.
 std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames, int count);
+
+/// The frames thinned evenly to options.frames, or to a few for options.quick.
+std::vector<scenes::Frame> chosenFrames(const std::vector<scenes::Frame>& frames,
+                                        const Options& options);
+
+/// Made by the program in place of the PQP data: 1200 frames of tori that fall onto each other, and
+/// of a blob and a torus that spin apart.
+scenes::MovingPair generatedFalling();
+scenes::MovingPair generatedSpinning();
 
 }  // namespace kios::bench

@@ -1,27 +1,33 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <algorithm>
-#include <map>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include <fcl/math/bv/OBBRSS.h>
 #include <fcl/math/motion/interp_motion.h>
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/spline_motion.h>
 #include <fcl/math/motion/translation_motion.h>
 
-#include "continuous_competitor.h"
+#include "calls.h"
+#include "fcl_kios/continuous.h"
+#include "fcl_kios/fcl/model.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
+
+/// Both meshes on their way, from t = 0 to 1.
+struct Motions {
+  std::shared_ptr<fcl::MotionBased> a, b;
+};
 
 constexpr struct {
   fcl::CCDMotionType type;
@@ -89,6 +95,45 @@ bool isWrong(const fcl::ContinuousCollisionResultd& result, const scenes::MeshOr
   return oracle.distance(frame.X_WA, frame.X_WB) > kFastest * time_error;
 }
 
+using Result = fcl::ContinuousCollisionResultd;
+
+/// A way to find the first contact in time of two models.
+struct Way {
+  const char* name;
+  double time_error;
+  bool splines;  // whether it serves them
+  std::function<Result(const Motions& motions, ContinuousCounts* counts)> answer;
+};
+
+Way kiosWay(const scenes::Mesh& mesh_a, const scenes::Mesh& mesh_b) {
+  constexpr double kTimeError = 1e-4;
+  const auto a = scenes::buildModel<kIOSd>(mesh_a), b = scenes::buildModel<kIOSd>(mesh_b);
+  return {"kios", kTimeError, true, [a, b](const Motions& motions, ContinuousCounts* counts) {
+            const fcl::ContinuousCollisionRequestd request(10, kTimeError);
+            Result result;
+            firstContact(*a, motions.a.get(), *b, motions.b.get(), request, result, counts);
+            return result;
+          }};
+}
+
+/// FCL's over OBBRSS: 1000 samples, which may miss what is between them, and its conservative
+/// advancement, which can't serve splines.
+Way obbrssWay(const scenes::Mesh& mesh_a, const scenes::Mesh& mesh_b, fcl::CCDSolverType solver) {
+  constexpr double kTimeError = 1e-3;
+  const auto a = scenes::buildModel<fcl::OBBRSSd>(mesh_a),
+             b = scenes::buildModel<fcl::OBBRSSd>(mesh_b);
+  const bool sampling = solver == fcl::CCDC_NAIVE;
+  return {sampling ? "fcl_obbrss_sampling" : "fcl_obbrss_advancement", kTimeError, sampling,
+          [a, b, solver](const Motions& motions, ContinuousCounts* /*counts*/) {
+            const fcl::ContinuousCollisionRequestd request(1000, kTimeError, fcl::CCDM_TRANS,
+                                                           fcl::GST_LIBCCD, solver);
+            Result result;
+            FclCalls::continuousCollide(a.get(), motions.a.get(), b.get(), motions.b.get(), request,
+                                        result);
+            return result;
+          }};
+}
+
 }  // namespace
 
 void runContinuous(const Options& options, Report& report) {
@@ -97,11 +142,8 @@ void runContinuous(const Options& options, Report& report) {
   const int size = options.quick ? 400 : 2000;
   const scenes::Mesh a = scenes::bumpyTorus(size), b = scenes::bumpyTorus(size / 2);
   const scenes::MeshOracle oracle(a, b);
-  std::vector<std::unique_ptr<ContinuousCompetitor>> competitors;
-  competitors.push_back(makeKiosContinuous());
-  competitors.push_back(makeObbrssSampling());
-  competitors.push_back(makeObbrssAdvancement());
-  for (const auto& competitor : competitors) competitor->load(a, b);
+  const Way ways[] = {kiosWay(a, b), obbrssWay(a, b, fcl::CCDC_NAIVE),
+                      obbrssWay(a, b, fcl::CCDC_CONSERVATIVE_ADVANCEMENT)};
 
   for (const auto& [type, motion_name] : kMotions) {
     scenes::Random random(options.seed);
@@ -111,44 +153,39 @@ void runContinuous(const Options& options, Report& report) {
       motions.push_back({randomMotion(type, random), randomMotion(type, random)});
       first.push_back(firstSample(oracle, motions.back(), samples));
     }
-    std::map<std::string, std::vector<double>> times;
-    for (int repeat = 0; repeat < options.repeats; ++repeat) {
-      for (const auto& competitor : competitors) {
-        if (!competitor->serves(type)) continue;
-        const double start = nowMicroseconds();
-        for (const Motions& pair : motions) competitor->answer(pair);
-        times[competitor->name()].push_back((nowMicroseconds() - start) / queries);
-      }
+    std::vector<const Way*> served;
+    std::vector<Competitor> competitors;
+    for (const Way& way : ways) {
+      if (type == fcl::CCDM_SPLINE && !way.splines) continue;
+      served.push_back(&way);
+      competitors.push_back({way.name, [&](std::size_t begin, std::size_t end) {
+                               for (std::size_t i = begin; i < end; ++i) {
+                                 way.answer(motions[i], nullptr);
+                               }
+                             }});
     }
+    Race{motions.size(), options.repeats}.run(competitors);
+    Row base;
+    base.scenario = std::string("continuous/") + motion_name;
+    base.query = "continuous";
+    base.triangles = a.triangles.size() + b.triangles.size();
+    base.frames = motions.size();
+    base.seed = options.seed;
     std::vector<Row> rows;
-    for (const auto& competitor : competitors) {
-      if (!competitor->serves(type)) continue;
-      Row row;
-      row.wrong_verdicts = 0;
-      TestCounts counts;
+    for (std::size_t w = 0; w < served.size(); ++w) {
+      const Way& way = *served[w];
+      Row row = base.of(competitors[w]);
+      row.asked.abs_err = way.time_error;  // of the time
+      row.errors.wrong = 0;
+      double bvs = 0, leaves = 0;
       for (std::size_t i = 0; i < motions.size(); ++i) {
-        const auto result = competitor->answer(motions[i]);
-        if (isWrong(result, oracle, motions[i], first[i], competitor->timeError())) {
-          ++*row.wrong_verdicts;
-        }
-        const TestCounts of = competitor->count(motions[i]);
-        counts.bv_tests += of.bv_tests;
-        counts.leaf_tests += of.leaf_tests;
+        ContinuousCounts counts;
+        const Result result = way.answer(motions[i], &counts);
+        if (isWrong(result, oracle, motions[i], first[i], way.time_error)) ++*row.errors.wrong;
+        bvs += static_cast<double>(counts.volume_tests);
+        leaves += static_cast<double>(counts.leaf_tests);
       }
-      const std::vector<double>& repeat_us = times.at(competitor->name());
-      row.scenario = std::string("continuous/") + motion_name;
-      row.query = "continuous";
-      row.bv = competitor->name();
-      row.triangles = a.triangles.size() + b.triangles.size();
-      row.frames = motions.size();
-      row.abs_err = competitor->timeError();  // of the time
-      row.median_us = median(repeat_us);
-      row.min_us = *std::min_element(repeat_us.begin(), repeat_us.end());
-      if (counts.bv_tests > 0) {
-        row.bv_tests = static_cast<double>(counts.bv_tests) / queries;
-        row.leaf_tests = static_cast<double>(counts.leaf_tests) / queries;
-      }
-      row.seed = options.seed;
+      if (bvs > 0) row.tests = {bvs / queries, leaves / queries};
       rows.push_back(row);
     }
     report.add(rows);

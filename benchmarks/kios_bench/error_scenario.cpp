@@ -4,119 +4,151 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/math/bv/RSS.h>
+#include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
+#include <fcl_kios/fcl_kios.h>
+
 #include "contest.h"
-#include "error_competitor.h"
+#include "fcl_models.h"
 #include "scenario.h"
 #include "scenes/arms.h"
-#include "scenes/oracle.h"
-#include "scenes/pqp_data.h"
-#include "scenes/shapes.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kFrames = 300;
 constexpr int kQuickFrames = 20;
 constexpr std::size_t kBlock = 512;
-constexpr double kWarmUp_us = 2000;  // untimed, so that no lane pays for what others left in caches
+constexpr double kWarmUp_us = 2000;  // untimed, so that none pays for what others left in caches
 
 constexpr double kErrors[] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 0.5};
-constexpr long long kBudgets[] = {8, 16, 32, 64, 128, 256};
+constexpr double kBudgets[] = {8, 16, 32, 64, 128, 256};
 constexpr double kThresholds[] = {0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10};
 
-const char* name(ErrorSetting::Query query) {
-  switch (query) {
-    case ErrorSetting::kDistance:
-      return "distance";
-    case ErrorSetting::kBracket:
-      return "bracket";
-    case ErrorSetting::kBudget:
-      return "budget";
-    case ErrorSetting::kThreshold:
-      return "threshold";
-  }
-  return "";
-}
-
-std::vector<ErrorSetting> distanceSettings() {
-  std::vector<ErrorSetting> settings;
-  for (const auto query : {ErrorSetting::kDistance, ErrorSetting::kBracket}) {
-    settings.push_back({query, 0, 0, {}, {}});
-    for (const double e : kErrors) settings.push_back({query, e, 0, {}, {}});
-    for (const double e : kErrors) settings.push_back({query, 0, e, {}, {}});
-  }
-  for (const long long n : kBudgets) settings.push_back({ErrorSetting::kBudget, 0, 0, n, {}});
-  return settings;
-}
-
-std::vector<ErrorSetting> thresholdSettings() {
-  std::vector<ErrorSetting> settings = {ErrorSetting()};  // what the ratios are to
-  for (const double f : kThresholds) settings.push_back({ErrorSetting::kThreshold, 0, 0, {}, f});
-  return settings;
-}
-
-// A competitor at a setting.
-struct Lane {
-  ErrorCompetitor* competitor;
-  ErrorSetting setting;
-  std::vector<ErrorAnswer> answers;
-  std::vector<double> repeat_us;  // per frame
+/// How a distance is asked for, and how inexact it may be: at most one of the numbers is set, none
+/// asks for the exact one. kBracket, kBudget: kios::distance; kDistance: fcl::distance, or FCL's
+/// node; kThreshold: whether the pair is nearer than a part of the exact distance of each frame.
+struct Setting {
+  enum Query { kDistance, kBracket, kBudget, kThreshold };
+  Query query = kDistance;
+  Asked asked = {0, 0, {}, {}};
 };
 
-void warmUp(const std::vector<ErrorQuestion>& questions, std::size_t begin, std::size_t end,
-            Lane& lane) {
-  constexpr std::size_t kAtOnce = 16;
-  const double start = nowMicroseconds();
-  while (begin < end && nowMicroseconds() - start < kWarmUp_us) {
-    const std::size_t next = std::min(begin + kAtOnce, end);
-    lane.competitor->answer(lane.setting, questions, begin, next, lane.answers);
-    begin = next;
-  }
+struct ErrorQuestion {
+  scenes::Frame poses;
+  double distance = 0;  // exact
+};
+
+/// A bracket of the distance; without a lower bound where the query gives none. For kThreshold the
+/// upper end is 0 if the pair is nearer than the threshold, infinity if not.
+struct Bracket {
+  double lower = std::numeric_limits<double>::quiet_NaN();
+  double upper = kInfinity;
+};
+
+/// A volume with both meshes.
+struct Way {
+  const char* name;
+  bool all_queries;  // or just kDistance and kThreshold
+  std::function<Bracket(const Setting& setting, const ErrorQuestion& question)> answer;
+};
+
+/// Ours.
+Way kiosWay(const scenes::MovingPair& pair) {
+  const auto a = scenes::buildModel<kIOSd>(pair.a), b = scenes::buildModel<kIOSd>(pair.b);
+  prepare(*a);
+  prepare(*b);
+  return {"kios", true, [a, b](const Setting& setting, const ErrorQuestion& question) -> Bracket {
+            const auto& [X_WA, X_WB] = question.poses;
+            const Asked& asked = setting.asked;
+            Bracket bracket;
+            if (setting.query == Setting::kDistance) {
+              fcl::DistanceRequestd request;
+              request.rel_err = *asked.rel_err;
+              request.abs_err = *asked.abs_err;
+              fcl::DistanceResultd result;
+              bracket.upper = fcl::distance(a.get(), X_WA, b.get(), X_WB, request, result);
+            } else if (setting.query == Setting::kThreshold) {
+              const double threshold = *asked.threshold * question.distance;
+              bracket.upper = closerThan(*a, X_WA, *b, X_WB, threshold) ? 0 : kInfinity;
+            } else {
+              DistanceOptions<double> options;
+              options.rel_err = *asked.rel_err;
+              options.abs_err = *asked.abs_err;
+              if (asked.budget) options.max_expansions = static_cast<long long>(*asked.budget);
+              options.nearest_points = false;
+              const auto answer = kios::distance(*a, X_WA, *b, X_WB, options);
+              bracket = {answer.lower_bound, answer.distance};
+            }
+            return bracket;
+          }};
 }
 
-// All lanes take turns at blocks of frames, each block with another one first.
-void timeLanes(const std::vector<ErrorQuestion>& questions, int repeats, std::vector<Lane>& lanes) {
-  for (int repeat = -1; repeat < repeats; ++repeat) {  // the first warms up
-    for (Lane& lane : lanes) lane.repeat_us.push_back(0);
-    for (std::size_t begin = 0, block = 0; begin < questions.size(); begin += kBlock, ++block) {
-      const std::size_t end = std::min(begin + kBlock, questions.size());
-      for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
-        Lane& lane = lanes[(turn + block + static_cast<std::size_t>(repeat + 1)) % lanes.size()];
-        warmUp(questions, begin, end, lane);
-        const double start = nowMicroseconds();
-        lane.competitor->answer(lane.setting, questions, begin, end, lane.answers);
-        lane.repeat_us.back() += nowMicroseconds() - start;
-      }
-    }
-    if (repeat < 0) {
-      for (Lane& lane : lanes) lane.repeat_us.clear();
-    } else {
-      for (Lane& lane : lanes) lane.repeat_us.back() /= static_cast<double>(questions.size());
-    }
+/// FCL's by its traversal node, whose error members FCL's own queries leave at 0. A node stops at a
+/// pair that meets both of its errors: the one not asked for is infinite.
+template <typename BV, typename Node>
+Way nodeWay(const char* name, const scenes::MovingPair& pair) {
+  const auto a = scenes::buildModel<BV>(pair.a), b = scenes::buildModel<BV>(pair.b);
+  return {name, false, [a, b](const Setting& setting, const ErrorQuestion& question) -> Bracket {
+            const Asked& asked = setting.asked;
+            const bool relative = *asked.rel_err > 0, absolute = *asked.abs_err > 0;
+            const fcl::DistanceRequestd request;
+            fcl::DistanceResultd result;
+            const double threshold = asked.threshold.value_or(kInfinity) * question.distance;
+            if (asked.threshold) result.min_distance = threshold;
+            Node node;
+            start(node, *a, question.poses.X_WA, *b, question.poses.X_WB, request, result);
+            node.rel_err = absolute ? kInfinity : *asked.rel_err;
+            node.abs_err = relative ? kInfinity : *asked.abs_err;
+            fcl::detail::distance(&node);
+            Bracket bracket;
+            bracket.upper = result.min_distance;
+            if (asked.threshold) bracket.upper = result.min_distance < threshold ? 0 : kInfinity;
+            return bracket;
+          }};
+}
+
+std::vector<Setting> distanceSettings() {
+  std::vector<Setting> settings;
+  for (const auto query : {Setting::kDistance, Setting::kBracket}) {
+    settings.push_back({query});
+    for (const double e : kErrors) settings.push_back({query, {e, 0, {}, {}}});
+    for (const double e : kErrors) settings.push_back({query, {0, e, {}, {}}});
   }
+  for (const double n : kBudgets) settings.push_back({Setting::kBudget, {0, 0, {}, n}});
+  return settings;
+}
+
+std::vector<Setting> thresholdSettings() {
+  std::vector<Setting> settings = {Setting()};  // what the ratios are to
+  for (const double f : kThresholds) settings.push_back({Setting::kThreshold, {0, 0, f, {}}});
+  return settings;
 }
 
 // Errors, widths and wrong answers: a threshold on the wrong side, an error beyond what was asked
 // for, a bracket that misses.
-void judge(const std::vector<ErrorQuestion>& questions, const Lane& lane, Row& row) {
-  const ErrorSetting& setting = lane.setting;
-  const double rounding = 1e-14 * row.extent;
+Errors judge(const std::vector<ErrorQuestion>& questions, const Asked& asked,
+             const std::vector<Bracket>& answers, double extent) {
+  const double rounding = 1e-14 * extent;
   double sum = 0, rel_sum = 0, max = 0, rel_max = 0, width = 0;
   std::size_t apart = 0, wrong = 0;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const double exact = questions[i].distance;
-    const auto& [lower, upper] = lane.answers[i];
-    if (setting.threshold) {
-      if ((upper == 0) != (*setting.threshold > 1)) ++wrong;
+    const auto& [lower, upper] = answers[i];
+    if (asked.threshold) {
+      if ((upper == 0) != (*asked.threshold > 1)) ++wrong;
       continue;
     }
-    const double allowed = std::max(setting.rel_err * exact, setting.abs_err) + rounding;
-    const bool beyond = !setting.budget && !(upper - exact <= allowed);
+    const double allowed = std::max(*asked.rel_err * exact, *asked.abs_err) + rounding;
+    const bool beyond = !asked.budget && !(upper - exact <= allowed);
     if (beyond || upper < exact - rounding || lower > exact) ++wrong;
     const double error = std::abs(upper - exact);
     sum += error;
@@ -127,130 +159,124 @@ void judge(const std::vector<ErrorQuestion>& questions, const Lane& lane, Row& r
     rel_sum += error / exact;
     rel_max = std::max(rel_max, error / exact);
   }
-  row.wrong_verdicts = wrong;
-  if (setting.threshold) return;
-  row.max_abs_error = max;
-  row.mean_abs_error = sum / static_cast<double>(questions.size());
-  if (std::isfinite(width)) row.bracket_width = width / static_cast<double>(questions.size());
-  if (apart == 0) return;
-  row.max_rel_error = rel_max;
-  row.mean_rel_error = rel_sum / static_cast<double>(apart);
+  Errors errors;
+  errors.wrong = wrong;
+  if (asked.threshold) return errors;
+  errors.max_abs = max;
+  errors.mean_abs = sum / static_cast<double>(questions.size());
+  if (std::isfinite(width)) errors.bracket_width = width / static_cast<double>(questions.size());
+  if (apart == 0) return errors;
+  errors.max_rel = rel_max;
+  errors.mean_rel = rel_sum / static_cast<double>(apart);
+  return errors;
 }
 
 constexpr char kLine[] = "%-20s %-9s %-11s %7s %7s %7s %10s %9s %10s %10s %10s %6s\n";
-
-std::string cell(const std::optional<double>& value, const char* format) {
-  if (!value || !std::isfinite(*value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, format, *value);
-  return text;
-}
 
 void print(const std::vector<Row>& rows) {
   std::printf(kLine, "scenario", "query", "bv", "rel_err", "abs_err", "at", "median_us", "x OBBRSS",
               "mean err", "mean rel", "width", "wrong");
   for (const Row& row : rows) {
-    const std::optional<double> at = row.budget ? row.budget : row.threshold;
-    std::printf(kLine, row.scenario.c_str(), row.query.c_str(), row.bv.c_str(),
-                cell(row.rel_err, "%g").c_str(), cell(row.abs_err, "%g").c_str(),
-                cell(at, "%g").c_str(), cell(row.median_us, "%.3f").c_str(),
-                cell(row.ratio_to_fcl_obbrss, "%.2f").c_str(),
-                cell(row.mean_abs_error, "%.2e").c_str(), cell(row.mean_rel_error, "%.2e").c_str(),
-                cell(row.bracket_width, "%.2e").c_str(),
-                std::to_string(row.wrong_verdicts.value_or(0)).c_str());
+    const auto& [rel_err, abs_err, threshold, budget] = row.asked;
+    std::printf(
+        kLine, row.scenario.c_str(), row.query.c_str(), row.bv.c_str(), cell(rel_err, "%g").c_str(),
+        cell(abs_err, "%g").c_str(), cell(budget ? budget : threshold, "%g").c_str(),
+        cell(row.times.median_us, "%.3f").c_str(),
+        cell(row.times.ratio_to_fcl_obbrss, "%.2f").c_str(),
+        cell(row.errors.mean_abs, "%.2e").c_str(), cell(row.errors.mean_rel, "%.2e").c_str(),
+        cell(row.errors.bracket_width, "%.2e").c_str(),
+        std::to_string(row.errors.wrong.value_or(0)).c_str());
   }
   std::printf("\n");
   std::fflush(stdout);
 }
 
-Row rowOf(const std::string& scenario, const Lane& lane, const Lane& reference) {
-  Row row;
-  const ErrorSetting& setting = lane.setting;
-  row.scenario = scenario;
-  row.query = name(setting.query);
-  row.bv = lane.competitor->name();
-  if (!setting.threshold) {
-    row.rel_err = setting.rel_err;
-    row.abs_err = setting.abs_err;
+/// A way at a setting.
+struct Entry {
+  const Way* way;
+  Setting setting;
+  std::vector<Bracket> answers;
+};
+
+/// Every way at every setting that it serves, all in one race; ratios are to the first.
+void reportSettings(Row base, const std::vector<Way>& ways, const std::vector<Setting>& settings,
+                    const std::vector<ErrorQuestion>& questions, int repeats, Report& report) {
+  std::vector<Entry> entries;
+  for (const Setting& setting : settings) {
+    for (const Way& way : ways) {
+      const bool any = setting.query == Setting::kDistance || setting.query == Setting::kThreshold;
+      if (!any && !way.all_queries) continue;
+      entries.push_back({&way, setting, std::vector<Bracket>(questions.size())});
+    }
   }
-  row.threshold = setting.threshold;
-  if (setting.budget) row.budget = static_cast<double>(*setting.budget);
-  row.median_us = median(lane.repeat_us);
-  row.min_us = *std::min_element(lane.repeat_us.begin(), lane.repeat_us.end());
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < lane.repeat_us.size(); ++i) {
-    ratios.push_back(reference.repeat_us[i] / lane.repeat_us[i]);
+  std::vector<Competitor> competitors;
+  for (Entry& entry : entries) {
+    const auto answer = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        entry.answers[i] = entry.way->answer(entry.setting, questions[i]);
+      }
+    };
+    const auto warm = [answer](std::size_t begin, std::size_t end) {
+      const double start = nowMicroseconds();
+      while (begin < end && nowMicroseconds() - start < kWarmUp_us) {
+        const std::size_t next = std::min(begin + 16, end);
+        answer(begin, next);
+        begin = next;
+      }
+    };
+    competitors.push_back({entry.way->name, answer, warm});
   }
-  row.ratio_to_fcl_obbrss = median(std::move(ratios));
-  return row;
+  Race{questions.size(), repeats, kBlock, Race::kAll, true}.run(competitors);
+  base.frames = questions.size();
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Setting& setting = entries[i].setting;
+    if (setting.query == Setting::kDistance && settings.back().query == Setting::kThreshold) {
+      continue;  // the reference alone
+    }
+    constexpr const char* kNames[] = {"distance", "bracket", "budget", "threshold"};
+    Row row = base.of(competitors[i], &competitors.front());
+    row.query = kNames[setting.query];
+    row.asked = setting.asked;
+    if (setting.asked.threshold) row.asked.rel_err = row.asked.abs_err = {};
+    row.errors = judge(questions, setting.asked, entries[i].answers, base.extent);
+    rows.push_back(std::move(row));
+  }
+  print(rows);
+  report.addUnprinted(rows);
 }
 
-class ErrorContest {
- public:
-  ErrorContest(std::string scenario, scenes::MovingPair pair, const Options& options)
-      : scenario_(std::move(scenario)), pair_(std::move(pair)), options_(options) {
-    const auto add = [this](std::unique_ptr<ErrorCompetitor> competitor) {
-      competitor->load(pair_.a, pair_.b);
-      competitors_.push_back(std::move(competitor));
-    };
-    add(makeObbrssErrorCompetitor());  // the reference, whatever is asked for
-    const auto wanted = [&options](const char* bv) {
-      return std::find(options.bvs.begin(), options.bvs.end(), bv) != options.bvs.end();
-    };
-    if (wanted("fcl_rss")) add(makeRssErrorCompetitor());
-    if (wanted("kios")) add(makeKiosErrorCompetitor());
+void reportPair(const std::string& scenario, const scenes::MovingPair& pair, const Options& options,
+                Report& report) {
+  const auto wanted = [&options](const char* bv) {
+    return std::find(options.bvs.begin(), options.bvs.end(), bv) != options.bvs.end();
+  };
+  std::vector<Way> ways;
+  // The reference, whatever is asked for.
+  ways.push_back(
+      nodeWay<fcl::OBBRSSd, fcl::detail::MeshDistanceTraversalNodeOBBRSSd>("fcl_obbrss", pair));
+  if (wanted("fcl_rss")) {
+    ways.push_back(nodeWay<fcl::RSSd, fcl::detail::MeshDistanceTraversalNodeRSSd>("fcl_rss", pair));
   }
+  if (wanted("kios")) ways.push_back(kiosWay(pair));
 
-  void run(Report& report) {
-    const int frames = options_.quick ? kQuickFrames : kFrames;
-    const scenes::MeshOracle oracle(pair_.a, pair_.b);
-    std::vector<ErrorQuestion> all, apart;
-    for (const scenes::Frame& f :
-         evenlyChosen(pair_.frames, options_.frames > 0 ? options_.frames : frames)) {
-      all.push_back({f, oracle.distance(f.X_WA, f.X_WB)});
-      if (all.back().distance > 0) apart.push_back(all.back());
-    }
-    runSettings(distanceSettings(), all, report);
-    if (!apart.empty()) runSettings(thresholdSettings(), apart, report);
+  const int frames = options.quick ? kQuickFrames : kFrames;
+  const scenes::MeshOracle oracle(pair.a, pair.b);
+  std::vector<ErrorQuestion> all, apart;
+  for (const scenes::Frame& f :
+       evenlyChosen(pair.frames, options.frames > 0 ? options.frames : frames)) {
+    all.push_back({f, oracle.distance(f.X_WA, f.X_WB)});
+    if (all.back().distance > 0) apart.push_back(all.back());
   }
-
- private:
-  void runSettings(const std::vector<ErrorSetting>& settings,
-                   const std::vector<ErrorQuestion>& questions, Report& report) {
-    std::vector<Lane> lanes;
-    for (const ErrorSetting& setting : settings) {
-      for (const auto& competitor : competitors_) {
-        if (!competitor->serves(setting)) continue;
-        lanes.push_back(
-            {competitor.get(), setting, std::vector<ErrorAnswer>(questions.size()), {}});
-      }
-    }
-    timeLanes(questions, options_.repeats, lanes);
-    std::vector<Row> rows;
-    for (const Lane& lane : lanes) {
-      Row row = rowOf(scenario_, lane, lanes.front());
-      row.triangles = pair_.a.triangles.size() + pair_.b.triangles.size();
-      row.frames = questions.size();
-      row.seed = options_.seed;
-      row.extent = std::max(scenes::extent(pair_.a), scenes::extent(pair_.b));
-      judge(questions, lane, row);
-      if (lane.setting.query != ErrorSetting::kDistance || !isThresholds(settings)) {
-        rows.push_back(std::move(row));
-      }
-    }
-    print(rows);
-    report.addUnprinted(rows);
-  }
-
-  static bool isThresholds(const std::vector<ErrorSetting>& settings) {
-    return settings.back().threshold.has_value();
-  }
-
-  const std::string scenario_;
-  const scenes::MovingPair pair_;
-  const Options options_;
-  std::vector<std::unique_ptr<ErrorCompetitor>> competitors_;
-};
+  Row base;
+  base.scenario = scenario;
+  base.triangles = pair.a.triangles.size() + pair.b.triangles.size();
+  base.seed = options.seed;
+  base.extent = std::max(scenes::extent(pair.a), scenes::extent(pair.b));
+  reportSettings(base, ways, distanceSettings(), all, options.repeats, report);
+  if (apart.empty()) return;
+  reportSettings(base, ways, thresholdSettings(), apart, options.repeats, report);
+}
 
 // The forearms of two arms that face each other.
 scenes::MovingPair forearms(std::uint64_t seed) {
@@ -274,14 +300,11 @@ scenes::MovingPair forearms(std::uint64_t seed) {
 }  // namespace
 
 void runError(const Options& options, Report& report) {
-  constexpr int kMotionFrames = 1200;
-  const auto run = [&](const char* scene, scenes::MovingPair pair) {
-    ErrorContest(std::string("error/") + scene, std::move(pair), options).run(report);
+  const auto run = [&](const char* scene, const scenes::MovingPair& pair) {
+    reportPair(std::string("error/") + scene, pair, options, report);
   };
-  run("generated",
-      {scenes::bentTorus(), scenes::knobbyTorus(), scenes::fallingMotion(kMotionFrames)});
-  run("generated_spinning",
-      {scenes::bumpyBlob(), scenes::bentTorus(), scenes::spinningMotion(kMotionFrames)});
+  run("generated", generatedFalling());
+  run("generated_spinning", generatedSpinning());
   run("robots", forearms(options.seed));
   if (const auto data = findData(options)) {
     run("falling", scenes::loadFalling(*data));

@@ -23,7 +23,6 @@
 #include "scenes/oracle.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
@@ -123,33 +122,29 @@ double slabsAPair(const std::vector<Pair>& pairs) {
 }
 
 std::vector<Row> rowsOf(int triangles, const std::vector<Pair>& pairs, const Options& options) {
-  const auto count = static_cast<double>(pairs.size());
-  std::vector<std::vector<double>> times(std::size(kWays));
-  for (int repeat = 0; repeat < options.repeats; ++repeat) {
-    for (std::size_t i = 0; i < std::size(kWays); ++i) {
-      double sum = 0;
-      const double start = nowMicroseconds();
-      for (const Pair& pair : pairs) sum += kWays[i].distance(pair);
-      times[i].push_back((nowMicroseconds() - start) / count);
-      if (!(sum > 0)) std::printf("%s finds no distance\n", kWays[i].bv);
-    }
+  std::vector<Competitor> competitors;
+  double sum = 0;  // so that nothing is optimised away
+  for (const Way& way : kWays) {
+    competitors.push_back({way.bv, [&](std::size_t begin, std::size_t end) {
+                             for (std::size_t i = begin; i < end; ++i)
+                               sum += way.distance(pairs[i]);
+                           }});
   }
+  Race{pairs.size(), options.repeats}.run(competitors);
+  if (!(sum > 0)) std::printf("no distance is found\n");
+  Row base;
+  base.scenario = "exact/" + std::to_string(triangles);
+  base.query = "distance";
+  base.triangles = static_cast<std::size_t>(2 * triangles);
+  base.frames = pairs.size();
+  base.seed = options.seed;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < std::size(kWays); ++i) {
     double found = 0;
     for (const Pair& pair : pairs) found += kWays[i].distance(pair) / pair.truth;
-    Row row;
-    row.scenario = "exact/" + std::to_string(triangles);
-    row.query = "distance";
-    row.bv = kWays[i].bv;
-    row.triangles = static_cast<std::size_t>(2 * triangles);
-    row.frames = pairs.size();
-    row.median_us = median(times[i]);
-    row.min_us = *std::min_element(times[i].begin(), times[i].end());
-    row.tightness = found / count;
-    row.wrong_verdicts = wrongBounds(pairs, kWays[i]);
-    row.seed = options.seed;
-    rows.push_back(row);
+    Row& row = rows.emplace_back(base.of(competitors[i]));
+    row.volumes.tightness = found / static_cast<double>(pairs.size());
+    row.errors.wrong = wrongBounds(pairs, kWays[i]);
   }
   return rows;
 }
@@ -165,7 +160,7 @@ void runExact(const Options& options, Report& report) {
     const std::vector<Row> rows = rowsOf(triangles, pairs, options);
     for (const Row& row : rows) {
       std::printf("%9d | %-22s %11.0f %9.3f %6zu\n", triangles, row.bv.c_str(),
-                  1000 * row.median_us, *row.tightness, *row.wrong_verdicts);
+                  1000 * row.times.median_us, *row.volumes.tightness, *row.errors.wrong);
     }
     std::printf("%9d | slabs of an exact distance: %.1f\n", triangles, slabsAPair(pairs));
     report.addUnprinted(rows);

@@ -1,19 +1,69 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <cmath>
-
-#include "fcl_kios/variants/kios_policy.h"
-#include "fcl_kios/variants/packed_policy.h"
-#include "fcl_policies.h"
 #include "fit_entrant.h"
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "paper/fcl_policies.h"
+#include "paper/kios_policy.h"
+#include "paper/packed_policy.h"
 
 namespace kios::bench {
 namespace {
 
+using namespace paper;
+
 constexpr double kPi = 3.14159265358979323846;
 
-using Entrants = std::vector<std::unique_ptr<FitEntrant>>;
+using Entrants = std::vector<FitEntrant>;
+
+/// Numbers that describe a volume, and its spheres.
+struct VolumeSize {
+  double numbers = 0;
+  double spheres = 0;
+};
+
+/// size_of(stored volume) is its VolumeSize.
+template <typename Policy, typename SizeOf>
+void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf size_of,
+         bool serves_distance = true) {
+  using Tree = VariantTree<Policy>;
+  const auto build = [policy, size_of](const Split& split_a, const Split& split_b) {
+    const auto a = std::make_shared<const Tree>(split_a, policy);
+    const auto b = std::make_shared<const Tree>(split_b, policy);
+    FitTrees trees;
+    trees.distance = [a, b](const RelativePose<double>& X_AB) { return a->distance(*b, X_AB); };
+    trees.collide = [a, b](const RelativePose<double>& X_AB) { return a->collide(*b, X_AB); };
+    trees.bound = [a, b](const NodePair& pair) {
+      return a->policy().separation(a->store()[pair.a], b->store()[pair.b],
+                                    a->policy().place(a->shared(), b->shared(), pair.X_AB),
+                                    std::numeric_limits<double>::infinity());
+    };
+    trees.size = [a, b, size_of] {
+      FitSize mean;
+      double nodes = 0, floats = 0;
+      for (const Tree* tree : {a.get(), b.get()}) {
+        const auto count = static_cast<int>(tree->split().nodes().size());
+        for (int i = 0; i < count; ++i) {
+          const VolumeSize size = size_of(tree->store()[i]);
+          mean.numbers += size.numbers;
+          mean.spheres += size.spheres;
+        }
+        nodes += count;
+        floats += static_cast<double>(tree->store().floats());
+      }
+      mean.numbers /= nodes;
+      mean.spheres /= nodes;
+      mean.bytes = sizeof(float) * floats / nodes;
+      return mean;
+    };
+    return trees;
+  };
+  all.push_back({name, serves_distance, build});
+}
 
 /// Spheres with their own radii, or with one that all but S0 share.
 VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
@@ -24,8 +74,7 @@ VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
 
 void addKios(Entrants& all, const std::string& name, const FitOptions& options) {
   const bool shared = options.shared_radius;
-  all.push_back(std::make_unique<VariantEntrant<KiosPolicy>>(
-      name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); }));
+  add(all, name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); });
 }
 
 /// The paper's choices of k, and angles about its pi/6, of one method.
@@ -54,7 +103,7 @@ void addPacked(Entrants& all, const std::string& name, const Policy& policy, int
     const int of_cap = floats_of_place + (shared_radius ? 0 : 1);
     return VolumeSize{4.0 + shared + of_cap * caps, 1.0 + caps};
   };
-  all.push_back(std::make_unique<VariantEntrant<Policy>>(name, policy, size_of));
+  add(all, name, policy, size_of);
 }
 
 /// The paper's kinds (III-A) and its scale of k (V-B).
@@ -85,17 +134,13 @@ void addKinds(Entrants& all) {
 
 template <typename Policy>
 void addOther(Entrants& all, const std::string& name, double numbers, bool serves_distance = true) {
-  all.push_back(std::make_unique<VariantEntrant<Policy>>(
-      name, Policy(),
-      [numbers](const auto& /*bv*/) {
-        return VolumeSize{numbers, 0};
-      },
-      serves_distance));
+  const auto size_of = [numbers](const auto& /*bv*/) { return VolumeSize{numbers, 0}; };
+  add(all, name, Policy(), size_of, serves_distance);
 }
 
 }  // namespace
 
-std::vector<std::unique_ptr<FitEntrant>> fitEntrants() {
+std::vector<FitEntrant> fitEntrants() {
   Entrants all;
   addKios(all, "kios_method_i", FitMethod::kMethodI);
   addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);

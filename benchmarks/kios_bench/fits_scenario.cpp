@@ -13,25 +13,16 @@
 
 #include "contest.h"
 #include "fit_entrant.h"
-#include "motion_report.h"
 #include "scenario.h"
 #include "scenes/motions.h"
-#include "scenes/pqp_data.h"
 #include "scenes/random.h"
-#include "scenes/shapes.h"
-#include "timing.h"
 #include "verdicts.h"
 
 namespace kios::bench {
 namespace {
 
+using namespace paper;
 using Poses = std::vector<RelativePose<double>>;
-
-struct Scene {
-  std::string name;
-  scenes::Mesh a, b;
-  std::vector<scenes::Frame> frames;
-};
 
 double distanceOf(const MeshSplit& a, const MeshSplit::Node& m, const MeshSplit& b,
                   const MeshSplit::Node& n, const RelativePose<double>& X_AB) {
@@ -80,56 +71,16 @@ std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, int co
   return pairs;
 }
 
-/// What is measured of an entrant.
-struct Lane {
-  FitEntrant* entrant;
-  std::vector<double> build_us;
-  std::vector<double> repeat_us;  // of one query, per frame
-  std::vector<double> answers;
-  std::size_t bv_tests = 0, leaf_tests = 0;
-};
-
-/// Asks all frames options.repeats times, the entrants taking turns at blocks of them.
-void ask(bool collide, const Poses& poses, int repeats, std::vector<Lane>& lanes) {
-  constexpr std::size_t kBlock = 64;
-  for (Lane& lane : lanes) {
-    lane.repeat_us.clear();
-    lane.answers.assign(poses.size(), 0);
-  }
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    for (Lane& lane : lanes) {
-      lane.repeat_us.push_back(0);
-      lane.bv_tests = lane.leaf_tests = 0;
-    }
-    for (std::size_t begin = 0, block = 0; begin < poses.size(); begin += kBlock, ++block) {
-      for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
-        Lane& lane = lanes[(turn + block + static_cast<std::size_t>(repeat)) % lanes.size()];
-        if (!collide && !lane.entrant->servesDistance()) continue;
-        const double start = nowMicroseconds();
-        for (std::size_t i = begin; i < std::min(begin + kBlock, poses.size()); ++i) {
-          const VariantResult result =
-              collide ? lane.entrant->collide(poses[i]) : lane.entrant->distance(poses[i]);
-          lane.answers[i] = collide ? (result.contact ? 1 : 0) : result.distance;
-          lane.bv_tests += static_cast<std::size_t>(result.bv_tests);
-          lane.leaf_tests += static_cast<std::size_t>(result.leaf_tests);
-        }
-        lane.repeat_us.back() += nowMicroseconds() - start;
-      }
-    }
-    for (Lane& lane : lanes) lane.repeat_us.back() /= static_cast<double>(poses.size());
-  }
-}
-
 struct Bounds {
   double tightness = 0;   // mean of bound / true distance
   std::size_t wrong = 0;  // above the true distance
 };
 
-Bounds boundsOf(const FitEntrant& entrant, const std::vector<NodePair>& pairs) {
+Bounds boundsOf(const FitTrees& trees, const std::vector<NodePair>& pairs) {
   constexpr double kRounding = 1e-12;
   Bounds bounds;
   for (const NodePair& pair : pairs) {
-    const double bound = std::max(0.0, entrant.bound(pair));
+    const double bound = std::max(0.0, trees.bound(pair));
     bounds.tightness += bound / pair.distance / static_cast<double>(pairs.size());
     if (bound > pair.distance * (1 + kRounding)) ++bounds.wrong;
   }
@@ -143,113 +94,131 @@ void printHeading(const std::string& scenario, std::size_t frames) {
               "tightness", "wrong");
 }
 
-void print(const FitEntrant& entrant, const Row* distance, const Row& collide, std::size_t wrong) {
-  std::printf("%-24s ", entrant.name().c_str());
+void print(const std::string& name, const FitSize& size, const Row* distance, const Row& collide) {
+  std::printf("%-24s ", name.c_str());
   if (distance) {
-    std::printf("%8.1f %8.1f %9.2f |", *distance->bv_tests, *distance->leaf_tests,
-                distance->median_us);
+    std::printf("%8.1f %8.1f %9.2f |", *distance->tests.bvs, *distance->tests.leaves,
+                distance->times.median_us);
   } else {
     std::printf("%8s %8s %9s |", "-", "-", "-");
   }
-  std::printf(" %8.1f %7.1f %9.2f | %7.2f %6.2f %7.2f %6.0f ", *collide.bv_tests,
-              *collide.leaf_tests, collide.median_us, *collide.build_us_per_triangle,
-              entrant.spheres(), *collide.floats_per_bv, entrant.bytes());
-  if (collide.tightness) {
-    std::printf("%9.3f", *collide.tightness);
-  } else {
-    std::printf("%9s", "-");
-  }
-  std::printf(" %5zu\n", wrong);
+  std::printf(" %8.1f %7.1f %9.2f | %7.2f %6.2f %7.2f %6.0f %9s %5zu\n", *collide.tests.bvs,
+              *collide.tests.leaves, collide.times.median_us,
+              *collide.volumes.build_us_per_triangle, size.spheres, *collide.volumes.floats_per_bv,
+              size.bytes, cell(collide.volumes.tightness, "%.3f").c_str(),
+              *collide.errors.wrong + (distance ? *distance->errors.wrong : 0));
 }
 
-std::vector<Lane> built(const std::vector<std::unique_ptr<FitEntrant>>& entrants,
-                        const FitEntrant::Split& a, const FitEntrant::Split& b, int repeats) {
+/// An entrant, its trees, and what it did in the race of one query.
+struct Lane {
+  const FitEntrant* entrant;
+  FitTrees trees;
+  FitSize size;
+  double build_us_per_triangle;
+  Bounds bounds;
+  std::vector<double> answers;
+  long long bv_tests, leaf_tests;  // of all repeats
+};
+
+std::vector<Lane> built(const std::vector<FitEntrant>& entrants, const Split& a, const Split& b,
+                        const std::vector<NodePair>& nodes, int repeats) {
   std::vector<Lane> lanes;
-  for (const auto& entrant : entrants) {
-    Lane lane{entrant.get(), {}, {}, {}, 0, 0};
-    for (int repeat = 0; repeat < repeats; ++repeat) {
-      const double start = nowMicroseconds();
-      entrant->build(a, b);
-      lane.build_us.push_back(nowMicroseconds() - start);
-    }
-    lanes.push_back(lane);
+  const double triangles = a->triangleCount() + b->triangleCount();
+  for (const FitEntrant& entrant : entrants) {
+    FitTrees trees;
+    std::vector<Competitor> builder = {
+        {"", [&](std::size_t, std::size_t) { trees = entrant.build(a, b); }}};
+    Race{1, repeats}.run(builder);
+    const double us = timesOf(builder[0], 1, nullptr).median_us;
+    const Bounds bounds = entrant.serves_distance ? boundsOf(trees, nodes) : Bounds();
+    lanes.push_back({&entrant, trees, trees.size(), us / triangles, bounds, {}, 0, 0});
   }
   return lanes;
 }
 
-/// What ask() and built() measured of a lane.
-Row rowOf(const Lane& lane, const Scene& scene, Query query) {
-  const auto triangles = scene.a.triangles.size() + scene.b.triangles.size();
-  const auto frames = static_cast<double>(lane.answers.size());
-  Row row;
-  row.scenario = scene.name;
-  row.query = name(query);
-  row.bv = lane.entrant->name();
-  row.triangles = triangles;
-  row.frames = lane.answers.size();
-  row.median_us = median(lane.repeat_us);
-  row.min_us = *std::min_element(lane.repeat_us.begin(), lane.repeat_us.end());
-  row.bv_tests = static_cast<double>(lane.bv_tests) / frames;
-  row.leaf_tests = static_cast<double>(lane.leaf_tests) / frames;
-  row.build_us_per_triangle = median(lane.build_us) / static_cast<double>(triangles);
-  row.floats_per_bv = lane.entrant->numbers();
-  row.bytes_per_triangle = 2 * lane.entrant->bytes();  // of volumes
-  if (lane.entrant->spheres() > 0) row.mean_spheres = lane.entrant->spheres();
-  row.extent = std::max(scenes::extent(scene.a), scenes::extent(scene.b));
-  return row;
-}
-
-void printTable(const std::string& scenario,
-                const std::vector<std::unique_ptr<FitEntrant>>& entrants,
-                const std::vector<Row>& rows) {
-  printHeading(scenario, rows.front().frames);
-  for (const auto& entrant : entrants) {
-    const auto find = [&](const char* query) {
-      return std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
-        return row.bv == entrant->name() && row.query == query;
-      });
-    };
-    const auto distance = find("distance"), collide = find("collide");
-    const bool has_distance = distance != rows.end();
-    print(*entrant, has_distance ? &*distance : nullptr, *collide,
-          *collide->wrong_verdicts + (has_distance ? *distance->wrong_verdicts : 0));
+/// Asks all frames, the lanes taking turns at blocks of them; one row for each that serves the
+/// query.
+std::vector<Row> ask(Row row, bool collide, const Poses& poses, int repeats,
+                     const std::vector<Question>& questions, const Verdicts& verdicts,
+                     std::vector<Lane>& lanes) {
+  constexpr std::size_t kBlock = 64;
+  std::vector<Competitor> competitors;
+  std::vector<Lane*> serving;
+  for (Lane& lane : lanes) {
+    if (!collide && !lane.entrant->serves_distance) continue;
+    lane.answers.assign(poses.size(), 0);
+    lane.bv_tests = lane.leaf_tests = 0;
+    serving.push_back(&lane);
+    competitors.push_back(
+        {lane.entrant->name, [&lane, &poses, collide](std::size_t begin, std::size_t end) {
+           for (std::size_t i = begin; i < end; ++i) {
+             const VariantResult result =
+                 collide ? lane.trees.collide(poses[i]) : lane.trees.distance(poses[i]);
+             lane.answers[i] = collide ? (result.contact ? 1 : 0) : result.distance;
+             lane.bv_tests += result.bv_tests;
+             lane.leaf_tests += result.leaf_tests;
+           }
+         }});
   }
-  std::printf("\n");
+  Race{poses.size(), repeats, kBlock}.run(competitors);
+  const Query query = collide ? Query::kCollide : Query::kDistance;
+  const double asked = static_cast<double>(poses.size()) * repeats;
+  row.query = name(query);
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < serving.size(); ++i) {
+    const Lane& lane = *serving[i];
+    Row& of = rows.emplace_back(row.of(competitors[i]));
+    of.tests = {static_cast<double>(lane.bv_tests) / asked,
+                static_cast<double>(lane.leaf_tests) / asked};
+    of.volumes.build_us_per_triangle = lane.build_us_per_triangle;
+    of.volumes.floats_per_bv = lane.size.numbers;
+    of.volumes.bytes_per_triangle = 2 * lane.size.bytes;  // of volumes
+    if (lane.size.spheres > 0) of.volumes.mean_spheres = lane.size.spheres;
+    of.errors = compare(lane.answers, verdicts, query, questions, row.extent);
+    if (!lane.entrant->serves_distance) continue;
+    of.volumes.tightness = lane.bounds.tightness;
+    *of.errors.wrong += lane.bounds.wrong;
+  }
+  return rows;
 }
 
-void reportScene(const Scene& scene, const Options& options, Report& report) {
-  const std::vector<scenes::Frame> frames = chosenFrames(scene.frames, options);
+void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
+                 const Options& options, Report& report) {
+  const std::vector<scenes::Frame> frames = chosenFrames(pair.frames, options);
   Poses poses;
   for (const scenes::Frame& frame : frames) poses.emplace_back(frame.X_WA, frame.X_WB);
-  const auto a = std::make_shared<MeshSplit>(scene.a.vertices, scene.a.triangles);
-  const auto b = std::make_shared<MeshSplit>(scene.b.vertices, scene.b.triangles);
+  const auto a = std::make_shared<const MeshSplit>(pair.a.vertices, pair.a.triangles);
+  const auto b = std::make_shared<const MeshSplit>(pair.b.vertices, pair.b.triangles);
   const auto nodes = sampleNodes(*a, *b, options.quick ? 100 : 1000, options.seed);
-  const scenes::MeshOracle oracle(scene.a, scene.b);
-  const auto entrants = fitEntrants();
-  std::vector<Lane> lanes = built(entrants, a, b, options.repeats);
+  const scenes::MeshOracle oracle(pair.a, pair.b);
+  const std::vector<FitEntrant> entrants = fitEntrants();
+  std::vector<Lane> lanes = built(entrants, a, b, nodes, options.repeats);
 
-  std::vector<Row> rows;
-  for (const Query query : {Query::kDistance, Query::kCollide}) {
-    ask(query == Query::kCollide, poses, options.repeats, lanes);
+  Row base;
+  base.scenario = scenario;
+  base.triangles = pair.a.triangles.size() + pair.b.triangles.size();
+  base.frames = frames.size();
+  base.seed = options.seed;
+  base.extent = std::max(scenes::extent(pair.a), scenes::extent(pair.b));
+  std::vector<Row> rows_of[2];  // distance, collide
+  for (const bool collide : {false, true}) {
+    const Query query = collide ? Query::kCollide : Query::kDistance;
     const std::vector<Question> questions = pairTask("", query, frames).questions;
     const Verdicts verdicts =
         judge([&oracle](std::size_t, std::size_t) -> const scenes::MeshOracle& { return oracle; },
               query, questions, options.oracle_frames);
-    for (const Lane& lane : lanes) {
-      if (query == Query::kDistance && !lane.entrant->servesDistance()) continue;
-      Row row = rowOf(lane, scene, query);
-      row.seed = options.seed;
-      compare(lane.answers, verdicts, query, questions, row.extent, row);
-      if (lane.entrant->servesDistance()) {
-        const Bounds bounds = boundsOf(*lane.entrant, nodes);
-        row.tightness = bounds.tightness;
-        *row.wrong_verdicts += bounds.wrong;
-      }
-      rows.push_back(row);
-    }
+    rows_of[collide] = ask(base, collide, poses, options.repeats, questions, verdicts, lanes);
   }
-  printTable(scene.name, entrants, rows);
-  report.addUnprinted(rows);
+  printHeading(scenario, frames.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const std::string& bv = lanes[i].entrant->name;
+    const auto distance = std::find_if(rows_of[0].begin(), rows_of[0].end(),
+                                       [&bv](const Row& row) { return row.bv == bv; });
+    print(bv, lanes[i].size, distance == rows_of[0].end() ? nullptr : &*distance, rows_of[1][i]);
+  }
+  std::printf("\n");
+  report.addUnprinted(rows_of[0]);
+  report.addUnprinted(rows_of[1]);
 }
 
 }  // namespace
@@ -259,19 +228,12 @@ void runFits(const Options& options, Report& report) {
   Options ours = options;
   if (ours.frames == 0) ours.frames = options.quick ? 10 : kFrames;
   if (const auto data = findData(options); data && !options.quick) {
-    const scenes::MovingPair falling = scenes::loadFalling(*data);
-    reportScene({"fits/falling", falling.a, falling.b, falling.frames}, ours, report);
-    const scenes::MovingPair spinning = scenes::loadSpinning(*data, 2400);
-    reportScene({"fits/spinning", spinning.a, spinning.b, spinning.frames}, ours, report);
+    reportScene("fits/falling", scenes::loadFalling(*data), ours, report);
+    reportScene("fits/spinning", scenes::loadSpinning(*data, 2400), ours, report);
   }
-  constexpr int kMotion = 1200;
-  reportScene({"fits/falling_generated", scenes::bentTorus(), scenes::knobbyTorus(),
-               scenes::fallingMotion(kMotion)},
-              ours, report);
+  reportScene("fits/falling_generated", generatedFalling(), ours, report);
   if (options.quick) return;
-  reportScene({"fits/spinning_generated", scenes::bumpyBlob(), scenes::bentTorus(),
-               scenes::spinningMotion(kMotion)},
-              ours, report);
+  reportScene("fits/spinning_generated", generatedSpinning(), ours, report);
 }
 
 }  // namespace kios::bench

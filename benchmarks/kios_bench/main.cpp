@@ -9,7 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "competitor.h"
+#include "mesh_set.h"
 #include "options.h"
 #include "report.h"
 #include "scenario.h"
@@ -23,11 +23,12 @@ void printList() {
     std::printf("  %-18s %s\n", scenario.name, scenario.description);
   }
   std::printf("bounding volumes:\n");
-  for (const std::string& bv : competitorNames()) {
-    const auto competitor = makeCompetitor(bv);
+  for (const std::string& bv : volumeNames()) {
+    const auto set = makeMeshSet(bv);
     std::printf("  %-18s", bv.c_str());
-    for (const Query query : kAllQueries) {
-      if (competitor->serves(query)) std::printf(" %s", name(query));
+    for (const Query query : {Query::kDistance, Query::kCollide, Query::kThreshold, Query::kBuild,
+                              Query::kPrepare, Query::kRefit}) {
+      if (set->serves(query)) std::printf(" %s", name(query));
     }
     std::printf("\n");
   }
@@ -39,16 +40,16 @@ int check(const std::vector<Row>& rows) {
   int judged = 0;
   int failed = 0;
   for (const Row& row : rows) {
-    if (row.bv.rfind("kios", 0) != 0 || !row.wrong_verdicts) continue;
+    if (row.bv.rfind("kios", 0) != 0 || !row.errors.wrong) continue;
     ++judged;
-    const bool allowed = row.rel_err.value_or(0) > 0 || row.abs_err.value_or(0) > 0 || row.budget;
-    const bool inexact =
-        !allowed && row.max_abs_error.value_or(0) > kMaxErrorPerExtent * row.extent;
-    if (*row.wrong_verdicts == 0 && !inexact) continue;
+    const bool allowed =
+        row.asked.rel_err.value_or(0) > 0 || row.asked.abs_err.value_or(0) > 0 || row.asked.budget;
+    const double error = row.errors.max_abs.value_or(0);
+    const bool inexact = !allowed && error > kMaxErrorPerExtent * row.extent;
+    if (*row.errors.wrong == 0 && !inexact) continue;
     ++failed;
     std::fprintf(stderr, "kios_bench: %s %s %s: %zu wrong verdicts, error %g\n",
-                 row.scenario.c_str(), row.query.c_str(), row.bv.c_str(), *row.wrong_verdicts,
-                 row.max_abs_error.value_or(0));
+                 row.scenario.c_str(), row.query.c_str(), row.bv.c_str(), *row.errors.wrong, error);
   }
   std::printf("check: %d of %d rows of kios right\n", judged - failed, judged);
   return failed == 0 && judged > 0 ? 0 : 1;
@@ -60,7 +61,7 @@ int run(int argc, char** argv) {
   for (const Scenario& scenario : scenarios()) names.emplace_back(scenario.name);
   Options options;
   options.scenario = "generated";
-  options.bvs = defaultCompetitorNames();
+  options.bvs = defaultVolumeNames();
   std::string oracle = std::to_string(options.oracle_frames);
   std::string data;
   std::string json;
@@ -73,7 +74,7 @@ int run(int argc, char** argv) {
   app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);
   app.add_option("--bv", options.bvs, "bounding volumes, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember(competitorNames()));
+      ->check(CLI::IsMember(volumeNames()));
   app.add_option("--frames", options.frames, "frames of each scene, evenly chosen")
       ->check(CLI::PositiveNumber);
   app.add_option("--repeats", options.repeats, "repeats of each measurement")

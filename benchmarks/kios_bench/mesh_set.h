@@ -1,234 +1,87 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <memory>
-#include <optional>
-#include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/narrowphase/collision_object.h>
-#include <fcl/narrowphase/collision_request.h>
-#include <fcl/narrowphase/collision_result.h>
-#include <fcl/narrowphase/detail/traversal/collision_node.h>
-#include <fcl/narrowphase/distance_request.h>
-#include <fcl/narrowphase/distance_result.h>
+#include <fcl/geometry/collision_geometry.h>
 
-#include "competitor.h"
+#include "report.h"
+#include "scenes/mesh.h"
+#include "scenes/motions.h"
 
 namespace kios::bench {
 
-/// A query that the volume does not serve.
-struct NoNode {};
+/// kThreshold: a distance query with a bound on entry, as FCL's broadphase asks: is anything
+/// nearer? kContacts: how many contacts there are. kPrepare: the build and the first query, with
+/// whatever a model leaves to that. kRefit: the same for a model whose vertices moved.
+enum class Query { kDistance, kCollide, kContacts, kThreshold, kBuild, kPrepare, kRefit };
 
-/// The counts of FCL's traversal over its nodes.
-template <typename DistanceNode_, typename CollisionNode_>
-struct CountedByNodes {
-  using DistanceNode = DistanceNode_;
-  using CollisionNode = CollisionNode_;
+/// The name of the query in tables and JSON.
+const char* name(Query query);
 
-  template <typename Model>
-  static void countDistance(const Model& a, const Model& b, const scenes::Frame& poses,
-                            fcl::DistanceResultd& result, TestCounts& counts) {
-    if constexpr (!std::is_same_v<DistanceNode, NoNode>) {
-      DistanceNode node;
-      start(node, a, b, poses, fcl::DistanceRequestd(), result);
-      fcl::detail::distance(&node);
-      add(node, counts);
-    }
-  }
-  template <typename Model>
-  static void countCollide(const Model& a, const Model& b, const scenes::Frame& poses,
-                           fcl::CollisionResultd& result, TestCounts& counts) {
-    if constexpr (!std::is_same_v<CollisionNode, NoNode>) {
-      CollisionNode node;
-      start(node, a, b, poses, fcl::CollisionRequestd(), result);
-      fcl::detail::collide(&node);
-      add(node, counts);
-    }
-  }
-  template <typename Model>
-  static std::size_t preparedBytes(const Model& /*model*/) {
-    return 0;
-  }
+/// FCL's endReplaceModel() does this with the tree.
+enum class Refit { kRebuild, kTopDown, kBottomUp };
 
- private:
-  template <typename Node, typename Model, typename Request, typename Result>
-  static void start(Node& node, const Model& a, const Model& b, const scenes::Frame& poses,
-                    const Request& request, Result& result) {
-    if (!initialize(node, a, poses.X_WA, b, poses.X_WB, request, result)) {
-      throw std::runtime_error("the traversal refused the models");
-    }
-    node.enable_statistics = true;
-  }
-  template <typename Node>
-  static void add(const Node& node, TestCounts& counts) {
-    counts.bv_tests += node.num_bv_tests;
-    counts.leaf_tests += node.num_leaf_tests;
-  }
+/// A query asks about two bodies of a set, named by their indices, at their poses.
+struct Question {
+  std::size_t a = 0;
+  std::size_t b = 1;
+  scenes::Frame poses;
+  /// For kThreshold: DistanceResult::min_distance on entry.
+  double threshold = std::numeric_limits<double>::infinity();
 };
 
-/// A Competitor over Traits:
-///   BV             the bounding volume
-///   DistanceNode   FCL traversal node of the distance query, or NoNode
-///   CollisionNode  FCL traversal node of the collision query, or NoNode
-///   kName          name in rows
-///   distance(a, b, request, result), collide(...)  the call a user makes on two objects
-///   countDistance(a, b, poses, result, counts), countCollide(...)  the same for two models,
-///   counted
-///   fitter()              what fits the nodes, or nullptr
-///   preparedBytes(model)  what queries made of a model
-///   simdTarget()
-template <typename Traits>
-class MeshSet final : public Competitor {
+/// Meshes over one bounding volume, queried as a user would: through fcl::distance and
+/// fcl::collide on collision objects that exist once and are moved for every question.
+class MeshSet {
  public:
-  using BV = typename Traits::BV;
-  using Model = fcl::BVHModel<BV>;
+  virtual ~MeshSet() = default;
 
-  const char* name() const override { return Traits::kName; }
+  /// Whether FCL answers this query for meshes of this volume without rebuilding them.
+  virtual bool serves(Query query) const = 0;
 
-  bool serves(Query query) const override {
-    switch (query) {
-      case Query::kDistance:
-      case Query::kThreshold:
-      case Query::kPrepare:
-      case Query::kRefit:
-        return kHasDistance;
-      case Query::kCollide:
-        return kHasCollision;
-      case Query::kBuild:
-        return true;
-    }
-    return false;
-  }
+  /// Builds all models and drops them: what a `build` row times.
+  virtual void build(const std::vector<scenes::Mesh>& meshes) const = 0;
 
-  void build(const std::vector<scenes::Mesh>& meshes) override {
-    for (const scenes::Mesh& mesh : meshes) scenes::buildModel<BV>(mesh, Traits::fitter());
-  }
+  /// Builds all models and keeps them for the queries below.
+  virtual void load(const std::vector<scenes::Mesh>& meshes) = 0;
 
-  void prepare(const std::vector<scenes::Mesh>& meshes, const Question& question) override {
-    MeshSet fresh;
-    fresh.load(meshes);
-    std::vector<double> answer(1);
-    fresh.answer(Query::kDistance, {question}, 0, 1, answer);
-  }
+  /// Adds a body that is no mesh.
+  virtual void add(const std::shared_ptr<fcl::CollisionGeometryd>& geometry) = 0;
 
-  void load(const std::vector<scenes::Mesh>& meshes) override {
-    bodies_.clear();
-    for (const scenes::Mesh& mesh : meshes) {
-      const std::shared_ptr<Model> model = scenes::buildModel<BV>(mesh, Traits::fitter());
-      bodies_.push_back({model, std::make_unique<fcl::CollisionObjectd>(model),
-                         std::make_unique<fcl::CollisionObjectd>(model)});
-    }
-  }
+  /// Moves the vertices of the loaded models to those of meshes of the same triangles.
+  virtual void replace(const std::vector<scenes::Mesh>& meshes, Refit how) = 0;
 
-  void refit(const std::vector<scenes::Mesh>& meshes, Refit how,
-             const Question& question) override {
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      Model& model = *bodies_[i].model;
-      if (model.beginReplaceModel() != fcl::BVH_OK ||
-          model.replaceSubModel(meshes[i].vertices) != fcl::BVH_OK ||
-          model.endReplaceModel(how != Refit::kRebuild, how == Refit::kBottomUp) != fcl::BVH_OK) {
-        throw std::runtime_error("FCL refused to refit a mesh.");
-      }
-    }
-    std::vector<double> answer_to(1);
-    answer(Query::kDistance, {question}, 0, 1, answer_to);
-  }
+  /// Answers questions[begin, end) into answers[begin, end) with a fresh request and result each:
+  /// the distance, never above the threshold of a kThreshold query, or the number of contacts, at
+  /// most 1 for kCollide.
+  virtual void answer(Query query, const std::vector<Question>& questions, std::size_t begin,
+                      std::size_t end, std::vector<double>& answers) = 0;
 
-  void answer(Query query, const std::vector<Question>& questions, std::size_t begin,
-              std::size_t end, std::vector<double>& answers) override {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Question& question = questions[i];
-      fcl::CollisionObjectd& a = *bodies_[question.a].as_first;
-      fcl::CollisionObjectd& b = *bodies_[question.b].as_second;
-      a.setTransform(question.poses.X_WA);
-      b.setTransform(question.poses.X_WB);
-      switch (query) {
-        case Query::kCollide:
-          answers[i] = collide(a, b);
-          break;
-        case Query::kThreshold:
-          answers[i] = distanceBelow(a, b, question.threshold);
-          break;
-        default:
-          answers[i] = distance(a, b);
-      }
-    }
-  }
+  /// Counts of FCL's recursion over the volume's own traversal node, cold at each question, by the
+  /// number of frames.
+  virtual Tests count(Query query, const std::vector<Question>& questions,
+                      std::size_t frames) const = 0;
 
-  TestCounts count(Query query, const std::vector<Question>& questions) const override {
-    TestCounts counts;
-    for (const Question& question : questions) {
-      const Model &a = *bodies_[question.a].model, &b = *bodies_[question.b].model;
-      if (query == Query::kCollide) {
-        fcl::CollisionResultd result;
-        Traits::countCollide(a, b, question.poses, result, counts);
-      } else {
-        fcl::DistanceResultd result;
-        if (query == Query::kThreshold) result.min_distance = question.threshold;
-        Traits::countDistance(a, b, question.poses, result, counts);
-      }
-    }
-    return counts;
-  }
+  /// Bytes of all models: nodes, primitive indices, vertices and triangles.
+  virtual std::size_t bytes() const = 0;
 
-  std::size_t bytes() const override {
-    std::size_t sum = 0;
-    for (const Body& body : bodies_) sum += modelBytes(*body.model);
-    return sum;
-  }
-
-  std::optional<std::string> simdTarget() const override { return Traits::simdTarget(); }
-
- private:
-  static constexpr bool kHasDistance = !std::is_same_v<typename Traits::DistanceNode, NoNode>;
-  static constexpr bool kHasCollision = !std::is_same_v<typename Traits::CollisionNode, NoNode>;
-
-  // A mesh and its objects as either argument: two bodies of one shape share its model.
-  struct Body {
-    std::shared_ptr<Model> model;
-    std::unique_ptr<fcl::CollisionObjectd> as_first;
-    std::unique_ptr<fcl::CollisionObjectd> as_second;
-  };
-
-  static double distance(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
-    const fcl::DistanceRequestd request;
-    fcl::DistanceResultd result;
-    Traits::distance(&a, &b, request, result);
-    return result.min_distance;
-  }
-
-  static double distanceBelow(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b,
-                              double threshold) {
-    const fcl::DistanceRequestd request;
-    fcl::DistanceResultd result;
-    result.min_distance = threshold;
-    Traits::distance(&a, &b, request, result);
-    return std::min(result.min_distance, threshold);
-  }
-
-  // First contact: the default request asks for one, without its geometry.
-  static double collide(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
-    const fcl::CollisionRequestd request;
-    fcl::CollisionResultd result;
-    Traits::collide(&a, &b, request, result);
-    return result.isCollision() ? 1 : 0;
-  }
-
-  static std::size_t modelBytes(const Model& model) {
-    const std::size_t nodes = model.getNumBVs();
-    return nodes * (sizeof(fcl::BVNode<BV>) + sizeof(unsigned int)) +
-           model.num_vertices * sizeof(fcl::Vector3d) + model.num_tris * sizeof(fcl::Triangle) +
-           Traits::preparedBytes(model);
-  }
-
-  std::vector<Body> bodies_;
+  /// The SIMD target that answers, where the volume has more than one.
+  virtual std::optional<std::string> simdTarget() const = 0;
 };
+
+/// Every bounding volume under its name of the JSON rows; throws std::invalid_argument for others.
+std::unique_ptr<MeshSet> makeMeshSet(const std::string& name);
+
+/// Names that makeMeshSet knows, ours first.
+std::vector<std::string> volumeNames();
+
+/// Those that run where none is named.
+std::vector<std::string> defaultVolumeNames();
 
 }  // namespace kios::bench

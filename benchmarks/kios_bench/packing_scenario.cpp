@@ -14,22 +14,23 @@
 #include "engine/rows.h"
 #include "fcl_kios/bv/separation.h"
 #include "fcl_kios/fcl/model.h"
-#include "packing_tests.h"
+#include "paper/packing_tests.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
 
-using Volumes = std::vector<kIOSf>;
+using namespace paper;
+
+using Nodes = std::vector<kIOSf>;
 
 /// The same pairs as the library's own test of two volumes takes them.
 struct LibraryPairs {
   std::vector<RelativePose<float>> X_AB;
-  Volumes b, a;
+  Nodes b, a;
 };
 
 SphereSet spheresOf(const kIOSf& bv) {
@@ -47,7 +48,7 @@ SphereSet spheresOf(const kIOSf& bv) {
 }
 
 /// The eight nodes three levels below node `at`; fewer if the tree ends before.
-void descendants(const Modelf& model, int at, int levels, Volumes& out) {
+void descendants(const Modelf& model, int at, int levels, Nodes& out) {
   const auto& node = model.getBV(at);
   if (levels == 0) {
     out.push_back(node.bv);
@@ -79,7 +80,7 @@ void draw(FitMethod method, int groups, std::uint64_t seed, PackingPairs& pairs,
     const float ra = node_a.radius0, rb = node_b.radius0;
     const float apart = (X_AB * node_b.center0 - node_a.center0).norm();
     if (std::min(ra, rb) < 0.5F * std::max(ra, rb) || apart > ra + rb) continue;
-    Volumes children;
+    Nodes children;
     descendants(*a, at, 3, children);
     if (children.size() != 8) continue;
 
@@ -111,15 +112,7 @@ struct Way {
   std::string bv;
   std::optional<std::string> target;
   std::function<void(bool overlap, float* bounds, PackingCounts& counts)> test;
-  std::vector<double> distance_ns, overlap_ns;  // a pair, by repeat
 };
-
-double timeOf(const Way& way, bool overlap, std::vector<float>& bounds, int sweeps) {
-  PackingCounts counts;
-  const double start = nowMicroseconds();
-  for (int i = 0; i < sweeps; ++i) way.test(overlap, bounds.data(), counts);
-  return 1000 * (nowMicroseconds() - start) / (static_cast<double>(bounds.size()) * sweeps);
-}
 
 std::vector<Way> waysOf(const PackingPairs& pairs, const LibraryPairs& library) {
   const auto over = [&pairs](PackingTest test) {
@@ -127,27 +120,50 @@ std::vector<Way> waysOf(const PackingPairs& pairs, const LibraryPairs& library) 
       test(pairs, overlap, bounds, counts);
     };
   };
-  std::vector<Way> ways;
-  ways.push_back({"scalar", {}, over(testScalar), {}, {}});
-  ways.push_back({"packed_by_four", {}, over(testPackedByFour), {}, {}});
-  ways.push_back({"kios_separation",
-                  {},
-                  [&library](bool overlap, float* bounds, PackingCounts& counts) {
-                    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-                    for (std::size_t i = 0; i < library.a.size(); ++i) {
-                      const auto g = i / 8;
-                      bounds[i] = static_cast<float>(separation(
-                          library.a[i], library.b[g], library.X_AB[g], overlap ? 0.0 : kInfinity));
-                      counts.scalar += 1;
-                      counts.packed += 6;
-                    }
-                  },
-                  {},
-                  {}});
+  const auto by_library = [&library](bool overlap, float* bounds, PackingCounts& counts) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < library.a.size(); ++i) {
+      const auto g = i / 8;
+      bounds[i] = static_cast<float>(
+          separation(library.a[i], library.b[g], library.X_AB[g], overlap ? 0.0 : kInfinity));
+      counts.scalar += 1;
+      counts.packed += 6;
+    }
+  };
+  std::vector<Way> ways = {{"scalar", {}, over(testScalar)},
+                           {"packed_by_four", {}, over(testPackedByFour)},
+                           {"kios_separation", {}, by_library}};
   for (const EightNodesTest& eight : eightNodesTests()) {
-    ways.push_back({"kios_eight_nodes", eight.target, over(eight.test), {}, {}});
+    ways.push_back({"kios_eight_nodes", eight.target, over(eight.test)});
   }
   return ways;
+}
+
+/// Sets the work and the errors of a row: all ways must agree with the scalar loop, packed ones
+/// bitwise, ours never above it. Returns how many pairs are found apart.
+std::size_t judge(const Way& way, bool overlap, const std::vector<float>& exact, const Nodes& nodes,
+                  Row& row, PackingCounts& counts) {
+  const std::size_t count = exact.size();
+  std::vector<float> bounds(count);
+  way.test(overlap, bounds.data(), counts);
+  row.tests.bvs = static_cast<double>(counts.packed + counts.scalar) / double(count);
+  std::size_t apart = 0, positive = 0, wrong = 0;
+  double tightness = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float tolerance = 1e-5F * (std::abs(exact[i]) + nodes[i].radius0 + 1);
+    const bool same = overlap ? (bounds[i] > 0) == (exact[i] > 0) : bounds[i] == exact[i];
+    const bool below = bounds[i] <= exact[i] + tolerance;
+    const bool ours = way.bv.rfind("kios", 0) == 0;
+    if (ours ? !below : !same) ++wrong;
+    apart += bounds[i] > 0 ? 1 : 0;
+    if (!overlap && exact[i] > tolerance) {
+      ++positive;
+      tightness += std::max(bounds[i], 0.0F) / exact[i];
+    }
+  }
+  row.errors.wrong = wrong;
+  if (positive > 0) row.volumes.tightness = tightness / static_cast<double>(positive);
+  return apart;
 }
 
 void reportPairs(const std::string& scenario, FitMethod method, const Options& options,
@@ -163,65 +179,51 @@ void reportPairs(const std::string& scenario, FitMethod method, const Options& o
   std::vector<float> exact(count), bounds(count);
   PackingCounts ignored;
   ways[0].test(false, exact.data(), ignored);
-  for (int repeat = 0; repeat < options.repeats; ++repeat) {
-    for (std::size_t turn = 0; turn < ways.size(); ++turn) {
-      Way& way = ways[(turn + static_cast<std::size_t>(repeat)) % ways.size()];
-      way.distance_ns.push_back(timeOf(way, false, bounds, sweeps));
-      way.overlap_ns.push_back(timeOf(way, true, bounds, sweeps));
+  const auto apart_by_all = static_cast<std::size_t>(
+      std::count_if(exact.begin(), exact.end(), [](float bound) { return bound > 0; }));
+  std::vector<Competitor> timed[2];  // whether volumes overlap, their distance
+  for (const bool overlap : {false, true}) {
+    for (const Way& way : ways) {
+      timed[overlap].push_back({way.bv, [&, overlap](std::size_t, std::size_t) {
+                                  for (int i = 0; i < sweeps; ++i) {
+                                    way.test(overlap, bounds.data(), ignored);
+                                  }
+                                }});
     }
+    Race{1, options.repeats}.run(timed[overlap]);
   }
 
-  double spheres = 0;
-  for (const kIOSf& bv : library.a) spheres += bv.k() / static_cast<double>(count);
-  std::printf("%s: %zu pairs, k = %.2f on average\n", scenario.c_str(), count, spheres);
+  Row base;
+  base.scenario = scenario;
+  base.frames = count;
+  base.seed = options.seed;
+  base.volumes.mean_spheres = 0;
+  for (const kIOSf& bv : library.a) {
+    *base.volumes.mean_spheres += bv.k() / static_cast<double>(count);
+  }
+  std::printf("%s: %zu pairs, k = %.2f on average\n", scenario.c_str(), count,
+              *base.volumes.mean_spheres);
   std::printf("%-18s %-7s %9s %9s %9s %9s %9s %9s %9s %6s\n", "test", "target", "distance",
               "overlap", "packed", "alone", "bound", "apart", "apart(1)", "wrong");
   std::vector<Row> rows;
-  for (const Way& way : ways) {
+  for (std::size_t w = 0; w < ways.size(); ++w) {
+    PackingCounts counts[2];
+    std::size_t apart = 0;
     for (const bool overlap : {false, true}) {
-      PackingCounts counts;
-      way.test(overlap, bounds.data(), counts);
-      Row row;
-      row.scenario = scenario;
-      row.query = overlap ? "collide" : "distance";
-      row.bv = way.bv;
-      row.frames = count;
-      const auto& ns = overlap ? way.overlap_ns : way.distance_ns;
-      row.median_us = median(ns) / 1000;
-      row.min_us = *std::min_element(ns.begin(), ns.end()) / 1000;
-      row.bv_tests = static_cast<double>(counts.packed + counts.scalar) / double(count);
-      row.mean_spheres = spheres;
-      row.simd_target = way.target;
-      row.seed = options.seed;
-      // All ways must agree with the scalar loop: packed ones bitwise, ours never above it.
-      std::size_t apart = 0, apart_by_all = 0, positive = 0;
-      double tightness = 0;
-      row.wrong_verdicts = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        const float tolerance = 1e-5F * (std::abs(exact[i]) + library.a[i].radius0 + 1);
-        const bool same = overlap ? (bounds[i] > 0) == (exact[i] > 0) : bounds[i] == exact[i];
-        const bool below = bounds[i] <= exact[i] + tolerance;
-        const bool ours = way.bv.rfind("kios", 0) == 0;
-        if (ours ? !below : !same) ++*row.wrong_verdicts;
-        apart += bounds[i] > 0 ? 1 : 0;
-        apart_by_all += exact[i] > 0 ? 1 : 0;
-        if (!overlap && exact[i] > tolerance) {
-          ++positive;
-          tightness += std::max(bounds[i], 0.0F) / exact[i];
-        }
-      }
-      if (positive > 0) row.tightness = tightness / static_cast<double>(positive);
-      rows.push_back(row);
-      if (!overlap) continue;
-      const Row& distance = rows[rows.size() - 2];
-      PackingCounts of_distance;
-      way.test(false, bounds.data(), of_distance);
-      std::printf("%-18s %-7s %6.2f ns %6.2f ns %9.2f %9.2f %9.4f %9zu %9zu %6zu\n", way.bv.c_str(),
-                  way.target.value_or("").c_str(), 1000 * distance.median_us, 1000 * row.median_us,
-                  double(of_distance.packed) / double(count),
-                  double(of_distance.scalar) / double(count), distance.tightness.value_or(0), apart,
-                  apart_by_all, *row.wrong_verdicts + *distance.wrong_verdicts);
+      base.query = overlap ? "collide" : "distance";
+      Row& row = rows.emplace_back(base);
+      row.bv = ways[w].bv;
+      row.times = timesOf(timed[overlap][w], count * static_cast<std::size_t>(sweeps), nullptr);
+      row.simd_target = ways[w].target;
+      apart = judge(ways[w], overlap, exact, library.a, row, counts[overlap]);
     }
+    const Row &distance = rows[rows.size() - 2], &overlap = rows.back();
+    std::printf("%-18s %-7s %6.2f ns %6.2f ns %9.2f %9.2f %9.4f %9zu %9zu %6zu\n",
+                ways[w].bv.c_str(), ways[w].target.value_or("").c_str(),
+                1000 * distance.times.median_us, 1000 * overlap.times.median_us,
+                double(counts[0].packed) / double(count), double(counts[0].scalar) / double(count),
+                distance.volumes.tightness.value_or(0), apart, apart_by_all,
+                *overlap.errors.wrong + *distance.errors.wrong);
   }
   std::printf("\n");
   report.addUnprinted(rows);

@@ -8,15 +8,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "contest.h"
 #include "fcl_kios/fcl/model.h"
-#include "motion_report.h"
 #include "scenario.h"
-#include "scenes/pqp_data.h"
 #include "scenes/robots.h"
 #include "scenes/shapes.h"
 #include "scenes/ur5_data.h"
@@ -51,13 +48,6 @@ struct Spheres {
   }
 };
 
-std::string cell(const std::optional<double>& value) {
-  if (!value) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", *value);
-  return text;
-}
-
 const char* meaning(const std::string& bv) {
   if (bv == "kios_method_ii") return "k-IOS, Method II as published";
   if (bv == "kios_tree") return "k-IOS, tuned fit";
@@ -80,20 +70,22 @@ void reportInPaperUnits(const std::vector<scenes::Mesh>& meshes, std::vector<Row
     const auto ssv = std::find_if(rows.begin(), rows.end(), [&row](const Row& other) {
       return other.bv == kSsv && other.query == row.query;
     });
-    row.ratio_to_ssv = ssv->median_us / row.median_us;
-    if (row.bv == kSsv) row.floats_per_bv = kFloatsOfRss;
+    row.to_ssv.ratio = ssv->times.median_us / row.times.median_us;
+    Volumes& volumes = row.volumes;
+    if (row.bv == kSsv) volumes.floats_per_bv = kFloatsOfRss;
     if (row.bv == "kios_method_ii" || row.bv == "kios_tree") {
       const Spheres& of = row.bv == "kios_tree" ? tuned : published;
-      row.mean_spheres = of.spheres / of.nodes;
-      row.floats_per_bv = of.floats / of.nodes;
+      volumes.mean_spheres = of.spheres / of.nodes;
+      volumes.floats_per_bv = of.floats / of.nodes;
     }
     // The tests of both children of a node count as one in the paper's distances (inferred).
-    const double tests = *row.bv_tests / (row.query == "distance" && row.bv != "kios" ? 2 : 1);
+    const double tests = *row.tests.bvs / (row.query == "distance" && row.bv != "kios" ? 2 : 1);
     std::printf("%-24s %-9s %-30s %10.5f %8.2f %9s %9.1f %8.1f %6s %7s %6zu\n",
-                row.scenario.c_str(), row.query.c_str(), meaning(row.bv), row.median_us / 1000,
-                *row.ratio_to_ssv, cell(row.max_ratio_to_ssv).c_str(), *row.bv_tests, tests,
-                cell(row.mean_spheres).c_str(), cell(row.floats_per_bv).c_str(),
-                *row.wrong_verdicts);
+                row.scenario.c_str(), row.query.c_str(), meaning(row.bv),
+                row.times.median_us / 1000, *row.to_ssv.ratio,
+                cell(row.to_ssv.max_ratio, "%.2f").c_str(), *row.tests.bvs, tests,
+                cell(volumes.mean_spheres, "%.2f").c_str(),
+                cell(volumes.floats_per_bv, "%.2f").c_str(), *row.errors.wrong);
   }
   const auto inner = [](const Spheres& of) {
     return (of.floats - of.floats_of_leaves) / (of.nodes - of.leaves);
@@ -104,15 +96,14 @@ void reportInPaperUnits(const std::vector<scenes::Mesh>& meshes, std::vector<Row
   report.addUnprinted(rows);
 }
 
-void reportFigure5(const std::string& scenario, const scenes::Mesh& a, const scenes::Mesh& b,
-                   const std::vector<scenes::Frame>& frames, const Options& options,
-                   Report& report) {
-  Contest contest({a, b}, options);
+void reportFigure5(const std::string& scenario, const scenes::MovingPair& pair,
+                   const Options& options, Report& report) {
+  Contest contest({pair.a, pair.b}, options);
   std::vector<Row> rows;
   for (const Query query : {Query::kCollide, Query::kDistance}) {
-    append(contest.queryRows(pairTask(scenario, query, chosenFrames(frames, options))), rows);
+    append(contest.queryRows(pairTask(scenario, query, chosenFrames(pair.frames, options))), rows);
   }
-  reportInPaperUnits({a, b}, rows, report);
+  reportInPaperUnits({pair.a, pair.b}, rows, report);
 }
 
 /// In each frame the 33 nearest pairs of a link of one robot and a link of the other, their bases
@@ -123,7 +114,7 @@ Task nearestPairs(const scenes::Robot& robot, const std::vector<scenes::Mesh>& m
   constexpr std::size_t kPairs = 33;
   const auto first = scenes::jointMotion(robot, kMotionFrames, true, 2 * options.seed);
   const auto second = scenes::jointMotion(robot, kMotionFrames, true, 2 * options.seed + 1);
-  const auto kios = makeCompetitor("kios");
+  const auto kios = makeMeshSet("kios");
   kios->load(meshes);
   Task task;
   for (int i = 0; i < frames; ++i) {
@@ -133,11 +124,7 @@ Task nearestPairs(const scenes::Robot& robot, const std::vector<scenes::Mesh>& m
     std::vector<Question> all;
     for (std::size_t a = 1; a < poses_1.size(); ++a) {
       for (std::size_t b = 1; b < poses_2.size(); ++b) {
-        Question question;
-        question.a = a;
-        question.b = b;
-        question.poses = {poses_1[a], poses_2[b]};
-        all.push_back(question);
+        all.push_back({a, b, {poses_1[a], poses_2[b]}});
       }
     }
     std::vector<double> distances(all.size());
@@ -172,7 +159,7 @@ void reportFigure6(const std::string& scenario, const scenes::Robot& robot, doub
     for (std::size_t i = 0; i < task.frames; ++i) {
       greatest = std::max(greatest, times[kSsv][i] / times[row.bv][i]);
     }
-    row.max_ratio_to_ssv = greatest;
+    row.to_ssv.max_ratio = greatest;
   }
   reportInPaperUnits(meshes, rows, report);
 }
@@ -197,17 +184,12 @@ void runPaper(const Options& options, Report& report) {
   const auto data = options.quick ? std::nullopt : findData(options);
   if (data) {
     constexpr int kSpinningFrames = 2400;
-    const scenes::MovingPair falling = scenes::loadFalling(*data);
-    reportFigure5("paper/falling", falling.a, falling.b, falling.frames, ours, report);
-    const scenes::MovingPair spinning = scenes::loadSpinning(*data, kSpinningFrames);
-    reportFigure5("paper/spinning", spinning.a, spinning.b, spinning.frames, ours, report);
+    reportFigure5("paper/falling", scenes::loadFalling(*data), ours, report);
+    reportFigure5("paper/spinning", scenes::loadSpinning(*data, kSpinningFrames), ours, report);
   } else {
     std::printf("generated shapes stand in for the PQP data, which --data or KIOS_DATA names\n");
-    constexpr int kFrames = 1200;
-    reportFigure5("paper/falling_generated", scenes::bentTorus(), scenes::knobbyTorus(),
-                  scenes::fallingMotion(kFrames), ours, report);
-    reportFigure5("paper/spinning_generated", scenes::bumpyBlob(), scenes::bentTorus(),
-                  scenes::spinningMotion(kFrames), ours, report);
+    reportFigure5("paper/falling_generated", generatedFalling(), ours, report);
+    reportFigure5("paper/spinning_generated", generatedSpinning(), ours, report);
   }
   if (data && scenes::holdsUr5(*data)) {
     reportFigure6("paper/arms_ur5", scenes::robotOf(scenes::loadUr5(*data)), 0.7, ours, report);

@@ -15,7 +15,6 @@
 #include "scenes/random.h"
 #include "scenes/ray_oracle.h"
 #include "scenes/shapes.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
@@ -105,7 +104,7 @@ class Oracle {
   std::vector<double> reach_;
 };
 
-/// What a caster got wrong, by query.
+/// Counts of a caster's wrong answers, by query.
 struct Verdicts {
   std::size_t first = 0, any = 0, all = 0;
   double error = 0;  // of lengths, where the right triangle was hit
@@ -145,20 +144,20 @@ Verdicts judge(RayCaster& caster, const std::vector<Rayd>& rays,
   return wrong;
 }
 
-/// All casters in turn, the three queries of each. One row a query and caster.
+/// The three queries of all casters. One row a query and caster.
 std::vector<Row> contest(const std::string& name,
                          const std::vector<std::unique_ptr<RayCaster>>& casters,
                          const std::vector<Rayd>& rays, const scenes::Mesh& mesh,
                          const Oracle& oracle, const Options& options) {
   std::vector<CastHit> hits;
   std::size_t found = 0;  // so that no query is optimised away
-  const std::vector<std::pair<const char*, std::function<void(RayCaster&, const Rayd&)>>> queries =
-      {{"first", [&](RayCaster& c, const Rayd& r) { found += c.first(r) ? 1 : 0; }},
-       {"any", [&](RayCaster& c, const Rayd& r) { found += c.any(r) ? 1 : 0; }},
-       {"all", [&](RayCaster& c, const Rayd& r) {
-          c.all(r, hits);
-          found += hits.size();
-        }}};
+  const std::pair<const char*, std::function<void(RayCaster&, const Rayd&)>> queries[] = {
+      {"first", [&](RayCaster& c, const Rayd& r) { found += c.first(r) ? 1 : 0; }},
+      {"any", [&](RayCaster& c, const Rayd& r) { found += c.any(r) ? 1 : 0; }},
+      {"all", [&](RayCaster& c, const Rayd& r) {
+         c.all(r, hits);
+         found += hits.size();
+       }}};
   const auto most =
       static_cast<std::size_t>(std::max(20, 20000000 / static_cast<int>(mesh.triangles.size())));
   const std::size_t judged = std::min(
@@ -167,45 +166,38 @@ std::vector<Row> contest(const std::string& name,
   std::vector<std::vector<OracleHit>> exact;
   for (std::size_t i = 0; i < judged; ++i)
     exact.push_back(oracle.all(rays[i * (rays.size() / judged)]));
+  std::vector<Verdicts> wrong;
+  for (const auto& caster : casters) wrong.push_back(judge(*caster, rays, exact));
 
+  Row base;
+  base.scenario = name;
+  base.triangles = mesh.triangles.size();
+  base.frames = rays.size();
+  base.seed = options.seed;
+  base.extent = scenes::extent(mesh);
   std::vector<Row> rows;
-  for (const auto& query : queries) {
-    std::vector<std::vector<double>> times(casters.size());
-    std::vector<SearchCounts> before, after;
-    for (int repeat = 0; repeat <= options.repeats; ++repeat) {  // the first warms up
-      for (std::size_t c = 0; c < casters.size(); ++c) {
-        if (repeat == 1) before.push_back(casters[c]->counts().value_or(SearchCounts()));
-        const double start = nowMicroseconds();
-        for (const Rayd& ray : rays) query.second(*casters[c], ray);
-        if (repeat > 0) times[c].push_back((nowMicroseconds() - start) / rays.size());
-        if (repeat == 1) after.push_back(casters[c]->counts().value_or(SearchCounts()));
-      }
+  for (const auto& [query, cast] : queries) {
+    std::vector<Competitor> competitors;
+    for (const auto& caster : casters) {
+      competitors.push_back({caster->name(), [&](std::size_t begin, std::size_t end) {
+                               for (std::size_t i = begin; i < end; ++i) cast(*caster, rays[i]);
+                             }});
     }
+    Race{rays.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
+    base.query = query;
     for (std::size_t c = 0; c < casters.size(); ++c) {
-      Row& row = rows.emplace_back();
-      row.scenario = name;
-      row.query = query.first;
-      row.bv = casters[c]->name();
-      row.triangles = mesh.triangles.size();
-      row.frames = rays.size();
-      row.median_us = median(times[c]);
-      row.min_us = *std::min_element(times[c].begin(), times[c].end());
-      row.seed = options.seed;
-      row.extent = scenes::extent(mesh);
-      if (casters[c]->counts()) {
-        const auto per_ray = [&](long long n) { return static_cast<double>(n) / rays.size(); };
-        row.bv_tests = per_ray(after[c].volume_tests - before[c].volume_tests);
-        row.leaf_tests = per_ray(after[c].exact - before[c].exact);
-      }
+      Row& row = rows.emplace_back(base.of(competitors[c]));
       if (row.bv == "kios") row.simd_target = simdTarget();
-    }
-  }
-  for (std::size_t c = 0; c < casters.size(); ++c) {
-    const Verdicts wrong = judge(*casters[c], rays, exact);
-    for (std::size_t q = 0; q < queries.size(); ++q) {
-      Row& row = rows[q * casters.size() + c];
-      row.wrong_verdicts = std::array{wrong.first, wrong.any, wrong.all}[q];
-      if (q == 0) row.max_abs_error = wrong.error;
+      if (const auto before = casters[c]->counts()) {
+        competitors[c].answer(0, rays.size());
+        const auto after = casters[c]->counts();
+        const auto per_ray = [&](long long n) { return static_cast<double>(n) / rays.size(); };
+        row.tests = {per_ray(after->volume_tests - before->volume_tests),
+                     per_ray(after->exact - before->exact)};
+      }
+      const auto& [first, any, all, error] = wrong[c];
+      row.errors.wrong = row.query == "first" ? first : row.query == "any" ? any : all;
+      if (row.query == "first") row.errors.max_abs = error;
     }
   }
   if (found == 0) std::printf("no ray hits\n");

@@ -25,28 +25,22 @@ Json orNull(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::string cell(const std::optional<double>& value, const char* format) {
-  if (!value || !std::isfinite(*value)) return "-";
-  char text[32];
-  std::snprintf(text, sizeof text, format, *value);
-  return text;
-}
-
-std::optional<double> asDouble(const std::optional<std::size_t>& count) {
+Maybe asDouble(const MaybeCount& count) {
   if (!count) return std::nullopt;
   return static_cast<double>(*count);
 }
 
 // The error relative to the scene's extent.
-std::optional<double> scaledError(const Row& row) {
-  if (!row.max_abs_error || row.extent <= 0) return std::nullopt;
-  return *row.max_abs_error / row.extent;
+Maybe scaledError(const Row& row) {
+  if (!row.errors.max_abs || row.extent <= 0) return std::nullopt;
+  return *row.errors.max_abs / row.extent;
 }
 
 // The time of one of several queries of a frame.
-std::optional<double> pairMicroseconds(const Row& row) {
-  if (!row.total_pairs) return std::nullopt;
-  return row.median_us * static_cast<double>(row.frames) / static_cast<double>(*row.total_pairs);
+Maybe pairMicroseconds(const Row& row) {
+  if (!row.pairs.total) return std::nullopt;
+  return row.times.median_us * static_cast<double>(row.frames) /
+         static_cast<double>(*row.pairs.total);
 }
 
 constexpr char kLine[] = "%-25s %-9s %-17s %10s %10s %8s %9s %9s %9s %10s %6s %8s %9s\n";
@@ -58,16 +52,31 @@ void printHeading() {
 
 void print(const Row& row) {
   std::printf(kLine, row.scenario.c_str(), row.query.c_str(), row.bv.c_str(),
-              cell(row.median_us, "%.3f").c_str(), cell(row.min_us, "%.3f").c_str(),
+              cell(row.times.median_us, "%.3f").c_str(), cell(row.times.min_us, "%.3f").c_str(),
               cell(pairMicroseconds(row), "%.3f").c_str(),
-              cell(row.ratio_to_fcl_obbrss, "%.2f").c_str(), cell(row.bv_tests, "%.1f").c_str(),
-              cell(row.leaf_tests, "%.1f").c_str(), cell(scaledError(row), "%.1e").c_str(),
-              cell(asDouble(row.wrong_verdicts), "%.0f").c_str(),
-              cell(row.bytes_per_triangle, "%.0f").c_str(),
-              cell(row.build_us_per_triangle, "%.3f").c_str());
+              cell(row.times.ratio_to_fcl_obbrss, "%.2f").c_str(),
+              cell(row.tests.bvs, "%.1f").c_str(), cell(row.tests.leaves, "%.1f").c_str(),
+              cell(scaledError(row), "%.1e").c_str(),
+              cell(asDouble(row.errors.wrong), "%.0f").c_str(),
+              cell(row.volumes.bytes_per_triangle, "%.0f").c_str(),
+              cell(row.volumes.build_us_per_triangle, "%.3f").c_str());
 }
 
 }  // namespace
+
+Row Row::of(const Competitor& competitor, const Competitor* reference) const {
+  Row row = *this;
+  row.bv = competitor.name;
+  row.times = timesOf(competitor, frames, reference);
+  return row;
+}
+
+std::string cell(const Maybe& value, const char* format) {
+  if (!value || !std::isfinite(*value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, format, *value);
+  return text;
+}
 
 void append(std::vector<Row> rows, std::vector<Row>& all) {
   std::move(rows.begin(), rows.end(), std::back_inserter(all));
@@ -80,32 +89,32 @@ std::string toJson(const Row& row) {
       {"bv", row.bv},
       {"triangles", row.triangles},
       {"frames", row.frames},
-      {"rel_err", orNull(row.rel_err)},
-      {"abs_err", orNull(row.abs_err)},
-      {"threshold", orNull(row.threshold)},
-      {"median_us", finite(row.median_us)},
-      {"min_us", finite(row.min_us)},
-      {"ratio_to_fcl_obbrss", orNull(row.ratio_to_fcl_obbrss)},
-      {"max_abs_error", orNull(row.max_abs_error)},
-      {"max_rel_error", orNull(row.max_rel_error)},
-      {"mean_abs_error", orNull(row.mean_abs_error)},
-      {"mean_rel_error", orNull(row.mean_rel_error)},
-      {"bracket_width", orNull(row.bracket_width)},
-      {"budget", orNull(row.budget)},
-      {"wrong_verdicts", orNull(row.wrong_verdicts)},
-      {"bv_tests", orNull(row.bv_tests)},
-      {"leaf_tests", orNull(row.leaf_tests)},
-      {"bytes_per_triangle", orNull(row.bytes_per_triangle)},
-      {"build_us_per_triangle", orNull(row.build_us_per_triangle)},
-      {"mean_spheres", orNull(row.mean_spheres)},
-      {"floats_per_bv", orNull(row.floats_per_bv)},
-      {"tightness", orNull(row.tightness)},
-      {"ratio_to_ssv", orNull(row.ratio_to_ssv)},
-      {"max_ratio_to_ssv", orNull(row.max_ratio_to_ssv)},
-      {"skipped_pairs", orNull(row.skipped_pairs)},
-      {"total_pairs", orNull(row.total_pairs)},
-      {"narrow_queries", orNull(row.narrow_queries)},
-      {"prepared_models", orNull(row.prepared_models)},
+      {"rel_err", orNull(row.asked.rel_err)},
+      {"abs_err", orNull(row.asked.abs_err)},
+      {"threshold", orNull(row.asked.threshold)},
+      {"median_us", finite(row.times.median_us)},
+      {"min_us", finite(row.times.min_us)},
+      {"ratio_to_fcl_obbrss", orNull(row.times.ratio_to_fcl_obbrss)},
+      {"max_abs_error", orNull(row.errors.max_abs)},
+      {"max_rel_error", orNull(row.errors.max_rel)},
+      {"mean_abs_error", orNull(row.errors.mean_abs)},
+      {"mean_rel_error", orNull(row.errors.mean_rel)},
+      {"bracket_width", orNull(row.errors.bracket_width)},
+      {"budget", orNull(row.asked.budget)},
+      {"wrong_verdicts", orNull(row.errors.wrong)},
+      {"bv_tests", orNull(row.tests.bvs)},
+      {"leaf_tests", orNull(row.tests.leaves)},
+      {"bytes_per_triangle", orNull(row.volumes.bytes_per_triangle)},
+      {"build_us_per_triangle", orNull(row.volumes.build_us_per_triangle)},
+      {"mean_spheres", orNull(row.volumes.mean_spheres)},
+      {"floats_per_bv", orNull(row.volumes.floats_per_bv)},
+      {"tightness", orNull(row.volumes.tightness)},
+      {"ratio_to_ssv", orNull(row.to_ssv.ratio)},
+      {"max_ratio_to_ssv", orNull(row.to_ssv.max_ratio)},
+      {"skipped_pairs", orNull(row.pairs.skipped)},
+      {"total_pairs", orNull(row.pairs.total)},
+      {"narrow_queries", orNull(row.pairs.narrow_queries)},
+      {"prepared_models", orNull(row.pairs.prepared_models)},
       {"simd_target", orNull(row.simd_target)},
       {"seed", row.seed},
   };

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #pragma once
 
 #include <cstdint>
@@ -10,51 +9,83 @@
 #include <string>
 #include <vector>
 
+#include "race.h"
+
 namespace kios::bench {
 
-/// One measurement. What is unknown or has no meaning for the query is absent here, null in JSON.
+using Maybe = std::optional<double>;
+using MaybeCount = std::optional<std::size_t>;
+
+/// A query was allowed this much, or compared with this threshold.
+struct Asked {
+  Maybe rel_err;
+  Maybe abs_err;    ///< in the scene's unit of length
+  Maybe threshold;  ///< 'threshold': a distance, or its ratio to the exact distance
+  Maybe budget;     ///< expansions that it may make
+};
+
+/// Answers against the oracle's.
+struct Errors {
+  Maybe max_abs, max_rel, mean_abs;
+  Maybe mean_rel;       ///< over frames without contact
+  Maybe bracket_width;  ///< mean of distance - proven lower bound
+  MaybeCount wrong;     ///< verdicts
+};
+
+/// Tests of bounding volumes and of triangle pairs, of a frame.
+struct Tests {
+  Maybe bvs, leaves;
+};
+
+/// Properties of the models and their volumes.
+struct Volumes {
+  Maybe bytes_per_triangle, build_us_per_triangle;
+  Maybe mean_spheres;   ///< k of a node's k-IOS
+  Maybe floats_per_bv;  ///< as the k-IOS paper counts
+  Maybe tightness;      ///< mean of bound / true distance of the contents
+};
+
+/// As ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.
+struct ToSsv {
+  Maybe ratio;
+  Maybe max_ratio;  ///< the largest of all frames
+};
+
+/// Pairs of a scene.
+struct Pairs {
+  MaybeCount skipped;
+  MaybeCount total;      ///< of all frames, where a frame has several
+  Maybe narrow_queries;  ///< of a frame
+  MaybeCount prepared_models;
+};
+
+/// One measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
 struct Row {
-  std::string scenario;
-  std::string query;
-  std::string bv;
-  std::size_t triangles = 0;  // of all meshes
+  std::string scenario, query, bv;
+  std::size_t triangles = 0;  ///< of all meshes
   std::size_t frames = 0;
-  std::optional<double> rel_err;    // asked for
-  std::optional<double> abs_err;    // asked for, in the scene's unit of length
-  std::optional<double> threshold;  // 'threshold': a distance, or its ratio to the exact distance
-  // Per frame, over all pairs of the frame; of all models for builds.
-  double median_us = 0;
-  double min_us = 0;
-  std::optional<double> ratio_to_fcl_obbrss;  // above 1: faster than FCL's OBBRSS
-  std::optional<double> max_abs_error;        // against the oracle
-  std::optional<double> max_rel_error;
-  std::optional<double> mean_abs_error;
-  std::optional<double> mean_rel_error;  // over frames without contact
-  std::optional<double> bracket_width;   // mean of distance - proven lower bound
-  std::optional<double> budget;          // expansions that a query may make
-  std::optional<std::size_t> wrong_verdicts;
-  std::optional<double> bv_tests;  // per frame
-  std::optional<double> leaf_tests;
-  std::optional<double> bytes_per_triangle;
-  std::optional<double> build_us_per_triangle;
-  std::optional<double> mean_spheres;      // k of a node's k-IOS
-  std::optional<double> floats_per_bv;     // as the k-IOS paper counts
-  std::optional<double> tightness;         // mean of bound / true distance of the contents
-  std::optional<double> ratio_to_ssv;      // as ratio_to_fcl_obbrss, to FCL's RSS in its own nodes
-  std::optional<double> max_ratio_to_ssv;  // the largest of all frames
-  std::optional<std::size_t> skipped_pairs;
-  std::optional<std::size_t> total_pairs;  // of all frames, where a frame has several
-  std::optional<double> narrow_queries;    // per frame, of the pairs of a scene
-  std::optional<std::size_t> prepared_models;
-  std::optional<std::string> simd_target;
   std::uint64_t seed = 0;
-  // Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles, whose
-  // errors are relative to the extent of each pair.
+  /// Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles,
+  /// whose errors are relative to the extent of each pair.
   double extent = 0;
+  Times times;  ///< of a frame, over all of its pairs; of all models for builds
+  Asked asked;
+  Errors errors;
+  Tests tests;
+  Volumes volumes;
+  ToSsv to_ssv;
+  Pairs pairs;
+  std::optional<std::string> simd_target;
+
+  /// A copy for a competitor, with its times.
+  Row of(const Competitor& competitor, const Competitor* reference = nullptr) const;
 };
 
 /// Moves the rows to the end of `all`.
 void append(std::vector<Row> rows, std::vector<Row>& all);
+
+/// A number as the tables print it, by printf's format; `-` if it is unknown or not finite.
+std::string cell(const Maybe& value, const char* format);
 
 /// The row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);

@@ -17,25 +17,16 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include "fcl/shape_solid.h"
-#include "motion_report.h"
+#include "mesh_set.h"
 #include "scenario.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 #include "shape/triangle_shape.h"
-#include "shape_competitor.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
-
-constexpr struct {
-  ShapeQuery query;
-  const char* name;
-} kQueries[] = {{ShapeQuery::kDistance, "distance"},
-                {ShapeQuery::kFirstContact, "collide"},
-                {ShapeQuery::kAllContacts, "contacts"}};
 
 Geometry convexOf(const scenes::Mesh& hull) {
   const auto faces = std::make_shared<std::vector<int>>();
@@ -74,7 +65,7 @@ class BruteForce {
     }
   }
 
-  double operator()(ShapeQuery query, const scenes::Frame& frame) const {
+  double operator()(Query query, const scenes::Frame& frame) const {
     const fcl::Matrix3d R = frame.X_WB.linear().transpose() * frame.X_WA.linear();
     const fcl::Vector3d t =
         frame.X_WB.linear().transpose() * (frame.X_WA.translation() - frame.X_WB.translation());
@@ -85,22 +76,22 @@ class BruteForce {
       const double reach =
           std::max((triangle[1] - triangle[0]).norm(), (triangle[2] - triangle[0]).norm());
       for (const PlacedSolid& placed : solids_) {
-        const double enough = query == ShapeQuery::kDistance ? nearest : 0;
+        const double enough = query == Query::kDistance ? nearest : 0;
         if (placed.radius > 0 &&
             (triangle[0] - placed.center).norm() - reach - placed.radius > enough) {
           continue;
         }
         shape::Triangle local = triangle;
         for (shape::Vec& corner : local) corner -= placed.center;
-        if (query == ShapeQuery::kDistance) {
+        if (query == Query::kDistance) {
           nearest = std::min(nearest, shape::distance(placed.solid, local, nearest).distance);
         } else if (shape::intersects(placed.solid, local)) {
           contacts += 1;
         }
       }
     }
-    if (query == ShapeQuery::kDistance) return nearest;
-    return query == ShapeQuery::kFirstContact ? std::min(contacts, 1.0) : contacts;
+    if (query == Query::kDistance) return nearest;
+    return query == Query::kCollide ? std::min(contacts, 1.0) : contacts;
   }
 
  private:
@@ -114,74 +105,70 @@ class BruteForce {
   std::vector<PlacedSolid> solids_;
 };
 
-/// The frames of each query: apart for distances, touching or near for contacts.
-std::vector<scenes::Frame> framesOf(ShapeQuery query, int count, std::uint64_t seed) {
-  if (query == ShapeQuery::kDistance) return scenes::farMotion(count, 2.1, 4, seed);
-  return scenes::farMotion(count, 0.4, 1.9, seed + 1);
+/// The mesh and the geometry at the frames of a query: apart for distances, touching or near for
+/// contacts.
+std::vector<Question> questionsOf(Query query, int count, std::uint64_t seed) {
+  std::vector<Question> questions;
+  for (const scenes::Frame& frame : query == Query::kDistance
+                                        ? scenes::farMotion(count, 2.1, 4, seed)
+                                        : scenes::farMotion(count, 0.4, 1.9, seed + 1)) {
+    questions.push_back({0, 1, frame});
+  }
+  return questions;
 }
 
-/// Sets errors and wrong verdicts of the row from a few frames.
-void judge(const scenes::Mesh& mesh, const Geometry& geometry, ShapeQuery query,
-           const std::vector<scenes::Frame>& frames, const std::vector<double>& answers, int count,
-           Row& row) {
-  const BruteForce exact(mesh, *geometry);
-  row.wrong_verdicts = 0;
-  const auto wanted = std::min(frames.size(), static_cast<std::size_t>(count));
-  for (std::size_t i = 0; i < wanted; ++i) {
-    const std::size_t at = i * frames.size() / wanted;
-    const double truth = exact(query, frames[at]);
-    if (query != ShapeQuery::kDistance) {
-      *row.wrong_verdicts += answers[at] == truth ? 0 : 1;
+/// Errors and wrong verdicts of a few answers.
+Errors judge(const BruteForce& exact, Query query, const std::vector<Question>& questions,
+             const std::vector<double>& answers, std::size_t count) {
+  Errors errors;
+  errors.wrong = 0;
+  count = std::min(questions.size(), count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t at = i * questions.size() / count;
+    const double truth = exact(query, questions[at].poses);
+    if (query != Query::kDistance) {
+      *errors.wrong += answers[at] == truth ? 0 : 1;
       continue;
     }
-    *row.wrong_verdicts += (answers[at] > 0) == (truth > 0) ? 0 : 1;
+    *errors.wrong += (answers[at] > 0) == (truth > 0) ? 0 : 1;
     const double error = std::isfinite(answers[at]) ? std::abs(answers[at] - truth)
                                                     : std::numeric_limits<double>::infinity();
-    row.max_abs_error = std::max(row.max_abs_error.value_or(0), error);
+    errors.max_abs = std::max(errors.max_abs.value_or(0), error);
   }
+  return errors;
 }
 
-struct Lane {
-  std::unique_ptr<ShapeCompetitor> competitor;
-  std::vector<double> answers, repeat_us;
-};
-
 void reportGeometry(const std::string& scenario, const scenes::Mesh& mesh, const Geometry& geometry,
-                    int frame_count, const Options& options, Report& report) {
-  std::vector<Lane> lanes(2);
-  lanes[0].competitor = makeKiosShapeCompetitor();
-  lanes[1].competitor = makeObbrssShapeCompetitor();
-  for (Lane& lane : lanes) lane.competitor->load(mesh, geometry);
+                    int frames, const Options& options, Report& report) {
+  const char* const volumes[] = {"kios", "fcl_obbrss"};
+  std::vector<std::unique_ptr<MeshSet>> sets;
+  for (const char* bv : volumes) {
+    sets.push_back(makeMeshSet(bv));
+    sets.back()->load({mesh});
+    sets.back()->add(geometry);
+  }
+  const BruteForce exact(mesh, *geometry);
+  Row base;
+  base.scenario = scenario;
+  base.triangles = mesh.triangles.size();
+  base.frames = static_cast<std::size_t>(frames);
+  base.seed = options.seed;
+  base.extent = scenes::extent(mesh);
   std::vector<Row> rows;
-  for (const auto& [query, query_name] : kQueries) {
-    const auto frames = framesOf(query, frame_count, options.seed);
-    for (Lane& lane : lanes) {
-      lane.answers.assign(frames.size(), 0);
-      lane.repeat_us.clear();
-      lane.competitor->answer(query, frames, 0, frames.size(), lane.answers);  // warms up
+  for (const Query query : {Query::kDistance, Query::kCollide, Query::kContacts}) {
+    const std::vector<Question> questions = questionsOf(query, frames, options.seed);
+    std::vector<std::vector<double>> answers(2, std::vector<double>(questions.size()));
+    std::vector<Competitor> competitors;
+    for (std::size_t i = 0; i < 2; ++i) {
+      competitors.push_back({volumes[i], [&, i](std::size_t begin, std::size_t end) {
+                               sets[i]->answer(query, questions, begin, end, answers[i]);
+                             }});
     }
-    for (int repeat = 0; repeat < options.repeats; ++repeat) {
-      for (std::size_t turn = 0; turn < lanes.size(); ++turn) {
-        Lane& lane = lanes[(turn + static_cast<std::size_t>(repeat)) % lanes.size()];
-        const double start = nowMicroseconds();
-        lane.competitor->answer(query, frames, 0, frames.size(), lane.answers);
-        lane.repeat_us.push_back((nowMicroseconds() - start) / static_cast<double>(frames.size()));
-      }
-    }
-    for (const Lane& lane : lanes) {
-      Row row;
-      row.scenario = scenario;
-      row.query = query_name;
-      row.bv = lane.competitor->name();
-      row.triangles = mesh.triangles.size();
-      row.frames = frames.size();
-      row.median_us = median(lane.repeat_us);
-      row.min_us = *std::min_element(lane.repeat_us.begin(), lane.repeat_us.end());
-      row.ratio_to_fcl_obbrss = median(lanes[1].repeat_us) / row.median_us;
-      row.seed = options.seed;
-      row.extent = scenes::extent(mesh);
-      judge(mesh, geometry, query, frames, lane.answers, options.quick ? 5 : 20, row);
-      rows.push_back(row);
+    Race{questions.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
+    base.query = name(query);
+    for (std::size_t i = 0; i < 2; ++i) {
+      rows.push_back(base.of(competitors[i], &competitors[1]));
+      rows.back().errors = judge(exact, query, questions, answers[i], options.quick ? 5 : 20);
     }
   }
   report.add(rows);

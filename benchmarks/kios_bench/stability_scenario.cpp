@@ -23,24 +23,23 @@ struct Line {
 };
 
 std::vector<Row> rowsOf(const Line& line, std::size_t pairs, const Options& options) {
+  Row row;
+  row.scenario = std::string("stability/") + line.name;
+  row.triangles = 2;
+  row.frames = pairs;
+  row.seed = options.seed;
+  row.extent = 1;
   std::vector<Row> rows;
-  for (const char* query : {"distance", "collide"}) {
-    const bool distance = query == std::string("distance");
+  for (std::size_t query = 0; query < 2; ++query) {
     for (std::size_t k = 0; k < kTriangleKernels; ++k) {
-      const TriangleScore& score = line.scores[k];
-      Row row;
-      row.scenario = std::string("stability/") + line.name;
-      row.query = query;
+      const auto& [max_error, zeros, nonzeros, verdicts, distance_ns, intersection_ns] =
+          line.scores[k];
       row.bv = kTriangleKernelNames[k];
-      row.triangles = 2;
-      row.frames = pairs;
-      row.median_us = 1e-3 * (distance ? score.distance_ns : score.intersection_ns);
-      row.min_us = std::nan("");
-      if (distance) row.max_abs_error = score.max_error;
-      row.wrong_verdicts =
-          distance ? score.wrong_zeros + score.wrong_nonzeros : score.wrong_verdicts;
-      row.seed = options.seed;
-      row.extent = 1;
+      row.query = query == 0 ? "distance" : "collide";
+      row.times = {1e-3 * (query == 0 ? distance_ns : intersection_ns), std::nan(""), {}};
+      row.errors = {};
+      if (query == 0) row.errors.max_abs = max_error;
+      row.errors.wrong = query == 0 ? zeros + nonzeros : verdicts;
       rows.push_back(row);
     }
   }

@@ -7,10 +7,7 @@
 #include <vector>
 
 #include "contest.h"
-#include "motion_report.h"
 #include "scenario.h"
-#include "scenes/pqp_data.h"
-#include "scenes/shapes.h"
 
 namespace kios::bench {
 namespace {
@@ -66,10 +63,7 @@ void reportThresholds(const std::string& scenario, const scenes::MovingPair& pai
 }  // namespace
 
 void runThreshold(const Options& options, Report& report) {
-  constexpr int kFrames = 1200;
-  reportThresholds("threshold/generated",
-                   {scenes::bentTorus(), scenes::knobbyTorus(), scenes::fallingMotion(kFrames)},
-                   options, report);
+  reportThresholds("threshold/generated", generatedFalling(), options, report);
   if (const auto data = findData(options)) {
     reportThresholds("threshold/falling", scenes::loadFalling(*data), options, report);
   } else {

@@ -12,8 +12,8 @@
 #include <fcl_kios/triangle/distance.h>
 #include <fcl_kios/triangle/intersection.h>
 
+#include "race.h"
 #include "scenes/rational_oracle.h"
-#include "timing.h"
 
 namespace kios::bench {
 namespace {
@@ -40,44 +40,12 @@ struct Fcl {
   }
 };
 
-using Call = double (*)(const TrianglePair&);
-
-template <Call call>
-void answerBlock(const std::vector<TrianglePair>& pairs, std::size_t begin, std::size_t end,
-                 std::vector<double>& answers) {
-  for (std::size_t i = begin; i < end; ++i) answers[i] = call(pairs[i]);
-}
-
-using AnswerBlock = void (*)(const std::vector<TrianglePair>&, std::size_t, std::size_t,
-                             std::vector<double>&);
-
-struct Answers {
-  std::vector<double> values;
-  double ns = 0;
-};
-
-std::array<Answers, kTriangleKernels> answersOf(
-    const std::array<AnswerBlock, kTriangleKernels>& kernels,
-    const std::vector<TrianglePair>& pairs, int repeats) {
-  std::array<Answers, kTriangleKernels> all;
-  std::array<std::vector<double>, kTriangleKernels> repeat_us;
-  for (Answers& answers : all) answers.values.resize(pairs.size());
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    for (auto& us : repeat_us) us.push_back(0);
-    for (std::size_t begin = 0, block = 0; begin < pairs.size(); begin += kBlock, ++block) {
-      const std::size_t end = std::min(begin + kBlock, pairs.size());
-      for (std::size_t turn = 0; turn < kTriangleKernels; ++turn) {
-        const std::size_t k = (turn + block + repeat) % kTriangleKernels;
-        const double start = nowMicroseconds();
-        kernels[k](pairs, begin, end, all[k].values);
-        repeat_us[k].back() += nowMicroseconds() - start;
-      }
-    }
-  }
-  for (std::size_t k = 0; k < kTriangleKernels; ++k) {
-    all[k].ns = 1000 * median(repeat_us[k]) / static_cast<double>(pairs.size());
-  }
-  return all;
+template <double (*kCall)(const TrianglePair&)>
+Competitor kernel(const std::vector<TrianglePair>& pairs, std::vector<double>& answers) {
+  answers.resize(pairs.size());
+  return {"", [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) answers[i] = kCall(pairs[i]);
+          }};
 }
 
 // An answer that is no number is an infinite error. Rounding to the least double is none.
@@ -92,25 +60,29 @@ double relativeError(double distance, long double exact, long double extent) {
 
 std::array<TriangleScore, kTriangleKernels> scoreKernels(const std::vector<TrianglePair>& pairs,
                                                          int repeats) {
-  const auto distances =
-      answersOf({answerBlock<Ours::distance>, answerBlock<Fcl::distance>}, pairs, repeats);
-  const auto verdicts =
-      answersOf({answerBlock<Ours::intersect>, answerBlock<Fcl::intersect>}, pairs, repeats);
+  std::vector<double> distances[kTriangleKernels], verdicts[kTriangleKernels];
+  std::vector<Competitor> for_distance = {kernel<Ours::distance>(pairs, distances[kOurs]),
+                                          kernel<Fcl::distance>(pairs, distances[kFcl])};
+  std::vector<Competitor> for_verdict = {kernel<Ours::intersect>(pairs, verdicts[kOurs]),
+                                         kernel<Fcl::intersect>(pairs, verdicts[kFcl])};
+  const Race race{pairs.size(), repeats, kBlock};
+  race.run(for_distance);
+  race.run(for_verdict);
   std::array<TriangleScore, kTriangleKernels> scores;
   for (std::size_t k = 0; k < kTriangleKernels; ++k) {
-    scores[k].distance_ns = distances[k].ns;
-    scores[k].intersection_ns = verdicts[k].ns;
+    scores[k].distance_ns = 1000 * timesOf(for_distance[k], pairs.size(), nullptr).median_us;
+    scores[k].intersection_ns = 1000 * timesOf(for_verdict[k], pairs.size(), nullptr).median_us;
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const scenes::RationalDistance exact = scenes::rationalDistance(pairs[i]);
     const long double extent = scenes::extent(pairs[i]);
     for (std::size_t k = 0; k < kTriangleKernels; ++k) {
       TriangleScore& score = scores[k];
-      const double distance = distances[k].values[i];
+      const double distance = distances[k][i];
       score.max_error = std::max(score.max_error, relativeError(distance, exact.distance, extent));
       score.wrong_zeros += distance == 0 && !exact.intersect;
       score.wrong_nonzeros += distance != 0 && exact.intersect;
-      score.wrong_verdicts += (verdicts[k].values[i] != 0) != exact.intersect;
+      score.wrong_verdicts += (verdicts[k][i] != 0) != exact.intersect;
     }
   }
   return scores;

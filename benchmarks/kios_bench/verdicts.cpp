@@ -57,24 +57,26 @@ Verdicts judge(const OracleOf& oracle, Query query, const std::vector<Question>&
   return verdicts;
 }
 
-void compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
-             const std::vector<Question>& questions, double extent, Row& row) {
-  row.wrong_verdicts = 0;
+Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
+               const std::vector<Question>& questions, double extent) {
+  Errors errors;
+  errors.wrong = 0;
   for (std::size_t i = 0; i < verdicts.questions.size(); ++i) {
     const double answer = answers[verdicts.questions[i]];
     double exact = verdicts.answers[i];
     if (query == Query::kThreshold) {
       const double threshold = questions[verdicts.questions[i]].threshold;
-      if (wrongSide(answer, exact, threshold, extent)) ++*row.wrong_verdicts;
+      if (wrongSide(answer, exact, threshold, extent)) ++*errors.wrong;
       exact = std::min(exact, threshold);
     } else if ((answer == 0) != (exact == 0)) {
-      ++*row.wrong_verdicts;
+      ++*errors.wrong;
     }
     if (query == Query::kCollide) continue;
     const double error = absoluteError(answer, exact);
-    row.max_abs_error = std::max(row.max_abs_error.value_or(0), error);
-    if (exact > 0) row.max_rel_error = std::max(row.max_rel_error.value_or(0), error / exact);
+    errors.max_abs = std::max(errors.max_abs.value_or(0), error);
+    if (exact > 0) errors.max_rel = std::max(errors.max_rel.value_or(0), error / exact);
   }
+  return errors;
 }
 
 }  // namespace kios::bench

@@ -6,13 +6,12 @@
 #include <functional>
 #include <vector>
 
-#include "competitor.h"
-#include "report.h"
+#include "mesh_set.h"
 #include "scenes/oracle.h"
 
 namespace kios::bench {
 
-/// What the oracle says to some of the questions.
+/// The oracle's answers to some of the questions.
 struct Verdicts {
   std::vector<std::size_t> questions;
   std::vector<double> answers;  // exact distance, or 1 for contact
@@ -26,10 +25,10 @@ using OracleOf = std::function<const scenes::MeshOracle&(std::size_t a, std::siz
 Verdicts judge(const OracleOf& oracle, Query query, const std::vector<Question>& questions,
                int wanted);
 
-/// Sets errors and wrong verdicts of the row. For kThreshold the exact answer is the distance, but
+/// Errors and wrong verdicts of the answers. For kThreshold the exact answer is the distance, but
 /// at most the threshold, and the verdict whether something is nearer than that; no verdict is
 /// wrong where distance and threshold agree within 16 eps of the scale that `extent` and they set.
-void compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
-             const std::vector<Question>& questions, double extent, Row& row);
+Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
+               const std::vector<Question>& questions, double extent);
 
 }  // namespace kios::bench

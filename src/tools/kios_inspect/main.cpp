@@ -3,10 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
+#include <cerrno>
 #include <cstdio>
-#include <exception>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,11 +17,9 @@
 #include "inspection.h"
 #include "options.h"
 #include "page.h"
-#include "painted_mesh.h"
 #include "pair_query.h"
 #include "progress.h"
 #include "report.h"
-#include "volume_file.h"
 
 namespace kios::inspect {
 namespace {
@@ -63,20 +62,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--repeats", options.repeats, "distance queries that are timed")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  auto* const level =
-      app.add_option("--level", options.level,
-                     "level of the tree, 0 is the root: for --out, and shown first by --html")
-          ->check(CLI::NonNegativeNumber);
-  app.add_option("--out", options.out,
-                 "write the volumes of --level as meshes, one colour each: FILE.ply or FILE.glb")
-      ->check([](const std::string& file) {
-        return isMeshFile(file) ? std::string() : file + " is neither a .ply nor a .glb file";
-      })
-      ->needs(level);
-  app.add_option("--detail", options.detail,
-                 "20 * 4^detail triangles a volume, 0 to 5 (default: the fewer the more volumes)")
-      ->check(CLI::Range(0, 5));
-  app.add_flag("--with-mesh", options.with_mesh, "the mesh, too, in --out");
+  app.add_option("--level", options.level,
+                 "level of the tree that --html shows first, 0 is the root")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--html", options.html,
                  "write one self-contained page that shows meshes and volumes, to turn");
   app.add_option("--html-limit", options.html_limit,
@@ -88,25 +76,6 @@ void declare(CLI::App& app, Options& options) {
   app.add_flag("--quiet", options.quiet, "no progress on stderr");
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("kios_inspect ") + FCL_KIOS_VERSION_STRING);
-}
-
-/// Volumes of the level as meshes, and the mesh if it is asked for.
-std::vector<PaintedMesh> paint(const Inspection& inspection, const Options& options) {
-  const std::size_t volumes = inspection.tree->level(options.level).size();
-  int detail = options.detail;
-  if (detail < 0) detail = volumes <= 64 ? 4 : volumes <= 1024 ? 3 : volumes <= 16384 ? 2 : 1;
-  constexpr double kMostTriangles = 4e7;
-  if (static_cast<double>(volumes) * 20 * std::pow(4, detail) > kMostTriangles) {
-    throw OutputError(options.out.string() + ": " + std::to_string(volumes) +
-                      " volumes at detail " + std::to_string(detail) +
-                      " are more than 40 million triangles; choose a lower --level or --detail.");
-  }
-  std::vector<PaintedMesh> painted = paintLevel(*inspection.tree, options.level, detail);
-  if (options.with_mesh) {
-    for (PaintedMesh& volume : painted) volume.see_through = true;
-    painted.insert(painted.begin(), paintMesh(inspection));
-  }
-  return painted;
 }
 
 struct UsageError : std::runtime_error {
@@ -129,8 +98,17 @@ void requireDirectory(const std::filesystem::path& file) {
   throw OutputError(file.string() + ": there is no directory " + parent.string() + ".");
 }
 
+/// Writes all of it or throws OutputError.
+void writeFile(const std::filesystem::path& file, const std::string& content) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << content;
+  stream.close();
+  if (!stream) {
+    throw OutputError(file.string() + ": it can't be written: " + std::strerror(errno) + ".");
+  }
+}
+
 int run(const Options& options) {
-  requireDirectory(options.out);
   requireDirectory(options.html);
   Progress progress(options.quiet);
   const bool two = options.meshes.size() == 2;
@@ -144,10 +122,6 @@ int run(const Options& options) {
     progress.step("querying the distance");
     pair = queryPair(*inspections[0].model, parsePose(options.pose_a), *inspections[1].model,
                      parsePose(options.pose_b), options.repeats);
-  }
-  if (!options.out.empty()) {
-    progress.step("writing " + options.out.string());
-    writeMeshes(options.out, paint(inspections[0], options));
   }
   if (!options.html.empty()) {
     progress.step("writing " + options.html.string());
@@ -167,9 +141,7 @@ int run(const Options& options) {
   } else {
     for (const Inspection& i : inspections) std::printf("%s\n", toText(i).c_str());
     if (pair) std::printf("%s", toText(*pair).c_str());
-    for (const auto& file : {options.out, options.html}) {
-      if (!file.empty()) std::printf("wrote %s\n", file.string().c_str());
-    }
+    if (!options.html.empty()) std::printf("wrote %s\n", options.html.string().c_str());
   }
   return warned && options.strict ? kWarned : kFine;
 }
@@ -185,9 +157,6 @@ int main(int argc, char** argv) {
   try {
     declare(app, options);
     app.parse(argc, argv);
-    if (options.meshes.size() == 2 && !options.out.empty()) {
-      throw CLI::ValidationError("--out", "takes one mesh, not two");
-    }
     if (options.meshes.size() == 1 && app.count("--pose-a") + app.count("--pose-b") > 0) {
       throw CLI::ValidationError("--pose-a, --pose-b", "are for two meshes");
     }

@@ -13,10 +13,7 @@ struct Options {
   std::vector<std::filesystem::path> meshes;  // one, or two for their distance
   std::string pose_a = "0,0,0", pose_b = "0,0,0";
   int repeats = 101;
-  int level = -1;   // -1: not given
-  int detail = -1;  // -1: by the number of volumes
-  std::filesystem::path out;
-  bool with_mesh = false;
+  int level = -1;  // -1: not given
   std::filesystem::path html;
   double html_limit = 20;
   bool json = false;

@@ -3,12 +3,12 @@
 #include "page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
+#include "colors.h"
 #include "page_text.h"
-#include "painted_mesh.h"
 #include "report.h"
-#include "surface.h"
 
 namespace kios::inspect {
 namespace {
@@ -36,6 +36,24 @@ std::string base64(const std::vector<T>& values) {
   }
   std::fill(text.end() - static_cast<std::ptrdiff_t>(bytes.size() - length), text.end(), '=');
   return text;
+}
+
+struct Ball {
+  fcl::Vector3d center;
+  double radius;
+};
+
+/// The spheres of a volume relative to the centre of S0, exactly as the volume stores them.
+std::vector<Ball> ballsOf(const kIOSd& volume) {
+  std::vector<Ball> balls = {{fcl::Vector3d::Zero(), volume.radius0}};
+  for (int i = 0; i + 1 < volume.k(); ++i) {
+    const auto scaled = [&](float x) {
+      return std::ldexp(static_cast<double>(x), volume.exponent);
+    };
+    balls.push_back({{scaled(volume.cap_x[i]), scaled(volume.cap_y[i]), scaled(volume.cap_z[i])},
+                     scaled(volume.cap_r[i])});
+  }
+  return balls;
 }
 
 /// The page's units: each mesh about the middle of its box, lengths in parts of the largest mesh,

@@ -6,12 +6,37 @@
 #include <cmath>
 #include <limits>
 
-#include "surface.h"
+#include "fcl_kios/bv/exact_distance.h"
 
 namespace kios::inspect {
+namespace {
+
+constexpr int kDirections = 162;
+
+/// Directions spread evenly over the sphere, on a spiral of golden angles.
+std::vector<fcl::Vector3d> spiral() {
+  const double golden = (3 - std::sqrt(5.0)) * M_PI;
+  std::vector<fcl::Vector3d> directions;
+  for (int i = 0; i < kDirections; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kDirections, r = std::sqrt(1 - z * z);
+    directions.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), z);
+  }
+  return directions;
+}
+
+}  // namespace
+
+// From L n, far outside, the volume is L - h away, h its support: at least, as it lies below the
+// plane at h; at most about r^2 / 2 L more, as the point of height h is within r of the ray.
+double support(const kIOSd& volume, const fcl::Vector3d& n) {
+  const double far = 1e5 * volume.radius0;
+  kIOSd about_origin = volume;
+  about_origin.center0.setZero();
+  return far - nearestPoint(about_origin, fcl::Vector3d(far * n)).distance;
+}
 
 Slack slackOf(const VolumeTree& tree, int node) {
-  static const Directions directions = icosphere(2);
+  static const std::vector<fcl::Vector3d> directions = spiral();
   const Modeld& model = tree.model();
   const kIOSd& volume = tree.volume(node);
   // Relative to S0, so that an offset costs no digits.
@@ -20,31 +45,21 @@ Slack slackOf(const VolumeTree& tree, int node) {
   for (int i = tree.first(node); i < tree.last(node); ++i) {
     const fcl::Triangle& t = model.tri_indices[tree.triangles()[i]];
     for (int corner = 0; corner < 3; ++corner) {
-      const fcl::Vector3d p = model.vertices[t[corner]] - volume.center0;
-      box.extend(p);
-      content.push_back(p);
+      content.push_back(model.vertices[t[corner]] - volume.center0);
+      box.extend(content.back());
     }
   }
   Slack result;
   const double size = result.size = box.diagonal().norm();
-  const Surface surface = triangulate(volume, 3);
-  if (!(size > 0) || surface.vertices.empty()) return result;
-  const auto support = [](const std::vector<fcl::Vector3d>& points, const fcl::Vector3d& n) {
+  if (!(size > 0)) return result;
+  for (const fcl::Vector3d& n : directions) {
     double h = -std::numeric_limits<double>::infinity();
-    for (const fcl::Vector3d& p : points) h = std::max(h, n.dot(p));
-    return h;
-  };
-  for (const fcl::Vector3d& n : directions.vertices) {
-    const double h = support(content, n);
-    // The surface is inscribed, and may end before its content in a direction where both touch.
-    const double slack = std::max(support(surface.vertices, n) - h, 0.0) / size;
-    result.mean += slack;
+    for (const fcl::Vector3d& p : content) h = std::max(h, n.dot(p));
+    const double slack = std::max(support(volume, n) - h, 0.0) / size;
+    result.mean += slack / kDirections;
     result.max = std::max(result.max, slack);
-    result.mean_s0 += (volume.radius0 - h) / size;
+    result.mean_s0 += (volume.radius0 - h) / size / kDirections;
   }
-  const double count = static_cast<double>(directions.vertices.size());
-  result.mean /= count;
-  result.mean_s0 /= count;
   return result;
 }
 

@@ -9,6 +9,10 @@
 
 namespace kios::inspect {
 
+/// How far a volume reaches along the unit vector n, from the centre of S0 (its support function),
+/// low by at most 1e-5 of S0's radius.
+double support(const kIOSd& volume, const fcl::Vector3d& n);
+
 /// Slack of a volume in a direction: how far it reaches beyond its content there (difference of
 /// their support functions), in units of the content's size, the diagonal of its box. The bound
 /// that the volume gives for a distance is too low by about that much. Measured in 162 directions.

@@ -6,9 +6,7 @@
 #include <sys/wait.h>
 
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -122,9 +120,9 @@ TEST(Program, FilesWithoutPermissionAreNamed) {
 
 TEST(Program, FilesThatCannotBeWrittenAreNamed) {
   const std::string mesh = quoted(writeStl("mesh.stl", scenes::bentTorus()));
-  for (const std::string& out : std::vector<std::string>{
-           " --html /nowhere/page.html", " --level 0 --out /nowhere/volumes.ply",
-           " --html /dev/full", " --html " + quoted(sampleFile("x").parent_path())}) {
+  for (const std::string& out :
+       std::vector<std::string>{" --html /nowhere/page.html", " --html /dev/full",
+                                " --html " + quoted(sampleFile("x").parent_path())}) {
     const Outcome outcome = run(mesh + out);
     EXPECT_EQ(outcome.code, 4) << out;
     EXPECT_TRUE(contains(outcome.err, "no directory") || contains(outcome.err, "can't be written"))
@@ -136,9 +134,8 @@ TEST(Program, WrongCommandLinesAreRefused) {
   const std::string mesh = quoted(writeStl("mesh.stl", scenes::bentTorus()));
   for (const std::string& arguments :
        {std::string(), mesh + " " + mesh + " " + mesh, mesh + " --unknown", mesh + " --level -1",
-        mesh + " --out volumes.ply", mesh + " --level 1 --out volumes.stl", mesh + " --level x",
-        mesh + " --level 999", mesh + " --pose-a 1,2,3",
-        mesh + " " + mesh + " --level 1 --out volumes.ply", mesh + " " + mesh + " --pose-b 1,2",
+        mesh + " --html-limit 0", mesh + " --level x", mesh + " --level 999",
+        mesh + " --pose-a 1,2,3", mesh + " " + mesh + " --pose-b 1,2",
         mesh + " " + mesh + " --pose-b 1,2,x", mesh + " " + mesh + " --pose-b 1,2,nan",
         mesh + " " + mesh + " --pose-b 0,0,0,1,1,0,0", mesh + " " + mesh + " --pose-b 1,2,3,",
         mesh + " " + mesh + " --repeats 0"}) {
@@ -195,25 +192,6 @@ TEST(Program, TheDistanceOfTwoMeshesIsTheLibrarys) {
 
   EXPECT_EQ(json(files + " --pose-b 1,0,0")["pair"]["distance"].get<double>(), 0);
   EXPECT_TRUE(contains(run(files + " --pose-b 1,0,0").out, "touch or intersect"));
-}
-
-TEST(Program, VolumesAreSeeThroughOnlyAroundTheMesh) {
-  const std::string mesh = quoted(writeStl("mesh.stl", scenes::bentTorus()));
-  const auto file = sampleFile("volumes.glb");
-  for (const std::string& with : {std::string(), std::string(" --with-mesh")}) {
-    ASSERT_EQ(run(mesh + " --level 2 --detail 1 --out " + quoted(file) + with).code, 0);
-    const std::string glb = contentOf(file);
-    // The JSON chunk follows 12 bytes of header and 8 of its own.
-    std::uint32_t length = 0;
-    ASSERT_GT(glb.size(), 20u);
-    std::memcpy(&length, &glb[12], sizeof length);
-    const Json document = Json::parse(glb.substr(20, length));
-    ASSERT_EQ(document["nodes"].size(), with.empty() ? 4u : 5u);
-    std::size_t blended = 0;
-    for (const Json& material : document["materials"]) blended += material.count("alphaMode");
-    EXPECT_EQ(blended, with.empty() ? 0u : 4u);
-    EXPECT_EQ(document["nodes"][0]["name"] == "mesh.stl", !with.empty());
-  }
 }
 
 TEST(Program, PagesStandAloneAndSayWhatTheyLeaveOut) {

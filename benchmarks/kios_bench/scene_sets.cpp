@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_set.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl_kios/fcl/mesh_queries.h>
+#include <fcl_kios/scene/scene_distance.h>
+
+#include "fcl_models.h"
+
+namespace kios::bench {
+namespace {
+
+using Object = fcl::CollisionObjectd;
+
+/// The bodies of a scene as collision objects over BV, at the poses of frame 0.
+template <typename BV>
+struct SceneObjects {
+  std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models;
+  std::vector<std::unique_ptr<Object>> objects;
+  const scenes::BodyScene& scene;
+
+  explicit SceneObjects(const scenes::BodyScene& from) : scene(from) {
+    for (const scenes::Mesh& mesh : from.meshes) models.push_back(scenes::buildModel<BV>(mesh));
+    for (int body = 0; body < from.size(); ++body) {
+      const auto& X =
+          body < from.moving() ? from.frames[0][body] : from.places[body - from.moving()];
+      objects.push_back(std::make_unique<Object>(models[from.mesh_of[body]], X));
+    }
+  }
+  void place(int frame) {
+    const auto& poses = scene.frames[frame];
+    for (std::size_t body = 0; body < poses.size(); ++body) {
+      objects[body]->setTransform(poses[body]);
+    }
+  }
+  bool admissible(int a, int b) const {
+    if (scene.obstacle[a] && scene.obstacle[b]) return false;
+    return !std::binary_search(scene.excluded.begin(), scene.excluded.end(), std::minmax({a, b}));
+  }
+  std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (const auto& model : models) sum += bytesOf(*model);
+    return sum;
+  }
+};
+
+/// Every admissible pair in a loop. If bounded, what is known bounds the search: the best so far,
+/// or the margin.
+template <typename BV, typename Calls>
+class ScenePairs final : public SceneSet {
+ public:
+  ScenePairs(const std::string& name, const scenes::BodyScene& scene, bool bounded)
+      : SceneSet(name), bounded_(bounded), bodies_(scene) {
+    for (int a = 0; a < scene.size(); ++a) {
+      for (int b = a + 1; b < scene.size(); ++b) {
+        if (bodies_.admissible(a, b)) pairs_.emplace_back(a, b);
+      }
+    }
+  }
+
+  bool serves(SceneQuery query) const override {
+    return !(bounded_ && query == SceneQuery::kClearances);
+  }
+  std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) override {
+    bodies_.place(frame);
+    std::vector<SceneAnswer> answers;
+    SceneAnswer closest{-1, -1, std::numeric_limits<double>::max()};
+    const fcl::DistanceRequestd request;
+    for (const auto& [a, b] : pairs_) {
+      fcl::DistanceResultd result;
+      if (bounded_) result.min_distance = query == SceneQuery::kClosest ? closest.distance : margin;
+      Calls::distance(bodies_.objects[a].get(), bodies_.objects[b].get(), request, result);
+      const double distance = result.min_distance;
+      if (query == SceneQuery::kClosest) {
+        if (distance < closest.distance) closest = {a, b, distance};
+      } else if (query == SceneQuery::kClearances || distance < margin) {
+        answers.push_back({a, b, distance});
+      }
+    }
+    if (query == SceneQuery::kClosest) answers.push_back(closest);
+    return answers;
+  }
+  long long queried() const override { return static_cast<long long>(pairs_.size()); }
+  std::size_t bytes() const override { return bodies_.bytes(); }
+
+ private:
+  bool bounded_;
+  SceneObjects<BV> bodies_;
+  std::vector<std::pair<int, int>> pairs_;
+};
+
+/// FCL's dynamic AABB tree with what its default distance callback does, after the filter. Bodies
+/// that stand still are in a manager of their own, and never asked about each other.
+class FclManager final : public SceneSet {
+ public:
+  FclManager(const std::string& name, const scenes::BodyScene& scene)
+      : SceneSet(name), bodies_(scene) {
+    for (int body = 0; body < scene.size(); ++body) {
+      Object* const object = bodies_.objects[body].get();
+      object->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
+      object->computeAABB();
+      (scene.obstacle[body] ? still_ : moving_).registerObject(object);
+    }
+    moving_.setup();
+    still_.setup();
+  }
+
+  bool serves(SceneQuery query) const override { return query != SceneQuery::kClearances; }
+  std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) override {
+    bodies_.place(frame);
+    for (int body = 0; body < bodies_.scene.moving(); ++body) bodies_.objects[body]->computeAABB();
+    moving_.update();
+    query_ = query;
+    margin_ = margin;
+    queried_ = 0;
+    answers_.clear();
+    closest_ = {-1, -1, std::numeric_limits<double>::max()};
+    moving_.distance(this, &FclManager::callback);
+    if (!still_.empty() && !done()) moving_.distance(&still_, this, &FclManager::callback);
+    if (query == SceneQuery::kClosest) answers_.push_back(closest_);
+    return answers_;
+  }
+  long long queried() const override { return queried_; }
+  std::size_t bytes() const override { return bodies_.bytes(); }
+
+ private:
+  static int idOf(const Object* object) {
+    return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
+  }
+  bool done() const { return query_ == SceneQuery::kClosest && closest_.distance <= 0; }
+
+  static bool callback(Object* o1, Object* o2, void* data, double& dist) {
+    FclManager& self = *static_cast<FclManager*>(data);
+    const auto [a, b] = std::minmax({idOf(o1), idOf(o2)});
+    const bool closest = self.query_ == SceneQuery::kClosest;
+    dist = closest ? self.closest_.distance : self.margin_;
+    if (self.done()) return true;
+    if (!self.bodies_.admissible(a, b)) return false;
+    ++self.queried_;
+    fcl::DistanceResultd result;
+    result.min_distance = dist;
+    FclCalls::distance(self.bodies_.objects[a].get(), self.bodies_.objects[b].get(),
+                       fcl::DistanceRequestd(), result);
+    if (result.min_distance < dist) {
+      if (closest) {
+        self.closest_ = {a, b, result.min_distance};
+        dist = result.min_distance;
+      } else {
+        self.answers_.push_back({a, b, result.min_distance});
+      }
+    }
+    return self.done();
+  }
+
+  SceneObjects<fcl::OBBRSSd> bodies_;
+  fcl::DynamicAABBTreeCollisionManagerd moving_, still_;
+  SceneQuery query_ = SceneQuery::kClosest;
+  double margin_ = 0;
+  long long queried_ = 0;
+  SceneAnswer closest_{-1, -1, 0};
+  std::vector<SceneAnswer> answers_;
+};
+
+class KiosScene final : public SceneSet {
+ public:
+  KiosScene(const std::string& name, const scenes::BodyScene& scene)
+      : SceneSet(name), bodies_(scene) {
+    for (int body = 0; body < scene.size(); ++body) {
+      const auto* const object = bodies_.objects[body].get();
+      const Role role = scene.obstacle[body] ? Role::kObstacle : Role::kBody;
+      if (body < scene.moving()) {
+        query_.add(object, role);
+      } else {
+        query_.add(object->collisionGeometry(), object->getTransform(), role);
+      }
+    }
+    for (const auto& [a, b] : scene.excluded) query_.exclude(a, b);
+  }
+  void forget() override { query_.forget(); }
+
+  std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) override {
+    bodies_.place(frame);
+    std::vector<SceneAnswer> answers;
+    const auto add = [&answers](const ScenePair<double>& pair) {
+      answers.push_back({pair.a, pair.b, pair.distance});
+    };
+    if (query == SceneQuery::kClosest) {
+      if (const auto closest = query_.closestPair()) add(*closest);
+    } else if (query != SceneQuery::kClearances) {
+      SceneRequest request;
+      request.exact = query == SceneQuery::kWithin;
+      for (const auto& pair : query_.pairsWithin(margin, request)) add(pair);
+    } else {
+      for (const auto& pair : query_.clearances()) add(pair);
+    }
+    return answers;
+  }
+  long long queried() const override { return query_.counts().queried; }
+  std::size_t bytes() const override {
+    std::size_t sum = bodies_.bytes();
+    for (const auto& model : bodies_.models) sum += preparedBytes(*model);
+    return sum;
+  }
+  MaybeCount preparedModels() const override {
+    std::size_t prepared = 0;
+    for (const auto& model : bodies_.models) prepared += preparedBytes(*model) > 0 ? 1 : 0;
+    return prepared;
+  }
+  std::optional<std::string> simdTarget() const override { return kios::simdTarget(); }
+
+ private:
+  SceneObjects<kIOSd> bodies_;
+  SceneDistance<double> query_;
+};
+
+}  // namespace
+
+std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene) {
+  using FclPairs = ScenePairs<fcl::OBBRSSd, FclCalls>;
+  using KiosPairs = ScenePairs<kIOSd, KiosCalls>;
+  const bool bounded = name == "fcl_obbrss_bounded" || name == "kios_bounded";
+  if (name == "kios") return std::make_unique<KiosScene>(name, scene);
+  if (name == "fcl_manager") return std::make_unique<FclManager>(name, scene);
+  if (name.rfind("kios_", 0) == 0) return std::make_unique<KiosPairs>(name, scene, bounded);
+  return std::make_unique<FclPairs>(name, scene, bounded);
+}
+
+}  // namespace kios::bench

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bv/exact_spheres.h"
+#include "fit/all_fits.h"
+#include "paper/kios_policy.h"
+#include "paper/packed_policy.h"
+
+namespace kios::test {
+
+using namespace paper;
+
+/// Calls visit(name, policy) for kIOS with all fits and for all packed variants.
+template <typename Visit>
+void forEachPackedPolicy(Visit visit) {
+  for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
+    for (const bool shared : {false, true}) {
+      FitOptions options;
+      options.count = count;
+      options.shared_radius = shared;
+      const std::string name = nameOf(options);
+      visit("oriented 1, " + name, OrientedKios<1>(options));
+      visit("oriented 3, " + name, OrientedKios<3>(options));
+      visit("oriented 5, " + name, OrientedKios<5>(options));
+      visit("oriented 7, " + name, OrientedKios<7>(options));
+      visit("axis-aligned, " + name, AxisAlignedKios(options));
+      visit("fixed directions, " + name, FixedDirectionKios(options));
+      // As the faces of an octahedron, not of unit length.
+      const std::vector<fcl::Vector3d> given = {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {-3, 3, 3}};
+      visit("given directions, " + name, FixedDirectionKios(given, options));
+      options.method = FitMethod::kMethodI;
+      visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
+      options.method = FitMethod::kMethodIAtAngle;
+      visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
+      options.method = FitMethod::kMethodII;
+      visit("oriented 5, " + nameOf(options), OrientedKios<5>(options));
+    }
+  }
+}
+
+template <typename Visit>
+void forEachPolicy(Visit visit) {
+  for (const FitOptions& options : allFits())
+    visit("kIOS, " + nameOf(options), KiosPolicy(options));
+  forEachPackedPolicy(visit);
+}
+
+}  // namespace kios::test

@@ -1,0 +1,194 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Trees of all fits and variants answer as the oracle does.
+#include "paper/variant_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "benchmarks/paper/policies.h"
+#include "scenes/oracle.h"
+#include "scenes/shapes.h"
+
+namespace kios::test {
+namespace {
+
+using scenes::Mesh;
+using Split = std::shared_ptr<const MeshSplit>;
+
+Split splitOf(const Mesh& mesh) {
+  return std::make_shared<const MeshSplit>(mesh.vertices, mesh.triangles);
+}
+
+template <typename Policy>
+VariantTree<Policy> treeOf(const Split& split, const Policy& policy) {
+  return VariantTree<Policy>(split, policy);
+}
+
+Mesh moved(Mesh mesh, double scale, const fcl::Vector3d& shift) {
+  for (auto& p : mesh.vertices) p = scale * p + shift;
+  return mesh;
+}
+
+struct Pose {
+  fcl::Transform3d a = fcl::Transform3d::Identity(), b = fcl::Transform3d::Identity();
+};
+
+/// Every policy's answers at every pose, against the oracle's.
+void expectTrueAnswers(const Mesh& a, const Mesh& b, const std::vector<Pose>& poses) {
+  const scenes::MeshOracle oracle(a, b);
+  double coordinates = 0;
+  for (const Mesh* mesh : {&a, &b}) {
+    for (const auto& p : mesh->vertices) coordinates = std::max(coordinates, p.stableNorm());
+  }
+  std::vector<double> distances;
+  std::vector<bool> contacts;
+  for (const Pose& pose : poses) {
+    distances.push_back(oracle.distance(pose.a, pose.b));
+    contacts.push_back(oracle.collide(pose.a, pose.b));
+  }
+  const Split split_a = splitOf(a), split_b = splitOf(b);
+  forEachPolicy([&](const std::string& name, const auto& policy) {
+    const auto tree_a = treeOf(split_a, policy), tree_b = treeOf(split_b, policy);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const RelativePose<double> X(poses[i].a, poses[i].b);
+      const double shift = (poses[i].b.translation() - poses[i].a.translation()).stableNorm();
+      const double tolerance = 64 * std::numeric_limits<double>::epsilon() * (coordinates + shift);
+      const VariantResult d = tree_a.distance(tree_b, X);
+      ASSERT_NEAR(d.distance, distances[i], tolerance) << name << ", pose " << i;
+      ASSERT_EQ(d.contact, d.distance == 0) << name;
+      // The triangles that it names realise it, as X moves them.
+      TriangleVertices<double> moved_b = split_b->corners(d.triangle_b);
+      for (auto& p : moved_b) p = X * p;
+      ASSERT_EQ(triangleDistance(split_a->corners(d.triangle_a), moved_b).distance, d.distance);
+      const VariantResult c = tree_a.collide(tree_b, X);
+      ASSERT_EQ(c.contact, contacts[i]) << name << ", pose " << i;
+      ASSERT_EQ(c.distance == 0, c.contact) << name;
+      ASSERT_EQ(c.triangle_a >= 0, c.contact) << name;
+    }
+  });
+}
+
+std::vector<Pose> randomPoses(Random& random, int n, double size, double origin) {
+  std::vector<Pose> poses(n);
+  for (Pose& pose : poses) {
+    pose.a.linear() = randomRotation(random);
+    pose.b.linear() = randomRotation(random);
+    const fcl::Vector3d base = origin * randomDirection(random);
+    pose.a.translation() = base;
+    pose.b.translation() = base + size * random.uniform(0, 3) * randomDirection(random);
+  }
+  return poses;
+}
+
+TEST(VariantTree, SmallMeshesAtRandomPoses) {
+  Random random(1);
+  const Mesh torus = scenes::bumpyTorus(200), ball = scenes::icosphere(0.7, 1);
+  expectTrueAnswers(torus, ball, randomPoses(random, 8, 1, 0));
+  expectTrueAnswers(torus, torus, randomPoses(random, 8, 1, 0));
+}
+
+TEST(VariantTree, SoupsAndSheets) {
+  Random random(2);
+  expectTrueAnswers(scenes::randomSoup(60, 1, 1e-6, 1, 1), scenes::sheet(2, 1, 6, 5, 0),
+                    randomPoses(random, 8, 1, 0));
+}
+
+TEST(VariantTree, FarFromTheirOriginsAndAtAnyScale) {
+  Random random(3);
+  const Mesh torus = scenes::bumpyTorus(100), ball = scenes::icosphere(0.7, 0);
+  for (const double scale : {1e-140, 1e-30, 1.0, 1e30, 1e140}) {
+    std::vector<Pose> poses = randomPoses(random, 3, scale, 0);
+    const Mesh a = moved(torus, scale, scale * fcl::Vector3d(1e5, 0, 0));
+    const Mesh b = moved(ball, scale, scale * fcl::Vector3d(0, -1e3, 1));
+    for (Pose& pose : poses) {  // so that they are near each other nevertheless
+      pose.b.translation() -= pose.b.linear() * (scale * fcl::Vector3d(0, -1e3, 1));
+      pose.a.translation() -= pose.a.linear() * (scale * fcl::Vector3d(1e5, 0, 0));
+    }
+    expectTrueAnswers(a, b, poses);
+  }
+  // One of them is tiny, one far.
+  expectTrueAnswers(torus, moved(ball, 1e-9, {1, 1, 1}), randomPoses(random, 3, 1, 0));
+  expectTrueAnswers(torus, moved(ball, 1, {0, 0, 1e9}), randomPoses(random, 3, 1e9, 0));
+}
+
+TEST(VariantTree, TouchingAndNested) {
+  // Boxes [-1, 1]^3: face to face, edge to edge, corner to corner, a gap of an ulp, one in another.
+  const Mesh box = scenes::subdividedBox({2, 2, 2}, 2), small = scenes::subdividedBox({1, 1, 1}, 1);
+  std::vector<Pose> poses(5);
+  poses[0].b.translation() << 2, 0.5, 0;
+  poses[1].b.translation() << 2, 2, 0.25;
+  poses[2].b.translation() << 2, 2, 2;
+  poses[3].b.translation() << 2 + 0x1p-51, 0, 0;
+  expectTrueAnswers(box, box, poses);
+  expectTrueAnswers(box, small, std::vector<Pose>(1));
+}
+
+TEST(VariantTree, DegenerateTriangles) {
+  Random random(4);
+  Mesh mesh;
+  for (int i = 0; i < 24; ++i) {
+    const fcl::Vector3d p = i % 3 ? fcl::Vector3d(randomDirection(random)) : fcl::Vector3d(1, 1, 1);
+    const fcl::Vector3d e = i % 2 ? randomDirection(random) : fcl::Vector3d(0, 0, 0);
+    mesh.vertices.insert(mesh.vertices.end(), {p, p + e, p + 0.5 * e});  // segments and points
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  expectTrueAnswers(mesh, scenes::icosphere(0.5, 1), randomPoses(random, 6, 1, 0));
+  const Mesh point = scenes::singleTriangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3});
+  expectTrueAnswers(mesh, point, randomPoses(random, 6, 1, 0));
+  expectTrueAnswers(point, point, randomPoses(random, 6, 1, 0));
+}
+
+TEST(VariantTree, CullsMostOfWhatBruteForceTests) {
+  const Mesh torus = scenes::bumpyTorus(400), ball = scenes::icosphere(0.7, 2);
+  const Split split_a = splitOf(torus), split_b = splitOf(ball);
+  const RelativePose<double> X(fcl::Matrix3d::Identity(), fcl::Vector3d(2.5, 0.4, 0.3));
+  forEachPolicy([&](const std::string& name, const auto& policy) {
+    const auto tree_a = treeOf(split_a, policy), tree_b = treeOf(split_b, policy);
+    const VariantResult d = tree_a.distance(tree_b, X);
+    EXPECT_LT(d.leaf_tests, 400 * 320 / 10) << name;
+    EXPECT_GE(d.bv_tests, d.leaf_tests - 1) << name;
+    const VariantResult c = tree_a.collide(tree_b, X);
+    EXPECT_LT(c.bv_tests, 400) << name;
+  });
+}
+
+TEST(MeshSplit, EveryTriangleIsALeafOnce) {
+  for (const Mesh& mesh : {scenes::bumpyTorus(300), scenes::randomSoup(57, 1, 1e-9, 1, 3),
+                           scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0})}) {
+    const Split split = splitOf(mesh);
+    const auto& nodes = split->nodes();
+    ASSERT_EQ(nodes.size(), 2 * mesh.triangles.size() - 1);
+    std::vector<int> seen(mesh.triangles.size());
+    for (const auto& node : nodes) {
+      if (node.leaf()) {
+        ASSERT_EQ(node.count, 1);
+        ++seen[split->triangle(node.first)];
+        continue;
+      }
+      const auto &left = nodes[node.left], &right = nodes[node.left + 1];
+      ASSERT_EQ(left.first, node.first);
+      ASSERT_EQ(right.first, node.first + left.count);
+      ASSERT_EQ(left.count + right.count, node.count);
+      ASSERT_LE(left.extent, node.extent);
+    }
+    for (const int count : seen) ASSERT_EQ(count, 1);
+  }
+}
+
+TEST(MeshSplit, RefusesWhatIsNoMesh) {
+  const std::vector<fcl::Vector3d> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_THROW(MeshSplit(vertices, {}), std::invalid_argument);
+  EXPECT_THROW(MeshSplit(vertices, {fcl::Triangle(0, 1, 3)}), std::invalid_argument);
+  auto bad = vertices;
+  bad[1][2] = NAN;
+  EXPECT_THROW(MeshSplit(bad, {fcl::Triangle(0, 1, 2)}), std::invalid_argument);
+  bad[1][2] = 1e302;
+  EXPECT_THROW(MeshSplit(bad, {fcl::Triangle(0, 1, 2), fcl::Triangle(2, 1, 0)}),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kios::test
