@@ -11,8 +11,6 @@
 #include <thread>
 
 #include "fcl_kios/fcl_kios.h"
-#include "fcl_kios/variants/packed_policy.h"
-#include "fcl_kios/variants/variant_tree.h"
 
 namespace {
 
@@ -96,9 +94,6 @@ void useAll(int n) {
   kios::kIOSd bv;
   kios::fit(bent.data(), static_cast<int>(bent.size()), bv, kios::FitMethod::kMethodI);
   require(bv.contain(bent.front()) && bv.contain(bent.back()), "fit");
-  const kios::VariantTree<kios::AxisAlignedKios> packed(
-      std::make_shared<kios::MeshSplit>(bent, triangles));
-  require(packed.shared().directions.empty(), "tree of another form");
   kios::SceneDistance<double> scene;
   scene.add(other, fcl::Transform3d::Identity());
   scene.add(std::make_shared<fcl::Sphered>(0.5), fcl::Transform3d(fcl::Translation3d(0, 0, 3)));
