@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: spdx.sh SOURCE_DIR. Every tracked file has the two SPDX lines; left out are text for
-# readers, JSON and pictures. Exit code 77: not a git checkout.
+# readers, JSON, pictures and stored hashes. Exit code 77: not a git checkout.
 set -euo pipefail
 
 cd "$1"
@@ -12,7 +12,7 @@ if ! git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
   exit 77
 fi
 mapfile -t files < <(git ls-files --cached --others --exclude-standard |
-  grep -vE '\.(md|jsonl?|png|svg|gif)$|^(LICENSE|VERSION|\.gitignore|\.clang-format)$')
+  grep -vE '\.(md|jsonl?|png|svg|gif)$|_(targets|answers)\.txt$|^(LICENSE|VERSION|\.gitignore|\.clang-format)$')
 without=$(
   for line in 'SPDX-FileCopyrightText: ' 'SPDX-License-Identifier: BSD-3-Clause'; do
     grep -L -F -e "$line" "${files[@]}" || true
