@@ -112,7 +112,9 @@ TEST(OctreeCell, PromisesAreKept) {
     fcl::distance(model.get(), I, &cell, I, fcl::DistanceRequestd(), d);
     fcl::collide(model.get(), I, &cell, I, fcl::CollisionRequestd(), c);
     const Real band = 0x1p-46L * (pair.extent + center.norm());
-    if (pair.depth == 0) EXPECT_LE(std::abs(d.min_distance - pair.distance), band);
+    if (pair.depth == 0) {
+      EXPECT_LE(std::abs(d.min_distance - pair.distance), band);
+    }
     EXPECT_FALSE(c.isCollision() && pair.distance > band);
     EXPECT_FALSE(!c.isCollision() && pair.depth > band);
   }
