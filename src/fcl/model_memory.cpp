@@ -89,21 +89,21 @@ int begin(Members<S> m, int num_tris, int num_vertices) {
   model.num_tris = m.num_tris_allocated = 0;
   model.num_vertices = m.num_vertices_allocated = 0;
   m.num_nodes = m.num_nodes_allocated = 0;
-  if (!was_empty) {
-    std::cerr << "BVH Warning! Call beginModel() on a BVHModel that is not empty. This model was "
-                 "cleared and previous triangles/vertices were lost.\n";
-    return fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE;
-  }
   if (num_tris < 0) num_tris = 8;
   if (num_vertices <= 0) num_vertices = 8;
   try {
     if (num_tris > 0) replace(model.tri_indices, makeArray<fcl::Triangle>(num_tris));
+    m.num_tris_allocated = num_tris;
     replace(model.vertices, makeArray<fcl::Vector3<S>>(num_vertices));
+    m.num_vertices_allocated = num_vertices;
   } catch (const std::bad_alloc&) {
     return outOfMemory("beginModel()");
   }
-  m.num_tris_allocated = num_tris;
-  m.num_vertices_allocated = num_vertices;
+  if (!was_empty) {  // with its arrays: FCL's addTriangle() doesn't check that there are any
+    std::cerr << "BVH Warning! Call beginModel() on a BVHModel that is not empty. This model was "
+                 "cleared and previous triangles/vertices were lost.\n";
+    return fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE;
+  }
   model.build_state = fcl::BVH_BUILD_STATE_BEGUN;
   return fcl::BVH_OK;
 }

@@ -11,6 +11,7 @@
 
 namespace fcl {
 
+/// @cond
 // Members of models over k-IOS that differ from FCL's. Those that build keep nothing in fitter or
 // splitter (bvh_build.h); those that get memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is
 // none, and may be called again.
@@ -41,6 +42,7 @@ int BVHModel<kios::kIOS<float>>::refitTree_topdown();
 
 extern template class BVHModel<kios::kIOS<double>>;
 extern template class BVHModel<kios::kIOS<float>>;
+/// @endcond
 
 }  // namespace fcl
 
