@@ -130,6 +130,17 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
         bracketInTree(models.model1, models.model2, models.X_12, query, rounding, answer.counts);
   }
   setBounds(models, found, answer);
+  // Within rounding of far_enough neither this is proven nor all that is nearer than the answer was
+  // looked at: the exact answer decides.
+  if (found.end == engine::SearchEnd::kDone && double{answer.distance} > query.far_enough &&
+      double{answer.lower_bound} < query.far_enough) {
+    engine::BracketQuery<S> unlimited = query;
+    unlimited.far_enough = kInfinity;
+    const SearchCounts before = answer.counts;
+    answer = search(models, X_W1, unlimited, options);
+    answer.counts += before;
+    return answer;
+  }
   if (answer.distance == 0) {
     answer.stop = DistanceStop::kTolerance;
   } else if (found.end == engine::SearchEnd::kNear) {

@@ -93,8 +93,7 @@ TEST(Collide, ContactsAreThoseOfFclsTriangleRoutine) {
           EXPECT_EQ(contacts[i].o1, model_a.get());
           EXPECT_EQ(contacts[i].o2, model_b.get());
           if (leaf.num_points == 0) continue;
-          // FCL's routine turns the triangle by Eigen's order of sums.
-          EXPECT_NEAR(contacts[i].penetration_depth, std::max(0.0, leaf.depth), 1e-14);
+          EXPECT_EQ(contacts[i].penetration_depth, std::max(0.0, leaf.depth));
           EXPECT_LE((contacts[i].normal - frame.X_WA.linear() * leaf.normal).norm(), 1e-15);
           EXPECT_LE((contacts[i].pos - frame.X_WA * leaf.points[i]).norm(), 1e-14);
         }

@@ -148,7 +148,7 @@ inline bool fclContact(const Mesh& a, int i, const Mesh& b, int j, const Relativ
                        FclContact& contact) {
   const auto p = corners(a, i), q = corners(b, j);
   return fcl::detail::Intersect<double>::intersect_Triangle(
-      p[0], p[1], p[2], q[0], q[1], q[2], X_AB.R, X_AB.T, contact.points.data(),
+      p[0], p[1], p[2], X_AB * q[0], X_AB * q[1], X_AB * q[2], contact.points.data(),
       &contact.num_points, &contact.depth, &contact.normal);
 }
 

@@ -13,6 +13,8 @@
 namespace kios::testing {
 namespace {
 
+using fcl::Vector3d;
+
 template <typename S>
 S steps(S x, int count) {
   const S to = count < 0 ? -std::numeric_limits<S>::infinity() : std::numeric_limits<S>::infinity();
@@ -72,6 +74,40 @@ TYPED_TEST(NearEnough, SaysWhyItEnded) {
   }
   EXPECT_GT(ended, 100);
   EXPECT_GT(done, 20);
+}
+
+// far_enough below the rounding of the distance: nothing is proven to be so far, and pairs that are
+// nearer than the one found were left out.
+TYPED_TEST(NearEnough, FarEnoughWithinRounding) {
+  using S = TypeParam;
+  const auto mesh = [](const Vector3d& apex, const Vector3d& first) {
+    const Vector3d point(-0.0248, -0.0175, -0.0411);
+    Mesh result;
+    result.vertices = {first, first, apex, point, point, point};
+    result.triangles = {{0, 1, 2}, {3, 4, 5}};
+    return rounded<S>(result);
+  };
+  const Vector3d apex(0.5317, 0.3753, 0.8784);
+  const Mesh a = mesh(apex, {0, 0, 1}), b = mesh(apex, {0, 0, 0});
+  const S eps = std::numeric_limits<S>::epsilon();
+  for (const bool engine : {true, false}) {
+    const auto model_a = modelOf<S>(a, engine), model_b = modelOf<S>(b, engine);
+    for (int i = 1; i < 200; ++i) {
+      fcl::Transform3<S> X_WA = fcl::Transform3<S>::Identity(), X_WB = X_WA;
+      X_WB.translation()[2] = -eps * S(i) / 7;
+      const auto exact = kios::distance(*model_a, X_WA, *model_b, X_WB);
+      for (const S share : {S(0.01), S(0.2), S(0.9), S(1), S(1.5)}) {
+        DistanceOptions<S> options;
+        options.near_enough = exact.distance;
+        options.far_enough = share * exact.distance;
+        const auto answer = kios::distance(*model_a, X_WA, *model_b, X_WB, options);
+        ASSERT_EQ(faultOf(answer, options, double{exact.distance}), nullptr);
+        if (answer.stop == DistanceStop::kTolerance) {
+          ASSERT_EQ(answer.distance, exact.distance);
+        }
+      }
+    }
+  }
 }
 
 // A scene that was asked for verdicts only must not take them for distances. It searches with a
