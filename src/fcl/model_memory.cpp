@@ -32,11 +32,15 @@ std::unique_ptr<T[]> makeArray(int n) {
 }
 
 template <typename T>
-std::unique_ptr<T[]> copyOf(const T* array, int n) {
+std::unique_ptr<T[]> copyOf(const T* array, int n, int room) {
   if (!array) return nullptr;
-  auto copy = makeArray<T>(n);
+  auto copy = makeArray<T>(room);
   std::copy_n(array, n, copy.get());
   return copy;
+}
+template <typename T>
+std::unique_ptr<T[]> copyOf(const T* array, int n) {
+  return copyOf(array, n, n);
 }
 
 template <typename T>
@@ -57,19 +61,21 @@ int outOfMemory(const char* call) {
   return fcl::BVH_ERR_MODEL_OUT_OF_MEMORY;
 }
 
-/// `to` is an empty model. What it got is its own if the rest finds no memory.
+/// `to` is an empty model. What it got is its own if the rest finds no memory. There is room for a
+/// vertex at least: FCL's calls that add some double the room, and write into none where it is 0.
 template <typename S>
 void copy(const Model<S>& from, const unsigned int* primitives, const fcl::BVNode<kIOS<S>>* nodes,
           int num_nodes, Members<S> to) {
   Model<S>& model = to.model;
   static_cast<fcl::CollisionGeometry<S>&>(model) = from;
   model.num_tris = to.num_tris_allocated = from.num_tris;
-  model.num_vertices = to.num_vertices_allocated = from.num_vertices;
+  model.num_vertices = from.num_vertices;
+  to.num_vertices_allocated = std::max(1, from.num_vertices);
   to.num_nodes = to.num_nodes_allocated = num_nodes;
   model.build_state = from.build_state;
   model.bv_splitter = from.bv_splitter;
   model.bv_fitter = from.bv_fitter;
-  replace(model.vertices, copyOf(from.vertices, from.num_vertices));
+  replace(model.vertices, copyOf(from.vertices, from.num_vertices, to.num_vertices_allocated));
   replace(model.tri_indices, copyOf(from.tri_indices, from.num_tris));
   replace(model.prev_vertices, copyOf(from.prev_vertices, from.num_vertices));
   replace(to.primitives, copyOf(primitives, to.numPrimitives()));

@@ -179,6 +179,27 @@ TEST(Build, TrianglesOneByOneAndSeveralSubModels) {
   expectValidTree(model);
 }
 
+/// A copy of a model that was begun goes on as the model would, also where nothing was added yet.
+TEST(Build, CopiesOfBegunModelsGoOn) {
+  const std::vector<Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<fcl::Triangle> triangles = {{0, 1, 2}};
+  for (const int added : {0, 1, 2}) {
+    for (const int way : {0, 1, 2}) {
+      Modeld begun;
+      ASSERT_EQ(begun.beginModel(added, added), fcl::BVH_OK);
+      for (int i = 0; i < added; ++i) begun.addTriangle(corners[0], corners[1], corners[2]);
+      Modeld copy(begun);
+      for (int i = 0; way == 0 && i < 9; ++i) copy.addTriangle(corners[0], corners[1], corners[2]);
+      for (int i = 0; way == 1 && i < 9; ++i) copy.addVertex(corners[i % 3]);
+      for (int i = 0; way == 2 && i < 9; ++i) copy.addSubModel(corners, triangles);
+      ASSERT_EQ(copy.endModel(), fcl::BVH_OK);
+      EXPECT_EQ(copy.num_vertices, 3 * added + (way == 1 ? 9 : 27));
+      EXPECT_EQ(copy.num_tris, added + (way == 1 ? 0 : 9));
+      for (int i = 0; i < copy.num_vertices; ++i) EXPECT_EQ(copy.vertices[i], corners[i % 3]);
+    }
+  }
+}
+
 // A fitter and a splitter as a user may write them.
 class OwnFitter final : public BVFitterBase<kIOSd> {
  public:
