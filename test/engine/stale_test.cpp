@@ -100,10 +100,8 @@ TEST_F(Stale, BuiltAnew) {
   expectAnswersOf(model, mesh_.vertices);
   for (int i = 0; i < 5; ++i) {
     ::testing::internal::CaptureStderr();
-    model.beginModel();  // FCL clears a full model, with a warning, and wants to be called again,
+    model.beginModel();  // FCL clears a full model, with a warning, and wants to be called again
     ::testing::internal::GetCapturedStderr();
-    delete[] model.vertices;  // but forgets what it allocated
-    delete[] model.tri_indices;
     ASSERT_EQ(model.beginModel(), fcl::BVH_OK);
     ASSERT_EQ(model.addSubModel(swayed(mesh_, i), mesh_.triangles), fcl::BVH_OK);
     ASSERT_EQ(model.endModel(), fcl::BVH_OK);
