@@ -182,6 +182,7 @@ void refitTopDown(const Arrays<S>& model, int num_nodes, FitterBase<S>& fitter) 
 namespace fcl {
 
 // A scalar can't be a parameter of explicit specialisations. A tree has no nodes until it is whole.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
 #define KIOS_SPECIALISE(S)                                                                     \
   template <>                                                                                  \
   int BVHModel<kios::kIOS<S>>::buildTree() {                                                   \
@@ -200,6 +201,7 @@ namespace fcl {
                           num_bvs, *bv_fitter);                                                \
     return BVH_OK;                                                                             \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)
 KIOS_SPECIALISE(float)
 #undef KIOS_SPECIALISE

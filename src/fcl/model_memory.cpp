@@ -165,6 +165,7 @@ namespace fcl {
 
 // Explicit specialisations can't have the scalar as a parameter. The copy owns its arrays one by
 // one as they come, since it is a whole, empty model before.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
 #define KIOS_MEMBERS(S)                                                                           \
   kios::Members<S> {                                                                              \
     *this, num_tris_allocated, num_vertices_allocated, num_bvs_allocated, primitive_indices, bvs, \
@@ -192,6 +193,7 @@ namespace fcl {
     num_vertex_updated = 0;                                                                \
     return BVH_OK;                                                                         \
   }
+// NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)
 KIOS_SPECIALISE(float)
 #undef KIOS_SPECIALISE

@@ -45,7 +45,7 @@ Slack slackOf(const VolumeTree& tree, int node) {
   for (int i = tree.first(node); i < tree.last(node); ++i) {
     const fcl::Triangle& t = model.tri_indices[tree.triangles()[i]];
     for (int corner = 0; corner < 3; ++corner) {
-      content.push_back(model.vertices[t[corner]] - volume.center0);
+      content.emplace_back(model.vertices[t[corner]] - volume.center0);
       box.extend(content.back());
     }
   }
