@@ -130,17 +130,6 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
         bracketInTree(models.model1, models.model2, models.X_12, query, rounding, answer.counts);
   }
   setBounds(models, found, answer);
-  // Within rounding of far_enough neither this is proven nor all that is nearer than the answer was
-  // looked at: the exact answer decides.
-  if (found.end == engine::SearchEnd::kDone && double{answer.distance} > query.far_enough &&
-      double{answer.lower_bound} < query.far_enough) {
-    engine::BracketQuery<S> unlimited = query;
-    unlimited.far_enough = kInfinity;
-    const SearchCounts before = answer.counts;
-    answer = search(models, X_W1, unlimited, options);
-    answer.counts += before;
-    return answer;
-  }
   if (answer.distance == 0) {
     answer.stop = DistanceStop::kTolerance;
   } else if (found.end == engine::SearchEnd::kNear) {
@@ -150,12 +139,29 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
   } else if (found.end == engine::SearchEnd::kBudget) {
     answer.stop = DistanceStop::kBudget;
   }
-  if (found.ids.a < 0) return answer;
-  if (options.nearest_points) {
+  if (found.ids.a >= 0 && options.nearest_points) {
     answer.point1 = transform<S>(X_W1, found.nearest.point_a);
     answer.point2 = transform<S>(X_W1, found.nearest.point_b);
   }
-  if (options.warm_start) *options.warm_start = {answer.triangle1, answer.triangle2};
+  // Within rounding of far_enough neither this is proven nor all that is nearer than the answer was
+  // looked at: a search without it decides, with what is left of the budget.
+  if (found.end == engine::SearchEnd::kDone && double{answer.distance} > query.far_enough &&
+      double{answer.lower_bound} < query.far_enough) {
+    engine::BracketQuery<S> unlimited = query;
+    unlimited.far_enough = kInfinity;
+    if (query.hasBudget()) unlimited.max_expansions -= answer.counts.expansions;
+    DistanceAnswer<S> whole = search(models, X_W1, unlimited, options);
+    whole.counts += answer.counts;
+    if (whole.stop != DistanceStop::kBudget) return whole;
+    const S lower = std::max(whole.lower_bound, answer.lower_bound);
+    answer.counts = whole.counts;
+    if (whole.distance <= answer.distance) answer = whole;
+    answer.lower_bound = std::min(lower, answer.distance);
+    answer.stop = DistanceStop::kBudget;
+  }
+  if (answer.triangle1 >= 0 && options.warm_start) {
+    *options.warm_start = {answer.triangle1, answer.triangle2};
+  }
   return answer;
 }
 

@@ -110,6 +110,32 @@ TYPED_TEST(NearEnough, FarEnoughWithinRounding) {
   }
 }
 
+// The same with a budget, which holds for the whole query: more of it never gives a larger distance
+// or a smaller lower bound.
+TYPED_TEST(NearEnough, FarEnoughWithinRoundingAndABudget) {
+  using S = TypeParam;
+  for (const auto& [a, b] : this->pairs) {
+    for (std::size_t i = 0; i < 20; ++i) {
+      const auto& [X_WA, X_WB] = this->poses[i];
+      const auto exact = kios::distance(*a, X_WA, *b, X_WB);
+      for (const int step : {-2, 0, 2, 20}) {
+        S lower = 0, distance = std::numeric_limits<S>::infinity();
+        for (const long long budget : {0, 1, 5, 20, 60, 100, 200, 400, 800, 100000}) {
+          DistanceOptions<S> options;
+          options.far_enough = steps(exact.distance, step);
+          options.max_expansions = budget;
+          const auto answer = kios::distance(*a, X_WA, *b, X_WB, options);
+          ASSERT_EQ(faultOf(answer, options, double{exact.distance}), nullptr) << budget;
+          ASSERT_GE(answer.lower_bound, lower) << budget;
+          ASSERT_LE(answer.distance, distance) << budget;
+          lower = answer.lower_bound;
+          distance = answer.distance;
+        }
+      }
+    }
+  }
+}
+
 // A scene that was asked for verdicts only must not take them for distances. It searches with a
 // near_enough that is its margin less a rounding bound: margins are swept across the one that gives
 // the distance of a pair which ends the search.
