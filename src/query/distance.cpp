@@ -152,12 +152,16 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
     if (query.hasBudget()) unlimited.max_expansions -= answer.counts.expansions;
     DistanceAnswer<S> whole = search(models, X_W1, unlimited, options);
     whole.counts += answer.counts;
-    if (whole.stop != DistanceStop::kBudget) return whole;
-    const S lower = std::max(whole.lower_bound, answer.lower_bound);
-    answer.counts = whole.counts;
-    if (whole.distance <= answer.distance) answer = whole;
-    answer.lower_bound = std::min(lower, answer.distance);
-    answer.stop = DistanceStop::kBudget;
+    whole.lower_bound = std::max(whole.lower_bound, answer.lower_bound);
+    const bool exact = query.isExact() && whole.stop != DistanceStop::kBudget;
+    if (!exact && answer.distance < whole.distance) {
+      answer.counts = whole.counts;
+      answer.lower_bound = whole.lower_bound;
+      answer.stop = whole.stop;
+    } else {
+      answer = whole;
+    }
+    answer.lower_bound = std::min(answer.lower_bound, answer.distance);
   }
   if (answer.triangle1 >= 0 && options.warm_start) {
     *options.warm_start = {answer.triangle1, answer.triangle2};
