@@ -144,24 +144,18 @@ DistanceAnswer<S> search(const ModelPair<S>& models, const fcl::Transform3<S>& X
     answer.point2 = transform<S>(X_W1, found.nearest.point_b);
   }
   // Within rounding of far_enough neither this is proven nor all that is nearer than the answer was
-  // looked at: a search without it decides, with what is left of the budget.
+  // looked at: a search without it decides. With a budget the bracket stands as it is.
   if (found.end == engine::SearchEnd::kDone && double{answer.distance} > query.far_enough &&
       double{answer.lower_bound} < query.far_enough) {
-    engine::BracketQuery<S> unlimited = query;
-    unlimited.far_enough = kInfinity;
-    if (query.hasBudget()) unlimited.max_expansions -= answer.counts.expansions;
-    DistanceAnswer<S> whole = search(models, X_W1, unlimited, options);
-    whole.counts += answer.counts;
-    whole.lower_bound = std::max(whole.lower_bound, answer.lower_bound);
-    const bool exact = query.isExact() && whole.stop != DistanceStop::kBudget;
-    if (!exact && answer.distance < whole.distance) {
-      answer.counts = whole.counts;
-      answer.lower_bound = whole.lower_bound;
-      answer.stop = whole.stop;
+    if (query.hasBudget()) {
+      answer.stop = DistanceStop::kBudget;
     } else {
-      answer = whole;
+      engine::BracketQuery<S> unlimited = query;
+      unlimited.far_enough = kInfinity;
+      const SearchCounts before = answer.counts;
+      answer = search(models, X_W1, unlimited, options);
+      answer.counts += before;
     }
-    answer.lower_bound = std::min(answer.lower_bound, answer.distance);
   }
   if (answer.triangle1 >= 0 && options.warm_start) {
     *options.warm_start = {answer.triangle1, answer.triangle2};
