@@ -32,7 +32,8 @@ struct DistanceOptions {
   S far_enough = std::numeric_limits<S>::infinity();
   /// Two triangles at most so far apart are found. Not NaN.
   S near_enough = 0;
-  /// So many pairs of nodes were expanded. A larger budget never gives a wider bracket. >= 0.
+  /// So many pairs of nodes were expanded. A larger budget never gives a larger distance or a
+  /// smaller lower bound; upper_bound may differ by its own rounding term. >= 0.
   long long max_expansions = std::numeric_limits<long long>::max();
   /// Whether to set the nearest points.
   bool nearest_points = true;
@@ -46,7 +47,8 @@ enum class DistanceStop {
   kTolerance,  ///< the distance is as exact as was asked for
   kFar,        ///< lower_bound >= far_enough
   kNear,       ///< distance <= near_enough
-  kBudget      ///< the budget was spent before any of these
+  kBudget      ///< the budget was spent before any of these, or, with a budget, the distance is
+               ///< within rounding of far_enough and nothing more was looked at
 };
 
 /// What was proven. In every case lower_bound <= exact distance <= upper_bound, for the models'
