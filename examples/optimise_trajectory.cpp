@@ -19,8 +19,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fcl/geometry/bvh/BVH_model.h"
-#include "fcl/math/bv/RSS.h"
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/RSS.h>
 #include "shapes.h"
 
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <vector>
 
-#include "fcl/common/types.h"
-#include "fcl/math/triangle.h"
+#include <fcl/common/types.h>
+#include <fcl/math/triangle.h>
 
 namespace shapes {
 

@@ -15,14 +15,14 @@
 #include <fcl/math/bv/RSS.h>
 #include <fcl/math/bv/utility.h>
 
-#include "exact/exact_pair.h"
-#include "exact/nearest_pair.h"
-#include "fcl_kios/fit/fit.h"
+#include "fcl_kios/volume/fit.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
+#include "volume/exact/exact_pair.h"
+#include "volume/exact/nearest_pair.h"
 
 namespace kios::bench {
 namespace {
@@ -52,7 +52,7 @@ scenes::Mesh patch(const scenes::Mesh& mesh, scenes::Random& random, int count) 
 
 struct Pair {
   kIOSd a, b;
-  exact::BallBody body_a, body_b;
+  exact::SphereIntersection body_a, body_b;
   fcl::RSSd rss_a, rss_b;
   RelativePose<double> X_AB;
   double truth;
@@ -78,9 +78,9 @@ std::vector<Pair> draw(int triangles, int count) {
     const double truth = scenes::MeshOracle(a, b).distance(fcl::Transform3d::Identity(), X);
     if (!(truth > 0.01 * size)) continue;
     const kIOSd va = fitted<kIOSd>(a), vb = fitted<kIOSd>(b);
-    pairs.push_back({va, vb, exact::BallBody(va), exact::BallBody(vb), fitted<fcl::RSSd>(a),
-                     fitted<fcl::RSSd>(b), RelativePose<double>(X.linear(), X.translation()), truth,
-                     size});
+    pairs.push_back({va, vb, exact::SphereIntersection(va), exact::SphereIntersection(vb),
+                     fitted<fcl::RSSd>(a), fitted<fcl::RSSd>(b),
+                     RelativePose<double>(X.linear(), X.translation()), truth, size});
   }
   return pairs;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/model/prepare.h"
 #include "ray_caster.h"
 #include "scenes/foreign_fitter.h"
 

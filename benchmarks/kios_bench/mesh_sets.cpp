@@ -12,8 +12,9 @@
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 
-#include "fcl_kios/fcl/mesh_nodes.h"
-#include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/query/mesh_nodes.h"
+#include "fcl_kios/query/mesh_queries.h"
 #include "fcl_models.h"
 #include "mesh_set.h"
 

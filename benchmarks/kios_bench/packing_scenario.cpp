@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/rows.h"
-#include "fcl_kios/bv/separation.h"
-#include "fcl_kios/fcl/model.h"
+#include "engine/node_layout.h"
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/volume/separation.h"
 #include "paper/packing_tests.h"
 #include "scenario.h"
 #include "scenes/motions.h"

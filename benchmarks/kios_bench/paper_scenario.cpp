@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "contest.h"
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 #include "scenario.h"
 #include "scenes/robots.h"
 #include "scenes/shapes.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/model/prepare.h"
 #include "ray_caster.h"
 #include "scenario.h"
 #include "scenes/cad_shapes.h"

@@ -8,7 +8,7 @@
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/math/bv/OBBRSS.h>
-#include <fcl_kios/fcl/mesh_queries.h>
+#include <fcl_kios/model/prepare.h>
 #include <fcl_kios/scene/scene_distance.h>
 
 #include "fcl_models.h"

@@ -16,12 +16,12 @@
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 
-#include "fcl/shape_solid.h"
 #include "mesh_set.h"
+#include "query/shape_solid.h"
 #include "scenario.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "shape/triangle_shape.h"
+#include "solid/triangle_shape.h"
 
 namespace kios::bench {
 namespace {

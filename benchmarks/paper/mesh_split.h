@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "fcl/common/types.h"
-#include "fcl/math/triangle.h"
+#include <fcl/common/types.h>
+#include <fcl/math/triangle.h>
 #include "fcl_kios/triangle/triangle.h"
 
 namespace kios::paper {

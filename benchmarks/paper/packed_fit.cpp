@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "bv/balls.h"
-#include "bv/rounding.h"
-#include "fit/sphere_fitter.h"
 #include "paper/visit_caps.h"
+#include "volume/balls.h"
+#include "volume/fit/sphere_fitter.h"
+#include "volume/rounding.h"
 
 namespace kios::paper {
 namespace {

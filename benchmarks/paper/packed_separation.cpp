@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "bv/balls.h"
-#include "bv/lanes.h"
-#include "bv/rounding.h"
 #include "paper/visit_caps.h"
+#include "volume/balls.h"
+#include "volume/lanes.h"
+#include "volume/rounding.h"
 
 namespace kios::paper {
 namespace {
@@ -89,7 +89,7 @@ double PackedPolicy::separation(PackedStore::Packed pa, PackedStore::Packed pb, 
   }
 
   // All other pairs in float lanes, centres relative to a's S0. Each lane has at most 16 u of
-  // error, u = 2^-24, of |D| and the reaches, as src/bv/separation.cpp counts; 2^-19 is 32 u.
+  // error, u = 2^-24, of |D| and the reaches, as src/volume/separation.cpp counts; 2^-19 is 32 u.
   LaneCaps a, b;
   const auto decode = [this](PackedStore::Packed v, const Shared& model, double unit, LaneCaps& s) {
     const auto u = static_cast<float>(unit);

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "bv/lanes.h"
 #include "engine/simd/targets.h"
 #include "paper/packing_tests.h"
+#include "volume/lanes.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "paper/packing_tests.cpp"

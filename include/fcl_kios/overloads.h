@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "fcl_kios/fcl/fcl_own.h"
+#include "fcl_kios/fcl_own.h"
 
 // fcl::collide, fcl::distance and fcl::continuousCollide for objects that may hold a kios::kIOS
 // model. FCL dispatches through tables inside libfcl that a foreign volume can't join; these

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bv/rounding.h"
 #include "engine/prepare.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
@@ -31,7 +31,7 @@ bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, Fr
   const double reach_a = a.reach, reach_b = b.reach, scale = reach_a + reach_b + t.lpNorm<1>();
   if (!(std::min(reach_a, reach_b) >= kLeastReach && scale <= kLargestReach)) return false;
   // The common frame: 6 roundings of terms that sum to at most m, of points and of t (see
-  // bv/separation.cpp), 3 coordinates, two objects: 32 ulp cover them.
+  // volume/separation.cpp), 3 coordinates, two objects: 32 ulp cover them.
   constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
   const double m = 1.8 * (origin_b.lpNorm<1>() + 2 * reach_b) + X_AB.T_norm1 +
                    origin_a.lpNorm<1>() + 2 * reach_a;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/tree.h"
-#include "fcl_kios/bv/separation.h"
+#include "fcl_kios/volume/separation.h"
 
 namespace kios::engine {
 
@@ -25,7 +25,7 @@ struct FloatPose {
 /// - planes: unit normals in float and their offsets, 2 u S; the products and sums of a height 5 u
 ///   S; points 9 u S. Separating directions likewise, with 4 u S more for the normal.
 /// 2^-19 S = 32 u S covers each of them, and the rounding of thresholds (a few u S).
-/// - the common frame's own rounding in double or float, as in bv/separation.cpp;
+/// - the common frame's own rounding in double or float, as in volume/separation.cpp;
 /// - a rotation that is one only to `stretch`: radii and bounds scale by at most 1 + stretch on the
 ///   way to the other frame and back: 2 stretch S.
 struct FramePair {

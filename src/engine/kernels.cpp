@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/lane_order.h"
+#include "engine/compress_table.h"
 #include "engine/ray_search.h"
 #include "engine/search.h"
 #include "engine/simd/targets.h"

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "fcl/common/types.h"
-#include "fcl/math/triangle.h"
+#include <fcl/common/types.h>
+#include <fcl/math/triangle.h>
 
 namespace kios::engine {
 

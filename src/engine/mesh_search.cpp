@@ -6,9 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "bv/rounding.h"
-#include "engine/features.h"
+#include "engine/feature_distance.h"
 #include "fcl_kios/triangle/intersection.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
@@ -144,7 +144,7 @@ class NearestJudge final : public Judge {
 
  private:
   /// The fourth power of a shorter extent, times what parts of it matter, would not be a normal
-  /// number: see features.cpp.
+  /// number: see feature_distance.cpp.
   static constexpr double kLeastExtent = 0x1p-220;
 
   /// Extents of edges are at most four times the scale.

@@ -9,8 +9,8 @@
 
 #include "engine/mesh.h"
 #include "engine/search.h"
-#include "fcl_kios/bv/separation.h"
 #include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/volume/separation.h"
 
 namespace kios::engine {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "engine/tree.h"
-#include "fit/principal_frame.h"
+#include "volume/fit/principal_frame.h"
 
 namespace kios::engine {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bv/lanes.h"
+#include "volume/lanes.h"
 
 namespace kios::engine {
 

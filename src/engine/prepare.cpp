@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "engine/collapse.h"
-#include "engine/leaf_data.h"
+#include "engine/leaf_layout.h"
+#include "engine/node_layout.h"
 #include "engine/ownership.h"
 #include "engine/partition.h"
-#include "engine/rows.h"
 #include "engine/weld.h"
-#include "fit/sphere_fitter.h"
+#include "engine/wide_tree.h"
+#include "volume/fit/sphere_fitter.h"
 
 namespace kios::engine {
 namespace {

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/quick_fit.h"
 
-#include "engine/rows.h"
+#include "engine/node_layout.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "bv/lanes.h"
-#include "bv/rounding.h"
-#include "fcl_kios/bv/rigid.h"
-#include "fit/principal_frame.h"
+#include "fcl_kios/volume/rigid.h"
+#include "volume/fit/principal_frame.h"
+#include "volume/lanes.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "bv/rounding.h"
 #include "engine/prepare.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 

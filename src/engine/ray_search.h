@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "bv/ray_interval.h"
 #include "engine/tree.h"
 #include "fcl_kios/engine/counts.h"
+#include "volume/ray_interval.h"
 
 // What the SIMD search for a ray's hits shares with the exact stage.
 
@@ -18,14 +18,15 @@ namespace kios::engine {
 /// comes within R of the origin, so that |s| <= 2 R at every point x of the model on it. In float:
 /// - the point and the direction are rounded, x by u R: x is within e + 4 u R of the line's point
 /// s;
-/// - spheres: as in bv/ray_interval.cpp, with sums for centres and radii: 26 u R for the radius,
+/// - spheres: as in volume/ray_interval.cpp, with sums for centres and radii: 26 u R for the
+/// radius,
 ///   20 u R for the ends, all in all below 40 u R;
 /// - boxes: heights of x over a slab's middle 22 u R + e, the ends 12 u R;
 /// - faces: x lies within 4 u R of the plane n and above the edge planes m as they are stored
-///   (heights of vertices; see leaf_data.cpp). With H = height of the near point over n, D = n . f,
-///   M and E likewise for m: |H + s D| <= 10 u R + e, and M D - H E has D's sign to 16 u R + 2 e,
-///   as computed to 42 u R more. D may have the wrong sign below 8 u; but then |H| <= 26 u R + e,
-///   and both are below 58 u R + 2 e in magnitude. Faces too thin for planes have H = D = E = 0.
+///   (heights of vertices; see leaf_layout.cpp). With H = height of the near point over n, D = n .
+///   f, M and E likewise for m: |H + s D| <= 10 u R + e, and M D - H E has D's sign to 16 u R + 2
+///   e, as computed to 42 u R more. D may have the wrong sign below 8 u; but then |H| <= 26 u R +
+///   e, and both are below 58 u R + 2 e in magnitude. Faces too thin for planes have H = D = E = 0.
 /// 2^-18 R = 64 u R, and twice the pad for faces, cover each.
 struct FloatRay {
   float origin[3], direction[3];  ///< the near point; a unit vector

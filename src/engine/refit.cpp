@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/leaf_data.h"
+#include "engine/leaf_layout.h"
+#include "engine/node_layout.h"
 #include "engine/quick_fit.h"
-#include "engine/rows.h"
 
 namespace kios::engine {
 namespace {

@@ -4,46 +4,16 @@
 
 #include <sstream>
 #include <stdexcept>
-#include <string>
-#include <typeinfo>
 
-#include "fcl/narrowphase/collision.h"
-#include "fcl/narrowphase/distance.h"
-#include "fcl/shape_solid.h"
-#include "fcl_kios/fcl/fcl_own.h"
-#include "fcl_kios/fcl/mesh_queries.h"
-#include "fcl_kios/fcl/octree_queries.h"
-#include "fcl_kios/fcl/shape_queries.h"
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+#include "fcl_kios/fcl_own.h"
 #include "fcl_kios/overloads.h"
+#include "fcl_kios/query/mesh_queries.h"
+#include "model/kios_model.h"
+#include "query/mesh_and_other.h"
 
 namespace kios {
-
-/// The model behind a geometry, nullptr if it is no kIOS model. By type, never by node type: all
-/// foreign volumes share BV_UNKNOWN.
-template <typename S>
-const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
-  if (!geometry) throw std::invalid_argument("fcl_kios: a collision geometry is null.");
-  if (geometry->getNodeType() != fcl::BV_UNKNOWN || geometry->getObjectType() != fcl::OT_BVH) {
-    return nullptr;
-  }
-  if (typeid(*geometry) == typeid(Model<S>)) return static_cast<const Model<S>*>(geometry);
-  return dynamic_cast<const Model<S>*>(geometry);
-}
-
-/// The C++ name of the geometry's type, for messages.
-template <typename S>
-std::string typeName(const fcl::CollisionGeometry<S>& geometry);
-
-template <typename S>
-[[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
-                             const fcl::CollisionGeometry<S>& o2) {
-  const bool models = o1.getObjectType() == fcl::OT_BVH && o2.getObjectType() == fcl::OT_BVH;
-  throw std::invalid_argument(std::string("fcl_kios: ") + query + " of " + typeName(o1) + " and " +
-                              typeName(o2) + " is not supported" +
-                              (models
-                                   ? "; convert the other model by kios::toKIOS(model)."
-                                   : "; replace the other by a mesh, built by kios::makeModel()."));
-}
 
 /// Throws std::invalid_argument if rel_err is 1 or more. FCL ignores it, so that callers who
 /// confuse the request's arguments never noticed; an error that is meant is smaller.
@@ -57,36 +27,6 @@ void requireRelativeError(const fcl::DistanceRequest<S>& request) {
              "its members by name, rel_err = 0 for exact distances (kios::distance() takes larger "
              "errors).";
   throw std::invalid_argument(message.str());
-}
-
-/// A mesh over k-IOS against anything but another. Results have FCL's order, whatever that of the
-/// call: mesh and shape, octree and mesh.
-template <typename S>
-std::size_t collideOther(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
-                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  if (isShape(other)) return collideShape(model, X_WM, other, X_WO, request, result);
-#if FCL_HAVE_OCTOMAP
-  if (other.getObjectType() == fcl::OT_OCTREE) {
-    return collideOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, model, X_WM, request,
-                         result);
-  }
-#endif
-  refusePair<S>("collide", model, other);
-}
-
-template <typename S>
-S distanceOther(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
-                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
-  if (isShape(other)) return distanceShape(model, X_WM, other, X_WO, request, result);
-#if FCL_HAVE_OCTOMAP
-  if (other.getObjectType() == fcl::OT_OCTREE) {
-    return distanceOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, model, X_WM, request,
-                          result);
-  }
-#endif
-  refusePair<S>("distance", model, other);
 }
 
 template <typename S>

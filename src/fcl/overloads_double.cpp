@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fcl/narrowphase/continuous_collision.h>
 #include "fcl/dispatch.h"
-#include "fcl/narrowphase/continuous_collision.h"
-#include "fcl_kios/continuous.h"
+#include "fcl_kios/motion/continuous.h"
 #include "fcl_kios/overloads.h"
 
 namespace fcl {

@@ -7,6 +7,10 @@
 #include "fcl_kios/overloads.h"
 
 namespace fcl {
+
+template std::size_t collide(const CollisionGeometry<float>*, const Transform3<float>&,
+                             const CollisionGeometry<float>*, const Transform3<float>&,
+                             const CollisionRequest<float>&, CollisionResult<float>&);
 inline namespace kios_overloads {
 
 std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "exact/exact_pair.h"
+#include "volume/exact/exact_pair.h"
 
 namespace kios {
 namespace {
@@ -50,7 +50,7 @@ std::vector<kIOS<S>> levelOf(const Model<S>& model, int level) {
 template <typename S>
 struct Cover<S>::Parts {
   std::vector<kIOS<S>> volumes;
-  std::vector<exact::BallBody> bodies;
+  std::vector<exact::SphereIntersection> bodies;
 };
 
 template <typename S>

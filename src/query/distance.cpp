@@ -7,10 +7,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bv/rounding.h"
-#include "fcl/engine_pair.h"
-#include "fcl/mesh_pair.h"
+#include "query/engine_pair.h"
+#include "query/mesh_pair.h"
 #include "query/tree_search.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {

@@ -8,14 +8,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bv/balls.h"
-#include "bv/ray_interval.h"
-#include "bv/rounding.h"
 #include "engine/ray_search.h"
 #include "engine/search.h"
-#include "fcl/prepared.h"
-#include "fcl_kios/bv/separation.h"
+#include "fcl_kios/volume/separation.h"
+#include "model/prepared.h"
 #include "triangle/ray_triangle.h"
+#include "volume/balls.h"
+#include "volume/ray_interval.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "fcl/mesh_pair.h"
+#include "query/mesh_pair.h"
 
 namespace kios {
 namespace {

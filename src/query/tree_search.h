@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/mesh_search.h"
-#include "fcl_kios/bv/separation.h"
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/volume/separation.h"
 
 namespace kios {
 

@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bv/rotation.h"
-#include "bv/rounding.h"
-#include "bv/stamp.h"
+#include "volume/rotation.h"
+#include "volume/rounding.h"
+#include "volume/stamp.h"
 
 namespace kios::scene {
 namespace {

@@ -7,10 +7,10 @@
 #include <limits>
 #include <memory>
 
+#include <fcl/geometry/collision_geometry.h>
+#include <fcl/narrowphase/collision_object.h>
 #include "engine/tree_cache.h"
-#include "fcl/geometry/collision_geometry.h"
-#include "fcl/narrowphase/collision_object.h"
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 #include "fcl_kios/scene/scene_types.h"
 #include "scene/box.h"
 #include "scene/motion_bound.h"

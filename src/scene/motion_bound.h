@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl/common/types.h"
+#include <fcl/common/types.h>
 
 namespace kios::scene {
 

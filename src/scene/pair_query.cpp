@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl/mesh_pair.h"
-#include "fcl_kios/bv/separation.h"
-#include "fcl_kios/fcl/mesh_queries.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/distance.h"
+#include "fcl_kios/query/mesh_queries.h"
 #include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/volume/separation.h"
+#include "query/mesh_pair.h"
 
 namespace kios::scene {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "coverage/tally.h"
-#include "fcl/deform.h"
+#include "model/deform.h"
 #include "scenes/random.h"
 
 namespace kios::coverage {

@@ -3,7 +3,7 @@
 //
 // A prepared tree whose mesh moved: refitted, or refused where that can't be.
 
-#include "engine/rows.h"
+#include "engine/node_layout.h"
 #include "engine/tree_check.h"
 
 namespace kios::testing {

@@ -12,8 +12,8 @@
 #include <stdexcept>
 
 #include "engine/shapes.h"
-#include "fcl_kios/bv/rigid.h"
 #include "fcl_kios/fcl_kios.h"
+#include "fcl_kios/volume/rigid.h"
 
 namespace kios::testing {
 namespace {

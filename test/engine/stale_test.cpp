@@ -8,8 +8,8 @@
 
 #include <list>
 
-#include "fcl/deform.h"
 #include "fcl/mesh_cases.h"
+#include "model/deform.h"
 #include "scenes/foreign_fitter.h"
 
 namespace kios::testing {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 
 // Whether the tree of an fcl::BVHModel over k-IOS is what queries rely on.
 

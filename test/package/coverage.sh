@@ -30,7 +30,7 @@ while IFS= read -r reference; do
       grep -qE "(TEST|TEST_F|TEST_P|TYPED_TEST)\( ?${name%%.*}, ?${name##*.} ?\)" ||
       fail "no test $name in $file"
   done
-done < <(grep -oE '`[a-z_]+/[a-z_]+_test\.cpp: [^`]+`' "$doc" | tr -d '`')
+done < <(grep -oE '`[a-z_/]+_test\.cpp: [^`]+`' "$doc" | tr -d '`')
 
 while IFS= read -r row; do
   grep -qE '_test\.cpp: |not reachable' <<<"$row" || fail "a row without a test: $row"

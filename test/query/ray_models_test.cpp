@@ -8,7 +8,7 @@
 #include <atomic>
 #include <thread>
 
-#include "fcl/deform.h"
+#include "model/deform.h"
 #include "query/ray_cases.h"
 
 namespace kios::testing {

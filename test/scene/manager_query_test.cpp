@@ -8,7 +8,7 @@
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
 
-#include "fcl/deform.h"
+#include "model/deform.h"
 #include "scenes/random.h"
 
 namespace kios::testing {

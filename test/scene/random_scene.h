@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "fcl/deform.h"
 #include "fcl_kios/scene/scene_distance.h"
+#include "model/deform.h"
 #include "scenes/cad_shapes.h"
 #include "scenes/random.h"
 

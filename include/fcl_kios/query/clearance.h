@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_kios/bv/exact_distance.h"
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/volume/exact_distance.h"
 
 namespace kios {
 

@@ -5,9 +5,9 @@
 #include <limits>
 #include <type_traits>
 
-#include "fcl/common/types.h"
+#include <fcl/common/types.h>
 #include "fcl_kios/engine/counts.h"
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 
 // Distance of two meshes with what FCL's request can't say: a proven bracket instead of a number,
 // bounds at which to stop, a budget, a start from the last frame's answer.

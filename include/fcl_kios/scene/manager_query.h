@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "fcl/narrowphase/collision_object.h"
+#include <fcl/narrowphase/collision_object.h>
 #include "fcl_kios/scene/scene_types.h"
 
 namespace kios {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "fcl/geometry/collision_geometry.h"
-#include "fcl/narrowphase/collision_object.h"
+#include <fcl/geometry/collision_geometry.h>
+#include <fcl/narrowphase/collision_object.h>
 #include "fcl_kios/scene/scene_types.h"
 
 namespace kios {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "fcl/common/types.h"
+#include <fcl/common/types.h>
 #include "fcl_kios/engine/counts.h"
 
 namespace kios {

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/model/prepare.h"
 #include "mesh_file.h"
 
 namespace kios::inspect {

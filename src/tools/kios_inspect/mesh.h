@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fcl/common/types.h"
-#include "fcl/math/triangle.h"
+#include <fcl/common/types.h>
+#include <fcl/math/triangle.h>
 
 namespace kios::inspect {
 

@@ -5,7 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "fcl_kios/fcl/mesh_queries.h"
+#include "fcl_kios/model/prepare.h"
 
 namespace kios::inspect {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 
 namespace kios::inspect {
 

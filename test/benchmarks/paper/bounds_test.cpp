@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "benchmarks/paper/policies.h"
-#include "bv/exact_pairs.h"
+#include "volume/exact_pairs.h"
 
 namespace kios::test {
 namespace {

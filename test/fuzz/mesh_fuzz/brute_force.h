@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/bv/separation.h"
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/volume/separation.h"
 #include "fuzz/mesh_fuzz/fuzz_case.h"
 
 // The judge of the searches: the triangle kernels over all pairs of triangles, in the common frame.

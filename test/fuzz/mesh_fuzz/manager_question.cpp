@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
-#include "fcl/broadphase/broadphase_dynamic_AABB_tree.h"
-#include "fcl/narrowphase/distance_request.h"
-#include "fcl/narrowphase/distance_result.h"
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/scene/manager_query.h"
 #include "fuzz/mesh_fuzz/pair.h"

@@ -4,10 +4,10 @@
 // Models that were asked, then replaced or updated (rebuilt, refitted top-down or bottom-up), and
 // their copies: every answer is that of the vertices as they now are.
 
-#include "fcl/narrowphase/collision_request.h"
-#include "fcl/narrowphase/collision_result.h"
-#include "fcl/narrowphase/distance_request.h"
-#include "fcl/narrowphase/distance_result.h"
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"

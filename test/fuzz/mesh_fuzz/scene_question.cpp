@@ -6,8 +6,8 @@
 
 #include <map>
 
-#include "fcl/narrowphase/distance_request.h"
-#include "fcl/narrowphase/distance_result.h"
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/scene/scene_distance.h"
 #include "fuzz/mesh_fuzz/pair.h"

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/fcl/model.h"
+#include "fcl_kios/model/model.h"
 #include "fcl_kios/query/distance.h"
 #include "sample_files.h"
 #include "scenes/shapes.h"

@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "fcl_kios/bv/exact_distance.h"
-#include "fcl_kios/fit/fit.h"
+#include "fcl_kios/volume/exact_distance.h"
+#include "fcl_kios/volume/fit.h"
 
 namespace kios::inspect {
 namespace {

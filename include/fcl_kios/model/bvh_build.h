@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include <fcl/geometry/bvh/BVH_internal.h>
+#include <fcl/geometry/bvh/detail/BV_fitter.h>
+#include <fcl/geometry/bvh/detail/BV_splitter.h>
+#include <fcl/math/triangle.h>
+#include "fcl_kios/volume/fit.h"
+
+// How fcl::BVHModel<kios::kIOS<S>> builds and refits. FCL's copy constructor shares fitter and
+// splitter between models, so neither holds what a build knows: that lives as long as the build
+// (model.h), and models may be built in many threads at once. Only where they are called by FCL's
+// interface, as where one of the two is the user's, each holds one state a thread until clear().
+
+namespace kios {
+namespace engine {
+class TreeCache;
+}
+template <typename S>
+class BuildsByThread;
+}  // namespace kios
+
+namespace fcl {
+namespace detail {
+
+/// Fits a node's kIOS to the distinct vertices of its triangles (or to its points). fit() throws
+/// std::invalid_argument at a NaN or infinite vertex; the model then stays unfinished.
+/// `model.bv_fitter.reset(new BVFitter<kios::kIOSd>(kios::FitMethod::kMethodII))` before
+/// endModel() chooses the published fit;
+/// kios::FitOptions chooses more. What queries prepare fits for itself, whatever is chosen here.
+template <typename S_>
+class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
+ public:
+  using S = S_;
+  /// Throws std::invalid_argument for an angle out of range.
+  explicit BVFitter(const kios::FitOptions& options = {});
+  virtual ~BVFitter();
+
+  void set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) override;
+  void set(Vector3<S>* vertices, Vector3<S>* prev_vertices, Triangle* tri_indices,
+           BVHModelType type) override;
+  kios::kIOS<S> fit(unsigned int* primitive_indices, int num_primitives) override;
+  void clear() override;
+
+  /// What queries prepared of the models that share this fitter: a model and its copies.
+  kios::engine::TreeCache& trees() const { return *trees_; }
+
+  const kios::FitOptions& options() const { return options_; }
+
+ private:
+  const kios::FitOptions options_;
+  const std::unique_ptr<kios::engine::TreeCache> trees_;
+  const std::unique_ptr<kios::BuildsByThread<S>> builds_;
+};
+
+/// Splits a node across the longest principal axis of its vertices: at the mean or the median of
+/// the triangles' centroids, or at the centre of the box along the axes.
+template <typename S_>
+class BVSplitter<kios::kIOS<S_>> : public BVSplitterBase<kios::kIOS<S_>> {
+ public:
+  using S = S_;
+  explicit BVSplitter(SplitMethodType method);
+  virtual ~BVSplitter();
+
+  void set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) override;
+  void computeRule(const kios::kIOS<S>& bv, unsigned int* primitive_indices,
+                   int num_primitives) override;
+  bool apply(const Vector3<S>& q) const override;
+  void clear() override;
+
+  SplitMethodType method() const { return method_; }
+
+ private:
+  const SplitMethodType method_;
+  const std::unique_ptr<kios::BuildsByThread<S>> builds_;
+};
+
+extern template class BVFitter<kios::kIOS<double>>;
+extern template class BVFitter<kios::kIOS<float>>;
+extern template class BVSplitter<kios::kIOS<double>>;
+extern template class BVSplitter<kios::kIOS<float>>;
+
+}  // namespace detail
+}  // namespace fcl

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fcl/math/motion/tbv_motion_bound_visitor.h>
+#include "fcl_kios/volume/kios.h"
+
+// How far a moving k-IOS gets, for FCL's generic conservative advancement; its own answer for a
+// foreign volume is 0, which bounds nothing. Double only: FCL 0.7's motions don't compile for
+// float.
+
+namespace kios {
+
+/// Upper bound, from the motion's current time until 1, of the speed along the world direction n
+/// of any point of the content of bv (in the body's frame). May be negative: all of it recedes.
+double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
+                  const fcl::MotionBase<double>& motion);
+
+}  // namespace kios
+
+namespace fcl {
+
+template <typename Motion>
+struct TBVMotionBoundVisitorVisitImpl<double, kios::kIOS<double>, Motion> {
+  static double run(const TBVMotionBoundVisitor<kios::kIOS<double>>& visitor,
+                    const Motion& motion) {
+    return kios::speedAlong(visitor.bv, visitor.n, motion);
+  }
+};
+
+}  // namespace fcl

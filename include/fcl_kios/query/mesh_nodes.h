@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/volume/separation.h"
+
+// Oriented traversal nodes for two meshes over k-IOS, for FCL's own recursion (front lists and
+// self-collision included). Models are neither copied nor moved; all tests are in model 1's frame.
+
+namespace kios {
+
+/// Contacts and cost sources of two meshes; contacts are in the world frame, normals from 1 to 2.
+template <typename S>
+class MeshCollisionTraversalNode : public fcl::detail::MeshCollisionTraversalNode<kIOS<S>> {
+ public:
+  bool BVTesting(int b1, int b2) const override;
+  void leafTesting(int b1, int b2) const override;
+
+  std::optional<RelativePose<S>> X_12;  ///< set by initialize()
+};
+
+/// Distance of two meshes. `rel_err` and `abs_err` (initialize() takes them from the request) are
+/// honoured, either sufficing: d - d_exact <= max(rel_err * d_exact, abs_err). A finite
+/// result->min_distance on entry is an upper bound that the query need not beat. The result is
+/// updated once, in postprocess(), if a nearer pair was found.
+template <typename S>
+class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<kIOS<S>> {
+ public:
+  void preprocess() override;
+  void postprocess() override;
+  /// Signed lower bound: negative values order overlapping volumes, deepest first.
+  S BVTesting(int b1, int b2) const override;
+  void leafTesting(int b1, int b2) const override;
+  bool canStop(S bound) const override;
+
+  std::optional<RelativePose<S>> X_12;  ///< set by initialize()
+
+ private:
+  void lowerTo(S distance) const;
+
+  mutable S best_;                           ///< distance to beat
+  mutable S prune_at_;                       ///< a node pair at least this far can't matter
+  mutable int tri1_ = -1, tri2_ = -1;        ///< -1 while nothing nearer was found
+  mutable fcl::Vector3<S> point1_, point2_;  ///< nearest points in model 1's frame
+};
+
+/// FCL's signature, found by argument-dependent lookup. Throws std::invalid_argument if a model is
+/// not a finished mesh, a pose is not rigid, or an error bound is negative or NaN. Returns true.
+template <typename S>
+bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& model1,
+                const fcl::Transform3<S>& tf1, const Model<S>& model2,
+                const fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
+                fcl::CollisionResult<S>& result);
+template <typename S>
+bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& model1,
+                const fcl::Transform3<S>& tf1, const Model<S>& model2,
+                const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+                fcl::DistanceResult<S>& result);
+
+// Arguments that aren't const would make FCL's generic initialize(), which moves the models' own
+// vertices, an equal match.
+template <typename S>
+bool initialize(MeshCollisionTraversalNode<S>& node, Model<S>& model1, fcl::Transform3<S>& tf1,
+                Model<S>& model2, fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
+                fcl::CollisionResult<S>& result) {
+  const Model<S>&m1 = model1, &m2 = model2;
+  const fcl::Transform3<S>&x1 = tf1, &x2 = tf2;
+  return initialize(node, m1, x1, m2, x2, request, result);
+}
+template <typename S>
+bool initialize(MeshDistanceTraversalNode<S>& node, Model<S>& model1, fcl::Transform3<S>& tf1,
+                Model<S>& model2, fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+                fcl::DistanceResult<S>& result) {
+  const Model<S>&m1 = model1, &m2 = model2;
+  const fcl::Transform3<S>&x1 = tf1, &x2 = tf2;
+  return initialize(node, m1, x1, m2, x2, request, result);
+}
+
+}  // namespace kios
+
+namespace fcl {
+namespace detail {
+using kios::initialize;  // FCL's own would take a qualified call, and move the models' vertices
+}  // namespace detail
+}  // namespace fcl

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/node_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_kios/volume/rigid.h"
+#include "volume/balls.h"
+#include "volume/rounding.h"
+
+namespace kios::engine {
+
+void writeSpheres(const kIOS<float>& bv, Node& node) {
+  Ball balls[kIOS<float>::kMaxSpheres];
+  const int k = toBalls(bv, {bv.center0[0], bv.center0[1], bv.center0[2]}, 0, balls);
+  for (int i = std::max(k, 1); i < kIOS<float>::kMaxSpheres; ++i) balls[i] = balls[0];
+  node.x[kCentral] = bv.center0[0];
+  node.y[kCentral] = bv.center0[1];
+  node.z[kCentral] = bv.center0[2];
+  node.r[kCentral] = roundUpFloat(balls[0].r);
+  node.size = node.r[kCentral];
+  for (int pair = 0; pair < 2; ++pair) {
+    const Ball &plus = balls[1 + 2 * pair], &minus = balls[2 + 2 * pair];
+    const int middle = pair == 0 ? kMiddle2 : kMiddle1, half = middle + 1;
+    float* const rows[3] = {node.x, node.y, node.z};
+    const double p[3] = {plus.x, plus.y, plus.z}, m[3] = {minus.x, minus.y, minus.z};
+    double shift = 0;  // of either centre by the rounding of middle and half, in the 1-norm
+    for (int c = 0; c < 3; ++c) {
+      rows[c][middle] = static_cast<float>(0.5 * (p[c] + m[c]));
+      rows[c][half] = static_cast<float>(0.5 * (p[c] - m[c]));
+      const double sum = double{rows[c][middle]} + rows[c][half];
+      const double difference = double{rows[c][middle]} - rows[c][half];
+      shift += std::max(std::abs(sum - p[c]), std::abs(difference - m[c]));
+    }
+    // middle - |half| error of the radii: half rounds by at most 2^-24 of itself.
+    node.r[half] = static_cast<float>(0.5 * (plus.r - minus.r));
+    node.r[middle] = roundUpFloat(0.5 * (plus.r + minus.r) + shift +
+                                  kUlpFloat * 0.5 * std::abs(plus.r - minus.r));
+  }
+}
+
+void writeLane(const Node& node, int lane, Block& block) {
+  for (int row = 0; row < kSphereRows; ++row) {
+    block.x[row].v[lane] = node.x[row];
+    block.y[row].v[lane] = node.y[row];
+    block.z[row].v[lane] = node.z[row];
+    block.r[row].v[lane] = node.r[row];
+  }
+}
+
+// Extents are measured from the centre and along the axes as stored, and rounded up.
+Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes) {
+  const Eigen::Matrix3d to_box = axes.transpose().cast<double>();
+  Eigen::Vector3d low = rotate<double>(to_box, points[0].cast<double>()), high = low;
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector3d q = rotate<double>(to_box, p.cast<double>());
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  const Eigen::Vector3f center =
+      rotate<double>(to_box.transpose(), 0.5 * (low + high)).cast<float>();
+  const Eigen::Vector3d at = rotate<double>(to_box, center.cast<double>());
+  const Eigen::Vector3d half = (high - at).cwiseMax(at - low);
+  Box box = {};
+  for (int i = 0; i < 3; ++i) {
+    box.ex[i] = axes(0, i);
+    box.ey[i] = axes(1, i);
+    box.ez[i] = axes(2, i);
+    box.center[i] = center[i];
+    box.half[i] = roundUpFloat(half[i] + 8 * kUlpDouble * (std::abs(at[i]) + half[i]));
+  }
+  return box;
+}
+
+bool isFlat(const Box& box) {
+  const auto [least, largest] = std::minmax({box.half[0], box.half[1], box.half[2]});
+  return least < 0.05F * largest;
+}
+
+float reachOf(const Node& node) {
+  const auto length = [&](int row) { return norm(node.x[row], node.y[row], node.z[row]); };
+  const auto pair = [&](int middle) {
+    return length(middle) + length(middle + 1) + double{node.r[middle]} +
+           std::abs(double{node.r[middle + 1]});
+  };
+  return roundUpFloat(
+      std::max({length(kCentral) + double{node.r[kCentral]}, pair(kMiddle2), pair(kMiddle1)}) *
+      (1 + 8 * kUlpDouble));
+}
+
+double searchCost(const Tree& tree) {
+  const double unit = tree.nodes[0].size > 0 ? 1 / double{tree.nodes[0].size} : 0;
+  double sum = 0;
+  for (const Node& node : tree.nodes) {
+    const double size = node.size * unit;
+    sum += size * std::sqrt(size);
+  }
+  return sum;
+}
+
+}  // namespace kios::engine

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "engine/tree.h"
+#include "fcl_kios/volume/kios.h"
+
+namespace kios::engine {
+
+/// Writes the spheres of bv into a node, caps as middle and half difference, rounded outwards:
+/// whatever a kernel computes as middle +- half, in exact arithmetic, encloses that cap.
+void writeSpheres(const kIOS<float>& bv, Node& node);
+
+/// Copies a node's rows into a lane of the block of its parent.
+void writeLane(const Node& node, int lane, Block& block);
+
+/// The box of points along orthonormal axes.
+Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes);
+
+/// Whether the box is thin enough to bound its content better than spheres.
+bool isFlat(const Box& box);
+
+/// >= |middle| + |half| + radii of every sphere of the node.
+float reachOf(const Node& node);
+
+/// What the blocks cost that a query may have to test, for trees of one mesh to be compared: the
+/// sum of their nodes' sizes to the 1.5, that of the root being 1.
+double searchCost(const Tree& tree);
+
+}  // namespace kios::engine

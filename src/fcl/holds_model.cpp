@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <stdexcept>
+
+#include "fcl_kios/overloads.h"
+#include "model/kios_model.h"
+
+namespace kios {
+
+bool holdsModel(const fcl::CollisionGeometry<double>* geometry) { return asModel(geometry); }
+bool holdsModel(const fcl::CollisionGeometry<float>* geometry) { return asModel(geometry); }
+
+void requireObjects(const void* object1, const void* object2) {
+  if (!object1 || !object2) throw std::invalid_argument("fcl_kios: a collision object is null.");
+}
+
+}  // namespace kios

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/model/bounds.h"
+
+#include <fcl/broadphase/broadphase_SaP.h>
+#include <fcl/narrowphase/collision_object.h>
+
+namespace kios {
+
+template <typename S>
+void refreshBounds(fcl::CollisionGeometry<S>& geometry,
+                   const std::vector<fcl::CollisionObject<S>*>& objects) {
+  geometry.computeLocalAABB();
+  for (fcl::CollisionObject<S>* object : objects) {
+    if (object->collisionGeometry().get() == &geometry) object->computeAABB();
+  }
+}
+
+template <typename S>
+void refreshBounds(fcl::CollisionGeometry<S>& geometry,
+                   fcl::BroadPhaseCollisionManager<S>& manager) {
+  std::vector<fcl::CollisionObject<S>*> objects;
+  manager.getObjects(objects);
+  refreshBounds(geometry, objects);
+  // SaP's update() takes boxes to move without changing size: it would lose pairs, and its lists.
+  if (dynamic_cast<fcl::SaPCollisionManager<S>*>(&manager)) {
+    manager.clear();
+    manager.registerObjects(objects);
+    manager.setup();
+  } else {
+    manager.update();
+  }
+}
+
+#define KIOS_INSTANTIATE(S)                                                  \
+  template void refreshBounds(fcl::CollisionGeometry<S>&,                    \
+                              const std::vector<fcl::CollisionObject<S>*>&); \
+  template void refreshBounds(fcl::CollisionGeometry<S>&, fcl::BroadPhaseCollisionManager<S>&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/model/bvh_build.h"
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "engine/tree_cache.h"
+#include "model/tree_build.h"
+
+namespace kios {
+
+/// The builds of one fitter or splitter: one a thread, from set() to clear(). They belong to it and
+/// not to the threads, so that nothing of them is left, or gone, where a thread ends.
+template <typename S>
+class BuildsByThread {
+ public:
+  void start(const BuildGeometry<S>& geometry) {
+    auto build = std::make_unique<TreeBuild<S>>(geometry);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto mine = find();
+    if (mine == builds_.end()) {
+      builds_.emplace_back(std::this_thread::get_id(), std::move(build));
+    } else {
+      mine->second = std::move(build);
+    }
+  }
+
+  TreeBuild<S>& current() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto mine = find();
+    if (mine != builds_.end()) return *mine->second;
+    throw std::logic_error(
+        "fcl_kios: this BVFitter or BVSplitter was not set; set() it in the same thread before "
+        "use.");
+  }
+
+  void end() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto mine = find();
+    if (mine != builds_.end()) builds_.erase(mine);
+  }
+
+ private:
+  using Builds = std::vector<std::pair<std::thread::id, std::unique_ptr<TreeBuild<S>>>>;
+
+  typename Builds::iterator find() {
+    const std::thread::id me = std::this_thread::get_id();
+    return std::find_if(builds_.begin(), builds_.end(),
+                        [me](const auto& build) { return build.first == me; });
+  }
+
+  std::mutex mutex_;
+  Builds builds_;
+};
+
+}  // namespace kios
+
+namespace fcl {
+namespace detail {
+
+template <typename S>
+BVFitter<kios::kIOS<S>>::BVFitter(const kios::FitOptions& options)
+    : options_(options),
+      trees_(std::make_unique<kios::engine::TreeCache>()),
+      builds_(std::make_unique<kios::BuildsByThread<S>>()) {
+  kios::requireUsable(options);
+}
+
+template <typename S>
+BVFitter<kios::kIOS<S>>::~BVFitter() = default;
+
+template <typename S>
+void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) {
+  builds_->start({vertices, nullptr, tri_indices, type});
+}
+
+template <typename S>
+void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Vector3<S>* prev_vertices,
+                                  Triangle* tri_indices, BVHModelType type) {
+  builds_->start({vertices, prev_vertices, tri_indices, type});
+}
+
+template <typename S>
+kios::kIOS<S> BVFitter<kios::kIOS<S>>::fit(unsigned int* primitive_indices, int num_primitives) {
+  return builds_->current().fit(primitive_indices, num_primitives, options_);
+}
+
+template <typename S>
+void BVFitter<kios::kIOS<S>>::clear() {
+  builds_->end();
+}
+
+template <typename S>
+BVSplitter<kios::kIOS<S>>::BVSplitter(SplitMethodType method)
+    : method_(method), builds_(std::make_unique<kios::BuildsByThread<S>>()) {}
+
+template <typename S>
+BVSplitter<kios::kIOS<S>>::~BVSplitter() = default;
+
+template <typename S>
+void BVSplitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices,
+                                    BVHModelType type) {
+  builds_->start({vertices, nullptr, tri_indices, type});
+}
+
+template <typename S>
+void BVSplitter<kios::kIOS<S>>::computeRule(const kios::kIOS<S>& /*bv*/,
+                                            unsigned int* primitive_indices, int num_primitives) {
+  builds_->current().computeRule(primitive_indices, num_primitives, method_);
+}
+
+template <typename S>
+bool BVSplitter<kios::kIOS<S>>::apply(const Vector3<S>& q) const {
+  return builds_->current().above(q);
+}
+
+template <typename S>
+void BVSplitter<kios::kIOS<S>>::clear() {
+  builds_->end();
+}
+
+template class BVFitter<kios::kIOS<double>>;
+template class BVFitter<kios::kIOS<float>>;
+template class BVSplitter<kios::kIOS<double>>;
+template class BVSplitter<kios::kIOS<float>>;
+
+}  // namespace detail
+}  // namespace fcl

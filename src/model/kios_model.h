@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+#include "fcl_kios/model/model.h"
+
+namespace kios {
+
+/// The model behind a geometry, nullptr if it is no kIOS model. By type, never by node type: all
+/// foreign volumes share BV_UNKNOWN.
+template <typename S>
+const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
+  if (!geometry) throw std::invalid_argument("fcl_kios: a collision geometry is null.");
+  if (geometry->getNodeType() != fcl::BV_UNKNOWN || geometry->getObjectType() != fcl::OT_BVH) {
+    return nullptr;
+  }
+  if (typeid(*geometry) == typeid(Model<S>)) return static_cast<const Model<S>*>(geometry);
+  return dynamic_cast<const Model<S>*>(geometry);
+}
+
+/// The C++ name of the geometry's type, for messages.
+template <typename S>
+std::string typeName(const fcl::CollisionGeometry<S>& geometry);
+
+template <typename S>
+[[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
+                             const fcl::CollisionGeometry<S>& o2) {
+  const bool models = o1.getObjectType() == fcl::OT_BVH && o2.getObjectType() == fcl::OT_BVH;
+  throw std::invalid_argument(std::string("fcl_kios: ") + query + " of " + typeName(o1) + " and " +
+                              typeName(o2) + " is not supported" +
+                              (models
+                                   ? "; convert the other model by kios::toKIOS(model)."
+                                   : "; replace the other by a mesh, built by kios::makeModel()."));
+}
+
+}  // namespace kios

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/model/model.h"
+
+#include <cmath>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "fcl_kios/model/convert.h"
+
+namespace kios {
+namespace {
+
+const char* stateName(fcl::BVHBuildState state) {
+  switch (state) {
+    case fcl::BVH_BUILD_STATE_EMPTY:
+      return "empty (beginModel() was not called, or only reset a full model: call it again)";
+    case fcl::BVH_BUILD_STATE_BEGUN:
+      return "begun (endModel() was not called, or failed: build it anew from beginModel(), until "
+             "that "
+             "returns 0)";
+    case fcl::BVH_BUILD_STATE_REPLACE_BEGUN:
+      return "being replaced (endReplaceModel() was not called, or failed: build it anew from "
+             "beginModel(), until that returns 0)";
+    case fcl::BVH_BUILD_STATE_UPDATE_BEGUN:
+      return "being updated (endUpdateModel() was not called, or failed: build it anew from "
+             "beginModel(), until that returns 0)";
+    default:
+      return "finished";
+  }
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw std::invalid_argument("fcl_kios: " + what);
+}
+
+template <typename S>
+void requireVertices(const fcl::Vector3<S>* vertices, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (vertices[i].allFinite()) continue;
+    std::ostringstream message;
+    message << "vertex " << i << " (" << vertices[i].transpose() << ") is not finite.";
+    refuse(message.str());
+  }
+}
+
+void requireIndices(const fcl::Triangle* triangles, std::size_t n, std::size_t num_vertices) {
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int corner = 0; corner < 3; ++corner) {
+      if (triangles[i][corner] < num_vertices) continue;
+      std::ostringstream message;
+      message << "triangle " << i << " refers to vertex " << triangles[i][corner]
+              << ", but there are " << num_vertices << ".";
+      refuse(message.str());
+    }
+  }
+}
+
+bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
+  const bool processed =
+      state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
+  return processed && num_tris > 0 && num_bvs == 2 * num_tris - 1;
+}
+
+// `what` ends before "it is ...".
+[[noreturn]] void refuseUnfinished(const char* what, fcl::BVHBuildState state,
+                                   fcl::BVHModelType type, int num_tris, int num_bvs) {
+  const bool processed =
+      state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
+  std::ostringstream message;
+  message << what << ": ";
+  if (!processed) {
+    message << "it is " << stateName(state) << ".";
+  } else if (type == fcl::BVH_MODEL_POINTCLOUD) {
+    message << "it is a point cloud, and triangles are needed.";
+  } else {
+    message << "it has " << num_tris << " triangles but a tree of " << num_bvs
+            << " nodes; geometry was added after it was built: build or refit it.";
+  }
+  refuse(message.str());
+}
+
+/// FCL's build calls throw for some of their arrays and return this for others.
+void requireBuilt(int status) {
+  if (status == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (status != fcl::BVH_OK) throw std::logic_error("fcl_kios: FCL refused to build a new model.");
+}
+
+}  // namespace
+
+template <typename S>
+std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices,
+                                    const std::vector<fcl::Triangle>& triangles) {
+  if (triangles.empty()) refuse("a model needs at least one triangle.");
+  requireVertices(vertices.data(), vertices.size());
+  requireIndices(triangles.data(), triangles.size(), vertices.size());
+  auto model = std::make_shared<Model<S>>();
+  requireBuilt(
+      model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size())));
+  requireBuilt(model->addSubModel(vertices, triangles));
+  requireBuilt(model->endModel());
+  requireFinished(*model);
+  return model;
+}
+
+template <typename S>
+void requireFinished(const Model<S>& model) {
+  if (isFinished(model.build_state, model.num_tris, model.getNumBVs())) return;
+  refuseUnfinished("the BVHModel<kios::kIOS> can't be queried", model.build_state,
+                   model.getModelType(), model.num_tris, model.getNumBVs());
+}
+
+void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
+                        int num_bvs) {
+  if (isFinished(state, num_tris, num_bvs)) return;
+  refuseUnfinished("the model can't be converted to k-IOS", state, type, num_tris, num_bvs);
+}
+
+template <typename S>
+void validate(const Model<S>& model) {
+  requireFinished(model);
+  requireVertices(model.vertices, static_cast<std::size_t>(model.num_vertices));
+  requireIndices(model.tri_indices, static_cast<std::size_t>(model.num_tris),
+                 static_cast<std::size_t>(model.num_vertices));
+}
+
+template std::shared_ptr<Modeld> makeModel(const std::vector<fcl::Vector3d>&,
+                                           const std::vector<fcl::Triangle>&);
+template std::shared_ptr<Modelf> makeModel(const std::vector<fcl::Vector3f>&,
+                                           const std::vector<fcl::Triangle>&);
+template void requireFinished(const Modeld&);
+template void requireFinished(const Modelf&);
+template void validate(const Modeld&);
+template void validate(const Modelf&);
+
+}  // namespace kios
+
+template class fcl::BVHModel<kios::kIOS<double>>;
+template class fcl::BVHModel<kios::kIOS<float>>;

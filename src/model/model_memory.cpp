@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The members of fcl::BVHModel that get memory, for models over k-IOS. FCL's own, called again
+// after memory ran out or a model was reset, lose arrays, and the destructor frees one twice.
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <new>
+#include <utility>
+
+#include "fcl_kios/model/model.h"
+
+namespace kios {
+namespace {
+
+/// A model, and its members that FCL keeps private.
+template <typename S>
+struct Members {
+  Model<S>& model;
+  int &num_tris_allocated, &num_vertices_allocated, &num_nodes_allocated;
+  unsigned int*& primitives;
+  fcl::BVNode<kIOS<S>>*& nodes;
+  int& num_nodes;
+
+  int numPrimitives() const { return model.num_tris > 0 ? model.num_tris : model.num_vertices; }
+};
+
+template <typename T>
+std::unique_ptr<T[]> makeArray(int n) {
+  return std::unique_ptr<T[]>(new T[static_cast<std::size_t>(n)]);
+}
+
+template <typename T>
+std::unique_ptr<T[]> copyOf(const T* array, int n, int room) {
+  if (!array) return nullptr;
+  auto copy = makeArray<T>(room);
+  std::copy_n(array, n, copy.get());
+  return copy;
+}
+template <typename T>
+std::unique_ptr<T[]> copyOf(const T* array, int n) {
+  return copyOf(array, n, n);
+}
+
+template <typename T>
+void replace(T*& array, std::unique_ptr<T[]> by) {
+  delete[] array;
+  array = by.release();
+}
+
+template <typename T>
+void shrink(T*& array, int& allocated, int n) {
+  if (allocated <= n) return;
+  replace(array, copyOf(array, n));
+  allocated = n;
+}
+
+int outOfMemory(const char* call) {
+  std::cerr << "BVH Error! Out of memory on " << call << " call!\n";
+  return fcl::BVH_ERR_MODEL_OUT_OF_MEMORY;
+}
+
+/// `to` is an empty model. What it got is its own if the rest finds no memory. There is room for a
+/// vertex at least: FCL's calls that add some double the room, and write into none where it is 0.
+template <typename S>
+void copy(const Model<S>& from, const unsigned int* primitives, const fcl::BVNode<kIOS<S>>* nodes,
+          int num_nodes, Members<S> to) {
+  Model<S>& model = to.model;
+  static_cast<fcl::CollisionGeometry<S>&>(model) = from;
+  model.num_tris = to.num_tris_allocated = from.num_tris;
+  model.num_vertices = from.num_vertices;
+  to.num_vertices_allocated = std::max(1, from.num_vertices);
+  to.num_nodes = to.num_nodes_allocated = num_nodes;
+  model.build_state = from.build_state;
+  model.bv_splitter = from.bv_splitter;
+  model.bv_fitter = from.bv_fitter;
+  replace(model.vertices, copyOf(from.vertices, from.num_vertices, to.num_vertices_allocated));
+  replace(model.tri_indices, copyOf(from.tri_indices, from.num_tris));
+  replace(model.prev_vertices, copyOf(from.prev_vertices, from.num_vertices));
+  replace(to.primitives, copyOf(primitives, to.numPrimitives()));
+  replace(to.nodes, copyOf(nodes, num_nodes));
+}
+
+template <typename S>
+int begin(Members<S> m, int num_tris, int num_vertices) {
+  Model<S>& model = m.model;
+  const bool was_empty = model.build_state == fcl::BVH_BUILD_STATE_EMPTY;
+  model.build_state = fcl::BVH_BUILD_STATE_EMPTY;
+  replace(model.vertices, {});
+  replace(model.tri_indices, {});
+  replace(model.prev_vertices, {});
+  replace(m.primitives, {});
+  replace(m.nodes, {});
+  model.num_tris = m.num_tris_allocated = 0;
+  model.num_vertices = m.num_vertices_allocated = 0;
+  m.num_nodes = m.num_nodes_allocated = 0;
+  if (num_tris < 0) num_tris = 8;
+  if (num_vertices <= 0) num_vertices = 8;
+  try {
+    if (num_tris > 0) replace(model.tri_indices, makeArray<fcl::Triangle>(num_tris));
+    m.num_tris_allocated = num_tris;
+    replace(model.vertices, makeArray<fcl::Vector3<S>>(num_vertices));
+    m.num_vertices_allocated = num_vertices;
+  } catch (const std::bad_alloc&) {
+    return outOfMemory("beginModel()");
+  }
+  if (!was_empty) {  // with its arrays: FCL's addTriangle() doesn't check that there are any
+    std::cerr << "BVH Warning! Call beginModel() on a BVHModel that is not empty. This model was "
+                 "cleared and previous triangles/vertices were lost.\n";
+    return fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE;
+  }
+  model.build_state = fcl::BVH_BUILD_STATE_BEGUN;
+  return fcl::BVH_OK;
+}
+
+/// What endModel() does before it builds the tree.
+template <typename S>
+int end(Members<S> m) {
+  Model<S>& model = m.model;
+  if (model.build_state != fcl::BVH_BUILD_STATE_BEGUN) {
+    std::cerr << "BVH Warning! Call endModel() in wrong order. endModel() was ignored.\n";
+    return fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE;
+  }
+  if (model.num_tris == 0 && model.num_vertices == 0) {
+    std::cerr << "BVH Error! endModel() called on model with no triangles and vertices.\n";
+    return fcl::BVH_ERR_BUILD_EMPTY_MODEL;
+  }
+  const int num_nodes = 2 * m.numPrimitives() - 1;
+  try {
+    shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
+    shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
+    replace(m.nodes, makeArray<fcl::BVNode<kIOS<S>>>(num_nodes));
+    replace(m.primitives, makeArray<unsigned int>(m.numPrimitives()));
+  } catch (const std::bad_alloc&) {
+    return outOfMemory("endModel()");
+  }
+  m.num_nodes_allocated = num_nodes;
+  return fcl::BVH_OK;
+}
+
+template <typename S>
+int beginUpdate(Model<S>& model) {
+  if (model.build_state != fcl::BVH_BUILD_STATE_PROCESSED &&
+      model.build_state != fcl::BVH_BUILD_STATE_UPDATED) {
+    std::cerr << "BVH Error! Call beginUpdatemodel() on a BVHModel that has no previous frame.\n";
+    return fcl::BVH_ERR_BUILD_EMPTY_PREVIOUS_FRAME;
+  }
+  if (!model.prev_vertices) {
+    try {
+      replace(model.prev_vertices, makeArray<fcl::Vector3<S>>(model.num_vertices));
+    } catch (const std::bad_alloc&) {
+      return outOfMemory("beginUpdateModel()");
+    }
+  }
+  std::swap(model.vertices, model.prev_vertices);
+  model.build_state = fcl::BVH_BUILD_STATE_UPDATE_BEGUN;
+  return fcl::BVH_OK;
+}
+
+}  // namespace
+}  // namespace kios
+
+namespace fcl {
+
+// Explicit specialisations can't have the scalar as a parameter. The copy owns its arrays one by
+// one as they come, since it is a whole, empty model before.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
+#define KIOS_MEMBERS(S)                                                                           \
+  kios::Members<S> {                                                                              \
+    *this, num_tris_allocated, num_vertices_allocated, num_bvs_allocated, primitive_indices, bvs, \
+        num_bvs                                                                                   \
+  }
+#define KIOS_SPECIALISE(S)                                                                 \
+  template <>                                                                              \
+  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other) : BVHModel() {                  \
+    kios::copy(other, other.primitive_indices, other.bvs, other.num_bvs, KIOS_MEMBERS(S)); \
+  }                                                                                        \
+  template <>                                                                              \
+  int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {              \
+    return kios::begin(KIOS_MEMBERS(S), num_tris_, num_vertices_);                         \
+  }                                                                                        \
+  template <>                                                                              \
+  int BVHModel<kios::kIOS<S>>::endModel() {                                                \
+    if (const int failed = kios::end(KIOS_MEMBERS(S))) return failed;                      \
+    buildTree();                                                                           \
+    build_state = BVH_BUILD_STATE_PROCESSED;                                               \
+    return BVH_OK;                                                                         \
+  }                                                                                        \
+  template <>                                                                              \
+  int BVHModel<kios::kIOS<S>>::beginUpdateModel() {                                        \
+    if (const int failed = kios::beginUpdate<S>(*this)) return failed;                     \
+    num_vertex_updated = 0;                                                                \
+    return BVH_OK;                                                                         \
+  }
+// NOLINTEND(bugprone-macro-parentheses)
+KIOS_SPECIALISE(double)
+KIOS_SPECIALISE(float)
+#undef KIOS_SPECIALISE
+#undef KIOS_MEMBERS
+
+}  // namespace fcl

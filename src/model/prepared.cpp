@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "model/prepared.h"
+
+#include <stdexcept>
+#include <typeinfo>
+#include <utility>
+#include <vector>
+
+#include "engine/prepare.h"
+#include "engine/refit.h"
+#include "engine/search.h"
+#include "fcl_kios/model/prepare.h"
+
+namespace kios {
+
+template <typename S>
+engine::TreeCache* treesOf(const Model<S>& model) {
+  using Fitter = fcl::detail::BVFitter<kIOS<S>>;
+  const auto* const fitter = model.bv_fitter.get();
+  if (!fitter) return nullptr;
+  if (typeid(*fitter) == typeid(Fitter)) return &static_cast<const Fitter*>(fitter)->trees();
+  const auto* const derived = dynamic_cast<const Fitter*>(fitter);
+  return derived ? &derived->trees() : nullptr;
+}
+
+template <typename S>
+engine::TreeCache::Use preparedTree(const Model<S>& model) {
+  engine::TreeCache* const trees = treesOf(model);
+  const kIOS<S>& root = model.getBV(0).bv;
+  if (!trees || root.stamp == 0) return {};
+  const double radius = root.radius0;
+  if (!(radius >= engine::kLeastReach && radius <= engine::kLargestReach)) return {};
+  const engine::MeshView<S> mesh = viewOf(model);
+  const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
+                               mesh.num_triangles};
+  if (engine::TreeCache::Use found = trees->find(key)) return found;
+  return trees->findOrMake(key, [&](std::unique_ptr<engine::Tree> old) {
+    return old && engine::refit(mesh, *old) ? std::move(old) : engine::prepare(mesh);
+  });
+}
+
+template <typename S>
+void prepare(const Model<S>& model) {
+  requireFinished(model);
+  preparedTree(model);
+}
+
+template <typename S>
+std::size_t preparedBytes(const Model<S>& model) {
+  engine::TreeCache* const trees = treesOf(model);
+  return trees ? trees->bytes() : 0;
+}
+
+template <typename S>
+void invalidate(Model<S>& model) {
+  validate(model);
+  const std::vector<fcl::Vector3<S>> vertices(model.vertices, model.vertices + model.num_vertices);
+  int failed = 0;
+  if (model.build_state == fcl::BVH_BUILD_STATE_UPDATED) {
+    // FCL replaces no updated model. An update makes the current vertices the previous ones, which
+    // they must not become: beginUpdateModel() swaps the arrays back.
+    std::swap(model.vertices, model.prev_vertices);
+    failed |= model.beginUpdateModel();
+    failed |= model.updateSubModel(vertices);
+    failed |= model.endUpdateModel(true, true);
+  } else {
+    failed |= model.beginReplaceModel();
+    failed |= model.replaceSubModel(vertices);
+    failed |= model.endReplaceModel(true, true);
+  }
+  if (failed != fcl::BVH_OK)
+    throw std::logic_error("fcl_kios: FCL refused to refit a finished model.");
+  if (engine::TreeCache* const trees = treesOf(model)) trees->drop(model.vertices);
+}
+
+const char* simdTarget() { return engine::kernels().target; }
+
+#define KIOS_INSTANTIATE(S)                                      \
+  template engine::TreeCache* treesOf(const Model<S>&);          \
+  template engine::TreeCache::Use preparedTree(const Model<S>&); \
+  template void prepare(const Model<S>&);                        \
+  template std::size_t preparedBytes(const Model<S>&);           \
+  template void invalidate(Model<S>&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

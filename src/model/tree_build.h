@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_internal.h>
+#include <fcl/geometry/bvh/detail/BV_splitter.h>
+#include <fcl/math/triangle.h>
+#include "volume/fit/sphere_fitter.h"
+
+namespace kios {
+
+/// What a build fits volumes to. The arrays are the model's.
+template <typename S>
+struct BuildGeometry {
+  const fcl::Vector3<S>* vertices = nullptr;
+  const fcl::Vector3<S>* prev_vertices = nullptr;  ///< nullptr unless the model is updated
+  const fcl::Triangle* triangles = nullptr;
+  fcl::BVHModelType type = fcl::BVH_MODEL_UNKNOWN;
+};
+
+/// One build or refit of a model's tree: fits its nodes and divides them. It lives no longer than
+/// the build, and nobody else sees it, so that copies of a model may be built in many threads, and
+/// at any time in a thread's or a program's life.
+template <typename S>
+class TreeBuild {
+ public:
+  /// `num_vertices` saves growing, and may be 0.
+  explicit TreeBuild(const BuildGeometry<S>& geometry, std::size_t num_vertices = 0);
+
+  kIOS<S> fit(const unsigned int* primitives, int n, const FitOptions& options);
+
+  /// Sets the plane that divides these primitives; the next to be asked after their fit.
+  void computeRule(const unsigned int* primitives, int n, fcl::detail::SplitMethodType method);
+
+  /// The side of a primitive's centroid.
+  bool above(const fcl::Vector3<S>& q) const { return height(q) > plane_.value; }
+
+ private:
+  /// Half-space that a node's primitives are divided by: axis . (q - origin) > value.
+  struct SplitPlane {
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+    double value = 0;
+  };
+
+  double height(const fcl::Vector3<S>& q) const {
+    return plane_.axis.dot(q.template cast<double>() - plane_.origin);
+  }
+  void gather(const unsigned int* primitives, int n);
+  void add(std::size_t id);
+  double medianHeight(const unsigned int* primitives, int n);
+
+  const BuildGeometry<S> model_;
+  SphereFitter<S> fitter_;
+  std::vector<fcl::Vector3<S>> points_;
+  std::vector<std::uint32_t> seen_;  ///< per vertex, the stamp of the last fit that took it
+  std::uint32_t stamp_ = 0;
+  std::vector<double> heights_;
+
+  // Left by a fit for the split of the same primitives.
+  const unsigned int* fitted_ = nullptr;
+  int fitted_count_ = 0;
+  typename SphereFitter<S>::Split split_;
+  Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+  SplitPlane plane_;
+};
+
+}  // namespace kios

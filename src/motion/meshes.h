@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "motion/pair_search.h"
+
+namespace kios::continuous {
+
+/// Two moving meshes.
+class MovingMeshes final : public PairSearch {
+ public:
+  MovingMeshes(const Modeld& a, const Motion& motion_a, const Modeld& b, const Motion& motion_b,
+               ContinuousCounts& counts)
+      : PairSearch(motion_a, reachOf(a), motion_b, reachOf(b), counts), a_(a), b_(b) {}
+
+  bool touching(double t) override;
+
+ private:
+  bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
+  double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
+  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+  double centersGap(NodePair pair, const RelativeVelocities& v) const;
+
+  const Modeld &a_, &b_;
+};
+
+}  // namespace kios::continuous

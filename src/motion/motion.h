@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include <fcl/common/types.h>
+#include "motion/velocity_field.h"
+
+namespace kios::continuous {
+
+/// A rigid motion X(t) of a body in the world, t in [0, 1]: a plain value, read by any number of
+/// threads. Rotations that are not orthonormal to rounding are replaced by the nearest
+/// quaternion's.
+class Motion {
+ public:
+  using Points = std::array<Eigen::Vector3d, 4>;
+
+  /// Constant velocities, all in the world: R(t) = rot(axis, angle t) R(0), and the point that is
+  /// at X_0.translation() - arm at first moves on a line: with `velocity`. Angle in radians.
+  static Motion twist(const fcl::Transform3d& X_0, const Eigen::Vector3d& velocity,
+                      const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& arm);
+  /// Cubic B-splines of the translation and of the rotation vector, by their de Boor points:
+  /// fcl::SplineMotion.
+  static Motion spline(const Points& translations, const Points& rotations);
+
+  // Motions from pose to pose, as FCL's of these names: both poses rigid and finite.
+  static Motion translation(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
+  static Motion linear(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
+  static Motion screw(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
+  static Motion spline(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
+
+  fcl::Transform3d pose(double t) const;
+
+  /// Velocities at t in the world, X = pose(t), and their bounds over [t, t + window].
+  VelocityField velocities(double t, const fcl::Transform3d& X, double window) const;
+
+  /// Whether bounds are the same for every window.
+  bool steady() const { return kind_ == Kind::kTwist; }
+  /// Whether the body stands still.
+  bool still() const;
+  /// Bound of how far rounding takes the pose of a point within `reach` of the body's origin off,
+  /// at any time, with the same for a velocity times a time of at most 1.
+  double rounding(double reach) const;
+
+ private:
+  enum class Kind { kTwist, kSpline };
+  Motion() = default;
+  void check() const;
+
+  Kind kind_ = Kind::kTwist;
+  // kTwist: T(t) = T0 + velocity t + (rot(axis, angle t) - 1) arm.
+  Eigen::Matrix3d R0_;
+  Eigen::Vector3d T0_, velocity_, axis_, arm_;
+  double angle_ = 0;
+  // kSpline; axis_ as well, if all rotation vectors are along it.
+  Points Td_, Rd_;
+  bool fixed_axis_ = true;
+};
+
+}  // namespace kios::continuous

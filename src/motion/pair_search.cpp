@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/pair_search.h"
+
+#include <algorithm>
+
+namespace kios::continuous {
+
+double reachOf(const Modeld& model) {
+  requireFinished(model);
+  const kIOSd& root = model.getBV(0).bv;
+  return (root.center0.norm() + root.radius0) * (1 + 0x1p-50);
+}
+
+// Long steps have many triangles in each other's reach, short ones advance little: a step is halved
+// whenever it has cost its budget of tests. What was pruned before stays apart. The budget doubles
+// with each halving, and for the next step: else pairs of which no step is cheap would get ever
+// shorter ones, never reach the end, and count as contact.
+double PairSearch::apartFor(double t) {
+  if (motion_.still()) return 1;
+  const double left = 1 - t;
+  const double window = motion_.steady() ? left : std::min(left, window_);
+  const RelativeVelocities v = motion_.at(t, window);
+
+  // What ended the last step will probably end this one: a first upper bound of it.
+  NodePair parts[kMostParts];
+  if (last_.a < 0) {
+    for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];
+  }
+  double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_});
+  long long budget = budget_, budget_ends = counts_.volume_tests + budget;
+  stack_.assign(1, {0, 0});
+  while (!stack_.empty() && h > 0) {
+    if (counts_.volume_tests >= budget_ends) {
+      h *= 0.5;
+      budget *= 2;
+      budget_ends += budget;
+    }
+    const NodePair pair = stack_.back();
+    stack_.pop_back();
+    ++counts_.volume_tests;
+    if (nodesApart(pair, v, h)) continue;
+    if (const int count = split(pair, v, parts); count > 0) {
+      for (int i = count; i-- > 0;) stack_.push_back(parts[i]);
+      continue;
+    }
+    ++counts_.leaf_tests;
+    const double apart = leavesApart(pair, v, h);
+    if (apart < h) {
+      h = apart;
+      last_ = pair;
+    }
+  }
+  budget_ = budget > budget_ ? budget : std::max(kLeastBudget, budget / 2);
+  window_ = std::min(1.0, 8 * h);
+  last_step_ = h;
+  return h;
+}
+
+}  // namespace kios::continuous

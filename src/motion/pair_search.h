@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "fcl_kios/model/model.h"
+#include "motion/advance.h"
+#include "motion/relative_motion.h"
+
+namespace kios::continuous {
+
+/// Bound of the distance of the mesh's points from the origin of its frame. Throws
+/// std::invalid_argument if it is not finished.
+double reachOf(const Modeld& model);
+
+/// The search for the time that the pairs of a tree's nodes, or of two trees', are apart. Source:
+/// Tang, Kim & Manocha, "C2A: controlled conservative advancement for continuous collision
+/// detection of polygonal models" (2009).
+class PairSearch : public MovingPair {
+ public:
+  double apartFor(double t) final;
+
+ protected:
+  struct NodePair {
+    int a, b;
+  };
+
+  PairSearch(const Motion& motion_a, double reach_a, const Motion& motion_b, double reach_b,
+             ContinuousCounts& counts)
+      : motion_(motion_a, motion_b, reach_a, reach_b), counts_(counts) {}
+
+  /// True if the nodes' contents are proven apart for `duration`.
+  virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
+  /// Time for which two leaves are proven apart; any time of at least `enough` will do.
+  virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;
+  static constexpr int kMostParts = 8;
+  /// Writes the pairs that a pair consists of, the nearest first, and returns how many; 0 for a
+  /// pair of leaves.
+  virtual int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const = 0;
+
+  const RelativeMotion motion_;
+  ContinuousCounts& counts_;
+
+ private:
+  static constexpr long long kLeastBudget = 1000;
+  long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
+  double window_ = 1, last_step_ = 1;
+  NodePair last_ = {-1, -1};  ///< leaves that ended the last step
+  std::vector<NodePair> stack_;
+};
+
+}  // namespace kios::continuous

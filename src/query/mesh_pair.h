@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+#include <fcl/narrowphase/distance_request.h>
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/volume/separation.h"
+#include "query/triangle_contact.h"
+
+namespace kios {
+
+template <typename S>
+TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
+  const fcl::Triangle& t = model.tri_indices[triangle];
+  return {model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]};
+}
+
+template <typename S, typename Pose>
+TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
+  return {X * t[0], X * t[1], X * t[2]};
+}
+
+/// Throws std::invalid_argument if an error bound is negative or NaN.
+template <typename S>
+void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
+  const auto require = [](const char* name, S value) {
+    if (value >= 0) return;
+    std::ostringstream message;
+    message << "fcl_kios: DistanceRequest::" << name << " is " << value << ", but must be >= 0.";
+    throw std::invalid_argument(message.str());
+  };
+  require("rel_err", request.rel_err);
+  require("abs_err", request.abs_err);
+}
+
+/// How far a pair must be to be of no matter once `distance` was found.
+template <typename S>
+S pruneAt(S distance, S rel_err, S abs_err) {
+  return std::max(S(0), std::min(distance - abs_err, distance / (1 + rel_err)));
+}
+
+/// Reports two triangles that intersect, p and q in model 1's frame, as FCL does: up to two
+/// contacts, as many as the request leaves room for.
+template <typename S>
+void addContacts(const Model<S>& model1, int id1, const TriangleVertices<S>& p,
+                 const Model<S>& model2, int id2, const TriangleVertices<S>& q,
+                 const fcl::Transform3<S>& tf1, const fcl::CollisionRequest<S>& request,
+                 fcl::CollisionResult<S>& result) {
+  const std::size_t room =
+      request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
+  if (!request.enable_contact) {
+    const fcl::Vector3<S> unset = fcl::Vector3<S>::Zero();  // FCL leaves it uninitialised
+    if (room > 0) {
+      result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, unset, unset, S(0)));
+    }
+    return;
+  }
+  const TriangleContact<S> contact = triangleContact(p, q);
+  for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
+    result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2,
+                                      transform<S>(tf1, contact.points[i]),
+                                      rotate<S>(tf1.linear(), contact.normal), contact.depth));
+  }
+}
+
+}  // namespace kios

@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/query/octree_queries.h"
+
+#if FCL_HAVE_OCTOMAP
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "query/collide_with.h"
+#include "query/mesh_pair.h"
+#include "query/posed_solid.h"
+#include "solid/triangle_shape.h"
+
+namespace kios {
+namespace {
+
+using Node = octomap::OcTreeNode;
+
+/// A cell of an octree in its frame; `node` is null where the octree knows nothing.
+template <typename S>
+struct Cell {
+  const Node* node;
+  fcl::AABB<S> box;
+};
+
+template <typename S>
+shape::Solid rootCube(const fcl::OcTree<S>& octree) {
+  shape::Solid cube;
+  cube.kind = shape::Kind::kBox;
+  cube.half = octree.getRootBV().max_.template cast<double>();
+  return cube;
+}
+
+/// An octree and a mesh posed in the octree's frame, with what collide and distance share.
+template <typename S>
+class OctreePair {
+ public:
+  OctreePair(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
+             const fcl::Transform3<S>& tf2, SearchCounts& counts)
+      : octree_(octree),
+        model_(model),
+        counts_(counts),
+        posed_(rootCube(octree), tf2, tf1, model.getBV(0).bv) {}
+
+ protected:
+  Cell<S> root() const { return {octree_.getRoot(), octree_.getRootBV()}; }
+
+  bool isLeaf(const Cell<S>& cell) const {
+    return !cell.node || !octree_.nodeHasChildren(cell.node);
+  }
+
+  /// A child that the octree lacks has no node.
+  Cell<S> child(const Cell<S>& cell, unsigned int i) const {
+    Cell<S> child = {nullptr, {}};
+    fcl::computeChildBV(cell.box, i, child.box);
+    if (octree_.nodeChildExists(cell.node, i)) child.node = octree_.getNodeChild(cell.node, i);
+    return child;
+  }
+
+  /// FCL's rule of which of a pair is divided, if not both are leaves.
+  bool dividesCell(const Cell<S>& cell, int node) const {
+    const auto& bv = model_.getBV(node);
+    return bv.isLeaf() || (!isLeaf(cell) && cell.box.size() > bv.bv.size());
+  }
+
+  /// The cell's box about the origin, and its centre, in units.
+  shape::Solid boxOf(const fcl::AABB<S>& box, shape::Vec& center) const {
+    const shape::Vec low = box.min_.template cast<double>(),
+                     high = box.max_.template cast<double>();
+    center = (0.5 * (low + high)) * posed_.toUnits(1);
+    shape::Solid solid;
+    solid.kind = shape::Kind::kBox;
+    solid.half = (0.5 * (high - low)) * posed_.toUnits(1);
+    return solid;
+  }
+
+  /// Lower bound of the distance of a cell and a node of the mesh, signed.
+  double bound(const Cell<S>& cell, int node) const {
+    ++counts_.volume_tests;
+    shape::Vec center;
+    const shape::Solid box = boxOf(cell.box, center);
+    Ball balls[kIOS<S>::kMaxSpheres];
+    const int k = posed_.placeSpheres(model_.getBV(node).bv, balls);
+    double best = -std::numeric_limits<double>::infinity();
+    for (int i = 0; i < k; ++i) {
+      const shape::Vec c(balls[i].x, balls[i].y, balls[i].z);
+      best = std::max(best, shape::pointBound(box, c - center) - balls[i].r);
+    }
+    return best;
+  }
+
+  /// A triangle of the mesh relative to a cell's centre.
+  shape::Triangle place(int id, const shape::Vec& center) const {
+    const shape::Triangle t = posed_.place(cornersOf(model_, id));
+    return {t[0] - center, t[1] - center, t[2] - center};
+  }
+
+  /// FCL's query cell id, from which OcTree::getNodeByQueryCellId() finds the node.
+  std::intptr_t idOf(const Cell<S>& cell) const { return cell.node - octree_.getRoot(); }
+
+  const fcl::OcTree<S>& octree_;
+  const Model<S>& model_;
+  SearchCounts& counts_;
+  const PosedSolid<S> posed_;  // its solid is the root's cube
+};
+
+template <typename S>
+class OctreeCollision : OctreePair<S> {
+ public:
+  OctreeCollision(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1,
+                  const Model<S>& model, const fcl::Transform3<S>& tf2,
+                  const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
+                  SearchCounts& counts)
+      : OctreePair<S>(octree, tf1, model, tf2, counts),
+        tf1_(tf1),
+        tf2_(tf2),
+        request_(request),
+        result_(result) {}
+
+  void run() {
+    if (!this->model_.isFree()) visit(this->root(), 0);
+  }
+
+ private:
+  /// Whether a cell can matter. What isn't both occupied matters for costs only.
+  bool matters(const Cell<S>& cell) const {
+    if (!cell.node) return request_.enable_cost;
+    if (this->octree_.isNodeFree(cell.node)) return false;
+    return request_.enable_cost ||
+           (this->octree_.isNodeOccupied(cell.node) && this->model_.isOccupied());
+  }
+
+  /// Returns true once the request is satisfied.
+  bool visit(const Cell<S>& cell, int id) {
+    if (!matters(cell) || this->bound(cell, id) > 0) return false;
+    const auto& node = this->model_.getBV(id);
+    if (this->isLeaf(cell) && node.isLeaf()) {
+      test(cell, node.primitiveId());
+      return request_.isSatisfied(result_);
+    }
+    if (!this->isLeaf(cell) && this->dividesCell(cell, id)) {
+      for (unsigned int i = 0; i < 8; ++i) {
+        if (visit(this->child(cell, i), id)) return true;
+      }
+      return false;
+    }
+    return visit(cell, node.leftChild()) || visit(cell, node.rightChild());
+  }
+
+  void test(const Cell<S>& cell, int id) {
+    ++this->counts_.leaf_kernels;
+    shape::Vec center;
+    const shape::Solid box = this->boxOf(cell.box, center);
+    const shape::Triangle triangle = this->place(id, center);
+    if (!shape::intersects(box, triangle)) return;
+    const bool occupied =
+        cell.node && this->octree_.isNodeOccupied(cell.node) && this->model_.isOccupied();
+    if (occupied && result_.numContacts() < request_.num_max_contacts) {
+      fcl::Contact<S> contact(&this->octree_, &this->model_, 0, id, fcl::Vector3<S>::Zero(),
+                              fcl::Vector3<S>::Zero(), S(0));
+      contact.b1 = this->idOf(cell);  // FCL's constructor would cut it to an int
+      if (request_.enable_contact) {
+        const shape::TriangleShapeContact c = shape::contact(box, triangle);
+        contact.pos = this->posed_.toWorld(c.position + center);
+        contact.normal = this->posed_.directionToWorld(c.normal);  // from the cell to the mesh
+        contact.penetration_depth = this->posed_.fromUnits(c.depth);
+      }
+      result_.addContact(contact);
+    }
+    if (request_.enable_cost) addCost(cell, id);
+  }
+
+  void addCost(const Cell<S>& cell, int id) {
+    fcl::AABB<S> cell_box, shared;
+    const fcl::Vector3<S> middle = tf1_ * cell.box.center();
+    const fcl::Vector3<S> half =
+        tf1_.linear().cwiseAbs() * (S(0.5) * (cell.box.max_ - cell.box.min_));
+    cell_box.min_ = middle - half;
+    cell_box.max_ = middle + half;
+    const auto t = transformed(cornersOf(this->model_, id), tf2_);
+    cell_box.overlap(fcl::AABB<S>(t[0], t[1], t[2]), shared);
+    const S occupancy =
+        cell.node ? S(cell.node->getOccupancy()) : this->octree_.getOccupancyThres();
+    result_.addCostSource(fcl::CostSource<S>(shared, occupancy * this->model_.cost_density),
+                          request_.num_max_cost_sources);
+  }
+
+  const fcl::Transform3<S>&tf1_, &tf2_;
+  const fcl::CollisionRequest<S>& request_;
+  fcl::CollisionResult<S>& result_;
+};
+
+template <typename S>
+class OctreeDistance : OctreePair<S> {
+ public:
+  OctreeDistance(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
+                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+                 fcl::DistanceResult<S>& result, SearchCounts& counts)
+      : OctreePair<S>(octree, tf1, model, tf2, counts), request_(request), result_(result) {}
+
+  void run() {
+    if (result_.min_distance < std::numeric_limits<S>::max()) {
+      lowerTo(this->posed_.toUnits(result_.min_distance));
+    }
+    const Cell<S> root = this->root();
+    if (!root.node || !this->octree_.isNodeOccupied(root.node)) return;
+    waiting_.push_back({root, 0, this->bound(root, 0)});
+    while (!waiting_.empty() && best_ > 0) {
+      const Pair pair = waiting_.back();
+      waiting_.pop_back();
+      if (std::max(pair.bound, 0.0) < prune_at_) expand(pair);
+    }
+    if (nearest_id_ < 0) return;
+    const S distance = this->posed_.fromUnits(best_);
+    if (!(distance < result_.min_distance)) return;
+    result_.update(distance, &this->octree_, &this->model_, 0, nearest_id_);
+    result_.b1 = this->idOf(nearest_cell_);  // update() would cut it to an int
+    if (request_.enable_nearest_points) {
+      result_.nearest_points[0] = this->posed_.toWorld(on_cell_);
+      result_.nearest_points[1] = this->posed_.toWorld(on_triangle_);
+    }
+  }
+
+ private:
+  struct Pair {
+    Cell<S> cell;
+    int node;
+    double bound;
+  };
+
+  void lowerTo(double distance) {
+    best_ = distance;
+    prune_at_ = pruneAt<double>(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
+  }
+
+  void push(const Cell<S>& cell, int node) {
+    if (!cell.node || !this->octree_.isNodeOccupied(cell.node)) return;
+    const double bound = this->bound(cell, node);
+    if (std::max(bound, 0.0) < prune_at_) waiting_.push_back({cell, node, bound});
+  }
+
+  void expand(const Pair& pair) {
+    const auto& node = this->model_.getBV(pair.node);
+    const bool divides_cell = !this->isLeaf(pair.cell) && this->dividesCell(pair.cell, pair.node);
+    if (!divides_cell && node.isLeaf()) {
+      test(pair.cell, node.primitiveId());
+      return;
+    }
+    const auto first = static_cast<std::ptrdiff_t>(waiting_.size());
+    if (divides_cell) {
+      for (unsigned int i = 0; i < 8; ++i) push(this->child(pair.cell, i), pair.node);
+    } else {
+      push(pair.cell, node.leftChild());
+      push(pair.cell, node.rightChild());
+    }
+    std::sort(waiting_.begin() + first, waiting_.end(),
+              [](const Pair& a, const Pair& b) { return a.bound > b.bound; });
+  }
+
+  void test(const Cell<S>& cell, int id) {
+    ++this->counts_.leaf_kernels;
+    shape::Vec center;
+    const shape::Solid box = this->boxOf(cell.box, center);
+    const auto d = shape::distance(box, this->place(id, center), prune_at_);
+    if (!(d.distance < best_)) return;
+    lowerTo(d.distance);
+    nearest_id_ = id;
+    nearest_cell_ = cell;
+    on_cell_ = d.on_shape + center;
+    on_triangle_ = d.on_triangle + center;
+  }
+
+  const fcl::DistanceRequest<S>& request_;
+  fcl::DistanceResult<S>& result_;
+  std::vector<Pair> waiting_;
+  double best_ = std::numeric_limits<double>::infinity(), prune_at_ = best_;
+  int nearest_id_ = -1;
+  Cell<S> nearest_cell_ = {nullptr, {}};
+  shape::Vec on_cell_, on_triangle_;
+};
+
+}  // namespace
+
+template <typename S>
+std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1,
+                          const Model<S>& model, const fcl::Transform3<S>& tf2,
+                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
+                          SearchCounts* counts) {
+  const fcl::CollisionGeometry<S>& other = octree;
+  return collideWith(model, tf2, other, tf1, request, result, [&](const auto& asked) {
+    SearchCounts unused;
+    OctreeCollision<S> search(octree, tf1, model, tf2, asked, result, counts ? *counts : unused);
+    if (request.isSatisfied(result)) return false;
+    search.run();
+    return true;
+  });
+}
+
+template <typename S>
+S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
+                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+                 fcl::DistanceResult<S>& result, SearchCounts* counts) {
+  requireErrorBounds(request);
+  requireFinished(model);
+  SearchCounts unused;
+  OctreeDistance<S> search(octree, tf1, model, tf2, request, result, counts ? *counts : unused);
+  if (!request.isSatisfied(result)) search.run();
+  return result.min_distance;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                     \
+  template std::size_t collideOctree(const fcl::OcTree<S>&, const fcl::Transform3<S>&,          \
+                                     const Model<S>&, const fcl::Transform3<S>&,                \
+                                     const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&, \
+                                     SearchCounts*);                                            \
+  template S distanceOctree(const fcl::OcTree<S>&, const fcl::Transform3<S>&, const Model<S>&,  \
+                            const fcl::Transform3<S>&, const fcl::DistanceRequest<S>&,          \
+                            fcl::DistanceResult<S>&, SearchCounts*);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios
+#endif  // FCL_HAVE_OCTOMAP

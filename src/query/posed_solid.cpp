@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/posed_solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "fcl_kios/volume/separation.h"
+
+namespace kios {
+namespace {
+
+void scaleBy(double factor, shape::Solid& solid) {
+  solid.half *= factor;
+  solid.radius *= factor;
+  solid.half_length *= factor;
+  solid.offset *= factor;
+  for (shape::Vec& p : solid.points) p *= factor;
+}
+
+}  // namespace
+
+template <typename S>
+PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
+                          const fcl::Transform3<S>& X_WS, const kIOS<S>& root)
+    : solid_(std::move(solid)),
+      stretch_(RelativePose<S>(X_WS, X_WM).stretch) {  // checks both poses
+  R_WS_ = X_WS.linear().template cast<double>();
+  t_WS_ = X_WS.translation().template cast<double>();
+  R_ = R_WS_.transpose() * X_WM.linear().template cast<double>();
+  T_ = R_WS_.transpose() * (X_WM.translation().template cast<double>() - t_WS_);
+  const double largest =
+      std::max({solid_.reach(), T_.lpNorm<Eigen::Infinity>(),
+                double{root.center0.template lpNorm<Eigen::Infinity>()}, double{root.radius0}});
+  constexpr int kPlain = 100;
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  if (std::abs(exponent) > kPlain) {
+    per_unit_ = std::ldexp(1.0, -exponent);
+    unit_ = std::ldexp(1.0, exponent);
+    scaleBy(per_unit_, solid_);
+    T_ *= per_unit_;
+  }
+  offsets_ = T_.lpNorm<1>() + solid_.reach();
+}
+
+template <typename S>
+S PosedSolid<S>::fromUnits(double length) const {
+  const double value = length * unit_;
+  if (!(length > 0)) return S(0);
+  return std::max(static_cast<S>(value), std::numeric_limits<S>::denorm_min());
+}
+
+template <typename S>
+fcl::Vector3<S> PosedSolid<S>::toWorld(const shape::Vec& p) const {
+  return (R_WS_ * (p * unit_) + t_WS_).template cast<S>();
+}
+
+template <typename S>
+fcl::Vector3<S> PosedSolid<S>::directionToWorld(const shape::Vec& n) const {
+  return (R_WS_ * n).normalized().template cast<S>();
+}
+
+// A posed centre takes 5 roundings a coordinate of terms that sum to at most 1.8 |c|_1 + |T|_1, as
+// do the posed points of the content, with |x|_1 <= |c|_1 + 1.8 r. pointBound() and the triangle
+// kernels add less than 2^-48 (|p|_1 + reach) and a few roundings of r. All that is below
+// 2^-46 (1.8 |c|_1 + |T|_1 + reach + 4 r).
+template <typename S>
+Ball PosedSolid<S>::placeCentral(const kIOS<S>& bv, double& lengths) const {
+  const shape::Vec c_M = bv.center0.template cast<double>() * per_unit_;
+  const shape::Vec c = R_ * c_M + T_;
+  lengths = 1.8 * c_M.lpNorm<1>() + offsets_;
+  const double r = bv.radius0 * per_unit_;
+  return {c.x(), c.y(), c.z(), r + (0x1p-46 * (lengths + 4 * r) + stretch_ * r)};
+}
+
+template <typename S>
+Ball PosedSolid<S>::placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const {
+  const double unit = scaled(per_unit_, bv.exponent), reach = bv.reach * unit;
+  const shape::Vec o = R_ * (shape::Vec(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]) * unit);
+  const double pad = 0x1p-46 * (lengths + 4 * reach) + stretch_ * reach;
+  return {central.x + o.x(), central.y + o.y(), central.z + o.z(), bv.cap_r[i] * unit + pad};
+}
+
+template <typename S>
+double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
+  const auto boundOf = [this](const Ball& b) {
+    return shape::pointBound(solid_, {b.x, b.y, b.z}) - b.r;
+  };
+  double lengths;
+  const Ball central = placeCentral(bv, lengths);
+  double best = boundOf(central);
+  // A centre in the shape: the content all but surely touches, and caps would only cost time.
+  if (best > enough || best <= -central.r) return best;
+  for (int i = 0; i + 1 < bv.k(); ++i) {
+    best = std::max(best, boundOf(placeCap(bv, i, central, lengths)));
+  }
+  return best;
+}
+
+template <typename S>
+int PosedSolid<S>::placeSpheres(const kIOS<S>& bv, Ball* spheres) const {
+  double lengths;
+  spheres[0] = placeCentral(bv, lengths);
+  for (int i = 0; i + 1 < bv.k(); ++i) spheres[i + 1] = placeCap(bv, i, spheres[0], lengths);
+  return bv.k();
+}
+
+template class PosedSolid<double>;
+template class PosedSolid<float>;
+
+}  // namespace kios

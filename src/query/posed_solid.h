@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/volume/kios.h"
+#include "solid/solid.h"
+#include "volume/balls.h"
+
+namespace kios {
+
+/// A solid and the pose of a mesh in the solid's frame, in which all is evaluated, in double. The
+/// pose is x -> R2^T (R1 x + (t1 - t2)), 1 the mesh and 2 the solid: the common frame of
+/// docs/guarantees.md with the solid as the first object. Beyond 2^100 and below 2^-100 lengths are
+/// in units of a power of two, so that no square over- or underflows; else the unit is 1.
+template <typename S>
+class PosedSolid {
+ public:
+  /// `root` is the mesh's root volume. Throws std::invalid_argument if a pose is not rigid.
+  PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM, const fcl::Transform3<S>& X_WS,
+             const kIOS<S>& root);
+
+  /// The solid, in units.
+  const shape::Solid& solid() const { return solid_; }
+  /// A length in units, and back; the latter not to 0 from above.
+  double toUnits(double length) const { return length * per_unit_; }
+  S fromUnits(double length) const;
+
+  /// A point or triangle of the mesh, in the solid's frame and units.
+  shape::Vec place(const fcl::Vector3<S>& x_M) const {
+    return R_ * (x_M.template cast<double>() * per_unit_) + T_;
+  }
+  TriangleVertices<double> place(const TriangleVertices<S>& t) const {
+    return {place(t[0]), place(t[1]), place(t[2])};
+  }
+  /// A point of the solid's frame, in units, to the world; a direction likewise.
+  fcl::Vector3<S> toWorld(const shape::Vec& p) const;
+  fcl::Vector3<S> directionToWorld(const shape::Vec& n) const;
+
+  /// Lower bound, in units, of the distance between the solid and the content of a volume of the
+  /// mesh, whose posed points may be rounded; negative values order overlapping ones. Once the
+  /// central sphere's bound exceeds `enough`, that is returned.
+  double bound(const kIOS<S>& bv, double enough) const;
+  /// The spheres of a volume of the mesh in the solid's frame and units, grown by all that bound()
+  /// subtracts, so that each contains the posed content however that is rounded. Returns k.
+  int placeSpheres(const kIOS<S>& bv, Ball* spheres) const;
+
+ private:
+  Ball placeCentral(const kIOS<S>& bv, double& lengths) const;
+  Ball placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const;
+
+  shape::Solid solid_;
+  Eigen::Matrix3d R_, R_WS_;
+  shape::Vec T_, t_WS_;
+  double per_unit_ = 1, unit_ = 1;
+  double stretch_;  ///< |R|_2 - 1 <= stretch
+  double offsets_;  ///< |T|_1 + the solid's reach
+};
+
+}  // namespace kios

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "fcl_kios/volume/kios.h"
+#include "volume/balls.h"
+#include "volume/lanes.h"
+#include "volume/rounding.h"
+#include "volume/stamp.h"
+
+namespace kios {
+
+/// The exponent of the units in which a node of this radius stores its caps: 0 wherever floats and
+/// their squares are far from under- and overflow, so that tests need no scaling.
+inline int capExponent(double radius0) {
+  const bool ordinary = radius0 == 0 || (radius0 >= 0x1p-30 && radius0 <= 0x1p30);
+  return ordinary ? 0 : std::ilogb(radius0);
+}
+
+/// Fills the caps beyond k with S0, sets the reach and a new stamp; center0, radius0, exponent and
+/// the caps of k are set.
+template <typename S>
+void completeCaps(kIOS<S>& v, int k) {
+  v.num_spheres = static_cast<std::uint8_t>(k);
+  const float r0 = roundUpFloat(scaled(double{v.radius0}, -v.exponent));
+  for (int i = k - 1; i < kIOS<S>::kCaps; ++i) {
+    v.cap_x[i] = v.cap_y[i] = v.cap_z[i] = 0;
+    v.cap_r[i] = r0;
+  }
+  // Sums of four floats: within 3 u of theirs.
+  const auto magnitude = [](const float* c) {
+    const lanes::Float4 x = lanes::load(c);
+    return lanes::max(x, -x);
+  };
+  const lanes::Float4 reach =
+      magnitude(v.cap_x) + magnitude(v.cap_y) + magnitude(v.cap_z) + lanes::load(v.cap_r);
+  v.reach = std::max(lanes::horizontalMax(reach), r0) * (1 + 0x1p-20F);
+  v.stamp = nextStamp();
+}
+
+}  // namespace kios

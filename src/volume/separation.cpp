@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fcl_kios/volume/separation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "volume/balls.h"
+#include "volume/lanes.h"
+#include "volume/rotation.h"
+#include "volume/rounding.h"
+
+namespace kios {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Centre of b's S0 relative to a's, in A, with the bound of every double rounding of a test.
+struct Offset {
+  double x, y, z;
+  double norm1;
+  double pad;
+};
+
+// Each coordinate of R c_b + T - c_a takes 6 roundings of terms that sum to at most m; a leaf's own
+// points R y + T take 5 with |y|_1 <= |c_b|_1 + 1.8 r_b. With the root and the sums of a bound
+// (8 roundings of values <= m + r_a + r_b) that is below 32 u (m + r_a + 4 r_b) = 2^-48 (...).
+template <typename S>
+Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
+  const double ax = a.center0[0], ay = a.center0[1], az = a.center0[2];
+  const double bx = b.center0[0], by = b.center0[1], bz = b.center0[2];
+  Offset d;
+  d.x = ((X.R(0, 0) * bx + X.R(0, 1) * by) + X.R(0, 2) * bz) + X.T[0] - ax;
+  d.y = ((X.R(1, 0) * bx + X.R(1, 1) * by) + X.R(1, 2) * bz) + X.T[1] - ay;
+  d.z = ((X.R(2, 0) * bx + X.R(2, 1) * by) + X.R(2, 2) * bz) + X.T[2] - az;
+  d.norm1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+  const double m = 1.8 * (std::abs(bx) + std::abs(by) + std::abs(bz)) + X.T_norm1 +
+                   (std::abs(ax) + std::abs(ay) + std::abs(az));
+  const double ra = a.radius0, rb = b.radius0;
+  // Leaves in float round their points to float: the same count of roundings, of size 2^-24.
+  constexpr double kPad = sizeof(S) == sizeof(double) ? 32 * kUlpDouble : 32 * kUlpFloat;
+  constexpr double kSubnormal = sizeof(S) == sizeof(double) ? 0x1p-1070 : 0x1p-145;
+  d.pad = kPad * (m + ra + 4 * rb) + X.stretch * rb + kSubnormal;
+  return d;
+}
+
+/// All sphere pairs with a cap in them, in float lanes; exponents 0, |d| < 2^40.
+// Each lane's |D + R o_b - o_a| - r_a - r_b has at most 16 u (|D| + reach_a + reach_b) of error:
+// u |D| and 11 u |o_b|, 2 u |o_a| from rounding D, R, products and sums, 3 u of the root, 2 u a
+// subtraction. 2^-19 is 32 u. Squares that underflow make the bound smaller.
+template <typename S>
+double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+                     const Offset& d) {
+  using lanes::Float4;
+  const float dx = static_cast<float>(d.x), dy = static_cast<float>(d.y),
+              dz = static_cast<float>(d.z);
+  const Float4 ox = lanes::load(b.cap_x), oy = lanes::load(b.cap_y), oz = lanes::load(b.cap_z);
+  const Float4 rb = lanes::load(b.cap_r);
+  const Float4 bx = X.Rf[0][0] * ox + X.Rf[0][1] * oy + X.Rf[0][2] * oz + dx;
+  const Float4 by = X.Rf[1][0] * ox + X.Rf[1][1] * oy + X.Rf[1][2] * oz + dy;
+  const Float4 bz = X.Rf[2][0] * ox + X.Rf[2][1] * oy + X.Rf[2][2] * oz + dz;
+
+  // b's caps against a's S0, then a's caps against b's S0, then caps against caps.
+  Float4 best = lanes::sqrt(bx * bx + by * by + bz * bz) - rb - roundUpFloat(a.radius0);
+  const Float4 ra = lanes::load(a.cap_r);
+  const Float4 ex = dx - lanes::load(a.cap_x), ey = dy - lanes::load(a.cap_y),
+               ez = dz - lanes::load(a.cap_z);
+  best = lanes::max(best, lanes::sqrt(ex * ex + ey * ey + ez * ez) - ra - roundUpFloat(b.radius0));
+  for (int i = 0; i < kIOS<S>::kCaps; ++i) {
+    const Float4 wx = bx - a.cap_x[i], wy = by - a.cap_y[i], wz = bz - a.cap_z[i];
+    best = lanes::max(best, lanes::sqrt(wx * wx + wy * wy + wz * wz) - rb - a.cap_r[i]);
+  }
+  const double scale = d.norm1 + a.reach + b.reach;
+  return lanes::horizontalMax(best) - (0x1p-19 * scale + X.stretch * b.reach + d.pad);
+}
+
+/// The bound over all pairs in double at any scale, and the points that attain it.
+struct ScaledBound {
+  double value = -kInfinity;
+  double P[3] = {}, Q[3] = {};  // relative to a's S0 centre, in A
+};
+
+// Scaled by a power of two so that the largest length is about 1: no overflow, and what underflows
+// is below 2^-1000 of it. Roundings: as in offset(), in units of 2^-52 of lengths <= |d| + reach.
+template <typename S>
+ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+                             const Offset& d) {
+  const double reach_a = std::max<double>(scaled(a.reach, a.exponent), a.radius0);
+  const double reach_b = std::max<double>(scaled(b.reach, b.exponent), b.radius0);
+  const double largest = std::max({d.norm1, reach_a, reach_b});
+  if (!(largest > 0)) return ScaledBound{-d.pad, {}, {}};
+  const int e = std::ilogb(largest);
+
+  Ball sa[kIOS<S>::kMaxSpheres], sb[kIOS<S>::kMaxSpheres];
+  const int ka = toBalls(a, {0, 0, 0}, e, sa), kb = toBalls(b, {0, 0, 0}, e, sb);
+  const double dx = scaled(d.x, -e), dy = scaled(d.y, -e), dz = scaled(d.z, -e);
+
+  ScaledBound best;
+  for (int j = 0; j < kb; ++j) {
+    const double bx = X.R(0, 0) * sb[j].x + X.R(0, 1) * sb[j].y + X.R(0, 2) * sb[j].z + dx;
+    const double by = X.R(1, 0) * sb[j].x + X.R(1, 1) * sb[j].y + X.R(1, 2) * sb[j].z + dy;
+    const double bz = X.R(2, 0) * sb[j].x + X.R(2, 1) * sb[j].y + X.R(2, 2) * sb[j].z + dz;
+    for (int i = 0; i < ka; ++i) {
+      const double w[3] = {bx - sa[i].x, by - sa[i].y, bz - sa[i].z};
+      const double length = norm(w[0], w[1], w[2]);
+      const double value = length - sa[i].r - sb[j].r;
+      if (!(value > best.value)) continue;
+      best.value = value;
+      const double n[3] = {length > 0 ? w[0] / length : 1.0, length > 0 ? w[1] / length : 0.0,
+                           length > 0 ? w[2] / length : 0.0};
+      const double ca[3] = {sa[i].x, sa[i].y, sa[i].z}, cb[3] = {bx, by, bz};
+      for (int c = 0; c < 3; ++c) {
+        best.P[c] = ca[c] + sa[i].r * n[c];
+        best.Q[c] = cb[c] - sb[j].r * n[c];
+      }
+    }
+  }
+  const double lengths = scaled(d.norm1 + reach_a + reach_b, -e);
+  best.value -= 32 * kUlpDouble * lengths + X.stretch * scaled(reach_b, -e) + 0x1p-960;
+  best.value = std::nextafter(scaled(best.value, e) - d.pad, -kInfinity);
+  for (int c = 0; c < 3; ++c) {
+    best.P[c] = scaled(best.P[c], e);
+    best.Q[c] = scaled(best.Q[c], e);
+  }
+  return best;
+}
+
+template <typename S>
+double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, const Offset& d,
+                      double enough) {
+  constexpr double kFar = 0x1p40;
+  if ((a.exponent | b.exponent) != 0 || !(d.norm1 < kFar)) {
+    return scaledSeparation(a, b, X, d).value;
+  }
+  // S0 against S0. Squares below 2^-1022 lose at most 2^-510 of length.
+  const double ra = a.radius0, rb = b.radius0;
+  const double central =
+      std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z) - ra - rb - (d.pad + 0x1p-500);
+  if (central > enough || (a.num_spheres == 1 && b.num_spheres == 1)) return central;
+  return std::max(central, capSeparation(a, b, X, d));
+}
+
+template <typename S>
+S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::Vector3<S>* P,
+             fcl::Vector3<S>* Q) {
+  if (a.k() == 0 || b.k() == 0) return std::numeric_limits<S>::max();
+  const Offset d = offset(a, b, X);
+  if (!P && !Q) return roundDown<S>(std::max(0.0, separationFrom(a, b, X, d, kInfinity)));
+  const ScaledBound bound = scaledSeparation(a, b, X, d);
+  const S lower = roundDown<S>(std::max(0.0, bound.value));
+  for (int c = 0; c < 3; ++c) {
+    const double middle = 0.5 * (bound.P[c] + bound.Q[c]);
+    if (P) (*P)[c] = static_cast<S>(a.center0[c] + (lower > 0 ? bound.P[c] : middle));
+    if (Q) (*Q)[c] = static_cast<S>(a.center0[c] + (lower > 0 ? bound.Q[c] : middle));
+  }
+  return lower;
+}
+
+/// Throws if either isn't a rotation.
+template <typename S>
+[[gnu::noinline, gnu::cold]] void requireRotations(const fcl::Transform3<S>& X_W1,
+                                                   const fcl::Transform3<S>& X_W2,
+                                                   const lanes::Double2& squares) {
+  const auto determinantOf = [](const fcl::Transform3<S>& X) {
+    return determinant([&X](int i, int j) { return double{X.matrix()(i, j)}; });
+  };
+  requireRotation<S>(squares[0], determinantOf(X_W1), "first object's pose");
+  requireRotation<S>(squares[1], determinantOf(X_W2), "second object's pose");
+}
+
+/// The sum for both poses' rotations, R in lanes; throws if either isn't one.
+template <typename S>
+double squaredRotationErrors(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+  constexpr double kMost = kRotationError<S> * kRotationError<S>;
+  const auto &m1 = X_W1.matrix(), &m2 = X_W2.matrix();
+  const auto entries = [&](int i, int j) {
+    return lanes::Double2{double{m1(i, j)}, double{m2(i, j)}};
+  };
+  const lanes::Double2 squares = squaredRotationError(entries);
+  if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{kUpright, kUpright},
+                       upright(entries))) {
+    requireRotations<S>(X_W1, X_W2, squares);
+  }
+  return squares[0] + squares[1];
+}
+
+template <typename S>
+const RelativePose<S>& identityPose() {
+  static const RelativePose<S> identity(fcl::Matrix3<S>::Identity(), fcl::Vector3<S>::Zero());
+  return identity;
+}
+
+}  // namespace
+
+void refuseRotation(const char* what, double error, double allowed) {
+  std::ostringstream message;
+  message << "fcl_kios: the " << what << " is not rigid: ";
+  if (error <= allowed) {
+    message << "it is a reflection (det R < 0); mirror the vertices of the mesh instead.";
+  } else {
+    message << "|R^T R - I| = " << error << ", at most " << allowed << " is allowed.";
+  }
+  throw std::invalid_argument(message.str());
+}
+
+template <typename S>
+RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
+    : R(R_AB), T(T_AB) {
+  const auto entries = [&](int i, int j) { return double{R_AB(i, j)}; };
+  const double square = squaredRotationError(entries);
+  requireRotation<S>(square, determinant(entries), "relative pose");
+  precompute(square);
+}
+
+template <typename S>
+RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+  const fcl::Matrix3<S> inverse = X_W1.linear().transpose();
+  for (int j = 0; j < 3; ++j) R.col(j) = rotate<S>(inverse, X_W2.linear().col(j));
+  T = rotate<S>(inverse, X_W2.translation() - X_W1.translation());
+  precompute(squaredRotationErrors(X_W1, X_W2));
+}
+
+template <typename S>
+void RelativePose<S>::precompute(double squared_errors) {
+  T_norm1 = std::abs(double{T[0]}) + std::abs(double{T[1]}) + std::abs(double{T[2]});
+  if (!(T_norm1 <= kMaxCoordinate<S>)) {
+    throw std::invalid_argument(
+        "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
+  }
+  // |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|) < 1 + (|E1| + |E2|) / 2 + |E1| |E2|, and |E1| + |E2| is
+  // at most sqrt(2) times their norm; E and the product's entries are known to 3 u a term.
+  constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+  stretch = 0.71 * std::sqrt(squared_errors) + 20 * kUlp;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) Rf[i][j] = static_cast<float>(R(i, j));
+  }
+}
+
+template <typename S>
+double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB, double enough) {
+  if (a.num_spheres == 0 || b.num_spheres == 0) return kInfinity;
+  return separationFrom(a, b, X_AB, offset(a, b, X_AB), enough);
+}
+
+template <typename S>
+bool overlap(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T, const kIOS<S>& a,
+             const kIOS<S>& b) {
+  return !(separation(a, b, RelativePose<S>(R, T), 0.0) > 0);
+}
+
+template <typename S>
+bool overlap(const fcl::Transform3<S>& X_AB, const kIOS<S>& a, const kIOS<S>& b) {
+  return overlap<S>(X_AB.linear(), X_AB.translation(), a, b);
+}
+
+template <typename S>
+S distance(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T, const kIOS<S>& a, const kIOS<S>& b,
+           fcl::Vector3<S>* P, fcl::Vector3<S>* Q) {
+  return lowerBound(a, b, RelativePose<S>(R, T), P, Q);
+}
+
+template <typename S>
+S distance(const fcl::Transform3<S>& X_AB, const kIOS<S>& a, const kIOS<S>& b, fcl::Vector3<S>* P,
+           fcl::Vector3<S>* Q) {
+  return distance<S>(X_AB.linear(), X_AB.translation(), a, b, P, Q);
+}
+
+template <typename S>
+bool kIOS<S>::overlap(const kIOS& other) const {
+  return !(separation(*this, other, identityPose<S>(), 0.0) > 0);
+}
+
+template <typename S>
+bool kIOS<S>::overlap(const kIOS& other, kIOS& /*overlap_part*/) const {
+  return overlap(other);
+}
+
+template <typename S>
+S kIOS<S>::distance(const kIOS& other, fcl::Vector3<S>* P, fcl::Vector3<S>* Q) const {
+  return lowerBound(*this, other, identityPose<S>(), P, Q);
+}
+
+#define KIOS_INSTANTIATE(S)                                                                        \
+  template struct RelativePose<S>;                                                                 \
+  template double separation(const kIOS<S>&, const kIOS<S>&, const RelativePose<S>&, double);      \
+  template bool overlap(const fcl::Matrix3<S>&, const fcl::Vector3<S>&, const kIOS<S>&,            \
+                        const kIOS<S>&);                                                           \
+  template bool overlap(const fcl::Transform3<S>&, const kIOS<S>&, const kIOS<S>&);                \
+  template S distance(const fcl::Matrix3<S>&, const fcl::Vector3<S>&, const kIOS<S>&,              \
+                      const kIOS<S>&, fcl::Vector3<S>*, fcl::Vector3<S>*);                         \
+  template S distance(const fcl::Transform3<S>&, const kIOS<S>&, const kIOS<S>&, fcl::Vector3<S>*, \
+                      fcl::Vector3<S>*);                                                           \
+  template bool kIOS<S>::overlap(const kIOS<S>&) const;                                            \
+  template bool kIOS<S>::overlap(const kIOS<S>&, kIOS<S>&) const;                                  \
+  template S kIOS<S>::distance(const kIOS<S>&, fcl::Vector3<S>*, fcl::Vector3<S>*) const;
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// fcl::BVHModel over k-IOS, built by FCL's calls: every splitter, fitter and kind of mesh.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fcl/mesh_cases.h"
+#include "fcl/tree_check.h"
+#include "volume/fit/all_fits.h"
+
+namespace kios::testing {
+namespace {
+
+using fcl::detail::BVFitter;
+using fcl::detail::BVFitterBase;
+using fcl::detail::BVSplitter;
+using fcl::detail::BVSplitterBase;
+using fcl::detail::SplitMethodType;
+
+constexpr SplitMethodType kSplits[] = {fcl::detail::SPLIT_METHOD_MEAN,
+                                       fcl::detail::SPLIT_METHOD_MEDIAN,
+                                       fcl::detail::SPLIT_METHOD_BV_CENTER};
+const std::vector<FitOptions> kFits = test::allFits();
+
+template <typename S>
+void fill(Model<S>& model, const Mesh& mesh) {
+  std::vector<fcl::Vector3<S>> vertices;
+  for (const Vector3d& p : mesh.vertices) vertices.push_back(p.cast<S>());
+  ASSERT_EQ(model.beginModel(), fcl::BVH_OK);
+  ASSERT_EQ(model.addSubModel(vertices, mesh.triangles), fcl::BVH_OK);
+  ASSERT_EQ(model.endModel(), fcl::BVH_OK);
+}
+
+Mesh joined(const Mesh& a, const Mesh& b, const Vector3d& shift) {
+  Mesh result = a;
+  for (const Vector3d& p : b.vertices) result.vertices.push_back(p + shift);
+  const std::size_t first = a.vertices.size();
+  for (const fcl::Triangle& t : b.triangles) {
+    result.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
+  }
+  return result;
+}
+
+std::vector<Mesh> buildCases() {
+  std::vector<Mesh> meshes;
+  for (const MeshCase& pair : meshCases()) {
+    meshes.push_back(pair.a);
+    meshes.push_back(pair.b);
+  }
+  meshes.push_back(scenes::soup(scenes::bumpyTorus(140)));
+  meshes.push_back(scenes::uvSphere(1, 20, 40));
+  meshes.push_back(scenes::sheet(1, 1, 9, 9, 0));
+  meshes.push_back(joined(meshes[0], meshes[1], {50, -20, 7}));
+  Mesh duplicates = scenes::icosphere(1, 1);  // each triangle three times
+  for (int i = 0; i < 160; ++i) duplicates.triangles.push_back(duplicates.triangles[i]);
+  meshes.push_back(duplicates);
+  Mesh concentric;  // all centroids at the origin, exactly
+  for (int i = 1; i <= 40; ++i) {
+    const std::size_t first = concentric.vertices.size();
+    concentric.vertices.insert(concentric.vertices.end(),
+                               {Vector3d(i, 0, i), Vector3d(-i, i, 0), Vector3d(0, -i, -i)});
+    concentric.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  meshes.push_back(concentric);
+  Mesh same = scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  same.triangles.resize(65, same.triangles[0]);
+  meshes.push_back(same);
+  Mesh points;  // triangles without extent
+  for (int i = 0; i < 9; ++i) points.vertices.emplace_back(i / 3, i / 3, -i / 3);
+  points.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {0, 3, 6}, {0, 0, 0}};
+  meshes.push_back(points);
+  return meshes;
+}
+
+TEST(Build, EverySplitterAndFitterGivesAValidTree) {
+  for (const Mesh& mesh : buildCases()) {
+    for (const SplitMethodType split : kSplits) {
+      for (const FitOptions& fit : kFits) {
+        Modeld model;
+        model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
+        model.bv_fitter.reset(new BVFitter<kIOSd>(fit));
+        fill(model, mesh);
+        expectValidTree(model);
+        Modelf in_float;
+        in_float.bv_splitter.reset(new BVSplitter<kIOSf>(split));
+        in_float.bv_fitter.reset(new BVFitter<kIOSf>(fit));
+        fill(in_float, mesh);
+        expectValidTree(in_float);
+      }
+    }
+  }
+}
+
+TEST(Build, OffsetAndScaledMeshes) {
+  for (const double scale : {1e-100, 1e-6, 1.0, 1e100}) {
+    for (const double offset : {0.0, 1e3, 1e9, 1e12}) {
+      Mesh mesh = scenes::bumpyTorus(140);
+      for (Vector3d& p : mesh.vertices) p = scale * (p + Vector3d(offset, -offset, offset / 2));
+      Modeld model;
+      fill(model, mesh);
+      expectValidTree(model);
+    }
+  }
+}
+
+// Crowded at one end, where median, mean and centre are far apart.
+TEST(Build, EachSplitterSplitsWhereItSays) {
+  constexpr int kCount = 200;
+  Mesh mesh;
+  for (int i = 0; i < kCount; ++i) {
+    const double x = std::pow(i / (kCount - 1.0), 4);  // mean 1/5, so 2/3 of them lie below it
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {Vector3d(x, 0, 0), Vector3d(x, 1e-3, 0), Vector3d(x, 0, 1e-3)});
+    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  }
+  const auto largerPart = [&](SplitMethodType split) {
+    Modeld model;
+    model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
+    fill(model, mesh);
+    const int left = model.getBV(model.getBV(0).leftChild()).num_primitives;
+    return std::max(left, kCount - left);
+  };
+  EXPECT_EQ(largerPart(fcl::detail::SPLIT_METHOD_MEDIAN), kCount / 2);
+  EXPECT_NEAR(largerPart(fcl::detail::SPLIT_METHOD_MEAN), std::pow(0.2, 0.25) * kCount, 3);
+  EXPECT_NEAR(largerPart(fcl::detail::SPLIT_METHOD_BV_CENTER), std::pow(0.5, 0.25) * kCount, 3);
+}
+
+TEST(Build, SplittersDifferAndBalance) {
+  const Mesh mesh = scenes::bumpyTorus(1000);
+  for (const SplitMethodType split : kSplits) {
+    Modeld model;
+    model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
+    fill(model, mesh);
+    const int left = model.getBV(model.getBV(0).leftChild()).num_primitives;
+    EXPECT_GT(left, 0.3 * model.num_tris);
+    EXPECT_LT(left, 0.7 * model.num_tris);
+    if (split == fcl::detail::SPLIT_METHOD_MEDIAN) {
+      EXPECT_NEAR(left, 0.5 * model.num_tris, 2);
+    }
+  }
+  Modeld tuned, published;
+  fill(tuned, mesh);
+  published.bv_fitter.reset(new BVFitter<kIOSd>(FitMethod::kMethodII));
+  fill(published, mesh);
+  EXPECT_FALSE(sameTree(tuned, published));
+  FitOptions options;
+  options.angle = 0;
+  EXPECT_THROW(BVFitter<kIOSd>{options}, std::invalid_argument);
+}
+
+TEST(Build, LocalBoxIsThatOfTheVertices) {
+  for (const Mesh& mesh : buildCases()) {
+    Modeld ours;
+    fill(ours, mesh);
+    ours.computeLocalAABB();
+    const auto theirs = scenes::buildModel<fcl::OBBRSSd>(mesh);
+    theirs->computeLocalAABB();
+    EXPECT_EQ(ours.aabb_local.min_, theirs->aabb_local.min_);
+    EXPECT_EQ(ours.aabb_local.max_, theirs->aabb_local.max_);
+    EXPECT_EQ(ours.aabb_center, theirs->aabb_center);
+    EXPECT_EQ(ours.aabb_radius, theirs->aabb_radius);
+  }
+}
+
+TEST(Build, TrianglesOneByOneAndSeveralSubModels) {
+  const Mesh mesh = scenes::bumpyTorus(140);
+  Modeld model;
+  ASSERT_EQ(model.beginModel(0, 0), fcl::BVH_OK);
+  for (std::size_t i = 0; i < 70; ++i) {
+    const auto c = corners(mesh, i);
+    ASSERT_EQ(model.addTriangle(c[0], c[1], c[2]), fcl::BVH_OK);
+  }
+  ASSERT_EQ(model.addSubModel(mesh.vertices, mesh.triangles), fcl::BVH_OK);
+  ASSERT_EQ(model.endModel(), fcl::BVH_OK);
+  EXPECT_EQ(model.num_tris, 70 + static_cast<int>(mesh.triangles.size()));
+  expectValidTree(model);
+}
+
+/// A copy of a model that was begun goes on as the model would, also where nothing was added yet.
+TEST(Build, CopiesOfBegunModelsGoOn) {
+  const std::vector<Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<fcl::Triangle> triangles = {{0, 1, 2}};
+  for (const int added : {0, 1, 2}) {
+    for (const int way : {0, 1, 2}) {
+      Modeld begun;
+      ASSERT_EQ(begun.beginModel(added, added), fcl::BVH_OK);
+      for (int i = 0; i < added; ++i) begun.addTriangle(corners[0], corners[1], corners[2]);
+      Modeld copy(begun);
+      for (int i = 0; way == 0 && i < 9; ++i) copy.addTriangle(corners[0], corners[1], corners[2]);
+      for (int i = 0; way == 1 && i < 9; ++i) copy.addVertex(corners[i % 3]);
+      for (int i = 0; way == 2 && i < 9; ++i) copy.addSubModel(corners, triangles);
+      ASSERT_EQ(copy.endModel(), fcl::BVH_OK);
+      EXPECT_EQ(copy.num_vertices, 3 * added + (way == 1 ? 9 : 27));
+      EXPECT_EQ(copy.num_tris, added + (way == 1 ? 0 : 9));
+      for (int i = 0; i < copy.num_vertices; ++i) EXPECT_EQ(copy.vertices[i], corners[i % 3]);
+    }
+  }
+}
+
+// A fitter and a splitter as a user may write them.
+class OwnFitter final : public BVFitterBase<kIOSd> {
+ public:
+  void set(Vector3d* vertices, fcl::Triangle* triangles, fcl::BVHModelType) override {
+    vertices_ = vertices;
+    triangles_ = triangles;
+  }
+  void set(Vector3d* vertices, Vector3d*, fcl::Triangle* triangles, fcl::BVHModelType) override {
+    vertices_ = vertices;
+    triangles_ = triangles;
+  }
+  kIOSd fit(unsigned int* primitives, int n) override {
+    std::vector<Vector3d> points;
+    for (int i = 0; i < n; ++i) {
+      for (int corner = 0; corner < 3; ++corner) {
+        points.push_back(vertices_[triangles_[primitives[i]][corner]]);
+      }
+    }
+    kIOSd bv;
+    kios::fit(points.data(), static_cast<int>(points.size()), bv);
+    return bv;
+  }
+  void clear() override { vertices_ = nullptr; }
+
+ private:
+  Vector3d* vertices_ = nullptr;
+  fcl::Triangle* triangles_ = nullptr;
+};
+
+class SplitAtCenterAlongX final : public BVSplitterBase<kIOSd> {
+ public:
+  void set(Vector3d*, fcl::Triangle*, fcl::BVHModelType) override {}
+  void computeRule(const kIOSd& bv, unsigned int*, int) override { x_ = bv.center()[0]; }
+  bool apply(const Vector3d& q) const override { return q[0] > x_; }
+  void clear() override {}
+
+ private:
+  double x_ = 0;
+};
+
+TEST(Build, UsersFittersAndSplittersMix) {
+  const MeshCase pair = meshCases().front();
+  const auto plain_a = kiosModel(pair.a), plain_b = kiosModel(pair.b);
+  for (const bool own_fitter : {false, true}) {
+    for (const bool own_splitter : {false, true}) {
+      Modeld a, b;
+      for (Modeld* model : {&a, &b}) {
+        if (own_fitter) model->bv_fitter = std::make_shared<OwnFitter>();
+        if (own_splitter) model->bv_splitter = std::make_shared<SplitAtCenterAlongX>();
+      }
+      fill(a, pair.a);
+      fill(b, pair.b);
+      expectValidTree(a);
+      expectValidTree(b);
+      if (own_fitter && !own_splitter) {
+        EXPECT_EQ(a.getBV(0).num_primitives, a.num_tris);
+      }
+      for (const Frame& frame : randomFrames(20, pair.spread, 51)) {
+        fcl::DistanceResultd result, expected;
+        const fcl::DistanceRequestd request;
+        const double extent = scenes::extent(pair.a) + scenes::extent(pair.b);
+        EXPECT_NEAR(
+            fcl::distance(&a, frame.X_WA, &b, frame.X_WB, request, result),
+            fcl::distance(plain_a.get(), frame.X_WA, plain_b.get(), frame.X_WB, request, expected),
+            16 * std::numeric_limits<double>::epsilon() * extent);
+      }
+    }
+  }
+}
+
+// The median of equal heights must not leave one side empty for ever.
+TEST(Build, DepthOfDegenerateMeshesIsLogarithmic) {
+  Mesh same = scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  same.triangles.resize(1 << 12, same.triangles[0]);
+  for (const SplitMethodType split : kSplits) {
+    Modeld model;
+    model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
+    fill(model, same);
+    int depth = 0;
+    for (int node = 0; !model.getBV(node).isLeaf(); node = model.getBV(node).rightChild()) ++depth;
+    EXPECT_LE(depth, 13);
+  }
+}
+
+// An inner node of three distinct vertices: its split is its own, whatever was built before.
+TEST(Build, SplitDoesNotDependOnTheThreadsPast) {
+  const std::vector<Vector3d> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<fcl::Triangle> triangles = {{0, 0, 0}, {1, 1, 1}, {0, 0, 0},
+                                                {1, 1, 1}, {2, 2, 2}, {0, 0, 1}};
+  std::vector<int> left;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Vector3d> other(4, Vector3d::Zero());
+    for (int i = 0; i < 4; ++i) other[i][axis] = 5 * i;
+    makeModel<double>(other, {{0, 1, 2}, {1, 2, 3}});
+    const auto model = makeModel<double>(corners, triangles);
+    left.push_back(model->getBV(model->getBV(0).leftChild()).num_primitives);
+  }
+  EXPECT_EQ(left[0], left[1]);
+  EXPECT_EQ(left[0], left[2]);
+}
+
+}  // namespace
+}  // namespace kios::testing

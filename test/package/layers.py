@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# usage: layers.py SOURCE_DIR
+# The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
+# those below it only (docs/how-it-works.md, "The folders"). FCL's headers are included as <fcl/...>
+# and ours as "...", and every "..." names one file, whichever include directory is searched first.
+import pathlib
+import re
+import sys
+
+LAYERS = ["volume", "triangle", "solid", "engine", "model", "query", "motion", "fcl", "scene"]
+# Headers of include/fcl_kios itself.
+TOP = {"fcl_own.h": -1, "overloads.h": LAYERS.index("fcl"), "fcl_kios.h": len(LAYERS),
+       "version.h": -1}
+INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
+
+root = pathlib.Path(sys.argv[1])
+roots = [root / "src", root / "include"]
+faults = []
+
+
+def layer(path):
+    """Of a file named relative to its include directory; None if that isn't ours."""
+    parts = path.removeprefix("fcl_kios/").split("/")
+    if len(parts) == 1:
+        return TOP.get(parts[0])
+    return LAYERS.index(parts[0]) if parts[0] in LAYERS else None
+
+
+def check(path, own):
+    for quote, name in INCLUDE.findall(path.read_text()):
+        ours = [r for r in roots if (r / name).is_file()]
+        if name == "fcl_kios/version.h":  # made by CMake
+            ours = [None]
+        if quote == "<":
+            if ours:
+                faults.append(f"{path}: <{name}> is ours: write it in quotes")
+            continue
+        if len(ours) != 1:
+            faults.append(f'{path}: "{name}" names {len(ours)} files of ours')
+            continue
+        of = layer(name)
+        if of is None:
+            faults.append(f'{path}: "{name}" is in no layer')
+        elif of > own:
+            faults.append(f'{path} ({LAYERS[own]}) includes "{name}", of a layer above it')
+
+
+count = 0
+for base in (root / "src", root / "include" / "fcl_kios"):
+    for path in sorted(base.rglob("*")):
+        relative = path.relative_to(base).as_posix()
+        if path.suffix not in (".h", ".cpp") or relative.startswith("tools/"):
+            continue
+        own = layer(relative)
+        if own is None:
+            faults.append(f"{path}: is in no layer")
+            continue
+        count += 1
+        check(path, own)
+if count < 100:
+    faults.append(f"only {count} files were found")
+print("\n".join(faults) if faults else f"{count} files include downwards only")
+sys.exit(bool(faults))
