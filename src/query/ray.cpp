@@ -67,7 +67,7 @@ GivenRay mapped(const Ray<S>& ray, const fcl::Transform3<S>& X) {
 
 /// The search for the first hits of one ray, by t and then by triangle.
 template <typename S>
-class RayCast final : public engine::RayJudge {
+class RayCast final : public engine::RayEvaluator {
  public:
   struct Found {
     TriangleHit hit;
@@ -93,7 +93,7 @@ class RayCast final : public engine::RayJudge {
     return std::move(found_);
   }
 
-  bool judge(std::uint32_t triangle) override {
+  bool evaluate(std::uint32_t triangle) override {
     ++counts_.exact;
     const fcl::Triangle& ids = model_.tri_indices[triangle];
     TriangleVertices<double> corners;
@@ -151,7 +151,7 @@ class RayCast final : public engine::RayJudge {
       const auto& node = model_.getBV(at.node);
       if (node.isLeaf()) {
         ++counts_.leaf_pairs;
-        if (judge(static_cast<std::uint32_t>(node.primitiveId()))) return;
+        if (evaluate(static_cast<std::uint32_t>(node.primitiveId()))) return;
         continue;
       }
       ++counts_.expansions;

@@ -18,6 +18,10 @@ struct RelativePose {
   /// 3.5 eps (|R1|^T |R2| |x|) + 2.5 eps (|R1|^T |t2 - t1|), absolute values by entry, so by 4 eps
   /// (|x|_1 + |t2 - t1|) with room for R1 and R2 that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
+  /// The same for rotations that were checked: `squared_errors` is at least the sum of the squares
+  /// of their errors, |R^T R - I| each (Frobenius).
+  RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2,
+               double squared_errors);
 
   /// A point of B in A.
   fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return rotate<S>(R, x_B) + T; }
