@@ -11,7 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl_kios/fcl_kios.h"
 #include "fcl_kios/volume/rigid.h"
 

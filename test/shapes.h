@@ -4,22 +4,16 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "engine/mesh.h"
-#include "engine/mesh_search.h"
-#include "engine/prepare.h"
-#include "engine/refit.h"
 #include "fcl_kios/triangle/triangle.h"
-#include "fcl_kios/volume/separation.h"
 #include "scenes/cad_shapes.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
-// Meshes, poses and prepared pairs that the tests of the engine share.
+// Meshes and poses that tests of several folders share.
 
 namespace kios::testing {
 
@@ -34,9 +28,6 @@ struct Shape {
 
   explicit Shape(const Mesh& mesh) : triangles(mesh.triangles) {
     for (const fcl::Vector3d& p : mesh.vertices) vertices.push_back(p.template cast<S>());
-  }
-  engine::MeshView<S> view() const {
-    return {vertices.data(), vertices.size(), triangles.data(), triangles.size()};
   }
   TriangleVertices<S> corners(std::size_t t) const {
     const fcl::Triangle& ids = triangles[t];
@@ -187,48 +178,6 @@ inline Mesh swayed(Mesh mesh) {
   }
   return mesh;
 }
-
-/// The tree as prepared, or as refitted from where the mesh was before; nullptr if it can't be.
-template <typename S>
-std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* before) {
-  if (!before) return engine::prepare(shape.view());
-  auto tree = engine::prepare(before->view());
-  return engine::refit(shape.view(), *tree) ? std::move(tree) : nullptr;
-}
-
-/// Two shapes with their trees, at a pose.
-template <typename S>
-class PosedPair {
- public:
-  explicit PosedPair(const Mesh& a, const Mesh& b, bool refitted = false)
-      : a(a), b(b), tree_a(made(this->a, a, refitted)), tree_b(made(this->b, b, refitted)) {}
-
-  /// False if floats can't serve the pair there.
-  bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
-    X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
-    return engine::makeFramePair(*tree_a, *tree_b, *X_AB, frames_);
-  }
-  engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
-    return {{*tree_a, a.view()}, {*tree_b, b.view()}, *X_AB, frames_, audit};
-  }
-  TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
-    const TriangleVertices<S> q = b.corners(t);
-    return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};
-  }
-
-  const Shape<S> a, b;
-  const std::unique_ptr<engine::Tree> tree_a, tree_b;
-  std::unique_ptr<RelativePose<S>> X_AB;
-
- private:
-  static std::unique_ptr<engine::Tree> made(const Shape<S>& shape, const Mesh& mesh,
-                                            bool refitted) {
-    const Shape<S> before(swayed(mesh));
-    auto tree = treeOf(shape, refitted ? &before : nullptr);
-    return tree ? std::move(tree) : engine::prepare(shape.view());
-  }
-  engine::FramePair frames_;
-};
 
 /// Diagonal of the box of two triangles: what errors are measured by.
 template <typename S>
