@@ -40,6 +40,19 @@ struct NamedMesh {
   Mesh mesh;
 };
 
+inline void addTriangle(Mesh& mesh, const fcl::Vector3d& a, const fcl::Vector3d& b,
+                        const fcl::Vector3d& c) {
+  const std::size_t n = mesh.vertices.size();
+  mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
+  mesh.triangles.emplace_back(n, n + 1, n + 2);
+}
+
+/// Uniform in [-1, 1]^3.
+inline fcl::Vector3d inCube(Random& random) {
+  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+  return {x, y, random.uniform(-1, 1)};
+}
+
 inline Mesh transformed(Mesh mesh, double scale, const fcl::Vector3d& offset) {
   for (fcl::Vector3d& p : mesh.vertices) p = scale * p + offset;
   return mesh;
@@ -81,14 +94,10 @@ inline fcl::Transform3d wholePose(Random& random, double half_width) {
 /// Points (0), segments (1) and proper triangles (2), mixed if `kind` is 3.
 inline Mesh degenerateMesh(int count, int kind, std::uint64_t seed) {
   Random random(seed);
-  const auto point = [&random]() -> fcl::Vector3d {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-    return {x, y, random.uniform(-1, 1)};
-  };
   std::vector<Mesh> parts;
   for (int i = 0; i < count; ++i) {
     const int what = kind == 3 ? i % 3 : kind;
-    const fcl::Vector3d p = point(), d = 0.3 * point(), e = 0.3 * point();
+    const fcl::Vector3d p = inCube(random), d = 0.3 * inCube(random), e = 0.3 * inCube(random);
     if (what == 0) parts.push_back(scenes::singleTriangle(p, p, p));
     if (what == 1) parts.push_back(scenes::singleTriangle(p, p + d, p + 0.5 * d));
     if (what == 2) parts.push_back(scenes::singleTriangle(p, p + d, p + e));
