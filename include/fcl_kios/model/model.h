@@ -29,11 +29,6 @@ std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices
 template <typename S>
 void validate(const Model<S>& model);
 
-/// What every query checks first, O(1): the model is finished and holds triangles. Throws
-/// std::invalid_argument otherwise.
-template <typename S>
-void requireFinished(const Model<S>& model);
-
 extern template void validate(const Model<double>&);
 extern template void validate(const Model<float>&);
 
