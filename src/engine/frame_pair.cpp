@@ -28,7 +28,8 @@ template <typename S>
 bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
   const Eigen::Matrix3d R = X_AB.R.template cast<double>();
-  const Eigen::Vector3d t = rotate<double>(R, origin_b) + X_AB.T.template cast<double>() - origin_a;
+  const Eigen::Vector3d t =
+      detail::rotate<double>(R, origin_b) + X_AB.T.template cast<double>() - origin_a;
   const double reach_a = a.reach, reach_b = b.reach, scale = reach_a + reach_b + t.lpNorm<1>();
   if (!(std::min(reach_a, reach_b) >= kLeastReach && scale <= kLargestReach)) return false;
   const double points = error_bounds::volumeError<S>(
@@ -37,7 +38,7 @@ bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, Fr
   if (!(pad <= 0x1p-4 * std::min(reach_a, reach_b))) return false;
   const Eigen::Matrix3d inverse = R.inverse();
   out.a_from_b = toFloat(R, t);
-  out.b_from_a = toFloat(inverse, -rotate<double>(inverse, t));
+  out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, t));
   out.pad = roundUpFloat(pad);
   out.scale = roundUpFloat(scale);
   return true;

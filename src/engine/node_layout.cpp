@@ -52,15 +52,15 @@ void writeLane(const Node& node, int lane, Block& block) {
 // Extents are measured from the centre and along the axes as stored, and rounded up.
 Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes) {
   const Eigen::Matrix3d to_box = axes.transpose().cast<double>();
-  Eigen::Vector3d low = rotate<double>(to_box, points[0].cast<double>()), high = low;
+  Eigen::Vector3d low = detail::rotate<double>(to_box, points[0].cast<double>()), high = low;
   for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d q = rotate<double>(to_box, p.cast<double>());
+    const Eigen::Vector3d q = detail::rotate<double>(to_box, p.cast<double>());
     low = low.cwiseMin(q);
     high = high.cwiseMax(q);
   }
   const Eigen::Vector3f center =
-      rotate<double>(to_box.transpose(), 0.5 * (low + high)).cast<float>();
-  const Eigen::Vector3d at = rotate<double>(to_box, center.cast<double>());
+      detail::rotate<double>(to_box.transpose(), 0.5 * (low + high)).cast<float>();
+  const Eigen::Vector3d at = detail::rotate<double>(to_box, center.cast<double>());
   const Eigen::Vector3d half = (high - at).cwiseMax(at - low);
   Box box = {};
   for (int i = 0; i < 3; ++i) {

@@ -56,8 +56,8 @@ DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W
   if (answer.triangle1 < 0) return answer;
   if (options.warm_start) *options.warm_start = {answer.triangle1, answer.triangle2};
   if (options.nearest_points) {
-    answer.point1 = transform<S>(X_W1, answer.point1);
-    answer.point2 = transform<S>(X_W1, answer.point2);
+    answer.point1 = detail::transform<S>(X_W1, answer.point1);
+    answer.point2 = detail::transform<S>(X_W1, answer.point2);
   } else {
     answer.point1 = answer.point2 = DistanceAnswer<S>().point1;
   }

@@ -119,7 +119,8 @@ void MeshDistanceTraversalNode<S>::postprocess() {
   if (tri1_ < 0) return;
   if (this->request.enable_nearest_points) {
     this->result->update(best_, this->model1, this->model2, tri1_, tri2_,
-                         transform<S>(this->tf1, point1_), transform<S>(this->tf1, point2_));
+                         detail::transform<S>(this->tf1, point1_),
+                         detail::transform<S>(this->tf1, point2_));
   } else {
     this->result->update(best_, this->model1, this->model2, tri1_, tri2_);
   }

@@ -46,9 +46,9 @@ void addContacts(const Model<S>& model1, int id1, const TriangleVertices<S>& p,
   }
   const TriangleContact<S> contact = triangleContact(p, q);
   for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
-    result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2,
-                                      transform<S>(tf1, contact.points[i]),
-                                      rotate<S>(tf1.linear(), contact.normal), contact.depth));
+    result.addContact(
+        fcl::Contact<S>(&model1, &model2, id1, id2, detail::transform<S>(tf1, contact.points[i]),
+                        detail::rotate<S>(tf1.linear(), contact.normal), contact.depth));
   }
 }
 

@@ -64,7 +64,8 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
   if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
   if (request.enable_nearest_points) {
     result.update(nearest.distance, &model1, &model2, answer.ids.a, answer.ids.b,
-                  transform<S>(tf1, nearest.point_a), transform<S>(tf1, nearest.point_b));
+                  detail::transform<S>(tf1, nearest.point_a),
+                  detail::transform<S>(tf1, nearest.point_b));
   } else {
     result.update(nearest.distance, &model1, &model2, answer.ids.a, answer.ids.b);
   }

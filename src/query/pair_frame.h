@@ -8,6 +8,7 @@
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/volume/separation.h"
+#include "model/kios_model.h"
 #include "volume/error_bounds.h"
 
 namespace kios {

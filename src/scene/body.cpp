@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/kios_model.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 #include "volume/stamp.h"

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "fcl_kios/scene/scene_distance.h"
+#include "model/kios_model.h"
 #include "scene/body_pair.h"
 
 namespace kios {

@@ -221,8 +221,8 @@ template <typename S>
 RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2,
                               double squared_errors) {
   const fcl::Matrix3<S> inverse = X_W1.linear().transpose();
-  for (int j = 0; j < 3; ++j) R.col(j) = rotate<S>(inverse, X_W2.linear().col(j));
-  T = rotate<S>(inverse, X_W2.translation() - X_W1.translation());
+  for (int j = 0; j < 3; ++j) R.col(j) = detail::rotate<S>(inverse, X_W2.linear().col(j));
+  T = detail::rotate<S>(inverse, X_W2.translation() - X_W1.translation());
   precompute(squared_errors);
 }
 

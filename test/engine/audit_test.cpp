@@ -8,7 +8,7 @@
 
 #include <limits>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl_kios/triangle/distance.h"
 
 namespace kios::testing {

@@ -24,7 +24,9 @@ struct RelativePose {
                double squared_errors);
 
   /// A point of B in A.
-  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return rotate<S>(R, x_B) + T; }
+  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const {
+    return detail::rotate<S>(R, x_B) + T;
+  }
 
   fcl::Matrix3<S> R;  ///< as given, or R1^T R2
   fcl::Vector3<S> T;  ///< origin of B in A
@@ -35,6 +37,8 @@ struct RelativePose {
  private:
   void precompute(double squared_errors);
 };
+using RelativePosed = RelativePose<double>;
+using RelativePosef = RelativePose<float>;
 
 /// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
 /// B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame A.
