@@ -97,7 +97,7 @@ class DistanceSearch {
         search_.audit->pruned(entry.pair.a, entry.pair.b, search_.evaluator.prune_at);
       return false;
     }
-    // What overlaps needs not wait, nor can what finds no room.
+    // Overlapping pairs are searched at once, and so is a pair that finds no room to wait.
     if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return evaluateFeatures(slabbed, bound);
     frontier_.keep(bound, num_waiting_++);
     return false;

@@ -24,7 +24,8 @@ inline double pruneAt(double distance, double rel_err, double abs_err) {
   return std::max(0.0, std::min(distance - abs_err, distance / (1 + rel_err)));
 }
 
-/// What is asked, and when a search may end. As it stands: the exact distance.
+/// A question about the distance of two meshes, and when its search may end. The defaults ask for
+/// the exact distance.
 struct PairQuery {
   double rel_err = 0, abs_err = 0;
   double near_enough = 0;                                       ///< a pair so near ends the search
@@ -40,7 +41,7 @@ struct PairQuery {
   double pruneAt(double distance) const { return engine::pruneAt(distance, rel_err, abs_err); }
 };
 
-/// Why a search ended.
+/// The reason why a search ended.
 enum class SearchEnd {
   kDone,   ///< nothing that matters is left
   kNear,   ///< the triangles of the answer are at most near_enough apart

@@ -8,7 +8,7 @@
 #include "fcl_kios/engine/counts.h"
 #include "volume/ray_interval.h"
 
-// What the SIMD search for a ray's hits shares with the exact stage.
+// The types that the SIMD search for a ray's hits shares with the exact stage.
 
 namespace kios::engine {
 

@@ -9,7 +9,7 @@
 #include "engine/tree.h"
 #include "fcl_kios/engine/counts.h"
 
-// What the SIMD traversals share with the exact stage.
+// The types that the SIMD traversals share with the exact stage.
 
 namespace kios::engine {
 

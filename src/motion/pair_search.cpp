@@ -24,7 +24,7 @@ double PairSearch::apartFor(double t) {
   const double window = motion_.steady() ? left : std::min(left, window_);
   const RelativeVelocities v = motion_.at(t, window);
 
-  // What ended the last step will probably end this one: a first upper bound of it.
+  // The pair that ended the last step will probably end this one: it gives a first upper bound.
   NodePair parts[kMostParts];
   if (last_.a < 0) {
     for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];

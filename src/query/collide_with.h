@@ -34,8 +34,8 @@ void addApproximateCost(const Model<S>& model, const fcl::Transform3<S>& tf1,
   for (const auto& source : sources) result.addCostSource(source, request.num_max_cost_sources);
 }
 
-/// What collisions of a model with shapes and with octrees share. search(request) adds contacts,
-/// and cost sources if that request wants them; false if there was nothing to do.
+/// The part that collisions of a model with shapes and with octrees share. search(request) adds
+/// contacts, and cost sources if that request wants them; false if there was nothing to do.
 template <typename S, class Search>
 std::size_t collideWith(const Model<S>& model, const fcl::Transform3<S>& tf1,
                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& tf2,

@@ -124,7 +124,7 @@ class OctreeCollision : OctreePair<S> {
   }
 
  private:
-  /// Whether a cell can matter. What isn't both occupied matters for costs only.
+  /// True if a cell can matter. A pair that is not occupied on both sides matters for costs only.
   bool matters(const Cell<S>& cell) const {
     if (!cell.node) return request_.enable_cost;
     if (this->octree_.isNodeFree(cell.node)) return false;

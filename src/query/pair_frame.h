@@ -58,8 +58,8 @@ class PairFrame {
     return triangleDistance(triangleA(ids.a), triangleB(ids.b));
   }
 
-  /// How far the computed distance of any two triangles may be from the exact one in this frame as
-  /// it is stored, if either is at most d.
+  /// Bounds the error of the computed distance of any two triangles against the exact one in this
+  /// frame as it is stored, if either is at most d.
   double kernelError(double d) const {
     return error_bounds::triangleError<S>(
                error_bounds::extentOf(d, rootA().radius0, rootB().radius0)) +

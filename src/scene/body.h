@@ -26,7 +26,7 @@ struct Body {
   /// Unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
   /// object.
   std::uint64_t state = 0;
-  /// What every point of the content has moved so far in this state, at most; grows with each move.
+  /// No point of the content has moved farther than this in this state; it grows with each move.
   double path = 0;
   double rotation_error = 0;   ///< >= |R^T R - I|_2
   double rotation_square = 0;  ///< the square of |R^T R - I| (Frobenius)
@@ -62,7 +62,7 @@ void move(Body<S>& body, const fcl::Transform3<S>& X_W);
 template <typename S>
 void renew(Body<S>& body);
 
-/// What a model's root volume and arrays tell of its state.
+/// The state of a model, as its root volume and arrays tell it.
 template <typename S>
 engine::TreeKey keyOf(const Model<S>& model) {
   return {model.getBV(0).bv.stamp, model.vertices, model.tri_indices,

@@ -12,7 +12,7 @@
 
 namespace kios::scene {
 
-/// What is known of a pair without a search.
+/// A bound of a pair's distance that is known without a search.
 struct PairBound {
   enum class Source { kNothing, kStill, kMotion, kRoots };
   /// The narrow phase would compute at least that; below 0 for root volumes that overlap, deeper
@@ -49,9 +49,9 @@ class BodyPair {
   double upperBound() const;
   /// A little more: the narrow phase computes at most that.
   double ceiling() const;
-  /// Whether the narrow phase would compute just the proof's distance.
+  /// True if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
-  /// What it computes is at least that, wherever the bodies are.
+  /// The narrow phase computes at least this, wherever the bodies are.
   double least() const { return meshes() ? 0 : -std::numeric_limits<double>::infinity(); }
   /// An answer with these triangles, if that proves that the narrow phase's is at most the limit.
   Answer nearby(double limit) const;

@@ -29,8 +29,8 @@ inline double squaredGap(const Box& a, const Box& b) {
   return x * x + y * y + z * z;
 }
 
-/// What squaredGap() exceeds only if the distance exceeds `limit`: roundings are covered, and what
-/// underflows.
+/// A number that squaredGap() exceeds only if the distance exceeds `limit`: it covers rounding, and
+/// what underflows.
 inline double squaredLimit(double limit) {
   if (limit < 0) limit = 0;  // bodies of FCL that overlap have negative distances
   return limit * limit * (1 + 0x1p-40) + 1e-300;

@@ -62,7 +62,7 @@ int BoxTree::buildRange(std::vector<Leaf>& leaves, int begin, int end) {
   return index;
 }
 
-// What matters is how many others a node's box meets: taken as the sum of its sides.
+// The cost of a node is the number of others that its box meets, estimated by the sum of its sides.
 double BoxTree::cost() const {
   double sum = 0;
   for (const Node& node : nodes_) {

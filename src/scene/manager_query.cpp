@@ -50,7 +50,7 @@ class ManagerQuery<S>::Impl {
       ++counts.filtered;
       return false;
     }
-    // What is remembered of (b, a) is no help: its distance may differ in the last bits.
+    // A proof of (b, a) is no help: that distance may differ in its last bits.
     scene::BodyPair<S> pair(a.id, a.body, b.id, b.body, memory_);
     const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
     const auto answer = answerOf(pair, limit);

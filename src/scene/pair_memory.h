@@ -9,8 +9,8 @@
 
 namespace kios::scene {
 
-/// What the narrow phase said last of two bodies, and where they were. It says nothing of other
-/// states of their geometries.
+/// The last answer of the narrow phase about two bodies, and where they were. It says nothing of
+/// other states of their geometries.
 template <typename S>
 struct Proof {
   std::uint64_t state_a = 0, state_b = 0;  ///< 0: nothing was proven

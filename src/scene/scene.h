@@ -73,8 +73,8 @@ class Scene {
   /// may be within the limit.
   template <typename Visit>
   void forNearPairs(double limit, const Visit& visit);
-  /// What the squared gap of two objects' boxes exceeds only if the narrow phase would compute more
-  /// than the limit.
+  /// A number that the squared gap of two objects' boxes exceeds only if the narrow phase computes
+  /// more than the limit.
   double gapLimit(double limit) const { return squaredLimit(limit / box_share_); }
   /// A lower bound of that, roundings covered.
   double boxBound(double square) const {

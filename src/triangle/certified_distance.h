@@ -30,7 +30,7 @@ class CertifiedDistance {
 
  private:
   using Vec = Eigen::Vector3d;
-  /// What is needed of one triangle's plane, and the other's vertices above it times |normal|.
+  /// One triangle's plane, and the heights of the other's vertices above it times |normal|.
   struct Plane {
     Vec normal;
     double square, heights[3];

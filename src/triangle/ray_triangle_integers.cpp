@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What floating point leaves open: rays that start on a triangle or lie in its plane, degenerate
-// triangles, hits at the ray's ends, coordinates of very different size.
+// The cases that floating point leaves open: rays that start on a triangle or lie in its plane,
+// degenerate triangles, hits at the ray's ends, coordinates of very different size.
 
 #include <algorithm>
 #include <array>

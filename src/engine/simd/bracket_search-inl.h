@@ -153,8 +153,8 @@ class BracketSearch {
     // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
     const bool ends = nearer && search_.evaluator.keep_to <= bracket_.near_enough;
     if (nearer && (ends || budgeted()) && evaluateVertices()) return true;
-    // What may be nearer than its own upper bound is evaluated at once, so that better ones come
-    // early, and what overlaps, as it may touch.
+    // A pair that may be nearer than its own upper bound is evaluated at once, so that better ones
+    // come early, and what overlaps, as it may touch.
     const bool open = bound < search_.evaluator.prune_at;
     if ((open && (nearer || bound <= 0)) || num_waiting_ + 1 == kMaxWaiting) {
       return evaluateFeatures(pair, bound);
@@ -179,7 +179,7 @@ class BracketSearch {
     const bool done =
         nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
     if (search_.evaluator.keep_to < known) offered_ = false;
-    // What of them was not evaluated is not nearer than either.
+    // Features of them that were not evaluated are not nearer than either.
     if (!done) current_ = std::max(bound, search_.evaluator.prune_at);
     lowerTo(search_.evaluator.prune_at);
     return done;

@@ -179,7 +179,7 @@ class Frontier {
     pushApart(lanes & ~overlapping, bounds, hn::Or(a, tag), b);
   }
 
-  /// What was bounded, and waits again.
+  /// A pair whose bound is known, and which waits again.
   void keep(float bound, uint32_t index) {
     apart_.reserve(1);
     apart_.push(bound, {index | kBounded, 0});
