@@ -32,7 +32,7 @@ std::vector<std::uint32_t> weld(const MeshView<S>& mesh) {
   std::vector<std::uint32_t> table(capacity, kNone);  // open addressing, linear probing
   for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
     for (int k = 0; k < 3; ++k) {
-      const std::size_t v = mesh.triangles[t][k];
+      const std::size_t v = mesh.index(t, k);
       if (first[v] != kNone) continue;
       const fcl::Vector3<S>& p = mesh.vertices[v];
       std::size_t slot = hash(p) & (capacity - 1);

@@ -5,6 +5,8 @@
 #include <typeinfo>
 #include <utility>
 
+#include "engine/mesh_tree.h"
+#include "engine/tree_cache.h"
 #include "fcl_kios/model/model.h"
 #include "model/tree_build.h"
 
@@ -143,6 +145,15 @@ class Division {
   int num_nodes_ = 1;
 };
 
+/// The tree of the engine's own partition, which queries read. False where there is none.
+template <typename S>
+bool buildByCost(const Arrays<S>& model, int num_triangles) {
+  if (model.type != fcl::BVH_MODEL_TRIANGLES) return false;
+  return engine::buildVolumes<S>({model.vertices, static_cast<std::size_t>(model.num_vertices),
+                                  model.triangles, static_cast<std::size_t>(num_triangles)},
+                                 model.nodes, model.primitives);
+}
+
 template <typename S>
 int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
           SplitterBase<S>& splitter) {
@@ -150,6 +161,11 @@ int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
   const auto* const own_fitter = exactly<Fitter<S>>(fitter);
   const auto* const own_splitter = exactly<Splitter<S>>(splitter);
   if (own_fitter && own_splitter) {
+    if (own_splitter->byCost() && own_fitter->options().plain() &&
+        buildByCost(model, num_primitives)) {
+      own_fitter->trees().noteBuilt(model.nodes[0].bv.stamp);
+      return 2 * num_primitives - 1;
+    }
     OwnSteps<S> steps{model.build(), own_fitter->options(), own_splitter->method()};
     return Division<S, OwnSteps<S>>(model, steps).run(num_primitives);
   }
