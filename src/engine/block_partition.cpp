@@ -18,8 +18,11 @@ using lanes::Float4;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kBins = 16;
-constexpr int kSweep = 32;   ///< up to so many triangles all splits along two axes are tried
-constexpr int kReframe = 8;  ///< a part of its frame's triangles so small gets a frame of its own
+constexpr int kSweep = 32;  ///< up to so many triangles all splits along two axes are tried
+/// A part of a frame's triangles so small gets a frame of its own, if it is no leaf.
+constexpr int kReframe = 8;
+
+constexpr int kNoFrame = std::numeric_limits<int>::max();
 
 /// Leaves that n triangles fill.
 float leavesOf(int n) { return static_cast<float>((n + kLeafTriangles - 1) / kLeafTriangles); }
@@ -34,13 +37,14 @@ void BlockPartition::start(const Corners* triangles, int n) {
   order_.resize(count);
   for (int i = 0; i < n; ++i) order_[i] = static_cast<std::uint32_t>(i);
   if (items_.size() < count) items_.resize(count);
-  frame_shared_.assign(count, std::numeric_limits<int>::max());
+  frame_shared_.assign(count, kNoFrame);
 }
 
 int BlockPartition::split(int first, int n, bool in_halves) {
   if (n == 2) return 1;
   std::uint32_t* const items = order_.data() + first;
-  if (frame_shared_[items[0]] >= kReframe * n) {
+  const int shared = frame_shared_[items[0]];
+  if (shared >= kReframe * n && (n > kLeafTriangles || shared == kNoFrame)) {
     project(items, n, principalFrame(items, n));
     for (int i = 0; i < n; ++i) frame_shared_[items[i]] = n;
   }

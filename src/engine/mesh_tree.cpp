@@ -261,7 +261,7 @@ class MeshTree {
     }
     const PointQuad* const chunks = &chunks_[chunk_at_[first]];
     const int num_chunks = chunk_at_[first + n] - chunk_at_[first];
-    if (n <= kLeafTriangles) {
+    if (4 * num_chunks <= FourSets::kMost) {
       fit_.addSmall(index, SmallNode::kCluster, chunks, num_chunks);
       return -1;
     }

@@ -82,6 +82,7 @@ class Preparation {
       binary_[at].right = binary_[at].left + 1;
       for (int child = left; child < left + 2; ++child) {
         const VolumeNode<S>& of_child = volumes_[child];
+        __builtin_prefetch(&volumes_[std::max(0, of_child.first_child)]);
         binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, -1, 0, child});
       }
       stack.push_back(binary_[at].right);
@@ -164,6 +165,8 @@ class Preparation {
     tree_->boxes.resize(tree_->nodes.size());
     bool any_flat = false;
     for (std::size_t n = tree_->nodes.size(); n-- > 0;) {
+      constexpr std::size_t kAhead = 4;
+      if (n >= kAhead) __builtin_prefetch(&volumes_[of_node_[n - kAhead]].bv.cap_x);
       Node& node = tree_->nodes[n];
       if (node.isLeaf()) {
         below[n] = of_leaf[node.leaf()];

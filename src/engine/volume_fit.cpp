@@ -14,9 +14,7 @@ using lanes::Float4;
 
 namespace {
 
-float largest(const float* v, int stride) {
-  return std::max({std::abs(v[0]), std::abs(v[stride]), std::abs(v[2 * stride])});
-}
+Float4 magnitude(Float4 v) { return lanes::max(v, -v); }
 
 }  // namespace
 
@@ -145,13 +143,15 @@ void VolumeFit<S>::place(int node, SphereSites sites, const PointQuad* quads, st
 /// Writes the radii. With u = 2^-24: a distance as computed has 4.5 roundings. A point is off by u
 /// of each coordinate, in all by sqrt(3) u reach; S0's centre in the frame by sqrt(3) u |centre|,
 /// where |.| is the largest coordinate; what is subtracted for a cap in two steps rounds at the
-/// first by sqrt(3) u (reach + |centre|) at most.
+/// first by sqrt(3) u (reach + |centre|) at most. Radii of caps get twice of that, for they are
+/// added up in floats.
 template <typename S>
 void VolumeFit<S>::complete(int node, const SphereSites& sites, const FarthestSquares& far) {
   kIOS<S>& bv = nodes_[node].bv;
-  const double at = double{reach_} + largest(sites.center, 1);
-  const double r0 = std::sqrt(double{far.s0}) * (1 + 8 * kUlpFloat) + 4 * kUlpFloat * at;
-  if (r0 < 0x1p-10 * at) {  // the pad would be a part of 1e-3 or more
+  const float at = reach_ + std::max({std::abs(sites.center[0]), std::abs(sites.center[1]),
+                                      std::abs(sites.center[2])});
+  const double r0 = std::sqrt(double{far.s0}) * (1 + 8 * kUlpFloat) + 0x1p-22 * double{at};
+  if (r0 < 0x1p-10 * double{at}) {  // the pad would be a part of 1e-3 or more
     fitToVertices(node);
     return;
   }
@@ -159,16 +159,15 @@ void VolumeFit<S>::complete(int node, const SphereSites& sites, const FarthestSq
   bv.exponent = static_cast<std::int16_t>(capExponent(bv.radius0));
   const auto to_cap_units = static_cast<float>(
       bv.exponent == 0 ? frame_.to_model : scaled(1.0, frame_.exponent - bv.exponent));
-  const int k = far.s0 > 0 ? sites.k : 1;
-  for (int i = 0; i + 1 < k; ++i) {
-    const double r = std::sqrt(double{far.cap[i]}) * (1 + 8 * kUlpFloat) +
-                     4 * kUlpFloat * (2 * at + largest(&sites.cap[0][i], 4));
-    bv.cap_x[i] = sites.cap[0][i] * to_cap_units;
-    bv.cap_y[i] = sites.cap[1][i] * to_cap_units;
-    bv.cap_z[i] = sites.cap[2][i] * to_cap_units;
-    bv.cap_r[i] = roundUpFloat(r) * to_cap_units;
-  }
-  completeCaps(bv, k);
+  const Float4(&cap)[3] = sites.cap;
+  const Float4 most =
+      lanes::max(lanes::max(magnitude(cap[0]), magnitude(cap[1])), magnitude(cap[2]));
+  const Float4 radius = lanes::sqrt(far.cap) * (1 + 0x1p-20F) + 0x1p-21F * (2 * at + most);
+  lanes::store(bv.cap_x, cap[0] * to_cap_units);
+  lanes::store(bv.cap_y, cap[1] * to_cap_units);
+  lanes::store(bv.cap_z, cap[2] * to_cap_units);
+  lanes::store(bv.cap_r, radius * to_cap_units);
+  completeCaps(bv, far.s0 > 0 ? sites.k : 1);
 }
 
 template <typename S>

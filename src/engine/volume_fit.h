@@ -21,7 +21,7 @@ using VolumeNode = fcl::BVNode<kIOS<S>>;
 enum class SmallNode {
   kTriangle,  ///< one triangle
   kPart,      ///< several triangles, each with its three corners
-  kCluster    ///< a leaf of the prepared tree, its points once
+  kCluster    ///< one or a few leaves of the prepared tree, the points of each once
 };
 
 /// Fits the volumes of a tree's nodes, to points as floats in some frame: every sphere contains the
@@ -42,8 +42,8 @@ class VolumeFit {
     reach_ = reach;
   }
 
-  /// Takes a node of up to kLeafTriangles triangles, to be fitted with three others. Of each quad
-  /// the first three points count, those of a cluster all.
+  /// Takes a node of few points, to be fitted with three others. Of each quad the first three
+  /// points count, those of a cluster all.
   void addSmall(int node, SmallNode content, const PointQuad* quads, int n);
   void finishSmall();
 
@@ -61,8 +61,8 @@ class VolumeFit {
     int nodes[4] = {};
     FourSets sets;
   };
-  static constexpr int kBatches = 10, kParts = 1, kClusters = 6;
-  static constexpr int kRoom[kBatches] = {3, 6, 9, 12, 18, 24, 8, 12, 16, 24};
+  static constexpr int kBatches = 11, kParts = 1, kClusters = 6;
+  static constexpr int kRoom[kBatches] = {3, 6, 9, 12, 18, 24, 8, 12, 16, 24, 32};
 
   void fitBatch(int which);
   float storeCenter(float center, int c, kIOS<S>& bv) const;

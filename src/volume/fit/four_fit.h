@@ -9,7 +9,7 @@ namespace kios {
 /// Four small sets of points, one a lane. A set with fewer points than `count` repeats one of its
 /// own, with weight 0.
 struct FourSets {
-  static constexpr int kMost = 24;
+  static constexpr int kMost = 32;
   int count = 0;
   lanes::Float4 x[kMost], y[kMost], z[kMost];
   lanes::Float4 weight[kMost];  ///< 0 or 1

@@ -18,7 +18,7 @@ struct PointQuad {
 struct SphereSites {
   int k = 1;
   float center[3] = {};
-  float cap[3][4] = {};  ///< by coordinate
+  lanes::Float4 cap[3] = {};  ///< by coordinate: a cap a lane
 };
 
 /// The tuned fit. `points` lie relative to the first of them, which is at `first`.
@@ -27,7 +27,7 @@ SphereSites placeTuned(const PointLanes& points, const float first[3], PointLane
 /// The largest squared distances of points from S0's centre, and from the four caps'.
 struct FarthestSquares {
   float s0;
-  float cap[4];
+  lanes::Float4 cap;
 };
 FarthestSquares farthestSquares(const PointQuad* quads, std::size_t n, const SphereSites& sites);
 
