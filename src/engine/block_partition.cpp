@@ -20,7 +20,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kBins = 16;
 constexpr int kSweep = 32;  ///< up to so many triangles all splits along two axes are tried
 /// A part of a frame's triangles so small gets a frame of its own, if it is no leaf.
-constexpr int kReframe = 8;
+constexpr int kReframe = 2;
 
 constexpr int kNoFrame = std::numeric_limits<int>::max();
 

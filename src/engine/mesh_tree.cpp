@@ -18,7 +18,7 @@ namespace {
 
 using lanes::Float4;
 
-constexpr int kBlock = 512;    ///< a block of so many triangles fits the cache
+constexpr int kBlock = 2048;   ///< a block of so many triangles fits the cache
 constexpr int kSample = 512;   ///< triangles by which a larger node is cut
 constexpr int kGathered = 64;  ///< up to so many triangles spheres are placed by all points
 

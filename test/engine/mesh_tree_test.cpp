@@ -89,8 +89,8 @@ TYPED_TEST_SUITE(MeshTree, Scalars);
 TYPED_TEST(MeshTree, EveryVolumeHoldsItsVertices) {
   using S = TypeParam;
   std::vector<NamedMesh> meshes = allMeshes<S>();
-  // Above 64 and above 512 triangles spheres are placed by some of the points.
-  for (const int n : {65, 200, 700, 3000}) {
+  // Above 64 and above 2048 triangles spheres are placed by some of the points.
+  for (const int n : {65, 200, 700, 3000, 9000}) {
     meshes.push_back({"torus", scenes::bumpyTorus(n)});
     meshes.push_back({"soup", scenes::randomSoup(n, 1, 1e-3, 1, 50 + n)});
   }
