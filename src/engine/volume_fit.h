@@ -55,12 +55,13 @@ class VolumeFit {
                std::size_t n);
 
  private:
-  /// Four nodes, of up to so many points.
+  /// Four nodes of about as many points.
   struct Batch {
     int used = 0;
     int nodes[4] = {};
     FourSets sets;
   };
+  /// Points that the sets of each batch have: of triangles, then of parts, then of clusters.
   static constexpr int kBatches = 11, kParts = 1, kClusters = 6;
   static constexpr int kRoom[kBatches] = {3, 6, 9, 12, 18, 24, 8, 12, 16, 24, 32};
 

@@ -59,7 +59,7 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
 /// Splits a node across the longest principal axis of its vertices: at the mean or the median of
 /// the triangles' centroids, or at the centre of the box along the axes. One made without a method,
 /// as models have it, splits by the cost of a search: with the tuned fit, a mesh is then divided
-/// and fitted in one go, in less than half the time, and what queries prepare takes over its tree.
+/// and fitted in one go, in about half the time, and what queries prepare takes over its tree.
 /// Where that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
 /// mean.
 template <typename S_>

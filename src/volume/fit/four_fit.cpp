@@ -97,8 +97,9 @@ void project(const FourSets& s, InFrame& f) {
 /// Where the largest of q - 2 u t over points is about least when u^2 is added: the coordinate of a
 /// centre along an axis that points have the coordinates t along, q being their squared distances
 /// from the centre at u = 0. From there along the parabola that is uppermost, then along the one
-/// that it crosses first, and so on.
-Float4 lowestOn(const Float4* t, const Float4* q, int n, int steps) {
+/// that it crosses first.
+Float4 lowestOn(const Float4* t, const Float4* q, int n) {
+  constexpr int kSteps = 2;
   const Float4 zero = broadcast(0);
   Float4 top_q = q[0], top_t = t[0];
   for (int i = 1; i < n; ++i) {
@@ -119,7 +120,7 @@ Float4 lowestOn(const Float4* t, const Float4* q, int n, int steps) {
       next_q = select(first, q[i], next_q);
     }
     reached = lanes::max(reached, stop);
-    if (step + 1 == steps) return sign * reached;
+    if (step + 1 == kSteps) return sign * reached;
     // A parabola whose lowest point lies behind rises from here on.
     top_t = select(sign * next_t > reached, next_t, sign * reached);
     top_q = next_q;
@@ -149,7 +150,7 @@ FourSites placeFour(const FourSets& s, bool thorough) {
   const auto from = [&](const Float4* axis0, Float4 at0, const Float4* axis1, Float4 at1) {
     for (int i = 0; i < s.count; ++i) q[i] = squares[i] - 2 * (at0 * axis0[i] + at1 * axis1[i]);
   };
-  const int steps = thorough ? 2 : 1;
+  const int rounds = thorough ? 2 : 1;
   const Float4 zero = broadcast(0);
   const Float4 height_c = lanes::max(zero, kCot30 * lanes::sqrt(rim_c) - f.half[2]);
   const Float4 height_b = lanes::max(zero, kCot30 * lanes::sqrt(rim_b) - f.half[1]);
@@ -157,21 +158,21 @@ FourSites placeFour(const FourSets& s, bool thorough) {
   Float4 ua[2], ub[2], va[2];
   for (int side = 0; side < 2; ++side) {
     ub[side] = zero;
-    for (int round = 0; round < steps; ++round) {
+    for (int round = 0; round < rounds; ++round) {
       from(c, hc[side], b, ub[side]);
-      ua[side] = lowestOn(a, q, s.count, 2);
+      ua[side] = lowestOn(a, q, s.count);
       from(c, hc[side], a, ua[side]);
-      ub[side] = lowestOn(b, q, s.count, 2);
+      ub[side] = lowestOn(b, q, s.count);
     }
     from(b, hb[side], b, zero);
-    va[side] = lowestOn(a, q, s.count, 2);
+    va[side] = lowestOn(a, q, s.count);
   }
   Float4 sa = 0.5F * (ua[0] + ua[1]), sb = 0.5F * (ub[0] + ub[1]);
   if (thorough) {
     from(b, sb, b, zero);
-    sa = lowestOn(a, q, s.count, 2);
+    sa = lowestOn(a, q, s.count);
     from(a, sa, a, zero);
-    sb = lowestOn(b, q, s.count, 2);
+    sb = lowestOn(b, q, s.count);
   }
   const auto& e = f.axes.column;
   for (int r = 0; r < 3; ++r) {
