@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
 
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
   fcl::DynamicAABBTreeCollisionManagerd manager;
-  kios::SceneDistance<double> scene;
+  kios::SceneDistanced scene;
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
     objects.push_back(std::make_unique<fcl::CollisionObjectd>(mesh, poseOf(i, 0)));
     manager.registerObject(objects.back().get());
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   }
   manager.setup();
 
-  kios::ManagerQuery<double> query;
+  kios::ManagerQueryd query;
   Stopwatch by_manager, by_query, by_scene;
   long long searched = 0, total = 0, near_pairs = 0, touching = 0;
   for (int frame = 0; frame < frames; ++frame) {
@@ -84,9 +84,9 @@ int main(int argc, char** argv) {
     by_manager.time([&] { manager.distance(&distance, fcl::DefaultDistanceFunction<double>); });
 
     query.findClosest();
-    by_query.time([&] { manager.distance(&query, kios::ManagerQuery<double>::callback); });
+    by_query.time([&] { manager.distance(&query, kios::ManagerQueryd::callback); });
 
-    std::optional<kios::ScenePair<double>> closest;
+    std::optional<kios::ScenePaird> closest;
     by_scene.time([&] { closest = scene.closestPair(); });
     searched += scene.counts().queried;
     total += scene.counts().total;

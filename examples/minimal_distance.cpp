@@ -29,7 +29,7 @@ int main() {
             << result.nearest_points[1].transpose().format(row) << ")\n";
 
   // A bracket of the distance, good to a tenth, and a question that needs no distance.
-  kios::DistanceOptions<double> options;
+  kios::DistanceOptionsd options;
   options.rel_err = 0.1;
   const auto answer = kios::distance(*mesh, at_origin, *mesh, aside, options);
   std::cout << "proven to lie in [" << answer.lower_bound << ", " << answer.upper_bound << "]\n"

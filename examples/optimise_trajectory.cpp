@@ -93,7 +93,7 @@ struct Scene {
     return least;
   }
 
-  kios::Cover<double> block_cover, rod_cover;
+  kios::Coverd block_cover, rod_cover;
   std::vector<fcl::RSSd> block_rss, rod_rss;
 };
 

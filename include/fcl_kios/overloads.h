@@ -26,8 +26,10 @@ namespace kios {
 /// True if the geometry is a fcl::BVHModel<kIOS>, finished or not.
 bool holdsModel(const fcl::CollisionGeometry<double>* geometry);
 bool holdsModel(const fcl::CollisionGeometry<float>* geometry);
+namespace detail {
 /// Throws std::invalid_argument if either is null.
 void requireObjects(const void* object1, const void* object2);
+}  // namespace detail
 }  // namespace kios
 
 namespace fcl {
@@ -94,7 +96,7 @@ template <typename S, template <typename> class Solver>
 std::size_t collide(const CollisionObject<S>* o1, const CollisionObject<S>* o2,
                     const Solver<S>* solver, const CollisionRequest<S>& request,
                     CollisionResult<S>& result) {
-  kios::requireObjects(o1, o2);
+  kios::detail::requireObjects(o1, o2);
   return kios_overloads::collide(o1->collisionGeometry().get(), o1->getTransform(),
                                  o2->collisionGeometry().get(), o2->getTransform(), solver, request,
                                  result);
@@ -111,7 +113,7 @@ S distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1, const Colli
 template <typename S, template <typename> class Solver>
 S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2, const Solver<S>* solver,
            const DistanceRequest<S>& request, DistanceResult<S>& result) {
-  kios::requireObjects(o1, o2);
+  kios::detail::requireObjects(o1, o2);
   return kios_overloads::distance(o1->collisionGeometry().get(), o1->getTransform(),
                                   o2->collisionGeometry().get(), o2->getTransform(), solver,
                                   request, result);
@@ -195,7 +197,7 @@ requires KiosScalar<S> auto collide(const CollisionObject<S>* o1, const Collisio
                                     const NarrowPhaseSolver* solver,
                                     const CollisionRequest<S>& request,
                                     CollisionResult<S>& result) {
-  kios::requireObjects(o1, o2);
+  kios::detail::requireObjects(o1, o2);
   return kios_overloads::collide(o1->collisionGeometry().get(), o1->getTransform(),
                                  o2->collisionGeometry().get(), o2->getTransform(), solver, request,
                                  result);
@@ -219,7 +221,7 @@ requires KiosScalar<typename NarrowPhaseSolver::S> auto distance(
     const CollisionObject<typename NarrowPhaseSolver::S>* o2, const NarrowPhaseSolver* solver,
     const DistanceRequest<typename NarrowPhaseSolver::S>& request,
     DistanceResult<typename NarrowPhaseSolver::S>& result) {
-  kios::requireObjects(o1, o2);
+  kios::detail::requireObjects(o1, o2);
   return kios_overloads::distance(o1->collisionGeometry().get(), o1->getTransform(),
                                   o2->collisionGeometry().get(), o2->getTransform(), solver,
                                   request, result);

@@ -13,7 +13,8 @@ class Rows:
     def __init__(self, folder):
         self.runs, self.rows = {}, []
         for file in sorted(folder.glob("*.jsonl")):
-            self.runs[file.stem], *rows = map(json.loads, file.read_text().splitlines())
+            lines = file.read_text(encoding="utf-8").splitlines()
+            self.runs[file.stem], *rows = map(json.loads, lines)
             self.rows += rows
 
     def find(self, scenario, query, bv=OURS, **settings):

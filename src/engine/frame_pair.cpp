@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/prepare.h"
+#include "volume/error_bounds.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -27,19 +28,17 @@ template <typename S>
 bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
   const Eigen::Matrix3d R = X_AB.R.template cast<double>();
-  const Eigen::Vector3d t = rotate<double>(R, origin_b) + X_AB.T.template cast<double>() - origin_a;
+  const Eigen::Vector3d t =
+      detail::rotate<double>(R, origin_b) + X_AB.T.template cast<double>() - origin_a;
   const double reach_a = a.reach, reach_b = b.reach, scale = reach_a + reach_b + t.lpNorm<1>();
   if (!(std::min(reach_a, reach_b) >= kLeastReach && scale <= kLargestReach)) return false;
-  // The common frame: 6 roundings of terms that sum to at most m, of points and of t (see
-  // volume/separation.cpp), 3 coordinates, two objects: 32 ulp cover them.
-  constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-  const double m = 1.8 * (origin_b.lpNorm<1>() + 2 * reach_b) + X_AB.T_norm1 +
-                   origin_a.lpNorm<1>() + 2 * reach_a;
-  const double pad = 0x1p-19 * scale + 2 * X_AB.stretch * scale + 32 * kUlp * m;
+  const double points = error_bounds::volumeError<S>(
+      origin_b.lpNorm<1>() + 2 * reach_b, X_AB.T_norm1 + origin_a.lpNorm<1>(), 2 * reach_a, 0);
+  const double pad = error_bounds::laneError(scale) + 2 * X_AB.stretch * scale + points;
   if (!(pad <= 0x1p-4 * std::min(reach_a, reach_b))) return false;
   const Eigen::Matrix3d inverse = R.inverse();
   out.a_from_b = toFloat(R, t);
-  out.b_from_a = toFloat(inverse, -rotate<double>(inverse, t));
+  out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, t));
   out.pad = roundUpFloat(pad);
   out.scale = roundUpFloat(scale);
   return true;

@@ -53,7 +53,7 @@ namespace kios::engine::HWY_NAMESPACE {
 
 /// Nearly best first: pairs that overlap are expanded at once, as they all must be, the others in
 /// waves by their bounds. A pair of leaves is bounded by a slab and waits again; the features of
-/// one that waited are judged.
+/// one that waited are evaluated.
 class DistanceSearch {
  public:
   explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
@@ -68,11 +68,11 @@ class DistanceSearch {
       const size_t n = frontier_.inner.pop(batch);
       expander_.expand<false>(batch, n, frontier_);
       if (n == 0) {
-        if (!frontier_.nextWave(search_.judge.prune_at, kWave)) return;
+        if (!frontier_.nextWave(search_.evaluator.prune_at, kWave)) return;
         while (!frontier_.bounded.empty()) {
           const PairList::Entry entry = frontier_.bounded.pop();
-          if (entry.bound >= search_.judge.prune_at) continue;
-          if (judgeFeatures(waiting_[entry.pair.a], entry.bound)) return;
+          if (entry.bound >= search_.evaluator.prune_at) continue;
+          if (evaluateFeatures(waiting_[entry.pair.a], entry.bound)) return;
         }
       }
     }
@@ -85,19 +85,20 @@ class DistanceSearch {
 
   /// True to end the search.
   bool boundLeaves(const PairList::Entry& entry) {
-    if (entry.bound >= search_.judge.prune_at) return false;
+    if (entry.bound >= search_.evaluator.prune_at) return false;
     ++search_.counts.leaf_pairs;
     Slabbed& slabbed = waiting_[num_waiting_];
     slabbed.nodes = entry.pair;
     const float by_slab =
         boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
     const float bound = std::max(entry.bound, by_slab);
-    if (bound >= search_.judge.prune_at) {
-      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, search_.judge.prune_at);
+    if (bound >= search_.evaluator.prune_at) {
+      if (search_.audit)
+        search_.audit->pruned(entry.pair.a, entry.pair.b, search_.evaluator.prune_at);
       return false;
     }
     // What overlaps needs not wait, nor can what finds no room.
-    if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return judgeFeatures(slabbed, bound);
+    if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return evaluateFeatures(slabbed, bound);
     frontier_.keep(bound, num_waiting_++);
     return false;
   }
@@ -106,7 +107,7 @@ class DistanceSearch {
   const Leaf& leafB(Pair at) const { return search_.b.leaves[search_.b.nodes[at.b].leaf()]; }
 
   /// True to end the search.
-  bool judgeFeatures(const Slabbed& slabbed, float bound) {
+  bool evaluateFeatures(const Slabbed& slabbed, float bound) {
     return nearestOfLeaves(search_, leafA(slabbed.nodes), leafB(slabbed.nodes), slabbed.slab,
                            bound);
   }
@@ -122,7 +123,7 @@ void distance(const Search& search) { DistanceSearch(search).run(); }
 
 void bracket(const Search& search) { BracketSearch(search).run(); }
 
-/// Depth first: all that overlaps is looked at, until a judge ends it.
+/// Depth first: all that overlaps is looked at, until an evaluator ends it.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;

@@ -107,9 +107,9 @@ void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& 
   const Eigen::Vector3f normal = sum.normalized().cast<float>();
   std::copy_n(middle.data(), 3, leaf.centroid);
   std::copy_n(normal.data(), 3, leaf.normal);
-  leaf.normal_bottom = leaf.normal_top = dot<float>(normal, vertices[0]);
+  leaf.normal_bottom = leaf.normal_top = detail::dot<float>(normal, vertices[0]);
   for (int i = 1; i < leaf.num_vertices; ++i) {
-    const float height = dot<float>(normal, vertices[i]);
+    const float height = detail::dot<float>(normal, vertices[i]);
     leaf.normal_bottom = std::min(leaf.normal_bottom, height);
     leaf.normal_top = std::max(leaf.normal_top, height);
   }

@@ -8,6 +8,7 @@
 
 #include "engine/feature_distance.h"
 #include "fcl_kios/triangle/intersection.h"
+#include "volume/error_bounds.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -22,8 +23,7 @@ float downToFloat(double v) {
   return v < 0x1p127 ? roundDown<float>(v) : 0x1p127F;
 }
 
-template <typename S>
-constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
+using error_bounds::featureError;
 
 template <typename S>
 bool exists(const TrianglePairIds& ids, const PreparedPair<S>& pair) {
@@ -73,68 +73,58 @@ TrianglePairIds idsOf(const Candidate& c) {
 }
 
 template <typename S>
-class NearestJudge final : public Judge {
+class NearestEvaluator final : public ExactEvaluator {
  public:
-  NearestJudge(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds)
+  NearestEvaluator(const PreparedPair<S>& pair, const PairQuery& query)
       : corners_(pair),
-        rel_err_(bounds.rel_err),
-        abs_err_(bounds.abs_err),
-        least_shared_(leastShared(pair)) {
-    best_ = bounds.at_most;
-    if (bounds.at_most < std::numeric_limits<S>::max()) lowerTo(bounds.at_most);
-  }
-  NearestJudge(const PreparedPair<S>& pair, const BracketQuery<S>& query)
-      : corners_(pair),
-        rel_err_(query.rel_err),
-        abs_err_(query.abs_err),
-        near_enough_(query.near_enough),
+        query_(query),
         by_faces_(query.hasBudget()),
-        best_(std::numeric_limits<double>::infinity()),
         least_shared_(leastShared(pair)) {
     prune_at = keep_to = upToFloat(query.far_enough);
   }
 
-  bool judge(const Candidate& c) override {
+  bool evaluate(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
       if (!corners_.intersect(c)) return false;
       least_ = 0;
       take(0, idsOf(c));
       return true;
     }
-    if (c.kind == PairKind::kFaces) return judgeFaces(idsOf(c));
+    if (c.kind == PairKind::kFaces) return evaluateFaces(idsOf(c));
     const FeatureDistance found = distanceOf(c);
     const TrianglePairIds ids = idsOf(c);
     double distance = found.distance;
     // Features that are as near as rounding can tell, or so small that their squares vanish: their
     // triangles decide.
-    if (distance <= 64 * kUlp<S> * found.extent || found.extent < kLeastExtent) {
+    if (distance <= featureError<S>(found.extent) || found.extent < kLeastExtent) {
       distance = double{corners_.distanceOf(ids).distance};
     }
     least_ = std::min(least_, distance);
-    if (by_faces_) return distance < best_ && judgeFaces(ids);
+    if (by_faces_) return distance < best_ && evaluateFaces(ids);
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
-      if (distance < best_ + 64 * kUlp<S> * found.extent) take(distance, ids);
+      if (distance < best_ + featureError<S>(found.extent)) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
       take(distance, ids);
     }
-    return distance <= near_enough_ && endsWith(ids);
+    return distance <= query_.near_enough && endsWith(ids);
   }
 
   void offer(float upper_bound) override {
     if (!(upper_bound < keep_to)) return;
     keep_to = upper_bound;
-    prune_at = std::min(prune_at, offers_stand ? upToFloat(enough(upper_bound)) : upper_bound);
+    prune_at =
+        std::min(prune_at, offers_stand ? upToFloat(query_.pruneAt(upper_bound)) : upper_bound);
   }
 
   /// Triangles to begin with, their distance known. True to end the search.
   bool start(const TrianglePairIds& ids, double distance) {
     least_ = distance;
     take(distance, ids);
-    return distance <= near_enough_ && endsWith(ids);
+    return distance <= query_.near_enough && endsWith(ids);
   }
 
   TrianglePairIds ids() const { return ids_; }
-  double least() const { return least_; }  ///< of all that was judged
+  double least() const { return least_; }  ///< of all that was evaluated
   bool endedNear() const { return ended_near_; }
   TriangleDistance<S> certified() const {
     return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
@@ -149,7 +139,7 @@ class NearestJudge final : public Judge {
 
   /// Extents of edges are at most four times the scale.
   static double leastShared(const PreparedPair<S>& pair) {
-    return 64 * kUlp<S> * 4 * double{pair.frames.scale};
+    return featureError<S>(4 * double{pair.frames.scale});
   }
 
   FeatureDistance distanceOf(const Candidate& c) {
@@ -169,20 +159,20 @@ class NearestJudge final : public Judge {
   }
 
   /// Triangles as a whole: they may be nearer than the features that named them.
-  bool judgeFaces(const TrianglePairIds& ids) {
+  bool evaluateFaces(const TrianglePairIds& ids) {
     faces_ = ids;
     of_faces_ = corners_.distanceOf(ids);
     const double distance = double{of_faces_.distance};
     least_ = std::min(least_, distance);
     if (distance < best_) take(distance, ids);
-    return distance <= near_enough_ && endsWith(ids);
+    return distance <= query_.near_enough && endsWith(ids);
   }
 
   /// Features were found near enough: whether their triangles are, by the distance that the answer
   /// states, so that the search ends with them.
   bool endsWith(const TrianglePairIds& ids) {
     if (!(faces_ == ids)) of_faces_ = corners_.distanceOf(faces_ = ids);
-    if (!(double{of_faces_.distance} <= near_enough_)) return false;
+    if (!(double{of_faces_.distance} <= query_.near_enough)) return false;
     ids_ = ids;
     ended_near_ = true;
     return true;
@@ -197,36 +187,30 @@ class NearestJudge final : public Judge {
   void lowerTo(double distance) {
     best_ = distance;
     keep_to = std::min(keep_to, upToFloat(distance));
-    prune_at = std::min(prune_at, upToFloat(enough(distance)));
-  }
-
-  /// What need not be told from a pair so far apart.
-  double enough(double distance) const {
-    return std::max(0.0, std::min(distance - abs_err_, distance / (1 + rel_err_)));
+    prune_at = std::min(prune_at, upToFloat(query_.pruneAt(distance)));
   }
 
   const Corners<S> corners_;
-  const double rel_err_, abs_err_;
-  const double near_enough_ = 0;
-  const bool by_faces_ = false;  ///< whether what was found must not get worse by going on
-  double best_;                  ///< of ids_, or what was asked for
+  const PairQuery& query_;
+  const bool by_faces_;  ///< whether what was found must not get worse by going on
+  double best_ = std::numeric_limits<double>::infinity();  ///< of ids_
   double least_ = std::numeric_limits<double>::infinity();
-  TrianglePairIds ids_, faces_;  ///< the nearest; those judged as faces
+  TrianglePairIds ids_, faces_;  ///< the nearest; those evaluated as faces
   TriangleDistance<S> of_faces_;
   bool ended_near_ = false;
   NearestEnds ends_;
-  const double least_shared_;  ///< nearer edges need their own extent; see judge()
+  const double least_shared_;  ///< nearer edges need their own extent; see evaluate()
 };
 
 template <typename S>
-class IntersectionJudge final : public Judge {
+class IntersectionEvaluator final : public ExactEvaluator {
  public:
-  IntersectionJudge(const PreparedPair<S>& pair, std::size_t limit)
+  IntersectionEvaluator(const PreparedPair<S>& pair, std::size_t limit)
       : corners_(pair), limit_(limit) {
     prune_at = keep_to = 0;
   }
 
-  bool judge(const Candidate& c) override {
+  bool evaluate(const Candidate& c) override {
     if (!corners_.intersect(c)) return false;
     found.push_back(idsOf(c));
     return found.size() >= limit_;
@@ -244,56 +228,39 @@ class IntersectionJudge final : public Judge {
 }  // namespace
 
 template <typename S>
-TrianglePairIds nearestTriangles(const PreparedPair<S>& pair, const DistanceBounds<S>& bounds,
-                                 TriangleDistance<S>& nearest, SearchCounts& counts) {
-  NearestJudge<S> judge(pair, bounds);
-  Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit};
-  Bracket bracket;
-  search.bracket = &bracket;
-  BracketQuery<S> query;
-  query.rel_err = double{bounds.rel_err};
-  query.abs_err = double{bounds.abs_err};
-  judge.offers_stand = !query.isNearlyExact();
-  (query.isNearlyExact() ? kernels().distance : kernels().bracket)(search);
-  if (judge.ids().a < 0) return {};
-  nearest = judge.certified();
-  return nearest.distance < bounds.at_most ? judge.ids() : TrianglePairIds();
-}
-
-template <typename S>
-BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery<S>& query,
-                                 SearchCounts& counts) {
-  NearestJudge<S> judge(pair, query);
+PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
+                               SearchCounts& counts) {
+  NearestEvaluator<S> evaluator(pair, query);
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
   const bool exact = query.isNearlyExact() && !query.endsEarly();
-  judge.offers_stand = !exact;
+  evaluator.offers_stand = !exact;
   bool offered = false, done = false;
   if (exists(query.start, pair)) {
     const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};
     const bool near = query.near_enough > 0 && distance <= query.near_enough;
     if (!query.isExact() || query.hasBudget() || near) {
-      done = judge.start(query.start, distance);
+      done = evaluator.start(query.start, distance);
     } else if (distance > 0) {
-      judge.offer(upToFloat(distance + 256 * kUlp<S> * pair.frames.scale));
+      evaluator.offer(upToFloat(distance + featureError<S>(4 * double{pair.frames.scale})));
       offered = true;
     }
   }
-  Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit, &bracket};
+  Search search = {pair.a.tree, pair.b.tree, pair.frames, evaluator, counts, pair.audit, &bracket};
   if (!done) (exact ? kernels().distance : kernels().bracket)(search);
-  BracketResult<S> result;
-  result.ids = judge.ids();
-  if (result.ids.a >= 0) result.nearest = judge.certified();
+  PairAnswer<S> result;
+  result.ids = evaluator.ids();
+  if (result.ids.a >= 0) result.nearest = evaluator.certified();
   if (offered && result.ids.a >= 0 &&
       result.nearest.distance == 0) {  // any pair that intersects: which must not depend
-    BracketQuery<S> cold = query;      // on where it began
+    PairQuery cold = query;            // on where it began
     cold.start = {};
-    return bracketDistance(pair, cold, counts);
+    return nearestTriangles(pair, cold, counts);
   }
-  result.least_evaluated = judge.least();
-  result.least_other = std::max(0.0F, exact ? judge.prune_at : bracket.proven);
-  if (judge.endedNear()) {
+  result.least_evaluated = evaluator.least();
+  result.least_other = std::max(0.0F, exact ? evaluator.prune_at : bracket.proven);
+  if (evaluator.endedNear()) {
     result.end = SearchEnd::kNear;
   } else if (bracket.out_of_budget) {
     result.end = SearchEnd::kBudget;
@@ -304,22 +271,20 @@ BracketResult<S> bracketDistance(const PreparedPair<S>& pair, const BracketQuery
 template <typename S>
 std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, std::size_t limit,
                                                    SearchCounts& counts) {
-  IntersectionJudge<S> judge(pair, limit);
-  const Search search = {pair.a.tree, pair.b.tree, pair.frames, judge, counts, pair.audit};
+  IntersectionEvaluator<S> evaluator(pair, limit);
+  const Search search = {pair.a.tree, pair.b.tree, pair.frames, evaluator, counts, pair.audit};
   if (limit == 1) {
     kernels().contact(search);
   } else {
     kernels().contacts(search);
   }
-  std::sort(judge.found.begin(), judge.found.end());
-  return std::move(judge.found);
+  std::sort(evaluator.found.begin(), evaluator.found.end());
+  return std::move(evaluator.found);
 }
 
 #define KIOS_INSTANTIATE(S)                                                                        \
-  template TrianglePairIds nearestTriangles(const PreparedPair<S>&, const DistanceBounds<S>&,      \
-                                            TriangleDistance<S>&, SearchCounts&);                  \
-  template BracketResult<S> bracketDistance(const PreparedPair<S>&, const BracketQuery<S>&,        \
-                                            SearchCounts&);                                        \
+  template PairAnswer<S> nearestTriangles(const PreparedPair<S>&, const PairQuery&,                \
+                                          SearchCounts&);                                          \
   template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&, std::size_t, \
                                                               SearchCounts&);
 KIOS_INSTANTIATE(double)

@@ -190,7 +190,7 @@ Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::siz
 
 Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks) {
   const Extents e = extentsAlong(axes, chunks, num_chunks);
-  return boxOf(axes, e, e.from + rotate<float>(axes, 0.5F * (e.low + e.high)));
+  return boxOf(axes, e, e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high)));
 }
 
 void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
@@ -198,7 +198,7 @@ void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& m
   const Eigen::Matrix3f axes = principalAxes(moments);
   const Extents e = extentsAlong(axes, chunks, num_chunks);
   const Eigen::Vector3f half = 0.5F * (e.high - e.low);
-  const Eigen::Vector3f center = e.from + rotate<float>(axes, 0.5F * (e.low + e.high));
+  const Eigen::Vector3f center = e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high));
   int order[3] = {0, 1, 2};  // longest first
   if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
   if (half[order[1]] < half[order[2]]) std::swap(order[1], order[2]);

@@ -44,21 +44,21 @@ RayFit makeFloatRay(const Tree& tree, const RayLine& line, double t_min, double 
 float toLength(const Tree& tree, double s);
 
 /// The exact side of a search.
-class RayJudge {
+class RayEvaluator {
  public:
   /// Evaluates a triangle, which may lower `end`. Returns true to end the search.
-  virtual bool judge(std::uint32_t triangle) = 0;
+  virtual bool evaluate(std::uint32_t triangle) = 0;
 
   float end;  ///< hits at a larger s don't matter
 
  protected:
-  ~RayJudge() = default;
+  ~RayEvaluator() = default;
 };
 
 struct RaySearch {
   const Tree& tree;
   const FloatRay& ray;
-  RayJudge& judge;
+  RayEvaluator& evaluator;
   SearchCounts& counts;
 };
 

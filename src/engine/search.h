@@ -29,10 +29,10 @@ struct Candidate {
 };
 
 /// The exact side of a search.
-class Judge {
+class ExactEvaluator {
  public:
   /// Evaluates a candidate, which may lower the bounds below. Returns true to end the search.
-  virtual bool judge(const Candidate& candidate) = 0;
+  virtual bool evaluate(const Candidate& candidate) = 0;
   /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is
   /// nearer than keep_to.
   virtual void offer(float upper_bound) = 0;
@@ -43,7 +43,7 @@ class Judge {
                                                             ///< are candidates
 
  protected:
-  ~Judge() = default;
+  ~ExactEvaluator() = default;
 };
 
 /// Hears of everything that a search leaves out, for tests.
@@ -60,7 +60,7 @@ class Audit {
 struct Bracket {
   float near_enough = -std::numeric_limits<float>::infinity();  ///< a pair so near ends it
   long long max_expansions = std::numeric_limits<long long>::max();
-  /// All that was not judged is at least so far apart.
+  /// All that was not evaluated is at least so far apart.
   float proven = -std::numeric_limits<float>::infinity();
   bool out_of_budget = false;
 };
@@ -71,7 +71,7 @@ struct Search {
   const Tree& a;
   const Tree& b;
   const FramePair& frames;
-  Judge& judge;
+  ExactEvaluator& evaluator;
   SearchCounts& counts;
   Audit* audit = nullptr;
   Bracket* bracket = nullptr;  ///< of Kernels::bracket
@@ -80,17 +80,17 @@ struct Search {
 /// The traversals of one instruction set.
 struct Kernels {
   const char* target;
-  /// Every feature pair that may be nearer than judge.keep_to, and every edge and face that may
-  /// cross, is judged.
+  /// Every feature pair that may be nearer than evaluator.keep_to, and every edge and face that may
+  /// cross, is evaluated.
   void (*distance)(const Search& search);
-  /// Feature pairs that may be nearer than judge.prune_at are judged, and one of the nearest that
-  /// were offered; may end early, and tells what was proven.
+  /// Feature pairs that may be nearer than evaluator.prune_at are evaluated, and one of the nearest
+  /// that were offered; may end early, and tells what was proven.
   void (*bracket)(const Search& search);
-  /// Every edge and face that may touch is judged.
+  /// Every edge and face that may touch is evaluated.
   void (*contact)(const Search& search);
-  /// Every pair of triangles that may touch is judged.
+  /// Every pair of triangles that may touch is evaluated.
   void (*contacts)(const Search& search);
-  /// Every triangle that the ray may meet is judged, those ahead first.
+  /// Every triangle that the ray may meet is evaluated, those ahead first.
   void (*ray)(const RaySearch& search);
 };
 

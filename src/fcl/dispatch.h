@@ -56,7 +56,7 @@ S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
 template <typename S>
 std::size_t collide(const fcl::CollisionObject<S>* o1, const fcl::CollisionObject<S>* o2,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  requireObjects(o1, o2);
+  detail::requireObjects(o1, o2);
   return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),
                        o2->collisionGeometry().get(), o2->getTransform(), request, result);
 }
@@ -64,7 +64,7 @@ std::size_t collide(const fcl::CollisionObject<S>* o1, const fcl::CollisionObjec
 template <typename S>
 S distance(const fcl::CollisionObject<S>* o1, const fcl::CollisionObject<S>* o2,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
-  requireObjects(o1, o2);
+  detail::requireObjects(o1, o2);
   return kios::distance(o1->collisionGeometry().get(), o1->getTransform(),
                         o2->collisionGeometry().get(), o2->getTransform(), request, result);
 }

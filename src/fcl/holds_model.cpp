@@ -10,7 +10,7 @@ namespace kios {
 bool holdsModel(const fcl::CollisionGeometry<double>* geometry) { return asModel(geometry); }
 bool holdsModel(const fcl::CollisionGeometry<float>* geometry) { return asModel(geometry); }
 
-void requireObjects(const void* object1, const void* object2) {
+void detail::requireObjects(const void* object1, const void* object2) {
   if (!object1 || !object2) throw std::invalid_argument("fcl_kios: a collision object is null.");
 }
 

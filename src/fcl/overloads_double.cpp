@@ -66,7 +66,7 @@ double continuousCollide(const CollisionObject<double>* o1, const Transform3<dou
                          const CollisionObject<double>* o2, const Transform3<double>& tf2_end,
                          const ContinuousCollisionRequest<double>& request,
                          ContinuousCollisionResult<double>& result) {
-  kios::requireObjects(o1, o2);
+  kios::detail::requireObjects(o1, o2);
   return continuousCollide(o1->collisionGeometry().get(), o1->getTransform(), tf1_end,
                            o2->collisionGeometry().get(), o2->getTransform(), tf2_end, request,
                            result);
@@ -76,7 +76,7 @@ double collide(const ContinuousCollisionObject<double>* o1,
                const ContinuousCollisionObject<double>* o2,
                const ContinuousCollisionRequest<double>& request,
                ContinuousCollisionResult<double>& result) {
-  kios::requireObjects(o1, o2);
+  kios::detail::requireObjects(o1, o2);
   return continuousCollide(o1->collisionGeometry().get(), o1->getMotion(),
                            o2->collisionGeometry().get(), o2->getMotion(), request, result);
 }

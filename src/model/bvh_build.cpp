@@ -11,6 +11,7 @@
 
 #include "engine/tree_cache.h"
 #include "model/tree_build.h"
+#include "volume/fit/sphere_fitter.h"
 
 namespace kios {
 

@@ -22,6 +22,11 @@ const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
   return dynamic_cast<const Model<S>*>(geometry);
 }
 
+/// What every query checks first, O(1): the model is finished and holds triangles. Throws
+/// std::invalid_argument otherwise.
+template <typename S>
+void requireFinished(const Model<S>& model);
+
 /// The C++ name of the geometry's type, for messages.
 template <typename S>
 std::string typeName(const fcl::CollisionGeometry<S>& geometry);

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "fcl_kios/model/convert.h"
+#include "model/kios_model.h"
 
 namespace kios {
 namespace {
@@ -112,8 +113,8 @@ void requireFinished(const Model<S>& model) {
                    model.getModelType(), model.num_tris, model.getNumBVs());
 }
 
-void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
-                        int num_bvs) {
+void detail::requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
+                                int num_bvs) {
   if (isFinished(state, num_tris, num_bvs)) return;
   refuseUnfinished("the model can't be converted to k-IOS", state, type, num_tris, num_bvs);
 }

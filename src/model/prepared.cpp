@@ -11,6 +11,7 @@
 #include "engine/refit.h"
 #include "engine/search.h"
 #include "fcl_kios/model/prepare.h"
+#include "model/kios_model.h"
 
 namespace kios {
 
@@ -19,9 +20,9 @@ engine::TreeCache* treesOf(const Model<S>& model) {
   using Fitter = fcl::detail::BVFitter<kIOS<S>>;
   const auto* const fitter = model.bv_fitter.get();
   if (!fitter) return nullptr;
-  if (typeid(*fitter) == typeid(Fitter)) return &static_cast<const Fitter*>(fitter)->trees();
+  if (typeid(*fitter) == typeid(Fitter)) return static_cast<const Fitter*>(fitter)->trees_.get();
   const auto* const derived = dynamic_cast<const Fitter*>(fitter);
-  return derived ? &derived->trees() : nullptr;
+  return derived ? derived->trees_.get() : nullptr;
 }
 
 template <typename S>

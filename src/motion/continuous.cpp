@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/kios_model.h"
 #include "motion/fcl_motion.h"
 #include "motion/mesh_and_solids.h"
 #include "motion/meshes.h"

@@ -9,8 +9,8 @@ namespace kios {
 
 // FCL's motions tell no time, but for splines: the bound is that from 0 on. Points of a body turn
 // with at most angular speed times their distance from a fixed axis, and across it.
-double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
-                  const fcl::MotionBase<double>& motion) {
+double detail::speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
+                          const fcl::MotionBase<double>& motion) {
   const continuous::Motion m = continuous::motionOf(&motion);
   const fcl::Transform3d X = m.pose(0);
   const continuous::VelocityField v = m.velocities(0, X, 1);

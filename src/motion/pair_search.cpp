@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model/kios_model.h"
+
 namespace kios::continuous {
 
 double reachOf(const Modeld& model) {

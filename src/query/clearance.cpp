@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/kios_model.h"
 #include "volume/exact/exact_pair.h"
 
 namespace kios {

@@ -10,6 +10,7 @@
 #include <fcl/narrowphase/collision_result.h>
 #include "fcl_kios/fcl_own.h"
 #include "fcl_kios/model/model.h"
+#include "model/kios_model.h"
 
 namespace kios {
 

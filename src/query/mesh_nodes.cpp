@@ -77,7 +77,7 @@ template <typename S>
 void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
   best_ = prune_at_ = distance;
   if (!(distance < std::numeric_limits<S>::max())) return;  // no bound, and nothing found yet
-  prune_at_ = pruneAt(distance, this->rel_err, this->abs_err);
+  prune_at_ = static_cast<S>(engine::pruneAt(distance, this->rel_err, this->abs_err));
 }
 
 template <typename S>
@@ -119,7 +119,8 @@ void MeshDistanceTraversalNode<S>::postprocess() {
   if (tri1_ < 0) return;
   if (this->request.enable_nearest_points) {
     this->result->update(best_, this->model1, this->model2, tri1_, tri2_,
-                         transform<S>(this->tf1, point1_), transform<S>(this->tf1, point2_));
+                         detail::transform<S>(this->tf1, point1_),
+                         detail::transform<S>(this->tf1, point2_));
   } else {
     this->result->update(best_, this->model1, this->model2, tri1_, tri2_);
   }

@@ -10,21 +10,10 @@
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/distance_request.h>
 #include "fcl_kios/model/model.h"
-#include "fcl_kios/volume/separation.h"
+#include "query/pair_frame.h"
 #include "query/triangle_contact.h"
 
 namespace kios {
-
-template <typename S>
-TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
-  const fcl::Triangle& t = model.tri_indices[triangle];
-  return {model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]};
-}
-
-template <typename S, typename Pose>
-TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
-  return {X * t[0], X * t[1], X * t[2]};
-}
 
 /// Throws std::invalid_argument if an error bound is negative or NaN.
 template <typename S>
@@ -37,12 +26,6 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
   };
   require("rel_err", request.rel_err);
   require("abs_err", request.abs_err);
-}
-
-/// How far a pair must be to be of no matter once `distance` was found.
-template <typename S>
-S pruneAt(S distance, S rel_err, S abs_err) {
-  return std::max(S(0), std::min(distance - abs_err, distance / (1 + rel_err)));
 }
 
 /// Reports two triangles that intersect, p and q in model 1's frame, as FCL does: up to two
@@ -63,9 +46,9 @@ void addContacts(const Model<S>& model1, int id1, const TriangleVertices<S>& p,
   }
   const TriangleContact<S> contact = triangleContact(p, q);
   for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
-    result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2,
-                                      transform<S>(tf1, contact.points[i]),
-                                      rotate<S>(tf1.linear(), contact.normal), contact.depth));
+    result.addContact(
+        fcl::Contact<S>(&model1, &model2, id1, id2, detail::transform<S>(tf1, contact.points[i]),
+                        detail::rotate<S>(tf1.linear(), contact.normal), contact.depth));
   }
 }
 

@@ -4,11 +4,12 @@
 
 #include <iostream>
 #include <limits>
+#include <vector>
 
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include "fcl_kios/query/mesh_nodes.h"
-#include "query/engine_pair.h"
 #include "query/mesh_pair.h"
+#include "query/pair_search.h"
 
 namespace kios {
 template <typename S>
@@ -16,26 +17,22 @@ std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
                           const Model<S>& model2, const fcl::Transform3<S>& tf2,
                           const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                           SearchCounts* counts) {
-  requireFinished(model1);
-  requireFinished(model2);
-  const RelativePose<S> X_12(tf1, tf2);
+  const PairFrame<S> frame(model1, tf1, model2, tf2);
   if (request.num_max_contacts == 0) {  // FCL's warning and answer
     std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
     return 0;
   }
-  if (request.isSatisfied(result)) return result.numContacts();
-  if (separation(model1.getBV(0).bv, model2.getBV(0).bv, X_12, 0.0) > 0) {
-    return result.numContacts();
-  }
+  if (request.isSatisfied(result) || frame.rootBound(0) > 0) return result.numContacts();
   SearchCounts unused;
   SearchCounts& count = counts ? *counts : unused;
   const bool occupied = model1.isOccupied() && model2.isOccupied();
   if (occupied && !request.enable_cost) {
-    if (const EnginePair<S> engine(model1, model2, X_12); engine) {
-      const std::size_t room = request.num_max_contacts - result.numContacts();
-      for (const auto& ids : engine::intersectingTriangles(engine.pair(), room, count)) {
-        addContacts(model1, ids.a, cornersOf(model1, ids.a), model2, ids.b,
-                    transformed(cornersOf(model2, ids.b), X_12), tf1, request, result);
+    const std::size_t room = request.num_max_contacts - result.numContacts();
+    std::vector<engine::TrianglePairIds> found;
+    if (searchContacts(frame, room, found, count)) {
+      for (const auto& ids : found) {
+        addContacts(model1, ids.a, frame.triangleA(ids.a), model2, ids.b, frame.triangleB(ids.b),
+                    tf1, request, result);
       }
       return result.numContacts();
     }
@@ -52,35 +49,26 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
                  const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
                  fcl::DistanceResult<S>& result, SearchCounts* counts) {
   requireErrorBounds(request);
-  requireFinished(model1);
-  requireFinished(model2);
-  const RelativePose<S> X_12(tf1, tf2);
+  const PairFrame<S> frame(model1, tf1, model2, tf2);
   if (request.isSatisfied(result)) return result.min_distance;
-  const engine::DistanceBounds<S> bounds = {result.min_distance, request.rel_err, request.abs_err};
-  if (bounds.at_most < std::numeric_limits<S>::max()) {  // a bound that the roots may exceed
-    const double enough = pruneAt(bounds.at_most, bounds.rel_err, bounds.abs_err);
-    if (separation(model1.getBV(0).bv, model2.getBV(0).bv, X_12, enough) >= enough) {
-      return result.min_distance;
-    }
+  engine::PairQuery query;
+  query.rel_err = request.rel_err;
+  query.abs_err = request.abs_err;
+  if (result.min_distance < std::numeric_limits<S>::max()) {  // as if a pair so far were found
+    query.far_enough = query.pruneAt(result.min_distance);
+    if (frame.rootBound(query.far_enough) >= query.far_enough) return result.min_distance;
   }
   SearchCounts unused;
-  SearchCounts& count = counts ? *counts : unused;
-  if (const EnginePair<S> engine(model1, model2, X_12); engine) {
-    TriangleDistance<S> nearest;
-    const auto ids = engine::nearestTriangles(engine.pair(), bounds, nearest, count);
-    if (ids.a < 0) return result.min_distance;
-    if (request.enable_nearest_points) {
-      result.update(nearest.distance, &model1, &model2, ids.a, ids.b,
-                    transform<S>(tf1, nearest.point_a), transform<S>(tf1, nearest.point_b));
-    } else {
-      result.update(nearest.distance, &model1, &model2, ids.a, ids.b);
-    }
-    return result.min_distance;
+  const engine::PairAnswer<S> answer = searchNearest(frame, query, counts ? *counts : unused);
+  const TriangleDistance<S>& nearest = answer.nearest;
+  if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
+  if (request.enable_nearest_points) {
+    result.update(nearest.distance, &model1, &model2, answer.ids.a, answer.ids.b,
+                  detail::transform<S>(tf1, nearest.point_a),
+                  detail::transform<S>(tf1, nearest.point_b));
+  } else {
+    result.update(nearest.distance, &model1, &model2, answer.ids.a, answer.ids.b);
   }
-  ++count.tree_searches;
-  MeshDistanceTraversalNode<S> node;
-  initialize(node, model1, tf1, model2, tf2, request, result);
-  fcl::detail::distance(&node);
   return result.min_distance;
 }
 

@@ -232,7 +232,7 @@ class OctreeDistance : OctreePair<S> {
 
   void lowerTo(double distance) {
     best_ = distance;
-    prune_at_ = pruneAt<double>(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
+    prune_at_ = engine::pruneAt(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
   }
 
   void push(const Cell<S>& cell, int node) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fcl_kios/volume/separation.h"
+#include "volume/error_bounds.h"
 
 namespace kios {
 namespace {
@@ -63,23 +64,22 @@ fcl::Vector3<S> PosedSolid<S>::directionToWorld(const shape::Vec& n) const {
 }
 
 // A posed centre takes 5 roundings a coordinate of terms that sum to at most 1.8 |c|_1 + |T|_1, as
-// do the posed points of the content, with |x|_1 <= |c|_1 + 1.8 r. pointBound() and the triangle
-// kernels add less than 2^-48 (|p|_1 + reach) and a few roundings of r. All that is below
-// 2^-46 (1.8 |c|_1 + |T|_1 + reach + 4 r).
+// do the posed points of the content, with |x|_1 <= |c|_1 + 1.8 r: solidError() of all these
+// lengths.
 template <typename S>
 Ball PosedSolid<S>::placeCentral(const kIOS<S>& bv, double& lengths) const {
   const shape::Vec c_M = bv.center0.template cast<double>() * per_unit_;
   const shape::Vec c = R_ * c_M + T_;
   lengths = 1.8 * c_M.lpNorm<1>() + offsets_;
   const double r = bv.radius0 * per_unit_;
-  return {c.x(), c.y(), c.z(), r + (0x1p-46 * (lengths + 4 * r) + stretch_ * r)};
+  return {c.x(), c.y(), c.z(), r + (error_bounds::solidError(lengths + 4 * r) + stretch_ * r)};
 }
 
 template <typename S>
 Ball PosedSolid<S>::placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const {
   const double unit = scaled(per_unit_, bv.exponent), reach = bv.reach * unit;
   const shape::Vec o = R_ * (shape::Vec(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]) * unit);
-  const double pad = 0x1p-46 * (lengths + 4 * reach) + stretch_ * reach;
+  const double pad = error_bounds::solidError(lengths + 4 * reach) + stretch_ * reach;
   return {central.x + o.x(), central.y + o.y(), central.z + o.z(), bv.cap_r[i] * unit + pad};
 }
 

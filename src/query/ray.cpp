@@ -11,6 +11,7 @@
 #include "engine/ray_search.h"
 #include "engine/search.h"
 #include "fcl_kios/volume/separation.h"
+#include "model/kios_model.h"
 #include "model/prepared.h"
 #include "triangle/ray_triangle.h"
 #include "volume/balls.h"
@@ -61,13 +62,13 @@ GivenRay mapped(const Ray<S>& ray, const fcl::Transform3<S>& X) {
     exponent = -600;
   }
   const double t_max = std::min<double>(ray.t_max, std::numeric_limits<S>::max());
-  return {rotate<double>(inverse, from), rotate<double>(inverse, direction), exponent, ray.t_min,
-          t_max};
+  return {detail::rotate<double>(inverse, from), detail::rotate<double>(inverse, direction),
+          exponent, ray.t_min, t_max};
 }
 
 /// The search for the first hits of one ray, by t and then by triangle.
 template <typename S>
-class RayCast final : public engine::RayJudge {
+class RayCast final : public engine::RayEvaluator {
  public:
   struct Found {
     TriangleHit hit;
@@ -93,7 +94,7 @@ class RayCast final : public engine::RayJudge {
     return std::move(found_);
   }
 
-  bool judge(std::uint32_t triangle) override {
+  bool evaluate(std::uint32_t triangle) override {
     ++counts_.exact;
     const fcl::Triangle& ids = model_.tri_indices[triangle];
     TriangleVertices<double> corners;
@@ -151,7 +152,7 @@ class RayCast final : public engine::RayJudge {
       const auto& node = model_.getBV(at.node);
       if (node.isLeaf()) {
         ++counts_.leaf_pairs;
-        if (judge(static_cast<std::uint32_t>(node.primitiveId()))) return;
+        if (evaluate(static_cast<std::uint32_t>(node.primitiveId()))) return;
         continue;
       }
       ++counts_.expansions;
@@ -205,7 +206,7 @@ RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model
                       q = model.vertices[ids[1]].template cast<double>(),
                       r = model.vertices[ids[2]].template cast<double>();
   const fcl::Vector3d point =
-      transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
+      detail::transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
   RayHit<S> hit;
   hit.t = static_cast<S>(found.hit.t);
   hit.point = point.template cast<S>();

@@ -145,7 +145,7 @@ S distanceShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
   double best = kInfinity, prune_at = kInfinity;
   const auto lowerTo = [&](double distance) {
     best = distance;
-    prune_at = pruneAt<double>(distance, rel_err, abs_err);
+    prune_at = engine::pruneAt(distance, rel_err, abs_err);
   };
   if (limited) lowerTo(posed.toUnits(result.min_distance));
 

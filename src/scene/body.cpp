@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/kios_model.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 #include "volume/stamp.h"
@@ -19,7 +20,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
   throw std::invalid_argument("fcl_kios: " + what);
 }
 
-/// An upper bound of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
+/// The square of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
 template <typename S>
 double requireRigid(const fcl::Transform3<S>& X) {
   const auto& R = X.linear();
@@ -31,8 +32,15 @@ double requireRigid(const fcl::Transform3<S>& X) {
   if (!(size <= kMaxCoordinate<S> / 4)) {
     refuse("the translation of an object of the scene is NaN, infinite or too large.");
   }
+  return square;
+}
+
+template <typename S>
+void setPose(Body<S>& body, const fcl::Transform3<S>& X_W, double rotation_square) {
+  body.X_W = X_W;
+  body.rotation_square = rotation_square;
   // A power of two, so that it stays the same while rounding errors come and go.
-  return std::ldexp(1.0, std::ilogb(std::sqrt(square) + 0x1p-48) + 1);
+  body.rotation_error = std::ldexp(1.0, std::ilogb(std::sqrt(rotation_square) + 0x1p-48) + 1);
 }
 
 template <typename S>
@@ -56,17 +64,19 @@ Sphere sphereOf(const fcl::CollisionGeometry<S>& geometry) {
   return {{double{c[0]}, double{c[1]}, double{c[2]}}, radius};
 }
 
-// A sphere of the world is around X c; R c + t takes 6 roundings of 2^-53. R stretches by at most
-// 1 + |E|. What the narrow phase computes, in the first body's frame, differs from the world's
-// distance d by at most: |E| (d + reach) from a frame that isn't orthonormal; 16 eps L from the
-// triangles' distance, L <= d + 2 r + 2 r'; 8 eps (2 reach' + |t' - t|) from the common frame,
-// where |t' - t| <= d + reach + reach'. The terms in d are boxShare()'s, the rest is split over the
+// A sphere of the world is around X c. R stretches by at most 1 + |E|. What the narrow phase
+// computes, in the first body's frame, differs from the world's distance d by at most: |E| (d +
+// reach) from a frame that isn't orthonormal; the triangles' error, of an extent of at most 1.74 (d
+// + 2 r + 2 r'); the common frame's, for |x'|_1 <= 2 reach' and |T|_1 <= 1.74 |t' - t|, which is at
+// most 1.74 (d + reach + reach'). The terms in d are boxShare()'s, the rest is split over the
 // boxes.
 template <typename S>
 void encloseInBox(const Body<S>& body, const Sphere& sphere, Box& box) {
-  constexpr double kEps = std::numeric_limits<S>::epsilon();
   const double error = body.rotation_error;
-  const double pads = (2 * error + 64 * kEps) * body.reach + 32 * kEps * body.sphere.radius;
+  const double pads =
+      2 * error * body.reach +
+      error_bounds::triangleError<S>(error_bounds::extentOf(0, body.sphere.radius, 0)) +
+      error_bounds::frameError<S>(2 * body.reach, 1.74 * body.reach);
   for (int i = 0; i < 3; ++i) {
     double at = double{body.X_W.translation()[i]}, terms = std::abs(at);
     for (int j = 0; j < 3; ++j) {
@@ -75,7 +85,8 @@ void encloseInBox(const Body<S>& body, const Sphere& sphere, Box& box) {
       terms += std::abs(term);
     }
     const double r =
-        (sphere.radius * (1 + error) + pads + 0x1p-48 * terms + 0x1p-1000) * (1 + 0x1p-50);
+        (sphere.radius * (1 + error) + pads + error_bounds::sumError<double>(terms) + 0x1p-1000) *
+        (1 + 0x1p-50);
     box.lower[i] = std::max(box.lower[i], at - r);
     box.upper[i] = std::min(box.upper[i], at + r);
   }
@@ -124,24 +135,23 @@ template <typename S>
 void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geometry,
            const fcl::Transform3<S>& X_W) {
   if (!geometry) refuse("the geometry of an object of the scene is null.");
-  const double error = requireRigid(X_W);
+  const double rotation_square = requireRigid(X_W);
   const auto* const model = dynamic_cast<const Model<S>*>(geometry.get());
   if (model) requireFinished(*model);
   body.geometry = std::move(geometry);
   body.model = model;
-  body.X_W = X_W;
-  body.rotation_error = error;
+  setPose(body, X_W, rotation_square);
   measure(body);
 }
 
 template <typename S>
 void move(Body<S>& body, const fcl::Transform3<S>& X_W) {
   if (samePose(body.X_W, X_W)) return;
-  body.rotation_error = requireRigid(X_W);
+  const double rotation_square = requireRigid(X_W);
   const double moved = displacement<S>(body.X_W.linear(), body.X_W.translation(), X_W.linear(),
                                        X_W.translation(), body.sphere);
   body.path = addUp(body.path, moved);
-  body.X_W = X_W;
+  setPose(body, X_W, rotation_square);
   body.box = boxOf(body);
   // A sum that has grown out of all proportion would round small steps up to large ones; an
   // infinite one would seem to stand still.

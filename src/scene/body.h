@@ -14,6 +14,7 @@
 #include "fcl_kios/scene/scene_types.h"
 #include "scene/box.h"
 #include "scene/motion_bound.h"
+#include "volume/error_bounds.h"
 
 namespace kios::scene {
 
@@ -27,7 +28,8 @@ struct Body {
   std::uint64_t state = 0;
   /// What every point of the content has moved so far in this state, at most; grows with each move.
   double path = 0;
-  double rotation_error = 0;  ///< >= |R^T R - I|_2
+  double rotation_error = 0;   ///< >= |R^T R - I|_2
+  double rotation_square = 0;  ///< the square of |R^T R - I| (Frobenius)
   /// In the world, around the content, so wide that the gap of two bodies' boxes, less a share
   /// boxShare() of it, is at most the distance that the narrow phase would compute.
   Box box;
@@ -70,7 +72,8 @@ engine::TreeKey keyOf(const Model<S>& model) {
 /// See Body::box: `error` is the largest rotation error of the scene.
 template <typename S>
 double boxShare(double error) {
-  return 2 * error + 128 * double{std::numeric_limits<S>::epsilon()};
+  return 2 * error + error_bounds::triangleError<S>(error_bounds::extentOf(1, 0, 0)) +
+         error_bounds::frameError<S>(0, 1.74);
 }
 
 }  // namespace kios::scene

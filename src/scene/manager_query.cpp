@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "fcl_kios/scene/scene_distance.h"
-#include "scene/pair_query.h"
+#include "model/kios_model.h"
+#include "scene/body_pair.h"
 
 namespace kios {
 
@@ -50,7 +51,7 @@ class ManagerQuery<S>::Impl {
       return false;
     }
     // What is remembered of (b, a) is no help: its distance may differ in the last bits.
-    scene::PairQuery<S> pair(a.id, a.body, b.id, b.body, memory_);
+    scene::BodyPair<S> pair(a.id, a.body, b.id, b.body, memory_);
     const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
     const auto answer = answerOf(pair, limit);
     if (answer.within) {
@@ -101,13 +102,13 @@ class ManagerQuery<S>::Impl {
     return known;
   }
 
-  typename scene::PairQuery<S>::Answer answerOf(scene::PairQuery<S>& pair, double limit) {
-    using Source = scene::Knowledge::Source;
+  typename scene::BodyPair<S>::Answer answerOf(scene::BodyPair<S>& pair, double limit) {
+    using Source = scene::PairBound::Source;
     if (pair.least() > limit) {
       ++counts.ties;
       return {};
     }
-    const scene::Knowledge known = pair.know(limit);
+    const scene::PairBound known = pair.know(limit);
     if (known.exact) {
       ++counts.still;
       return pair.proven(limit);

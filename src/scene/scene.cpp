@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "model/kios_model.h"
+
 namespace kios::scene {
 namespace {
 

@@ -14,10 +14,10 @@
 
 #include "fcl_kios/scene/scene_distance.h"
 #include "scene/body.h"
+#include "scene/body_pair.h"
 #include "scene/box_tree.h"
 #include "scene/near_list.h"
 #include "scene/pair_memory.h"
-#include "scene/pair_query.h"
 
 namespace kios::scene {
 
@@ -44,7 +44,7 @@ class Scene {
   PairMemory<S> memory{SceneDistance<S>::kMaxRemembered};
 
  private:
-  using Answer = typename PairQuery<S>::Answer;
+  using Answer = typename BodyPair<S>::Answer;
 
   /// A model that bodies share, as its volumes were last measured.
   struct Watch {
@@ -64,7 +64,7 @@ class Scene {
   bool obstacles(int a, int b) const {
     return bodies_[a].role == Role::kObstacle && bodies_[b].role == Role::kObstacle;
   }
-  PairQuery<S> pairOf(int a, int b) { return {a, bodies_[a], b, bodies_[b], memory}; }
+  BodyPair<S> pairOf(int a, int b) { return {a, bodies_[a], b, bodies_[b], memory}; }
   /// Calls visit(node, node) for the children of a pair of parts of the tree, or of one part with
   /// itself, which are not both full of obstacles.
   template <typename Visit>
@@ -80,8 +80,8 @@ class Scene {
   double boxBound(double square) const {
     return square < 0x1p1000 ? std::sqrt(square) * box_share_ * (1 - 0x1p-40) : 0x1p499;
   }
-  void countSkipped(Knowledge::Source source);
-  Answer search(PairQuery<S>& pair, double limit, bool exact);
+  void countSkipped(PairBound::Source source);
+  Answer search(BodyPair<S>& pair, double limit, bool exact);
   ScenePair<S> report(int a, int b, const Answer& answer, const SceneRequest& request) const;
 
   std::vector<Body<S>> bodies_;  // by id

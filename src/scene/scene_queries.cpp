@@ -22,7 +22,7 @@ struct Waiting {
   double bound;
   int a, b;
   enum class Kind { kNodes, kBodies } kind;
-  Knowledge::Source source;
+  PairBound::Source source;
 
   bool operator<(const Waiting& o) const { return bound > o.bound; }  // least first in a heap
 };
@@ -126,24 +126,24 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
 }
 
 template <typename S>
-void Scene<S>::countSkipped(Knowledge::Source source) {
+void Scene<S>::countSkipped(PairBound::Source source) {
   switch (source) {
-    case Knowledge::Source::kNothing:
+    case PairBound::Source::kNothing:
       ++counts.far_boxes;
       break;
-    case Knowledge::Source::kStill:
+    case PairBound::Source::kStill:
       ++counts.still;
       break;
-    case Knowledge::Source::kMotion:
+    case PairBound::Source::kMotion:
       ++counts.moved_too_little;
       break;
-    case Knowledge::Source::kRoots:
+    case PairBound::Source::kRoots:
       ++counts.far_roots;
   }
 }
 
 template <typename S>
-typename Scene<S>::Answer Scene<S>::search(PairQuery<S>& pair, double limit, bool exact) {
+typename Scene<S>::Answer Scene<S>::search(BodyPair<S>& pair, double limit, bool exact) {
   ++counts.queried;
   const Answer answer = pair.search(limit, exact, counts.search);
   if (!answer.within) ++counts.proven_farther;
@@ -179,7 +179,7 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
 
   Queue queue;
   const auto enqueuePair = [&](int a, int b, double square) {
-    queue.push({boxBound(square), a, b, Waiting::Kind::kBodies, Knowledge::Source::kNothing});
+    queue.push({boxBound(square), a, b, Waiting::Kind::kBodies, PairBound::Source::kNothing});
   };
   const auto enqueue = [&](int n, int m) {
     const BoxTree::Node &a = tree_[n], &b = tree_[m];
@@ -190,7 +190,7 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
       const auto [low, high] = std::minmax({a.object, b.object});
       enqueuePair(low, high, square);
     } else {
-      queue.push({boxBound(square), n, m, Waiting::Kind::kNodes, Knowledge::Source::kNothing});
+      queue.push({boxBound(square), n, m, Waiting::Kind::kNodes, PairBound::Source::kNothing});
     }
   };
   if (limit < kInfinity) {
@@ -207,19 +207,19 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
       continue;
     }
     const std::pair<int, int> ids(next.a, next.b);
-    if (next.source == Knowledge::Source::kNothing && !admissible(next.a, next.b)) {
+    if (next.source == PairBound::Source::kNothing && !admissible(next.a, next.b)) {
       ++counts.filtered;
       continue;
     }
-    PairQuery<S> pair = pairOf(next.a, next.b);
+    BodyPair<S> pair = pairOf(next.a, next.b);
     const double matters = found && best < ids ? below(nearest.distance) : limit;
     if (pair.least() > matters) {
       ++counts.ties;
       continue;
     }
     Answer answer;
-    if (next.source == Knowledge::Source::kNothing) {
-      const Knowledge known = pair.know(matters);
+    if (next.source == PairBound::Source::kNothing) {
+      const PairBound known = pair.know(matters);
       if (known.exact) {
         ++counts.still;
         answer = pair.proven(matters);
@@ -265,12 +265,12 @@ std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& re
       ++counts.filtered;
       return;
     }
-    PairQuery<S> pair = pairOf(a, b);
+    BodyPair<S> pair = pairOf(a, b);
     if (pair.least() > limit) {
       ++counts.ties;
       return;
     }
-    const Knowledge known = pair.know(limit);
+    const PairBound known = pair.know(limit);
     Answer answer;
     if (known.exact) {
       ++counts.still;
@@ -308,7 +308,7 @@ std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
         ++counts.filtered;
         continue;
       }
-      PairQuery<S> pair = pairOf(a, b);
+      BodyPair<S> pair = pairOf(a, b);
       const bool still = pair.stoodStill();
       if (still) ++counts.still;
       const Answer answer = still ? pair.proven(kInfinity) : search(pair, kInfinity, true);

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "volume/balls.h"
+#include "volume/error_bounds.h"
 #include "volume/lanes.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
@@ -25,9 +26,6 @@ struct Offset {
   double pad;
 };
 
-// Each coordinate of R c_b + T - c_a takes 6 roundings of terms that sum to at most m; a leaf's own
-// points R y + T take 5 with |y|_1 <= |c_b|_1 + 1.8 r_b. With the root and the sums of a bound
-// (8 roundings of values <= m + r_a + r_b) that is below 32 u (m + r_a + 4 r_b) = 2^-48 (...).
 template <typename S>
 Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
   const double ax = a.center0[0], ay = a.center0[1], az = a.center0[2];
@@ -37,13 +35,11 @@ Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
   d.y = ((X.R(1, 0) * bx + X.R(1, 1) * by) + X.R(1, 2) * bz) + X.T[1] - ay;
   d.z = ((X.R(2, 0) * bx + X.R(2, 1) * by) + X.R(2, 2) * bz) + X.T[2] - az;
   d.norm1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  const double m = 1.8 * (std::abs(bx) + std::abs(by) + std::abs(bz)) + X.T_norm1 +
-                   (std::abs(ax) + std::abs(ay) + std::abs(az));
-  const double ra = a.radius0, rb = b.radius0;
-  // Leaves in float round their points to float: the same count of roundings, of size 2^-24.
-  constexpr double kPad = sizeof(S) == sizeof(double) ? 32 * kUlpDouble : 32 * kUlpFloat;
-  constexpr double kSubnormal = sizeof(S) == sizeof(double) ? 0x1p-1070 : 0x1p-145;
-  d.pad = kPad * (m + ra + 4 * rb) + X.stretch * rb + kSubnormal;
+  const double rb = b.radius0;
+  d.pad = error_bounds::volumeError<S>(std::abs(bx) + std::abs(by) + std::abs(bz),
+                                       X.T_norm1 + (std::abs(ax) + std::abs(ay) + std::abs(az)),
+                                       a.radius0, rb) +
+          X.stretch * rb;
   return d;
 }
 
@@ -74,7 +70,8 @@ double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& 
     best = lanes::max(best, lanes::sqrt(wx * wx + wy * wy + wz * wz) - rb - a.cap_r[i]);
   }
   const double scale = d.norm1 + a.reach + b.reach;
-  return lanes::horizontalMax(best) - (0x1p-19 * scale + X.stretch * b.reach + d.pad);
+  return lanes::horizontalMax(best) -
+         (error_bounds::laneError(scale) + X.stretch * b.reach + d.pad);
 }
 
 /// The bound over all pairs in double at any scale, and the points that attain it.
@@ -119,7 +116,8 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
     }
   }
   const double lengths = scaled(d.norm1 + reach_a + reach_b, -e);
-  best.value -= 32 * kUlpDouble * lengths + X.stretch * scaled(reach_b, -e) + 0x1p-960;
+  best.value -=
+      error_bounds::sumError<double>(lengths) + X.stretch * scaled(reach_b, -e) + 0x1p-960;
   best.value = std::nextafter(scaled(best.value, e) - d.pad, -kInfinity);
   for (int c = 0; c < 3; ++c) {
     best.P[c] = scaled(best.P[c], e);
@@ -216,11 +214,16 @@ RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>
 }
 
 template <typename S>
-RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2)
+    : RelativePose(X_W1, X_W2, squaredRotationErrors(X_W1, X_W2)) {}
+
+template <typename S>
+RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2,
+                              double squared_errors) {
   const fcl::Matrix3<S> inverse = X_W1.linear().transpose();
-  for (int j = 0; j < 3; ++j) R.col(j) = rotate<S>(inverse, X_W2.linear().col(j));
-  T = rotate<S>(inverse, X_W2.translation() - X_W1.translation());
-  precompute(squaredRotationErrors(X_W1, X_W2));
+  for (int j = 0; j < 3; ++j) R.col(j) = detail::rotate<S>(inverse, X_W2.linear().col(j));
+  T = detail::rotate<S>(inverse, X_W2.translation() - X_W1.translation());
+  precompute(squared_errors);
 }
 
 template <typename S>
@@ -230,10 +233,7 @@ void RelativePose<S>::precompute(double squared_errors) {
     throw std::invalid_argument(
         "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
   }
-  // |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|) < 1 + (|E1| + |E2|) / 2 + |E1| |E2|, and |E1| + |E2| is
-  // at most sqrt(2) times their norm; E and the product's entries are known to 3 u a term.
-  constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
-  stretch = 0.71 * std::sqrt(squared_errors) + 20 * kUlp;
+  stretch = error_bounds::stretchOf<S>(squared_errors);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) Rf[i][j] = static_cast<float>(R(i, j));
   }

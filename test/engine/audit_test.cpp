@@ -8,7 +8,7 @@
 
 #include <limits>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl_kios/triangle/distance.h"
 
 namespace kios::testing {
@@ -61,11 +61,11 @@ class Auditor final : public engine::Audit {
     for (const double at_most : {double{kInfinity}, 3 * nearest_, 1.01 * nearest_, 0.9 * nearest_,
                                  nearest_ + size_, 1e-3 * size_}) {
       for (const S rel_err : {S(0), S(0.3)}) {
-        TriangleDistance<S> found;
+        engine::PairQuery query;
+        query.rel_err = rel_err;
+        if (at_most < kInfinity) query.far_enough = query.pruneAt(at_most);
         SearchCounts counts;
-        engine::nearestTriangles(
-            pair, {static_cast<S>(std::min(at_most, double{kInfinity})), rel_err, S(0)}, found,
-            counts);
+        engine::nearestTriangles(pair, query, counts);
       }
     }
     SearchCounts counts;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 

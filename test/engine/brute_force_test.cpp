@@ -39,18 +39,23 @@ class Searches {
  private:
   static constexpr double kEps = std::numeric_limits<S>::epsilon();
 
-  S distance(const engine::DistanceBounds<S>& bounds, TrianglePairIds& ids) const {
-    TriangleDistance<S> nearest;
-    nearest.distance = bounds.at_most;
+  /// The distance if that is less than at_most, else at_most and no ids.
+  S distance(S at_most, TrianglePairIds& ids, double rel_err = 0, double abs_err = 0) const {
+    engine::PairQuery query;
+    query.rel_err = rel_err;
+    query.abs_err = abs_err;
+    if (at_most < std::numeric_limits<S>::max()) query.far_enough = query.pruneAt(at_most);
     SearchCounts counts;
-    ids = engine::nearestTriangles(posed_.pair(), bounds, nearest, counts);
-    return ids.a < 0 ? bounds.at_most : nearest.distance;
+    const auto found = engine::nearestTriangles(posed_.pair(), query, counts);
+    const bool nearer = found.found() && found.nearest.distance < at_most;
+    ids = nearer ? found.ids : TrianglePairIds();
+    return nearer ? found.nearest.distance : at_most;
   }
 
   // The answer is the kernel's for the pair that it names, and no pair is nearer.
   void checkDistance(const AllPairs<S>& all) const {
     TrianglePairIds ids;
-    const S d = distance({std::numeric_limits<S>::max()}, ids);
+    const S d = distance(std::numeric_limits<S>::max(), ids);
     ASSERT_GE(ids.a, 0);
     const auto p = posed_.a.corners(static_cast<std::size_t>(ids.a));
     const auto q = posed_.cornersOfB(static_cast<std::size_t>(ids.b));
@@ -66,7 +71,7 @@ class Searches {
       const S at_most = static_cast<S>(factor * double{all.distance});
       if (!(at_most > 0)) continue;
       TrianglePairIds ids;
-      const S d = distance({at_most}, ids);
+      const S d = distance(at_most, ids);
       EXPECT_LE(d, at_most);
       EXPECT_EQ(ids.a < 0, d == at_most);
       if (double{all.distance} < double{at_most} - slack) {
@@ -82,8 +87,7 @@ class Searches {
     for (const double rel_err : {0.0, 1e-6, 0.01, 0.3, 10.0}) {
       for (const double abs_err : {0.0, 1e-3 * all.extent, 0.5 * double{all.distance}}) {
         TrianglePairIds ids;
-        const S d = distance(
-            {std::numeric_limits<S>::max(), static_cast<S>(rel_err), static_cast<S>(abs_err)}, ids);
+        const S d = distance(std::numeric_limits<S>::max(), ids, rel_err, abs_err);
         const double error = double{d} - double{all.distance};
         EXPECT_GE(error, -slack);
         EXPECT_LE(error,
@@ -312,14 +316,12 @@ TYPED_TEST(BruteForce, TiesGoToTheLeastIds) {
         }
         ASSERT_TRUE(posed.pose(fcl::Transform3<TypeParam>::Identity(), X));
         const auto all = allPairs(posed);
-        TriangleDistance<TypeParam> nearest;
         SearchCounts counts;
-        const TrianglePairIds ids = engine::nearestTriangles(
-            posed.pair(), {std::numeric_limits<TypeParam>::max()}, nearest, counts);
-        EXPECT_EQ(nearest.distance, all.distance);
+        const auto found = engine::nearestTriangles(posed.pair(), {}, counts);
+        EXPECT_EQ(found.nearest.distance, all.distance);
         if (all.distance == 0) continue;
-        EXPECT_EQ(ids.a, all.nearest.a);
-        EXPECT_EQ(ids.b, all.nearest.b);
+        EXPECT_EQ(found.ids.a, all.nearest.a);
+        EXPECT_EQ(found.ids.b, all.nearest.b);
       }
     }
   }

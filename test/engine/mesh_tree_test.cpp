@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl/tree_check.h"
 #include "fcl_kios/volume/fit.h"
 
@@ -27,7 +27,7 @@ struct Built {
 
   explicit Built(const Shape<S>& shape)
       : nodes(2 * shape.triangles.size() - 1), primitives(shape.triangles.size()) {
-    whole = engine::buildVolumes(shape.view(), nodes.data(), primitives.data());
+    whole = engine::buildVolumes(viewOf(shape), nodes.data(), primitives.data());
   }
 };
 

@@ -61,9 +61,8 @@ TYPED_TEST(ParallelEdges, AreAsNearAsTheKernelsSay) {
         const fcl::Transform3d X_A = i % 3 == 0 ? poses[0] : poses[i];
         ASSERT_TRUE(posed.pose(X_A.cast<S>(), X_B.cast<S>()));
         const AllPairs<S> all = allPairs(posed);
-        TriangleDistance<S> nearest;
         SearchCounts counts;
-        engine::nearestTriangles(posed.pair(), {std::numeric_limits<S>::max()}, nearest, counts);
+        const auto nearest = engine::nearestTriangles(posed.pair(), {}, counts).nearest;
         EXPECT_EQ(nearest.distance == 0, all.distance == 0);
         const double error = std::abs(double{nearest.distance} - double{all.distance});
         wrong += error > 16 * kEps * all.extent;

@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl_kios/fcl_kios.h"
 
 namespace kios::testing {

@@ -20,7 +20,7 @@ double distanceOf(const Modeld& a, const Frame& frame, const Modeld& b, long lon
   SearchCounts counts;
   const double d = distanceMeshes(a, frame.X_WA, b, frame.X_WB, request, result, &counts);
   EXPECT_EQ(counts.tree_searches, tree_searches);
-  EXPECT_EQ(counts.expansions + counts.leaf_pairs > 0, tree_searches == 0);
+  EXPECT_GT(counts.expansions + counts.leaf_pairs, 0);
   return d;
 }
 

@@ -32,13 +32,13 @@ TYPED_TEST(RefittedTree, HoldsTheMesh) {
 // Moves and turns in a row leave a tree as good as a new one, nearly.
 TYPED_TEST(RefittedTree, ManyTimes) {
   const Mesh mesh = scenes::bumpyTorus(2000);
-  const auto tree = engine::prepare(Shape<TypeParam>(mesh).view());
+  const auto tree = engine::prepare(viewOf(Shape<TypeParam>(mesh)));
   const double cost = tree->cost;
   for (int i = 0; i < 20; ++i) {
     const fcl::Transform3d X(Eigen::AngleAxisd(i, fcl::Vector3d(1, i, 2).normalized()));
     const Shape<TypeParam> shape(swayed(scenes::moved(X, mesh)));
-    ASSERT_TRUE(engine::refit(shape.view(), *tree));
-    EXPECT_LT(engine::searchCost(*tree), 1.25 * engine::prepare(shape.view())->cost);
+    ASSERT_TRUE(engine::refit(viewOf(shape), *tree));
+    EXPECT_LT(engine::searchCost(*tree), 1.25 * engine::prepare(viewOf(shape))->cost);
     EXPECT_EQ(tree->cost, cost);
   }
 }

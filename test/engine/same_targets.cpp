@@ -11,7 +11,7 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 #include "fcl_kios/fcl_kios.h"
 #include "fcl_kios/volume/rigid.h"
 
@@ -69,9 +69,10 @@ void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed
     const fcl::Triangle& ids = model.tri_indices[t];
     Ray<S> ray;
     for (S& c : ray.origin) c = static_cast<S>(random.uniform(-3, 3));
-    ray.direction = transform<S>(X, model.vertices[ids[0]]) - ray.origin;
+    ray.direction = detail::transform<S>(X, model.vertices[ids[0]]) - ray.origin;
     if (i % 3 == 1) {
-      ray.direction = rotate<S>(X.linear(), model.vertices[ids[1]] - model.vertices[ids[0]]);
+      ray.direction =
+          detail::rotate<S>(X.linear(), model.vertices[ids[1]] - model.vertices[ids[0]]);
     }
     if (ray.direction.isZero(0)) ray.direction = -ray.origin;
     for (const std::size_t most : {1, 100000}) {

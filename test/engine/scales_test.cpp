@@ -21,8 +21,11 @@ int wrongAnswers(const PosedPair<S>& posed, TriangleDistance<S>& nearest) {
   for (const S at_most :
        {S(3) * all.distance, S(1.001) * all.distance, std::numeric_limits<S>::max()}) {
     if (!(at_most > 0)) continue;
+    engine::PairQuery query;
+    if (at_most < std::numeric_limits<S>::max()) query.far_enough = at_most;
     nearest.distance = at_most;
-    engine::nearestTriangles(posed.pair(), {at_most}, nearest, counts);
+    const auto found = engine::nearestTriangles(posed.pair(), query, counts);
+    if (found.found() && found.nearest.distance < at_most) nearest = found.nearest;
     const double expected = std::min(double{at_most}, double{all.distance});
     wrong += !(std::abs(double{nearest.distance} - expected) <= slack);
   }

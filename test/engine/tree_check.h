@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/shapes.h"
+#include "engine/prepared_pair.h"
 
 // Checks a prepared tree against its mesh: all of it is there, and nothing sticks out.
 

@@ -22,7 +22,7 @@ TYPED_TEST(PreparedTree, HoldsTheMesh) {
   for (const NamedMesh& named : allMeshes<TypeParam>()) {
     SCOPED_TRACE(named.name);
     const Shape<TypeParam> shape(named.mesh);
-    const auto tree = engine::prepare(shape.view());
+    const auto tree = engine::prepare(viewOf(shape));
     TreeOf<TypeParam>(shape, *tree).check();
     const bool flat = std::any_of(tree->nodes.begin(), tree->nodes.end(),
                                   [](const Node& node) { return node.flat != 0; });
@@ -39,9 +39,9 @@ TYPED_TEST(PreparedTree, DependsOnTheMeshAlone) {
   for (const NamedMesh& named : unitMeshes()) {
     SCOPED_TRACE(named.name);
     const Shape<TypeParam> shape(named.mesh), copy(named.mesh);
-    const auto one = engine::prepare(shape.view());
-    engine::prepare(Shape<TypeParam>(scenes::icosphere(1, 2)).view());
-    const auto two = engine::prepare(copy.view());
+    const auto one = engine::prepare(viewOf(shape));
+    engine::prepare(viewOf(Shape<TypeParam>(scenes::icosphere(1, 2))));
+    const auto two = engine::prepare(viewOf(copy));
     EXPECT_TRUE(same(one->nodes, two->nodes) && same(one->blocks, two->blocks));
     EXPECT_TRUE(same(one->lanes, two->lanes) && same(one->features, two->features));
     EXPECT_EQ(one->bytes(), two->bytes());
@@ -54,9 +54,9 @@ TYPED_TEST(PreparedTree, UnusedVerticesAreIgnored) {
   const Shape<TypeParam> plain(mesh);
   mesh.vertices.emplace_back(1e8, 0, 0);
   const Shape<TypeParam> shape(mesh);
-  const auto tree = engine::prepare(shape.view());
+  const auto tree = engine::prepare(viewOf(shape));
   TreeOf<TypeParam>(shape, *tree).check();
-  EXPECT_EQ(tree->reach, engine::prepare(plain.view())->reach);
+  EXPECT_EQ(tree->reach, engine::prepare(viewOf(plain))->reach);
 }
 
 }  // namespace

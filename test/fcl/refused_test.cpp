@@ -44,7 +44,7 @@ class Refused : public ::testing::Test {
       EXPECT_EQ(contacts.numContacts(), 0u);
       EXPECT_EQ(distance.o1, nullptr);
     }
-    expectRefused([&] { requireFinished(model); }, part);
+    expectRefused([&] { prepare(model); }, part);
     expectRefused([&] { validate(model); }, part);
   }
 
@@ -153,7 +153,7 @@ TEST_F(Refused, TrianglesAddedAfterAnUpdate) {
   model.beginUpdateModel();
   model.updateSubModel(mesh_.vertices);
   ASSERT_EQ(model.endUpdateModel(), fcl::BVH_OK);
-  EXPECT_NO_THROW(requireFinished(model));
+  EXPECT_NO_THROW(prepare(model));
   ASSERT_EQ(model.addTriangle(Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()),
             fcl::BVH_OK);
   expectUnusable(model, "triangles but a tree of");

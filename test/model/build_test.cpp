@@ -6,11 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "fcl/mesh_cases.h"
 #include "fcl/tree_check.h"
-#include "model/prepared.h"
 #include "volume/fit/all_fits.h"
 
 namespace kios::testing {
@@ -219,40 +217,6 @@ TEST(Build, ModelsSplitByCostUnlessTheyAreTold) {
   const int left = leftCount(by_cost);
   EXPECT_TRUE(left == part || left == by_cost.num_tris - part) << left;
   EXPECT_NE(leftCount(by_mean), left);
-}
-
-// Queries read the model's tree only where it is the one that they would make: another splitter's,
-// another fit's or a refitted one is not.
-TEST(Build, QueriesKnowWhichTreesTheyMayRead) {
-  const Mesh mesh = scenes::bumpyTorus(300);
-  const auto isRead = [](const Modeld& model) {
-    return treesOf(model)->isBuilt(model.getBV(0).bv.stamp);
-  };
-  Modeld model, by_mean, published;
-  by_mean.bv_splitter.reset(new BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEAN));
-  published.bv_fitter.reset(new BVFitter<kIOSd>(FitMethod::kMethodII));
-  for (Modeld* const m : {&model, &by_mean, &published}) fill(*m, mesh);
-  EXPECT_TRUE(isRead(model));
-  EXPECT_FALSE(isRead(by_mean));
-  EXPECT_FALSE(isRead(published));
-  Modeld copy(model);
-  EXPECT_TRUE(isRead(copy));
-  for (const bool bottom_up : {false, true}) {
-    ASSERT_EQ(copy.beginReplaceModel(), fcl::BVH_OK);
-    ASSERT_EQ(copy.replaceSubModel(mesh.vertices), fcl::BVH_OK);
-    ASSERT_EQ(copy.endReplaceModel(true, bottom_up), fcl::BVH_OK);
-    EXPECT_FALSE(isRead(copy));
-  }
-  EXPECT_TRUE(isRead(model));
-  // All of them prepare the same tree, as it depends on the mesh alone.
-  const auto tree = preparedTree(model), other = preparedTree(by_mean);
-  ASSERT_TRUE(tree && other);
-  EXPECT_EQ(tree->bytes(), other->bytes());
-  const auto same = [](const auto& x, const auto& y) {
-    return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
-  };
-  EXPECT_TRUE(same(tree->nodes, other->nodes) && same(tree->lanes, other->lanes) &&
-              same(tree->features, other->features));
 }
 
 // A fitter and a splitter as a user may write them.

@@ -30,7 +30,7 @@ def layer(path):
 
 
 def check(path, own):
-    for quote, name in INCLUDE.findall(path.read_text()):
+    for quote, name in INCLUDE.findall(path.read_text(encoding="utf-8")):
         ours = [r for r in roots if (r / name).is_file()]
         if name == "fcl_kios/version.h":  # made by CMake
             ours = [None]

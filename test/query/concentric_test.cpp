@@ -34,18 +34,6 @@ class FlushSubnormals {
 #endif
 };
 
-void addTriangle(Mesh& mesh, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const std::size_t n = mesh.vertices.size();
-  mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
-  mesh.triangles.emplace_back(n, n + 1, n + 2);
-}
-
-/// Uniform in [-1, 1]^3.
-Vector3d inCube(Random& random) {
-  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-  return {x, y, random.uniform(-1, 1)};
-}
-
 /// Small triangles within [-size, size]^3, whose box is centred at 0 exactly: coordinates are
 /// multiples of 2^-10 of its corners, which are two of the triangles.
 Mesh centredSoup(Random& random, int count, double size, double spread) {

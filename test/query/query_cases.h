@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/shapes.h"
 #include "fcl_kios/fcl_kios.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"
+#include "shapes.h"
 
 // Pairs, poses and options for the tests of kios::distance and kios::closerThan.
 

@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
-#include "engine/shapes.h"
 #include "fcl_kios/query/ray.h"
 #include "scenes/foreign_fitter.h"
 #include "scenes/ray_oracle.h"
+#include "shapes.h"
 
 // Rays and brute force that the tests of ray queries share.
 

@@ -10,27 +10,13 @@
 
 #include "fcl/mesh_cases.h"
 #include "fcl_kios/fcl_kios.h"
-#include "scenes/random.h"
+#include "shapes.h"
 
 namespace kios::testing {
 namespace {
 
-using scenes::Random;
-
 constexpr double kSizes[] = {1e-30, 1e-60,  1e-75,  1e-77,  1e-79,  1e-81,
                              1e-90, 1e-120, 1e-150, 1e-155, 1e-162, 1e-200};
-
-void addTriangle(Mesh& mesh, const Vector3d& a, const Vector3d& b, const Vector3d& c) {
-  const std::size_t n = mesh.vertices.size();
-  mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
-  mesh.triangles.emplace_back(n, n + 1, n + 2);
-}
-
-/// Uniform in [-1, 1]^3.
-Vector3d inCube(Random& random) {
-  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-  return {x, y, random.uniform(-1, 1)};
-}
 
 /// Triangles far off in two corners, which give a mesh its size.
 Mesh withCorners(double z) {

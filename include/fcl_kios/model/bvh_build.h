@@ -21,6 +21,8 @@ class TreeCache;
 }
 template <typename S>
 class BuildsByThread;
+template <typename S>
+engine::TreeCache* treesOf(const fcl::BVHModel<kIOS<S>>& model);
 }  // namespace kios
 
 namespace fcl {
@@ -45,13 +47,14 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   kios::kIOS<S> fit(unsigned int* primitive_indices, int num_primitives) override;
   void clear() override;
 
-  /// What queries prepared of the models that share this fitter: a model and its copies.
-  kios::engine::TreeCache& trees() const { return *trees_; }
-
   const kios::FitOptions& options() const { return options_; }
 
  private:
+  template <typename T>
+  friend kios::engine::TreeCache* kios::treesOf(const fcl::BVHModel<kios::kIOS<T>>&);
+
   const kios::FitOptions options_;
+  /// What queries prepared of the models that share this fitter: a model and its copies.
   const std::unique_ptr<kios::engine::TreeCache> trees_;
   const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };

@@ -9,9 +9,11 @@
 
 namespace kios {
 
+namespace detail {
 /// What toKIOS() checks first: the model is a finished mesh. Throws std::invalid_argument.
 void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
                         int num_bvs);
+}  // namespace detail
 
 /// A k-IOS model of a mesh over any other volume of FCL: the same vertices and triangles in the
 /// same order, user data, cost density and thresholds. The AABB is computed from the vertices, so
@@ -21,7 +23,8 @@ void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int nu
 template <typename BV>
 std::shared_ptr<Model<typename BV::S>> toKIOS(const fcl::BVHModel<BV>& model) {
   using S = typename BV::S;
-  requireConvertible(model.build_state, model.getModelType(), model.num_tris, model.getNumBVs());
+  detail::requireConvertible(model.build_state, model.getModelType(), model.num_tris,
+                             model.getNumBVs());
   const std::vector<fcl::Vector3<S>> vertices(model.vertices, model.vertices + model.num_vertices);
   const std::vector<fcl::Triangle> triangles(model.tri_indices, model.tri_indices + model.num_tris);
   const auto converted = makeModel(vertices, triangles);

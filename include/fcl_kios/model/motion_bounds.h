@@ -9,14 +9,14 @@
 // foreign volume is 0, which bounds nothing. Double only: FCL 0.7's motions don't compile for
 // float.
 
-namespace kios {
+namespace kios::detail {
 
 /// Upper bound, from the motion's current time until 1, of the speed along the world direction n
 /// of any point of the content of bv (in the body's frame). May be negative: all of it recedes.
 double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
                   const fcl::MotionBase<double>& motion);
 
-}  // namespace kios
+}  // namespace kios::detail
 
 namespace fcl {
 
@@ -24,7 +24,7 @@ template <typename Motion>
 struct TBVMotionBoundVisitorVisitImpl<double, kios::kIOS<double>, Motion> {
   static double run(const TBVMotionBoundVisitor<kios::kIOS<double>>& visitor,
                     const Motion& motion) {
-    return kios::speedAlong(visitor.bv, visitor.n, motion);
+    return kios::detail::speedAlong(visitor.bv, visitor.n, motion);
   }
 };
 

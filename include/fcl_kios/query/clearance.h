@@ -34,6 +34,8 @@ class Cover {
   friend struct CoverPairs;
   std::unique_ptr<const Parts> parts_;
 };
+using Coverd = Cover<double>;
+using Coverf = Cover<float>;
 
 /// Distance of two covers, with its gradient by the pose of B in A as in ExactDistance: by B's
 /// translation in A, and by a rotation vector in A that turns B about its own origin.

@@ -41,6 +41,8 @@ struct DistanceOptions {
   /// it meanwhile.
   WarmStart* warm_start = nullptr;
 };
+using DistanceOptionsd = DistanceOptions<double>;
+using DistanceOptionsf = DistanceOptions<float>;
 
 /// Why a search ended; of several reasons the first.
 enum class DistanceStop {
@@ -69,6 +71,8 @@ struct DistanceAnswer {
   DistanceStop stop = DistanceStop::kTolerance;
   SearchCounts counts;  ///< work done
 };
+using DistanceAnswerd = DistanceAnswer<double>;
+using DistanceAnswerf = DistanceAnswer<float>;
 
 /// Distance of two meshes at poses X_W1, X_W2 in the world. Where both tolerances are 0 and nothing
 /// else stops the search, `distance` and the triangles are fcl::distance's. Safe from many threads.

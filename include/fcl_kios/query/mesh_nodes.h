@@ -23,6 +23,8 @@ class MeshCollisionTraversalNode : public fcl::detail::MeshCollisionTraversalNod
 
   std::optional<RelativePose<S>> X_12;  ///< set by initialize()
 };
+using MeshCollisionTraversalNoded = MeshCollisionTraversalNode<double>;
+using MeshCollisionTraversalNodef = MeshCollisionTraversalNode<float>;
 
 /// Distance of two meshes. `rel_err` and `abs_err` (initialize() takes them from the request) are
 /// honoured, either sufficing: d - d_exact <= max(rel_err * d_exact, abs_err). A finite
@@ -48,6 +50,8 @@ class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<
   mutable int tri1_ = -1, tri2_ = -1;        ///< -1 while nothing nearer was found
   mutable fcl::Vector3<S> point1_, point2_;  ///< nearest points in model 1's frame
 };
+using MeshDistanceTraversalNoded = MeshDistanceTraversalNode<double>;
+using MeshDistanceTraversalNodef = MeshDistanceTraversalNode<float>;
 
 /// FCL's signature, found by argument-dependent lookup. Throws std::invalid_argument if a model is
 /// not a finished mesh, a pose is not rigid, or an error bound is negative or NaN. Returns true.

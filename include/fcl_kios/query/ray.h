@@ -36,6 +36,8 @@ template <typename S>
 struct RayInterval {
   S enter, exit;  ///< enter <= exit, in the ray's t
 };
+using RayIntervald = RayInterval<double>;
+using RayIntervalf = RayInterval<float>;
 
 /// What of the ray, given in the volume's frame, may lie in the volume: a lower bound of the t at
 /// which it has entered all k spheres, and an upper bound of that at which it leaves the first,
@@ -69,6 +71,8 @@ struct RayHit {
   int triangle;  ///< index in the model
   RaySide side;  ///< exact
 };
+using RayHitd = RayHit<double>;
+using RayHitf = RayHit<float>;
 
 /// The first triangle that a ray meets: the hit with the least t, of equal ones the least triangle;
 /// none if the ray misses the model. X_WM is the model's pose in the world, the ray's frame.

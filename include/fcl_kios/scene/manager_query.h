@@ -18,9 +18,9 @@ namespace kios {
 /// pairs from query to query, so that a pair which stood still or moved too little is not searched
 /// again.
 ///
-///     kios::ManagerQuery<double> query;
+///     kios::ManagerQueryd query;
 ///     query.findWithin(0.1);                       // or query.findClosest()
-///     manager->distance(&query, kios::ManagerQuery<double>::callback);
+///     manager->distance(&query, kios::ManagerQueryd::callback);
 ///     for (const auto& pair : query.pairs()) ...
 ///
 /// The manager leaves out pairs by the objects' AABBs, which are the caller's to keep up to date:
@@ -65,6 +65,8 @@ class ManagerQuery {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+using ManagerQueryd = ManagerQuery<double>;
+using ManagerQueryf = ManagerQuery<float>;
 
 extern template class ManagerQuery<double>;
 extern template class ManagerQuery<float>;

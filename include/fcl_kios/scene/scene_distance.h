@@ -82,6 +82,8 @@ class SceneDistance {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+using SceneDistanced = SceneDistance<double>;
+using SceneDistancef = SceneDistance<float>;
 
 extern template class SceneDistance<double>;
 extern template class SceneDistance<float>;

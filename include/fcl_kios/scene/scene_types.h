@@ -30,6 +30,8 @@ struct ScenePair {
   /// In the world; set if asked for.
   fcl::Vector3<S> nearest_a = fcl::Vector3<S>::Zero(), nearest_b = fcl::Vector3<S>::Zero();
 };
+using ScenePaird = ScenePair<double>;
+using ScenePairf = ScenePair<float>;
 
 /// What became of the pairs of a scene query; all but `proven_farther` and `search` add up to
 /// `total`.

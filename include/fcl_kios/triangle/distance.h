@@ -17,6 +17,8 @@ struct TriangleDistance {
   TriangleFeature feature_a, feature_b;  ///< where the points lie; at distance 0 a common
                                          ///< vertex, or the faces
 };
+using TriangleDistanced = TriangleDistance<double>;
+using TriangleDistancef = TriangleDistance<float>;
 
 /// Distance of two triangles in one frame. |d - d_exact| <= 16 eps L for every finite input from
 /// 1e-300 to 1e300 (double; float likewise) and every degeneracy, L the extent of the pair, eps

@@ -9,9 +9,13 @@ namespace kios {
 
 template <typename S>
 using Point = Eigen::Matrix<S, 3, 1>;
+using Pointd = Point<double>;
+using Pointf = Point<float>;
 
 /// A closed triangle by its vertices, in any order; it may degenerate to a segment or a point.
 template <typename S>
 using TriangleVertices = std::array<Point<S>, 3>;
+using TriangleVerticesd = TriangleVertices<double>;
+using TriangleVerticesf = TriangleVertices<float>;
 
 }  // namespace kios

@@ -55,7 +55,4 @@ void fit(const fcl::Vector3<S>* points, int n, kIOS<S>& bv) {
   fit(points, n, bv, FitMethod::kTuned);
 }
 
-/// Throws std::invalid_argument if the angle is not in [1/256, pi/2).
-void requireUsable(const FitOptions& options);
-
 }  // namespace kios

@@ -97,3 +97,5 @@ extern template class kIOS<double>;
 extern template class kIOS<float>;
 
 }  // namespace kios
+
+#include "fcl_kios/volume/specialisations.h"

@@ -4,7 +4,7 @@
 
 #include <fcl/common/types.h>
 
-namespace kios {
+namespace kios::detail {
 
 // Products whose sums have one order on every machine. Eigen's order depends on the machine's
 // vectors, and where it can, as on ARM, Eigen fuses products with sums: answers would differ in
@@ -30,4 +30,4 @@ fcl::Vector3<S> transform(const fcl::Transform3<S>& X, const fcl::Vector3<S>& x)
   return rotate<S>(X.linear(), x) + X.translation();
 }
 
-}  // namespace kios
+}  // namespace kios::detail

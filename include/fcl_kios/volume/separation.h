@@ -18,9 +18,15 @@ struct RelativePose {
   /// 3.5 eps (|R1|^T |R2| |x|) + 2.5 eps (|R1|^T |t2 - t1|), absolute values by entry, so by 4 eps
   /// (|x|_1 + |t2 - t1|) with room for R1 and R2 that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
+  /// The same for rotations that were checked: `squared_errors` is at least the sum of the squares
+  /// of their errors, |R^T R - I| each (Frobenius).
+  RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2,
+               double squared_errors);
 
   /// A point of B in A.
-  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const { return rotate<S>(R, x_B) + T; }
+  fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const {
+    return detail::rotate<S>(R, x_B) + T;
+  }
 
   fcl::Matrix3<S> R;  ///< as given, or R1^T R2
   fcl::Vector3<S> T;  ///< origin of B in A
@@ -31,6 +37,8 @@ struct RelativePose {
  private:
   void precompute(double squared_errors);
 };
+using RelativePosed = RelativePose<double>;
+using RelativePosef = RelativePose<float>;
 
 /// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
 /// B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame A.

@@ -7,9 +7,9 @@ namespace kios::engine::HWY_NAMESPACE {
 
 /// As DistanceSearch, with a proven lower bound, and less work where an error is allowed: it begins
 /// with the leaves that a descent ends at, and two vertices are an upper bound that prunes, as
-/// their triangles are judged in the end if nothing nearer was found.
+/// their triangles are evaluated in the end if nothing nearer was found.
 ///
-/// What was not judged is still in the frontier or in flight, or was left out as not nearer than
+/// What was not evaluated is still in the frontier or in flight, or was left out as not nearer than
 /// prune_at, which only falls. So min(prune_at, bounds of what waits) bounds it at any time, and
 /// the largest such value of a search is what it proved. Bounds of what waits never fall, as pairs
 /// inherit their parents': it suffices to look whenever prune_at is about to fall.
@@ -23,8 +23,8 @@ class BracketSearch {
 
   void run() {
     // Any triangles, so that even the smallest budget has an upper bound.
-    bool done = budgeted() && judgeFaces(search_.a.leaves[0], 0, search_.b.leaves[0], 0);
-    lowerTo(search_.judge.prune_at);
+    bool done = budgeted() && evaluateFaces(search_.a.leaves[0], 0, search_.b.leaves[0], 0);
+    lowerTo(search_.evaluator.prune_at);
     done = done || descend();
     while (!done && !frontier_.empty()) {
       if (budget_ < static_cast<long long>(kBatch)) {  // whole batches: more never differs
@@ -34,7 +34,7 @@ class BracketSearch {
       done = advance();
     }
     prove();
-    if (offered_) judgeVertices();
+    if (offered_) evaluateVertices();
   }
 
  private:
@@ -105,7 +105,7 @@ class BracketSearch {
     if (!frontier_.bounded.empty()) {
       const PairList::Entry entry = frontier_.bounded.pop();
       return entry.bound < prune_at_ &&
-             current(entry, [&] { return judgeFeatures(waiting_[entry.pair.a], entry.bound); });
+             current(entry, [&] { return evaluateFeatures(waiting_[entry.pair.a], entry.bound); });
     }
     if (!frontier_.leaves.empty()) {
       const PairList::Entry entry = frontier_.leaves.pop();
@@ -139,9 +139,9 @@ class BracketSearch {
     pair.nodes = entry.pair;
     bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), hint_, pair);
     hint_ = pair.slab.along;
-    const bool nearer = !pair.slab.apart && pair.upper < search_.judge.keep_to;
+    const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.keep_to;
     if (nearer) {
-      search_.judge.offer(pair.upper);
+      search_.evaluator.offer(pair.upper);
       best_ = pair.vertices;
       offered_ = true;
     }
@@ -151,16 +151,16 @@ class BracketSearch {
       return false;
     }
     // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
-    const bool ends = nearer && search_.judge.keep_to <= bracket_.near_enough;
-    if (nearer && (ends || budgeted()) && judgeVertices()) return true;
-    // What may be nearer than its own upper bound is judged at once, so that better ones come
+    const bool ends = nearer && search_.evaluator.keep_to <= bracket_.near_enough;
+    if (nearer && (ends || budgeted()) && evaluateVertices()) return true;
+    // What may be nearer than its own upper bound is evaluated at once, so that better ones come
     // early, and what overlaps, as it may touch.
-    const bool open = bound < search_.judge.prune_at;
+    const bool open = bound < search_.evaluator.prune_at;
     if ((open && (nearer || bound <= 0)) || num_waiting_ + 1 == kMaxWaiting) {
-      return judgeFeatures(pair, bound);
+      return evaluateFeatures(pair, bound);
     }
     current_ = bound;
-    lowerTo(search_.judge.prune_at);
+    lowerTo(search_.evaluator.prune_at);
     if (open) {
       frontier_.keep(bound, num_waiting_);
     }
@@ -174,29 +174,29 @@ class BracketSearch {
   const Leaf& leafB(Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
 
   /// True to end the search.
-  bool judgeFeatures(const Bracketed& pair, float bound) {
-    const float known = search_.judge.keep_to;
+  bool evaluateFeatures(const Bracketed& pair, float bound) {
+    const float known = search_.evaluator.keep_to;
     const bool done =
         nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
-    if (search_.judge.keep_to < known) offered_ = false;
-    // What of them was not judged is not nearer than either.
-    if (!done) current_ = std::max(bound, search_.judge.prune_at);
-    lowerTo(search_.judge.prune_at);
+    if (search_.evaluator.keep_to < known) offered_ = false;
+    // What of them was not evaluated is not nearer than either.
+    if (!done) current_ = std::max(bound, search_.evaluator.prune_at);
+    lowerTo(search_.evaluator.prune_at);
     return done;
   }
 
-  /// Judges triangles of the vertices that are the upper bound: the edges and faces there may
-  /// belong to other leaves, and be left out. True to end the search.
-  bool judgeVertices() {
+  /// ExactEvaluators triangles of the vertices that are the upper bound: the edges and faces there
+  /// may belong to other leaves, and be left out. True to end the search.
+  bool evaluateVertices() {
     offered_ = false;
     const Leaf &a = leafA(best_.nodes), &b = leafB(best_.nodes);
-    return judgeFaces(a, faceAt(a, best_.a), b, faceAt(b, best_.b));
+    return evaluateFaces(a, faceAt(a, best_.a), b, faceAt(b, best_.b));
   }
 
-  bool judgeFaces(const Leaf& a, uint32_t face_a, const Leaf& b, uint32_t face_b) {
+  bool evaluateFaces(const Leaf& a, uint32_t face_a, const Leaf& b, uint32_t face_b) {
     ++search_.counts.exact;
-    return search_.judge.judge({PairKind::kFaces, LeafView(search_.a, a).face(face_a),
-                                LeafView(search_.b, b).face(face_b)});
+    return search_.evaluator.evaluate({PairKind::kFaces, LeafView(search_.a, a).face(face_a),
+                                       LeafView(search_.b, b).face(face_b)});
   }
 
   static uint32_t faceAt(const Leaf& leaf, uint32_t vertex) {

@@ -92,7 +92,7 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
   const FloatPose& X = frames.a_from_b;
-  const float distance = search.judge.prune_at + frames.pad;
+  const float distance = search.evaluator.prune_at + frames.pad;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, X, moved_b);
   const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {

@@ -95,13 +95,13 @@ class LeafDistances {
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
-  /// Judges everything that may be within judge.keep_to, the nearest by float first.
-  bool judgeNear(float least, float pad, Judge& judge, long long& exact) const {
-    if (!(least <= squaredLimit(judge, pad))) return false;
-    if (judgeRows(least, true, pad, judge, exact)) return true;
+  /// Evaluates everything that may be within evaluator.keep_to, the nearest by float first.
+  bool evaluateNear(float least, float pad, ExactEvaluator& evaluator, long long& exact) const {
+    if (!(least <= squaredLimit(evaluator, pad))) return false;
+    if (evaluateRows(least, true, pad, evaluator, exact)) return true;
     // Where an error is allowed the others need not be told from the nearest.
-    if (std::sqrt(std::max(least, 0.0F)) - pad >= judge.prune_at) return false;
-    return judgeRows(least, false, pad, judge, exact);
+    if (std::sqrt(std::max(least, 0.0F)) - pad >= evaluator.prune_at) return false;
+    return evaluateRows(least, false, pad, evaluator, exact);
   }
 
  private:
@@ -156,13 +156,14 @@ class LeafDistances {
     return least;
   }
 
-  static float squaredLimit(const Judge& judge, float pad) {
-    const float reach = judge.keep_to + pad;
+  static float squaredLimit(const ExactEvaluator& evaluator, float pad) {
+    const float reach = evaluator.keep_to + pad;
     return reach * reach;
   }
 
-  bool judgeRows(float least, bool nearest, float pad, Judge& judge, long long& exact) const {
-    float limit = squaredLimit(judge, pad);
+  bool evaluateRows(float least, bool nearest, float pad, ExactEvaluator& evaluator,
+                    long long& exact) const {
+    float limit = squaredLimit(evaluator, pad);
     for (int r = 0; r < rows_; ++r) {
       uint32_t near = 0;
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -175,8 +176,8 @@ class LeafDistances {
         const uint32_t lane = firstOf(near);
         if (squares_[r].v[lane] > limit) continue;
         ++exact;
-        if (judge.judge(candidate(row_[r], lane))) return true;
-        limit = squaredLimit(judge, pad);
+        if (evaluator.evaluate(candidate(row_[r], lane))) return true;
+        limit = squaredLimit(evaluator, pad);
       }
     }
     return false;
@@ -217,34 +218,34 @@ struct Slabbed {
   Slab slab;
 };
 
-/// Lower bound of the distance of two leaves by a slab; tells the judge of an upper bound.
+/// Lower bound of the distance of two leaves by a slab; tells the evaluator of an upper bound.
 HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
                                  Slab& slab) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
-  separateLeaves(a, b, vertices_b, frames.a_from_b, search.judge.prune_at + frames.pad, slab);
+  separateLeaves(a, b, vertices_b, frames.a_from_b, search.evaluator.prune_at + frames.pad, slab);
   if (slab.apart) return std::numeric_limits<float>::infinity();
   const Vec3 vertices = slab.point_b - slab.point_a;
-  search.judge.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
+  search.evaluator.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
   return (slab.bottom_b - slab.top_a) / slab.along.length - frames.pad;
 }
 
-/// Judges all features of two leaves that may be nearest.
+/// ExactEvaluators all features of two leaves that may be nearest.
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
                                   const Slab& slab, float bound) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
-  Judge& judge = search.judge;
+  ExactEvaluator& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   // Only what overlaps can cross.
   if (bound <= 0 && edgesCross(search, a, b, vertices_b, slab)) return true;
   LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, frames, slab, judge.keep_to + frames.pad);
-  return distances.judgeNear(least, frames.pad, judge, search.counts.exact);
+  const float least = distances.compute(vertices_b, frames, slab, evaluator.keep_to + frames.pad);
+  return distances.evaluateNear(least, frames.pad, evaluator, search.counts.exact);
 }
 
 HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
@@ -311,7 +312,7 @@ HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, con
       const uint32_t j = firstOf(may);
       if ((of_b[j] >> i & 1U) == 0) continue;
       ++search.counts.exact;
-      if (search.judge.judge({PairKind::kFaces, a.face(i), b.face(j)})) return true;
+      if (search.evaluator.evaluate({PairKind::kFaces, a.face(i), b.face(j)})) return true;
     }
   }
   return false;

@@ -192,10 +192,11 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
   return result;
 }
 
-/// Judges some edges of one leaf, in rows moved to the frame of the other, against its faces.
+/// ExactEvaluators some edges of one leaf, in rows moved to the frame of the other, against its
+/// faces.
 template <bool kEdgesOfA>
 HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const LeafView& faces,
-                            float pad, Judge& judge, long long& exact) {
+                            float pad, ExactEvaluator& evaluator, long long& exact) {
   const uint32_t used = (1U << faces.leaf.num_faces) - 1;
   for (int i = 0; i < some.count; ++i) {
     const Points chunk = {some.rows + 6 * (i / kLanes), 1};
@@ -205,8 +206,8 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const L
     for (; may != 0; may &= may - 1) {
       ++exact;
       const FeatureId face = faces.face(firstOf(may)), edge = edges.edge(some.index(i));
-      if (judge.judge(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edge, face}
-                                : Candidate{PairKind::kFaceEdge, face, edge})) {
+      if (evaluator.evaluate(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edge, face}
+                                       : Candidate{PairKind::kFaceEdge, face, edge})) {
         return true;
       }
     }
@@ -214,8 +215,8 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const L
   return false;
 }
 
-/// Judges the edges of either leaf against the faces of the other. What meets lies between the
-/// planes of the slab, so that edges beyond can't.
+/// ExactEvaluators the edges of either leaf against the faces of the other. What meets lies between
+/// the planes of the slab, so that edges beyond can't.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
                            const Points& vertices_b, const Slab& slab) {
   const FramePair& frames = search.frames;
@@ -224,11 +225,11 @@ HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafVi
   const float thickness = frames.pad * slab.along.length;
   EdgeRows edges;
   gatherEdges(b, vertices_b, facing(vertices_b, -1.0F * w, -slab.top_a - thickness), edges);
-  if (crossings<false>(b, edges, a, frames.pad, search.judge, exact)) return true;
+  if (crossings<false>(b, edges, a, frames.pad, search.evaluator, exact)) return true;
   VertexRows moved_a;
   gatherEdges(a, moveVertices(a, frames.b_from_a, moved_a),
               facing(a.vertices, w, slab.bottom_b - thickness), edges);
-  return crossings<true>(a, edges, b, frames.pad, search.judge, exact);
+  return crossings<true>(a, edges, b, frames.pad, search.evaluator, exact);
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE

@@ -25,7 +25,7 @@ class RayTraversal {
     waiting[n++] = {-std::numeric_limits<float>::infinity(), 0};
     while (n > 0) {
       const Entry at = waiting[--n];
-      if (at.enter > search_.judge.end) continue;
+      if (at.enter > search_.evaluator.end) continue;
       const Node& node = tree_.nodes[at.node];
       if (node.isLeaf()) {
         if (leaf(tree_.leaves[node.leaf()])) return;
@@ -87,7 +87,7 @@ class RayTraversal {
     const float low = std::max(std::max(lows[0], lows[1]), lows[2]) - ray_.pad;
     const float high = std::min(std::min(highs[0], highs[1]), highs[2]) + ray_.pad;
     enter = std::max(enter, low);
-    return low <= high && enter <= search_.judge.end && high >= ray_.begin;
+    return low <= high && enter <= search_.evaluator.end && high >= ray_.begin;
   }
 
   /// The children that the ray may enter before the end join those that wait, the nearest last.
@@ -98,7 +98,7 @@ class RayTraversal {
     search_.counts.volume_tests += children.count;
     alignas(32) float enters[kLanes];
     uint32_t near = 0;
-    const V pad = set(ray_.pad), begin = set(ray_.begin), end = set(search_.judge.end);
+    const V pad = set(ray_.pad), begin = set(ray_.begin), end = set(search_.evaluator.end);
     for (size_t l = 0; l < kLanes; l += step()) {
       V low = set(-std::numeric_limits<float>::infinity()), high = hn::Neg(low), h2 = high;
       clip(load(block.x[kCentral], l), load(block.y[kCentral], l), load(block.z[kCentral], l),
@@ -140,12 +140,12 @@ class RayTraversal {
     return n;
   }
 
-  /// Judges the faces that the ray may meet: true to end the search.
+  /// ExactEvaluators the faces that the ray may meet: true to end the search.
   HWY_INLINE bool leaf(const Leaf& leaf) const {
     ++search_.counts.leaf_pairs;
     const Lanes* const rows = &tree_.lanes[leaf.offset + 3 * leaf.vertexChunks()];
     uint32_t near = 0;
-    const V pad = set(2 * ray_.pad), begin = set(ray_.begin), end = set(search_.judge.end);
+    const V pad = set(2 * ray_.pad), begin = set(ray_.begin), end = set(search_.evaluator.end);
     const V sign = hn::SignBit(d);
     for (size_t l = 0; l < kLanes; l += step()) {
       const auto height = [&](int row) {
@@ -172,7 +172,7 @@ class RayTraversal {
     if (near != 0) ++search_.counts.leaf_kernels;
     for (; near != 0; near &= near - 1) {
       const FeatureId id = tree_.features[leaf.feature_offset + firstOf(near)];
-      if (search_.judge.judge(id.triangle())) return true;
+      if (search_.evaluator.evaluate(id.triangle())) return true;
     }
     return false;
   }

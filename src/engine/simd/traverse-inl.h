@@ -46,7 +46,7 @@ class Expander {
     MovedNode moved;
     move(*e.other, *to_[e.side], search_.frames.pad, moved);
     const Block& block = blockOf(e);
-    const V limit = hn::Set(d, search_.judge.prune_at);
+    const V limit = hn::Set(d, search_.evaluator.prune_at);
     e.near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
       const V lower = lowerBounds(block, l, moved);
@@ -65,7 +65,7 @@ class Expander {
     Expansion batch[kMax];
     size_t n = 0;
     for (size_t i = 0; i < count; ++i) {
-      if (pairs[i].bound >= search_.judge.prune_at) continue;
+      if (pairs[i].bound >= search_.evaluator.prune_at) continue;
       batch[n].bound = pairs[i].bound;
       start(pairs[i].pair, batch[n++]);
     }
@@ -89,7 +89,7 @@ class Expander {
   template <bool kInherit>
   void spread(Expansion& e, Frontier& frontier, uint32_t taken = 0) const {
     if constexpr (kInherit) {
-      const V limit = hn::Set(d, search_.judge.prune_at), least = hn::Set(d, e.bound);
+      const V limit = hn::Set(d, search_.evaluator.prune_at), least = hn::Set(d, e.bound);
       uint32_t near = 0;
       for (size_t l = 0; l < kLanes; l += step()) {
         const V bounds = hn::Max(hn::Load(d, e.bounds + l), least);
@@ -165,7 +165,7 @@ class Expander {
           boxDistance(tree.boxes[e.parent->first_child + lane], moved_box, search_.frames.pad);
       if (!(lower > 0)) continue;  // 0 says nothing
       e.bounds[lane] = std::max(e.bounds[lane], lower);
-      if (lower >= search_.judge.prune_at) e.near ^= 1U << lane;
+      if (lower >= search_.evaluator.prune_at) e.near ^= 1U << lane;
     }
   }
 

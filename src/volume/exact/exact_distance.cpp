@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "volume/assemble.h"
+#include "volume/error_bounds.h"
 #include "volume/exact/exact_pair.h"
 #include "volume/exact/nearest_pair.h"
 #include "volume/rounding.h"
@@ -27,14 +28,13 @@ fcl::Vector3d scaledBy(const fcl::Vector3d& v, int exponent) {
   return {scaled(v[0], exponent), scaled(v[1], exponent), scaled(v[2], exponent)};
 }
 
-/// Rounding of R c_b + T - c_a and of b's points on their way to A: as in separation.cpp.
+/// Rounding of R c_b + T - c_a and of b's points on their way to A.
 template <typename S>
 double rounding(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
-  const double m = 1.8 * b.center0.template cast<double>().template lpNorm<1>() + X.T_norm1 +
-                   a.center0.template cast<double>().template lpNorm<1>();
-  constexpr double kPad = sizeof(S) == sizeof(double) ? 32 * kUlpDouble : 32 * kUlpFloat;
-  constexpr double kSubnormal = sizeof(S) == sizeof(double) ? 0x1p-1070 : 0x1p-145;
-  return kPad * (m + double{a.radius0} + 4 * double{b.radius0}) + kSubnormal;
+  const auto norm1 = [](const kIOS<S>& v) {
+    return v.center0.template cast<double>().template lpNorm<1>();
+  };
+  return error_bounds::volumeError<S>(norm1(b), X.T_norm1 + norm1(a), a.radius0, b.radius0);
 }
 
 }  // namespace

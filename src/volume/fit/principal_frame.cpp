@@ -57,17 +57,17 @@ Eigen::Matrix3f axesOf(const PointLanes& points) {
 
 Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b) {
   constexpr float kTiny = 1e-30F;  // squared; the caller's units make the longest length about 1
-  const float square_a = dot<float>(a, a), square_b = dot<float>(b, b);
+  const float square_a = detail::dot<float>(a, a), square_b = detail::dot<float>(b, b);
   const bool usable = square_a > kTiny && square_a < std::numeric_limits<float>::infinity();
   const Eigen::Vector3f e0 =
       usable ? Eigen::Vector3f(a / std::sqrt(square_a)) : Eigen::Vector3f::UnitX();
-  b -= dot<float>(e0, b) * e0;
-  float square = dot<float>(b, b);
+  b -= detail::dot<float>(e0, b) * e0;
+  float square = detail::dot<float>(b, b);
   if (!(square > 1e-6F * square_b && square > kTiny)) {  // any direction across e0
     int least = 0;
     e0.cwiseAbs().minCoeff(&least);
     b = Eigen::Vector3f::Unit(least) - e0[least] * e0;
-    square = dot<float>(b, b);
+    square = detail::dot<float>(b, b);
   }
   const Eigen::Vector3f e1 = b / std::sqrt(square);
   Eigen::Matrix3f axes;

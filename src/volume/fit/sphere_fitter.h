@@ -46,4 +46,7 @@ class SphereFitter {
   int exponent_ = 0;
 };
 
+/// Throws std::invalid_argument if the angle is not in [1/256, pi/2).
+void requireUsable(const FitOptions& options);
+
 }  // namespace kios

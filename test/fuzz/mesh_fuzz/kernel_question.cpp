@@ -43,7 +43,7 @@ Verdict kernels(const Case& c) {
     if (found.distance != swapped.distance) {
       return failure(Words() << found.distance << ", swapped " << swapped.distance, call);
     }
-    const double apart = (found.point_a - found.point_b).template cast<double>().norm();
+    const double apart = (found.point_a - found.point_b).template cast<double>().stableNorm();
     double most = 0;
     for (int k = 0; k < 3; ++k) {
       most = std::max({most, exact.a[k].norm(), exact.b[k].norm()});

@@ -121,7 +121,7 @@ std::optional<std::string> faultOfPoints(const BruteForce<S>& truth, const std::
   const double skew = 1.1 * (error(X_WA) + error(X_WB)) * most;
   const double bound = 32 * eps * (most + L) + 4 * least + skew;
   std::ostringstream words;
-  const double apart = (p - q).template cast<double>().norm();
+  const double apart = (p - q).template cast<double>().stableNorm();
   if (!(std::abs(apart - static_cast<double>(distance)) <= bound)) {
     words << "points are " << apart << " apart, not " << distance << " (bound " << bound << ")";
     return words.str();

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/pair_query.h"
+#include "scene/body_pair.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/query/distance.h"
-#include "fcl_kios/query/mesh_queries.h"
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/volume/separation.h"
-#include "query/mesh_pair.h"
+#include "query/bracket.h"
+#include "query/pair_search.h"
+#include "volume/error_bounds.h"
 
 namespace kios::scene {
 namespace {
@@ -34,23 +34,14 @@ double norm1(const fcl::Vector3<S>& v) {
 }
 
 template <typename S>
-const kIOS<S>& rootOf(const Body<S>& body) {
-  return body.model->getBV(0).bv;
-}
-
-template <typename S>
-TriangleDistance<S> distanceOf(const Body<S>& a, std::intptr_t triangle_a, const Body<S>& b,
-                               std::intptr_t triangle_b) {
-  const RelativePose<S> X_AB(a.X_W, b.X_W);
-  return triangleDistance(cornersOf(*a.model, static_cast<int>(triangle_a)),
-                          transformed(cornersOf(*b.model, static_cast<int>(triangle_b)), X_AB));
+PairFrame<S> frameOf(const Body<S>& a, const Body<S>& b) {
+  return {*a.model, a.X_W, *b.model, b.X_W, a.rotation_square + b.rotation_square};
 }
 
 }  // namespace
 
 template <typename S>
-PairQuery<S>::PairQuery(int id_a, const Body<S>& a, int id_b, const Body<S>& b,
-                        PairMemory<S>& memory)
+BodyPair<S>::BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory)
     : id_a_(id_a),
       id_b_(id_b),
       a_(a),
@@ -58,33 +49,39 @@ PairQuery<S>::PairQuery(int id_a, const Body<S>& a, int id_b, const Body<S>& b,
       memory_(memory),
       proof_(memory.find(id_a, a, id_b, b)) {}
 
-// 16 eps of the extent of the triangles, which is at most d + 2 r_a + 2 r_b, twice.
 template <typename S>
-double PairQuery<S>::roundingOf(double d) const {
-  constexpr double kEps = std::numeric_limits<S>::epsilon();
-  return 32 * kEps * (std::abs(d) + 2 * (a_.sphere.radius + b_.sphere.radius));
+const PairFrame<S>& BodyPair<S>::frame() const {
+  if (!frame_) frame_.emplace(frameOf(a_, b_));
+  return *frame_;
 }
 
-// At the proof's pose and now, computed distances are off by roundingOf(), and by 8 eps (|y| + |T|)
-// from the common frame, y the points of b.
 template <typename S>
-double PairQuery<S>::afterMotion(double moved, double T_norm) const {
-  constexpr double kEps = std::numeric_limits<S>::epsilon();
-  const double frames = 16 * kEps * (4 * b_.reach + norm1<S>(proof_->T) + T_norm);
+double BodyPair<S>::roundingOf(double d) const {
+  return error_bounds::triangleError<S>(
+      error_bounds::extentOf(d, a_.sphere.radius, b_.sphere.radius));
+}
+
+// At the proof's pose and now, computed distances are off by roundingOf(), and by the common
+// frame's rounding of b's points.
+template <typename S>
+double BodyPair<S>::afterMotion(double moved, double T_norm1) const {
+  const double reach1 = 2 * b_.reach;  // |x|_1 <= sqrt(3) |x|_2
+  const double frames = error_bounds::frameError<S>(reach1, norm1<S>(proof_->T)) +
+                        error_bounds::frameError<S>(reach1, T_norm1);
   return proof_->apart - moved * (1 + 0x1p-40) - 2 * roundingOf(proof_->apart) - frames;
 }
 
 template <typename S>
-Knowledge PairQuery<S>::know(double limit) const {
-  using Source = Knowledge::Source;
-  Knowledge known = {-kInfinity, Source::kNothing, false};
+PairBound BodyPair<S>::know(double limit) const {
+  using Source = PairBound::Source;
+  PairBound known = {-kInfinity, Source::kNothing, false};
   const auto raise = [&](double bound, Source source) {
     if (bound > known.bound) known = {bound, source, false};
     return known.bound > limit;
   };
   const auto still = [&] {
-    if (proof_->exact) return Knowledge{double{proof_->distance}, Source::kStill, true};
-    return Knowledge{proof_->apart, Source::kStill, false};
+    if (proof_->exact) return PairBound{double{proof_->distance}, Source::kStill, true};
+    return PairBound{proof_->apart, Source::kStill, false};
   };
 
   if (proof_) {
@@ -104,7 +101,7 @@ Knowledge PairQuery<S>::know(double limit) const {
   }
   if (!meshes()) return known;
 
-  const RelativePose<S> X_AB(a_.X_W, b_.X_W);
+  const RelativePose<S>& X_AB = frame().X_AB;
   if (proof_ && known.source != Source::kStill) {
     if (X_AB.R == proof_->R && X_AB.T == proof_->T) {
       known = still();
@@ -114,55 +111,57 @@ Knowledge PairQuery<S>::know(double limit) const {
       if (raise(afterMotion(moved, X_AB.T_norm1), Source::kMotion)) return known;
     }
   }
-  const double apart =
-      separation(rootOf(a_), rootOf(b_), X_AB, limit + 2 * roundingOf(std::max(limit, 0.0)));
+  const double apart = frame().rootBound(limit + 2 * roundingOf(std::max(limit, 0.0)));
   raise(apart - roundingOf(std::max(apart, 0.0)), Source::kRoots);
   return known;
 }
 
 template <typename S>
-double PairQuery<S>::upperBound() const {
+double BodyPair<S>::upperBound() const {
   if (!proof_ || !meshes() || proof_->triangle_a < 0 || proof_->triangle_b < 0) return kInfinity;
-  return distanceOf(a_, proof_->triangle_a, b_, proof_->triangle_b).distance;
+  return frame()
+      .distanceOf({static_cast<int>(proof_->triangle_a), static_cast<int>(proof_->triangle_b)})
+      .distance;
 }
 
 template <typename S>
-double PairQuery<S>::ceiling() const {
+double BodyPair<S>::ceiling() const {
   const double near = upperBound();
   return near + 2 * roundingOf(near);
 }
 
 template <typename S>
-bool PairQuery<S>::stoodStill() const {
+bool BodyPair<S>::stoodStill() const {
   if (!proof_ || !proof_->exact) return false;
   if (proof_->path_a == a_.path && proof_->path_b == b_.path) return true;
   if (!meshes()) return false;
-  const RelativePose<S> X_AB(a_.X_W, b_.X_W);
+  const RelativePose<S>& X_AB = frame().X_AB;
   return X_AB.R == proof_->R && X_AB.T == proof_->T;
 }
 
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::nearby(double limit) const {
+typename BodyPair<S>::Answer BodyPair<S>::nearby(double limit) const {
   const double distance = upperBound();
   if (!(distance + 2 * roundingOf(distance) <= limit)) return {};
   return {true, static_cast<S>(distance), proof_->triangle_a, proof_->triangle_b};
 }
 
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::proven(double limit) const {
+typename BodyPair<S>::Answer BodyPair<S>::proven(double limit) const {
   return {proof_->distance <= limit, proof_->distance, proof_->triangle_a, proof_->triangle_b};
 }
 
 template <typename S>
-void PairQuery<S>::remember(double apart, bool exact, const Answer& answer) {
+void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   Proof<S>* const proof = memory_.obtain(id_a_, id_b_);
   if (!proof) return;
   const bool same = proof->tellsOf(a_, b_);
-  const RelativePose<S> X_AB(a_.X_W, b_.X_W);
   proof->state_a = a_.state;
   proof->state_b = b_.state;
-  proof->R = X_AB.R;
-  proof->T = X_AB.T;
+  if (meshes()) {
+    proof->R = frame().X_AB.R;
+    proof->T = frame().X_AB.T;
+  }
   proof->path_a = a_.path;
   proof->path_b = b_.path;
   proof->rotation_error = a_.rotation_error;
@@ -181,31 +180,32 @@ void PairQuery<S>::remember(double apart, bool exact, const Answer& answer) {
 // So it is asked about a little more: what it may come nearer in the next few queries, unless that
 // is much for its size, and a share of the limit.
 template <typename S>
-double PairQuery<S>::outlook(double limit) const {
+double BodyPair<S>::outlook(double limit) const {
   constexpr double kQueries = 8, kSizeShare = 0.05, kLimitShare = 1.0 / 32;
   const double ahead = kLimitShare * std::max(limit, 0.0);
   if (!proof_ || proof_->made == memory_.query()) return ahead;
-  const RelativePose<S> X_AB(a_.X_W, b_.X_W);
+  const RelativePose<S>& X_AB = frame().X_AB;
   const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R, X_AB.T, b_.sphere);
   const double nearer = kQueries * moved / static_cast<double>(memory_.query() - proof_->made);
   return nearer < kSizeShare * (a_.sphere.radius + b_.sphere.radius) ? ahead + nearer : ahead;
 }
 
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, SearchCounts& counts) {
+typename BodyPair<S>::Answer BodyPair<S>::searchMeshes(double limit, SearchCounts& counts) {
   constexpr S kMax = std::numeric_limits<S>::max();
   const double wanted = limit + 2 * roundingOf(std::max(limit, 0.0)) + outlook(limit);
   for (const double at_most : {std::min(wanted, ceiling()), wanted}) {
-    const fcl::DistanceRequest<S> request;
-    fcl::DistanceResult<S> result;
+    engine::PairQuery query;
     // Above the limit also where all is 0, or S rounds it down.
-    if (at_most < kMax) result.min_distance = std::nextafter(static_cast<S>(at_most), kMax);
-    distanceMeshes(*a_.model, a_.X_W, *b_.model, b_.X_W, request, result, &counts);
-    if (result.o1) {
-      const Answer answer = {result.min_distance <= limit, result.min_distance, result.b1,
-                             result.b2};
-      remember(double{answer.distance}, true, answer);
-      return answer;
+    if (at_most < kMax) query.far_enough = std::nextafter(static_cast<S>(at_most), kMax);
+    if (frame().rootBound(query.far_enough) < query.far_enough) {
+      const engine::PairAnswer<S> found = searchNearest(frame(), query, counts);
+      const S distance = found.nearest.distance;
+      if (found.found() && distance < query.far_enough) {
+        const Answer answer = {distance <= limit, distance, found.ids.a, found.ids.b};
+        remember(double{distance}, true, answer);
+        return answer;
+      }
     }
     if (!(at_most < wanted)) break;  // else the ceiling was not one, which it always is
   }
@@ -214,21 +214,17 @@ typename PairQuery<S>::Answer PairQuery<S>::searchMeshes(double limit, SearchCou
 }
 
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::decideMeshes(double limit, SearchCounts& counts) {
-  constexpr S kMax = std::numeric_limits<S>::max();
+typename BodyPair<S>::Answer BodyPair<S>::decideMeshes(double limit, SearchCounts& counts) {
   const double rounding = roundingOf(std::max(limit, 0.0));
-  WarmStart start;
+  engine::PairQuery query;
   if (proof_) {
-    start = {static_cast<int>(proof_->triangle_a), static_cast<int>(proof_->triangle_b)};
+    query.start = {static_cast<int>(proof_->triangle_a), static_cast<int>(proof_->triangle_b)};
   }
-  DistanceOptions<S> options;
-  options.nearest_points = false;
-  options.warm_start = &start;
-  const double far = limit + 2 * rounding + outlook(limit);
-  if (far < kMax) options.far_enough = std::nextafter(static_cast<S>(far), kMax);
-  options.near_enough = static_cast<S>(std::max(0.0, limit - 2 * rounding));
+  // Above the limit also where all is 0.
+  query.far_enough = std::nextafter(limit + 2 * rounding + outlook(limit), kInfinity);
+  query.near_enough = std::max(0.0, limit - 2 * rounding);
 
-  const DistanceAnswer<S> found = kios::distance(*a_.model, a_.X_W, *b_.model, b_.X_W, options);
+  const DistanceAnswer<S> found = bracketDistance(frame(), query);
   counts += found.counts;
   Answer answer = {true, found.distance, found.triangle1, found.triangle2};
   if (found.stop == DistanceStop::kTolerance) {
@@ -243,7 +239,7 @@ typename PairQuery<S>::Answer PairQuery<S>::decideMeshes(double limit, SearchCou
 }
 
 template <typename S>
-typename PairQuery<S>::Answer PairQuery<S>::search(double limit, bool exact, SearchCounts& counts) {
+typename BodyPair<S>::Answer BodyPair<S>::search(double limit, bool exact, SearchCounts& counts) {
   if (meshes()) return exact ? searchMeshes(limit, counts) : decideMeshes(limit, counts);
   const fcl::DistanceRequest<S> request;
   fcl::DistanceResult<S> result;
@@ -257,7 +253,8 @@ typename PairQuery<S>::Answer PairQuery<S>::search(double limit, bool exact, Sea
 template <typename S>
 void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair) {
   if (a.model && b.model) {
-    const TriangleDistance<S> nearest = distanceOf(a, pair.triangle_a, b, pair.triangle_b);
+    const TriangleDistance<S> nearest = frameOf(a, b).distanceOf(
+        {static_cast<int>(pair.triangle_a), static_cast<int>(pair.triangle_b)});
     pair.nearest_a = a.X_W * nearest.point_a;
     pair.nearest_b = a.X_W * nearest.point_b;
     return;
@@ -269,8 +266,8 @@ void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair) {
   pair.nearest_b = result.nearest_points[1];
 }
 
-#define KIOS_INSTANTIATE(S)    \
-  template class PairQuery<S>; \
+#define KIOS_INSTANTIATE(S)   \
+  template class BodyPair<S>; \
   template void nearestPoints(const Body<S>&, const Body<S>&, ScenePair<S>&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

@@ -4,22 +4,16 @@
 
 #include <array>
 #include <cmath>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "engine/mesh.h"
-#include "engine/mesh_search.h"
-#include "engine/prepare.h"
-#include "engine/refit.h"
 #include "fcl_kios/triangle/triangle.h"
-#include "fcl_kios/volume/separation.h"
 #include "scenes/cad_shapes.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
-// Meshes, poses and prepared pairs that the tests of the engine share.
+// Meshes and poses that tests of several folders share.
 
 namespace kios::testing {
 
@@ -35,9 +29,6 @@ struct Shape {
   explicit Shape(const Mesh& mesh) : triangles(mesh.triangles) {
     for (const fcl::Vector3d& p : mesh.vertices) vertices.push_back(p.template cast<S>());
   }
-  engine::MeshView<S> view() const {
-    return {vertices.data(), vertices.size(), triangles.data(), triangles.size()};
-  }
   TriangleVertices<S> corners(std::size_t t) const {
     const fcl::Triangle& ids = triangles[t];
     return {vertices[ids[0]], vertices[ids[1]], vertices[ids[2]]};
@@ -48,6 +39,19 @@ struct NamedMesh {
   std::string name;
   Mesh mesh;
 };
+
+inline void addTriangle(Mesh& mesh, const fcl::Vector3d& a, const fcl::Vector3d& b,
+                        const fcl::Vector3d& c) {
+  const std::size_t n = mesh.vertices.size();
+  mesh.vertices.insert(mesh.vertices.end(), {a, b, c});
+  mesh.triangles.emplace_back(n, n + 1, n + 2);
+}
+
+/// Uniform in [-1, 1]^3.
+inline fcl::Vector3d inCube(Random& random) {
+  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+  return {x, y, random.uniform(-1, 1)};
+}
 
 inline Mesh transformed(Mesh mesh, double scale, const fcl::Vector3d& offset) {
   for (fcl::Vector3d& p : mesh.vertices) p = scale * p + offset;
@@ -90,14 +94,10 @@ inline fcl::Transform3d wholePose(Random& random, double half_width) {
 /// Points (0), segments (1) and proper triangles (2), mixed if `kind` is 3.
 inline Mesh degenerateMesh(int count, int kind, std::uint64_t seed) {
   Random random(seed);
-  const auto point = [&random]() -> fcl::Vector3d {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-    return {x, y, random.uniform(-1, 1)};
-  };
   std::vector<Mesh> parts;
   for (int i = 0; i < count; ++i) {
     const int what = kind == 3 ? i % 3 : kind;
-    const fcl::Vector3d p = point(), d = 0.3 * point(), e = 0.3 * point();
+    const fcl::Vector3d p = inCube(random), d = 0.3 * inCube(random), e = 0.3 * inCube(random);
     if (what == 0) parts.push_back(scenes::singleTriangle(p, p, p));
     if (what == 1) parts.push_back(scenes::singleTriangle(p, p + d, p + 0.5 * d));
     if (what == 2) parts.push_back(scenes::singleTriangle(p, p + d, p + e));
@@ -187,48 +187,6 @@ inline Mesh swayed(Mesh mesh) {
   }
   return mesh;
 }
-
-/// The tree as prepared, or as refitted from where the mesh was before; nullptr if it can't be.
-template <typename S>
-std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* before) {
-  if (!before) return engine::prepare(shape.view());
-  auto tree = engine::prepare(before->view());
-  return engine::refit(shape.view(), *tree) ? std::move(tree) : nullptr;
-}
-
-/// Two shapes with their trees, at a pose.
-template <typename S>
-class PosedPair {
- public:
-  explicit PosedPair(const Mesh& a, const Mesh& b, bool refitted = false)
-      : a(a), b(b), tree_a(made(this->a, a, refitted)), tree_b(made(this->b, b, refitted)) {}
-
-  /// False if floats can't serve the pair there.
-  bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
-    X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
-    return engine::makeFramePair(*tree_a, *tree_b, *X_AB, frames_);
-  }
-  engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
-    return {{*tree_a, a.view()}, {*tree_b, b.view()}, *X_AB, frames_, audit};
-  }
-  TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
-    const TriangleVertices<S> q = b.corners(t);
-    return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};
-  }
-
-  const Shape<S> a, b;
-  const std::unique_ptr<engine::Tree> tree_a, tree_b;
-  std::unique_ptr<RelativePose<S>> X_AB;
-
- private:
-  static std::unique_ptr<engine::Tree> made(const Shape<S>& shape, const Mesh& mesh,
-                                            bool refitted) {
-    const Shape<S> before(swayed(mesh));
-    auto tree = treeOf(shape, refitted ? &before : nullptr);
-    return tree ? std::move(tree) : engine::prepare(shape.view());
-  }
-  engine::FramePair frames_;
-};
 
 /// Diagonal of the box of two triangles: what errors are measured by.
 template <typename S>

@@ -4,14 +4,16 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 
+#include "query/pair_frame.h"
 #include "scene/body.h"
 #include "scene/pair_memory.h"
 
 namespace kios::scene {
 
 /// What is known of a pair without a search.
-struct Knowledge {
+struct PairBound {
   enum class Source { kNothing, kStill, kMotion, kRoots };
   /// The narrow phase would compute at least that; below 0 for root volumes that overlap, deeper
   /// ones first.
@@ -22,12 +24,12 @@ struct Knowledge {
 
 /// A pair of bodies in a scene query: what it can spare the narrow phase, and the narrow phase.
 template <typename S>
-class PairQuery {
+class BodyPair {
  public:
-  PairQuery(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
+  BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
 
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
-  Knowledge know(double limit) const;
+  PairBound know(double limit) const;
 
   /// The answer of the narrow phase.
   struct Answer {
@@ -56,7 +58,9 @@ class PairQuery {
 
  private:
   bool meshes() const { return a_.model && b_.model; }
-  double afterMotion(double moved, double T_norm) const;
+  /// Of two meshes; made when something asks for it.
+  const PairFrame<S>& frame() const;
+  double afterMotion(double moved, double T_norm1) const;
   /// How far computed distances may be from exact ones in the common frame, for distances about d.
   double roundingOf(double d) const;
   double outlook(double limit) const;
@@ -68,6 +72,7 @@ class PairQuery {
   const Body<S>&a_, &b_;
   PairMemory<S>& memory_;
   const Proof<S>* proof_;
+  mutable std::optional<PairFrame<S>> frame_;
 };
 
 /// The points that realise a pair's distance, in the world.

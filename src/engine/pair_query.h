@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "fcl_kios/triangle/distance.h"
+
+// The question about the distance of two meshes, and its answer: the same for both kinds of trees.
+
+namespace kios::engine {
+
+/// A pair of triangles, by index; -1 if there is none.
+struct TrianglePairIds {
+  int a = -1, b = -1;
+
+  bool operator<(const TrianglePairIds& o) const { return a != o.a ? a < o.a : b < o.b; }
+  bool operator==(const TrianglePairIds& o) const { return a == o.a && b == o.b; }
+};
+
+/// Once a pair `distance` apart was found, those that are at least so far apart don't matter.
+inline double pruneAt(double distance, double rel_err, double abs_err) {
+  return std::max(0.0, std::min(distance - abs_err, distance / (1 + rel_err)));
+}
+
+/// What is asked, and when a search may end. As it stands: the exact distance.
+struct PairQuery {
+  double rel_err = 0, abs_err = 0;
+  double near_enough = 0;                                       ///< a pair so near ends the search
+  double far_enough = std::numeric_limits<double>::infinity();  ///< pairs so far don't matter
+  long long max_expansions = std::numeric_limits<long long>::max();
+  TrianglePairIds start;  ///< triangles to begin with, if any; exact answers don't depend on them
+
+  bool isExact() const { return rel_err == 0 && abs_err == 0; }
+  /// The search of exact answers is then as fast as that of brackets.
+  bool isNearlyExact() const { return rel_err <= 0.01 && abs_err == 0; }
+  bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
+  bool endsEarly() const { return near_enough > 0 || hasBudget(); }
+  double pruneAt(double distance) const { return engine::pruneAt(distance, rel_err, abs_err); }
+};
+
+/// Why a search ended.
+enum class SearchEnd {
+  kDone,   ///< nothing that matters is left
+  kNear,   ///< the triangles of the answer are at most near_enough apart
+  kBudget  ///< max_expansions were spent
+};
+
+/// The nearest triangles that were found: distance - exact <= max(rel_err * exact, abs_err), and 16
+/// eps of their extent where both are 0, if the search was done and the pair is nearer than
+/// far_enough. Of equally near pairs that with the least ids, at distance 0 any.
+template <typename S>
+struct PairAnswer {
+  TrianglePairIds ids;               ///< none if no pair was looked at
+  TriangleDistance<S> nearest = {};  ///< of ids, in A's frame
+  /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
+  double least_evaluated = std::numeric_limits<double>::infinity();
+  double least_other = 0;  ///< proven of all pairs that were not evaluated
+  SearchEnd end = SearchEnd::kDone;
+
+  bool found() const { return ids.a >= 0; }
+};
+
+}  // namespace kios::engine

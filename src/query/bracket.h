@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/query/distance.h"
+#include "query/pair_frame.h"
+
+namespace kios {
+
+/// The answer of kios::distance(), but for the nearest points: in A's frame, set if a pair was
+/// found.
+template <typename S>
+DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query);
+
+}  // namespace kios

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/pair_search.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "engine/mesh_search.h"
+#include "model/prepared.h"
+
+namespace kios {
+namespace {
+
+using engine::PairAnswer;
+using engine::PairQuery;
+using engine::SearchEnd;
+using engine::TrianglePairIds;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Two models with their trees, which stay in use while it lives.
+template <typename S>
+class EnginePair {
+ public:
+  explicit EnginePair(const PairFrame<S>& frame) : frame_(frame) {
+    if (tooFar()) return;  // before anything is prepared in vain
+    tree_a_.emplace(preparedTree(frame.a));
+    if (!*tree_a_) return;
+    tree_b_.emplace(preparedTree(frame.b));
+    usable_ = *tree_b_ && engine::makeFramePair(**tree_a_, **tree_b_, frame.X_AB, frames_);
+  }
+
+  /// False if FCL's tree must do.
+  explicit operator bool() const { return usable_; }
+
+  engine::PreparedPair<S> pair() const {
+    return {{**tree_a_, viewOf(frame_.a)}, {**tree_b_, viewOf(frame_.b)}, frame_.X_AB, frames_};
+  }
+
+ private:
+  /// Whether the models are so far apart for their size that makeFramePair() would refuse: its pad
+  /// then is a radius of the smaller.
+  bool tooFar() const {
+    const kIOS<S>&a = frame_.rootA(), &b = frame_.rootB();
+    const double apart = (frame_.X_AB * b.center0 - a.center0).template cast<double>().norm();
+    return error_bounds::laneError(apart) > std::min<double>(a.radius0, b.radius0);
+  }
+
+  const PairFrame<S>& frame_;
+  std::optional<engine::TreeCache::Use> tree_a_, tree_b_;
+  engine::FramePair frames_;
+  bool usable_ = false;
+};
+
+/// Best first in FCL's trees, in double.
+template <typename S>
+class TreeSearch {
+ public:
+  TreeSearch(const PairFrame<S>& frame, const PairQuery& query, SearchCounts& counts)
+      : frame_(frame), query_(query), counts_(counts), prune_at_(query.far_enough) {}
+
+  PairAnswer<S> run() {
+    if (begin()) return result_;
+    bool done = false;
+    long long left = query_.max_expansions;
+    push(0, 0, -kInfinity);
+    while (!done && !waiting_.empty() && waiting_.front().bound < prune_at_) {
+      const Pair at = waiting_.front();
+      const auto &node_a = frame_.a.getBV(at.node_a), &node_b = frame_.b.getBV(at.node_b);
+      const bool leaves = node_a.isLeaf() && node_b.isLeaf();
+      if (!leaves && left-- == 0) {
+        result_.end = SearchEnd::kBudget;
+        break;
+      }
+      std::pop_heap(waiting_.begin(), waiting_.end());
+      waiting_.pop_back();
+      if (leaves) {
+        ++counts_.leaf_pairs;
+        done = evaluate({node_a.primitiveId(), node_b.primitiveId()});
+        continue;
+      }
+      ++counts_.expansions;
+      counts_.volume_tests += 2;
+      if (node_b.isLeaf() || (!node_a.isLeaf() && node_a.bv.size() > node_b.bv.size())) {
+        push(node_a.leftChild(), at.node_b, at.bound);
+        push(node_a.rightChild(), at.node_b, at.bound);
+      } else {
+        push(at.node_a, node_b.leftChild(), at.bound);
+        push(at.node_a, node_b.rightChild(), at.bound);
+      }
+    }
+    // Of pairs that intersect any is an answer: which must not depend on the start.
+    if (offered_ && result_.found() && result_.nearest.distance == 0) return cold();
+    if (!waiting_.empty()) left_out_ = std::min(left_out_, waiting_.front().bound);
+    result_.least_other = std::max(0.0, left_out_);
+    return result_;
+  }
+
+ private:
+  struct Pair {
+    double bound;
+    int node_a, node_b;
+    bool operator<(const Pair& o) const { return bound > o.bound; }  // the least on top of the heap
+  };
+
+  /// From the triangles of query_.start; true to end the search. An exact answer only learns of
+  /// their distance.
+  bool begin() {
+    if (!frame_.exist(query_.start)) return false;
+    const double distance = double{frame_.distanceOf(query_.start).distance};
+    const bool near = query_.near_enough > 0 && distance <= query_.near_enough;
+    if (!query_.isExact() || query_.hasBudget() || near) return evaluate(query_.start);
+    offered_ = distance > 0;
+    if (offered_) prune_at_ = std::min(prune_at_, withRounding(distance));
+    return false;
+  }
+
+  double withRounding(double distance) const { return distance + frame_.distanceError(distance); }
+
+  PairAnswer<S> cold() const {
+    PairQuery query = query_;
+    query.start = {};
+    return TreeSearch(frame_, query, counts_).run();
+  }
+
+  void push(int node_a, int node_b, double parent) {
+    const double own =
+        separation(frame_.a.getBV(node_a).bv, frame_.b.getBV(node_b).bv, frame_.X_AB, prune_at_);
+    const double bound = std::max(own, parent);
+    if (bound >= prune_at_) {
+      left_out_ = std::min(left_out_, bound);
+      return;
+    }
+    waiting_.push_back({bound, node_a, node_b});
+    std::push_heap(waiting_.begin(), waiting_.end());
+  }
+
+  /// True to end the search.
+  bool evaluate(const TrianglePairIds& ids) {
+    ++counts_.exact;
+    const TriangleDistance<S> found = frame_.distanceOf(ids);
+    const double distance = double{found.distance}, best = result_.least_evaluated;
+    if (distance > best || (distance == best && result_.ids < ids)) return false;
+    result_.ids = ids;
+    result_.nearest = found;
+    result_.least_evaluated = distance;
+    // Of exact answers all that may be as near by its own rounding is evaluated, in any order.
+    prune_at_ =
+        std::min(prune_at_, query_.isExact() ? withRounding(distance) : query_.pruneAt(distance));
+    if (!(distance <= query_.near_enough)) return false;
+    result_.end = SearchEnd::kNear;
+    return true;
+  }
+
+  const PairFrame<S>& frame_;
+  const PairQuery& query_;
+  SearchCounts& counts_;
+  std::vector<Pair> waiting_;  ///< a heap
+  double prune_at_;
+  double left_out_ = kInfinity;  ///< least bound of what was left out
+  bool offered_ = false;         ///< whether the start lowered prune_at_
+  PairAnswer<S> result_;
+};
+
+}  // namespace
+
+template <typename S>
+PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
+                            SearchCounts& counts) {
+  if (const EnginePair<S> engine(frame); engine) {
+    return engine::nearestTriangles(engine.pair(), query, counts);
+  }
+  ++counts.tree_searches;
+  return TreeSearch<S>(frame, query, counts).run();
+}
+
+template <typename S>
+bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
+                    std::vector<TrianglePairIds>& found, SearchCounts& counts) {
+  const EnginePair<S> engine(frame);
+  if (!engine) return false;
+  found = engine::intersectingTriangles(engine.pair(), limit, counts);
+  return true;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                     \
+  template PairAnswer<S> searchNearest(const PairFrame<S>&, const PairQuery&, SearchCounts&);   \
+  template bool searchContacts(const PairFrame<S>&, std::size_t, std::vector<TrianglePairIds>&, \
+                               SearchCounts&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

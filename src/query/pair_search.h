@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "engine/pair_query.h"
+#include "fcl_kios/engine/counts.h"
+#include "query/pair_frame.h"
+
+// The two searches about a pair of meshes, behind every call that asks for a distance or a first
+// contact. They prepare the models if need be. Pairs that the engine can't serve (models whose
+// BVFitter is not ours, lengths beyond the range of floats) are searched in FCL's tree, with the
+// same answers: exact distances, and of equally near triangles the least ids.
+
+namespace kios {
+
+/// The nearest triangles. Throws nothing of its own: what is wrong with the pair was found when its
+/// frame was built.
+template <typename S>
+engine::PairAnswer<S> searchNearest(const PairFrame<S>& frame, const engine::PairQuery& query,
+                                    SearchCounts& counts);
+
+/// Up to `limit` pairs of triangles that intersect, by ids. False if the engine can't serve the
+/// pair; `found` is then as it was.
+template <typename S>
+bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
+                    std::vector<engine::TrianglePairIds>& found, SearchCounts& counts);
+
+}  // namespace kios
