@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstring>
+#include <type_traits>
 
 #include <fcl/common/types.h>
 #include <fcl/math/triangle.h>
@@ -18,7 +20,18 @@ struct MeshView {
   std::size_t num_triangles = 0;
 
   const fcl::Vector3<S>& corner(std::size_t triangle, std::size_t k) const {
-    return vertices[triangles[triangle][k]];
+    return vertices[index(triangle, k)];
+  }
+
+  /// The vertex at a triangle's corner. fcl::Triangle is three of them, but reads one by a call.
+  std::size_t index(std::size_t triangle, std::size_t k) const {
+    static_assert(sizeof(fcl::Triangle) == 3 * sizeof(std::size_t) &&
+                  std::is_standard_layout<fcl::Triangle>::value);
+    std::size_t vertex;
+    std::memcpy(&vertex,
+                reinterpret_cast<const unsigned char*>(triangles + triangle) + k * sizeof(vertex),
+                sizeof(vertex));
+    return vertex;
   }
 };
 

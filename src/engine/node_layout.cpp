@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/volume/rigid.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 
@@ -47,30 +46,6 @@ void writeLane(const Node& node, int lane, Block& block) {
     block.z[row].v[lane] = node.z[row];
     block.r[row].v[lane] = node.r[row];
   }
-}
-
-// Extents are measured from the centre and along the axes as stored, and rounded up.
-Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes) {
-  const Eigen::Matrix3d to_box = axes.transpose().cast<double>();
-  Eigen::Vector3d low = detail::rotate<double>(to_box, points[0].cast<double>()), high = low;
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3d q = detail::rotate<double>(to_box, p.cast<double>());
-    low = low.cwiseMin(q);
-    high = high.cwiseMax(q);
-  }
-  const Eigen::Vector3f center =
-      detail::rotate<double>(to_box.transpose(), 0.5 * (low + high)).cast<float>();
-  const Eigen::Vector3d at = detail::rotate<double>(to_box, center.cast<double>());
-  const Eigen::Vector3d half = (high - at).cwiseMax(at - low);
-  Box box = {};
-  for (int i = 0; i < 3; ++i) {
-    box.ex[i] = axes(0, i);
-    box.ey[i] = axes(1, i);
-    box.ez[i] = axes(2, i);
-    box.center[i] = center[i];
-    box.half[i] = roundUpFloat(half[i] + 8 * kUlpDouble * (std::abs(at[i]) + half[i]));
-  }
-  return box;
 }
 
 bool isFlat(const Box& box) {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "engine/tree.h"
 #include "fcl_kios/volume/kios.h"
@@ -16,9 +15,6 @@ void writeSpheres(const kIOS<float>& bv, Node& node);
 
 /// Copies a node's rows into a lane of the block of its parent.
 void writeLane(const Node& node, int lane, Block& block);
-
-/// The box of points along orthonormal axes.
-Box boxAround(const std::vector<Eigen::Vector3f>& points, const Eigen::Matrix3f& axes);
 
 /// Whether the box is thin enough to bound its content better than spheres.
 bool isFlat(const Box& box);

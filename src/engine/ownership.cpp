@@ -38,10 +38,14 @@ class EdgeTable {
     edges_.reserve(expected);
   }
 
+  /// To be called some edges before find(): the table is larger than the caches.
+  void prefetch(std::uint32_t a, std::uint32_t b) const {
+    __builtin_prefetch(&table_[slotOf(keyOf(a, b))]);
+  }
+
   Owned& find(std::uint32_t a, std::uint32_t b) {
-    if (a > b) std::swap(a, b);
-    const std::uint64_t key = std::uint64_t{a} << 32 | b;
-    std::size_t slot = (key * 0x9E3779B97F4A7C15U) >> 20 & (table_.size() - 1);
+    const std::uint64_t key = keyOf(a, b);
+    std::size_t slot = slotOf(key);
     while (table_[slot] != kNone && keys_[table_[slot]] != key) {
       slot = (slot + 1) & (table_.size() - 1);
     }
@@ -58,10 +62,17 @@ class EdgeTable {
   const std::vector<Owned>& edges() const { return edges_; }
 
  private:
+  static std::uint64_t keyOf(std::uint32_t a, std::uint32_t b) {
+    return a < b ? std::uint64_t{a} << 32 | b : std::uint64_t{b} << 32 | a;
+  }
+  std::size_t slotOf(std::uint64_t key) const {
+    return (key * 0x9E3779B97F4A7C15U) >> 20 & (table_.size() - 1);
+  }
+
   void grow() {
     table_.assign(2 * table_.size(), kNone);
     for (std::size_t i = 0; i < keys_.size(); ++i) {
-      std::size_t slot = (keys_[i] * 0x9E3779B97F4A7C15U) >> 20 & (table_.size() - 1);
+      std::size_t slot = slotOf(keys_[i]);
       while (table_[slot] != kNone) slot = (slot + 1) & (table_.size() - 1);
       table_[slot] = static_cast<std::uint32_t>(i);
     }
@@ -98,6 +109,15 @@ Ownership assignFeatures(const std::vector<Corners3>& corners,
   std::vector<std::uint32_t> edges_of(num_leaves, 0), vertices_of(num_leaves, 0);
   for (std::uint32_t leaf = 0; leaf < num_leaves; ++leaf) {
     for (std::uint32_t i = leaf_begin[leaf]; i < leaf_begin[leaf + 1]; ++i) {
+      constexpr std::uint32_t kAhead = 8;
+      if (i + 2 * kAhead < order.size()) __builtin_prefetch(&corners[order[i + 2 * kAhead]]);
+      if (i + kAhead < order.size()) {
+        const Corners3& next = corners[order[i + kAhead]];
+        for (int k = 0; k < 3; ++k) {
+          __builtin_prefetch(&vertices[next[k]]);
+          edges.prefetch(next[k], next[k == 2 ? 0 : k + 1]);
+        }
+      }
       const std::uint32_t triangle = order[i];
       const Corners3& v = corners[triangle];
       for (std::uint32_t k = 0; k < 3; ++k) {

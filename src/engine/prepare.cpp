@@ -3,17 +3,18 @@
 #include "engine/prepare.h"
 
 #include <algorithm>
-#include <numeric>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "engine/leaf_layout.h"
 #include "engine/node_layout.h"
 #include "engine/ownership.h"
-#include "engine/partition.h"
+#include "engine/quick_fit.h"
 #include "engine/weld.h"
 #include "engine/wide_tree.h"
-#include "volume/fit/sphere_fitter.h"
+#include "volume/balls.h"
+#include "volume/fit/principal_frame.h"
 
 namespace kios::engine {
 namespace {
@@ -21,18 +22,18 @@ namespace {
 template <typename S>
 class Preparation {
  public:
-  explicit Preparation(const MeshView<S>& mesh)
+  Preparation(const MeshView<S>& mesh, const VolumeNode<S>* volumes)
       : mesh_(mesh),
+        volumes_(volumes),
         tree_(std::make_unique<Tree>()),
         corners_(tree_->corners),
         order_(mesh.num_triangles) {
-    std::iota(order_.begin(), order_.end(), 0U);
     const std::vector<std::uint32_t> first = weld(mesh);
     corners_.resize(mesh.num_triangles);
     fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
     for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
       for (int k = 0; k < 3; ++k) {
-        corners_[t][k] = first[mesh.triangles[t][k]];
+        corners_[t][k] = first[mesh.index(t, k)];
         low = low.cwiseMin(mesh.corner(t, k));
         high = high.cwiseMax(mesh.corner(t, k));
       }
@@ -48,9 +49,10 @@ class Preparation {
 
   std::unique_ptr<Tree> run() {
     std::copy_n(origin_.data(), 3, tree_->origin);
-    binary_ = partitioned();
+    readBinary();
     layOut();
     fillLeaves();
+    placeVolumes();
     tree_->cost = searchCost(*tree_);
     return std::move(tree_);
   }
@@ -60,15 +62,47 @@ class Preparation {
     return v.template cast<double>() - origin_;
   }
 
-  std::vector<BinaryNode> partitioned() {
-    std::vector<Corners> triangles(mesh_.num_triangles);
-    for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3f& p = points_[corners_[t][k]];
-        triangles[t].v[k] = lanes::Float4{p[0], p[1], p[2], 0};
+  /// The binary tree down to the leaves of the wide one, and the order of the triangles.
+  void readBinary() {
+    const int n = static_cast<int>(mesh_.num_triangles);
+    binary_.reserve(n / 2 + 4);
+    binary_.push_back({0, n});
+    std::vector<int> stack = {0};
+    while (!stack.empty()) {
+      const int at = stack.back();
+      stack.pop_back();
+      const VolumeNode<S>& volume = volumes_[binary_[at].volume];
+      const int left = volume.first_child;
+      if (binary_[at].count <= kLeafTriangles) {
+        readTriangles(binary_[at].volume);
+        continue;
+      }
+      binary_[at].size = static_cast<float>(2 * volume.bv.radius0);
+      binary_[at].left = static_cast<int>(binary_.size());
+      binary_[at].right = binary_[at].left + 1;
+      for (int child = left; child < left + 2; ++child) {
+        const VolumeNode<S>& of_child = volumes_[child];
+        __builtin_prefetch(&volumes_[std::max(0, of_child.first_child)]);
+        binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, -1, 0, child});
+      }
+      stack.push_back(binary_[at].right);
+      stack.push_back(binary_[at].left);
+    }
+  }
+
+  void readTriangles(int volume) {
+    // The descendants of a node follow each other, but for the root of the part.
+    const VolumeNode<S>& root = volumes_[volume];
+    if (root.first_child < 0) {
+      order_[root.first_primitive] = static_cast<std::uint32_t>(-root.first_child - 1);
+      return;
+    }
+    for (int i = root.first_child; i < root.first_child + 2 * root.num_primitives - 2; ++i) {
+      const VolumeNode<S>& node = volumes_[i];
+      if (node.first_child < 0) {
+        order_[node.first_primitive] = static_cast<std::uint32_t>(-node.first_child - 1);
       }
     }
-    return partition(triangles, order_);
   }
 
   /// Nodes and blocks, depth first, children of a block in a row.
@@ -81,7 +115,8 @@ class Preparation {
     std::vector<Pending> stack = {{0, 0, 0}};
     std::vector<int> children;
     tree_->nodes.reserve(binary_.size());
-    tree_->nodes.push_back(fitted(0));
+    tree_->nodes.emplace_back();
+    of_node_.push_back(0);
     while (!stack.empty()) {
       const Pending at = stack.back();
       stack.pop_back();
@@ -96,45 +131,85 @@ class Preparation {
       tree_->nodes[at.node].first_child = static_cast<std::uint32_t>(tree_->nodes.size());
       Children& of_block = tree_->children.emplace_back();
       of_block.count = static_cast<std::uint8_t>(children.size());
-      Block& block = tree_->blocks.emplace_back();
+      tree_->blocks.emplace_back();
       for (int lane = 0; lane < kLanes; ++lane) {
         if (lane < static_cast<int>(children.size())) {
           stack.push_back(
               {static_cast<std::uint32_t>(tree_->nodes.size()), children[lane], at.depth + 1});
-          tree_->nodes.push_back(fitted(children[lane]));
-          of_block.flat |= static_cast<std::uint8_t>(tree_->nodes.back().flat << lane);
+          tree_->nodes.emplace_back();
+          of_node_.push_back(binary_[children[lane]].volume);
           of_block.leaves |= static_cast<std::uint8_t>(binary_[children[lane]].isLeaf() << lane);
         }
-        const bool used = lane < static_cast<int>(children.size());
-        writeLane(tree_->nodes[tree_->nodes[at.node].first_child + (used ? lane : 0)], lane, block);
       }
     }
-    const auto flat = [](const Node& node) { return node.flat != 0; };
-    if (std::none_of(tree_->nodes.begin(), tree_->nodes.end(), flat)) tree_->boxes.clear();
-    tree_->boxes.shrink_to_fit();
     tree_->children.shrink_to_fit();
     tree_->nodes.shrink_to_fit();
     tree_->blocks.shrink_to_fit();
   }
 
-  Node fitted(int binary) {
-    const BinaryNode& range = binary_[binary];
-    gathered_.clear();
-    ++stamp_;
-    for (int i = range.first; i < range.first + range.count; ++i) {
-      for (const std::uint32_t v : corners_[order_[i]]) {
-        if (std::exchange(stamps_[v], stamp_) != stamp_) gathered_.push_back(points_[v]);
+  /// All volumes, bottom-up: nodes lie before their children.
+  void placeVolumes() {
+    std::vector<PointChunk> chunks;
+    std::vector<std::pair<std::size_t, std::size_t>> of_leaf(tree_->leaves.size());
+    chunks.reserve(2 * tree_->leaves.size());
+    for (std::size_t l = 0; l < tree_->leaves.size(); ++l) {
+      const Leaf& leaf = tree_->leaves[l];
+      of_leaf[l].first = chunks.size();
+      for (int i = 0; i < leaf.num_vertices; i += kLanes) {
+        const Lanes* const rows = &tree_->lanes[leaf.offset + 3 * (i / kLanes)];
+        chunks.push_back({rows[0], rows[1], rows[2]});
       }
+      of_leaf[l].second = chunks.size();
     }
-    Node node;
-    SphereFitter<float>::Split frame;
-    writeSpheres(fitter_.fit(gathered_.data(), static_cast<int>(gathered_.size()),
-                             FitMethod::kTuned, &frame),
-                 node);
-    tree_->boxes.push_back(boxAround(gathered_, frame.axes));
-    node.flat = isFlat(tree_->boxes.back());
-    tree_->reach = std::max(tree_->reach, reachOf(node));
-    return node;
+    std::vector<std::pair<std::size_t, std::size_t>> below(tree_->nodes.size());
+    tree_->boxes.resize(tree_->nodes.size());
+    bool any_flat = false;
+    for (std::size_t n = tree_->nodes.size(); n-- > 0;) {
+      constexpr std::size_t kAhead = 4;
+      if (n >= kAhead) __builtin_prefetch(&volumes_[of_node_[n - kAhead]].bv.cap_x);
+      Node& node = tree_->nodes[n];
+      if (node.isLeaf()) {
+        below[n] = of_leaf[node.leaf()];
+      } else {
+        Children& children = tree_->children[static_cast<std::size_t>(node.child)];
+        Block& block = tree_->blocks[static_cast<std::size_t>(node.child)];
+        below[n] = below[node.first_child];
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const bool used = lane < children.count;
+          const std::size_t c = node.first_child + (used ? lane : 0);
+          writeLane(tree_->nodes[c], lane, block);
+          if (!used) continue;
+          children.flat |= static_cast<std::uint8_t>(tree_->nodes[c].flat << lane);
+          below[n].first = std::min(below[n].first, below[c].first);
+          below[n].second = std::max(below[n].second, below[c].second);
+        }
+      }
+      place(volumes_[of_node_[n]].bv, &chunks[below[n].first], below[n].second - below[n].first,
+            node, tree_->boxes[n]);
+      any_flat |= node.flat != 0;
+      tree_->reach = std::max(tree_->reach, reachOf(node));
+    }
+    if (!any_flat) tree_->boxes.clear();
+    tree_->boxes.shrink_to_fit();
+  }
+
+  /// The spheres of `bv`, moved to the tree's origin and measured.
+  void place(const kIOS<S>& bv, const PointChunk* chunks, std::size_t n, Node& node, Box& box) {
+    kIOS<float> moved;
+    moved.num_spheres = bv.num_spheres;
+    for (int c = 0; c < 3; ++c) {
+      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - origin_[c]);
+    }
+    const auto unit = static_cast<float>(scaled(1.0, bv.exponent));
+    for (int i = 0; i + 1 < bv.k(); ++i) {
+      moved.cap_x[i] = bv.cap_x[i] * unit;
+      moved.cap_y[i] = bv.cap_y[i] * unit;
+      moved.cap_z[i] = bv.cap_z[i] * unit;
+    }
+    measureSpheres(chunks, n, moved);
+    writeSpheres(moved, node);
+    box = boxAround(axesOf(moved, chunks, n), chunks, n);
+    node.flat = isFlat(box);
   }
 
   void fillLeaves() {
@@ -198,6 +273,7 @@ class Preparation {
   }
 
   const MeshView<S> mesh_;
+  const VolumeNode<S>* const volumes_;
   std::unique_ptr<Tree> tree_;
   std::vector<Corners3>& corners_;  ///< of the tree
   Eigen::Vector3d origin_;
@@ -207,19 +283,30 @@ class Preparation {
   std::vector<std::uint8_t> place_;      ///< in the leaf at hand, by welded vertex
   std::uint32_t stamp_ = 0;
   std::vector<BinaryNode> binary_;
-  std::vector<int> leaves_;  ///< binary nodes
-  std::vector<Eigen::Vector3f> gathered_;
-  SphereFitter<float> fitter_;
+  std::vector<int> leaves_;   ///< binary nodes
+  std::vector<int> of_node_;  ///< the model's node of each node
 };
 
 }  // namespace
 
 template <typename S>
+std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volumes) {
+  return Preparation<S>(mesh, volumes).run();
+}
+
+template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh) {
-  return Preparation<S>(mesh).run();
+  const std::unique_ptr<VolumeNode<S>[]> volumes(new VolumeNode<S>[2 * mesh.num_triangles - 1]);
+  std::vector<unsigned int> primitives(mesh.num_triangles);
+  if (!buildVolumes(mesh, volumes.get(), primitives.data())) {
+    throw std::logic_error("fcl_kios: a mesh beyond the range of floats was to be prepared.");
+  }
+  return prepare(mesh, volumes.get());
 }
 
 template std::unique_ptr<Tree> prepare(const MeshView<double>&);
 template std::unique_ptr<Tree> prepare(const MeshView<float>&);
+template std::unique_ptr<Tree> prepare(const MeshView<double>&, const VolumeNode<double>*);
+template std::unique_ptr<Tree> prepare(const MeshView<float>&, const VolumeNode<float>*);
 
 }  // namespace kios::engine

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "engine/mesh.h"
+#include "engine/mesh_tree.h"
 #include "engine/tree.h"
 
 namespace kios::engine {
@@ -13,8 +14,14 @@ namespace kios::engine {
 /// kernel: squares of lengths and of 2^-24 of them, never their products.
 constexpr double kLeastReach = 0x1p-36, kLargestReach = 0x1p40;
 
-/// Builds the tree: weld, partition, collapse, assign the features, fit. The mesh must have finite
-/// vertices, its extent within the lengths above. The tree depends on nothing but the mesh.
+/// Builds the tree: weld, collapse the mesh's binary tree, assign the features, measure the
+/// volumes. The mesh must have finite vertices, its extent within the lengths above. `volumes` are
+/// the 2 n - 1 nodes that buildVolumes() gives for this mesh, of which only the places of spheres
+/// are read: radii are measured anew. The tree depends on nothing but the mesh.
+template <typename S>
+std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volumes);
+
+/// The same for a mesh whose binary tree isn't ours: makes one for the time being.
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh);
 

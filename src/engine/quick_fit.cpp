@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
 #include "volume/fit/principal_frame.h"
@@ -125,6 +126,71 @@ Moments momentsOf(const Eigen::Vector3f* points, int n) {
   m.yz -= part * y * z;
   m.zz -= part * z * z;
   return m;
+}
+
+// Points and S0's centre are floats as they stand: a distance has 4.5 roundings, its root's
+// included. A cap's centre is the sum of two floats, off by at most u a coordinate.
+void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv) {
+  const int k = bv.k();
+  Float4 cx[5], cy[5], cz[5], squares[5];
+  double shift[5] = {};
+  for (int s = 0; s < k; ++s) {
+    const float x = s == 0 ? bv.center0[0] : bv.center0[0] + bv.cap_x[s - 1];
+    const float y = s == 0 ? bv.center0[1] : bv.center0[1] + bv.cap_y[s - 1];
+    const float z = s == 0 ? bv.center0[2] : bv.center0[2] + bv.cap_z[s - 1];
+    if (s > 0)
+      shift[s] = kUlpFloat * (std::abs(double{x}) + std::abs(double{y}) + std::abs(double{z}));
+    cx[s] = broadcast(x);
+    cy[s] = broadcast(y);
+    cz[s] = broadcast(z);
+    squares[s] = broadcast(0);
+  }
+  const auto pass = [&](auto count) {
+    for (std::size_t i = 0; i < num_chunks; ++i) {
+      for (int l = 0; l < kLanes; l += 4) {
+        const Float4 x = lanes::load(chunks[i].x.v + l), y = lanes::load(chunks[i].y.v + l),
+                     z = lanes::load(chunks[i].z.v + l);
+        for (int s = 0; s < count(); ++s) {
+          const Float4 dx = x - cx[s], dy = y - cy[s], dz = z - cz[s];
+          squares[s] = lanes::max(squares[s], dx * dx + dy * dy + dz * dz);
+        }
+      }
+    }
+  };
+  if (k == 5) {
+    pass(std::integral_constant<int, 5>());
+  } else {
+    pass([k] { return k; });
+  }
+  const auto radius = [&](int s) {
+    return roundUpFloat(std::sqrt(double{lanes::horizontalMax(squares[s])}) * (1 + 8 * kUlpFloat) +
+                        shift[s] + 0x1p-74);
+  };
+  bv.radius0 = radius(0);
+  for (int s = 1; s < k; ++s) bv.cap_r[s - 1] = radius(s);
+}
+
+Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks) {
+  if (bv.k() == 5) {
+    const auto between = [&](int i) {
+      return Eigen::Vector3f(bv.cap_x[i] - bv.cap_x[i + 1], bv.cap_y[i] - bv.cap_y[i + 1],
+                             bv.cap_z[i] - bv.cap_z[i + 1]);
+    };
+    return orthonormalAxes(between(0), between(2));
+  }
+  Moments m;
+  for (std::size_t i = 0; i < num_chunks; ++i) {
+    Eigen::Vector3f points[kLanes];
+    for (int l = 0; l < kLanes; ++l)
+      points[l] = {chunks[i].x.v[l], chunks[i].y.v[l], chunks[i].z.v[l]};
+    m.add(momentsOf(points, kLanes));
+  }
+  return principalAxes(m);
+}
+
+Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks) {
+  const Extents e = extentsAlong(axes, chunks, num_chunks);
+  return boxOf(axes, e, e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high)));
 }
 
 void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "engine/tree.h"
+#include "fcl_kios/volume/kios.h"
 
 namespace kios::engine {
 
@@ -23,6 +24,17 @@ struct Moments {
 };
 
 Moments momentsOf(const Eigen::Vector3f* points, int n);
+
+/// Sets the radii of a volume's spheres by points, in the frame of the points: every sphere holds
+/// all of them, in exact arithmetic. Its centres are set, in units of 1.
+void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv);
+
+/// Axes for the box of a volume: along its caps, or where it has not enough of them the principal
+/// axes of the points.
+Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks);
+
+/// The box of points along orthonormal axes.
+Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks);
 
 /// Fits spheres and box of a node to points: along the principal axes by moments, around the middle
 /// of the box, in two passes. Less tight than SphereFitter by some percent, and several times as

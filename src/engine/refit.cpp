@@ -44,7 +44,7 @@ class Refit {
     if (mesh_.num_triangles != tree_.corners.size()) return false;
     for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
       for (int k = 0; k < 3; ++k) {
-        const std::size_t stored = mesh_.triangles[t][k], welded = tree_.corners[t][k];
+        const std::size_t stored = mesh_.index(t, k), welded = tree_.corners[t][k];
         if (stored == welded) continue;
         if (welded >= mesh_.num_vertices) return false;
         if (mesh_.vertices[stored] != mesh_.vertices[welded]) return false;

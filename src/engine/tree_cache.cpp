@@ -68,6 +68,18 @@ bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<Tree>
   return true;
 }
 
+void TreeCache::noteBuilt(std::uint64_t root_stamp) {
+  const unsigned int at = num_built_.fetch_add(1, std::memory_order_relaxed);
+  built_[at % built_.size()].store(root_stamp, std::memory_order_relaxed);
+}
+
+bool TreeCache::isBuilt(std::uint64_t root_stamp) const {
+  for (const auto& stamp : built_) {
+    if (stamp.load(std::memory_order_relaxed) == root_stamp) return root_stamp != 0;
+  }
+  return false;
+}
+
 std::size_t TreeCache::bytes() {
   const std::lock_guard<std::mutex> lock(making_);
   std::size_t sum = 0;

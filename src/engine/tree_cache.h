@@ -65,6 +65,11 @@ class TreeCache {
   /// The tree of that key, made if there is none; threads that ask at once wait for one to make it.
   Use findOrMake(const TreeKey& key, const Make& make);
 
+  /// Notes that the tree of volumes with this stamp at its root is buildVolumes()'s, to be read by
+  /// prepare(). Only the last few are remembered.
+  void noteBuilt(std::uint64_t root_stamp);
+  bool isBuilt(std::uint64_t root_stamp) const;
+
   /// Bytes of all trees held.
   std::size_t bytes();
 
@@ -85,6 +90,8 @@ class TreeCache {
   std::unique_ptr<Tree> earlierState(const TreeKey& key);
 
   std::array<Cell, 8> cells_;
+  std::array<std::atomic<std::uint64_t>, 8> built_{};
+  std::atomic<unsigned int> num_built_{0};
   std::mutex making_;
   std::size_t next_ = 0;  ///< to be replaced, where no cell is free
 };

@@ -31,8 +31,13 @@ std::vector<std::uint32_t> weld(const MeshView<S>& mesh) {
   while (capacity < 2 * mesh.num_vertices) capacity *= 2;
   std::vector<std::uint32_t> table(capacity, kNone);  // open addressing, linear probing
   for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+    constexpr std::size_t kAhead = 8;  // the table is larger than the caches
+    for (int k = 0; k < 3 && t + kAhead < mesh.num_triangles; ++k) {
+      if (first[mesh.index(t + kAhead, k)] != kNone) continue;
+      __builtin_prefetch(&table[hash(mesh.corner(t + kAhead, k)) & (capacity - 1)]);
+    }
     for (int k = 0; k < 3; ++k) {
-      const std::size_t v = mesh.triangles[t][k];
+      const std::size_t v = mesh.index(t, k);
       if (first[v] != kNone) continue;
       const fcl::Vector3<S>& p = mesh.vertices[v];
       std::size_t slot = hash(p) & (capacity - 1);

@@ -4,10 +4,19 @@
 
 #include <vector>
 
-#include "engine/partition.h"
 #include "engine/tree.h"
 
 namespace kios::engine {
+
+/// A node of a binary tree over ranges of triangles.
+struct BinaryNode {
+  int first, count;
+  int left = -1, right = -1;  ///< -1: a leaf
+  float size = 0;             ///< of inner nodes: a length
+  int volume = 0;             ///< which of the model's nodes it is
+
+  bool isLeaf() const { return left < 0; }
+};
 
 /// Which nodes of a binary tree survive as nodes of the wide tree.
 class Collapse {

@@ -97,8 +97,14 @@ void BVFitter<kios::kIOS<S>>::clear() {
 }
 
 template <typename S>
+BVSplitter<kios::kIOS<S>>::BVSplitter()
+    : method_(SPLIT_METHOD_MEAN),
+      by_cost_(true),
+      builds_(std::make_unique<kios::BuildsByThread<S>>()) {}
+
+template <typename S>
 BVSplitter<kios::kIOS<S>>::BVSplitter(SplitMethodType method)
-    : method_(method), builds_(std::make_unique<kios::BuildsByThread<S>>()) {}
+    : method_(method), by_cost_(false), builds_(std::make_unique<kios::BuildsByThread<S>>()) {}
 
 template <typename S>
 BVSplitter<kios::kIOS<S>>::~BVSplitter() = default;

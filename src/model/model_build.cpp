@@ -5,7 +5,10 @@
 #include <typeinfo>
 #include <utility>
 
+#include "engine/mesh_tree.h"
+#include "engine/tree_cache.h"
 #include "fcl_kios/model/model.h"
+#include "model/prepared.h"
 #include "model/tree_build.h"
 
 namespace kios {
@@ -143,13 +146,27 @@ class Division {
   int num_nodes_ = 1;
 };
 
+/// The tree of the engine's own partition, which queries read. False where there is none.
+template <typename S>
+bool buildByCost(const Arrays<S>& model, int num_triangles) {
+  if (model.type != fcl::BVH_MODEL_TRIANGLES) return false;
+  return engine::buildVolumes<S>({model.vertices, static_cast<std::size_t>(model.num_vertices),
+                                  model.triangles, static_cast<std::size_t>(num_triangles)},
+                                 model.nodes, model.primitives);
+}
+
 template <typename S>
 int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
-          SplitterBase<S>& splitter) {
+          SplitterBase<S>& splitter, engine::TreeCache* trees) {
   for (int i = 0; i < num_primitives; ++i) model.primitives[i] = static_cast<unsigned int>(i);
   const auto* const own_fitter = exactly<Fitter<S>>(fitter);
   const auto* const own_splitter = exactly<Splitter<S>>(splitter);
   if (own_fitter && own_splitter) {
+    if (own_splitter->byCost() && own_fitter->options().plain() &&
+        buildByCost(model, num_primitives)) {
+      trees->noteBuilt(model.nodes[0].bv.stamp);
+      return 2 * num_primitives - 1;
+    }
     OwnSteps<S> steps{model.build(), own_fitter->options(), own_splitter->method()};
     return Division<S, OwnSteps<S>>(model, steps).run(num_primitives);
   }
@@ -191,7 +208,8 @@ namespace fcl {
     num_bvs = 0;                                                                               \
     num_bvs = kios::build<S>(                                                                  \
         {vertices, nullptr, tri_indices, type, num_vertices, primitive_indices, bvs},          \
-        type == BVH_MODEL_TRIANGLES ? num_tris : num_vertices, *bv_fitter, *bv_splitter);      \
+        type == BVH_MODEL_TRIANGLES ? num_tris : num_vertices, *bv_fitter, *bv_splitter,       \
+        kios::treesOf(*this));                                                                 \
     return BVH_OK;                                                                             \
   }                                                                                            \
   template <>                                                                                  \

@@ -173,6 +173,23 @@ namespace fcl {
   }
 #define KIOS_SPECIALISE(S)                                                                 \
   template <>                                                                              \
+  BVHModel<kios::kIOS<S>>::BVHModel()                                                      \
+      : vertices(nullptr),                                                                 \
+        tri_indices(nullptr),                                                              \
+        prev_vertices(nullptr),                                                            \
+        num_tris(0),                                                                       \
+        num_vertices(0),                                                                   \
+        build_state(BVH_BUILD_STATE_EMPTY),                                                \
+        bv_splitter(new detail::BVSplitter<kios::kIOS<S>>()),                              \
+        bv_fitter(new detail::BVFitter<kios::kIOS<S>>()),                                  \
+        num_tris_allocated(0),                                                             \
+        num_vertices_allocated(0),                                                         \
+        num_bvs_allocated(0),                                                              \
+        num_vertex_updated(0),                                                             \
+        primitive_indices(nullptr),                                                        \
+        bvs(nullptr),                                                                      \
+        num_bvs(0) {}                                                                      \
+  template <>                                                                              \
   BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other) : BVHModel() {                  \
     kios::copy(other, other.primitive_indices, other.bvs, other.num_bvs, KIOS_MEMBERS(S)); \
   }                                                                                        \

@@ -32,6 +32,15 @@ inline Float4 select(Int4 mask, Float4 a, Float4 b) {
                                   (~mask & reinterpret_cast<Int4>(b)));
 }
 
+/// Whether any lane of a mask is set.
+inline bool any(Int4 mask) {
+#if defined(__SSE2__)
+  return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+#endif
+}
+
 /// Lane-wise maximum; b where a is NaN.
 inline Float4 max(Float4 a, Float4 b) {
 #if defined(__SSE2__)

@@ -200,6 +200,25 @@ TEST(Build, CopiesOfBegunModelsGoOn) {
   }
 }
 
+/// Left child's triangles; the right one has the rest.
+int leftCount(const Modeld& model) {
+  return model.getBV(model.getBV(0).leftChild()).num_primitives;
+}
+
+TEST(Build, ModelsSplitByCostUnlessTheyAreTold) {
+  // Two parts far apart, one of far more triangles: the mean of the centroids lies in it.
+  const Mesh large = scenes::bumpyTorus(1000), small = scenes::icosphere(1, 1);
+  const Mesh mesh = joined(large, small, {4, 0, 0});
+  Modeld by_cost, by_mean;
+  by_mean.bv_splitter.reset(new BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEAN));
+  fill(by_cost, mesh);
+  fill(by_mean, mesh);
+  const int part = static_cast<int>(small.triangles.size());
+  const int left = leftCount(by_cost);
+  EXPECT_TRUE(left == part || left == by_cost.num_tris - part) << left;
+  EXPECT_NE(leftCount(by_mean), left);
+}
+
 // A fitter and a splitter as a user may write them.
 class OwnFitter final : public BVFitterBase<kIOSd> {
  public:

@@ -89,7 +89,11 @@ TEST_F(Refit, TopDownIsAsTightAsABuild) {
   Mesh moved = mesh_;
   for (Vector3d& p : moved.vertices) p += Vector3d(4, 8, 16);
   replace(*model, moved.vertices, true, false);
-  EXPECT_NEAR(model->getBV(0).bv.radius0, kiosModel(moved)->getBV(0).bv.radius0, 1e-6);
+  // A build fits large volumes by some of their points, a refit by all of them.
+  const double refitted = model->getBV(0).bv.radius0;
+  const double built = kiosModel(moved)->getBV(0).bv.radius0;
+  EXPECT_LE(refitted, built + 1e-6);
+  EXPECT_LE(built, 1.02 * refitted);
 }
 
 // Merging upwards must not let volumes grow with every level (FCL.md, defect 1).

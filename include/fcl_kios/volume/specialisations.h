@@ -41,9 +41,11 @@ class BVSplitter<kios::kIOS<S>>;
 
 }  // namespace detail
 
-// Members of models over k-IOS that differ from FCL's. Those that build keep nothing in fitter or
-// splitter (bvh_build.h); those that get memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is
-// none, and may be called again.
+// Members of models over k-IOS that differ from FCL's. A new model's splitter has no method, and
+// splits by cost. Those that build keep nothing in fitter or splitter (bvh_build.h); those that get
+// memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is none, and may be called again.
+template <>
+BVHModel<kios::kIOS<double>>::BVHModel();
 template <>
 BVHModel<kios::kIOS<double>>::BVHModel(const BVHModel& other);
 template <>
@@ -56,6 +58,8 @@ template <>
 int BVHModel<kios::kIOS<double>>::buildTree();
 template <>
 int BVHModel<kios::kIOS<double>>::refitTree_topdown();
+template <>
+BVHModel<kios::kIOS<float>>::BVHModel();
 template <>
 BVHModel<kios::kIOS<float>>::BVHModel(const BVHModel& other);
 template <>

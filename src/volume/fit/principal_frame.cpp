@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fcl_kios/volume/rigid.h"
+#include "volume/fit/four_axes.h"
 
 namespace kios {
 namespace {
@@ -74,9 +75,12 @@ Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b) {
   return axes;
 }
 
-PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
+namespace {
+
+PrincipalFrame frameAlong(const Eigen::Matrix3f& axes, const PointLanes& points,
+                          PointLanes& in_frame) {
   PrincipalFrame frame;
-  frame.axes = axesOf(points);
+  frame.axes = axes;
   const Eigen::Matrix3f& e = frame.axes;
   in_frame.resize(points.size());
   float* const out[3] = {in_frame.x(), in_frame.y(), in_frame.z()};
@@ -105,6 +109,39 @@ PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
   if (half[order[1]] < half[order[2]]) std::swap(order[1], order[2]);
   if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
   return frame;
+}
+
+/// In floats: the axes serve to place spheres only, and need not be exact.
+Eigen::Matrix3f quickAxesOf(const PointLanes& points) {
+  Float4 t[9] = {};
+  for (int i = 0; i < points.paddedSize(); i += 4) {
+    const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
+    t[0] += x;
+    t[1] += y;
+    t[2] += z;
+    t[3] += x * x;
+    t[4] += x * y;
+    t[5] += x * z;
+    t[6] += y * y;
+    t[7] += y * z;
+    t[8] += z * z;
+  }
+  float s[9];
+  for (int j = 0; j < 9; ++j) s[j] = (t[j][0] + t[j][1]) + (t[j][2] + t[j][3]);
+  const float part = 1.0F / static_cast<float>(points.size());
+  return principalAxes({s[3] - part * s[0] * s[0], s[4] - part * s[0] * s[1],
+                        s[5] - part * s[0] * s[2], s[6] - part * s[1] * s[1],
+                        s[7] - part * s[1] * s[2], s[8] - part * s[2] * s[2]});
+}
+
+}  // namespace
+
+PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
+  return frameAlong(axesOf(points), points, in_frame);
+}
+
+PrincipalFrame quickPrincipalFrame(const PointLanes& points, PointLanes& in_frame) {
+  return frameAlong(quickAxesOf(points), points, in_frame);
 }
 
 }  // namespace kios
