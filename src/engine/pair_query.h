@@ -58,6 +58,8 @@ struct PairAnswer {
   /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
   double least_evaluated = std::numeric_limits<double>::infinity();
   double least_other = 0;  ///< proven of all pairs that were not evaluated
+  /// Proven of those that were, if their volumes told more than their distances.
+  double proven_evaluated = -std::numeric_limits<double>::infinity();
   SearchEnd end = SearchEnd::kDone;
 
   bool found() const { return ids.a >= 0; }

@@ -20,7 +20,7 @@ void setBounds(const PairFrame<S>& frame, const engine::PairAnswer<S>& found,
   double lower = found.least_other;
   if (found.least_evaluated < kInfinity) {
     const double error = frame.distanceError(found.least_evaluated);
-    lower = std::min(lower, std::max(0.0, found.least_evaluated - error));
+    lower = std::min(lower, std::max({0.0, found.least_evaluated - error, found.proven_evaluated}));
   }
   if (found.found()) {
     answer.distance = found.nearest.distance;

@@ -54,7 +54,8 @@ class EnginePair {
   bool usable_ = false;
 };
 
-/// Best first in FCL's trees, in double.
+/// A search of FCL's trees in double, depth first, the nearer of two children before the other.
+/// With a budget it is best first, so that more of it never proves less.
 template <typename S>
 class TreeSearch {
  public:
@@ -66,23 +67,30 @@ class TreeSearch {
     bool done = false;
     long long left = query_.max_expansions;
     push(0, 0, -kInfinity);
-    while (!done && !waiting_.empty() && waiting_.front().bound < prune_at_) {
-      const Pair at = waiting_.front();
+    while (!done && !waiting_.empty()) {
+      const Pair at = best_first_ ? waiting_.front() : waiting_.back();
+      if (at.bound >= prune_at_) {
+        if (best_first_) break;
+        left_out_ = std::min(left_out_, at.bound);
+        waiting_.pop_back();
+        continue;
+      }
       const auto &node_a = frame_.a.getBV(at.node_a), &node_b = frame_.b.getBV(at.node_b);
       const bool leaves = node_a.isLeaf() && node_b.isLeaf();
       if (!leaves && left-- == 0) {
         result_.end = SearchEnd::kBudget;
         break;
       }
-      std::pop_heap(waiting_.begin(), waiting_.end());
+      if (best_first_) std::pop_heap(waiting_.begin(), waiting_.end());
       waiting_.pop_back();
       if (leaves) {
         ++counts_.leaf_pairs;
-        done = evaluate({node_a.primitiveId(), node_b.primitiveId()});
+        done = evaluate({node_a.primitiveId(), node_b.primitiveId()}, at.bound);
         continue;
       }
       ++counts_.expansions;
       counts_.volume_tests += 2;
+      const std::size_t before = waiting_.size();
       if (node_b.isLeaf() || (!node_a.isLeaf() && node_a.bv.size() > node_b.bv.size())) {
         push(node_a.leftChild(), at.node_b, at.bound);
         push(node_a.rightChild(), at.node_b, at.bound);
@@ -90,10 +98,14 @@ class TreeSearch {
         push(at.node_a, node_b.leftChild(), at.bound);
         push(at.node_a, node_b.rightChild(), at.bound);
       }
+      if (!best_first_ && waiting_.size() == before + 2 &&
+          waiting_.back().bound > waiting_[before].bound) {
+        std::swap(waiting_.back(), waiting_[before]);
+      }
     }
     // Of pairs that intersect any is an answer: which must not depend on the start.
     if (offered_ && result_.found() && result_.nearest.distance == 0) return cold();
-    if (!waiting_.empty()) left_out_ = std::min(left_out_, waiting_.front().bound);
+    for (const Pair& pair : waiting_) left_out_ = std::min(left_out_, pair.bound);
     result_.least_other = std::max(0.0, left_out_);
     return result_;
   }
@@ -102,7 +114,7 @@ class TreeSearch {
   struct Pair {
     double bound;
     int node_a, node_b;
-    bool operator<(const Pair& o) const { return bound > o.bound; }  // the least on top of the heap
+    bool operator<(const Pair& o) const { return bound > o.bound; }  // the least comes first
   };
 
   /// From the triangles of query_.start; true to end the search. An exact answer only learns of
@@ -111,13 +123,17 @@ class TreeSearch {
     if (!frame_.exist(query_.start)) return false;
     const double distance = double{frame_.distanceOf(query_.start).distance};
     const bool near = query_.near_enough > 0 && distance <= query_.near_enough;
-    if (!query_.isExact() || query_.hasBudget() || near) return evaluate(query_.start);
+    if (!query_.isExact() || query_.hasBudget() || near) return evaluate(query_.start, -kInfinity);
     offered_ = distance > 0;
     if (offered_) prune_at_ = std::min(prune_at_, withRounding(distance));
     return false;
   }
 
-  double withRounding(double distance) const { return distance + frame_.distanceError(distance); }
+  double withRounding(double distance) const {
+    // Volumes pay for the frame's rounding, so that of triangles in volumes that are farther apart
+    // than this none is computed to be as near as `distance`.
+    return distance + frame_.kernelError(distance);
+  }
 
   PairAnswer<S> cold() const {
     PairQuery query = query_;
@@ -134,14 +150,17 @@ class TreeSearch {
       return;
     }
     waiting_.push_back({bound, node_a, node_b});
-    std::push_heap(waiting_.begin(), waiting_.end());
+    if (best_first_) std::push_heap(waiting_.begin(), waiting_.end());
   }
 
-  /// True to end the search.
-  bool evaluate(const TrianglePairIds& ids) {
+  /// Triangles in volumes that are at least `bound` apart. True to end the search.
+  bool evaluate(const TrianglePairIds& ids, double bound) {
     ++counts_.exact;
     const TriangleDistance<S> found = frame_.distanceOf(ids);
     const double distance = double{found.distance}, best = result_.least_evaluated;
+    const double proven = std::max(bound, distance - frame_.distanceError(distance));
+    result_.proven_evaluated =
+        best < kInfinity ? std::min(result_.proven_evaluated, proven) : proven;
     if (distance > best || (distance == best && result_.ids < ids)) return false;
     result_.ids = ids;
     result_.nearest = found;
@@ -157,7 +176,8 @@ class TreeSearch {
   const PairFrame<S>& frame_;
   const PairQuery& query_;
   SearchCounts& counts_;
-  std::vector<Pair> waiting_;  ///< a heap
+  const bool best_first_ = query_.hasBudget();
+  std::vector<Pair> waiting_;  ///< a stack; a heap if best_first_
   double prune_at_;
   double left_out_ = kInfinity;  ///< least bound of what was left out
   bool offered_ = false;         ///< whether the start lowered prune_at_

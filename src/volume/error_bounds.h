@@ -46,7 +46,7 @@ double volumeError(double center1, double others1, double radius_a, double radiu
 /// rotations that are ones only to 1e-3.
 template <typename S>
 double frameError(double norm1, double T_norm1) {
-  return 16 * kUlp<S> * 1.01 * (norm1 + T_norm1);
+  return 16 * kUlp<S> * 1.01 * (norm1 + T_norm1) + kVanishing<S>;
 }
 
 /// |R|_2 - 1 <= stretch for R = R1^T R2: |R|_2 <= sqrt(1 + |E1|) sqrt(1 + |E2|) < 1 + (|E1| + |E2|)
@@ -65,7 +65,7 @@ inline double laneError(double scale) { return 0x1p-19 * scale; }
 /// their common box (triangle/distance.h).
 template <typename S>
 double triangleError(double extent) {
-  return 32 * kUlp<S> * extent;
+  return 32 * kUlp<S> * extent + kVanishing<S>;
 }
 
 /// The extent of triangles that are d apart, one in each of two balls: the box's diagonal is at

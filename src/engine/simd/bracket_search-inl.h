@@ -185,7 +185,7 @@ class BracketSearch {
     return done;
   }
 
-  /// ExactEvaluators triangles of the vertices that are the upper bound: the edges and faces there
+  /// Evaluates triangles of the vertices that are the upper bound: the edges and faces there
   /// may belong to other leaves, and be left out. True to end the search.
   bool evaluateVertices() {
     offered_ = false;

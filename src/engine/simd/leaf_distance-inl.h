@@ -232,7 +232,7 @@ HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const
   return (slab.bottom_b - slab.top_a) / slab.along.length - frames.pad;
 }
 
-/// ExactEvaluators all features of two leaves that may be nearest.
+/// Evaluates all features of two leaves that may be nearest.
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
                                   const Slab& slab, float bound) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);

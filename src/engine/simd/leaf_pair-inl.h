@@ -192,7 +192,7 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
   return result;
 }
 
-/// ExactEvaluators some edges of one leaf, in rows moved to the frame of the other, against its
+/// Evaluates some edges of one leaf, in rows moved to the frame of the other, against its
 /// faces.
 template <bool kEdgesOfA>
 HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const LeafView& faces,
@@ -215,7 +215,7 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const L
   return false;
 }
 
-/// ExactEvaluators the edges of either leaf against the faces of the other. What meets lies between
+/// Evaluates the edges of either leaf against the faces of the other. What meets lies between
 /// the planes of the slab, so that edges beyond can't.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
                            const Points& vertices_b, const Slab& slab) {

@@ -140,7 +140,7 @@ class RayTraversal {
     return n;
   }
 
-  /// ExactEvaluators the faces that the ray may meet: true to end the search.
+  /// Evaluates the faces that the ray may meet: true to end the search.
   HWY_INLINE bool leaf(const Leaf& leaf) const {
     ++search_.counts.leaf_pairs;
     const Lanes* const rows = &tree_.lanes[leaf.offset + 3 * leaf.vertexChunks()];
