@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pairs that the engine can't serve are searched in FCL's tree: with the same answers by every
+// call, without looking at more than a depth-first search needs, and with budgets that never prove
+// less.
+
+#include <limits>
+
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
+#include <gtest/gtest.h>
+#include "fcl_kios/query/mesh_queries.h"
+#include "fcl_kios/scene/scene_distance.h"
+#include "query/query_cases.h"
+
+namespace kios::testing {
+namespace {
+
+template <typename S>
+class Fallback : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(Fallback, Scalars);
+
+template <typename S>
+fcl::Transform3<S> poseNear(scenes::Random& random) {
+  const auto seed = static_cast<std::uint64_t>(random.uniform(0, 1e9));
+  fcl::Transform3<S> X = scenes::randomPoses(1, 1, seed)[0].cast<S>();
+  X.translation() *= static_cast<S>(std::pow(10, random.uniform(-3, 1)));
+  return X;
+}
+
+TYPED_TEST(Fallback, EveryCallNamesTheNearestOfBruteForce) {
+  using S = TypeParam;
+  scenes::Random random(1);
+  for (int i = 0; i < 400; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    const auto a = modelOf<S>(scenes::randomSoup(1 + i % 13, 1, 1e-2, 1, seed), false);
+    const auto b = modelOf<S>(scenes::randomSoup(1 + i % 7, 1, 1e-2, 1, seed + 7), false);
+    const auto X_WA = poseNear<S>(random), X_WB = poseNear<S>(random);
+    const RelativePose<S> X_AB(X_WA, X_WB);
+    S least = std::numeric_limits<S>::infinity();
+    int least_a = -1, least_b = -1;
+    const auto corners = [](const Model<S>& m, int t) {
+      const fcl::Triangle& ids = m.tri_indices[t];
+      return TriangleVertices<S>{m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]};
+    };
+    for (int s = 0; s < a->num_tris; ++s) {
+      for (int t = 0; t < b->num_tris; ++t) {
+        const auto q = corners(*b, t);
+        const S d =
+            triangleDistance(corners(*a, s), {X_AB * q[0], X_AB * q[1], X_AB * q[2]}).distance;
+        if (!(d < least)) continue;
+        least = d;
+        least_a = s;
+        least_b = t;
+      }
+    }
+    const auto answer = kios::distance(*a, X_WA, *b, X_WB);
+    ASSERT_EQ(answer.counts.tree_searches, 1);
+    ASSERT_EQ(answer.distance, least);
+    fcl::DistanceResult<S> result;
+    ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result), least);
+    if (least == 0) continue;
+    ASSERT_EQ(std::make_pair(answer.triangle1, answer.triangle2), std::make_pair(least_a, least_b));
+    ASSERT_EQ(result.b1, least_a);
+    ASSERT_EQ(result.b2, least_b);
+  }
+}
+
+TYPED_TEST(Fallback, LargerBudgetsNeverProveLess) {
+  using S = TypeParam;
+  scenes::Random random(2);
+  for (int i = 0; i < 20000; ++i) {
+    const auto seed = static_cast<std::uint64_t>(i);
+    const auto a = modelOf<S>(scenes::randomSoup(1 + i % 13, 1, 1e-2, 1, seed), false);
+    const auto b = modelOf<S>(scenes::randomSoup(1 + i % 7, 1, 1e-2, 1, seed + 7), false);
+    const auto X_WA = poseNear<S>(random), X_WB = poseNear<S>(random);
+    const S exact = kios::distance(*a, X_WA, *b, X_WB).distance;
+    S distance = std::numeric_limits<S>::infinity(), lower = 0;
+    for (int budget = 0; budget < 30; ++budget) {
+      DistanceOptions<S> options;
+      options.max_expansions = budget;
+      const auto answer = kios::distance(*a, X_WA, *b, X_WB, options);
+      ASSERT_LE(answer.distance, distance) << i << " " << budget;
+      ASSERT_GE(answer.lower_bound, lower) << i << " " << budget;
+      ASSERT_LE(answer.lower_bound, exact);
+      distance = answer.distance;
+      lower = answer.lower_bound;
+    }
+  }
+}
+
+// Overlapping models: volumes that overlap deeply don't make the search a breadth-first one.
+TEST(FallbackWork, ContactsAreFoundOnTheWayDown) {
+  const auto torus = modelOf<double>(scenes::bumpyTorus(20000), false);
+  fcl::Transform3d X_B = fcl::Transform3d::Identity();
+  for (const double shift : {0.0, 0.01, 0.3}) {
+    X_B.translation().x() = shift;
+    const auto answer = kios::distance(*torus, fcl::Transform3d::Identity(), *torus, X_B);
+    EXPECT_EQ(answer.distance, 0);
+    EXPECT_LT(answer.counts.volume_tests, 5000) << shift;
+  }
+}
+
+// Lengths near the least numbers of float: boxes and bounds of scenes pay for what vanishes.
+TEST(FallbackWork, ScenesOfVanishingBodies) {
+  scenes::Random random(3);
+  int pairs = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double size = std::ldexp(1.0, static_cast<int>(random.uniform(-146, -118)));
+    SceneDistance<float> scene;
+    std::vector<std::shared_ptr<Modelf>> models;
+    std::vector<fcl::Transform3f> poses;
+    for (int k = 0; k < 2; ++k) {
+      Mesh mesh =
+          scenes::randomSoup(1 + i % 3, size, 0.5, 1, static_cast<std::uint64_t>(2 * i + k));
+      if (i % 2 == 0) {  // points
+        for (fcl::Vector3d& v : mesh.vertices) v = mesh.vertices[0];
+      }
+      models.push_back(modelOf<float>(mesh));
+      poses.push_back(
+          scenes::randomPoses(1, 1, static_cast<std::uint64_t>(i + k))[0].cast<float>());
+      poses.back().translation() *= static_cast<float>(3 * size);
+      if (i % 4 < 2) poses.back().linear() = poses[0].linear();
+      scene.add(models.back(), poses.back());
+    }
+    fcl::DistanceResultf result;
+    const float d =
+        distanceMeshes(*models[0], poses[0], *models[1], poses[1], fcl::DistanceRequestf(), result);
+    const auto closest = scene.closestPair();
+    ASSERT_TRUE(closest) << i << " " << d;
+    ASSERT_EQ(closest->distance, d) << i;
+    ASSERT_EQ(scene.pairsWithin(d).size(), 1u) << i;
+    // The same after a move that stays near.
+    poses[1].translation().x() += static_cast<float>(1e-3 * size);
+    scene.move(1, poses[1]);
+    fcl::DistanceResultf moved;
+    const float after =
+        distanceMeshes(*models[0], poses[0], *models[1], poses[1], fcl::DistanceRequestf(), moved);
+    ASSERT_EQ(scene.pairsWithin(after).size(), 1u) << i;
+    ++pairs;
+  }
+  EXPECT_EQ(pairs, 20000);
+}
+
+}  // namespace
+}  // namespace kios::testing
