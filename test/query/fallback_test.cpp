@@ -30,14 +30,29 @@ fcl::Transform3<S> poseNear(scenes::Random& random) {
   return X;
 }
 
+/// Two small soups that only FCL's tree can serve; edges are of `size` to 100 times that.
+template <typename S>
+struct SoupPair {
+  SoupPair(int i, double size, scenes::Random& random)
+      : a(modelOf<S>(
+            scenes::randomSoup(1 + i % 13, 1, size, 100 * size, static_cast<std::uint64_t>(i)),
+            false)),
+        b(modelOf<S>(
+            scenes::randomSoup(1 + i % 7, 1, size, 100 * size, static_cast<std::uint64_t>(i) + 7),
+            false)),
+        X_WA(poseNear<S>(random)),
+        X_WB(poseNear<S>(random)) {}
+
+  const std::shared_ptr<Model<S>> a, b;
+  const fcl::Transform3<S> X_WA, X_WB;
+};
+
 TYPED_TEST(Fallback, EveryCallNamesTheNearestOfBruteForce) {
   using S = TypeParam;
   scenes::Random random(1);
   for (int i = 0; i < 400; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i);
-    const auto a = modelOf<S>(scenes::randomSoup(1 + i % 13, 1, 1e-2, 1, seed), false);
-    const auto b = modelOf<S>(scenes::randomSoup(1 + i % 7, 1, 1e-2, 1, seed + 7), false);
-    const auto X_WA = poseNear<S>(random), X_WB = poseNear<S>(random);
+    const SoupPair<S> pair(i, 1e-2, random);
+    const auto& [a, b, X_WA, X_WB] = pair;
     const RelativePose<S> X_AB(X_WA, X_WB);
     S least = std::numeric_limits<S>::infinity();
     int least_a = -1, least_b = -1;
@@ -72,10 +87,9 @@ TYPED_TEST(Fallback, LargerBudgetsNeverProveLess) {
   using S = TypeParam;
   scenes::Random random(2);
   for (int i = 0; i < 20000; ++i) {
-    const auto seed = static_cast<std::uint64_t>(i);
-    const auto a = modelOf<S>(scenes::randomSoup(1 + i % 13, 1, 1e-2, 1, seed), false);
-    const auto b = modelOf<S>(scenes::randomSoup(1 + i % 7, 1, 1e-2, 1, seed + 7), false);
-    const auto X_WA = poseNear<S>(random), X_WB = poseNear<S>(random);
+    // Triangles so small that their volumes know their distance as well as the kernel does.
+    const SoupPair<S> pair(i, i % 2 == 0 ? 1e-2 : 1e-7, random);
+    const auto& [a, b, X_WA, X_WB] = pair;
     const S exact = kios::distance(*a, X_WA, *b, X_WB).distance;
     S distance = std::numeric_limits<S>::infinity(), lower = 0;
     for (int budget = 0; budget < 30; ++budget) {
