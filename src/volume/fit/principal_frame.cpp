@@ -129,9 +129,9 @@ Eigen::Matrix3f quickAxesOf(const PointLanes& points) {
   float s[9];
   for (int j = 0; j < 9; ++j) s[j] = (t[j][0] + t[j][1]) + (t[j][2] + t[j][3]);
   const float part = 1.0F / static_cast<float>(points.size());
-  return principalAxes({s[3] - part * s[0] * s[0], s[4] - part * s[0] * s[1],
-                        s[5] - part * s[0] * s[2], s[6] - part * s[1] * s[1],
-                        s[7] - part * s[1] * s[2], s[8] - part * s[2] * s[2]});
+  return principalAxes(Scatter{s[3] - part * s[0] * s[0], s[4] - part * s[0] * s[1],
+                               s[5] - part * s[0] * s[2], s[6] - part * s[1] * s[1],
+                               s[7] - part * s[1] * s[2], s[8] - part * s[2] * s[2]});
 }
 
 }  // namespace
