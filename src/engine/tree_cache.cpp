@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/tree_cache.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace kios::engine {
@@ -30,7 +31,7 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
   if (Use found = find(key)) return found;
   const std::lock_guard<std::mutex> lock(making_);
   if (Use found = find(key)) return found;
-  std::unique_ptr<Tree> tree = make(earlierState(key));
+  SharedTree tree = make(earlierState(key));
   // First where a state of the same vertices that is no more lies, then where nothing lies.
   for (const void* const vertices : {key.vertices, static_cast<const void*>(nullptr)}) {
     for (Cell& cell : cells_) {
@@ -45,18 +46,18 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
 }
 
 /// The tree of a state of the same triangles that is no more, taken out.
-std::unique_ptr<Tree> TreeCache::earlierState(const TreeKey& key) {
+SharedTree TreeCache::earlierState(const TreeKey& key) {
   for (Cell& cell : cells_) {
-    std::unique_ptr<Tree> taken;
+    SharedTree taken;
     if (cell.tree && cell.key.triangles == key.triangles && cell.key.root_stamp != key.root_stamp &&
         tryReplace(cell, TreeKey(), taken)) {
       return taken;
     }
   }
-  return nullptr;
+  return {};
 }
 
-bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<Tree>& tree) {
+bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, SharedTree& tree) {
   int nobody = 0;
   if (!cell.users.compare_exchange_strong(nobody, kWriting, std::memory_order_acquire)) {
     return false;
@@ -83,14 +84,18 @@ bool TreeCache::isBuilt(std::uint64_t root_stamp) const {
 std::size_t TreeCache::bytes() {
   const std::lock_guard<std::mutex> lock(making_);
   std::size_t sum = 0;
-  for (const Cell& cell : cells_) sum += cell.tree ? cell.tree->bytes() : 0;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    const Tree* const tree = cells_[i].tree.get();
+    const auto is = [tree](const Cell& cell) { return cell.tree.get() == tree; };
+    if (tree && std::none_of(&cells_[0], &cells_[i], is)) sum += tree->bytes();
+  }
   return sum;
 }
 
 void TreeCache::drop(const void* vertices) {
   const std::lock_guard<std::mutex> lock(making_);
   for (Cell& cell : cells_) {
-    std::unique_ptr<Tree> none;
+    SharedTree none;
     if (cell.tree && cell.key.vertices == vertices) tryReplace(cell, TreeKey(), none);
   }
 }

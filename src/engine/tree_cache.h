@@ -7,10 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <mutex>
 
-#include "engine/tree.h"
+#include "engine/shared_tree.h"
 
 namespace kios::engine {
 
@@ -49,18 +48,18 @@ class TreeCache {
    private:
     friend class TreeCache;
     explicit Use(Cell& cell) : cell_(&cell), tree_(cell.tree.get()) {}
-    explicit Use(std::unique_ptr<Tree> own) : own_(std::move(own)), tree_(own_.get()) {}
+    explicit Use(SharedTree own) : own_(std::move(own)), tree_(own_.get()) {}
 
     Cell* cell_ = nullptr;
-    std::unique_ptr<Tree> own_;  ///< one that found no place
+    SharedTree own_;  ///< one that found no place
     const Tree* tree_ = nullptr;
   };
 
   /// The tree of that key, empty if there is none. Lock-free.
   Use find(const TreeKey& key);
 
-  /// Makes a tree, of `old` if that serves: another state of the same triangles, or nullptr.
-  using Make = std::function<std::unique_ptr<Tree>(std::unique_ptr<Tree> old)>;
+  /// Makes a tree, of `old` if that serves: another state of the same triangles, or nothing.
+  using Make = std::function<SharedTree(SharedTree old)>;
 
   /// The tree of that key, made if there is none; threads that ask at once wait for one to make it.
   Use findOrMake(const TreeKey& key, const Make& make);
@@ -70,7 +69,7 @@ class TreeCache {
   void noteBuilt(std::uint64_t root_stamp);
   bool isBuilt(std::uint64_t root_stamp) const;
 
-  /// Bytes of all trees held.
+  /// Bytes of the trees held, each once; those included that other caches hold too.
   std::size_t bytes();
 
   /// Drops the trees made from these vertices, except those in use.
@@ -82,12 +81,12 @@ class TreeCache {
     std::atomic<std::uint64_t> root_stamp{0};
     std::atomic<int> users{0};
     TreeKey key;
-    std::unique_ptr<Tree> tree;
+    SharedTree tree;
   };
   static constexpr int kWriting = -(1 << 30);
 
-  static bool tryReplace(Cell& cell, const TreeKey& key, std::unique_ptr<Tree>& tree);
-  std::unique_ptr<Tree> earlierState(const TreeKey& key);
+  static bool tryReplace(Cell& cell, const TreeKey& key, SharedTree& tree);
+  SharedTree earlierState(const TreeKey& key);
 
   std::array<Cell, 8> cells_;
   std::array<std::atomic<std::uint64_t>, 8> built_{};

@@ -8,8 +8,10 @@
 #include "engine/mesh_tree.h"
 #include "engine/tree_cache.h"
 #include "fcl_kios/model/model.h"
+#include "model/lent_volumes.h"
 #include "model/prepared.h"
 #include "model/tree_build.h"
+#include "volume/stamp.h"
 
 namespace kios {
 namespace {
@@ -146,18 +148,28 @@ class Division {
   int num_nodes_ = 1;
 };
 
-/// The tree of the engine's own partition, which queries read. False where there is none.
+/// The tree of the engine's own partition, which queries read: a copy where an equal mesh lives.
+/// False where there is none.
 template <typename S>
 bool buildByCost(const Arrays<S>& model, int num_triangles) {
   if (model.type != fcl::BVH_MODEL_TRIANGLES) return false;
-  return engine::buildVolumes<S>({model.vertices, static_cast<std::size_t>(model.num_vertices),
-                                  model.triangles, static_cast<std::size_t>(num_triangles)},
-                                 model.nodes, model.primitives);
+  const auto n = static_cast<std::size_t>(num_triangles);
+  const engine::MeshView<S> mesh = {model.vertices, static_cast<std::size_t>(model.num_vertices),
+                                    model.triangles, n};
+  const engine::ContentHash content = engine::contentHash(mesh);
+  if (copyLentVolumes<S>(content, n, {model.nodes, model.primitives})) {
+    model.nodes[0].bv.stamp = nextStamp();
+  } else if (!engine::buildVolumes<S>(mesh, model.nodes, model.primitives)) {
+    return false;
+  }
+  lendVolumes(content, model.nodes, model.primitives);
+  return true;
 }
 
 template <typename S>
 int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
           SplitterBase<S>& splitter, engine::TreeCache* trees) {
+  withdrawVolumes(model.nodes);
   for (int i = 0; i < num_primitives; ++i) model.primitives[i] = static_cast<unsigned int>(i);
   const auto* const own_fitter = exactly<Fitter<S>>(fitter);
   const auto* const own_splitter = exactly<Splitter<S>>(splitter);
@@ -211,6 +223,11 @@ namespace fcl {
         type == BVH_MODEL_TRIANGLES ? num_tris : num_vertices, *bv_fitter, *bv_splitter,       \
         kios::treesOf(*this));                                                                 \
     return BVH_OK;                                                                             \
+  }                                                                                            \
+  template <>                                                                                  \
+  int BVHModel<kios::kIOS<S>>::refitTree(bool bottomup) {                                      \
+    kios::withdrawVolumes(bvs);                                                                \
+    return bottomup ? refitTree_bottomup() : refitTree_topdown();                              \
   }                                                                                            \
   template <>                                                                                  \
   int BVHModel<kios::kIOS<S>>::refitTree_topdown() {                                           \

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fcl_kios/model/model.h"
+#include "model/lent_volumes.h"
 
 namespace kios {
 namespace {
@@ -80,12 +81,14 @@ void copy(const Model<S>& from, const unsigned int* primitives, const fcl::BVNod
   replace(model.prev_vertices, copyOf(from.prev_vertices, from.num_vertices));
   replace(to.primitives, copyOf(primitives, to.numPrimitives()));
   replace(to.nodes, copyOf(nodes, num_nodes));
+  lendCopy(nodes, to.nodes, to.primitives);
 }
 
 template <typename S>
 int begin(Members<S> m, int num_tris, int num_vertices) {
   Model<S>& model = m.model;
   const bool was_empty = model.build_state == fcl::BVH_BUILD_STATE_EMPTY;
+  withdrawVolumes(m.nodes);
   model.build_state = fcl::BVH_BUILD_STATE_EMPTY;
   replace(model.vertices, {});
   replace(model.tri_indices, {});
@@ -192,6 +195,15 @@ namespace fcl {
   template <>                                                                              \
   BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other) : BVHModel() {                  \
     kios::copy(other, other.primitive_indices, other.bvs, other.num_bvs, KIOS_MEMBERS(S)); \
+  }                                                                                        \
+  template <>                                                                              \
+  BVHModel<kios::kIOS<S>>::~BVHModel() {                                                   \
+    kios::withdrawVolumes(bvs);                                                            \
+    delete[] vertices;                                                                     \
+    delete[] tri_indices;                                                                  \
+    delete[] prev_vertices;                                                                \
+    delete[] primitive_indices;                                                            \
+    delete[] bvs;                                                                          \
   }                                                                                        \
   template <>                                                                              \
   int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {              \

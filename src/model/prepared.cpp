@@ -36,12 +36,13 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
   const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
                                mesh.num_triangles};
   if (engine::TreeCache::Use found = trees->find(key)) return found;
-  return trees->findOrMake(
-      key, [&](std::unique_ptr<engine::Tree> old) -> std::unique_ptr<engine::Tree> {
-        if (old && engine::refit(mesh, *old)) return old;
-        return trees->isBuilt(root.stamp) ? engine::prepare(mesh, &model.getBV(0))
-                                          : engine::prepare(mesh);
-      });
+  return trees->findOrMake(key, [&](engine::SharedTree old) {
+    if (old && engine::refit(mesh, old.detach())) return old;
+    return engine::SharedTree(engine::contentHash(mesh), [&] {
+      return trees->isBuilt(root.stamp) ? engine::prepare(mesh, &model.getBV(0))
+                                        : engine::prepare(mesh);
+    });
+  });
 }
 
 template <typename S>

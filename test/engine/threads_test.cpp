@@ -97,7 +97,7 @@ TEST_F(EngineThreads, AllAskFirst) {
       wrong += !(ask(*a, *b, frames_[at]) == expected[at]);
     });
     EXPECT_EQ(wrong, 0);
-    EXPECT_EQ(preparedBytes(*a), 2 * one);  // once for the model, and for its copy
+    EXPECT_EQ(preparedBytes(*a), one);  // the model and its copy share it
   }
 }
 
@@ -146,14 +146,15 @@ TEST_F(EngineThreads, RefittedCopiesAndQueriesDoNotMeet) {
   EXPECT_EQ(wrong, 0);
 }
 
-/// A tree that says what it was made from.
-using TreePtr = std::unique_ptr<engine::Tree>;
-
-TreePtr marked(std::uint64_t stamp) {
-  auto tree = std::make_unique<engine::Tree>();
-  tree->origin[0] = static_cast<double>(stamp);
-  tree->nodes.resize(100);
-  return tree;
+/// A tree that says what it was made from, of a content that no other has.
+engine::SharedTree marked(std::uint64_t stamp) {
+  static std::atomic<std::uint64_t> contents{0};
+  return engine::SharedTree({++contents, 0}, [&] {
+    auto tree = std::make_unique<engine::Tree>();
+    tree->origin[0] = static_cast<double>(stamp);
+    tree->nodes.resize(100);
+    return tree;
+  });
 }
 
 // The cache alone, with more keys than places: what is found is what was asked for, and stays.
@@ -166,7 +167,7 @@ TEST(TreeCacheThreads, FindsWhatWasAskedFor) {
     for (int i = 0; i < 3000; ++i) {
       const auto which = static_cast<std::size_t>(random.unit() * (i < 1500 ? 6 : 40));
       const engine::TreeKey key = {which + 1, data + which, data, 3, 1};
-      const auto use = cache.findOrMake(key, [&](const TreePtr& /*old*/) {
+      const auto use = cache.findOrMake(key, [&](const engine::SharedTree& /*old*/) {
         ++made;
         return marked(which + 1);
       });
@@ -180,7 +181,7 @@ TEST(TreeCacheThreads, FindsWhatWasAskedFor) {
   });
   EXPECT_EQ(wrong, 0);
   EXPECT_GE(made, 40);
-  EXPECT_LE(cache.bytes(), 8 * marked(1)->bytes());
+  EXPECT_LE(cache.bytes(), 8 * marked(1).get()->bytes());
 }
 
 // Every place in use by others: the tree is made for its asker alone.
@@ -190,7 +191,7 @@ TEST(TreeCacheThreads, TreesInUseAreNotReplaced) {
   std::vector<engine::TreeCache::Use> uses;
   for (std::uint64_t i = 0; i < 12; ++i) {
     uses.push_back(cache.findOrMake({i + 1, data + i, data, 3, 1},
-                                    [&](const TreePtr&) { return marked(i + 1); }));
+                                    [&](const engine::SharedTree&) { return marked(i + 1); }));
   }
   for (std::uint64_t i = 0; i < 12; ++i) {
     EXPECT_EQ(uses[i]->origin[0], static_cast<double>(i + 1));
@@ -199,10 +200,11 @@ TEST(TreeCacheThreads, TreesInUseAreNotReplaced) {
   cache.drop(data);
   EXPECT_EQ(uses[0]->origin[0], 1);
   uses.clear();
-  EXPECT_EQ(
-      cache.findOrMake({20, data + 19, data, 3, 1}, [](const TreePtr&) { return marked(20); })
-          ->origin[0],
-      20);
+  EXPECT_EQ(cache
+                .findOrMake({20, data + 19, data, 3, 1},
+                            [](const engine::SharedTree&) { return marked(20); })
+                ->origin[0],
+            20);
   EXPECT_TRUE(static_cast<bool>(cache.find({20, data + 19, data, 3, 1})));
 }
 
@@ -211,10 +213,11 @@ TEST(TreeCacheThreads, OneIsMadeHoweverManyAsk) {
     engine::TreeCache cache;
     std::atomic<int> made{0}, wrong{0};
     together(kThreads, [&](int) {
-      const auto use = cache.findOrMake({7, &cache, &cache, 3, 1}, [&](const TreePtr& /*old*/) {
-        ++made;
-        return marked(7);
-      });
+      const auto use =
+          cache.findOrMake({7, &cache, &cache, 3, 1}, [&](const engine::SharedTree& /*old*/) {
+            ++made;
+            return marked(7);
+          });
       wrong += use->origin[0] != 7;
     });
     EXPECT_EQ(made, 1);

@@ -73,6 +73,13 @@ inline std::shared_ptr<Modeld> kiosModel(const Mesh& mesh) {
   return scenes::buildModel<kIOSd>(mesh);
 }
 
+/// A model that shares neither volumes nor prepared trees with one of the mesh: a vertex more,
+/// which no triangle has, makes its content another.
+inline std::shared_ptr<Modeld> modelAlone(Mesh mesh) {
+  mesh.vertices.push_back(mesh.vertices.at(0));
+  return kiosModel(mesh);
+}
+
 inline std::array<Vector3d, 3> corners(const Mesh& mesh, std::intptr_t triangle) {
   const fcl::Triangle& t = mesh.triangles.at(static_cast<std::size_t>(triangle));
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};

@@ -96,7 +96,7 @@ int exhaust(const Work& work, const Check& check, bool keeps_memory = false) {
 class Memory : public ::testing::Test {
  protected:
   void expectRight(const Modeld& model, const std::vector<Vector3d>& vertices) const {
-    const auto fresh = kiosModel({vertices, mesh_.triangles});
+    const auto fresh = modelAlone({vertices, mesh_.triangles});
     EXPECT_EQ(distance(model), distance(*fresh));
     EXPECT_EQ(contacts(model), contacts(*fresh));
   }

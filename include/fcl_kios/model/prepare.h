@@ -9,12 +9,14 @@
 namespace kios {
 
 /// Makes now what the model's first query would make; its other threads wait for it. Does nothing
-/// if it exists, or can't be used. Throws std::invalid_argument if the model is not a finished
-/// mesh.
+/// if it exists, or can't be used. Models of equal vertices and triangles, anywhere in the process,
+/// share what is made, which goes with the last of them. Throws std::invalid_argument if the model
+/// is not a finished mesh.
 template <typename S>
 void prepare(const Model<S>& model);
 
-/// Bytes held by what queries prepared of this model and of its copies.
+/// Bytes held by what queries prepared of this model and of its copies, each part once; parts that
+/// other models of equal content hold too are counted in full.
 template <typename S>
 std::size_t preparedBytes(const Model<S>& model);
 

@@ -43,11 +43,14 @@ class BVSplitter<kios::kIOS<S>>;
 
 // Members of models over k-IOS that differ from FCL's. A new model's splitter has no method, and
 // splits by cost. Those that build keep nothing in fitter or splitter (bvh_build.h); those that get
-// memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is none, and may be called again.
+// memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is none, and may be called again. Those
+// after which a tree is another, or none, first wait for builds that copy it (equal meshes share).
 template <>
 BVHModel<kios::kIOS<double>>::BVHModel();
 template <>
 BVHModel<kios::kIOS<double>>::BVHModel(const BVHModel& other);
+template <>
+BVHModel<kios::kIOS<double>>::~BVHModel();
 template <>
 int BVHModel<kios::kIOS<double>>::beginModel(int num_tris, int num_vertices);
 template <>
@@ -57,11 +60,15 @@ int BVHModel<kios::kIOS<double>>::beginUpdateModel();
 template <>
 int BVHModel<kios::kIOS<double>>::buildTree();
 template <>
+int BVHModel<kios::kIOS<double>>::refitTree(bool bottomup);
+template <>
 int BVHModel<kios::kIOS<double>>::refitTree_topdown();
 template <>
 BVHModel<kios::kIOS<float>>::BVHModel();
 template <>
 BVHModel<kios::kIOS<float>>::BVHModel(const BVHModel& other);
+template <>
+BVHModel<kios::kIOS<float>>::~BVHModel();
 template <>
 int BVHModel<kios::kIOS<float>>::beginModel(int num_tris, int num_vertices);
 template <>
@@ -70,6 +77,8 @@ template <>
 int BVHModel<kios::kIOS<float>>::beginUpdateModel();
 template <>
 int BVHModel<kios::kIOS<float>>::buildTree();
+template <>
+int BVHModel<kios::kIOS<float>>::refitTree(bool bottomup);
 template <>
 int BVHModel<kios::kIOS<float>>::refitTree_topdown();
 

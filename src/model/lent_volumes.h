@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fcl/geometry/bvh/BV_node.h>
+#include "engine/content_hash.h"
+#include "fcl_kios/volume/kios.h"
+
+namespace kios {
+
+// Meshes of equal content have equal volumes: a build copies those of a finished model that lives
+// anywhere in the process. Any thread may call these.
+
+/// The arrays of a model's tree: 2 n - 1 nodes and n primitives.
+template <typename S>
+struct TreeArrays {
+  fcl::BVNode<kIOS<S>>* nodes = nullptr;
+  unsigned int* primitives = nullptr;
+};
+
+/// Copies the volumes lent for this content into `to`. False if there are none.
+template <typename S>
+bool copyLentVolumes(const engine::ContentHash& content, std::size_t n, const TreeArrays<S>& to);
+
+/// Lends the volumes of a mesh of this content until withdrawVolumes(). Where there is no memory,
+/// nothing is lent.
+void lendVolumes(const engine::ContentHash& content, const void* nodes, const void* primitives);
+
+/// Lends a copy of volumes, if they are lent themselves.
+void lendCopy(const void* nodes, const void* copied_nodes, const void* copied_primitives);
+
+/// When this returns, nobody reads these nodes, nor the primitives that were lent with them. To be
+/// called before they change or go; nodes that aren't lent do no harm.
+void withdrawVolumes(const void* nodes);
+
+}  // namespace kios
