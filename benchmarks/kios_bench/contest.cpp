@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "scenes/shapes.h"
+#include "scenes/unlike.h"
 #include "verdicts.h"
 
 namespace kios::bench {
@@ -114,13 +115,19 @@ std::vector<Row> Contest::buildRows(const std::string& scenario) const {
 
 std::vector<Row> Contest::prepareRows(const std::string& scenario, const Question& question) const {
   constexpr char kBuild[] = "the reference's build";
+  std::vector<scenes::Mesh> meshes = meshes_;
   std::vector<Competitor> competitors =
       serving(Query::kPrepare, [&](const std::string& bv, MeshSet&) {
-        return Competitor{bv, [&, bv](std::size_t, std::size_t) {
-                            const std::unique_ptr<MeshSet> fresh = makeMeshSet(bv);
-                            fresh->load(meshes_);
-                            askOne(*fresh, question);
-                          }};
+        const auto build = [&, bv](std::size_t, std::size_t) {
+          const std::unique_ptr<MeshSet> fresh = makeMeshSet(bv);
+          fresh->load(meshes);
+          askOne(*fresh, question);
+        };
+        // Ours share nothing with models that live.
+        const auto others = [&](std::size_t, std::size_t) {
+          std::transform(meshes_.begin(), meshes_.end(), meshes.begin(), scenes::unlike);
+        };
+        return Competitor{bv, build, others};
       });
   if (const Competitor* build = named(kReference, builds_)) {
     competitors.push_back({kBuild, build->answer});

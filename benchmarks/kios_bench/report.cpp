@@ -43,11 +43,11 @@ Maybe pairMicroseconds(const Row& row) {
          static_cast<double>(*row.pairs.total);
 }
 
-constexpr char kLine[] = "%-25s %-9s %-17s %10s %10s %8s %9s %9s %9s %10s %6s %8s %9s\n";
+constexpr char kLine[] = "%-25s %-9s %-17s %10s %10s %8s %9s %9s %9s %10s %6s %8s %8s %9s\n";
 
 void printHeading() {
   std::printf(kLine, "scenario", "query", "bv", "median_us", "min_us", "us/pair", "x OBBRSS",
-              "BV tests", "leaves", "err/extent", "wrong", "B/tri", "build/tri");
+              "BV tests", "leaves", "err/extent", "wrong", "B/tri", "peak/tri", "build/tri");
 }
 
 void print(const Row& row) {
@@ -59,6 +59,7 @@ void print(const Row& row) {
               cell(scaledError(row), "%.1e").c_str(),
               cell(asDouble(row.errors.wrong), "%.0f").c_str(),
               cell(row.volumes.bytes_per_triangle, "%.0f").c_str(),
+              cell(row.volumes.peak_bytes_per_triangle, "%.0f").c_str(),
               cell(row.volumes.build_us_per_triangle, "%.3f").c_str());
 }
 
@@ -105,6 +106,7 @@ std::string toJson(const Row& row) {
       {"bv_tests", orNull(row.tests.bvs)},
       {"leaf_tests", orNull(row.tests.leaves)},
       {"bytes_per_triangle", orNull(row.volumes.bytes_per_triangle)},
+      {"peak_bytes_per_triangle", orNull(row.volumes.peak_bytes_per_triangle)},
       {"build_us_per_triangle", orNull(row.volumes.build_us_per_triangle)},
       {"mean_spheres", orNull(row.volumes.mean_spheres)},
       {"floats_per_bv", orNull(row.volumes.floats_per_bv)},

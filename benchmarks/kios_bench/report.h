@@ -40,6 +40,7 @@ struct Tests {
 /// Properties of the models and their volumes.
 struct Volumes {
   Maybe bytes_per_triangle, build_us_per_triangle;
+  Maybe peak_bytes_per_triangle;  ///< while they are built
   Maybe mean_spheres;   ///< k of a node's k-IOS
   Maybe floats_per_bv;  ///< as the k-IOS paper counts
   Maybe tightness;      ///< mean of bound / true distance of the contents

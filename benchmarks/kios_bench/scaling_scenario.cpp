@@ -10,6 +10,7 @@
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/shapes.h"
+#include "scenes/unlike.h"
 
 namespace kios::bench {
 namespace {
@@ -47,7 +48,7 @@ void runScaling(const Options& options, Report& report) {
     const std::string scenario = "scaling/" + std::to_string(size);
     Options affordable = options;
     affordable.oracle_frames = oracleFrames(options, size);
-    Contest contest({torus, torus}, affordable);
+    Contest contest({torus, scenes::unlike(torus)}, affordable);  // they share nothing
     PoseFinder distance(torus);
     std::vector<Row> rows;
     Question in_contact;

@@ -50,6 +50,10 @@ const std::vector<Scenario>& scenarios() {
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
        runScaling},
+      {"build",
+       "endModel, preparation, first query, the same mesh again, memory, for every volume of FCL: "
+       "tori of 1k to 80k triangles (1M by --max-triangles), welded and not, and the UR5 (data)",
+       runBuild},
       {"refit", "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
        runRefit},
       {"rays",

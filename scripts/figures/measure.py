@@ -20,6 +20,7 @@ RUNS = {  # scenario: options
     "strips": f"--frames 20 --repeats 5 {PAIR}",
     "robots": f"--frames 60 --repeats 3 {PAIR}",
     "scaling": f"--frames 32 --repeats 5 {PAIR}",
+    "build": "--repeats 5",
     "refit": f"--repeats 3 --max-triangles 5000 {PAIR}",
     "error": "--frames 300 --repeats 5 --bv kios,fcl_rss,fcl_obbrss",
     "scene": "--frames 100 --repeats 3",

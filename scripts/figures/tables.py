@@ -63,8 +63,9 @@ moving tori, linear motion                       | continuous/linear continuous 
 the same | continuous/linear continuous fcl_obbrss_advancement
 moving tori, screw motion                        | continuous/screw continuous fcl_obbrss_sampling
 first hit of a random ray, 80,000 triangles      | rays/80000/random first embree
-build, two tori of 80,000 triangles              | scaling/80000 build fcl_obbrss
-build, prepare and first query                   | scaling/80000 prepare fcl_obbrss
+build a torus of 80,000 triangles                | build/welded/80000 build fcl_obbrss
+build and prepare it                             | build/welded/80000 prepared fcl_obbrss
+build and prepare an equal one                   | build/welded/80000 again fcl_obbrss
 """)
 OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree":
           "Embree, single precision", "fcl_obbrss_sampling": "FCL OBBRSS, 1,000 samples",
@@ -74,8 +75,9 @@ OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree"
 def readme(rows):
     out = []
     for label, ((scenario, query, bv), settings) in README:
-        # FCL has nothing to prepare.
-        other = rows.us(scenario, query.replace("prepare", "build"), bv, **settings)
+        # FCL has nothing to prepare, nor to share.
+        theirs = "build" if query in ("prepared", "again") else query
+        other = rows.us(scenario, theirs, bv, **settings)
         out.append([label, time(rows.us(scenario, query, **settings)), time(other), OTHERS[bv],
                     number(rows.ratio(scenario, query, bv, **settings))])
     return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
@@ -127,6 +129,17 @@ touching, contact   | touching collide
         key = f"scaling/{column[0]}/{line[0]}", line[1]
         return f"{number(rows.us(*key))} ({number(rows.ratio(*key))})"
     return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
+
+
+def bytes_of(rows):
+    """Where the bytes of a triangle go."""
+    meshes = {"shared vertices": "build/bytes/welded", "three vertices each": "build/bytes/soup"}
+    parts = dict.fromkeys(row["query"] for row in rows.rows if row["scenario"] in meshes.values())
+    lines = [[part, *(rows.find(scenario, part)["bytes_per_triangle"]
+                      for scenario in meshes.values())] for part in parts]
+    lines.append(["all", *(sum(line[i] for line in lines) for i in (1, 2))])
+    return table(["bytes a triangle", *meshes], [[line[0], *map(number, line[1:])]
+                                                 for line in lines])
 
 
 # docs/scene.md
@@ -230,6 +243,52 @@ a pair that they decide: a threshold | rootreject/far threshold
     columns = spec("k-IOS | kios\nFCL OBBRSS | fcl_obbrss")
     return grid("two tori of 20,000 triangles", lines, columns,
                 lambda line, column, _: time(rows.us(*line, *column)))
+
+
+def building(rows):
+    lines = spec("""
+k-IOS: `endModel`            | build kios
+with `kios::prepare`         | prepared kios
+with a first query           | first_query kios
+the same again, and prepared | again kios
+OBBRSS: `endModel`           | build fcl_obbrss
+OBB                          | build fcl_obb
+RSS                          | build fcl_rss
+FCL's kIOS                   | build fcl_kios_builtin
+AABB                         | build fcl_aabb
+k-DOP, 24 planes             | build fcl_kdop24
+""")
+    columns = spec("""
+1k triangles        | welded/1000
+20k                 | welded/20000
+80k                 | welded/80000
+80k, no shared vertex | soup/80000
+UR5, 7 links        | ur5
+""")
+
+    def cell(line, column, _):
+        row = rows.find(f"build/{column[0]}", *line)
+        return f"{time(row['median_us'])} ({number(1 / row['ratio_to_fcl_obbrss'])})"
+    return grid("time (by OBBRSS's `endModel`)", lines, columns, cell)
+
+
+def memory(rows):
+    lines = spec("""
+k-IOS: a model                | build kios
+with what queries prepare     | prepared kios
+OBBRSS                        | build fcl_obbrss
+AABB                          | build fcl_aabb
+""")
+    columns = spec("""
+80k triangles         | welded/80000
+80k, no shared vertex | soup/80000
+UR5, 7 links          | ur5
+""")
+
+    def cell(line, column, _):
+        row = rows.find(f"build/{column[0]}", *line)
+        return f"{number(row['bytes_per_triangle'])} ({number(row['peak_bytes_per_triangle'])})"
+    return grid("bytes a triangle (peak)", lines, columns, cell)
 
 
 def refits(rows):

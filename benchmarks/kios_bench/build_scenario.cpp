@@ -1,0 +1,237 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// From vertices to the first answer: time and memory, for every volume of FCL.
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcl/fcl.h>
+
+#include "allocations.h"
+#include "calls.h"
+#include "fcl_kios/model/prepare.h"
+#include "model/prepared.h"
+#include "scenario.h"
+#include "scenes/shapes.h"
+#include "scenes/unlike.h"
+#include "scenes/ur5_data.h"
+
+namespace kios::bench {
+namespace {
+
+using Meshes = std::vector<scenes::Mesh>;
+
+constexpr char kReference[] = "fcl_obbrss";
+
+/// What is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kFirstQuery: endModel() and
+/// whether the last mesh and the first, side by side, touch. kAgain: as kPrepared, while equal
+/// models live.
+enum class Stage { kBuild, kPrepared, kFirstQuery, kAgain };
+
+const char* nameOf(Stage stage) {
+  constexpr const char* kNames[] = {"build", "prepared", "first_query", "again"};
+  return kNames[static_cast<int>(stage)];
+}
+
+/// Takes models over a volume through a stage.
+class Builder {
+ public:
+  virtual ~Builder() = default;
+
+  /// Makes models of these meshes up to endModel(), and drops those before.
+  virtual void begin(const Meshes& meshes) = 0;
+  virtual void run(Stage stage) = 0;
+};
+
+template <typename BV, typename Calls>
+class BuilderOf final : public Builder {
+ public:
+  void begin(const Meshes& meshes) override {
+    models_.clear();
+    for (const scenes::Mesh& mesh : meshes) {
+      auto& model = models_.emplace_back(std::make_shared<fcl::BVHModel<BV>>());
+      model->beginModel(static_cast<int>(mesh.triangles.size()),
+                        static_cast<int>(mesh.vertices.size()));
+      model->addSubModel(mesh.vertices, mesh.triangles);
+    }
+    aside_ = meshes.empty() ? 0 : scenes::extent(meshes.front());
+  }
+
+  void run(Stage stage) override {
+    for (const auto& model : models_) {
+      model->endModel();
+      if constexpr (std::is_same_v<BV, kIOSd>) {
+        if (stage == Stage::kPrepared || stage == Stage::kAgain) prepare(*model);
+      }
+    }
+    if (stage != Stage::kFirstQuery) return;
+    const fcl::CollisionObjectd a(models_.back());
+    const fcl::CollisionObjectd b(
+        models_.front(), fcl::Transform3d(fcl::Translation3d(0.6 * aside_, 0.1 * aside_, 0)));
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    Calls::collide(&a, &b, request, result);
+  }
+
+ private:
+  std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
+  double aside_ = 0;
+};
+
+struct Volume {
+  const char* name;
+  std::unique_ptr<Builder> (*make)();
+};
+
+template <typename BV, typename Calls = FclCalls>
+std::unique_ptr<Builder> make() {
+  return std::make_unique<BuilderOf<BV, Calls>>();
+}
+
+constexpr Volume kVolumes[] = {
+    {"kios", make<kIOSd, KiosCalls>},       {kReference, make<fcl::OBBRSSd>},
+    {"fcl_obb", make<fcl::OBBd>},           {"fcl_rss", make<fcl::RSSd>},
+    {"fcl_kios_builtin", make<fcl::kIOSd>}, {"fcl_aabb", make<fcl::AABBd>},
+    {"fcl_kdop16", make<fcl::KDOPd<16>>},   {"fcl_kdop18", make<fcl::KDOPd<18>>},
+    {"fcl_kdop24", make<fcl::KDOPd<24>>}};
+
+/// A volume at a stage.
+struct Entrant {
+  std::string bv;
+  Stage stage;
+  std::unique_ptr<Builder> builder, equal;  ///< `equal` lives at kAgain
+
+  void begin(const Meshes& meshes) const {
+    Meshes fresh;
+    for (const scenes::Mesh& mesh : meshes) fresh.push_back(scenes::unlike(mesh));
+    builder->begin({});  // what the last run made goes
+    if (equal) {
+      equal->begin(fresh);
+      equal->run(stage);
+    }
+    builder->begin(fresh);
+  }
+};
+
+std::vector<Entrant> entrants(const Options& options) {
+  std::vector<Entrant> all;
+  for (const Volume& volume : kVolumes) {
+    const bool ours = volume.make == kVolumes[0].make;
+    if (options.quick && !ours && std::string(volume.name) != kReference) continue;
+    for (const Stage stage : {Stage::kBuild, Stage::kPrepared, Stage::kFirstQuery, Stage::kAgain}) {
+      const bool sharing = stage == Stage::kPrepared || stage == Stage::kAgain;
+      if (sharing && !ours) continue;  // it would be kBuild
+      all.push_back(
+          {volume.name, stage, volume.make(), stage == Stage::kAgain ? volume.make() : nullptr});
+    }
+  }
+  return all;
+}
+
+/// Bytes of a run, with those of the arrays that it begins with.
+Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles) {
+  entrant.builder->begin({});
+  const Allocations allocations;
+  entrant.begin(meshes);
+  const long long before = allocations.held();
+  entrant.builder->run(entrant.stage);
+  Volumes volumes;
+  if (allocations.peak() == 0) return volumes;
+  volumes.bytes_per_triangle = static_cast<double>(allocations.held()) / triangles;
+  volumes.peak_bytes_per_triangle =
+      static_cast<double>(std::max(allocations.peak(), before)) / triangles;
+  return volumes;
+}
+
+void race(const std::string& scenario, const Meshes& meshes, const Options& options,
+          Report& report) {
+  const std::vector<Entrant> all = entrants(options);
+  std::vector<Competitor> competitors;
+  for (const Entrant& entrant : all) {
+    competitors.push_back({entrant.bv + " " + nameOf(entrant.stage),
+                           [&](std::size_t, std::size_t) { entrant.builder->run(entrant.stage); },
+                           [&](std::size_t, std::size_t) { entrant.begin(meshes); }});
+  }
+  Race{1, options.repeats}.run(competitors);
+  Row base;
+  base.scenario = scenario;
+  base.frames = 1;
+  base.seed = options.seed;
+  for (const scenes::Mesh& mesh : meshes) {
+    base.triangles += mesh.triangles.size();
+    base.extent = std::max(base.extent, scenes::extent(mesh));
+  }
+  const auto triangles = static_cast<double>(base.triangles);
+  const Competitor* const reference =
+      named(std::string(kReference) + " " + nameOf(Stage::kBuild), competitors);
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Row& row = rows.emplace_back(base.of(competitors[i], reference));
+    row.bv = all[i].bv;
+    row.query = nameOf(all[i].stage);
+    row.volumes = memoryOf(all[i], meshes, triangles);
+    row.volumes.build_us_per_triangle = row.times.median_us / triangles;
+  }
+  report.add(rows);
+}
+
+/// Where the bytes of a prepared model go.
+void reportBytes(const std::string& scenario, const scenes::Mesh& mesh, const Options& options,
+                 Report& report) {
+  const auto model = scenes::buildModel<kIOSd>(mesh);
+  const auto tree = preparedTree(*model);
+  const auto n = static_cast<double>(mesh.triangles.size());
+  const auto bytesOf = [](const auto& array) {
+    return static_cast<double>(array.capacity() * sizeof(array[0]));
+  };
+  const std::pair<const char*, double> parts[] = {
+      {"vertices", bytesOf(mesh.vertices)},
+      {"triangles", bytesOf(mesh.triangles)},
+      {"volumes of FCL's tree", model->getNumBVs() * double{sizeof(model->getBV(0))}},
+      {"its order of triangles", n * sizeof(unsigned int)},
+      {"nodes of the prepared tree", bytesOf(tree->nodes)},
+      {"their boxes", bytesOf(tree->boxes)},
+      {"blocks of children", bytesOf(tree->blocks) + bytesOf(tree->children)},
+      {"leaves", bytesOf(tree->leaves)},
+      {"their vertices and faces", bytesOf(tree->lanes)},
+      {"ids of features", bytesOf(tree->features)},
+      {"welded corners", bytesOf(tree->corners)}};
+  std::vector<Row> rows;
+  for (const auto& [part, bytes] : parts) {
+    Row& row = rows.emplace_back();
+    row.scenario = scenario;
+    row.query = part;
+    row.bv = "kios";
+    row.triangles = mesh.triangles.size();
+    row.seed = options.seed;
+    row.volumes.bytes_per_triangle = bytes / n;
+    std::printf("%-25s %-27s %6.1f bytes a triangle\n", scenario.c_str(), part, bytes / n);
+  }
+  std::printf("\n");
+  report.addUnprinted(rows);
+}
+
+}  // namespace
+
+void runBuild(const Options& options, Report& report) {
+  for (const int size : {1000, 5000, 20000, 80000, 320000, 1000000}) {
+    if (size > (options.quick ? 1000 : options.max_triangles)) break;
+    const scenes::Mesh torus = scenes::bumpyTorus(size);
+    race("build/welded/" + std::to_string(size), {torus}, options, report);
+    race("build/soup/" + std::to_string(size), {scenes::soup(torus)}, options, report);
+  }
+  const scenes::Mesh torus = scenes::bumpyTorus(options.quick ? 1000 : 20000);
+  reportBytes("build/bytes/welded", torus, options, report);
+  reportBytes("build/bytes/soup", scenes::soup(torus), options, report);
+  const auto data = findData(options);
+  if (options.quick || !data || !scenes::holdsUr5(*data)) return;
+  Meshes links;
+  for (const scenes::Link& link : scenes::loadUr5(*data).links) links.push_back(link.mesh);
+  race("build/ur5", links, options, report);
+}
+
+}  // namespace kios::bench
