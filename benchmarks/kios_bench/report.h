@@ -41,9 +41,9 @@ struct Tests {
 struct Volumes {
   Maybe bytes_per_triangle, build_us_per_triangle;
   Maybe peak_bytes_per_triangle;  ///< while they are built
-  Maybe mean_spheres;   ///< k of a node's k-IOS
-  Maybe floats_per_bv;  ///< as the k-IOS paper counts
-  Maybe tightness;      ///< mean of bound / true distance of the contents
+  Maybe mean_spheres;             ///< k of a node's k-IOS
+  Maybe floats_per_bv;            ///< as the k-IOS paper counts
+  Maybe tightness;                ///< mean of bound / true distance of the contents
 };
 
 /// As ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.

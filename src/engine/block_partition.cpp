@@ -25,7 +25,10 @@ constexpr int kReframe = 2;
 constexpr int kNoFrame = std::numeric_limits<int>::max();
 
 /// Leaves that n triangles fill.
-float leavesOf(int n) { return static_cast<float>((n + kLeafTriangles - 1) / kLeafTriangles); }
+float leavesOf(int n) {
+  const int leaves = (n + kLeafTriangles - 1) / kLeafTriangles;
+  return static_cast<float>(leaves);
+}
 
 }  // namespace
 

@@ -29,9 +29,9 @@ Extremes extremesOf(const PointQuad* quads, std::size_t n) {
     e.z[e.count++] = q.z[index % 4];
   };
   for (int direction = 0; direction < Extremes::kDirections; ++direction) {
-    const auto x = static_cast<float>(direction % 3 - 1);
-    const auto y = static_cast<float>(direction / 3 % 3 - 1);
-    const auto z = static_cast<float>(direction / 9 - 1);
+    const int of_x = direction % 3 - 1, of_y = direction / 3 % 3 - 1, of_z = direction / 9 - 1;
+    const auto x = static_cast<float>(of_x), y = static_cast<float>(of_y),
+               z = static_cast<float>(of_z);
     Float4 low = quads[0].x * x + quads[0].y * y + quads[0].z * z, high = low;
     Int4 at = {0, 1, 2, 3}, low_at = at, high_at = at;
     for (std::size_t i = 1; i < n; ++i) {
