@@ -131,7 +131,7 @@ touching, contact   | touching collide
     return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
 
 
-def bytes_of(rows):
+def memory_parts(rows):
     """Where the bytes of a triangle go."""
     meshes = {"shared vertices": "build/bytes/welded", "three vertices each": "build/bytes/soup"}
     parts = dict.fromkeys(row["query"] for row in rows.rows if row["scenario"] in meshes.values())

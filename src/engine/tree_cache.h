@@ -69,6 +69,13 @@ class TreeCache {
   void noteBuilt(std::uint64_t root_stamp);
   bool isBuilt(std::uint64_t root_stamp) const;
 
+  /// Tests of volumes that queries which can do without a tree may make, before it would have paid
+  /// to make one for so many triangles: so that at most twice the work is done that was needed. 0
+  /// as soon as a tree was made.
+  long long testsToSpare(std::size_t num_triangles) const;
+  /// To be called with what a query that did without has made.
+  void spend(long long tests) { spent_.fetch_add(tests, std::memory_order_relaxed); }
+
   /// Bytes of the trees held, each once; those included that other caches hold too.
   std::size_t bytes();
 
@@ -91,6 +98,8 @@ class TreeCache {
   std::array<Cell, 8> cells_;
   std::array<std::atomic<std::uint64_t>, 8> built_{};
   std::atomic<unsigned int> num_built_{0};
+  std::atomic<bool> made_{false};    ///< any tree, ever
+  std::atomic<long long> spent_{0};  ///< tests
   std::mutex making_;
   std::size_t next_ = 0;  ///< to be replaced, where no cell is free
 };

@@ -2,16 +2,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/query/mesh_queries.h"
 
+#include <algorithm>
 #include <iostream>
 #include <limits>
 #include <vector>
 
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include "fcl_kios/query/mesh_nodes.h"
+#include "model/prepared.h"
 #include "query/mesh_pair.h"
 #include "query/pair_search.h"
 
 namespace kios {
+namespace {
+
+/// FCL's trees, searched until a pair is found or so many tests are made.
+template <typename S>
+class LimitedNode final : public MeshCollisionTraversalNode<S> {
+ public:
+  explicit LimitedNode(long long limit) : limit_(limit) { this->enable_statistics = true; }
+
+  bool canStop() const override {
+    return MeshCollisionTraversalNode<S>::canStop() || tests() >= limit_;
+  }
+  /// Of volumes; a test of triangles takes as long as four.
+  long long tests() const { return this->num_bv_tests + 4LL * this->num_leaf_tests; }
+  bool gaveUp() const { return tests() >= limit_; }
+
+ private:
+  const long long limit_;
+};
+
+/// Whether two models touch, by FCL's trees, as long as it hasn't paid to prepare both of them.
+/// False if the engine is to say it.
+template <typename S>
+bool touchUnprepared(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Model<S>& model2,
+                     const fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
+                     fcl::CollisionResult<S>& result, SearchCounts& counts) {
+  engine::TreeCache *const trees1 = treesOf(model1), *const trees2 = treesOf(model2);
+  if (!trees1 || !trees2) return false;
+  const long long limit = std::max(trees1->testsToSpare(static_cast<std::size_t>(model1.num_tris)),
+                                   trees2->testsToSpare(static_cast<std::size_t>(model2.num_tris)));
+  if (limit == 0) return false;
+  LimitedNode<S> node(limit);
+  initialize(node, model1, tf1, model2, tf2, request, result);
+  fcl::detail::collide(&node);
+  trees1->spend(node.tests());
+  if (trees2 != trees1) trees2->spend(node.tests());
+  counts.volume_tests += node.num_bv_tests;
+  counts.leaf_pairs += node.num_leaf_tests;
+  if (node.gaveUp() && !request.isSatisfied(result)) return false;
+  ++counts.tree_searches;
+  return true;
+}
+
+}  // namespace
+
 template <typename S>
 std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
                           const Model<S>& model2, const fcl::Transform3<S>& tf2,
@@ -27,6 +73,10 @@ std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
   SearchCounts& count = counts ? *counts : unused;
   const bool occupied = model1.isOccupied() && model2.isOccupied();
   if (occupied && !request.enable_cost) {
+    const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
+    if (verdict && touchUnprepared(model1, tf1, model2, tf2, request, result, count)) {
+      return result.numContacts();
+    }
     const std::size_t room = request.num_max_contacts - result.numContacts();
     std::vector<engine::TrianglePairIds> found;
     if (searchContacts(frame, room, found, count)) {

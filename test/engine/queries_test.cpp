@@ -29,6 +29,8 @@ TEST(EngineQueries, ContactsUpToAnyNumber) {
   for (const MeshCase& c : meshCases()) {
     SCOPED_TRACE(c.name);
     const auto a = kiosModel(c.a), b = kiosModel(c.b);
+    prepare(*a);
+    prepare(*b);
     for (const Frame& frame : randomFrames(12, c.spread, 21)) {
       const Pairs expected = leafPairs(c.a, c.b, frame);
       touching += !expected.empty();
