@@ -18,7 +18,7 @@ struct ContentHash {
   bool operator==(const ContentHash& o) const { return low == o.low && high == o.high; }
 };
 
-/// Takes about 10 ns a triangle.
+/// Takes 1 to 3 ns a triangle, where a build takes 600.
 template <typename S>
 ContentHash contentHash(const MeshView<S>& mesh);
 
