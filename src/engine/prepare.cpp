@@ -189,8 +189,13 @@ class Preparation {
       any_flat |= node.flat != 0;
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
-    if (!any_flat) tree_->boxes.clear();
-    tree_->boxes.shrink_to_fit();
+    if (any_flat) {
+      tree_->box_blocks.resize(tree_->blocks.size());
+      writeBoxBlocks(*tree_);
+    } else {
+      tree_->boxes.clear();
+      tree_->boxes.shrink_to_fit();
+    }
   }
 
   /// The spheres of `bv`, moved to the tree's origin and measured.

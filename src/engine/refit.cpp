@@ -29,6 +29,7 @@ class Refit {
     // Nodes lie before their children.
     tree_.reach = 0;
     for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n);
+    if (!tree_.boxes.empty()) writeBoxBlocks(tree_);
     return searchCost(tree_) <= kPoor * tree_.cost;
   }
 
