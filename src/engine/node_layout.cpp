@@ -53,9 +53,12 @@ void writeBoxBlocks(Tree& tree) {
     if (node.isLeaf()) continue;
     const auto at = static_cast<std::size_t>(node.child);
     BoxBlock& block = tree.box_blocks[at];
+    tree.children[at].flat = 0;
     for (int lane = 0; lane < kLanes; ++lane) {
-      const int child = lane < tree.children[at].count ? lane : 0;
-      const Box& box = tree.boxes[node.first_child + static_cast<std::uint32_t>(child)];
+      const bool used = lane < tree.children[at].count;
+      const std::size_t child = node.first_child + static_cast<std::uint32_t>(used ? lane : 0);
+      if (used) tree.children[at].flat |= static_cast<std::uint8_t>(tree.nodes[child].flat << lane);
+      const Box& box = tree.boxes[child];
       for (int column = 0; column < kBoxColumns; ++column) {
         block.x[column].v[lane] = box.x[column];
         block.y[column].v[lane] = box.y[column];

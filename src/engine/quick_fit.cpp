@@ -20,27 +20,6 @@ namespace {
 using lanes::broadcast;
 using lanes::Float4;
 
-/// Orthonormal axes, the first along a, the second towards b, each rounded once: a box's slabs add
-/// up only if its axes are so. Either may be 0 or not finite, or parallel to the other.
-Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
-  const double square = first.dot(first), square_b = second.dot(second);
-  if (square > 0 && square < kInfinity) axes.col(0) = first / std::sqrt(square);
-  Eigen::Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
-  double left = across.dot(across);
-  if (!(left > 1e-6 * square_b && left < kInfinity)) {  // any direction across the first
-    int least = 0;
-    axes.col(0).cwiseAbs().minCoeff(&least);
-    across = Eigen::Vector3d::Unit(least) - axes(least, 0) * axes.col(0);
-    left = across.dot(across);
-  }
-  axes.col(1) = across / std::sqrt(left);
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes.cast<float>();
-}
-
 /// Longest first.
 Eigen::Matrix3f principalAxes(const Moments& m) {
   const double trace = m.xx + m.yy + m.zz;
@@ -105,6 +84,25 @@ Box boxOf(const Eigen::Matrix3f& axes, const Extents& e, const Eigen::Vector3f& 
 }
 
 }  // namespace
+
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
+  const double square = first.dot(first), square_b = second.dot(second);
+  if (square > 0 && square < kInfinity) axes.col(0) = first / std::sqrt(square);
+  Eigen::Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
+  double left = across.dot(across);
+  if (!(left > 1e-6 * square_b && left < kInfinity)) {  // any direction across the first
+    int least = 0;
+    axes.col(0).cwiseAbs().minCoeff(&least);
+    across = Eigen::Vector3d::Unit(least) - axes(least, 0) * axes.col(0);
+    left = across.dot(across);
+  }
+  axes.col(1) = across / std::sqrt(left);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes.cast<float>();
+}
 
 void Moments::add(const Moments& o) {
   const double sum = n + o.n;

@@ -28,47 +28,97 @@ struct V3 {
 };
 HWY_INLINE V dot(const V3& a, const V3& b) { return dot(a.x, a.y, a.z, b.x, b.y, b.z); }
 
+HWY_INLINE V3 abs(const V3& v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
+HWY_INLINE V3 operator+(const V3& a, const V3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE V3 operator-(const V3& a, const V3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V3 operator*(V s, const V3& a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+
+/// Boxes in one frame, one a lane: axes, centre, half extents.
+struct BoxLanes {
+  BoxLanes(const BoxBlock& block, size_t l)
+      : e0(column(block, 0, l)),
+        e1(column(block, 1, l)),
+        e2(column(block, 2, l)),
+        center(column(block, kCenter, l)),
+        half{load(block.half[0], l), load(block.half[1], l), load(block.half[2], l)} {}
+  explicit BoxLanes(const Box& box)
+      : e0(column(box, 0)),
+        e1(column(box, 1)),
+        e2(column(box, 2)),
+        center(column(box, kCenter)),
+        half{hn::Set(d, box.half[0]), hn::Set(d, box.half[1]), hn::Set(d, box.half[2])} {}
+
+  static V3 column(const BoxBlock& block, int i, size_t l) {
+    return {load(block.x[i], l), load(block.y[i], l), load(block.z[i], l)};
+  }
+  static V3 column(const Box& box, int i) {
+    return {hn::Set(d, box.x[i]), hn::Set(d, box.y[i]), hn::Set(d, box.z[i])};
+  }
+
+  V3 along(const V3& v) const { return {dot(e0, v), dot(e1, v), dot(e2, v)}; }
+
+  /// From the centre to the point of the box that is nearest to centre + v, v given along the axes.
+  V3 towards(const V3& v) const {
+    const auto clamped = [](V at, V most) { return hn::Max(hn::Min(at, most), hn::Neg(most)); };
+    return clamped(v.x, half.x) * e0 + clamped(v.y, half.y) * e1 + clamped(v.z, half.z) * e2;
+  }
+
+  V3 e0, e1, e2, center, half;
+};
+
 /// Lower bounds of the distances of the contents of a block's boxes to that of a box in their
-/// frame, lanes from `l`: what the slabs of either's axes prove. Says nothing where it isn't
-/// positive. In contact the widest gap alone counts, which costs less.
+/// frame, lanes from `l`. They say nothing where they aren't positive. frame_pair.h derives the
+/// pad.
+///
+/// The slabs of either's axes come first: over three axes, the gaps between the boxes. Then two
+/// directions, as for any w the gap along w divided by |w| is a bound: the line of centres, and a
+/// line that joins points of both, found by projecting a centre onto one box and that point onto
+/// the other; it comes close to the distance of the boxes. In contact any gap decides, and edges
+/// rarely do: the widest of the axes is all that is looked for.
 template <bool kContact>
 HWY_INLINE V boxBounds(const BoxBlock& block, size_t l, const Box& box, float pad) {
-  const auto column = [&](int i) {
-    return V3{load(block.x[i], l), load(block.y[i], l), load(block.z[i], l)};
+  const BoxLanes a(block, l), b(box);
+  const V3 between = b.center - a.center;
+  const V3 a_between = a.along(between), b_between = b.along(between);
+  const V3 e0 = abs(a.along(b.e0)), e1 = abs(a.along(b.e1)), e2 = abs(a.along(b.e2));
+  const V padding = hn::Set(d, pad);
+  const auto gap = [&](V apart, V own, V reach) {
+    return hn::Sub(hn::Abs(apart), hn::Add(hn::Add(own, padding), reach));
   };
-  const auto other = [&](int i) {
-    return V3{hn::Set(d, box.x[i]), hn::Set(d, box.y[i]), hn::Set(d, box.z[i])};
-  };
-  const V3 a0 = column(0), a1 = column(1), a2 = column(2), center = column(kCenter);
-  const V3 b0 = other(0), b1 = other(1), b2 = other(2), other_center = other(kCenter);
-  const V3 between = {hn::Sub(other_center.x, center.x), hn::Sub(other_center.y, center.y),
-                      hn::Sub(other_center.z, center.z)};
-  const auto cosine = [](const V3& a, const V3& b) { return hn::Abs(dot(a, b)); };
-  const V c00 = cosine(a0, b0), c01 = cosine(a0, b1), c02 = cosine(a0, b2);
-  const V c10 = cosine(a1, b0), c11 = cosine(a1, b1), c12 = cosine(a1, b2);
-  const V c20 = cosine(a2, b0), c21 = cosine(a2, b1), c22 = cosine(a2, b2);
-  const V3 half = {load(block.half[0], l), load(block.half[1], l), load(block.half[2], l)};
-  const V3 other_half = {hn::Set(d, box.half[0]), hn::Set(d, box.half[1]), hn::Set(d, box.half[2])};
-  /// What lies between the boxes along an axis of one of them.
-  const auto gap = [&](const V3& axis, V own, const V3& cosines, const V3& halves) {
-    const V reach = hn::Add(hn::Add(own, hn::Set(d, pad)), dot(cosines, halves));
-    return hn::Sub(hn::Abs(dot(axis, between)), reach);
-  };
-  const V3 of_block = {gap(a0, half.x, {c00, c01, c02}, other_half),
-                       gap(a1, half.y, {c10, c11, c12}, other_half),
-                       gap(a2, half.z, {c20, c21, c22}, other_half)};
-  const V3 of_other = {gap(b0, other_half.x, {c00, c10, c20}, half),
-                       gap(b1, other_half.y, {c01, c11, c21}, half),
-                       gap(b2, other_half.z, {c02, c12, c22}, half)};
+  const V3 of_a = {gap(a_between.x, a.half.x, dot({e0.x, e1.x, e2.x}, b.half)),
+                   gap(a_between.y, a.half.y, dot({e0.y, e1.y, e2.y}, b.half)),
+                   gap(a_between.z, a.half.z, dot({e0.z, e1.z, e2.z}, b.half))};
+  const V3 of_b = {gap(b_between.x, b.half.x, dot(e0, a.half)),
+                   gap(b_between.y, b.half.y, dot(e1, a.half)),
+                   gap(b_between.z, b.half.z, dot(e2, a.half))};
   if constexpr (kContact) {
     const auto widest = [](const V3& v) { return hn::Max(hn::Max(v.x, v.y), v.z); };
-    return hn::Max(widest(of_block), widest(of_other));
+    return hn::Max(widest(of_a), widest(of_b));
   }
   const auto squared = [](const V3& v) {
     const V zero = hn::Zero(d);
     return square(hn::Max(v.x, zero), hn::Max(v.y, zero), hn::Max(v.z, zero));
   };
-  return hn::Sqrt(hn::Max(squared(of_block), squared(of_other)));
+  const V by_axes = hn::Sqrt(hn::Max(squared(of_a), squared(of_b)));
+  // w . between, and w along the axes. A shorter w proves less than the pad, and its square may
+  // vanish.
+  const auto along = [&](const V3& w, V gap, const V3& w_a, const V3& w_b) {
+    const V length2 = dot(w, w);
+    gap = hn::Sub(gap, hn::Add(dot(abs(w_a), a.half), dot(abs(w_b), b.half)));
+    const V lower = hn::Sub(hn::Div(gap, hn::Sqrt(length2)), padding);
+    return hn::IfThenElseZero(hn::Ge(length2, hn::Set(d, 0x1p-100F)), lower);
+  };
+  const V by_centers = along(between, dot(between, between), a_between, b_between);
+  const V3 to_a = a.towards(a_between) - between;  // from b's centre
+  const V3 w = b.towards(b.along(to_a)) - to_a;
+  const V by_projection = along(w, dot(w, between), a.along(w), b.along(w));
+  return hn::Max(by_axes, hn::Max(by_centers, by_projection));
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE
