@@ -36,6 +36,8 @@
 //
 #include "engine/simd/traverse-inl.h"
 //
+#include "engine/simd/descent-inl.h"
+//
 #include "engine/simd/ray-inl.h"
 //
 #include "engine/simd/leaf_cull-inl.h"
@@ -51,15 +53,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Nearly best first: pairs that overlap are expanded at once, as they all must be, the others in
-/// waves by their bounds. A pair of leaves is bounded by a slab and waits again; the features of
-/// one that waited are evaluated.
+/// Nearly best first, after a descent for an upper bound: pairs that overlap are expanded at once,
+/// as they all must be, the others in waves by their bounds. A pair of leaves is bounded by a slab
+/// and waits again; the features of one that waited are evaluated.
 class DistanceSearch {
  public:
   explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
 
   void run() {
-    expander_.pushRoots(frontier_);
+    if (descend()) return;
     for (;;) {
       while (!frontier_.leaves.empty()) {
         if (boundLeaves(frontier_.leaves.pop())) return;
@@ -82,6 +84,14 @@ class DistanceSearch {
   static constexpr size_t kBatch = 4;
   static constexpr float kWave = 0.25F;
   static constexpr uint32_t kMaxWaiting = 256;
+
+  /// True to end the search. Not inlined: its path is large, and not needed for long.
+  HWY_NOINLINE bool descend() {
+    Descent descent(search_, expander_, std::numeric_limits<long long>::max());
+    if (descent.atLeaves() && boundLeaves(descent.end())) return true;
+    descent.spread(frontier_);
+    return false;
+  }
 
   /// True to end the search.
   bool boundLeaves(const PairList::Entry& entry) {
