@@ -82,7 +82,7 @@ class DistanceSearch {
 
  private:
   static constexpr size_t kBatch = 4;
-  static constexpr float kWave = 0.25F;
+  static constexpr float kWave = 0.5F;
   static constexpr uint32_t kMaxWaiting = 256;
 
   /// True to end the search. Not inlined: its path is large, and not needed for long.
