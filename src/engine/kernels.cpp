@@ -133,12 +133,14 @@ void distance(const Search& search) { DistanceSearch(search).run(); }
 
 void bracket(const Search& search) { BracketSearch(search).run(); }
 
-/// Depth first: all that overlaps is looked at, until an evaluator ends it.
+/// Depth first: all that overlaps is looked at, until an evaluator ends it. Boxes tell so well
+/// which way leads deepest that a large batch mostly looks where it need not.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;
   const Tree &a = search.a, &b = search.b;
   const Expander expander(search);
+  const size_t most = expander.hasBoxes() ? 2 : kBatch;
   Frontier frontier;
   expander.pushRoots(frontier);
   for (;;) {
@@ -148,7 +150,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
       if (leaf_pair(search, a.leaves[a.nodes[at.a].leaf()], b.leaves[b.nodes[at.b].leaf()])) return;
     }
     PairList::Entry batch[kBatch];
-    const size_t n = frontier.inner.pop(batch);
+    const size_t n = frontier.inner.pop(batch, most);
     if (n == 0) return;
     expander.expand<false>(batch, n, frontier);
   }

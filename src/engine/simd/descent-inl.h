@@ -45,6 +45,7 @@ class Descent {
     Expansion& e = path_[steps_];
     expander_.start(end_.pair, e);
     expander_.test(e);
+    expander_.tighten(e);
     e.bound = end_.bound;
     taken_[steps_++] = 0;
     if (e.near == 0) return false;

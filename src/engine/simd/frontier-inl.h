@@ -92,11 +92,11 @@ class PairList {
     return {bounds_[size_], {a_[size_], b_[size_]}};
   }
 
-  /// Pops up to kMax; returns how many.
+  /// Pops up to `most`; returns how many.
   template <size_t kMax>
-  size_t pop(Entry (&out)[kMax]) {
+  size_t pop(Entry (&out)[kMax], size_t most = kMax) {
     static_assert(kMax <= kLanes);
-    const size_t count = std::min(kMax, size_);
+    const size_t count = std::min(most, size_);
     size_ -= count;
     for (size_t i = 0; i < kMax; ++i) {  // there is room for all of them beyond the end
       out[i] = {bounds_[size_ + i], {a_[size_ + i], b_[size_ + i]}};

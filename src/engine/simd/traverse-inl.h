@@ -58,6 +58,15 @@ class Expander {
     search_.counts.volume_tests += childrenOf(e).count;
   }
 
+  /// Tests boxes too, where spheres bound badly.
+  void tighten(Expansion& e) const {
+    const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
+    if (flat != 0 && boxes_) testBoxes(e);
+  }
+
+  /// Whether both trees have boxes: those of CAD meshes.
+  bool hasBoxes() const { return boxes_; }
+
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
   template <bool kInherit, size_t kMax>
@@ -70,7 +79,10 @@ class Expander {
       start(pairs[i].pair, batch[n++]);
     }
     for (size_t i = 0; i < n; ++i) test(batch[i]);
-    for (size_t i = 0; i < n; ++i) spread<kInherit>(batch[i], frontier);
+    for (size_t i = 0; i < n; ++i) {
+      tighten(batch[i]);
+      spread<kInherit>(batch[i], frontier);
+    }
   }
 
   void pushRoots(Frontier& frontier) const {
@@ -98,8 +110,6 @@ class Expander {
       }
       e.near &= near & ~taken;
     }
-    const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
-    if (flat != 0 && boxes_) testBoxes(e);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
     const uint32_t leaves = childrenOf(e).leaves & (e.other->isLeaf() ? ~0U : 0U);
     const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U),
