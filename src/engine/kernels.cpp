@@ -101,7 +101,7 @@ class DistanceSearch {
     Slabbed& slabbed = waiting_[num_waiting_];
     slabbed.nodes = entry.pair;
     const float by_slab =
-        boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
+        boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, slabbed.slab);
     const float bound = std::max(entry.bound, by_slab);
     if (bound >= search_.evaluator.prune_at) {
       if (search_.audit)
@@ -126,6 +126,7 @@ class DistanceSearch {
   const Search& search_;
   const Expander expander_;
   Frontier frontier_;
+  LastLeaves last_;
   uint32_t num_waiting_ = 0;
   Slabbed waiting_[kMaxWaiting];
 };
