@@ -15,43 +15,41 @@ namespace {
 struct Content {
   Eigen::Vector3f low, high;     ///< along the model's axes
   Eigen::Vector3f edge, normal;  ///< of the largest triangle, the edge its longest
-  double squared_area = -1;      ///< of that triangle, four times
+  float area = -1;               ///< of that triangle: a norm of its normal
 
   void add(const Content& o) {
     low = low.cwiseMin(o.low);
     high = high.cwiseMax(o.high);
-    if (!(o.squared_area > squared_area)) return;
+    if (!(o.area > area)) return;
     edge = o.edge;
     normal = o.normal;
-    squared_area = o.squared_area;
+    area = o.area;
   }
 };
 
 Content contentOf(const Leaf& leaf, const Tree& tree) {
+  Eigen::Vector3f vertices[kMaxLeafFeatures];
   Content content;
-  const auto vertex = [&](int i) {
+  for (int i = 0; i < leaf.num_vertices; ++i) {
     const Lanes* const rows = &tree.lanes[leaf.offset + static_cast<std::size_t>(3 * (i / kLanes))];
-    return Eigen::Vector3f(rows[0].v[i % kLanes], rows[1].v[i % kLanes], rows[2].v[i % kLanes]);
-  };
-  content.low = content.high = vertex(0);
-  for (int i = 1; i < leaf.num_vertices; ++i) {
-    const Eigen::Vector3f p = vertex(i);
-    content.low = content.low.cwiseMin(p);
-    content.high = content.high.cwiseMax(p);
+    const int lane = i % kLanes;
+    vertices[i] = {rows[0].v[lane], rows[1].v[lane], rows[2].v[lane]};
+    content.low = i == 0 ? vertices[i] : content.low.cwiseMin(vertices[i]);
+    content.high = i == 0 ? vertices[i] : content.high.cwiseMax(vertices[i]);
   }
   for (int i = 0; i < leaf.num_faces; ++i) {
-    const Eigen::Vector3d p = vertex(leaf.corners[3 * i]).cast<double>();
-    const Eigen::Vector3d q = vertex(leaf.corners[3 * i + 1]).cast<double>();
-    const Eigen::Vector3d r = vertex(leaf.corners[3 * i + 2]).cast<double>();
-    const Eigen::Vector3d normal = (q - p).cross(r - p);
-    const double squared_area = normal.dot(normal);
-    if (!(squared_area > content.squared_area)) continue;
-    Eigen::Vector3d edge = q - p;
-    if ((r - q).dot(r - q) > edge.dot(edge)) edge = r - q;
-    if ((p - r).dot(p - r) > edge.dot(edge)) edge = p - r;
-    content.squared_area = squared_area;
-    content.edge = edge.cast<float>();
-    content.normal = normal.cast<float>();
+    const std::uint8_t* const corners = leaf.corners + 3 * i;
+    const Eigen::Vector3f &p = vertices[corners[0]], &q = vertices[corners[1]],
+                          &r = vertices[corners[2]];
+    const Eigen::Vector3f pq = q - p, pr = r - p, normal = pq.cross(pr);
+    const float area = normal.lpNorm<1>();  // squares may be too large
+    if (!(area > content.area)) continue;
+    const Eigen::Vector3f qr = r - q;
+    const float square_pq = pq.squaredNorm(), square_pr = pr.squaredNorm();
+    content.area = area;
+    content.normal = normal;
+    content.edge = square_pq > square_pr ? pq : pr;
+    if (qr.squaredNorm() > std::max(square_pq, square_pr)) content.edge = qr;
   }
   return content;
 }

@@ -33,7 +33,7 @@ struct FloatPose {
 /// Boxes of either tree: c a centre, e_i axes, h_i half extents, with every point p at |e_i . (p -
 /// c)| <= h_i. All points lie in a sphere of radius r that holds the box's slabs to |(c - c0)_i| +
 /// h_i <= r, so |c| <= sqrt(3) reach and |h| <= sqrt(3) r. Along any w of length 1 (an axis of
-/// either, the line of centres, a line between points of both) two contents are apart by at least
+/// either, a line between points of both) two contents are apart by at least
 ///   |w . (c' - c)| - sum |w . e_i| h_i - sum |w . e'_i| h'_i,  as computed off by at most
 /// - axes that are orthonormal but for one rounding each: p - c is a sum of h_i times dual axes,
 ///   off by 2 sqrt(3) u in all: 6 u (r + r');

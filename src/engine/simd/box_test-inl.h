@@ -76,11 +76,11 @@ struct BoxLanes {
 /// frame, lanes from `l`. They say nothing where they aren't positive. frame_pair.h derives the
 /// pad.
 ///
-/// The slabs of either's axes come first: over three axes, the gaps between the boxes. Then two
-/// directions, as for any w the gap along w divided by |w| is a bound: the line of centres, and a
-/// line that joins points of both, found by projecting a centre onto one box and that point onto
-/// the other; it comes close to the distance of the boxes. In contact any gap decides, and edges
-/// rarely do: the widest of the axes is all that is looked for.
+/// The slabs of either's axes come first: over three axes, the gaps between the boxes. Then one
+/// more direction, as for any w the gap along w divided by |w| is a bound: a line that joins points
+/// of both, found by projecting b's centre onto the box of a and that point onto b's. It comes
+/// close to the distance of the boxes. In contact any gap decides, and edges rarely do: the widest
+/// of the axes is all that is looked for.
 template <bool kContact>
 HWY_INLINE V boxBounds(const BoxBlock& block, size_t l, const Box& box, float pad) {
   const BoxLanes a(block, l), b(box);
@@ -106,19 +106,14 @@ HWY_INLINE V boxBounds(const BoxBlock& block, size_t l, const Box& box, float pa
     return square(hn::Max(v.x, zero), hn::Max(v.y, zero), hn::Max(v.z, zero));
   };
   const V by_axes = hn::Sqrt(hn::Max(squared(of_a), squared(of_b)));
-  // w . between, and w along the axes. A shorter w proves less than the pad, and its square may
-  // vanish.
-  const auto along = [&](const V3& w, V gap, const V3& w_a, const V3& w_b) {
-    const V length2 = dot(w, w);
-    gap = hn::Sub(gap, hn::Add(dot(abs(w_a), a.half), dot(abs(w_b), b.half)));
-    const V lower = hn::Sub(hn::Div(gap, hn::Sqrt(length2)), padding);
-    return hn::IfThenElseZero(hn::Ge(length2, hn::Set(d, 0x1p-100F)), lower);
-  };
-  const V by_centers = along(between, dot(between, between), a_between, b_between);
   const V3 to_a = a.towards(a_between) - between;  // from b's centre
   const V3 w = b.towards(b.along(to_a)) - to_a;
-  const V by_projection = along(w, dot(w, between), a.along(w), b.along(w));
-  return hn::Max(by_axes, hn::Max(by_centers, by_projection));
+  const V reach = hn::Add(dot(abs(a.along(w)), a.half), dot(abs(b.along(w)), b.half));
+  const V length2 = dot(w, w);
+  const V along_w = hn::Sub(hn::Div(hn::Sub(dot(w, between), reach), hn::Sqrt(length2)), padding);
+  // A shorter w joins boxes that are nearer than the pad, and its square may vanish.
+  const auto usable = hn::Ge(length2, hn::Set(d, 0x1p-100F));
+  return hn::Max(by_axes, hn::IfThenElseZero(usable, along_w));
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE
