@@ -13,6 +13,7 @@ struct Expansion {
   const Node* parent;
   const Node* other;
   uint32_t near;  ///< children that matter, as bits
+  bool tight;     ///< whether boxes were tested
   float bound;    ///< of the pair; not used by all searches
   alignas(32) float bounds[kLanes];
 };
@@ -54,14 +55,20 @@ class Expander {
       e.near |= bitsOf(hn::Lt(lower, limit)) << l;
     }
     e.near &= childrenOf(e).all();
+    e.tight = false;
     ++search_.counts.expansions;
     search_.counts.volume_tests += childrenOf(e).count;
   }
 
-  /// Tests boxes too, where spheres bound badly.
+  /// The children that matter and that spheres bound badly.
+  uint32_t flatOf(const Expansion& e) const {
+    return e.other->flat != 0 ? e.near : e.near & childrenOf(e).flat;
+  }
+  /// Tests boxes too, once, if that helps any child.
   void tighten(Expansion& e) const {
-    const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
-    if (flat != 0 && boxes_) testBoxes(e);
+    if (flatOf(e) == 0 || !boxes_ || e.tight) return;
+    e.tight = true;
+    testBoxes(e);
   }
 
   /// Whether both trees have boxes: those of CAD meshes.
@@ -79,10 +86,7 @@ class Expander {
       start(pairs[i].pair, batch[n++]);
     }
     for (size_t i = 0; i < n; ++i) test(batch[i]);
-    for (size_t i = 0; i < n; ++i) {
-      tighten(batch[i]);
-      spread<kInherit>(batch[i], frontier);
-    }
+    for (size_t i = 0; i < n; ++i) spread<kInherit>(batch[i], frontier);
   }
 
   void pushRoots(Frontier& frontier) const {
@@ -110,6 +114,7 @@ class Expander {
       }
       e.near &= near & ~taken;
     }
+    tighten(e);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
     const uint32_t leaves = childrenOf(e).leaves & (e.other->isLeaf() ? ~0U : 0U);
     const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U),
