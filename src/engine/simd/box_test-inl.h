@@ -79,8 +79,8 @@ struct BoxLanes {
 /// The slabs of either's axes come first: over three axes, the gaps between the boxes. Then one
 /// more direction, as for any w the gap along w divided by |w| is a bound: a line that joins points
 /// of both, found by projecting b's centre onto the box of a and that point onto b's. It comes
-/// close to the distance of the boxes. In contact any gap decides, and edges rarely do: the widest
-/// of the axes is all that is looked for.
+/// close to the distance of the boxes. In contact any positive gap decides, and it suffices to look
+/// for the widest along an axis.
 template <bool kContact>
 HWY_INLINE V boxBounds(const BoxBlock& block, size_t l, const Box& box, float pad) {
   const BoxLanes a(block, l), b(box);
