@@ -25,12 +25,32 @@ struct FloatPose {
 /// - planes: unit normals in float and their offsets, 2 u S; the products and sums of a height 5 u
 ///   S; points 9 u S. Separating directions likewise, with 4 u S more for the normal.
 /// 2^-19 S = 32 u S covers each of them, and the rounding of thresholds (a few u S).
+/// - boxes, which need not fit as tightly as spheres: below. box_pad has 128 u S in its place.
 /// - the common frame's own rounding in double or float, as in volume/separation.cpp;
 /// - a rotation that is one only to `stretch`: radii and bounds scale by at most 1 + stretch on the
 ///   way to the other frame and back: 2 stretch S.
+///
+/// Boxes of either tree: c a centre, e_i axes, h_i half extents, with every point p at |e_i . (p -
+/// c)| <= h_i. All points lie in a sphere of radius r that holds the box's slabs to |(c - c0)_i| +
+/// h_i <= r, so |c| <= sqrt(3) reach and |h| <= sqrt(3) r. Along any w of length 1 (an axis of
+/// either, a line between points of both) two contents are apart by at least
+///   |w . (c' - c)| - sum |w . e_i| h_i - sum |w . e'_i| h'_i,
+/// and by the root of the sum of the squares of three such gaps, one an axis. As computed, with
+/// primes for the box that is moved, both are off by at most
+/// - vertices as they are stored: u (reach + reach');
+/// - axes that are orthonormal but for one rounding each: p - c is a sum of h_i times dual axes,
+///   off by 2 sqrt(3) u in all: 6 u (r + r'); once moved, as w, off by 12 u: 12 u S;
+/// - e' moved as above, 4 u |R| |e'| a coordinate, |R| and the three |e'| stretching by sqrt(3)
+///   each: 12 u |h'| = 21 u r'; c' likewise 5 u sqrt(3) |c'| + 2 u |t| = 15 u reach' + 2 u |t|;
+/// - products with w: 3 u sqrt(3) |h| = 9 u r for either, 4 u |c' - c| <= 7 u (reach + reach') +
+///   4 u |t|; their sum, of 7 roundings: 12 u (r + r'); the difference and the quotient by |w|,
+///   or the root of a sum of squares: 7 u S.
+/// These are 54 u of the reach that stands still, 90 u of that which moves, and 25 u |t|: below
+/// 96 u S. What vanishes below 2^-126 is far below 128 u S, as S >= 2^-35: see boxBounds().
 struct FramePair {
   FloatPose a_from_b, b_from_a;
   float pad;
+  float box_pad;
   float scale;  ///< S
 };
 

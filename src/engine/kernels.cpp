@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -36,6 +37,8 @@
 //
 #include "engine/simd/traverse-inl.h"
 //
+#include "engine/simd/descent-inl.h"
+//
 #include "engine/simd/ray-inl.h"
 //
 #include "engine/simd/leaf_cull-inl.h"
@@ -51,15 +54,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Nearly best first: pairs that overlap are expanded at once, as they all must be, the others in
-/// waves by their bounds. A pair of leaves is bounded by a slab and waits again; the features of
-/// one that waited are evaluated.
+/// Nearly best first, after a descent for an upper bound: pairs that overlap are expanded at once,
+/// as they all must be, the others in waves by their bounds. A pair of leaves is bounded by a slab
+/// and waits again; the features of one that waited are evaluated.
 class DistanceSearch {
  public:
   explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
 
   void run() {
-    expander_.pushRoots(frontier_);
+    if (descend()) return;
     for (;;) {
       while (!frontier_.leaves.empty()) {
         if (boundLeaves(frontier_.leaves.pop())) return;
@@ -80,8 +83,16 @@ class DistanceSearch {
 
  private:
   static constexpr size_t kBatch = 4;
-  static constexpr float kWave = 0.25F;
+  static constexpr float kWave = 0.5F;
   static constexpr uint32_t kMaxWaiting = 256;
+
+  /// True to end the search. Not inlined: its path is large, and not needed for long.
+  HWY_NOINLINE bool descend() {
+    Descent descent(search_, expander_, std::numeric_limits<long long>::max());
+    if (descent.atLeaves() && boundLeaves(descent.end())) return true;
+    descent.spread(frontier_);
+    return false;
+  }
 
   /// True to end the search.
   bool boundLeaves(const PairList::Entry& entry) {
@@ -90,7 +101,7 @@ class DistanceSearch {
     Slabbed& slabbed = waiting_[num_waiting_];
     slabbed.nodes = entry.pair;
     const float by_slab =
-        boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), slabbed.slab);
+        boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, slabbed.slab);
     const float bound = std::max(entry.bound, by_slab);
     if (bound >= search_.evaluator.prune_at) {
       if (search_.audit)
@@ -115,6 +126,7 @@ class DistanceSearch {
   const Search& search_;
   const Expander expander_;
   Frontier frontier_;
+  LastLeaves last_;
   uint32_t num_waiting_ = 0;
   Slabbed waiting_[kMaxWaiting];
 };
@@ -123,12 +135,14 @@ void distance(const Search& search) { DistanceSearch(search).run(); }
 
 void bracket(const Search& search) { BracketSearch(search).run(); }
 
-/// Depth first: all that overlaps is looked at, until an evaluator ends it.
+/// Depth first: all that overlaps is looked at, until an evaluator ends it. Boxes tell so well
+/// which way leads deepest that a large batch mostly looks where it need not.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;
   const Tree &a = search.a, &b = search.b;
   const Expander expander(search);
+  const size_t most = expander.hasBoxes() ? 2 : kBatch;
   Frontier frontier;
   expander.pushRoots(frontier);
   for (;;) {
@@ -138,7 +152,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
       if (leaf_pair(search, a.leaves[a.nodes[at.a].leaf()], b.leaves[b.nodes[at.b].leaf()])) return;
     }
     PairList::Entry batch[kBatch];
-    const size_t n = frontier.inner.pop(batch);
+    const size_t n = frontier.inner.pop(batch, most);
     if (n == 0) return;
     expander.expand<false>(batch, n, frontier);
   }

@@ -48,6 +48,27 @@ void writeLane(const Node& node, int lane, Block& block) {
   }
 }
 
+void writeBoxBlocks(Tree& tree) {
+  for (const Node& node : tree.nodes) {
+    if (node.isLeaf()) continue;
+    const auto at = static_cast<std::size_t>(node.child);
+    BoxBlock& block = tree.box_blocks[at];
+    tree.children[at].flat = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const bool used = lane < tree.children[at].count;
+      const std::size_t child = node.first_child + static_cast<std::uint32_t>(used ? lane : 0);
+      if (used) tree.children[at].flat |= static_cast<std::uint8_t>(tree.nodes[child].flat << lane);
+      const Box& box = tree.boxes[child];
+      for (int column = 0; column < kBoxColumns; ++column) {
+        block.x[column].v[lane] = box.x[column];
+        block.y[column].v[lane] = box.y[column];
+        block.z[column].v[lane] = box.z[column];
+      }
+      for (int axis = 0; axis < 3; ++axis) block.half[axis].v[lane] = box.half[axis];
+    }
+  }
+}
+
 bool isFlat(const Box& box) {
   const auto [least, largest] = std::minmax({box.half[0], box.half[1], box.half[2]});
   return least < 0.05F * largest;

@@ -16,6 +16,9 @@ void writeSpheres(const kIOS<float>& bv, Node& node);
 /// Copies a node's rows into a lane of the block of its parent.
 void writeLane(const Node& node, int lane, Block& block);
 
+/// The boxes of all blocks from those of the nodes, and which of their children are flat.
+void writeBoxBlocks(Tree& tree);
+
 /// Whether the box is thin enough to bound its content better than spheres.
 bool isFlat(const Box& box);
 

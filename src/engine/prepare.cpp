@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/box_fit.h"
 #include "engine/leaf_layout.h"
 #include "engine/node_layout.h"
 #include "engine/ownership.h"
@@ -150,18 +151,18 @@ class Preparation {
   /// All volumes, bottom-up: nodes lie before their children.
   void placeVolumes() {
     std::vector<PointChunk> chunks;
-    std::vector<std::pair<std::size_t, std::size_t>> of_leaf(tree_->leaves.size());
+    std::vector<ChunkRange> of_leaf(tree_->leaves.size());
     chunks.reserve(2 * tree_->leaves.size());
     for (std::size_t l = 0; l < tree_->leaves.size(); ++l) {
       const Leaf& leaf = tree_->leaves[l];
-      of_leaf[l].first = chunks.size();
+      of_leaf[l].begin = chunks.size();
       for (int i = 0; i < leaf.num_vertices; i += kLanes) {
         const Lanes* const rows = &tree_->lanes[leaf.offset + 3 * (i / kLanes)];
         chunks.push_back({rows[0], rows[1], rows[2]});
       }
-      of_leaf[l].second = chunks.size();
+      of_leaf[l].end = chunks.size();
     }
-    std::vector<std::pair<std::size_t, std::size_t>> below(tree_->nodes.size());
+    std::vector<ChunkRange> below(tree_->nodes.size());
     tree_->boxes.resize(tree_->nodes.size());
     bool any_flat = false;
     for (std::size_t n = tree_->nodes.size(); n-- > 0;) {
@@ -171,7 +172,7 @@ class Preparation {
       if (node.isLeaf()) {
         below[n] = of_leaf[node.leaf()];
       } else {
-        Children& children = tree_->children[static_cast<std::size_t>(node.child)];
+        const Children children = tree_->children[static_cast<std::size_t>(node.child)];
         Block& block = tree_->blocks[static_cast<std::size_t>(node.child)];
         below[n] = below[node.first_child];
         for (int lane = 0; lane < kLanes; ++lane) {
@@ -179,18 +180,19 @@ class Preparation {
           const std::size_t c = node.first_child + (used ? lane : 0);
           writeLane(tree_->nodes[c], lane, block);
           if (!used) continue;
-          children.flat |= static_cast<std::uint8_t>(tree_->nodes[c].flat << lane);
-          below[n].first = std::min(below[n].first, below[c].first);
-          below[n].second = std::max(below[n].second, below[c].second);
+          below[n].begin = std::min(below[n].begin, below[c].begin);
+          below[n].end = std::max(below[n].end, below[c].end);
         }
       }
-      place(volumes_[of_node_[n]].bv, &chunks[below[n].first], below[n].second - below[n].first,
-            node, tree_->boxes[n]);
+      place(volumes_[of_node_[n]].bv, &chunks[below[n].begin], below[n].end - below[n].begin, node,
+            tree_->boxes[n]);
       any_flat |= node.flat != 0;
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
-    if (!any_flat) tree_->boxes.clear();
-    tree_->boxes.shrink_to_fit();
+    tree_->box_blocks.resize(any_flat ? tree_->blocks.size() : 0);
+    if (any_flat && fitBoxes(chunks, below, *tree_)) return;
+    tree_->boxes = {};
+    tree_->box_blocks = {};
   }
 
   /// The spheres of `bv`, moved to the tree's origin and measured.

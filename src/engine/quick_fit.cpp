@@ -11,7 +11,6 @@
 #include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
-#include "volume/fit/principal_frame.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
@@ -33,7 +32,7 @@ Eigen::Matrix3f principalAxes(const Moments& m) {
       static_cast<float>(m.zz / trace);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(scatter);
-  return orthonormalAxes(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
+  return axesAlong(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
 }
 
 /// Where points lie along axes, relative to a point among them.
@@ -71,18 +70,39 @@ Box boxOf(const Eigen::Matrix3f& axes, const Extents& e, const Eigen::Vector3f& 
   const Eigen::Vector3d to_center = center.cast<double>() - e.from.cast<double>();
   const double error = 16 * kUlpFloat * double{(e.high - e.low).sum()};
   Box box = {};
+  box.x[kCenter] = center[0];
+  box.y[kCenter] = center[1];
+  box.z[kCenter] = center[2];
   for (int k = 0; k < 3; ++k) {
     const double at = axes.col(k).cast<double>().dot(to_center);
-    box.ex[k] = axes(0, k);
-    box.ey[k] = axes(1, k);
-    box.ez[k] = axes(2, k);
-    box.center[k] = center[k];
+    box.x[k] = axes(0, k);
+    box.y[k] = axes(1, k);
+    box.z[k] = axes(2, k);
     box.half[k] = roundUpFloat(std::max(double{e.high[k]} - at, at - double{e.low[k]}) + error);
   }
   return box;
 }
 
 }  // namespace
+
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
+  const double square = first.dot(first), square_b = second.dot(second);
+  if (square > 0 && square < kInfinity) axes.col(0) = first / std::sqrt(square);
+  Eigen::Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
+  double left = across.dot(across);
+  if (!(left > 1e-6 * square_b && left < kInfinity)) {  // any direction across the first
+    int least = 0;
+    axes.col(0).cwiseAbs().minCoeff(&least);
+    across = Eigen::Vector3d::Unit(least) - axes(least, 0) * axes.col(0);
+    left = across.dot(across);
+  }
+  axes.col(1) = across / std::sqrt(left);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes.cast<float>();
+}
 
 void Moments::add(const Moments& o) {
   const double sum = n + o.n;
@@ -176,7 +196,7 @@ Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::siz
       return Eigen::Vector3f(bv.cap_x[i] - bv.cap_x[i + 1], bv.cap_y[i] - bv.cap_y[i + 1],
                              bv.cap_z[i] - bv.cap_z[i + 1]);
     };
-    return orthonormalAxes(between(0), between(2));
+    return axesAlong(between(0), between(2));
   }
   Moments m;
   for (std::size_t i = 0; i < num_chunks; ++i) {

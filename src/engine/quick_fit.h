@@ -29,6 +29,10 @@ Moments momentsOf(const Eigen::Vector3f* points, int n);
 /// all of them, in exact arithmetic. Its centres are set, in units of 1.
 void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv);
 
+/// Orthonormal axes, the first along a, the second towards b, each rounded once: a box's slabs add
+/// up only if its axes are so. Either may be 0 or not finite, or parallel to the other.
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
+
 /// Axes for the box of a volume: along its caps, or where it has not enough of them the principal
 /// axes of the points.
 Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks);

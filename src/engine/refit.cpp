@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/box_fit.h"
 #include "engine/leaf_layout.h"
 #include "engine/node_layout.h"
 #include "engine/quick_fit.h"
@@ -23,22 +24,18 @@ class Refit {
   bool run() {
     if (!sameTopology()) return false;
     moveOrigin();
-    content_.resize(tree_.nodes.size());
+    ranges_.resize(tree_.nodes.size());
+    moments_.resize(tree_.nodes.size());
     chunks_.reserve(3 * tree_.leaves.size());
     placeLeaves();
     // Nodes lie before their children.
     tree_.reach = 0;
     for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n);
+    if (!tree_.boxes.empty()) fitBoxes(chunks_, ranges_, tree_);  // none need be flat now
     return searchCost(tree_) <= kPoor * tree_.cost;
   }
 
  private:
-  /// Chunks of points below a node, in the order of leaves.
-  struct Content {
-    std::size_t begin = 0, end = 0;
-    Moments moments;
-  };
-
   /// What holds of the topology holds of every mesh whose corners are where the tree's are.
   bool sameTopology() const {
     if (mesh_.num_triangles != tree_.corners.size()) return false;
@@ -68,7 +65,8 @@ class Refit {
   void placeLeaves() {
     Eigen::Vector3f vertices[kMaxLeafFeatures];
     FaceCorners faces[kLeafTriangles];
-    leaf_content_.resize(tree_.leaves.size());
+    leaf_ranges_.resize(tree_.leaves.size());
+    leaf_moments_.resize(tree_.leaves.size());
     for (std::size_t l = 0; l < tree_.leaves.size(); ++l) {
       Leaf& leaf = tree_.leaves[l];
       for (int i = 0; i < leaf.num_faces; ++i) {
@@ -79,34 +77,36 @@ class Refit {
         }
       }
       placeLeaf(vertices, faces, leaf, tree_);
-      Content& content = leaf_content_[l];
-      content.begin = chunks_.size();
+      leaf_ranges_[l].begin = chunks_.size();
       const Lanes* const lanes = &tree_.lanes[leaf.offset];
       for (int i = 0; i < leaf.num_vertices; i += kLanes) {
         const Lanes* const rows = lanes + 3 * (i / kLanes);
         chunks_.push_back({rows[0], rows[1], rows[2]});
       }
-      content.end = chunks_.size();
-      content.moments = momentsOf(vertices, leaf.num_vertices);
+      leaf_ranges_[l].end = chunks_.size();
+      leaf_moments_[l] = momentsOf(vertices, leaf.num_vertices);
     }
   }
 
   void fit(std::size_t n) {
     Node& node = tree_.nodes[n];
-    Content& content = content_[n];
+    ChunkRange& range = ranges_[n];
+    Moments& moments = moments_[n];
     if (node.isLeaf()) {
-      content = leaf_content_[node.leaf()];
+      range = leaf_ranges_[node.leaf()];
+      moments = leaf_moments_[node.leaf()];
     } else {
       const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
-      content = content_[node.first_child];
+      range = ranges_[node.first_child];
+      moments = moments_[node.first_child];
       for (int i = 1; i < count; ++i) {
-        const Content& child = content_[node.first_child + i];
-        content.begin = std::min(content.begin, child.begin);
-        content.end = std::max(content.end, child.end);
-        content.moments.add(child.moments);
+        const ChunkRange& of_child = ranges_[node.first_child + i];
+        range.begin = std::min(range.begin, of_child.begin);
+        range.end = std::max(range.end, of_child.end);
+        moments.add(moments_[node.first_child + i]);
       }
     }
-    quickFit(&chunks_[content.begin], content.end - content.begin, content.moments, node,
+    quickFit(&chunks_[range.begin], range.end - range.begin, moments, node,
              tree_.boxes.empty() ? nullptr : &tree_.boxes[n]);
     tree_.reach = std::max(tree_.reach, reachOf(node));
     if (!node.isLeaf()) fillBlock(node);
@@ -114,13 +114,9 @@ class Refit {
 
   void fillBlock(const Node& node) {
     Block& block = tree_.blocks[static_cast<std::size_t>(node.child)];
-    Children& children = tree_.children[static_cast<std::size_t>(node.child)];
-    children.flat = 0;
+    const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
     for (int lane = 0; lane < kLanes; ++lane) {
-      const bool used = lane < children.count;
-      const Node& child = tree_.nodes[node.first_child + (used ? lane : 0)];
-      if (used) children.flat |= static_cast<std::uint8_t>(child.flat << lane);
-      writeLane(child, lane, block);
+      writeLane(tree_.nodes[node.first_child + (lane < count ? lane : 0)], lane, block);
     }
   }
 
@@ -128,7 +124,8 @@ class Refit {
   Tree& tree_;
   Eigen::Vector3d origin_;
   std::vector<PointChunk> chunks_;
-  std::vector<Content> leaf_content_, content_;  ///< by leaf, by node
+  std::vector<ChunkRange> leaf_ranges_, ranges_;  ///< by leaf, by node
+  std::vector<Moments> leaf_moments_, moments_;   ///< likewise
 };
 
 }  // namespace

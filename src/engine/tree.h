@@ -44,12 +44,16 @@ struct alignas(32) Node {
 };
 static_assert(sizeof(Node) == 96);
 
-/// A box around a node's content, for what is flat: axes as columns of lanes, their fourth 0.
-struct alignas(16) Box {
-  float ex[4], ey[4], ez[4];  ///< lane i: axis i
-  float center[4];
-  float half[4];  ///< every point has |axis . (p - center)| <= half
+/// Columns of a box: three axes, orthonormal but for the rounding of each, and the centre.
+enum BoxColumn { kAxes = 0, kCenter = 3, kBoxColumns = 4 };
+
+/// A box around a node's content, for the side of a test that is transformed: every point has
+/// |axis . (p - centre)| <= half.
+struct alignas(64) Box {
+  float x[kBoxColumns], y[kBoxColumns], z[kBoxColumns];
+  float half[4];  ///< the fourth is 0
 };
+static_assert(sizeof(Box) == 64);
 
 /// The children of a node for the side that is tested untransformed, one a lane. Lanes beyond
 /// `Children::count` repeat the first child and are masked.
@@ -57,6 +61,13 @@ struct alignas(64) Block {
   Lanes x[kSphereRows], y[kSphereRows], z[kSphereRows], r[kSphereRows];
 };
 static_assert(sizeof(Block) == 640);
+
+/// The boxes of a block's children, one a lane as in Block.
+struct alignas(32) BoxBlock {
+  Lanes x[kBoxColumns], y[kBoxColumns], z[kBoxColumns];
+  Lanes half[3];
+};
+static_assert(sizeof(BoxBlock) == 480);
 
 /// A feature of the model: triangle index and corner. Edge k runs from corner k to the next.
 struct FeatureId {
@@ -102,7 +113,8 @@ struct Tree {
   std::vector<Node> nodes;
   std::vector<Box> boxes;  ///< by node; none if no node is flat
   std::vector<Block> blocks;
-  std::vector<Children> children;  ///< by block
+  std::vector<BoxBlock> box_blocks;  ///< by block; none if no node is flat
+  std::vector<Children> children;    ///< by block
   std::vector<Leaf> leaves;
   std::vector<Lanes> lanes;
   std::vector<FeatureId> features;
@@ -111,9 +123,10 @@ struct Tree {
 
   std::size_t bytes() const {
     return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) +
-           blocks.capacity() * sizeof(Block) + children.capacity() * sizeof(Children) +
-           leaves.capacity() * sizeof(Leaf) + lanes.capacity() * sizeof(Lanes) +
-           features.capacity() * sizeof(FeatureId) + corners.capacity() * sizeof(Corners3);
+           blocks.capacity() * sizeof(Block) + box_blocks.capacity() * sizeof(BoxBlock) +
+           children.capacity() * sizeof(Children) + leaves.capacity() * sizeof(Leaf) +
+           lanes.capacity() * sizeof(Lanes) + features.capacity() * sizeof(FeatureId) +
+           corners.capacity() * sizeof(Corners3);
   }
 };
 

@@ -3,6 +3,8 @@
 //
 // A prepared tree whose mesh moved: refitted, or refused where that can't be.
 
+#include <algorithm>
+
 #include "engine/node_layout.h"
 #include "engine/tree_check.h"
 
@@ -40,6 +42,29 @@ TYPED_TEST(RefittedTree, ManyTimes) {
     ASSERT_TRUE(engine::refit(viewOf(shape), *tree));
     EXPECT_LT(engine::searchCost(*tree), 1.25 * engine::prepare(viewOf(shape))->cost);
     EXPECT_EQ(tree->cost, cost);
+  }
+}
+
+// Plates and strips have boxes, which hold them wherever they turn, and stay about as flat as new
+// ones.
+TYPED_TEST(RefittedTree, BoxesOfFlatMeshes) {
+  const auto flatOf = [](const Tree& tree) {
+    return std::count_if(tree.nodes.begin(), tree.nodes.end(),
+                         [](const Node& node) { return node.flat != 0; });
+  };
+  const Mesh meshes[] = {scenes::stripCylinder(60, 0.8, 0.004),
+                         scenes::boredBlock({0.4, 0.25, 0.03}, 0.03, 0.004, 0.05, 32),
+                         scenes::sheet(2, 2, 8, 8, 0), scenes::subdividedBox({1, 1, 1e-3}, 4)};
+  for (const Mesh& mesh : meshes) {
+    const auto tree = engine::prepare(viewOf(Shape<TypeParam>(mesh)));
+    ASSERT_FALSE(tree->boxes.empty());
+    for (int i = 1; i < 6; ++i) {
+      const fcl::Transform3d X(Eigen::AngleAxisd(i, fcl::Vector3d(1, i, 2).normalized()));
+      const Shape<TypeParam> shape(scenes::moved(X, mesh));
+      ASSERT_TRUE(engine::refit(viewOf(shape), *tree));
+      TreeOf<TypeParam>(shape, *tree).check();
+      EXPECT_GE(2 * flatOf(*tree), flatOf(*engine::prepare(viewOf(shape))));
+    }
   }
 }
 

@@ -68,10 +68,23 @@ inline bool spheresHold(const Node& node, const Eigen::Vector3f& p) {
 inline double outside(const Box& box, const Eigen::Vector3f& p) {
   double worst = -1;
   for (int i = 0; i < 3; ++i) {
-    const Exact along = Exact(box.ex[i]) * (Exact(p[0]) - box.center[0]) +
-                        Exact(box.ey[i]) * (Exact(p[1]) - box.center[1]) +
-                        Exact(box.ez[i]) * (Exact(p[2]) - box.center[2]);
+    const Exact along = Exact(box.x[i]) * (Exact(p[0]) - box.x[engine::kCenter]) +
+                        Exact(box.y[i]) * (Exact(p[1]) - box.y[engine::kCenter]) +
+                        Exact(box.z[i]) * (Exact(p[2]) - box.z[engine::kCenter]);
     worst = std::max(worst, static_cast<double>(Exact(abs(along) - box.half[i])));
+  }
+  return worst;
+}
+
+/// How far the box's axes are from being orthonormal.
+inline double skew(const Box& box) {
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const double dot =
+          double{box.x[i]} * box.x[j] + double{box.y[i]} * box.y[j] + double{box.z[i]} * box.z[j];
+      worst = std::max(worst, std::abs(dot - (i == j)));
+    }
   }
   return worst;
 }
@@ -108,6 +121,7 @@ class TreeOf {
     if (!tree_.boxes.empty() || flat > 0) {
       ASSERT_EQ(tree_.boxes.size(), tree_.nodes.size());
     }
+    ASSERT_EQ(tree_.box_blocks.size(), tree_.boxes.empty() ? 0 : tree_.blocks.size());
     ASSERT_EQ(tree_.children.size(), tree_.blocks.size());
     leaf_seen_.assign(tree_.leaves.size(), 0);
     EXPECT_EQ(descend(0, 0).first, tree_.depth);
@@ -140,6 +154,9 @@ class TreeOf {
       for (std::uint32_t i = 0; i < kLanes; ++i) {
         const std::uint32_t child = node.first_child + (i < count ? i : 0);
         expectLane(tree_.blocks[block], static_cast<int>(i), tree_.nodes[child]);
+        if (!tree_.boxes.empty()) {
+          expectLane(tree_.box_blocks[block], static_cast<int>(i), tree_.boxes[child]);
+        }
         if (i >= count) continue;
         EXPECT_EQ(tree_.children[block].flat >> i & 1U, tree_.nodes[child].flat);
         const auto [deepest, below] = descend(child, level + 1);
@@ -163,10 +180,9 @@ class TreeOf {
     EXPECT_EQ(node.size, node.r[engine::kCentral]);
     EXPECT_GE(double{tree_.reach} * (1 + 0x1p-50), farthest(node));
     if (!tree_.boxes.empty()) {
-      const engine::Box& box = tree_.boxes[at];
-      for (const float* axis : {box.ex, box.ey, box.ez, box.center, box.half}) {
-        EXPECT_EQ(axis[3], 0);
-      }
+      // Each coordinate of an axis is rounded once.
+      EXPECT_LE(skew(tree_.boxes[at]), 2.1 * 0x1p-24);
+      EXPECT_EQ(tree_.boxes[at].half[3], 0);
     }
     return {depth, points};
   }
@@ -178,6 +194,15 @@ class TreeOf {
       EXPECT_EQ(block.z[row].v[lane], node.z[row]);
       EXPECT_EQ(block.r[row].v[lane], node.r[row]);
     }
+  }
+
+  static void expectLane(const engine::BoxBlock& block, int lane, const Box& box) {
+    for (int column = 0; column < engine::kBoxColumns; ++column) {
+      EXPECT_EQ(block.x[column].v[lane], box.x[column]);
+      EXPECT_EQ(block.y[column].v[lane], box.y[column]);
+      EXPECT_EQ(block.z[column].v[lane], box.z[column]);
+    }
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(block.half[axis].v[lane], box.half[axis]);
   }
 
   Point<S> cornerOf(FeatureId id, std::uint32_t step = 0) const {

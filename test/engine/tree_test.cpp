@@ -43,6 +43,7 @@ TYPED_TEST(PreparedTree, DependsOnTheMeshAlone) {
     engine::prepare(viewOf(Shape<TypeParam>(scenes::icosphere(1, 2))));
     const auto two = engine::prepare(viewOf(copy));
     EXPECT_TRUE(same(one->nodes, two->nodes) && same(one->blocks, two->blocks));
+    EXPECT_TRUE(same(one->boxes, two->boxes) && same(one->box_blocks, two->box_blocks));
     EXPECT_TRUE(same(one->lanes, two->lanes) && same(one->features, two->features));
     EXPECT_EQ(one->bytes(), two->bytes());
   }

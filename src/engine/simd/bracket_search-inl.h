@@ -42,11 +42,9 @@ class BracketSearch {
   static constexpr size_t kBatch = 4;
   static constexpr float kWave = 0.125F;
   static constexpr uint32_t kMaxWaiting = 256;
-  static constexpr size_t kMaxDepth = 32;
 
   const Node& nodeA(Pair at) const { return search_.a.nodes[at.a]; }
   const Node& nodeB(Pair at) const { return search_.b.nodes[at.b]; }
-  bool isInner(Pair at) const { return !(nodeA(at).isLeaf() && nodeB(at).isLeaf()); }
 
   void prove() {
     const float least = std::min({in_flight_, current_, frontier_.least()});
@@ -59,43 +57,14 @@ class BracketSearch {
     prune_at_ = prune_at;
   }
 
-  /// From the roots to the nearest child, each time, for an upper bound: all that is passed by
-  /// joins the frontier when one is known. True to end the search.
+  /// True to end the search.
   bool descend() {
-    Expansion path[kMaxDepth];
-    uint32_t taken[kMaxDepth];
-    size_t depth = 0;
-    PairList::Entry at = {-kInfinity, {0, 0}};
-    in_flight_ = kInfinity;
-    while (isInner(at.pair) && depth < kMaxDepth && budget_ > 0) {
-      Expansion& e = path[depth];
-      expander_.start(at.pair, e);
-      expander_.test(e);
-      --budget_;
-      e.bound = at.bound;
-      taken[depth] = e.near;
-      ++depth;
-      if (e.near == 0) break;
-      uint32_t nearest = firstOf(e.near);
-      float second = kInfinity;
-      for (uint32_t left = e.near & (e.near - 1); left != 0; left &= left - 1) {
-        const uint32_t lane = firstOf(left);
-        const bool nearer = e.bounds[lane] < e.bounds[nearest];
-        second = std::min(second, e.bounds[nearer ? nearest : lane]);
-        nearest = nearer ? lane : nearest;
-      }
-      in_flight_ = std::min(in_flight_, std::max(second, e.bound));
-      taken[depth - 1] = 1U << nearest;
-      at = {std::max(at.bound, e.bounds[nearest]), expander_.childPair(e, nearest)};
-    }
-    const bool lost = depth > 0 && path[depth - 1].near == 0;
-    current_ = lost ? kInfinity : at.bound;
-    if (!lost && !isInner(at.pair) && leaves(at)) return true;
-    for (size_t i = 0; i < depth; ++i) expander_.spread<true>(path[i], frontier_, taken[i]);
-    if (!lost && isInner(at.pair)) {  // the budget is spent, or the trees are very deep
-      frontier_.reserve();
-      frontier_.inner.push(at.bound, at.pair);
-    }
+    Descent descent(search_, expander_, budget_);
+    budget_ -= static_cast<long long>(descent.steps());
+    in_flight_ = descent.leastPassed();
+    current_ = descent.lost() ? kInfinity : descent.end().bound;
+    if (descent.atLeaves() && leaves(descent.end())) return true;
+    descent.spread(frontier_);
     in_flight_ = current_ = kInfinity;
     return false;
   }

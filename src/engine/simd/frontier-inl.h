@@ -92,11 +92,11 @@ class PairList {
     return {bounds_[size_], {a_[size_], b_[size_]}};
   }
 
-  /// Pops up to kMax; returns how many.
+  /// Pops up to `most`; returns how many.
   template <size_t kMax>
-  size_t pop(Entry (&out)[kMax]) {
+  size_t pop(Entry (&out)[kMax], size_t most = kMax) {
     static_assert(kMax <= kLanes);
-    const size_t count = std::min(kMax, size_);
+    const size_t count = std::min(most, size_);
     size_ -= count;
     for (size_t i = 0; i < kMax; ++i) {  // there is room for all of them beyond the end
       out[i] = {bounds_[size_ + i], {a_[size_ + i], b_[size_ + i]}};
@@ -130,24 +130,24 @@ class PairList {
 
  private:
   HWY_NOINLINE void grow(size_t capacity) {
-    std::vector<float> bounds(capacity);
-    std::vector<uint32_t> pairs(2 * capacity);
-    std::copy_n(bounds_, size_, bounds.data());
-    std::copy_n(a_, size_, pairs.data());
-    std::copy_n(b_, size_, pairs.data() + capacity);
+    std::unique_ptr<float[]> bounds(new float[capacity]);  // not zeroed, as a vector would be
+    std::unique_ptr<uint32_t[]> pairs(new uint32_t[2 * capacity]);
+    std::copy_n(bounds_, size_, bounds.get());
+    std::copy_n(a_, size_, pairs.get());
+    std::copy_n(b_, size_, pairs.get() + capacity);
     more_bounds_ = std::move(bounds);
     more_pairs_ = std::move(pairs);
-    bounds_ = more_bounds_.data();
-    a_ = more_pairs_.data();
+    bounds_ = more_bounds_.get();
+    a_ = more_pairs_.get();
     b_ = a_ + capacity;
     capacity_ = capacity;
   }
 
-  static constexpr size_t kUsual = 256;
+  static constexpr size_t kUsual = 512;
   float usual_bounds_[kUsual];
   uint32_t usual_a_[kUsual], usual_b_[kUsual];
-  std::vector<float> more_bounds_;
-  std::vector<uint32_t> more_pairs_;
+  std::unique_ptr<float[]> more_bounds_;
+  std::unique_ptr<uint32_t[]> more_pairs_;
   float* bounds_ = usual_bounds_;
   uint32_t *a_ = usual_a_, *b_ = usual_b_;
   size_t size_ = 0, capacity_ = kUsual;

@@ -218,15 +218,22 @@ struct Slabbed {
   Slab slab;
 };
 
+/// What pairs of leaves that follow each other share: often the leaf of b, and often the direction
+/// that proves them apart.
+struct LastLeaves {
+  MovedLeaf b;
+  Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
+};
+
 /// Lower bound of the distance of two leaves by a slab; tells the evaluator of an upper bound.
 HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
-                                 Slab& slab) {
-  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+                                 LastLeaves& last, Slab& slab) {
+  const LeafView a(search.a, leaf_a);
   const FramePair& frames = search.frames;
-  VertexRows moved_b;
-  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
-  separateLeaves(a, b, vertices_b, frames.a_from_b, search.evaluator.prune_at + frames.pad, slab);
+  if (last.b.leaf != &leaf_b) last.b.move(LeafView(search.b, leaf_b), frames.a_from_b);
+  separateLeaves(a, last.b, &last.along, search.evaluator.prune_at + frames.pad, slab);
   if (slab.apart) return std::numeric_limits<float>::infinity();
+  last.along = slab.along;
   const Vec3 vertices = slab.point_b - slab.point_a;
   search.evaluator.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
   return (slab.bottom_b - slab.top_a) / slab.along.length - frames.pad;
@@ -251,13 +258,13 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
 HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
-  VertexRows moved_b;
-  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
+  MovedLeaf moved_b;
+  moved_b.move(b, frames.a_from_b);
   Slab slab;
-  separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
+  separateLeaves(a, moved_b, nullptr, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
-  return edgesCross(search, a, b, vertices_b, slab);
+  return edgesCross(search, a, b, moved_b.vertices, slab);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.
@@ -288,12 +295,13 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
 HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
   const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
-  VertexRows moved_a, moved_b;
-  const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
+  MovedLeaf moved_b;
+  moved_b.move(b, frames.a_from_b);
   Slab slab;
-  separateLeaves(a, b, vertices_b, frames.a_from_b, frames.pad, slab);
+  separateLeaves(a, moved_b, nullptr, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
+  VertexRows moved_a;
   const Points vertices_a = moveVertices(a, frames.b_from_a, moved_a);
   const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i,
                             Vec3(&out)[3]) {
@@ -302,7 +310,7 @@ HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, con
   uint32_t of_b[kLeafTriangles];
   for (uint32_t j = 0; j < b.leaf.num_faces; ++j) {
     Vec3 corners[3];
-    cornersOf(b, vertices_b, j, corners);
+    cornersOf(b, moved_b.vertices, j, corners);
     of_b[j] = mayMeet(a, corners, frames.pad);
   }
   for (uint32_t i = 0; i < a.leaf.num_faces; ++i) {

@@ -113,20 +113,40 @@ HWY_INLINE Across acrossB(const Leaf& b, const FloatPose& X) {
   return {directionOf(n), b.normal_bottom + shift, b.normal_top + shift};
 }
 
-/// Both leaves' points in a's frame, and a slab between them.
-HWY_INLINE void separateLeaves(const LeafView& a, const LeafView& b, const Points& moved_b,
-                               const FloatPose& X, float distance, Slab& slab) {
-  const Vec3 between = moved(X, vec3(b.leaf.centroid)) - vec3(a.leaf.centroid);
-  const Across across_a = acrossA(a.leaf), across_b = acrossB(b.leaf, X);
+/// A leaf of b in a's frame.
+struct MovedLeaf {
+  void move(const LeafView& b, const FloatPose& X) {
+    leaf = &b.leaf;
+    vertices = moveVertices(b, X, rows);
+    centroid = moved(X, vec3(b.leaf.centroid));
+    across = acrossB(b.leaf, X);
+  }
+
+  const Leaf* leaf = nullptr;
+  Points vertices;  ///< in `rows`
+  Vec3 centroid;
+  Across across;
+  VertexRows rows;
+};
+
+/// A slab between two leaves, or `hint`, if there is one and it proves them apart.
+HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const Direction* hint,
+                               float distance, Slab& slab) {
   const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
-    separate(hull_a, hull_b, between, across_a, across_b, distance, slab);
+    if (hint) {
+      const float gap = -hull_b.top(-1.0F * hint->w) - hull_a.top(hint->w);
+      slab.apart = (gap > 0) & (gap >= distance * hint->length);
+      if (slab.apart) return;
+    }
+    separate(hull_a, hull_b, b.centroid - vec3(a.leaf.centroid), acrossA(a.leaf), b.across,
+             distance, slab);
   };
-  const Lanes *const rows_a = a.vertices.rows, *const rows_b = moved_b.rows;
-  if (HWY_LIKELY(a.vertices.chunks == 2 && moved_b.chunks == 2)) {
+  const Lanes *const rows_a = a.vertices.rows, *const rows_b = b.vertices.rows;
+  if (HWY_LIKELY(a.vertices.chunks == 2 && b.vertices.chunks == 2)) {
     between_hulls(Hull<2>(rows_a), Hull<2>(rows_b));
   } else if (a.vertices.chunks == 2) {
     between_hulls(Hull<2>(rows_a), Hull<3>(rows_b));
-  } else if (moved_b.chunks == 2) {
+  } else if (b.vertices.chunks == 2) {
     between_hulls(Hull<3>(rows_a), Hull<2>(rows_b));
   } else {
     between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));

@@ -66,28 +66,31 @@ class RayTraversal {
     high = hn::Min(high, hn::Add(b, h));
   }
 
-  /// Whether the ray may meet a box before the end; raises the lower bound of where.
-  HWY_INLINE bool meets(const Box& box, float& enter) const {
-    const float* const o = ray_.origin;
-    const float* const f = ray_.direction;
-    const float* const c = box.center;
-    alignas(16) float lows[4], highs[4];
-    for (size_t l = 0; l < 4; l += hn::Lanes(d4)) {
-      const V4 at = combine(o[0] - c[0], o[1] - c[1], o[2] - c[2], box, l);
-      const V4 slope = combine(f[0], f[1], f[2], box, l), least = hn::Set(d4, 0x1p-60F);
+  /// Which of a block's boxes the ray may meet before the end, lanes from `l`; raises the lower
+  /// bounds of where.
+  HWY_INLINE uint32_t meets(const BoxBlock& block, size_t l, float* enters) const {
+    const V x = hn::Sub(set(ray_.origin[0]), load(block.x[kCenter], l));
+    const V y = hn::Sub(set(ray_.origin[1]), load(block.y[kCenter], l));
+    const V z = hn::Sub(set(ray_.origin[2]), load(block.z[kCenter], l));
+    const V pad = set(ray_.pad), least = set(0x1p-60F);
+    V low = set(-std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+    for (int axis = kAxes; axis < kAxes + 3; ++axis) {
+      const V ex = load(block.x[axis], l), ey = load(block.y[axis], l), ez = load(block.z[axis], l);
+      const V at = dot(ex, ey, ez, x, y, z), slope = alongRay(ex, ey, ez);
       // Within the model a slope that small moves nothing by more than the pad.
-      const V4 way = hn::IfThenElse(hn::Lt(hn::Abs(slope), least), least, slope);
-      const V4 half = hn::Add(hn::Load(d4, box.half + l), hn::Set(d4, ray_.pad));
-      const V4 one = hn::Div(hn::Neg(hn::Add(half, at)), way);
-      const V4 other = hn::Div(hn::Sub(half, at), way);
-      hn::Store(hn::Min(one, other), d4, lows + l);
-      hn::Store(hn::Max(one, other), d4, highs + l);
+      const V way = hn::IfThenElse(hn::Lt(hn::Abs(slope), least), least, slope);
+      const V half = hn::Add(load(block.half[axis], l), pad);
+      const V one = hn::Div(hn::Neg(hn::Add(half, at)), way);
+      const V other = hn::Div(hn::Sub(half, at), way);
+      low = hn::Max(low, hn::Min(one, other));
+      high = hn::Min(high, hn::Max(one, other));
     }
-    // The fourth axis is 0.
-    const float low = std::max(std::max(lows[0], lows[1]), lows[2]) - ray_.pad;
-    const float high = std::min(std::min(highs[0], highs[1]), highs[2]) + ray_.pad;
-    enter = std::max(enter, low);
-    return low <= high && enter <= search_.evaluator.end && high >= ray_.begin;
+    low = hn::Sub(low, pad);
+    high = hn::Add(high, pad);
+    const V enter = hn::Max(hn::Load(d, enters + l), low);
+    hn::Store(enter, d, enters + l);
+    return bitsOf(hn::And(hn::Le(low, high), hn::And(hn::Le(enter, set(search_.evaluator.end)),
+                                                     hn::Ge(high, set(ray_.begin)))));
   }
 
   /// The children that the ray may enter before the end join those that wait, the nearest last.
@@ -120,11 +123,11 @@ class RayTraversal {
       near |= bitsOf(inside) << l;
     }
     near &= children.all();
-    if (!tree_.boxes.empty()) {
-      for (uint32_t flat = near & children.flat; flat != 0; flat &= flat - 1) {
-        const uint32_t lane = firstOf(flat);
-        if (!meets(tree_.boxes[node.first_child + lane], enters[lane])) near ^= 1U << lane;
-      }
+    if ((near & children.flat) != 0) {
+      const BoxBlock& boxes = tree_.box_blocks[static_cast<size_t>(node.child)];
+      uint32_t met = 0;
+      for (size_t l = 0; l < kLanes; l += step()) met |= meets(boxes, l, enters) << l;
+      near &= met;
     }
     const size_t first = n;
     for (; near != 0; near &= near - 1) {

@@ -13,6 +13,7 @@ struct Expansion {
   const Node* parent;
   const Node* other;
   uint32_t near;  ///< children that matter, as bits
+  bool tight;     ///< whether boxes were tested
   float bound;    ///< of the pair; not used by all searches
   alignas(32) float bounds[kLanes];
 };
@@ -54,9 +55,24 @@ class Expander {
       e.near |= bitsOf(hn::Lt(lower, limit)) << l;
     }
     e.near &= childrenOf(e).all();
+    e.tight = false;
     ++search_.counts.expansions;
     search_.counts.volume_tests += childrenOf(e).count;
   }
+
+  /// The children that matter and that spheres bound badly.
+  uint32_t flatOf(const Expansion& e) const {
+    return e.other->flat != 0 ? e.near : e.near & childrenOf(e).flat;
+  }
+  /// Tests boxes too, once, if that helps any child.
+  void tighten(Expansion& e) const {
+    if (flatOf(e) == 0 || !boxes_ || e.tight) return;
+    e.tight = true;
+    testBoxes(e);
+  }
+
+  /// Whether both trees have boxes: those of CAD meshes.
+  bool hasBoxes() const { return boxes_; }
 
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
@@ -98,8 +114,7 @@ class Expander {
       }
       e.near &= near & ~taken;
     }
-    const uint32_t flat = e.near & (e.other->flat != 0 ? e.near : childrenOf(e).flat);
-    if (flat != 0 && boxes_) testBoxes(e, flat);
+    tighten(e);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
     const uint32_t leaves = childrenOf(e).leaves & (e.other->isLeaf() ? ~0U : 0U);
     const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U),
@@ -155,18 +170,22 @@ class Expander {
     return trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
   }
 
-  HWY_NOINLINE void testBoxes(Expansion& e, uint32_t flat) const {
-    const Tree &tree = *trees_[e.side], &other = *trees_[1 - e.side];
-    Box moved_box;
-    move(other.boxes[e.side == 0 ? e.at.b : e.at.a], *to_[e.side], moved_box);
-    for (; flat != 0; flat &= flat - 1) {
-      const uint32_t lane = firstOf(flat);
-      const float lower =
-          boxDistance(tree.boxes[e.parent->first_child + lane], moved_box, search_.frames.pad);
-      if (!(lower > 0)) continue;  // 0 says nothing
-      e.bounds[lane] = std::max(e.bounds[lane], lower);
-      if (lower >= search_.evaluator.prune_at) e.near ^= 1U << lane;
+  HWY_NOINLINE void testBoxes(Expansion& e) const {
+    Box moved;
+    move(trees_[1 - e.side]->boxes[e.side == 0 ? e.at.b : e.at.a], *to_[e.side], moved);
+    const BoxBlock& block = trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
+    const bool contact = search_.evaluator.prune_at == 0;
+    const V limit = hn::Set(d, search_.evaluator.prune_at);
+    uint32_t near = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V lower = contact ? boxBounds<true>(block, l, moved, search_.frames.box_pad)
+                              : boxBounds<false>(block, l, moved, search_.frames.box_pad);
+      const V bounds = hn::Load(d, e.bounds + l);
+      const V least = hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds);
+      hn::Store(least, d, e.bounds + l);
+      near |= bitsOf(hn::Lt(least, limit)) << l;
     }
+    e.near &= near;
   }
 
   HWY_NOINLINE void reportPruned(const Expansion& e, uint32_t taken) const {

@@ -13,7 +13,7 @@ namespace kios::engine {
 template <typename S>
 bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
   if (!makePaddedFramePair(a, b, X_AB, out)) return false;
-  out.pad = 0;
+  out.pad = out.box_pad = 0;
   return true;
 }
 

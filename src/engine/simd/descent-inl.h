@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+/// From the roots to the nearest child, each time: two leaves that are near give an upper bound
+/// before the search begins. All that is passed by joins the frontier when that bound is known.
+class Descent {
+ public:
+  /// Takes at most so many expansions.
+  Descent(const Search& search, const Expander& expander, long long most) : expander_(expander) {
+    const auto isInner = [&](Pair at) {
+      return !(search.a.nodes[at.a].isLeaf() && search.b.nodes[at.b].isLeaf());
+    };
+    while (isInner(end_.pair) && steps_ < kMaxSteps && static_cast<long long>(steps_) < most) {
+      if (!step()) return;
+    }
+    at_leaves_ = !isInner(end_.pair);
+  }
+
+  size_t steps() const { return steps_; }
+  bool atLeaves() const { return at_leaves_; }
+  /// Whether all children at the end are as far as prune_at.
+  bool lost() const { return steps_ > 0 && taken_[steps_ - 1] == 0; }
+  /// The pair at the end, unless lost.
+  const PairList::Entry& end() const { return end_; }
+  float leastPassed() const { return passed_; }
+
+  /// What was passed joins the frontier, and the end if it isn't a pair of leaves.
+  void spread(Frontier& frontier) {
+    for (size_t i = 0; i < steps_; ++i) expander_.spread<true>(path_[i], frontier, taken_[i]);
+    if (at_leaves_ || lost()) return;
+    frontier.reserve();
+    frontier.inner.push(end_.bound, end_.pair);
+  }
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  static constexpr size_t kMaxSteps = 32;  ///< more than most trees are deep
+
+  /// False if no child is near enough.
+  bool step() {
+    Expansion& e = path_[steps_];
+    expander_.start(end_.pair, e);
+    expander_.test(e);
+    // Where few are flat it costs less to wait for the bound that excludes most.
+    if (2 * hwy::PopCount(expander_.flatOf(e)) >= hwy::PopCount(e.near)) expander_.tighten(e);
+    e.bound = end_.bound;
+    taken_[steps_++] = 0;
+    if (e.near == 0) return false;
+    uint32_t nearest = firstOf(e.near);
+    float second = kInfinity;
+    for (uint32_t left = e.near & (e.near - 1); left != 0; left &= left - 1) {
+      const uint32_t lane = firstOf(left);
+      const bool nearer = e.bounds[lane] < e.bounds[nearest];
+      second = std::min(second, e.bounds[nearer ? nearest : lane]);
+      nearest = nearer ? lane : nearest;
+    }
+    passed_ = std::min(passed_, std::max(second, e.bound));
+    taken_[steps_ - 1] = 1U << nearest;
+    end_ = {std::max(end_.bound, e.bounds[nearest]), expander_.childPair(e, nearest)};
+    return true;
+  }
+
+  const Expander& expander_;
+  Expansion path_[kMaxSteps];
+  uint32_t taken_[kMaxSteps];
+  size_t steps_ = 0;
+  PairList::Entry end_ = {-kInfinity, {0, 0}};
+  float passed_ = kInfinity;
+  bool at_leaves_ = false;
+};
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
