@@ -10,10 +10,11 @@
 #include <fcl/math/triangle.h>
 #include "fcl_kios/volume/fit.h"
 
-// How fcl::BVHModel<kios::kIOS<S>> builds and refits. FCL's copy constructor shares fitter and
-// splitter between models, so neither holds what a build knows: that lives as long as the build
-// (model.h), and models may be built in many threads at once. Only where they are called by FCL's
-// interface, as where one of the two is the user's, each holds one state a thread until clear().
+// These classes build and refit fcl::BVHModel<kios::kIOS<S>>. FCL's copy constructor shares fitter
+// and splitter between models, so neither holds the state of a build: that lives as long as the
+// build (model.h), and models may be built in many threads at once. Only if they are called by
+// FCL's interface, as when one of the two is the user's, each holds one state a thread until
+// clear().
 
 namespace kios {
 namespace engine {
@@ -54,7 +55,7 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   friend kios::engine::TreeCache* kios::treesOf(const fcl::BVHModel<kios::kIOS<T>>&);
 
   const kios::FitOptions options_;
-  /// What queries prepared of the models that share this fitter: a model and its copies.
+  /// The trees that queries prepared of the models that share this fitter: a model and its copies.
   const std::unique_ptr<kios::engine::TreeCache> trees_;
   const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };
@@ -63,7 +64,7 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
 /// the triangles' centroids, or at the centre of the box along the axes. One made without a method,
 /// as models have it, splits by the cost of a search: with the tuned fit, a mesh is then divided
 /// and fitted in one go, in about half the time, and what queries prepare takes over its tree.
-/// Where that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
+/// If that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
 /// mean.
 template <typename S_>
 class BVSplitter<kios::kIOS<S_>> : public BVSplitterBase<kios::kIOS<S_>> {
