@@ -24,7 +24,7 @@ struct SolidNode {
 /// is nearer than 2^-40 of it counts as touching while something moves.
 class MovingMeshAndSolids final : public PairSearch {
  public:
-  /// The static query: whether the mesh and the solids touch at these poses.
+  /// The static query: returns true if the mesh and the solids touch at these poses.
   using Touching =
       std::function<bool(const fcl::Transform3d& X_mesh, const fcl::Transform3d& X_solids)>;
 

@@ -17,7 +17,7 @@ struct VelocityField {
   Eigen::Vector3d linear, angular, origin;
   // Over the window:
   Eigen::Vector3d acceleration_at[2];  ///< the origin's at both ends; between them it is linear
-  bool fixed_axis;                     ///< whether the body turns about `axis` alone
+  bool fixed_axis;                     ///< the body turns about `axis` alone
   Eigen::Vector3d axis;                ///< of unit length, if fixed
   double angular_speed;                ///< bound
   double turn_acceleration;            ///< bound of |x'' - origin''| per length of x - origin

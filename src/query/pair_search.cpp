@@ -40,8 +40,8 @@ class EnginePair {
   }
 
  private:
-  /// Whether the models are so far apart for their size that makeFramePair() would refuse: its pad
-  /// then is a radius of the smaller.
+  /// True if the models are so far apart for their size that makeFramePair() would refuse them: its
+  /// pad would be as large as the smaller model's radius.
   bool tooFar() const {
     const kIOS<S>&a = frame_.rootA(), &b = frame_.rootB();
     const double apart = (frame_.X_AB * b.center0 - a.center0).template cast<double>().norm();
@@ -179,8 +179,8 @@ class TreeSearch {
   const bool best_first_ = query_.hasBudget();
   std::vector<Pair> waiting_;  ///< a stack; a heap if best_first_
   double prune_at_;
-  double left_out_ = kInfinity;  ///< least bound of what was left out
-  bool offered_ = false;         ///< whether the start lowered prune_at_
+  double left_out_ = kInfinity;  ///< least bound of the pairs left out
+  bool offered_ = false;         ///< the start lowered prune_at_
   PairAnswer<S> result_;
 };
 

@@ -61,7 +61,7 @@ class BodyPair {
   /// Of two meshes; made when something asks for it.
   const PairFrame<S>& frame() const;
   double afterMotion(double moved, double T_norm1) const;
-  /// How far computed distances may be from exact ones in the common frame, for distances about d.
+  /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
   double outlook(double limit) const;
   Answer searchMeshes(double limit, SearchCounts& counts);

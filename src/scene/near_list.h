@@ -18,8 +18,9 @@ class NearList {
  public:
   using Pairs = std::vector<std::pair<int, int>>;
 
-  /// Whether all pairs within `limit` are listed. Only if the same objects are there, in the same
-  /// states, and no rotation is worse; the others have come nearer by their paths at most.
+  /// True if all pairs within `limit` are listed. The list is valid while the same objects are
+  /// there, in the same states, and no rotation is worse; other pairs came nearer by their paths at
+  /// most.
   bool covers(double limit) const { return valid_ && limit + 2 * moved_ <= reach_; }
   const Pairs& pairs() const { return pairs_; }
 

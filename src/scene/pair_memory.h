@@ -19,7 +19,7 @@ struct Proof {
   double path_a = 0, path_b = 0;
   double rotation_error = 0;  ///< of a's pose
   double apart = 0;           ///< the narrow phase would compute at least that there
-  S distance = 0;             ///< what it computes there, if `exact`
+  S distance = 0;             ///< the distance that it computes there, if `exact`
   bool exact = false;
   std::intptr_t triangle_a = -1, triangle_b = -1;  ///< near each other there, if not negative
   std::uint64_t made = 0, used = 0;                ///< numbers of the queries that last did
