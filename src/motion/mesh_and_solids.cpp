@@ -20,12 +20,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The spheres of a node in the shape's frame; returns how many.
 int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers, double* radii) {
-  const double stretch = 1 + X.stretch, unit = scaled(1.0, bv.exponent);
+  const double stretch = 1 + detail::boundsOf(X).stretch, unit = scaled(1.0, bv.exponent);
   centers[0] = X * bv.center0;
   radii[0] = bv.radius0 * stretch;
   for (int i = 1; i < bv.k(); ++i) {
     const Vector3d cap(bv.cap_x[i - 1] * unit, bv.cap_y[i - 1] * unit, bv.cap_z[i - 1] * unit);
-    centers[i] = centers[0] + X.R * cap;
+    centers[i] = centers[0] + X.R() * cap;
     radii[i] = bv.cap_r[i - 1] * unit * stretch;
   }
   return bv.k();
@@ -61,7 +61,7 @@ bool MovingMeshAndSolids::touching(double t) {
 // Four times the tolerance of the kernels, at the largest extent of a triangle and a solid; the
 // solids' velocities are rounded where the mesh is.
 double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
-  const double lengths = reach_ + v.pose().T_norm1;
+  const double lengths = reach_ + detail::boundsOf(v.pose()).T_norm1;
   return v.pad() + (0x1p-40 + 0x1p-46 * v.turn()) * lengths + 0x1p-290;
 }
 
@@ -170,7 +170,7 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
   double best = 0;
   if (gap > 0) {
     const auto drift =
-        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.pose().stretch), enough);
+        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.stretch()), enough);
     best = std::min(enough, std::max(closingTime(gap, drift.speed, drift.change),
                                      closingTime(gap, drift.most, 0)));
   }

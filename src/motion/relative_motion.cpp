@@ -27,7 +27,7 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
     field->origin = X_WA_.linear().transpose() * (field->origin - X_WA_.translation());
   }
   // Rotations are orthonormal to 16 u, so that is what the change of frame takes off.
-  pad_ = pad + 64 * kUlpDouble * X_AB_.T_norm1 + 0x1p-480;
+  pad_ = pad + 64 * kUlpDouble * detail::boundsOf(X_AB_).T_norm1 + 0x1p-480;
 }
 
 // The centres' difference moves on a line, but for the accelerations; what is nearest on it is

@@ -22,8 +22,8 @@ struct FourBalls {
   Eigen::Array4d center[3], radius, velocity[3], acceleration;
 };
 
-/// How two bodies A and B move at a time t and, by bounds, until t + window. Everything is in frame
-/// A: the axes and origin of body A at t, standing still from then on.
+/// The relative motion of two bodies A and B at a time t and, by bounds, until t + window.
+/// Everything is in frame A: the axes and origin of body A at t, standing still from then on.
 class RelativeVelocities {
  public:
   RelativeVelocities(const Motion& a, const Motion& b, double t, double window, double pad);
@@ -49,9 +49,9 @@ class RelativeVelocities {
   template <typename VerticesA, typename VerticesB>
   double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b) const;
 
-  /// How points of B move as seen from body A, which may turn: their speed at t, the largest one,
-  /// and what the former may change by a time, all within `duration`. Points of the ball; `n`
-  /// names the one direction that counts (`speed` is along -n), null: any.
+  /// The motion of the points of a ball of B as seen from body A, which may turn, within
+  /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
+  /// unit of time. If `n` isn't null, only the direction n counts, and `speed` is along -n.
   struct Drift {
     double speed, most, change;
   };
@@ -71,6 +71,7 @@ class RelativeVelocities {
                        double pad) const;
 
   const RelativePose<double>& pose() const { return X_AB_; }
+  double stretch() const { return detail::boundsOf(X_AB_).stretch; }  ///< of pose()
 
  private:
   /// Rounding per length of what concerns the centres of balls, which may be farther off than the
@@ -81,7 +82,7 @@ class RelativeVelocities {
   RelativePose<double> X_AB_;
   VelocityField a_, b_;
   double origins_speed_;  ///< bound over the window of the speed of b's origin relative to a's
-  double pad_;            ///< what rounding may take off any gap
+  double pad_;            ///< rounding takes at most this off any gap
 };
 
 /// The relative motion of two bodies whose points are within reach_a and reach_b of their origins.

@@ -90,7 +90,9 @@ class PairFrame {
   static double norm1(const fcl::Vector3<S>& v) {
     return v.template cast<double>().template lpNorm<1>();
   }
-  double frameError(double norm1) const { return error_bounds::frameError<S>(norm1, X_AB.T_norm1); }
+  double frameError(double norm1) const {
+    return error_bounds::frameError<S>(norm1, detail::boundsOf(X_AB).T_norm1);
+  }
 };
 
 }  // namespace kios

@@ -103,12 +103,12 @@ PairBound BodyPair<S>::know(double limit) const {
 
   const RelativePose<S>& X_AB = frame().X_AB;
   if (proof_ && known.source != Source::kStill) {
-    if (X_AB.R == proof_->R && X_AB.T == proof_->T) {
+    if (X_AB.R() == proof_->R && X_AB.T() == proof_->T) {
       known = still();
       if (known.exact || known.bound > limit) return known;
     } else {
-      const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R, X_AB.T, b_.sphere);
-      if (raise(afterMotion(moved, X_AB.T_norm1), Source::kMotion)) return known;
+      const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R(), X_AB.T(), b_.sphere);
+      if (raise(afterMotion(moved, detail::boundsOf(X_AB).T_norm1), Source::kMotion)) return known;
     }
   }
   const double apart = frame().rootBound(limit + 2 * roundingOf(std::max(limit, 0.0)));
@@ -136,7 +136,7 @@ bool BodyPair<S>::stoodStill() const {
   if (proof_->path_a == a_.path && proof_->path_b == b_.path) return true;
   if (!meshes()) return false;
   const RelativePose<S>& X_AB = frame().X_AB;
-  return X_AB.R == proof_->R && X_AB.T == proof_->T;
+  return X_AB.R() == proof_->R && X_AB.T() == proof_->T;
 }
 
 template <typename S>
@@ -159,8 +159,8 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   proof->state_a = a_.state;
   proof->state_b = b_.state;
   if (meshes()) {
-    proof->R = frame().X_AB.R;
-    proof->T = frame().X_AB.T;
+    proof->R = frame().X_AB.R();
+    proof->T = frame().X_AB.T();
   }
   proof->path_a = a_.path;
   proof->path_b = b_.path;
@@ -185,7 +185,7 @@ double BodyPair<S>::outlook(double limit) const {
   const double ahead = kLimitShare * std::max(limit, 0.0);
   if (!proof_ || proof_->made == memory_.query()) return ahead;
   const RelativePose<S>& X_AB = frame().X_AB;
-  const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R, X_AB.T, b_.sphere);
+  const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R(), X_AB.T(), b_.sphere);
   const double nearer = kQueries * moved / static_cast<double>(memory_.query() - proof_->made);
   return nearer < kSizeShare * (a_.sphere.radius + b_.sphere.radius) ? ahead + nearer : ahead;
 }
