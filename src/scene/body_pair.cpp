@@ -226,7 +226,7 @@ typename BodyPair<S>::Answer BodyPair<S>::decideMeshes(double limit, SearchCount
 
   const DistanceAnswer<S> found = bracketDistance(frame(), query);
   counts += found.counts;
-  Answer answer = {true, found.distance, found.triangle1, found.triangle2};
+  Answer answer = {true, found.distance, found.triangle_a, found.triangle_b};
   if (found.stop == DistanceStop::kTolerance) {
     answer.within = found.distance <= limit;
     remember(double{found.distance}, true, answer);
