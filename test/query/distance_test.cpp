@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the options of kios::distance promise: exact answers are fcl::distance's whatever they start
-// from, budgets are monotone, tolerances are honoured everywhere, threads agree.
+// The options of kios::distance: exact answers are fcl::distance's whatever they start from,
+// budgets are monotone, tolerances are honoured everywhere, threads agree.
 
 #include "fcl_kios/query/distance.h"
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "query/query_cases.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -175,7 +174,9 @@ TYPED_TEST(Distance, ManyThreadsOneAnswer) {
   using S = TypeParam;
   const auto all = scenesOf<S>();
   const auto& scene = all.front();
-  const auto ask = [&scene](std::vector<DistanceAnswer<S>>& answers) {
+  std::vector<std::vector<DistanceAnswer<S>>> all_answers(4);
+  together(4, [&](int thread) {
+    std::vector<DistanceAnswer<S>>& answers = all_answers[thread];
     WarmStart warm;
     for (const auto& [X_WA, X_WB] : scene.poses) {
       DistanceOptions<S> options;
@@ -187,16 +188,12 @@ TYPED_TEST(Distance, ManyThreadsOneAnswer) {
       closerThan(*scene.model_a, X_WA, *scene.model_b, X_WB, S(0.05), &proof);
       answers.push_back(proof);
     }
-  };
-  std::vector<std::vector<DistanceAnswer<S>>> answers(4);
-  std::vector<std::thread> threads;
-  for (auto& own : answers) threads.emplace_back(ask, std::ref(own));
-  for (std::thread& thread : threads) thread.join();
-  for (const auto& own : answers) {
+  });
+  for (const auto& own : all_answers) {
     for (std::size_t i = 0; i < own.size(); ++i) {
-      ASSERT_EQ(own[i].distance, answers[0][i].distance);
-      ASSERT_EQ(own[i].lower_bound, answers[0][i].lower_bound);
-      ASSERT_EQ(own[i].triangle_a, answers[0][i].triangle_a);
+      ASSERT_EQ(own[i].distance, all_answers[0][i].distance);
+      ASSERT_EQ(own[i].lower_bound, all_answers[0][i].lower_bound);
+      ASSERT_EQ(own[i].triangle_a, all_answers[0][i].triangle_a);
     }
   }
 }
