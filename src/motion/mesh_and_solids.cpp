@@ -31,7 +31,7 @@ int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers,
   return bv.k();
 }
 
-/// Of the solids that count.
+/// The reach of the leaves, the solids that count.
 double reachOf(const std::vector<SolidNode>& solids) {
   double reach = 0;
   for (const SolidNode& part : solids) {
@@ -101,13 +101,13 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
   Vector3d centers[kIOSd::kMaxSpheres];
   double radii[kIOSd::kMaxSpheres];
   const int k = spheresOf(bv, v.pose(), centers, radii);
-  // Inner nodes may be larger than what counts in them.
+  // An inner node may be larger than the leaves in it.
   const double pad = this->pad(v) + 0x1p-46 * (1 + v.turn()) * (part.center.norm() + solid.reach());
   if (solid.bounded() && v.apart(v.ballOfA(part.center, solid.reach() + pad),
                                  v.ballOfB(centers[0], radii[0]), duration)) {
     return true;
   }
-  // Balls that don't get as far as the shape is.
+  // A ball is free if it doesn't get as far as the shape lies.
   for (int i = 0; i < k; ++i) {
     const double gap = shape::pointBound(solid, centers[i] - part.center) - radii[i] - pad;
     if (!(gap > 0)) continue;
@@ -116,7 +116,7 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
       return true;
     }
   }
-  // Slabs: across the shape's normal, or across that which did best for triangles.
+  // Slabs lie across the shape's normal, or across the direction that did best for triangles.
   const auto behindSlab = [&](const Vector3d& n) {
     const double extent = n.dot(part.center) + shape::extentAlong(solid, n);
     for (int i = 0; i < k; ++i) {
@@ -149,7 +149,7 @@ double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
   const double extent = n.dot(part.center) + shape::extentAlong(part.solid, n);
   const double pad = this->pad(v);
   double time = closingTime(low - extent - pad, speed, change);
-  // A slab that doesn't turn, as for what turns on a table.
+  // A slab that doesn't turn suits a body that turns on a table.
   if (part.solid.bounded() && v.turn() > 0) {
     time =
         std::max(time, v.solidSlabTime(n, support, part.center, part.solid.reach(), corners, pad));

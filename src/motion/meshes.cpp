@@ -100,8 +100,8 @@ double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, dou
   const Vector3d witness = (nearest.point_b - nearest.point_a).stableNormalized();
   if (best < enough) best = std::max(best, v.slabTime(witness, p, q));
   // The slab that lasts longest need not be the widest one: a body that slides along a face stays
-  // on its side of it, and what passes an edge on that side of a plane through the edge and the
-  // velocity.
+  // on its side of it, and a body that passes an edge stays on its side of a plane through the edge
+  // and the velocity.
   const auto attempt = [&](const Vector3d& normal) {
     if (best >= enough) return;
     const Vector3d n = normal.stableNormalized();

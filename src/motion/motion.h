@@ -39,8 +39,8 @@ class Motion {
   bool steady() const { return kind_ == Kind::kTwist; }
   /// True if the body stands still.
   bool still() const;
-  /// Bound of how far rounding takes the pose of a point within `reach` of the body's origin off,
-  /// at any time, with the same for a velocity times a time of at most 1.
+  /// Bounds the rounding error of the place of a point within `reach` of the body's origin, at any
+  /// time, plus that of its velocity times a time of at most 1.
   double rounding(double reach) const;
 
  private:

@@ -42,10 +42,10 @@ class RelativeVelocities {
   bool apart(const MovingBall& a, const MovingBall& b, double duration) const;
   /// True if that holds for one of four; the ball is of one body, the four of the other one.
   bool anyApart(const MovingBall& ball, const FourBalls& four, double duration) const;
-  /// For how long the contents of two balls are proven apart that are `gap` apart at t.
+  /// The time for which the contents of two balls are proven apart that are `gap` apart at t.
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
-  /// For how long no point of A's polygon reaches a point of B's, as the slab between them across
-  /// n (of any length near 1) tells; 0 if none is between them.
+  /// The time for which no point of A's polygon reaches a point of B's, by the slab between them
+  /// across n (of any length near 1); 0 if none is between them.
   template <typename VerticesA, typename VerticesB>
   double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b) const;
 
@@ -74,7 +74,7 @@ class RelativeVelocities {
   double stretch() const { return detail::boundsOf(X_AB_).stretch; }  ///< of pose()
 
  private:
-  /// Rounding per length of what concerns the centres of balls, which may be farther off than the
+  /// The rounding error, per length, of the centres of balls, which may be farther off than the
   /// bodies reach: 32 u of positions, and of velocities times the duration.
   double rounding(double duration) const { return 0x1p-48 * (1 + duration * turn()); }
 

@@ -10,8 +10,8 @@
 
 namespace kios::continuous {
 
-/// Velocities of a rigid body's points at one time, and bounds of what becomes of them until a
-/// later one (the window), in a frame that stands still: u(x) = linear + angular x (x - origin).
+/// Velocities of a rigid body's points at one time, and bounds of their changes until a later
+/// one (the window), in a frame that stands still: u(x) = linear + angular x (x - origin).
 /// `origin` is a point of the body, also when it turns later.
 struct VelocityField {
   Eigen::Vector3d linear, angular, origin;

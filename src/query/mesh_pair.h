@@ -28,7 +28,7 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
   require("abs_err", request.abs_err);
 }
 
-/// Reports two triangles that intersect, p and q in model 1's frame, as FCL does: up to two
+/// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
 /// contacts, as many as the request leaves room for.
 template <typename S>
 void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p, const Model<S>& b,

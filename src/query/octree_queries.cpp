@@ -59,7 +59,7 @@ class OctreePair {
     return child;
   }
 
-  /// FCL's rule of which of a pair is divided, if not both are leaves.
+  /// FCL's rule for a pair of which not both are leaves: true if the cell is divided, not the node.
   bool dividesCell(const Cell<S>& cell, int node) const {
     const auto& bv = model_.getBV(node);
     return bv.isLeaf() || (!isLeaf(cell) && cell.box.size() > bv.bv.size());

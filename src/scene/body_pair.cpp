@@ -176,9 +176,9 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   proof_ = proof;
 }
 
-// A pair that turns out farther than asked is asked again as soon as it moves, or the limit grows.
-// So it is asked about a little more: what it may come nearer in the next few queries, unless that
-// is much for its size, and a share of the limit.
+// A pair that is proven farther than the limit is searched again as soon as it moves, or the limit
+// grows. So the search goes a little beyond the limit: by the way that the pair may come nearer in
+// the next few queries, unless that is much for its size, and by a share of the limit.
 template <typename S>
 double BodyPair<S>::outlook(double limit) const {
   constexpr double kQueries = 8, kSizeShare = 0.05, kLimitShare = 1.0 / 32;

@@ -10,9 +10,9 @@
 
 namespace kios::scene {
 
-/// The pairs of objects whose boxes were within a reach of each other at one query: as long as
-/// nobody has moved much since then, all that are within a smaller limit are among them, and the
-/// tree need not be asked (Verlet's list).
+/// The pairs of objects whose boxes were within a reach of each other at one query. As long as no
+/// object has moved much since then, they include all pairs within a smaller limit, and the tree
+/// need not be searched (Verlet's list).
 template <typename S>
 class NearList {
  public:

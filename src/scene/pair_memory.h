@@ -9,7 +9,7 @@
 
 namespace kios::scene {
 
-/// The last answer of the narrow phase about two bodies, and where they were. It says nothing of
+/// The last answer of the narrow phase about two bodies, and their poses then. It says nothing of
 /// other states of their geometries.
 template <typename S>
 struct Proof {
@@ -29,8 +29,8 @@ struct Proof {
   }
 };
 
-/// The proofs of the pairs that queries came near: bounded, as each query forgets what it had no
-/// use for as soon as that is more than what it used, and kSpare.
+/// The proofs of the pairs that queries came near. Their number is bounded: a query forgets the
+/// proofs that it didn't use as soon as they are more than those that it used, plus kSpare.
 template <typename S>
 class PairMemory {
  public:

@@ -6,8 +6,8 @@
 #include "solid/triangle_shape.h"
 
 // Solids whose core is a polytope (a capsule's segment, a box, a convex shape) by the faces of that
-// core, with the exact and certified kernels of two triangles: for what is too close for GJK.
-// O(faces).
+// core, with the exact and certified kernels of two triangles, for pairs that are too close for
+// GJK. O(faces).
 
 namespace kios::shape {
 

@@ -32,8 +32,8 @@ namespace detail {
 /// Fits a node's kIOS to the distinct vertices of its triangles (or to its points). fit() throws
 /// std::invalid_argument at a NaN or infinite vertex; the model then stays unfinished.
 /// `model.bv_fitter.reset(new BVFitter<kios::kIOSd>(kios::FitMethod::kMethodII))` before
-/// endModel() chooses the published fit; kios::FitOptions chooses more. What queries prepare is
-/// fitted for itself where the model's is not the tuned fit.
+/// endModel() chooses the published fit; kios::FitOptions chooses more. Prepared trees are
+/// fitted anew if the model's fit is not the tuned one.
 template <typename S_>
 class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
  public:
@@ -63,7 +63,7 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
 /// Splits a node across the longest principal axis of its vertices: at the mean or the median of
 /// the triangles' centroids, or at the centre of the box along the axes. One made without a method,
 /// as models have it, splits by the cost of a search: with the tuned fit, a mesh is then divided
-/// and fitted in one go, in about half the time, and what queries prepare takes over its tree.
+/// and fitted in one go, in about half the time, and queries take its tree over.
 /// If that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
 /// mean.
 template <typename S_>

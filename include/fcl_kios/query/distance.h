@@ -46,7 +46,7 @@ using DistanceOptionsf = DistanceOptions<float>;
 
 /// The reason why a search ended; if several hold, the first of them.
 enum class DistanceStop {
-  kTolerance,  ///< the distance is as exact as was asked for
+  kTolerance,  ///< the distance is as exact as the options want
   kFar,        ///< lower_bound >= far_enough
   kNear,       ///< distance <= near_enough
   kBudget      ///< the budget was spent before any of these, or, with a budget, the distance is

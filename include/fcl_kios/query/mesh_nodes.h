@@ -10,7 +10,7 @@
 #include "fcl_kios/volume/separation.h"
 
 // Oriented traversal nodes for two meshes over k-IOS, for FCL's own recursion (front lists and
-// self-collision included). Models are neither copied nor moved; all tests are in model 1's frame.
+// self-collision included). Models are neither copied nor moved; all tests are in A's frame.
 
 namespace kios {
 

@@ -70,7 +70,7 @@ class SceneDistance {
   /// The distance of every admissible pair, in ascending order of (a, b).
   std::vector<ScenePair<S>> clearances(const SceneRequest& request = {});
 
-  /// Of the last query.
+  /// Counts of the last query.
   const SceneCounts& counts() const;
   /// Pairs of which something is remembered: at most twice those that the last query came near,
   /// plus 1024, and never more than kMaxRemembered.

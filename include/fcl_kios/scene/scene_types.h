@@ -27,7 +27,7 @@ struct ScenePair {
   S distance = 0;      ///< in the models' units; 0 at contact
   /// The triangles that realise the distance; -1 for geometries that have none.
   std::intptr_t triangle_a = -1, triangle_b = -1;
-  /// In the world; set if asked for.
+  /// In the world; set if the request wants them.
   fcl::Vector3<S> nearest_a = fcl::Vector3<S>::Zero(), nearest_b = fcl::Vector3<S>::Zero();
 };
 using ScenePaird = ScenePair<double>;
