@@ -21,7 +21,7 @@ namespace {
 constexpr int kSide = 5;
 constexpr double kMargin = 0.25;
 
-/// Where body i is in a frame: a grid of spacing 3, in which each body sways and turns.
+/// The pose of body i in a frame. Bodies stand in a grid of spacing 3, where they sway and turn.
 fcl::Transform3d poseOf(int i, int frame) {
   const double phase = 0.7 * i, t = 0.02 * frame;
   const fcl::Vector3d home(i % kSide, i / kSide % kSide, i / (kSide * kSide));

@@ -97,7 +97,7 @@ class World {
   fcl::DynamicAABBTreeCollisionManagerd manager_;
 };
 
-/// What a plan asked for, and was told.
+/// Counts the questions of a plan, and their answers.
 struct Asked {
   long long validity = 0, valid = 0, clearance = 0;
   double sum_of_clearances = 0;

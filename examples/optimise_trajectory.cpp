@@ -88,7 +88,7 @@ struct Scene {
     const auto X = pose(at);
     double least = HUGE_VAL;
     for (const fcl::RSSd& a : block_rss) {
-      for (const fcl::RSSd& b : rod_rss) least = std::min(least, fcl::distance(X.R, X.T, a, b));
+      for (const fcl::RSSd& b : rod_rss) least = std::min(least, fcl::distance(X.R(), X.T(), a, b));
     }
     return least;
   }

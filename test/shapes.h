@@ -188,7 +188,7 @@ inline Mesh swayed(Mesh mesh) {
   return mesh;
 }
 
-/// Diagonal of the box of two triangles: what errors are measured by.
+/// Diagonal of the box of two triangles, by which errors are measured.
 template <typename S>
 double extentOf(const TriangleVertices<S>& p, const TriangleVertices<S>& q) {
   Point<S> low = p[0], high = p[0];

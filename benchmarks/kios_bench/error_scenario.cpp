@@ -33,9 +33,9 @@ constexpr double kErrors[] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 0.5};
 constexpr double kBudgets[] = {8, 16, 32, 64, 128, 256};
 constexpr double kThresholds[] = {0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10};
 
-/// How a distance is asked for, and how inexact it may be: at most one of the numbers is set, none
-/// asks for the exact one. kBracket, kBudget: kios::distance; kDistance: fcl::distance, or FCL's
-/// node; kThreshold: whether the pair is nearer than a part of the exact distance of each frame.
+/// A way to ask for a distance, and the error that it may have: at most one of the numbers is set;
+/// none asks for the exact distance. kBracket, kBudget: kios::distance; kDistance: fcl::distance,
+/// or FCL's node; kThreshold: is the pair nearer than a part of the exact distance of each frame?
 struct Setting {
   enum Query { kDistance, kBracket, kBudget, kThreshold };
   Query query = kDistance;

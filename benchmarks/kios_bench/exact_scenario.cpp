@@ -94,7 +94,8 @@ struct Way {
 constexpr Way kWays[] = {
     {"kios_separation",
      [](const Pair& p) { return std::max(0.0, separation(p.a, p.b, p.X_AB, kInfinity)); }},
-    {"fcl_rss", [](const Pair& p) { return fcl::distance(p.X_AB.R, p.X_AB.T, p.rss_a, p.rss_b); }},
+    {"fcl_rss",
+     [](const Pair& p) { return fcl::distance(p.X_AB.R(), p.X_AB.T(), p.rss_a, p.rss_b); }},
     {"kios_exact", [](const Pair& p) { return exactDistance(p.a, p.b, p.X_AB).distance; }},
     {"kios_exact_prepared",
      [](const Pair& p) {
@@ -114,8 +115,8 @@ std::size_t wrongBounds(const std::vector<Pair>& pairs, const Way& way) {
 double slabsAPair(const std::vector<Pair>& pairs) {
   long long slabs = 0;
   for (const Pair& p : pairs) {
-    slabs += exact::nearestPair(p.body_a, p.body_b, p.X_AB.R,
-                                p.X_AB.R * p.b.center0 + p.X_AB.T - p.a.center0)
+    slabs += exact::nearestPair(p.body_a, p.body_b, p.X_AB.R(),
+                                p.X_AB.R() * p.b.center0 + p.X_AB.T() - p.a.center0)
                  .probes;
   }
   return static_cast<double>(slabs) / static_cast<double>(pairs.size());

@@ -42,10 +42,10 @@ class MeshSet {
  public:
   virtual ~MeshSet() = default;
 
-  /// Whether FCL answers this query for meshes of this volume without rebuilding them.
+  /// True if FCL answers this query for meshes of this volume without rebuilding them.
   virtual bool serves(Query query) const = 0;
 
-  /// Builds all models and drops them: what a `build` row times.
+  /// Builds all models and drops them; a `build` row times this.
   virtual void build(const std::vector<scenes::Mesh>& meshes) const = 0;
 
   /// Builds all models and keeps them for the queries below.

@@ -13,7 +13,7 @@
 
 namespace kios::bench {
 
-/// What the command line asks for.
+/// The options of the command line.
 struct Options {
   std::string scenario;
   std::optional<std::filesystem::path> data;  // folder of the benchmark data

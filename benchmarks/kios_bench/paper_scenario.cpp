@@ -24,9 +24,9 @@ namespace {
 constexpr char kSsv[] = "fcl_rss_tree";
 constexpr double kFloatsOfRss = 15;  // axes, corner, two lengths, radius
 
-/// How many spheres the nodes of a mesh have, and the floats that the paper stores for them: centre
-/// and radius of S0, the centres of the others and one radius that these share. With radii of their
-/// own, 4 k.
+/// Counts the spheres of a mesh's nodes, and the floats that the paper stores for them: centre and
+/// radius of S0, the centres of the others and one radius that these share. With radii of their
+/// own, there would be 4 k floats.
 struct Spheres {
   double nodes = 0, leaves = 0;
   double spheres = 0, floats = 0, floats_of_leaves = 0;

@@ -89,7 +89,7 @@ Line totalOf(const std::vector<Line>& lines) {
   return total;
 }
 
-// What does not depend on the machine.
+// Writes the results that do not depend on the machine.
 void writeMarkdown(const std::filesystem::path& path, const std::vector<Line>& lines,
                    std::size_t pairs, std::uint64_t seed) {
   std::ofstream file(path);

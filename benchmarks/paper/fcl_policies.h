@@ -45,7 +45,7 @@ struct PaddedPolicy {
     return shared;
   }
   Placed place(const Shared& a, const Shared& b, const RelativePose<double>& X_AB) const {
-    return {X_AB, 1e-12 * (a.reach + b.reach + X_AB.T_norm1)};
+    return {X_AB, 1e-12 * (a.reach + b.reach + detail::boundsOf(X_AB).T_norm1)};
   }
 };
 
@@ -63,12 +63,12 @@ struct OrientedPolicy : PaddedPolicy {
   }
   double separation(const BV& a, const BV& b, const Placed& at, double enough) const {
     if constexpr (std::is_same_v<BV, fcl::RSSd>) {
-      return fcl::distance(at.X.R, at.X.T, a, b) - at.pad;
+      return fcl::distance(at.X.R(), at.X.T(), a, b) - at.pad;
     } else {
       if constexpr (std::is_same_v<BV, fcl::OBBRSSd>) {
-        if (enough > 0) return fcl::distance(at.X.R, at.X.T, a, b) - at.pad;
+        if (enough > 0) return fcl::distance(at.X.R(), at.X.T(), a, b) - at.pad;
       }
-      return fcl::overlap(at.X.R, at.X.T, a, b) ? 0 : kApart;
+      return fcl::overlap(at.X.R(), at.X.T(), a, b) ? 0 : kApart;
     }
   }
 };
@@ -85,7 +85,7 @@ struct AabbPolicy : PaddedPolicy {
   }
   double separation(const Volume& a, const Volume& b, const Placed& at, double /*enough*/) const {
     const fcl::Vector3d center = at.X * b.center();
-    const fcl::Vector3d half = at.X.R.cwiseAbs() * ((b.max_ - b.min_) / 2);
+    const fcl::Vector3d half = at.X.R().cwiseAbs() * ((b.max_ - b.min_) / 2);
     const fcl::Vector3d gaps =
         (center - half - a.max_).cwiseMax(a.min_ - center - half).cwiseMax(0.0);
     return gaps.norm() - at.pad;
@@ -164,10 +164,10 @@ struct KdopPolicy {
   Placed place(const Shared& a, const Shared& b, const RelativePose<double>& X_AB) const {
     Placed at;
     for (std::size_t i = 0; i < kDirections; ++i) {
-      at.in_b[i] = X_AB.R.transpose() * directions()[i];
-      at.shift[i] = directions()[i].dot(X_AB.T);
+      at.in_b[i] = X_AB.R().transpose() * directions()[i];
+      at.shift[i] = directions()[i].dot(X_AB.T());
     }
-    at.pad = 8 * kTolerance * (a.reach + b.reach + X_AB.T_norm1);
+    at.pad = 8 * kTolerance * (a.reach + b.reach + detail::boundsOf(X_AB).T_norm1);
     return at;
   }
 
@@ -189,7 +189,8 @@ struct KdopPolicy {
   }
 
  private:
-  static constexpr double kTolerance = 1e-9;  ///< of the coordinates, for what meets in a corner
+  static constexpr double kTolerance =
+      1e-9;  ///< of the coordinates, for volumes that meet in a corner
 
   /// FCL's directions, not normalised: what its k-DOP of a point of each axis says.
   static const Directions& directions() {

@@ -47,16 +47,17 @@ PackedPolicy::Placed PackedPolicy::place(const Shared& a, const Shared& b,
   Placed X;
   X.a = &a;
   X.b = &b;
-  const double magnitude = 1.8 * b.origin.lpNorm<1>() + X_AB.T_norm1 + a.origin.lpNorm<1>();
+  const double magnitude =
+      1.8 * b.origin.lpNorm<1>() + detail::boundsOf(X_AB).T_norm1 + a.origin.lpNorm<1>();
   int e = std::max(a.exponent, b.exponent);
   if (magnitude > 0) e = std::max(e, std::ilogb(magnitude) - 400);
   for (int i = 0; i < 3; ++i) {
-    const double moved = X_AB.R(i, 0) * b.origin[0] + X_AB.R(i, 1) * b.origin[1] +
-                         X_AB.R(i, 2) * b.origin[2] + X_AB.T[i] - a.origin[i];
+    const double moved = X_AB.R()(i, 0) * b.origin[0] + X_AB.R()(i, 1) * b.origin[1] +
+                         X_AB.R()(i, 2) * b.origin[2] + X_AB.T()[i] - a.origin[i];
     X.T[i] = scaled(moved, -e);
     for (int j = 0; j < 3; ++j) {
-      X.R[i][j] = X_AB.R(i, j);
-      X.Rf[i][j] = X_AB.Rf[i][j];
+      X.R[i][j] = X_AB.R()(i, j);
+      X.Rf[i][j] = detail::boundsOf(X_AB).R[i][j];
     }
   }
   X.unit_a = scaled(1.0, a.exponent - e);
@@ -64,7 +65,7 @@ PackedPolicy::Placed PackedPolicy::place(const Shared& a, const Shared& b,
   // 3 coordinates and radii of at most 4 units each, and R.
   const double m = scaled(magnitude, -e) + 16 * (X.unit_a + X.unit_b);
   X.pad = 0x1p-47 * m + scaled(0x1p-1066, -e) + 0x1p-118;
-  X.stretch = X_AB.stretch;
+  X.stretch = detail::boundsOf(X_AB).stretch;
   X.length = scaled(1.0, e);
   return X;
 }

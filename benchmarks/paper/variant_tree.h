@@ -61,8 +61,8 @@ class VariantTree {
     return query.result;
   }
 
-  /// Whether the two meet; stops at the first pair of triangles that does. The distance of the
-  /// result is 0 or infinite.
+  /// Stops at the first pair of triangles that meets. The distance of the result is then 0,
+  /// otherwise infinite.
   VariantResult collide(const VariantTree& b, const RelativePose<double>& X_AB) const {
     Query query(*this, b, X_AB);
     if (!query.apart(0, 0)) query.findContact(0, 0);

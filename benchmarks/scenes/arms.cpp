@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cad_shapes.h"
+#include "placement.h"
 #include "random.h"
 
 namespace kios::scenes {
@@ -14,18 +15,6 @@ namespace {
 
 using fcl::Transform3d;
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
-
-Transform3d shift(double x, double y, double z) {
-  Transform3d X = Transform3d::Identity();
-  X.translation() = Vector3d(x, y, z);
-  return X;
-}
-
-Transform3d turn(double angle, const Vector3d& axis) {
-  return Transform3d(fcl::AngleAxisd(angle, axis));
-}
 
 // A link along z, of this length: its own joint's housing at the foot, lying along z or across it,
 // a block with a bore, and a flange towards the next joint.

@@ -22,7 +22,7 @@ struct Link {
 /// links[0] is the base, which stands still: it has no joint.
 struct Arm {
   std::vector<Link> links;
-  // Where the arm works: each joint swings about its centre by at most its amplitude, in radians.
+  // Each joint swings about its centre by at most its amplitude, in radians.
   std::vector<double> centres;
   std::vector<double> amplitudes;
 };

@@ -12,7 +12,7 @@ struct PlanarPair {
   Planar a, b;
 };
 
-// How planar triangles are put into space.
+// The ways to put planar triangles into space.
 enum class Plane {
   kConstantZ,  // any coordinates, z the same: coplanar exactly
   kLattice,    // integers in a plane of integer directions: coplanar exactly

@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 #include <boost/multiprecision/cpp_int.hpp>
 
-// Vectors of integers of any size: what the exact oracles compute with.
+// Vectors of integers of any size, by which the exact oracles compute.
 
 namespace kios::scenes {
 

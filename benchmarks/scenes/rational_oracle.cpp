@@ -46,7 +46,7 @@ struct Face {
         normal(cross(u, v)),
         squared_normal(dot(normal, normal)) {}
 
-  // Whether the point w / weight from the origin projects into the closed face.
+  // True if the point w / weight from the origin projects into the closed face.
   bool holds(const Vector& w, const Integer& weight) const {
     const Integer along_u = dot(cross(w, v), normal);
     if (along_u < 0) return false;
@@ -68,8 +68,8 @@ void offerPointSegment(const Vector& p, const Vector& a, const Vector& b, Least&
   }
 }
 
-// Where the nearest points of the lines lie in both segments. Elsewhere, and for parallel ones, an
-// end and the other segment are nearest.
+// Offers the nearest points of the two lines if they lie in both segments. Otherwise, and for
+// parallel lines, an end and the other segment are nearest.
 void offerSegmentSegment(const Vector& a0, const Vector& a1, const Vector& b0, const Vector& b1,
                          Least& least) {
   const Vector da = a1 - a0, db = b1 - b0, n = cross(da, db);

@@ -42,7 +42,7 @@ struct Fraction {
   }
 };
 
-// What of the line's parameters remains.
+// The line's parameters that remain after clipping.
 struct Interval {
   Fraction low, high;
 

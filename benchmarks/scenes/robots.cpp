@@ -9,6 +9,7 @@
 
 #include "cad_shapes.h"
 #include "oracle.h"
+#include "placement.h"
 #include "random.h"
 #include "shapes.h"
 
@@ -17,16 +18,6 @@ namespace {
 
 using fcl::Transform3d;
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
-
-Transform3d shift(double x, double y, double z) {
-  return Transform3d(Eigen::Translation3d(x, y, z));
-}
-
-Transform3d turn(double angle, const Vector3d& axis) {
-  return Transform3d(fcl::AngleAxisd(angle, axis));
-}
 
 // A limb from its joint at the origin to z = -length: a turned shell between two knuckles.
 Mesh limb(double length, double radius, int segments) {

@@ -94,7 +94,7 @@ Real volume(const ExactPoint& o, const ExactPoint& a, const ExactPoint& b, const
   return (a - o).dot((b - o).cross(c - o));
 }
 
-// Whether the closed segment p q meets the closed face unless it runs within its plane.
+// True if the closed segment p q meets the closed face and doesn't run within its plane.
 bool segmentPiercesFace(const ExactPoint& p, const ExactPoint& q, const ExactTriangle& face) {
   const int side_p = sign(volume(p, face[0], face[1], face[2]));
   const int side_q = sign(volume(q, face[0], face[1], face[2]));
@@ -117,7 +117,7 @@ Real area(const std::array<Real, 2>& a, const std::array<Real, 2>& b,
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-// Whether the line of some edge of `a` has all of `b` strictly on one side and `a` on the other. A
+// True if the line of some edge of `a` has all of `b` strictly on one side and `a` on the other. A
 // degenerate `a` lies on the line itself.
 bool edgeSeparates(const Planar& a, const Planar& b) {
   const int inner = sign(area(a[0], a[1], a[2]));

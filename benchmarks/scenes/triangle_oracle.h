@@ -23,7 +23,7 @@ using ExactTriangle = std::array<ExactPoint, 3>;
 /// allowed.
 long double triangleDistance(const ExactTriangle& a, const ExactTriangle& b);
 
-/// Whether the closed triangles share a point: an edge of one meets the face of the other, or both
+/// True if the closed triangles share a point: an edge of one meets the face of the other, or both
 /// are coplanar and overlap. Signs are evaluated in long double, exact enough in general position;
 /// exactly decided for coordinates that are integers of up to 20 bits.
 bool trianglesMeet(const ExactTriangle& a, const ExactTriangle& b);

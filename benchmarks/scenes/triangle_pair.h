@@ -14,7 +14,7 @@ struct TrianglePair {
   std::array<Eigen::Vector3d, 3> a, b;
 };
 
-/// L, the diagonal of the pair's bounding box: what errors are measured by.
+/// Returns L, the diagonal of the pair's bounding box, by which errors are measured.
 long double extent(const TrianglePair& pair);
 
 /// Largest magnitude of a coordinate of the pair.

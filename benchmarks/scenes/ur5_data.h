@@ -9,7 +9,7 @@
 
 namespace kios::scenes {
 
-/// Whether the data folder holds the UR5's meshes.
+/// True if the data folder holds the UR5's meshes.
 bool holdsUr5(const std::filesystem::path& data);
 
 /// The UR5 of the data folder: base and 6 links, equal vertices welded. Throws std::runtime_error

@@ -21,8 +21,8 @@ double removePart(const Vec& direction, double square, Vec& v) {
   return t;
 }
 
-/// Whether edges from p and q to other ends are nearest in p and q, by a margin that exceeds the
-/// rounding of the products. The distance of two edges is convex: no other ends are then.
+/// True if two edges that start in p and q are nearest there, by a margin that exceeds the rounding
+/// of the products. The distance of two edges is convex, so that no other points can be nearer.
 bool leadAway(const Vec& p, const Vec& other_p, const Vec& q, const Vec& other_q) {
   constexpr double kMargin2 = 0x1p-80;
   const Vec w = q - p, a = other_p - p, b = other_q - q;

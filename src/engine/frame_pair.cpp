@@ -27,14 +27,16 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 template <typename S>
 bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
-  const Eigen::Matrix3d R = X_AB.R.template cast<double>();
+  const Eigen::Matrix3d R = X_AB.R().template cast<double>();
   const Eigen::Vector3d t =
-      detail::rotate<double>(R, origin_b) + X_AB.T.template cast<double>() - origin_a;
+      detail::rotate<double>(R, origin_b) + X_AB.T().template cast<double>() - origin_a;
   const double reach_a = a.reach, reach_b = b.reach, scale = reach_a + reach_b + t.lpNorm<1>();
   if (!(std::min(reach_a, reach_b) >= kLeastReach && scale <= kLargestReach)) return false;
   const double points = error_bounds::volumeError<S>(
-      origin_b.lpNorm<1>() + 2 * reach_b, X_AB.T_norm1 + origin_a.lpNorm<1>(), 2 * reach_a, 0);
-  const double pad = error_bounds::laneError(scale) + 2 * X_AB.stretch * scale + points;
+      origin_b.lpNorm<1>() + 2 * reach_b, detail::boundsOf(X_AB).T_norm1 + origin_a.lpNorm<1>(),
+      2 * reach_a, 0);
+  const double pad =
+      error_bounds::laneError(scale) + 2 * detail::boundsOf(X_AB).stretch * scale + points;
   if (!(pad <= 0x1p-4 * std::min(reach_a, reach_b))) return false;
   const Eigen::Matrix3d inverse = R.inverse();
   out.a_from_b = toFloat(R, t);

@@ -26,7 +26,7 @@ struct LeafEdge {
   std::uint8_t start, end;
 };
 
-/// What a leaf holds, gathered.
+/// The content of a leaf before it is written into lanes.
 struct LeafContent {
   std::vector<LeafTriangle> triangles;
   std::vector<LeafEdge> edges;

@@ -130,7 +130,7 @@ class NearestEvaluator final : public ExactEvaluator {
     return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
   }
 
-  bool offers_stand = false;  ///< whether the search keeps what it offers, so that errors apply
+  bool offers_stand = false;  ///< the search keeps the pairs that it offers, so that errors apply
 
  private:
   /// The fourth power of a shorter extent, times what parts of it matter, would not be a normal
@@ -168,8 +168,8 @@ class NearestEvaluator final : public ExactEvaluator {
     return distance <= query_.near_enough && endsWith(ids);
   }
 
-  /// Features were found near enough: whether their triangles are, by the distance that the answer
-  /// states, so that the search ends with them.
+  /// Called when features were found near enough. Evaluates their triangles, by the distance that
+  /// the answer states, and returns true if those are near enough to end the search.
   bool endsWith(const TrianglePairIds& ids) {
     if (!(faces_ == ids)) of_faces_ = corners_.distanceOf(faces_ = ids);
     if (!(double{of_faces_.distance} <= query_.near_enough)) return false;
@@ -183,7 +183,7 @@ class NearestEvaluator final : public ExactEvaluator {
     lowerTo(distance);
   }
 
-  /// A pair so far apart was found, or none farther is asked for.
+  /// Called when a pair at this distance was found, or when no farther one is asked for.
   void lowerTo(double distance) {
     best_ = distance;
     keep_to = std::min(keep_to, upToFloat(distance));
@@ -192,7 +192,8 @@ class NearestEvaluator final : public ExactEvaluator {
 
   const Corners<S> corners_;
   const PairQuery& query_;
-  const bool by_faces_;  ///< whether what was found must not get worse by going on
+  const bool
+      by_faces_;  ///< triangles are evaluated at once, so that no step makes the answer worse
   double best_ = std::numeric_limits<double>::infinity();  ///< of ids_
   double least_ = std::numeric_limits<double>::infinity();
   TrianglePairIds ids_, faces_;  ///< the nearest; those evaluated as faces

@@ -93,8 +93,8 @@ class MeshTree {
     stack.push_back({child, part.first, left, part.depth + 1});
   }
 
-  /// Whether all below must be halved to end within kMaxDepth: one more split of another kind may
-  /// leave all but one triangle on one side.
+  /// True if all parts below must be halved for the tree to end within kMaxDepth: another split of
+  /// a different kind may leave all but one triangle on one side.
   static bool mustHalve(const Part& part) {
     int levels = 0;
     while (part.count >> levels > 1) ++levels;

@@ -19,14 +19,14 @@ void writeLane(const Node& node, int lane, Block& block);
 /// The boxes of all blocks from those of the nodes, and which of their children are flat.
 void writeBoxBlocks(Tree& tree);
 
-/// Whether the box is thin enough to bound its content better than spheres.
+/// True if the box is so thin that it bounds its content better than spheres do.
 bool isFlat(const Box& box);
 
 /// >= |middle| + |half| + radii of every sphere of the node.
 float reachOf(const Node& node);
 
-/// What the blocks cost that a query may have to test, for trees of one mesh to be compared: the
-/// sum of their nodes' sizes to the 1.5, that of the root being 1.
+/// The expected cost of a query, by which trees of one mesh are compared: the sum over all blocks
+/// of their nodes' sizes to the power of 1.5, where the root's size is 1.
 double searchCost(const Tree& tree);
 
 }  // namespace kios::engine

@@ -9,9 +9,9 @@
 
 namespace kios::engine {
 
-/// What each leaf owns. The distance of two disjoint meshes is attained by two edges or by a
-/// vertex and a face, so it suffices that every edge and every vertex lies in one leaf that holds
-/// one of its triangles.
+/// The features that each leaf owns. The distance of two disjoint meshes is attained by two edges
+/// or by a vertex and a face, so it suffices that every edge and every vertex lies in one leaf that
+/// holds one of its triangles.
 struct Ownership {
   /// By leaf, one after the other: leaf l owns edges [edge_begin[l], edge_begin[l + 1]), vertices
   /// likewise. Each as its corner in its first triangle by index, so that of equal answers those

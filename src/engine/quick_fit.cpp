@@ -35,7 +35,7 @@ Eigen::Matrix3f principalAxes(const Moments& m) {
   return axesAlong(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
 }
 
-/// Where points lie along axes, relative to a point among them.
+/// The extents of points along axes, relative to `from`, one of the points.
 struct Extents {
   Eigen::Vector3f from, low, high;
 };

@@ -13,7 +13,7 @@
 namespace kios::engine {
 namespace {
 
-/// A partition that makes a search so much dearer than when it was made is made anew.
+/// If a deformation raises the cost of a search by this factor, the partition is made anew.
 constexpr double kPoor = 1.5;
 
 template <typename S>
@@ -36,7 +36,8 @@ class Refit {
   }
 
  private:
-  /// What holds of the topology holds of every mesh whose corners are where the tree's are.
+  /// True if the mesh has the corners that the tree was made of: the tree's topology is then the
+  /// mesh's.
   bool sameTopology() const {
     if (mesh_.num_triangles != tree_.corners.size()) return false;
     for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {

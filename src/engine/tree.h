@@ -97,7 +97,7 @@ struct Leaf {
 /// is always a candidate.
 enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
-/// How many children a block has, and which of them are flat, or leaves.
+/// The number of a block's children, and as bits the children that are flat and that are leaves.
 struct Children {
   std::uint8_t count = 0, flat = 0, leaves = 0;
   std::uint32_t all() const { return (1U << count) - 1; }

@@ -33,7 +33,7 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
   if (Use found = find(key)) return found;
   SharedTree tree = make(earlierState(key));
   made_.store(true, std::memory_order_relaxed);
-  // First where a state of the same vertices that is no more lies, then where nothing lies.
+  // A slot with an outdated state of the same vertices is taken first, then an empty slot.
   for (const void* const vertices : {key.vertices, static_cast<const void*>(nullptr)}) {
     for (Cell& cell : cells_) {
       if (cell.key.vertices == vertices && tryReplace(cell, key, tree)) return find(key);
@@ -46,7 +46,7 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
   return Use(std::move(tree));
 }
 
-/// The tree of a state of the same triangles that is no more, taken out.
+/// Takes out the tree of an outdated state of the same triangles.
 SharedTree TreeCache::earlierState(const TreeKey& key) {
   for (Cell& cell : cells_) {
     SharedTree taken;

@@ -13,8 +13,8 @@
 
 namespace kios::engine {
 
-/// What a tree was prepared from. Every fit and every merge stamps its volume anew, so that no two
-/// states of a model's geometry share a key.
+/// The state of a model that a tree was prepared from. Every fit and every merge stamps its volume
+/// anew, so that no two states of a model's geometry share a key.
 struct TreeKey {
   std::uint64_t root_stamp = 0;  ///< 0: none
   const void* vertices = nullptr;

@@ -17,7 +17,7 @@ namespace kios::engine {
 template <typename S>
 using VolumeNode = fcl::BVNode<kIOS<S>>;
 
-/// Which content a small node has, by which its fit is chosen.
+/// The content of a small node, which decides how it is fitted.
 enum class SmallNode {
   kTriangle,  ///< one triangle
   kPart,      ///< several triangles, each with its three corners

@@ -18,7 +18,7 @@ struct BinaryNode {
   bool isLeaf() const { return left < 0; }
 };
 
-/// Which nodes of a binary tree survive as nodes of the wide tree.
+/// Chooses the nodes of a binary tree that become nodes of the wide tree.
 class Collapse {
  public:
   /// Minimises the sum of size^1.5 over the blocks that a query may have to test, by dynamic

@@ -19,7 +19,7 @@ namespace kios {
 /// confuse the request's arguments never noticed; an error that is meant is smaller.
 template <typename S>
 void requireRelativeError(const fcl::DistanceRequest<S>& request) {
-  if (!(request.rel_err >= 1)) return;  // what is negative or NaN is refused by the query
+  if (!(request.rel_err >= 1)) return;  // the query refuses negative values and NaN
   std::ostringstream message;
   message << "fcl_kios: DistanceRequest::rel_err is " << request.rel_err
           << ", but must be below 1: fcl::DistanceRequest takes (enable_nearest_points, "
@@ -30,43 +30,43 @@ void requireRelativeError(const fcl::DistanceRequest<S>& request) {
 }
 
 template <typename S>
-std::size_t collide(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
-                    const fcl::CollisionGeometry<S>* o2, const fcl::Transform3<S>& tf2,
+std::size_t collide(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
+                    const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
-  if (model1 && model2) return collideMeshes(*model1, tf1, *model2, tf2, request, result);
-  if (model1) return collideOther(*model1, tf1, *o2, tf2, request, result);
-  if (model2) return collideOther(*model2, tf2, *o1, tf1, request, result);
-  return fcl_own::collide(o1, tf1, o2, tf2, request, result);
+  const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
+  if (mesh_a && mesh_b) return collideMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
+  if (mesh_a) return collideOther(*mesh_a, X_WA, *b, X_WB, request, result);
+  if (mesh_b) return collideOther(*mesh_b, X_WB, *a, X_WA, request, result);
+  return fcl_own::collide(a, X_WA, b, X_WB, request, result);
 }
 
 template <typename S>
-S distance(const fcl::CollisionGeometry<S>* o1, const fcl::Transform3<S>& tf1,
-           const fcl::CollisionGeometry<S>* o2, const fcl::Transform3<S>& tf2,
+S distance(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
+           const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
-  const Model<S>*model1 = asModel(o1), *model2 = asModel(o2);
-  if (model1 || model2) requireRelativeError(request);
-  if (model1 && model2) return distanceMeshes(*model1, tf1, *model2, tf2, request, result);
-  if (model1) return distanceOther(*model1, tf1, *o2, tf2, request, result);
-  if (model2) return distanceOther(*model2, tf2, *o1, tf1, request, result);
-  return fcl_own::distance(o1, tf1, o2, tf2, request, result);
+  const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
+  if (mesh_a || mesh_b) requireRelativeError(request);
+  if (mesh_a && mesh_b) return distanceMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
+  if (mesh_a) return distanceOther(*mesh_a, X_WA, *b, X_WB, request, result);
+  if (mesh_b) return distanceOther(*mesh_b, X_WB, *a, X_WA, request, result);
+  return fcl_own::distance(a, X_WA, b, X_WB, request, result);
 }
 
 /// The same for two objects; throws std::invalid_argument if either is null.
 template <typename S>
-std::size_t collide(const fcl::CollisionObject<S>* o1, const fcl::CollisionObject<S>* o2,
+std::size_t collide(const fcl::CollisionObject<S>* a, const fcl::CollisionObject<S>* b,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  detail::requireObjects(o1, o2);
-  return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),
-                       o2->collisionGeometry().get(), o2->getTransform(), request, result);
+  detail::requireObjects(a, b);
+  return kios::collide(a->collisionGeometry().get(), a->getTransform(),
+                       b->collisionGeometry().get(), b->getTransform(), request, result);
 }
 
 template <typename S>
-S distance(const fcl::CollisionObject<S>* o1, const fcl::CollisionObject<S>* o2,
+S distance(const fcl::CollisionObject<S>* a, const fcl::CollisionObject<S>* b,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
-  detail::requireObjects(o1, o2);
-  return kios::distance(o1->collisionGeometry().get(), o1->getTransform(),
-                        o2->collisionGeometry().get(), o2->getTransform(), request, result);
+  detail::requireObjects(a, b);
+  return kios::distance(a->collisionGeometry().get(), a->getTransform(),
+                        b->collisionGeometry().get(), b->getTransform(), request, result);
 }
 
 }  // namespace kios

@@ -30,8 +30,8 @@ void boxAlong(const kIOS<S>& bv, const Eigen::Matrix3d& axes, Eigen::Vector3d& c
   }
 }
 
-/// What the box must grow by: for the rounding of its centre and axes in S, and for a rotation that
-/// is off by E = R^T R - I, which stretches the content by less than |E| of its size.
+/// The box must grow by this pad, for its centre and axes are rounded to S, and a rotation that is
+/// off by E = R^T R - I stretches the content by less than |E| of its size.
 template <typename S>
 S roundingPad(const kIOS<S>& bv, const fcl::Transform3<S>& X) {
   constexpr S kEps = std::numeric_limits<S>::epsilon();

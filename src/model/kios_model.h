@@ -10,8 +10,8 @@
 
 namespace kios {
 
-/// The model behind a geometry, nullptr if it is no kIOS model. By type, never by node type: all
-/// foreign volumes share BV_UNKNOWN.
+/// Returns the model behind a geometry, or nullptr if it is no kIOS model. The C++ type decides,
+/// never the node type: all foreign volumes share BV_UNKNOWN.
 template <typename S>
 const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
   if (!geometry) throw std::invalid_argument("fcl_kios: a collision geometry is null.");
@@ -22,8 +22,8 @@ const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
   return dynamic_cast<const Model<S>*>(geometry);
 }
 
-/// What every query checks first, O(1): the model is finished and holds triangles. Throws
-/// std::invalid_argument otherwise.
+/// Checks that the model is finished and holds triangles, in O(1); every query calls this first.
+/// Throws std::invalid_argument if not.
 template <typename S>
 void requireFinished(const Model<S>& model);
 

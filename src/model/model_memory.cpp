@@ -117,7 +117,7 @@ int begin(Members<S> m, int num_tris, int num_vertices) {
   return fcl::BVH_OK;
 }
 
-/// What endModel() does before it builds the tree.
+/// The part of endModel() that comes before the tree is built.
 template <typename S>
 int end(Members<S> m) {
   Model<S>& model = m.model;

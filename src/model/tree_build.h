@@ -13,7 +13,7 @@
 
 namespace kios {
 
-/// What a build fits volumes to. The arrays are the model's.
+/// The geometry that a build fits volumes to. The arrays are the model's.
 template <typename S>
 struct BuildGeometry {
   const fcl::Vector3<S>* vertices = nullptr;

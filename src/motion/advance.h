@@ -10,7 +10,7 @@ namespace kios::continuous {
 class MovingPair {
  public:
   virtual ~MovingPair() = default;
-  /// Whether they touch at t: exact.
+  /// True if they touch at t; exact.
   virtual bool touching(double t) = 0;
   /// A time h <= 1 - t such that they are proven apart from t to t + h.
   virtual double apartFor(double t) = 0;

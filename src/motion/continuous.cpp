@@ -38,21 +38,21 @@ bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Mo
   return false;
 }
 
-std::unique_ptr<MovingPair> movingPair(const CollisionGeometryd& o1, const Motion& motion1,
-                                       const CollisionGeometryd& o2, const Motion& motion2,
+std::unique_ptr<MovingPair> movingPair(const CollisionGeometryd& a, const Motion& motion_a,
+                                       const CollisionGeometryd& b, const Motion& motion_b,
                                        ContinuousCounts& counts) {
-  const Modeld *model1 = asModel(&o1), *model2 = asModel(&o2);
-  if (model1 && model2) {
-    return std::make_unique<continuous::MovingMeshes>(*model1, motion1, *model2, motion2, counts);
+  const Modeld *mesh_a = asModel(&a), *mesh_b = asModel(&b);
+  if (mesh_a && mesh_b) {
+    return std::make_unique<continuous::MovingMeshes>(*mesh_a, motion_a, *mesh_b, motion_b, counts);
   }
-  if (!model1 && !model2) refusePair("continuousCollide", o1, o2);
-  const Modeld& mesh = model1 ? *model1 : *model2;
-  const Motion &mesh_motion = model1 ? motion1 : motion2, &motion = model1 ? motion2 : motion1;
-  const CollisionGeometryd& geometry = model1 ? o2 : o1;
+  if (!mesh_a && !mesh_b) refusePair("continuousCollide", a, b);
+  const Modeld& mesh = mesh_a ? *mesh_a : *mesh_b;
+  const Motion &mesh_motion = mesh_a ? motion_a : motion_b, &motion = mesh_a ? motion_b : motion_a;
+  const CollisionGeometryd& geometry = mesh_a ? b : a;
   requireFinished(mesh);
   std::vector<continuous::SolidNode> solids;
   if (!solidsOf(geometry, motion, mesh, mesh_motion, solids)) {
-    refusePair("continuousCollide", o1, o2);
+    refusePair("continuousCollide", a, b);
   }
   const auto touching = [&mesh, &geometry](const fcl::Transform3d& X_mesh,
                                            const fcl::Transform3d& X_solids) {
@@ -63,43 +63,43 @@ std::unique_ptr<MovingPair> movingPair(const CollisionGeometryd& o1, const Motio
                                                            motion, touching, counts);
 }
 
-double firstContact(const CollisionGeometryd& o1, const Motion& motion1,
-                    const CollisionGeometryd& o2, const Motion& motion2, double toc_err,
+double firstContact(const CollisionGeometryd& a, const Motion& motion_a,
+                    const CollisionGeometryd& b, const Motion& motion_b, double toc_err,
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts) {
   ContinuousCounts unused;
   ContinuousCounts& count = counts ? *counts : unused;
-  const auto pair = movingPair(o1, motion1, o2, motion2, count);
-  // As in collide(): what isn't occupied touches nothing.
-  const bool occupied = o1.isOccupied() && o2.isOccupied();
+  const auto pair = movingPair(a, motion_a, b, motion_b, count);
+  // As in collide(), a geometry that isn't occupied touches nothing.
+  const bool occupied = a.isOccupied() && b.isOccupied();
   const continuous::FirstContact contact =
       occupied ? continuous::advance(*pair, toc_err, count) : continuous::FirstContact{false, 1};
   result.is_collide = contact.found;
   result.time_of_contact = contact.time;
-  result.contact_tf1 = motion1.pose(contact.time);
-  result.contact_tf2 = motion2.pose(contact.time);
+  result.contact_tf1 = motion_a.pose(contact.time);
+  result.contact_tf2 = motion_b.pose(contact.time);
   return contact.time;
 }
 
 }  // namespace
 
-double firstContact(const CollisionGeometryd& o1, const fcl::MotionBased* motion1,
-                    const CollisionGeometryd& o2, const fcl::MotionBased* motion2,
+double firstContact(const CollisionGeometryd& a, const fcl::MotionBased* motion_a,
+                    const CollisionGeometryd& b, const fcl::MotionBased* motion_b,
                     const fcl::ContinuousCollisionRequestd& request,
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts) {
-  return firstContact(o1, continuous::motionOf(motion1), o2, continuous::motionOf(motion2),
+  return firstContact(a, continuous::motionOf(motion_a), b, continuous::motionOf(motion_b),
                       request.toc_err, result, counts);
 }
 
-double firstContact(const CollisionGeometryd& o1, const fcl::Transform3d& tf1_beg,
-                    const fcl::Transform3d& tf1_end, const CollisionGeometryd& o2,
-                    const fcl::Transform3d& tf2_beg, const fcl::Transform3d& tf2_end,
+double firstContact(const CollisionGeometryd& a, const fcl::Transform3d& X_WA_begin,
+                    const fcl::Transform3d& X_WA_end, const CollisionGeometryd& b,
+                    const fcl::Transform3d& X_WB_begin, const fcl::Transform3d& X_WB_end,
                     const fcl::ContinuousCollisionRequestd& request,
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts) {
   const auto between = [&](const fcl::Transform3d& X_0, const fcl::Transform3d& X_1) {
     return continuous::motionBetween(X_0, X_1, request.ccd_motion_type);
   };
-  return firstContact(o1, between(tf1_beg, tf1_end), o2, between(tf2_beg, tf2_end), request.toc_err,
-                      result, counts);
+  return firstContact(a, between(X_WA_begin, X_WA_end), b, between(X_WB_begin, X_WB_end),
+                      request.toc_err, result, counts);
 }
 
 }  // namespace kios

@@ -12,7 +12,7 @@ class MotionBase;
 
 namespace kios::continuous {
 
-/// The motion that an FCL motion describes: what it would give after integrate(t). The object is
+/// The motion that an FCL motion describes by its pose after integrate(t). The object is
 /// only read, so that many threads may share it. Throws std::invalid_argument, naming the type, if
 /// it isn't one of FCL's four (a derived class may integrate otherwise), null, or not finite.
 Motion motionOf(const fcl::MotionBase<double>* motion);

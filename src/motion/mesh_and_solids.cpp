@@ -20,18 +20,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The spheres of a node in the shape's frame; returns how many.
 int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers, double* radii) {
-  const double stretch = 1 + X.stretch, unit = scaled(1.0, bv.exponent);
+  const double stretch = 1 + detail::boundsOf(X).stretch, unit = scaled(1.0, bv.exponent);
   centers[0] = X * bv.center0;
   radii[0] = bv.radius0 * stretch;
   for (int i = 1; i < bv.k(); ++i) {
     const Vector3d cap(bv.cap_x[i - 1] * unit, bv.cap_y[i - 1] * unit, bv.cap_z[i - 1] * unit);
-    centers[i] = centers[0] + X.R * cap;
+    centers[i] = centers[0] + X.R() * cap;
     radii[i] = bv.cap_r[i - 1] * unit * stretch;
   }
   return bv.k();
 }
 
-/// Of the solids that count.
+/// The reach of the leaves, the solids that count.
 double reachOf(const std::vector<SolidNode>& solids) {
   double reach = 0;
   for (const SolidNode& part : solids) {
@@ -61,7 +61,7 @@ bool MovingMeshAndSolids::touching(double t) {
 // Four times the tolerance of the kernels, at the largest extent of a triangle and a solid; the
 // solids' velocities are rounded where the mesh is.
 double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
-  const double lengths = reach_ + v.pose().T_norm1;
+  const double lengths = reach_ + detail::boundsOf(v.pose()).T_norm1;
   return v.pad() + (0x1p-40 + 0x1p-46 * v.turn()) * lengths + 0x1p-290;
 }
 
@@ -101,13 +101,13 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
   Vector3d centers[kIOSd::kMaxSpheres];
   double radii[kIOSd::kMaxSpheres];
   const int k = spheresOf(bv, v.pose(), centers, radii);
-  // Inner nodes may be larger than what counts in them.
+  // An inner node may be larger than the leaves in it.
   const double pad = this->pad(v) + 0x1p-46 * (1 + v.turn()) * (part.center.norm() + solid.reach());
   if (solid.bounded() && v.apart(v.ballOfA(part.center, solid.reach() + pad),
                                  v.ballOfB(centers[0], radii[0]), duration)) {
     return true;
   }
-  // Balls that don't get as far as the shape is.
+  // A ball is free if it doesn't get as far as the shape lies.
   for (int i = 0; i < k; ++i) {
     const double gap = shape::pointBound(solid, centers[i] - part.center) - radii[i] - pad;
     if (!(gap > 0)) continue;
@@ -116,7 +116,7 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
       return true;
     }
   }
-  // Slabs: across the shape's normal, or across that which did best for triangles.
+  // Slabs lie across the shape's normal, or across the direction that did best for triangles.
   const auto behindSlab = [&](const Vector3d& n) {
     const double extent = n.dot(part.center) + shape::extentAlong(solid, n);
     for (int i = 0; i < k; ++i) {
@@ -149,7 +149,7 @@ double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
   const double extent = n.dot(part.center) + shape::extentAlong(part.solid, n);
   const double pad = this->pad(v);
   double time = closingTime(low - extent - pad, speed, change);
-  // A slab that doesn't turn, as for what turns on a table.
+  // A slab that doesn't turn suits a body that turns on a table.
   if (part.solid.bounded() && v.turn() > 0) {
     time =
         std::max(time, v.solidSlabTime(n, support, part.center, part.solid.reach(), corners, pad));
@@ -170,7 +170,7 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
   double best = 0;
   if (gap > 0) {
     const auto drift =
-        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.pose().stretch), enough);
+        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.stretch()), enough);
     best = std::min(enough, std::max(closingTime(gap, drift.speed, drift.change),
                                      closingTime(gap, drift.most, 0)));
   }

@@ -20,11 +20,11 @@ struct SolidNode {
 
 /// A moving mesh and a moving rigid tree of solids, whose leaves count: a shape, or the cells of an
 /// octree. All tests are in the solids' frame and turn with it, so that unbounded shapes have no
-/// velocities but near the mesh. The shapes' kernels are right to 2^-42 of the pair's extent: what
-/// is nearer than 2^-40 of it counts as touching while something moves.
+/// velocities but near the mesh. The shapes' kernels are right to 2^-42 of the pair's extent: a
+/// pair nearer than 2^-40 of it counts as touching while something moves.
 class MovingMeshAndSolids final : public PairSearch {
  public:
-  /// The static query: whether the mesh and the solids touch at these poses.
+  /// The static query: returns true if the mesh and the solids touch at these poses.
   using Touching =
       std::function<bool(const fcl::Transform3d& X_mesh, const fcl::Transform3d& X_solids)>;
 

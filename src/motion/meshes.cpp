@@ -55,7 +55,7 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
 
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
-  const double stretch = 1 + v.pose().stretch;
+  const double stretch = 1 + v.stretch();
   const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
   const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
   if (v.apart(central_a, central_b, duration)) return true;
@@ -71,7 +71,7 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
     return Eigen::Array4d(Eigen::Map<const Eigen::Array4f>(bv.cap_r).cast<double>() * unit);
   };
   Eigen::Array4d centers[3];
-  const Eigen::Array4d radii_b = capsOf(b, v.pose().R, central_b.center, centers) * stretch;
+  const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
   const FourBalls caps_b = v.ballsOfB(centers, radii_b);
   if (v.anyApart(central_a, caps_b, duration)) return true;
   const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
@@ -94,13 +94,14 @@ double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, dou
   if (!(nearest.distance > 0)) return 0;
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
   // The distance is off by 32 u of the pair's extent, which the pad for rounding covers.
-  double best = v.apartTime(v.ballOfA(a.center0, a.radius0),
-                            v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.pose().stretch)),
-                            nearest.distance);
+  double best =
+      v.apartTime(v.ballOfA(a.center0, a.radius0),
+                  v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())), nearest.distance);
   const Vector3d witness = (nearest.point_b - nearest.point_a).stableNormalized();
   if (best < enough) best = std::max(best, v.slabTime(witness, p, q));
-  // The slab that lasts longest need not be the widest one: what slides along a face stays on its
-  // side of it, and what passes an edge on that side of a plane through the edge and the velocity.
+  // The slab that lasts longest need not be the widest one: a body that slides along a face stays
+  // on its side of it, and a body that passes an edge stays on its side of a plane through the edge
+  // and the velocity.
   const auto attempt = [&](const Vector3d& normal) {
     if (best >= enough) return;
     const Vector3d n = normal.stableNormalized();

@@ -35,12 +35,12 @@ class Motion {
   /// Velocities at t in the world, X = pose(t), and their bounds over [t, t + window].
   VelocityField velocities(double t, const fcl::Transform3d& X, double window) const;
 
-  /// Whether bounds are the same for every window.
+  /// True if bounds are the same for every window.
   bool steady() const { return kind_ == Kind::kTwist; }
-  /// Whether the body stands still.
+  /// True if the body stands still.
   bool still() const;
-  /// Bound of how far rounding takes the pose of a point within `reach` of the body's origin off,
-  /// at any time, with the same for a velocity times a time of at most 1.
+  /// Bounds the rounding error of the place of a point within `reach` of the body's origin, at any
+  /// time, plus that of its velocity times a time of at most 1.
   double rounding(double reach) const;
 
  private:

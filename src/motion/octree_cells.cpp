@@ -29,7 +29,7 @@ std::vector<Sphere> sweptBy(const Modeld& mesh, const RelativeMotion& motion) {
     const double way = duration * std::min(drift.most, drift.speed + 0.5 * duration * drift.change);
     const double lengths = center.norm() + way + root.radius0;
     spheres.push_back(
-        {center, root.radius0 * (1 + v.pose().stretch) + way + v.pad() + 0x1p-40 * lengths});
+        {center, root.radius0 * (1 + v.stretch()) + way + v.pad() + 0x1p-40 * lengths});
   }
   return spheres;
 }

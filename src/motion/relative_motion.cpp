@@ -27,11 +27,11 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
     field->origin = X_WA_.linear().transpose() * (field->origin - X_WA_.translation());
   }
   // Rotations are orthonormal to 16 u, so that is what the change of frame takes off.
-  pad_ = pad + 64 * kUlpDouble * X_AB_.T_norm1 + 0x1p-480;
+  pad_ = pad + 64 * kUlpDouble * detail::boundsOf(X_AB_).T_norm1 + 0x1p-480;
 }
 
-// The centres' difference moves on a line, but for the accelerations; what is nearest on it is
-// found up to a few u of the lengths. A ball that turns stays where it is.
+// The centres' difference moves on a line, but for the accelerations; the nearest point of that
+// line is found up to a few u of the lengths. A ball that turns stays where it is.
 bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double duration) const {
   const Vector3d between = b.center - a.center, velocity = b.velocity - a.velocity;
   const double approach = -between.dot(velocity), square = velocity.squaredNorm();

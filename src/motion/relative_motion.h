@@ -22,8 +22,8 @@ struct FourBalls {
   Eigen::Array4d center[3], radius, velocity[3], acceleration;
 };
 
-/// How two bodies A and B move at a time t and, by bounds, until t + window. Everything is in frame
-/// A: the axes and origin of body A at t, standing still from then on.
+/// The relative motion of two bodies A and B at a time t and, by bounds, until t + window.
+/// Everything is in frame A: the axes and origin of body A at t, standing still from then on.
 class RelativeVelocities {
  public:
   RelativeVelocities(const Motion& a, const Motion& b, double t, double window, double pad);
@@ -42,16 +42,16 @@ class RelativeVelocities {
   bool apart(const MovingBall& a, const MovingBall& b, double duration) const;
   /// True if that holds for one of four; the ball is of one body, the four of the other one.
   bool anyApart(const MovingBall& ball, const FourBalls& four, double duration) const;
-  /// For how long the contents of two balls are proven apart that are `gap` apart at t.
+  /// The time for which the contents of two balls are proven apart that are `gap` apart at t.
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
-  /// For how long no point of A's polygon reaches a point of B's, as the slab between them across
-  /// n (of any length near 1) tells; 0 if none is between them.
+  /// The time for which no point of A's polygon reaches a point of B's, by the slab between them
+  /// across n (of any length near 1); 0 if none is between them.
   template <typename VerticesA, typename VerticesB>
   double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b) const;
 
-  /// How points of B move as seen from body A, which may turn: their speed at t, the largest one,
-  /// and what the former may change by a time, all within `duration`. Points of the ball; `n`
-  /// names the one direction that counts (`speed` is along -n), null: any.
+  /// The motion of the points of a ball of B as seen from body A, which may turn, within
+  /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
+  /// unit of time. If `n` isn't null, only the direction n counts, and `speed` is along -n.
   struct Drift {
     double speed, most, change;
   };
@@ -71,9 +71,10 @@ class RelativeVelocities {
                        double pad) const;
 
   const RelativePose<double>& pose() const { return X_AB_; }
+  double stretch() const { return detail::boundsOf(X_AB_).stretch; }  ///< of pose()
 
  private:
-  /// Rounding per length of what concerns the centres of balls, which may be farther off than the
+  /// The rounding error, per length, of the centres of balls, which may be farther off than the
   /// bodies reach: 32 u of positions, and of velocities times the duration.
   double rounding(double duration) const { return 0x1p-48 * (1 + duration * turn()); }
 
@@ -81,7 +82,7 @@ class RelativeVelocities {
   RelativePose<double> X_AB_;
   VelocityField a_, b_;
   double origins_speed_;  ///< bound over the window of the speed of b's origin relative to a's
-  double pad_;            ///< what rounding may take off any gap
+  double pad_;            ///< rounding takes at most this off any gap
 };
 
 /// The relative motion of two bodies whose points are within reach_a and reach_b of their origins.

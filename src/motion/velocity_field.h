@@ -10,14 +10,14 @@
 
 namespace kios::continuous {
 
-/// Velocities of a rigid body's points at one time, and bounds of what becomes of them until a
-/// later one (the window), in a frame that stands still: u(x) = linear + angular x (x - origin).
+/// Velocities of a rigid body's points at one time, and bounds of their changes until a later
+/// one (the window), in a frame that stands still: u(x) = linear + angular x (x - origin).
 /// `origin` is a point of the body, also when it turns later.
 struct VelocityField {
   Eigen::Vector3d linear, angular, origin;
   // Over the window:
   Eigen::Vector3d acceleration_at[2];  ///< the origin's at both ends; between them it is linear
-  bool fixed_axis;                     ///< whether the body turns about `axis` alone
+  bool fixed_axis;                     ///< the body turns about `axis` alone
   Eigen::Vector3d axis;                ///< of unit length, if fixed
   double angular_speed;                ///< bound
   double turn_acceleration;            ///< bound of |x'' - origin''| per length of x - origin

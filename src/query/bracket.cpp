@@ -25,10 +25,10 @@ void setBounds(const PairFrame<S>& frame, const engine::PairAnswer<S>& found,
   if (found.found()) {
     answer.distance = found.nearest.distance;
     answer.upper_bound = roundUp<S>(double{answer.distance} + frame.distanceErrorOf(found.ids));
-    answer.triangle1 = found.ids.a;
-    answer.triangle2 = found.ids.b;
-    answer.point1 = found.nearest.point_a;
-    answer.point2 = found.nearest.point_b;
+    answer.triangle_a = found.ids.a;
+    answer.triangle_b = found.ids.b;
+    answer.point_a = found.nearest.point_a;
+    answer.point_b = found.nearest.point_b;
     lower = std::min(lower, double{answer.distance});
   }
   answer.lower_bound = std::max(answer.lower_bound, roundDown<S>(lower));

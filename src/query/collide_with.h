@@ -16,19 +16,19 @@ namespace kios {
 
 /// FCL's approximate cost: that of the root volume's box against the shape, by FCL.
 template <typename S>
-void addApproximateCost(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                        const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& tf2,
+void addApproximateCost(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                        const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   fcl::Box<S> box;
-  fcl::Transform3<S> box_tf = fcl::Transform3<S>::Identity();
-  constructBox(model.getBV(0).bv, tf1, box, box_tf);
+  fcl::Transform3<S> X_WBox = fcl::Transform3<S>::Identity();
+  constructBox(model.getBV(0).bv, X_WM, box, X_WBox);
   box.cost_density = model.cost_density;
   box.threshold_occupied = model.threshold_occupied;
   box.threshold_free = model.threshold_free;
   fcl::CollisionResult<S> only_costs;
   const fcl::CollisionGeometry<S>* root = &box;
   const fcl::CollisionRequest<S> costs(1, false, request.num_max_cost_sources, true, false);
-  fcl_own::collide(root, box_tf, &other, tf2, costs, only_costs);
+  fcl_own::collide(root, X_WBox, &other, X_WO, costs, only_costs);
   std::vector<fcl::CostSource<S>> sources;
   only_costs.getCostSources(sources);
   for (const auto& source : sources) result.addCostSource(source, request.num_max_cost_sources);
@@ -37,8 +37,8 @@ void addApproximateCost(const Model<S>& model, const fcl::Transform3<S>& tf1,
 /// The part that collisions of a model with shapes and with octrees share. search(request) adds
 /// contacts, and cost sources if that request wants them; false if there was nothing to do.
 template <typename S, class Search>
-std::size_t collideWith(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                        const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& tf2,
+std::size_t collideWith(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                        const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                         const Search& search) {
   requireFinished(model);
@@ -49,7 +49,7 @@ std::size_t collideWith(const Model<S>& model, const fcl::Transform3<S>& tf1,
   fcl::CollisionRequest<S> asked = request;
   const bool approximate = request.enable_cost && request.use_approximate_cost;
   if (approximate) asked.enable_cost = false;
-  if (search(asked) && approximate) addApproximateCost(model, tf1, other, tf2, request, result);
+  if (search(asked) && approximate) addApproximateCost(model, X_WM, other, X_WO, request, result);
   return result.numContacts();
 }
 

@@ -40,26 +40,25 @@ engine::PairQuery queryOf(const DistanceOptions<S>& options) {
   query.far_enough = options.far_enough;
   query.max_expansions = options.max_expansions;
   if (options.warm_start)
-    query.start = {options.warm_start->triangle1, options.warm_start->triangle2};
+    query.start = {options.warm_start->triangle_a, options.warm_start->triangle_b};
   return query;
 }
 
 }  // namespace
 
 template <typename S>
-DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W1,
-                           const Model<S>& model2, const fcl::Transform3<S>& X_W2,
-                           const DistanceOptions<S>& options) {
+DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                           const fcl::Transform3<S>& X_WB, const DistanceOptions<S>& options) {
   requireValid(options);
-  const PairFrame<S> frame(model1, X_W1, model2, X_W2);
+  const PairFrame<S> frame(a, X_WA, b, X_WB);
   DistanceAnswer<S> answer = bracketDistance(frame, queryOf(options));
-  if (answer.triangle1 < 0) return answer;
-  if (options.warm_start) *options.warm_start = {answer.triangle1, answer.triangle2};
+  if (answer.triangle_a < 0) return answer;
+  if (options.warm_start) *options.warm_start = {answer.triangle_a, answer.triangle_b};
   if (options.nearest_points) {
-    answer.point1 = detail::transform<S>(X_W1, answer.point1);
-    answer.point2 = detail::transform<S>(X_W1, answer.point2);
+    answer.point_a = detail::transform<S>(X_WA, answer.point_a);
+    answer.point_b = detail::transform<S>(X_WA, answer.point_b);
   } else {
-    answer.point1 = answer.point2 = DistanceAnswer<S>().point1;
+    answer.point_a = answer.point_b = DistanceAnswer<S>().point_a;
   }
   return answer;
 }
@@ -68,11 +67,11 @@ DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W
 // verdict from the exact answer's: the pair that realises that is not farther than the pair found
 // here, and not nearer than what was proven, by more than distanceError().
 template <typename S>
-bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Model<S>& model2,
-                const fcl::Transform3<S>& X_W2, std::common_type_t<S> t,
+bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                const fcl::Transform3<S>& X_WB, std::common_type_t<S> t,
                 std::common_type_t<DistanceAnswer<S>>* certificate, WarmStart* warm_start) {
   require(!std::isnan(t), "the distance asked for", t, "a number");
-  const PairFrame<S> frame(model1, X_W1, model2, X_W2);
+  const PairFrame<S> frame(a, X_WA, b, X_WB);
   DistanceAnswer<S> unused;
   DistanceAnswer<S>& answer = certificate ? *certificate : unused;
   answer = DistanceAnswer<S>();
@@ -90,13 +89,13 @@ bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Mo
     const SearchCounts before = answer.counts;
     answer = bracketDistance(frame, question);
     answer.counts += before;
-    if (answer.triangle1 >= 0 && warm_start) *warm_start = {answer.triangle1, answer.triangle2};
+    if (answer.triangle_a >= 0 && warm_start) *warm_start = {answer.triangle_a, answer.triangle_b};
   };
   ask(query);
   const bool far = answer.stop == DistanceStop::kFar;
   const bool near = answer.distance == 0 || double{answer.distance} <= query.near_enough;
   if (!far && !near) ask(queryOf(options));
-  answer.point1 = answer.point2 = DistanceAnswer<S>().point1;
+  answer.point_a = answer.point_b = DistanceAnswer<S>().point_a;
   return !far && (near || answer.distance <= t);
 }
 

@@ -21,22 +21,21 @@ fcl::AABB<S> boxOf(const TriangleVertices<S>& t) {
 }
 
 template <typename Node, typename S, typename Request, typename Result>
-void connect(Node& node, const Model<S>& model1, const fcl::Transform3<S>& tf1,
-             const Model<S>& model2, const fcl::Transform3<S>& tf2, const Request& request,
-             Result& result) {
-  requireFinished(model1);
-  requireFinished(model2);
-  node.model1 = &model1;
-  node.model2 = &model2;
-  node.vertices1 = model1.vertices;
-  node.vertices2 = model2.vertices;
-  node.tri_indices1 = model1.tri_indices;
-  node.tri_indices2 = model2.tri_indices;
-  node.tf1 = tf1;
-  node.tf2 = tf2;
+void connect(Node& node, const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+             const fcl::Transform3<S>& X_WB, const Request& request, Result& result) {
+  requireFinished(a);
+  requireFinished(b);
+  node.model1 = &a;
+  node.model2 = &b;
+  node.vertices1 = a.vertices;
+  node.vertices2 = b.vertices;
+  node.tri_indices1 = a.tri_indices;
+  node.tri_indices2 = b.tri_indices;
+  node.tf1 = X_WA;
+  node.tf2 = X_WB;
   node.request = request;
   node.result = &result;
-  node.X_12.emplace(tf1, tf2);
+  node.X_AB.emplace(X_WA, X_WB);
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ void connect(Node& node, const Model<S>& model1, const fcl::Transform3<S>& tf1,
 template <typename S>
 bool MeshCollisionTraversalNode<S>::BVTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_bv_tests++;
-  return separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_12, 0.0) > 0;
+  return separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_AB, 0.0) > 0;
 }
 
 template <typename S>
@@ -52,19 +51,18 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_leaf_tests++;
   const auto& request = this->request;
   auto& result = *this->result;
-  const auto& model1 = *this->model1;
-  const auto& model2 = *this->model2;
-  const bool occupied = model1.isOccupied() && model2.isOccupied();
-  const bool costs = request.enable_cost && !model1.isFree() && !model2.isFree();
+  const auto& a = *this->model1;
+  const auto& b = *this->model2;
+  const bool occupied = a.isOccupied() && b.isOccupied();
+  const bool costs = request.enable_cost && !a.isFree() && !b.isFree();
   if (!occupied && !costs) return;
 
-  const int id1 = model1.getBV(b1).primitiveId(), id2 = model2.getBV(b2).primitiveId();
-  const auto p = cornersOf(*this->model1, id1);
-  const auto q_local = cornersOf(*this->model2, id2);
-  const auto q = transformed(q_local, *X_12);
+  const int id_a = a.getBV(b1).primitiveId(), id_b = b.getBV(b2).primitiveId();
+  const auto p = cornersOf(a, id_a), q_local = cornersOf(b, id_b);
+  const auto q = transformed(q_local, *X_AB);
   if (!trianglesIntersect(p, q)) return;
 
-  if (occupied) addContacts(model1, id1, p, model2, id2, q, this->tf1, request, result);
+  if (occupied) addContacts(a, id_a, p, b, id_b, q, this->tf1, request, result);
   if (costs) {
     fcl::AABB<S> shared;
     boxOf(transformed(p, this->tf1)).overlap(boxOf(transformed(q_local, this->tf2)), shared);
@@ -82,7 +80,7 @@ void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
 
 template <typename S>
 void MeshDistanceTraversalNode<S>::preprocess() {
-  tri1_ = tri2_ = -1;
+  triangle_a_ = triangle_b_ = -1;
   lowerTo(this->result->min_distance);
 }
 
@@ -90,7 +88,7 @@ template <typename S>
 S MeshDistanceTraversalNode<S>::BVTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_bv_tests++;
   return static_cast<S>(
-      separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_12, double{prune_at_}));
+      separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_AB, double{prune_at_}));
 }
 
 template <typename S>
@@ -101,48 +99,46 @@ bool MeshDistanceTraversalNode<S>::canStop(S bound) const {
 template <typename S>
 void MeshDistanceTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_leaf_tests++;
-  const int id1 = this->model1->getBV(b1).primitiveId();
-  const int id2 = this->model2->getBV(b2).primitiveId();
-  const auto p = cornersOf(*this->model1, id1);
-  const auto q = transformed(cornersOf(*this->model2, id2), *X_12);
+  const int id_a = this->model1->getBV(b1).primitiveId();
+  const int id_b = this->model2->getBV(b2).primitiveId();
+  const auto p = cornersOf(*this->model1, id_a);
+  const auto q = transformed(cornersOf(*this->model2, id_b), *X_AB);
   const TriangleDistance<S> nearest = triangleDistance(p, q);
   if (!(nearest.distance < best_)) return;
   lowerTo(nearest.distance);
-  tri1_ = id1;
-  tri2_ = id2;
-  point1_ = nearest.point_a;
-  point2_ = nearest.point_b;
+  triangle_a_ = id_a;
+  triangle_b_ = id_b;
+  point_a_ = nearest.point_a;
+  point_b_ = nearest.point_b;
 }
 
 template <typename S>
 void MeshDistanceTraversalNode<S>::postprocess() {
-  if (tri1_ < 0) return;
+  if (triangle_a_ < 0) return;
   if (this->request.enable_nearest_points) {
-    this->result->update(best_, this->model1, this->model2, tri1_, tri2_,
-                         detail::transform<S>(this->tf1, point1_),
-                         detail::transform<S>(this->tf1, point2_));
+    this->result->update(best_, this->model1, this->model2, triangle_a_, triangle_b_,
+                         detail::transform<S>(this->tf1, point_a_),
+                         detail::transform<S>(this->tf1, point_b_));
   } else {
-    this->result->update(best_, this->model1, this->model2, tri1_, tri2_);
+    this->result->update(best_, this->model1, this->model2, triangle_a_, triangle_b_);
   }
 }
 
 template <typename S>
-bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& model1,
-                const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                const fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
-                fcl::CollisionResult<S>& result) {
-  connect(node, model1, tf1, model2, tf2, request, result);
-  node.cost_density = model1.cost_density * model2.cost_density;
+bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& a,
+                const fcl::Transform3<S>& X_WA, const Model<S>& b, const fcl::Transform3<S>& X_WB,
+                const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  connect(node, a, X_WA, b, X_WB, request, result);
+  node.cost_density = a.cost_density * b.cost_density;
   return true;
 }
 
 template <typename S>
-bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& model1,
-                const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
-                fcl::DistanceResult<S>& result) {
+bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& a,
+                const fcl::Transform3<S>& X_WA, const Model<S>& b, const fcl::Transform3<S>& X_WB,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   requireErrorBounds(request);
-  connect(node, model1, tf1, model2, tf2, request, result);
+  connect(node, a, X_WA, b, X_WB, request, result);
   node.rel_err = request.rel_err;
   node.abs_err = request.abs_err;
   return true;

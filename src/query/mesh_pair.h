@@ -28,27 +28,26 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
   require("abs_err", request.abs_err);
 }
 
-/// Reports two triangles that intersect, p and q in model 1's frame, as FCL does: up to two
+/// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
 /// contacts, as many as the request leaves room for.
 template <typename S>
-void addContacts(const Model<S>& model1, int id1, const TriangleVertices<S>& p,
-                 const Model<S>& model2, int id2, const TriangleVertices<S>& q,
-                 const fcl::Transform3<S>& tf1, const fcl::CollisionRequest<S>& request,
-                 fcl::CollisionResult<S>& result) {
+void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p, const Model<S>& b,
+                 int id_b, const TriangleVertices<S>& q, const fcl::Transform3<S>& X_WA,
+                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   const std::size_t room =
       request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
   if (!request.enable_contact) {
     const fcl::Vector3<S> unset = fcl::Vector3<S>::Zero();  // FCL leaves it uninitialised
     if (room > 0) {
-      result.addContact(fcl::Contact<S>(&model1, &model2, id1, id2, unset, unset, S(0)));
+      result.addContact(fcl::Contact<S>(&a, &b, id_a, id_b, unset, unset, S(0)));
     }
     return;
   }
   const TriangleContact<S> contact = triangleContact(p, q);
   for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
     result.addContact(
-        fcl::Contact<S>(&model1, &model2, id1, id2, detail::transform<S>(tf1, contact.points[i]),
-                        detail::rotate<S>(tf1.linear(), contact.normal), contact.depth));
+        fcl::Contact<S>(&a, &b, id_a, id_b, detail::transform<S>(X_WA, contact.points[i]),
+                        detail::rotate<S>(X_WA.linear(), contact.normal), contact.depth));
   }
 }
 

@@ -33,22 +33,22 @@ class LimitedNode final : public MeshCollisionTraversalNode<S> {
   const long long limit_;
 };
 
-/// Whether two models touch, by FCL's trees, as long as it hasn't paid to prepare both of them.
-/// False if the engine is to say it.
+/// Decides by FCL's trees whether two models touch, as long as it hasn't paid to prepare both of
+/// them. Returns false if the engine is to decide.
 template <typename S>
-bool touchUnprepared(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                     const fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
+bool touchUnprepared(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                     const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
                      fcl::CollisionResult<S>& result, SearchCounts& counts) {
-  engine::TreeCache *const trees1 = treesOf(model1), *const trees2 = treesOf(model2);
-  if (!trees1 || !trees2) return false;
-  const long long limit = std::max(trees1->testsToSpare(static_cast<std::size_t>(model1.num_tris)),
-                                   trees2->testsToSpare(static_cast<std::size_t>(model2.num_tris)));
+  engine::TreeCache *const trees_a = treesOf(a), *const trees_b = treesOf(b);
+  if (!trees_a || !trees_b) return false;
+  const long long limit = std::max(trees_a->testsToSpare(static_cast<std::size_t>(a.num_tris)),
+                                   trees_b->testsToSpare(static_cast<std::size_t>(b.num_tris)));
   if (limit == 0) return false;
   LimitedNode<S> node(limit);
-  initialize(node, model1, tf1, model2, tf2, request, result);
+  initialize(node, a, X_WA, b, X_WB, request, result);
   fcl::detail::collide(&node);
-  trees1->spend(node.tests());
-  if (trees2 != trees1) trees2->spend(node.tests());
+  trees_a->spend(node.tests());
+  if (trees_b != trees_a) trees_b->spend(node.tests());
   counts.volume_tests += node.num_bv_tests;
   counts.leaf_pairs += node.num_leaf_tests;
   if (node.gaveUp() && !request.isSatisfied(result)) return false;
@@ -59,11 +59,10 @@ bool touchUnprepared(const Model<S>& model1, const fcl::Transform3<S>& tf1, cons
 }  // namespace
 
 template <typename S>
-std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
-                          const Model<S>& model2, const fcl::Transform3<S>& tf2,
-                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
-                          SearchCounts* counts) {
-  const PairFrame<S> frame(model1, tf1, model2, tf2);
+std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                          const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
+                          fcl::CollisionResult<S>& result, SearchCounts* counts) {
+  const PairFrame<S> frame(a, X_WA, b, X_WB);
   if (request.num_max_contacts == 0) {  // FCL's warning and answer
     std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
     return 0;
@@ -71,35 +70,35 @@ std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
   if (request.isSatisfied(result) || frame.rootBound(0) > 0) return result.numContacts();
   SearchCounts unused;
   SearchCounts& count = counts ? *counts : unused;
-  const bool occupied = model1.isOccupied() && model2.isOccupied();
+  const bool occupied = a.isOccupied() && b.isOccupied();
   if (occupied && !request.enable_cost) {
     const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
-    if (verdict && touchUnprepared(model1, tf1, model2, tf2, request, result, count)) {
+    if (verdict && touchUnprepared(a, X_WA, b, X_WB, request, result, count)) {
       return result.numContacts();
     }
     const std::size_t room = request.num_max_contacts - result.numContacts();
     std::vector<engine::TrianglePairIds> found;
     if (searchContacts(frame, room, found, count)) {
       for (const auto& ids : found) {
-        addContacts(model1, ids.a, frame.triangleA(ids.a), model2, ids.b, frame.triangleB(ids.b),
-                    tf1, request, result);
+        addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA,
+                    request, result);
       }
       return result.numContacts();
     }
   }
   ++count.tree_searches;
   MeshCollisionTraversalNode<S> node;
-  initialize(node, model1, tf1, model2, tf2, request, result);
+  initialize(node, a, X_WA, b, X_WB, request, result);
   fcl::detail::collide(&node);
   return result.numContacts();
 }
 
 template <typename S>
-S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                 const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
                  fcl::DistanceResult<S>& result, SearchCounts* counts) {
   requireErrorBounds(request);
-  const PairFrame<S> frame(model1, tf1, model2, tf2);
+  const PairFrame<S> frame(a, X_WA, b, X_WB);
   if (request.isSatisfied(result)) return result.min_distance;
   engine::PairQuery query;
   query.rel_err = request.rel_err;
@@ -113,11 +112,11 @@ S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Mo
   const TriangleDistance<S>& nearest = answer.nearest;
   if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
   if (request.enable_nearest_points) {
-    result.update(nearest.distance, &model1, &model2, answer.ids.a, answer.ids.b,
-                  detail::transform<S>(tf1, nearest.point_a),
-                  detail::transform<S>(tf1, nearest.point_b));
+    result.update(nearest.distance, &a, &b, answer.ids.a, answer.ids.b,
+                  detail::transform<S>(X_WA, nearest.point_a),
+                  detail::transform<S>(X_WA, nearest.point_b));
   } else {
-    result.update(nearest.distance, &model1, &model2, answer.ids.a, answer.ids.b);
+    result.update(nearest.distance, &a, &b, answer.ids.a, answer.ids.b);
   }
   return result.min_distance;
 }

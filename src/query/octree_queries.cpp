@@ -37,12 +37,12 @@ shape::Solid rootCube(const fcl::OcTree<S>& octree) {
 template <typename S>
 class OctreePair {
  public:
-  OctreePair(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
-             const fcl::Transform3<S>& tf2, SearchCounts& counts)
+  OctreePair(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO, const Model<S>& model,
+             const fcl::Transform3<S>& X_WM, SearchCounts& counts)
       : octree_(octree),
         model_(model),
         counts_(counts),
-        posed_(rootCube(octree), tf2, tf1, model.getBV(0).bv) {}
+        posed_(rootCube(octree), X_WM, X_WO, model.getBV(0).bv) {}
 
  protected:
   Cell<S> root() const { return {octree_.getRoot(), octree_.getRootBV()}; }
@@ -59,7 +59,7 @@ class OctreePair {
     return child;
   }
 
-  /// FCL's rule of which of a pair is divided, if not both are leaves.
+  /// FCL's rule for a pair of which not both are leaves: true if the cell is divided, not the node.
   bool dividesCell(const Cell<S>& cell, int node) const {
     const auto& bv = model_.getBV(node);
     return bv.isLeaf() || (!isLeaf(cell) && cell.box.size() > bv.bv.size());
@@ -109,13 +109,13 @@ class OctreePair {
 template <typename S>
 class OctreeCollision : OctreePair<S> {
  public:
-  OctreeCollision(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1,
-                  const Model<S>& model, const fcl::Transform3<S>& tf2,
+  OctreeCollision(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                  const Model<S>& model, const fcl::Transform3<S>& X_WM,
                   const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                   SearchCounts& counts)
-      : OctreePair<S>(octree, tf1, model, tf2, counts),
-        tf1_(tf1),
-        tf2_(tf2),
+      : OctreePair<S>(octree, X_WO, model, X_WM, counts),
+        X_WO_(X_WO),
+        X_WM_(X_WM),
         request_(request),
         result_(result) {}
 
@@ -174,12 +174,12 @@ class OctreeCollision : OctreePair<S> {
 
   void addCost(const Cell<S>& cell, int id) {
     fcl::AABB<S> cell_box, shared;
-    const fcl::Vector3<S> middle = tf1_ * cell.box.center();
+    const fcl::Vector3<S> middle = X_WO_ * cell.box.center();
     const fcl::Vector3<S> half =
-        tf1_.linear().cwiseAbs() * (S(0.5) * (cell.box.max_ - cell.box.min_));
+        X_WO_.linear().cwiseAbs() * (S(0.5) * (cell.box.max_ - cell.box.min_));
     cell_box.min_ = middle - half;
     cell_box.max_ = middle + half;
-    const auto t = transformed(cornersOf(this->model_, id), tf2_);
+    const auto t = transformed(cornersOf(this->model_, id), X_WM_);
     cell_box.overlap(fcl::AABB<S>(t[0], t[1], t[2]), shared);
     const S occupancy =
         cell.node ? S(cell.node->getOccupancy()) : this->octree_.getOccupancyThres();
@@ -187,7 +187,7 @@ class OctreeCollision : OctreePair<S> {
                           request_.num_max_cost_sources);
   }
 
-  const fcl::Transform3<S>&tf1_, &tf2_;
+  const fcl::Transform3<S>&X_WO_, &X_WM_;
   const fcl::CollisionRequest<S>& request_;
   fcl::CollisionResult<S>& result_;
 };
@@ -195,10 +195,11 @@ class OctreeCollision : OctreePair<S> {
 template <typename S>
 class OctreeDistance : OctreePair<S> {
  public:
-  OctreeDistance(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
-                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
-                 fcl::DistanceResult<S>& result, SearchCounts& counts)
-      : OctreePair<S>(octree, tf1, model, tf2, counts), request_(request), result_(result) {}
+  OctreeDistance(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                 const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
+                 SearchCounts& counts)
+      : OctreePair<S>(octree, X_WO, model, X_WM, counts), request_(request), result_(result) {}
 
   void run() {
     if (result_.min_distance < std::numeric_limits<S>::max()) {
@@ -284,14 +285,14 @@ class OctreeDistance : OctreePair<S> {
 }  // namespace
 
 template <typename S>
-std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1,
-                          const Model<S>& model, const fcl::Transform3<S>& tf2,
+std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                          const Model<S>& model, const fcl::Transform3<S>& X_WM,
                           const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                           SearchCounts* counts) {
   const fcl::CollisionGeometry<S>& other = octree;
-  return collideWith(model, tf2, other, tf1, request, result, [&](const auto& asked) {
+  return collideWith(model, X_WM, other, X_WO, request, result, [&](const auto& asked) {
     SearchCounts unused;
-    OctreeCollision<S> search(octree, tf1, model, tf2, asked, result, counts ? *counts : unused);
+    OctreeCollision<S> search(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
     if (request.isSatisfied(result)) return false;
     search.run();
     return true;
@@ -299,13 +300,14 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
 }
 
 template <typename S>
-S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
-                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
-                 fcl::DistanceResult<S>& result, SearchCounts* counts) {
+S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                 const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
+                 SearchCounts* counts) {
   requireErrorBounds(request);
   requireFinished(model);
   SearchCounts unused;
-  OctreeDistance<S> search(octree, tf1, model, tf2, request, result, counts ? *counts : unused);
+  OctreeDistance<S> search(octree, X_WO, model, X_WM, request, result, counts ? *counts : unused);
   if (!request.isSatisfied(result)) search.run();
   return result.min_distance;
 }

@@ -25,8 +25,8 @@ TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
 }
 
 /// Two meshes at a pose, in the common frame of all queries about them, which is A's. It is built
-/// once a query and handed down: models and poses are checked here and nowhere below, and whatever
-/// bounds the rounding of this pair's distances is asked here. The models must outlive it.
+/// once a query and handed down: models and poses are checked here and nowhere below, and the
+/// rounding errors of this pair's distances are bounded here. The models must outlive it.
 template <typename S>
 class PairFrame {
  public:
@@ -90,7 +90,9 @@ class PairFrame {
   static double norm1(const fcl::Vector3<S>& v) {
     return v.template cast<double>().template lpNorm<1>();
   }
-  double frameError(double norm1) const { return error_bounds::frameError<S>(norm1, X_AB.T_norm1); }
+  double frameError(double norm1) const {
+    return error_bounds::frameError<S>(norm1, detail::boundsOf(X_AB).T_norm1);
+  }
 };
 
 }  // namespace kios

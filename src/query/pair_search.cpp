@@ -40,8 +40,8 @@ class EnginePair {
   }
 
  private:
-  /// Whether the models are so far apart for their size that makeFramePair() would refuse: its pad
-  /// then is a radius of the smaller.
+  /// True if the models are so far apart for their size that makeFramePair() would refuse them: its
+  /// pad would be as large as the smaller model's radius.
   bool tooFar() const {
     const kIOS<S>&a = frame_.rootA(), &b = frame_.rootB();
     const double apart = (frame_.X_AB * b.center0 - a.center0).template cast<double>().norm();
@@ -103,7 +103,7 @@ class TreeSearch {
         std::swap(waiting_.back(), waiting_[before]);
       }
     }
-    // Of pairs that intersect any is an answer: which must not depend on the start.
+    // Any pair that intersects is an answer, but which one is given must not depend on the start.
     if (offered_ && result_.found() && result_.nearest.distance == 0) return cold();
     for (const Pair& pair : waiting_) left_out_ = std::min(left_out_, pair.bound);
     result_.least_other = std::max(0.0, left_out_);
@@ -130,8 +130,8 @@ class TreeSearch {
   }
 
   double withRounding(double distance) const {
-    // Volumes pay for the frame's rounding, so that of triangles in volumes that are farther apart
-    // than this none is computed to be as near as `distance`.
+    // Bounds of volumes include the frame's rounding: no triangles in volumes that are farther
+    // apart than this are computed to be as near as `distance`.
     return distance + frame_.kernelError(distance);
   }
 
@@ -165,7 +165,7 @@ class TreeSearch {
     result_.ids = ids;
     result_.nearest = found;
     result_.least_evaluated = distance;
-    // Of exact answers all that may be as near by its own rounding is evaluated, in any order.
+    // For an exact answer, every pair is evaluated that rounding alone may have made farther.
     prune_at_ =
         std::min(prune_at_, query_.isExact() ? withRounding(distance) : query_.pruneAt(distance));
     if (!(distance <= query_.near_enough)) return false;
@@ -179,8 +179,8 @@ class TreeSearch {
   const bool best_first_ = query_.hasBudget();
   std::vector<Pair> waiting_;  ///< a stack; a heap if best_first_
   double prune_at_;
-  double left_out_ = kInfinity;  ///< least bound of what was left out
-  bool offered_ = false;         ///< whether the start lowered prune_at_
+  double left_out_ = kInfinity;  ///< least bound of the pairs left out
+  bool offered_ = false;         ///< the start lowered prune_at_
   PairAnswer<S> result_;
 };
 

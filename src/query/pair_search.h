@@ -15,8 +15,8 @@
 
 namespace kios {
 
-/// The nearest triangles. Throws nothing of its own: what is wrong with the pair was found when its
-/// frame was built.
+/// The nearest triangles. Throws nothing of its own, as the pair was checked when its frame was
+/// built.
 template <typename S>
 engine::PairAnswer<S> searchNearest(const PairFrame<S>& frame, const engine::PairQuery& query,
                                     SearchCounts& counts);

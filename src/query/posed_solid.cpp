@@ -27,7 +27,7 @@ template <typename S>
 PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
                           const fcl::Transform3<S>& X_WS, const kIOS<S>& root)
     : solid_(std::move(solid)),
-      stretch_(RelativePose<S>(X_WS, X_WM).stretch) {  // checks both poses
+      stretch_(detail::boundsOf(RelativePose<S>(X_WS, X_WM)).stretch) {  // checks both poses
   R_WS_ = X_WS.linear().template cast<double>();
   t_WS_ = X_WS.translation().template cast<double>();
   R_ = R_WS_.transpose() * X_WM.linear().template cast<double>();

@@ -45,8 +45,8 @@ void requireValid(const Ray<S>& ray) {
   if (ray.t_min > ray.t_max) refuse("t_max", ray.t_max, "at least t_min");
 }
 
-/// The ray in a frame at R, T in its own. Directions are enlarged first if need be, so that what is
-/// turned doesn't underflow.
+/// The ray in a frame at R, T in its own. Directions are enlarged first if need be, so that turning
+/// them doesn't underflow.
 ///
 /// Cofactors of R are off by 3 u, its determinant by 8 u and quotients by 14 u in all, u = 2^-53;
 /// origin - T by u, sums of three products by 3 u more: 2^-48 = 32 u cover them.

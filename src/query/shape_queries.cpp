@@ -40,24 +40,24 @@ fcl::AABB<S> worldBox(const shape::Solid& solid, const fcl::Transform3<S>& tf) {
 template <typename S>
 class ShapeCollision {
  public:
-  ShapeCollision(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                 const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& tf2,
+  ShapeCollision(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                 const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS,
                  const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                  SearchCounts& counts)
       : model_(model),
         geometry_(geometry),
-        tf1_(tf1),
-        tf2_(tf2),
+        X_WM_(X_WM),
+        X_WS_(X_WS),
         request_(request),
         result_(result),
         counts_(counts),
         occupied_(model.isOccupied() && geometry.isOccupied()),
         costs_(request.enable_cost && !model.isFree() && !geometry.isFree()),
-        posed_(toSolid(geometry), tf1, tf2, model.getBV(0).bv) {}
+        posed_(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv) {}
 
   void run() {
     if (!occupied_ && !costs_) return;
-    if (costs_) shape_box_ = worldBox(toSolid(geometry_), tf2_);
+    if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
     std::vector<int> waiting = {0};
     while (!waiting.empty() && !request_.isSatisfied(result_)) {
       const auto& node = model_.getBV(waiting.back());
@@ -92,7 +92,7 @@ class ShapeCollision {
     }
     if (costs_) {
       fcl::AABB<S> shared;
-      const auto t = transformed(corners, tf1_);
+      const auto t = transformed(corners, X_WM_);
       fcl::AABB<S>(t[0], t[1], t[2]).overlap(shape_box_, shared);
       result_.addCostSource(
           fcl::CostSource<S>(shared, model_.cost_density * geometry_.cost_density),
@@ -102,7 +102,7 @@ class ShapeCollision {
 
   const Model<S>& model_;
   const fcl::CollisionGeometry<S>& geometry_;
-  const fcl::Transform3<S>&tf1_, &tf2_;
+  const fcl::Transform3<S>&X_WM_, &X_WS_;
   const fcl::CollisionRequest<S>& request_;
   fcl::CollisionResult<S>& result_;
   SearchCounts& counts_;
@@ -114,13 +114,13 @@ class ShapeCollision {
 }  // namespace
 
 template <typename S>
-std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                         const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& tf2,
+std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                          SearchCounts* counts) {
-  return collideWith(model, tf1, shape, tf2, request, result, [&](const auto& asked) {
+  return collideWith(model, X_WM, shape, X_WS, request, result, [&](const auto& asked) {
     SearchCounts unused;
-    ShapeCollision<S> search(model, tf1, shape, tf2, asked, result, counts ? *counts : unused);
+    ShapeCollision<S> search(model, X_WM, shape, X_WS, asked, result, counts ? *counts : unused);
     if (request.isSatisfied(result)) return false;
     search.run();
     return true;
@@ -128,13 +128,13 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
 }
 
 template <typename S>
-S distanceShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& tf2,
+S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS,
                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
                 SearchCounts* counts) {
   requireErrorBounds(request);
   requireFinished(model);
-  const PosedSolid<S> posed(toSolid(geometry), tf1, tf2, model.getBV(0).bv);
+  const PosedSolid<S> posed(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv);
   if (request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
   SearchCounts& count = counts ? *counts : unused;

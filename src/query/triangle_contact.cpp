@@ -19,8 +19,8 @@ Point<S> normalOf(const TriangleVertices<S>& t) {
   return n.squaredNorm() > 0 ? Point<S>(n.normalized()) : Point<S>(Point<S>::Zero());
 }
 
-/// Whether FCL's routine finds the triangle's plane: it squares the area twice, and where that
-/// underflows or overflows it reads a normal that it never set.
+/// True if FCL's routine finds the triangle's plane. It squares the area twice, and if that under-
+/// or overflows, it reads a normal that it never set.
 template <typename S>
 bool hasPlaneForFCL(const TriangleVertices<S>& t) {
   const S squared = (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm();

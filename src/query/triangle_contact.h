@@ -8,7 +8,7 @@
 
 namespace kios {
 
-/// What FCL reports for a pair of triangles that intersect, in their common frame.
+/// The contact that FCL reports for two triangles that intersect, in their common frame.
 template <typename S>
 struct TriangleContact {
   Point<S> points[2];

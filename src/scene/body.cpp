@@ -64,9 +64,10 @@ Sphere sphereOf(const fcl::CollisionGeometry<S>& geometry) {
   return {{double{c[0]}, double{c[1]}, double{c[2]}}, radius};
 }
 
-// A sphere of the world is around X c. R stretches by at most 1 + |E|. What the narrow phase
-// computes, in the first body's frame, differs from the world's distance d by at most: |E| (d +
-// reach) from a frame that isn't orthonormal; the triangles' error, of an extent of at most 1.74 (d
+// A sphere of the world is around X c. R stretches by at most 1 + |E|. The
+// distance that the narrow phase computes, in the first body's frame, differs from the distance d
+// in the world by at most: |E| (d + reach) from a frame that isn't orthonormal; the triangles'
+// error, of an extent of at most 1.74 (d
 // + 2 r + 2 r'); the common frame's, for |x'|_1 <= 2 reach' and |T|_1 <= 1.74 |t' - t|, which is at
 // most 1.74 (d + reach + reach'). The terms in d are boxShare()'s, the rest is split over the
 // boxes.

@@ -21,7 +21,7 @@ namespace kios::scene {
 /// An object of a scene as the last query found it.
 template <typename S>
 struct Body {
-  // First what every query looks at in every body.
+  // These members come first, as every query reads them in every body.
 
   /// Unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
   /// object.
@@ -30,7 +30,7 @@ struct Body {
   double path = 0;
   double rotation_error = 0;   ///< >= |R^T R - I|_2
   double rotation_square = 0;  ///< the square of |R^T R - I| (Frobenius)
-  /// In the world, around the content, so wide that the gap of two bodies' boxes, less a share
+  /// A box around the content in the world, so wide that the gap of two bodies' boxes, less a share
   /// boxShare() of it, is at most the distance that the narrow phase would compute.
   Box box;
   const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set

@@ -103,12 +103,12 @@ PairBound BodyPair<S>::know(double limit) const {
 
   const RelativePose<S>& X_AB = frame().X_AB;
   if (proof_ && known.source != Source::kStill) {
-    if (X_AB.R == proof_->R && X_AB.T == proof_->T) {
+    if (X_AB.R() == proof_->R && X_AB.T() == proof_->T) {
       known = still();
       if (known.exact || known.bound > limit) return known;
     } else {
-      const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R, X_AB.T, b_.sphere);
-      if (raise(afterMotion(moved, X_AB.T_norm1), Source::kMotion)) return known;
+      const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R(), X_AB.T(), b_.sphere);
+      if (raise(afterMotion(moved, detail::boundsOf(X_AB).T_norm1), Source::kMotion)) return known;
     }
   }
   const double apart = frame().rootBound(limit + 2 * roundingOf(std::max(limit, 0.0)));
@@ -136,7 +136,7 @@ bool BodyPair<S>::stoodStill() const {
   if (proof_->path_a == a_.path && proof_->path_b == b_.path) return true;
   if (!meshes()) return false;
   const RelativePose<S>& X_AB = frame().X_AB;
-  return X_AB.R == proof_->R && X_AB.T == proof_->T;
+  return X_AB.R() == proof_->R && X_AB.T() == proof_->T;
 }
 
 template <typename S>
@@ -159,8 +159,8 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   proof->state_a = a_.state;
   proof->state_b = b_.state;
   if (meshes()) {
-    proof->R = frame().X_AB.R;
-    proof->T = frame().X_AB.T;
+    proof->R = frame().X_AB.R();
+    proof->T = frame().X_AB.T();
   }
   proof->path_a = a_.path;
   proof->path_b = b_.path;
@@ -176,16 +176,16 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   proof_ = proof;
 }
 
-// A pair that turns out farther than asked is asked again as soon as it moves, or the limit grows.
-// So it is asked about a little more: what it may come nearer in the next few queries, unless that
-// is much for its size, and a share of the limit.
+// A pair that is proven farther than the limit is searched again as soon as it moves, or the limit
+// grows. So the search goes a little beyond the limit: by the way that the pair may come nearer in
+// the next few queries, unless that is much for its size, and by a share of the limit.
 template <typename S>
 double BodyPair<S>::outlook(double limit) const {
   constexpr double kQueries = 8, kSizeShare = 0.05, kLimitShare = 1.0 / 32;
   const double ahead = kLimitShare * std::max(limit, 0.0);
   if (!proof_ || proof_->made == memory_.query()) return ahead;
   const RelativePose<S>& X_AB = frame().X_AB;
-  const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R, X_AB.T, b_.sphere);
+  const double moved = displacement<S>(proof_->R, proof_->T, X_AB.R(), X_AB.T(), b_.sphere);
   const double nearer = kQueries * moved / static_cast<double>(memory_.query() - proof_->made);
   return nearer < kSizeShare * (a_.sphere.radius + b_.sphere.radius) ? ahead + nearer : ahead;
 }
@@ -226,7 +226,7 @@ typename BodyPair<S>::Answer BodyPair<S>::decideMeshes(double limit, SearchCount
 
   const DistanceAnswer<S> found = bracketDistance(frame(), query);
   counts += found.counts;
-  Answer answer = {true, found.distance, found.triangle1, found.triangle2};
+  Answer answer = {true, found.distance, found.triangle_a, found.triangle_b};
   if (found.stop == DistanceStop::kTolerance) {
     answer.within = found.distance <= limit;
     remember(double{found.distance}, true, answer);

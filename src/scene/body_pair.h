@@ -22,7 +22,7 @@ struct PairBound {
   bool exact;     ///< it would compute just the proof's distance
 };
 
-/// A pair of bodies in a scene query: what it can spare the narrow phase, and the narrow phase.
+/// A pair of bodies in a scene query: bounds that spare the narrow phase, and the narrow phase.
 template <typename S>
 class BodyPair {
  public:
@@ -47,7 +47,7 @@ class BodyPair {
   /// The distance of the triangles of the last proof, which lie somewhere near; +infinity if there
   /// are none.
   double upperBound() const;
-  /// A little more: the narrow phase computes at most that.
+  /// An upper bound of that, rounding included: the narrow phase computes at most this.
   double ceiling() const;
   /// True if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
@@ -58,10 +58,10 @@ class BodyPair {
 
  private:
   bool meshes() const { return a_.model && b_.model; }
-  /// Of two meshes; made when something asks for it.
+  /// The frame of two meshes, made at its first use.
   const PairFrame<S>& frame() const;
   double afterMotion(double moved, double T_norm1) const;
-  /// How far computed distances may be from exact ones in the common frame, for distances about d.
+  /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
   double outlook(double limit) const;
   Answer searchMeshes(double limit, SearchCounts& counts);

@@ -11,7 +11,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Covers the roundings below: at most 20, each 2^-53 of terms that are summed by their magnitudes.
 constexpr double kRelative = 0x1p-48;
-// Covers squares that underflow: what is lost is below 2^-537 sqrt(9) each.
+// Covers squares that underflow, which lose less than 2^-537 sqrt(9) each.
 constexpr double kSubnormal = 0x1p-530;
 
 }  // namespace

@@ -10,16 +10,17 @@
 
 namespace kios::scene {
 
-/// The pairs of objects whose boxes were within a reach of each other at one query: as long as
-/// nobody has moved much since then, all that are within a smaller limit are among them, and the
-/// tree need not be asked (Verlet's list).
+/// The pairs of objects whose boxes were within a reach of each other at one query. As long as no
+/// object has moved much since then, they include all pairs within a smaller limit, and the tree
+/// need not be searched (Verlet's list).
 template <typename S>
 class NearList {
  public:
   using Pairs = std::vector<std::pair<int, int>>;
 
-  /// Whether all pairs within `limit` are listed. Only if the same objects are there, in the same
-  /// states, and no rotation is worse; the others have come nearer by their paths at most.
+  /// True if all pairs within `limit` are listed. The list is valid while the same objects are
+  /// there, in the same states, and no rotation is worse; other pairs came nearer by their paths at
+  /// most.
   bool covers(double limit) const { return valid_ && limit + 2 * moved_ <= reach_; }
   const Pairs& pairs() const { return pairs_; }
 

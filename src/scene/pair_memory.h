@@ -9,7 +9,7 @@
 
 namespace kios::scene {
 
-/// The last answer of the narrow phase about two bodies, and where they were. It says nothing of
+/// The last answer of the narrow phase about two bodies, and their poses then. It says nothing of
 /// other states of their geometries.
 template <typename S>
 struct Proof {
@@ -19,7 +19,7 @@ struct Proof {
   double path_a = 0, path_b = 0;
   double rotation_error = 0;  ///< of a's pose
   double apart = 0;           ///< the narrow phase would compute at least that there
-  S distance = 0;             ///< what it computes there, if `exact`
+  S distance = 0;             ///< the distance that it computes there, if `exact`
   bool exact = false;
   std::intptr_t triangle_a = -1, triangle_b = -1;  ///< near each other there, if not negative
   std::uint64_t made = 0, used = 0;                ///< numbers of the queries that last did
@@ -29,8 +29,8 @@ struct Proof {
   }
 };
 
-/// The proofs of the pairs that queries came near: bounded, as each query forgets what it had no
-/// use for as soon as that is more than what it used, and kSpare.
+/// The proofs of the pairs that queries came near. Their number is bounded: a query forgets the
+/// proofs that it didn't use as soon as they are more than those that it used, plus kSpare.
 template <typename S>
 class PairMemory {
  public:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Numbers below x are at most that.
+/// The largest number below x.
 template <typename S>
 double below(S x) {
   return std::nextafter(x, -std::numeric_limits<S>::infinity());
@@ -163,7 +163,7 @@ ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
   return pair;
 }
 
-// Best first: what waits with the least bound is next, and the search ends when that exceeds the
+// Best first: the pair with the least bound is next, and the search ends when that exceeds the
 // best distance so far.
 template <typename S>
 std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {

@@ -13,7 +13,7 @@
 namespace kios::shape {
 namespace {
 
-/// How far the triangle must move along n, unit, to leave the solid.
+/// Returns how far the triangle must move along the unit vector n to leave the solid.
 double depthAlong(const Solid& s, const Triangle& t, const Vec& n) {
   return extentAlong(s, n) - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }

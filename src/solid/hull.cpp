@@ -70,7 +70,7 @@ Vec middleOf(const Solid& s) {
   return sum / static_cast<double>(s.points.size());
 }
 
-/// Whether p lies in a hull that has a volume: in one of the tetrahedra of a vertex and the faces,
+/// True if p lies in a hull that has a volume: in one of the tetrahedra of a vertex and the faces,
 /// whichever way the corners of those run.
 bool contains(const Solid& s, const Vec& p) {
   if (s.points.size() <= 3) return false;

@@ -6,16 +6,16 @@
 #include "solid/triangle_shape.h"
 
 // Solids whose core is a polytope (a capsule's segment, a box, a convex shape) by the faces of that
-// core, with the exact and certified kernels of two triangles: for what is too close for GJK.
-// O(faces).
+// core, with the exact and certified kernels of two triangles, for pairs that are too close for
+// GJK. O(faces).
 
 namespace kios::shape {
 
-/// Whether the core is a polytope, other than a point, whose faces are known.
+/// True if the core is a polytope, other than a point, whose faces are known.
 bool hasFaces(const Solid& solid);
 
-/// Whether a triangle meets a capsule's segment or a full convex shape, exactly. If so, and
-/// `common` isn't null, that becomes a common point, to a few eps of the extent.
+/// Returns true if a triangle meets a capsule's segment or a full convex shape; exact. Then
+/// `common`, unless null, becomes a common point, to a few eps of the extent.
 bool meetsHull(const Solid& solid, const Triangle& triangle, Vec* common = nullptr);
 
 /// Distance of a triangle and a core that don't intersect: that of the nearest face, within 16 eps
@@ -23,7 +23,7 @@ bool meetsHull(const Solid& solid, const Triangle& triangle, Vec* common = nullp
 /// points of the pair or infinite.
 TriangleShapeDistance distanceToHull(const Solid& solid, const Triangle& triangle, double within);
 
-/// Whether p lies in the closed tetrahedron of an apex and a face, by exact signs. Flat ones
+/// True if p lies in the closed tetrahedron of an apex and a face, by exact signs. Flat ones
 /// contain nothing.
 bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p);
 

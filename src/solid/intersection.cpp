@@ -55,8 +55,9 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
   return accurate;
 }
 
-/// Whether the z axis pierces the polygon's inside, and where. A polygon seen from its edge has
-/// none. The edges' directions come first: far from the axis products of coordinates lose digits.
+/// Returns true if the z axis pierces the polygon's inside, and sets `common` to that point. A
+/// polygon seen from its edge has no inside. The edges' directions come first: far from the axis
+/// products of coordinates lose digits.
 bool aroundAxis(const Polygon& polygon, Vec* common) {
   bool left = true, right = true;
   const auto side = [](const Vec& a, const Vec& b) {

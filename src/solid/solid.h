@@ -49,7 +49,7 @@ struct Solid {
   double reach() const;
 };
 
-/// Whether an ellipsoid's radius counts as 0, since its square may vanish beside that of the
+/// True if an ellipsoid's radius counts as 0, since its square may vanish beside that of the
 /// largest.
 inline bool isFlat(const Vec& radii, int axis) {
   return radii[axis] <= 0x1p-100 * radii.maxCoeff();

@@ -74,7 +74,7 @@ void scale(Vec& v, int e) {
 }
 
 /// Brings the magnitude to about 1 by a power of two and returns its exponent, 0 if the magnitude
-/// is moderate: what underflows then is no part of the answer.
+/// is moderate: terms that underflow then are no part of the answer.
 int normalize(TrianglePair& pair) {
   if (pair.magnitude > 0x1p-30 && pair.magnitude < 0x1p30) return 0;
   const int e = std::ilogb(pair.magnitude);

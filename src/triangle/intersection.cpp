@@ -55,7 +55,7 @@ class PairIntersection {
   }
 
  private:
-  /// Whether the triangles intersect; if they do and it is asked for, a common point.
+  /// Returns true if the triangles intersect; then `point`, unless null, becomes a common point.
   bool common(Coordinates* point) {
     if (!crossesPlanes()) return false;
     if (a_.degenerate && b_.degenerate) {
@@ -104,7 +104,8 @@ class PairIntersection {
     order(2, 1);
   }
 
-  /// Where a face crosses the other's plane: its edges from the vertex that is alone on its side.
+  /// A face's two edges that cross the other's plane; they start in the vertex that is alone on its
+  /// side.
   struct Interval {
     int alone, begin, end;  ///< of face.v
     bool above;             ///< the side of `alone`
@@ -285,7 +286,8 @@ class PairIntersection {
     return true;
   }
 
-  /// Where edge i j of `face` meets the plane of f, of which its ends do not lie on one side.
+  /// Returns the point where edge i j of `face`, whose ends aren't on one side, meets the plane of
+  /// f.
   Coordinates crossing(const Face& face, int i, int j, const Face& f) const {
     const int p = face.v[i], q = face.v[j];
     if (face.side[i] == 0) return points_[p];

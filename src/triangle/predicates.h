@@ -22,10 +22,10 @@ class PairPredicates {
   int projectionAxis(int i, int j, int k) const;
   /// Sign of component `axis` of (p_j - p_i) x (p_l - p_k).
   int cross2d(int i, int j, int k, int l, int axis) const;
-  /// Where p_i p_j crosses the plane of (k, l, m), on whose two sides they lie: the parameter from
-  /// p_i, to about 8 eps of the segment however small the angle is.
+  /// Returns the parameter from p_i at which p_i p_j crosses the plane of (k, l, m), on whose two
+  /// sides they lie, to about 8 eps of the segment however small the angle is.
   double crossing3d(int i, int j, int k, int l, int m) const;
-  /// Where p_i p_j crosses the line p_k p_l in the projection along `axis`: the same.
+  /// The same for the line p_k p_l in the projection along `axis`.
   double crossing2d(int i, int j, int k, int l, int axis) const;
   /// Coordinate `axis` of p_i <= that of p_j.
   bool notAbove(int i, int j, int axis) const { return given_[i][axis] <= given_[j][axis]; }

@@ -16,7 +16,7 @@ struct GivenRay {
   double t_min, t_max;
 };
 
-/// Where a ray first meets a closed triangle.
+/// The first point of a ray in a closed triangle.
 struct TriangleHit {
   double t;           ///< the exact parameter, rounded to nearest
   double weights[3];  ///< barycentric coordinates, >= 0, each to 2^-51
@@ -30,7 +30,7 @@ class ExactRay {
   /// `largest`: about the largest coordinate of the triangles; scales what is computed first.
   ExactRay(const GivenRay& ray, double largest);
 
-  /// Whether they meet; sets `hit` if so.
+  /// Returns true and sets `hit` if they meet.
   bool hits(const TriangleVertices<double>& corners, TriangleHit& hit) const;
 
   const GivenRay& given() const { return given_; }

@@ -97,9 +97,9 @@ class Plane {
   bool degenerate_;
 };
 
-/// Which of the vertices v lie farther than `limit` to either side of a face, by its normal: -1, 1
-/// or 0. `limit` must exceed the distance in question by 32 eps magnitude for rounding. A normal
-/// that is none serves as well, but for its length.
+/// The side of a face, by its normal, on which each vertex v lies farther than `limit`: -1, 1, or 0
+/// for neither. `limit` must exceed the distance in question by 32 eps magnitude for rounding. The
+/// normal need not be exact, as the face's own extent along it is allowed for.
 struct Sides {
   int of[3] = {0, 0, 0};
 

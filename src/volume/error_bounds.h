@@ -7,8 +7,8 @@
 
 #include "volume/rounding.h"
 
-// How far rounding takes a query from exact arithmetic. Each bound that several places pay is
-// derived here, once. u is the unit roundoff of S: 2^-53 for double, 2^-24 for float. Products and
+// Bounds of the rounding errors of queries. Each bound that several places pay is derived here,
+// once. u is the unit roundoff of S: 2^-53 for double, 2^-24 for float. Products and
 // sums are those of volume/rigid.h, in one order. To first order n roundings of terms whose
 // absolute values add up to m err by n u m; every constant leaves room for the second order. A test
 // measures how much of each bound rounding takes (test/volume/error_bounds_test.cpp).

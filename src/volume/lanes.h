@@ -32,7 +32,7 @@ inline Float4 select(Int4 mask, Float4 a, Float4 b) {
                                   (~mask & reinterpret_cast<Int4>(b)));
 }
 
-/// Whether any lane of a mask is set.
+/// True if any lane of a mask is set.
 inline bool any(Int4 mask) {
 #if defined(__SSE2__)
   return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
@@ -67,7 +67,7 @@ inline Float4 sqrt(Float4 v) {
 #endif
 }
 
-/// Whether a < b and c < d in both lanes.
+/// True if a < b and c < d in both lanes.
 inline bool bothLess(Double2 a, Double2 b, Double2 c, Double2 d) {
 #if defined(__SSE2__)
   return _mm_movemask_pd(_mm_and_pd(_mm_cmplt_pd(a, b), _mm_cmplt_pd(c, d))) == 3;

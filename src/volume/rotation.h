@@ -26,12 +26,12 @@ auto determinant(const Entry& r) {
          r(0, 2) * (r(1, 0) * r(2, 1) - r(1, 1) * r(2, 0));
 }
 
-/// How large the norm may be.
+/// The largest norm that is allowed.
 template <typename S>
 inline constexpr double kRotationError = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
 
 /// A part of the determinant, for a quick look: entry z of columns 0 x 1, times that of column 2.
-/// Where the norm is at most 1e-3, that entry is det R R(2, 2) to 2e-3, so a reflection's value is
+/// If the norm is at most 1e-3, that entry is det R R(2, 2) to 2e-3, so a reflection's value is
 /// at most 1e-6: a rotation's is near R(2, 2)^2, and above kUpright most of the time.
 template <typename Entry>
 auto upright(const Entry& r) {

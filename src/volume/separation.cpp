@@ -31,15 +31,16 @@ Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
   const double ax = a.center0[0], ay = a.center0[1], az = a.center0[2];
   const double bx = b.center0[0], by = b.center0[1], bz = b.center0[2];
   Offset d;
-  d.x = ((X.R(0, 0) * bx + X.R(0, 1) * by) + X.R(0, 2) * bz) + X.T[0] - ax;
-  d.y = ((X.R(1, 0) * bx + X.R(1, 1) * by) + X.R(1, 2) * bz) + X.T[1] - ay;
-  d.z = ((X.R(2, 0) * bx + X.R(2, 1) * by) + X.R(2, 2) * bz) + X.T[2] - az;
+  d.x = ((X.R()(0, 0) * bx + X.R()(0, 1) * by) + X.R()(0, 2) * bz) + X.T()[0] - ax;
+  d.y = ((X.R()(1, 0) * bx + X.R()(1, 1) * by) + X.R()(1, 2) * bz) + X.T()[1] - ay;
+  d.z = ((X.R()(2, 0) * bx + X.R()(2, 1) * by) + X.R()(2, 2) * bz) + X.T()[2] - az;
   d.norm1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
   const double rb = b.radius0;
-  d.pad = error_bounds::volumeError<S>(std::abs(bx) + std::abs(by) + std::abs(bz),
-                                       X.T_norm1 + (std::abs(ax) + std::abs(ay) + std::abs(az)),
-                                       a.radius0, rb) +
-          X.stretch * rb;
+  d.pad = error_bounds::volumeError<S>(
+              std::abs(bx) + std::abs(by) + std::abs(bz),
+              detail::boundsOf(X).T_norm1 + (std::abs(ax) + std::abs(ay) + std::abs(az)), a.radius0,
+              rb) +
+          detail::boundsOf(X).stretch * rb;
   return d;
 }
 
@@ -55,9 +56,10 @@ double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& 
               dz = static_cast<float>(d.z);
   const Float4 ox = lanes::load(b.cap_x), oy = lanes::load(b.cap_y), oz = lanes::load(b.cap_z);
   const Float4 rb = lanes::load(b.cap_r);
-  const Float4 bx = X.Rf[0][0] * ox + X.Rf[0][1] * oy + X.Rf[0][2] * oz + dx;
-  const Float4 by = X.Rf[1][0] * ox + X.Rf[1][1] * oy + X.Rf[1][2] * oz + dy;
-  const Float4 bz = X.Rf[2][0] * ox + X.Rf[2][1] * oy + X.Rf[2][2] * oz + dz;
+  const auto& R = detail::boundsOf(X).R;
+  const Float4 bx = R[0][0] * ox + R[0][1] * oy + R[0][2] * oz + dx;
+  const Float4 by = R[1][0] * ox + R[1][1] * oy + R[1][2] * oz + dy;
+  const Float4 bz = R[2][0] * ox + R[2][1] * oy + R[2][2] * oz + dz;
 
   // b's caps against a's S0, then a's caps against b's S0, then caps against caps.
   Float4 best = lanes::sqrt(bx * bx + by * by + bz * bz) - rb - roundUpFloat(a.radius0);
@@ -71,7 +73,7 @@ double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& 
   }
   const double scale = d.norm1 + a.reach + b.reach;
   return lanes::horizontalMax(best) -
-         (error_bounds::laneError(scale) + X.stretch * b.reach + d.pad);
+         (error_bounds::laneError(scale) + detail::boundsOf(X).stretch * b.reach + d.pad);
 }
 
 /// The bound over all pairs in double at any scale, and the points that attain it.
@@ -97,9 +99,9 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
 
   ScaledBound best;
   for (int j = 0; j < kb; ++j) {
-    const double bx = X.R(0, 0) * sb[j].x + X.R(0, 1) * sb[j].y + X.R(0, 2) * sb[j].z + dx;
-    const double by = X.R(1, 0) * sb[j].x + X.R(1, 1) * sb[j].y + X.R(1, 2) * sb[j].z + dy;
-    const double bz = X.R(2, 0) * sb[j].x + X.R(2, 1) * sb[j].y + X.R(2, 2) * sb[j].z + dz;
+    const double bx = X.R()(0, 0) * sb[j].x + X.R()(0, 1) * sb[j].y + X.R()(0, 2) * sb[j].z + dx;
+    const double by = X.R()(1, 0) * sb[j].x + X.R()(1, 1) * sb[j].y + X.R()(1, 2) * sb[j].z + dy;
+    const double bz = X.R()(2, 0) * sb[j].x + X.R()(2, 1) * sb[j].y + X.R()(2, 2) * sb[j].z + dz;
     for (int i = 0; i < ka; ++i) {
       const double w[3] = {bx - sa[i].x, by - sa[i].y, bz - sa[i].z};
       const double length = norm(w[0], w[1], w[2]);
@@ -116,8 +118,8 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
     }
   }
   const double lengths = scaled(d.norm1 + reach_a + reach_b, -e);
-  best.value -=
-      error_bounds::sumError<double>(lengths) + X.stretch * scaled(reach_b, -e) + 0x1p-960;
+  best.value -= error_bounds::sumError<double>(lengths) +
+                detail::boundsOf(X).stretch * scaled(reach_b, -e) + 0x1p-960;
   best.value = std::nextafter(scaled(best.value, e) - d.pad, -kInfinity);
   for (int c = 0; c < 3; ++c) {
     best.P[c] = scaled(best.P[c], e);
@@ -159,28 +161,28 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
 
 /// Throws if either isn't a rotation.
 template <typename S>
-[[gnu::noinline, gnu::cold]] void requireRotations(const fcl::Transform3<S>& X_W1,
-                                                   const fcl::Transform3<S>& X_W2,
+[[gnu::noinline, gnu::cold]] void requireRotations(const fcl::Transform3<S>& X_WA,
+                                                   const fcl::Transform3<S>& X_WB,
                                                    const lanes::Double2& squares) {
   const auto determinantOf = [](const fcl::Transform3<S>& X) {
     return determinant([&X](int i, int j) { return double{X.matrix()(i, j)}; });
   };
-  requireRotation<S>(squares[0], determinantOf(X_W1), "first object's pose");
-  requireRotation<S>(squares[1], determinantOf(X_W2), "second object's pose");
+  requireRotation<S>(squares[0], determinantOf(X_WA), "first object's pose");
+  requireRotation<S>(squares[1], determinantOf(X_WB), "second object's pose");
 }
 
 /// The sum for both poses' rotations, R in lanes; throws if either isn't one.
 template <typename S>
-double squaredRotationErrors(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2) {
+double squaredRotationErrors(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB) {
   constexpr double kMost = kRotationError<S> * kRotationError<S>;
-  const auto &m1 = X_W1.matrix(), &m2 = X_W2.matrix();
+  const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
   const auto entries = [&](int i, int j) {
-    return lanes::Double2{double{m1(i, j)}, double{m2(i, j)}};
+    return lanes::Double2{double{m_a(i, j)}, double{m_b(i, j)}};
   };
   const lanes::Double2 squares = squaredRotationError(entries);
   if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{kUpright, kUpright},
                        upright(entries))) {
-    requireRotations<S>(X_W1, X_W2, squares);
+    requireRotations<S>(X_WA, X_WB, squares);
   }
   return squares[0] + squares[1];
 }
@@ -206,36 +208,36 @@ void refuseRotation(const char* what, double error, double allowed) {
 
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
-    : R(R_AB), T(T_AB) {
+    : R_(R_AB), T_(T_AB) {
   const auto entries = [&](int i, int j) { return double{R_AB(i, j)}; };
   const double square = squaredRotationError(entries);
   requireRotation<S>(square, determinant(entries), "relative pose");
-  precompute(square);
+  computeBounds(square);
 }
 
 template <typename S>
-RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2)
-    : RelativePose(X_W1, X_W2, squaredRotationErrors(X_W1, X_W2)) {}
+RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB)
+    : RelativePose(X_WA, X_WB, squaredRotationErrors(X_WA, X_WB)) {}
 
 template <typename S>
-RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2,
+RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
                               double squared_errors) {
-  const fcl::Matrix3<S> inverse = X_W1.linear().transpose();
-  for (int j = 0; j < 3; ++j) R.col(j) = detail::rotate<S>(inverse, X_W2.linear().col(j));
-  T = detail::rotate<S>(inverse, X_W2.translation() - X_W1.translation());
-  precompute(squared_errors);
+  const fcl::Matrix3<S> inverse = X_WA.linear().transpose();
+  for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
+  T_ = detail::rotate<S>(inverse, X_WB.translation() - X_WA.translation());
+  computeBounds(squared_errors);
 }
 
 template <typename S>
-void RelativePose<S>::precompute(double squared_errors) {
-  T_norm1 = std::abs(double{T[0]}) + std::abs(double{T[1]}) + std::abs(double{T[2]});
-  if (!(T_norm1 <= kMaxCoordinate<S>)) {
+void RelativePose<S>::computeBounds(double squared_errors) {
+  bounds_.T_norm1 = std::abs(double{T_[0]}) + std::abs(double{T_[1]}) + std::abs(double{T_[2]});
+  if (!(bounds_.T_norm1 <= kMaxCoordinate<S>)) {
     throw std::invalid_argument(
         "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
   }
-  stretch = error_bounds::stretchOf<S>(squared_errors);
+  bounds_.stretch = error_bounds::stretchOf<S>(squared_errors);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) Rf[i][j] = static_cast<float>(R(i, j));
+    for (int j = 0; j < 3; ++j) bounds_.R[i][j] = static_cast<float>(R_(i, j));
   }
 }
 
@@ -284,7 +286,7 @@ S kIOS<S>::distance(const kIOS& other, fcl::Vector3<S>* P, fcl::Vector3<S>* Q) c
 }
 
 #define KIOS_INSTANTIATE(S)                                                                        \
-  template struct RelativePose<S>;                                                                 \
+  template class RelativePose<S>;                                                                  \
   template double separation(const kIOS<S>&, const kIOS<S>&, const RelativePose<S>&, double);      \
   template bool overlap(const fcl::Matrix3<S>&, const fcl::Vector3<S>&, const kIOS<S>&,            \
                         const kIOS<S>&);                                                           \

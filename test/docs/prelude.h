@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the code in the documentation may use without declaring it.
+// Names that the code in the documentation may use without declaring them.
 #pragma once
 
 #include <fcl_kios/fcl_kios.h>

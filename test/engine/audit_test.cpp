@@ -236,7 +236,7 @@ TYPED_TEST(AuditOf, StretchedSheets) {
   for (const double e : {-2.8e-5, 2.8e-5}) auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1 + e);
 }
 
-// Where the coordinates of the common frame are rounded by more than the floats.
+// Coordinates of the common frame are rounded by more here than floats are.
 TYPED_TEST(AuditOf, SheetsFarFromTheirOrigins) {
   const double far = this->kDouble ? 0x1p37 : 0x1p8;
   for (const double share : {1.0, 0.3}) {

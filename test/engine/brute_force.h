@@ -10,7 +10,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 
-// The triangle kernels over all pairs of triangles: what a search must find.
+// The triangle kernels over all pairs of triangles, whose answer a search must find.
 
 namespace kios::testing {
 

@@ -16,7 +16,7 @@ constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 bool same(const TrianglePairIds& x, const TrianglePairIds& y) { return x.a == y.a && x.b == y.b; }
 
-/// What is counted over many poses, so that a test knows that it saw both kinds.
+/// Counts of poses, by which a test knows that it saw both kinds.
 struct Seen {
   int apart = 0, touching = 0;
 };

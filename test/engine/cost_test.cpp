@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the engine costs, as far as it doesn't depend on the machine: bytes, and work a query.
+// The costs of the engine that don't depend on the machine: bytes, and work a query.
 
 #include <gtest/gtest.h>
 

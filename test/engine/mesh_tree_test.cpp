@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "engine/prepared_pair.h"
-#include "fcl/tree_check.h"
 #include "fcl_kios/volume/fit.h"
+#include "model/bvh_check.h"
 
 namespace kios::testing {
 namespace {
@@ -74,7 +74,7 @@ void expectContained(const Shape<S>& shape, const Built<S>& built) {
   for (const auto& node : built.nodes) {
     for (int i = 0; i < node.num_primitives; ++i) {
       for (const auto& p : shape.corners(built.primitives[node.first_primitive + i])) {
-        outside += !containsExactly(node.bv, p) || !node.bv.contain(p);
+        outside += !test::containsExactly(node.bv, p) || !node.bv.contain(p);
       }
     }
   }
@@ -126,7 +126,7 @@ TYPED_TEST(MeshTree, WhatItCantServeIsRefused) {
   }
 }
 
-/// How much larger than the tuned fit of the same points a radius is, over a tree.
+/// Over a tree, radii are hardly larger than those of the tuned fit of the same points.
 TEST(MeshTreeFit, IsNearlyAsTightAsTheTunedFit) {
   const Shape<double> shape(scenes::bumpyTorus(6000));
   const Built<double> built(shape);

@@ -56,7 +56,7 @@ TEST(EngineQueries, ContactsUpToAnyNumber) {
   EXPECT_GT(touching, 20);
 }
 
-// What a result holds on entry is kept, and counts.
+// Contacts that a result holds on entry are kept, and count.
 TEST(EngineQueries, ResultsAreAddedTo) {
   const Mesh mesh = scenes::icosphere(1, 1);
   const auto a = kiosModel(mesh), b = kiosModel(mesh);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which trees of models a preparation reads.
+// A preparation reads the trees of some models and divides the others anew.
 
 #include <gtest/gtest.h>
 

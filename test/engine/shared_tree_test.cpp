@@ -8,7 +8,6 @@
 #include <atomic>
 #include <memory>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "engine/shared_tree.h"
 #include "fcl/mesh_cases.h"
 #include "model/prepared.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -153,26 +153,22 @@ TEST(SharedTree, VerticesWrittenInPlace) {
 TEST(SharedTree, ManyThreadsWaitForOne) {
   for (std::uint64_t round = 0; round < 100; ++round) {
     std::atomic<int> made{0}, failed{0}, wrong{0};
-    std::vector<std::thread> threads;
-    for (int t = 0; t < 10; ++t) {
-      threads.emplace_back([&, t] {
-        for (int i = 0; i < 20; ++i) {
-          try {
-            SharedTree tree({round, 1}, [&] {
-              if (++made % 3 == 0) throw std::runtime_error("failed");
-              return treeAt(7);
-            });
-            wrong += tree.get()->origin[0] != 7;
-            if ((i + t) % 5 != 0) continue;
-            tree.detach().origin[0] = t;
-            wrong += tree.get()->origin[0] != t;
-          } catch (const std::runtime_error&) {
-            ++failed;
-          }
+    together(10, [&](int t) {
+      for (int i = 0; i < 20; ++i) {
+        try {
+          SharedTree tree({round, 1}, [&] {
+            if (++made % 3 == 0) throw std::runtime_error("failed");
+            return treeAt(7);
+          });
+          wrong += tree.get()->origin[0] != 7;
+          if ((i + t) % 5 != 0) continue;
+          tree.detach().origin[0] = t;
+          wrong += tree.get()->origin[0] != t;
+        } catch (const std::runtime_error&) {
+          ++failed;
         }
-      });
-    }
-    for (std::thread& thread : threads) thread.join();
+      }
+    });
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(failed, made / 3);
   }

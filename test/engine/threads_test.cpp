@@ -6,30 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <functional>
-#include <thread>
 
 #include "engine/tree_cache.h"
 #include "fcl/mesh_cases.h"
 #include "scenes/random.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
 
 constexpr int kThreads = 8;
-
-/// Runs work(0) .. work(n - 1) at once, each in its thread.
-void together(int n, const std::function<void(int)>& work) {
-  std::atomic<int> ready{0};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < n; ++t) {
-    threads.emplace_back([&, t] {
-      for (++ready; ready < n;) std::this_thread::yield();
-      work(t);
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-}
 
 struct Answer {
   double distance = -1;
@@ -157,7 +143,7 @@ engine::SharedTree marked(std::uint64_t stamp) {
   });
 }
 
-// The cache alone, with more keys than places: what is found is what was asked for, and stays.
+// The cache alone, with more keys than places: it finds the tree of the key, and the tree stays.
 TEST(TreeCacheThreads, FindsWhatWasAskedFor) {
   engine::TreeCache cache;
   std::atomic<int> made{0}, wrong{0};

@@ -47,7 +47,7 @@ inline bool inSphere(const Eigen::Vector3f& p, const Exact (&center)[3], const E
   return r >= 0 && sum <= r * r;
 }
 
-/// Whether a node's five spheres hold the point.
+/// True if a node's five spheres hold the point.
 inline bool spheresHold(const Node& node, const Eigen::Vector3f& p) {
   const auto sphere = [&](int row, int half, int sign) {
     Exact center[3] = {node.x[row], node.y[row], node.z[row]}, r = node.r[row];
@@ -64,7 +64,7 @@ inline bool spheresHold(const Node& node, const Eigen::Vector3f& p) {
          sphere(kMiddle1, kHalf1, 1) && sphere(kMiddle1, kHalf1, -1);
 }
 
-/// How far the point sticks out of the box, at most 0 if it is inside.
+/// Returns how far the point sticks out of the box, at most 0 if it is inside.
 inline double outside(const Box& box, const Eigen::Vector3f& p) {
   double worst = -1;
   for (int i = 0; i < 3; ++i) {

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Every broadphase manager of FCL with FCL's default callbacks, against the oracle over all pairs.
+// Every broadphase manager of FCL with FCL's default callbacks: scenes of meshes against the oracle
+// over all pairs, scenes of meshes, shapes and an octree against queries of all pairs.
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <map>
 #include <tuple>
+
+#include <fcl/geometry/octree/octree.h>
 
 #include "fcl/managers.h"
 #include "fcl/mesh_cases.h"
@@ -68,7 +71,7 @@ Touches touches(const Scene& scene, const fcl::CollisionResultd& result) {
   return found;
 }
 
-// What brute force says of the pairs (i, j) that `wanted` selects.
+// The answer of the oracle for the pairs (i, j) that `wanted` selects.
 struct Truth {
   Touches touches;
   double distance = std::numeric_limits<double>::max();
@@ -159,42 +162,127 @@ TEST_P(Broadphase, QueriesOfOneObjectAsItMoves) {
 
 INSTANTIATE_TEST_SUITE_P(CrowdedAndSparse, Broadphase, ::testing::Values(1.0, 2.0, 12.0));
 
-TEST(BroadphaseMixed, ShapesFarFromTheMeshesCollideAmongThemselves) {
-  const Scene scene(8, 1, 95);
-  const Truth expected = truth(scene, [](int, int) { return true; });
-  ASSERT_FALSE(expected.touches.empty());
-  fcl::CollisionObjectd sphere(std::make_shared<fcl::Sphered>(1),
-                               Transform3d(Eigen::Translation3d(40, 0, 0)));
-  fcl::CollisionObjectd box(std::make_shared<fcl::Boxd>(1, 1, 1),
-                            Transform3d(Eigen::Translation3d(41, 0, 0)));
-  for (const auto& [name, make] : managers()) {
-    SCOPED_TRACE(name);
-    Objects objects = scene.range(0, scene.size());
-    objects.push_back(&sphere);
-    objects.push_back(&box);
-    const Manager manager = filled(make, objects);
-    auto contacts = allContacts();
-    manager->collide(&contacts, fcl::DefaultCollisionFunction<double>);
-    std::size_t between_shapes = 0;
-    fcl::CollisionResultd between_meshes;
-    for (std::size_t c = 0; c < contacts.result.numContacts(); ++c) {
-      const fcl::Contactd& contact = contacts.result.getContact(c);
-      if (contact.o1->getObjectType() == fcl::OT_GEOM) {
-        ++between_shapes;
-      } else {
-        between_meshes.addContact(contact);
-      }
-    }
-    EXPECT_GE(between_shapes, 1u);
-    EXPECT_EQ(touches(scene, between_meshes), expected.touches);
-    // A mesh and a shape: through the manager as without it.
-    fcl::DefaultDistanceData<double> distance;
-    Manager(filled(make, {scene.body(0), &box}))
-        ->distance(&distance, fcl::DefaultDistanceFunction<double>);
-    fcl::DistanceResultd alone;
-    EXPECT_GT(fcl::distance(scene.body(0), &box, fcl::DistanceRequestd(), alone), 0);
-    EXPECT_EQ(distance.result.min_distance, alone.min_distance);
+using GeometryPair = std::pair<const fcl::CollisionGeometryd*, const fcl::CollisionGeometryd*>;
+
+GeometryPair ordered(const fcl::CollisionGeometryd* a, const fcl::CollisionGeometryd* b) {
+  return a < b ? GeometryPair(a, b) : GeometryPair(b, a);
+}
+
+// Eight meshes about the origin with a box, a capsule and an octree among them; two shapes that
+// overlap if `crowded`.
+std::vector<fcl::CollisionObjectd> mixedScene(double spread, bool crowded) {
+  std::vector<fcl::CollisionObjectd> objects;
+  const auto poses = scenes::randomPoses(8, spread, 701);
+  for (int i = 0; i < 8; ++i) {
+    const Mesh mesh = i % 2 == 0 ? scenes::icosphere(0.4, 1) : scenes::bumpyTorus(100);
+    objects.emplace_back(kiosModel(mesh), poses[i]);
   }
+  const auto at = [&](double x, double y) {
+    return Transform3d(Eigen::Translation3d(spread * x, spread * y, 0));
+  };
+  objects.emplace_back(std::make_shared<fcl::Boxd>(0.6, 0.5, 0.4), at(0.9, 0));
+  objects.emplace_back(std::make_shared<fcl::Capsuled>(0.2, 0.5), at(-0.9, 0.3));
+  if (crowded) objects.emplace_back(std::make_shared<fcl::Sphered>(0.3), at(0.9, 0.1));
+  const auto cells = std::make_shared<octomap::OcTree>(0.25);
+  for (int i = 0; i < 4; ++i) {
+    for (int n = 0; n < 8; ++n) cells->updateNode(octomap::point3d(0.3F * i, 0.1F, 0), true);
+  }
+  objects.emplace_back(std::make_shared<fcl::OcTreed>(cells), at(0, -0.9));
+  return objects;
+}
+
+struct MixedAnswer {
+  std::set<GeometryPair> touching;
+  double distance = std::numeric_limits<double>::max();
+};
+
+MixedAnswer bruteForce(const Objects& objects,
+                       const std::function<bool(std::size_t, std::size_t)>& wanted) {
+  MixedAnswer answer;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (std::size_t j = i + 1; j < objects.size(); ++j) {
+      if (!wanted(i, j)) continue;
+      const fcl::CollisionObjectd *a = objects[i], *b = objects[j];
+      fcl::CollisionResultd contacts;
+      if (fcl::collide(a, b, fcl::CollisionRequestd(), contacts) > 0) {
+        answer.touching.insert(ordered(a->collisionGeometry().get(), b->collisionGeometry().get()));
+      }
+      fcl::DistanceResultd distance;
+      answer.distance =
+          std::min(answer.distance, fcl::distance(a, b, fcl::DistanceRequestd(), distance));
+    }
+  }
+  return answer;
+}
+
+// `query` asks a manager with the data that it is given.
+template <typename Query>
+void expectAnswer(const Query& query, const MixedAnswer& expected) {
+  auto contacts = allContacts();
+  fcl::DefaultDistanceData<double> distance;
+  query(&contacts, &distance);
+  std::set<GeometryPair> touching;
+  for (std::size_t i = 0; i < contacts.result.numContacts(); ++i) {
+    const auto& contact = contacts.result.getContact(i);
+    touching.insert(ordered(contact.o1, contact.o2));
+  }
+  EXPECT_EQ(touching, expected.touching);
+  // FCL's distance of two shapes that overlap is some number below 0.
+  const double d = distance.result.min_distance;
+  EXPECT_TRUE(expected.distance <= 0 ? d <= 0 : std::abs(d - expected.distance) <= 1e-6)
+      << d << " for " << expected.distance;
+}
+
+TEST(BroadphaseMixed, MeshesShapesAndAnOctree) {
+  const auto collide = fcl::DefaultCollisionFunction<double>;
+  const auto nearest = fcl::DefaultDistanceFunction<double>;
+  bool any_apart = false, any_shapes_touch = false;
+  for (const double spread : {1.5, 3.0, 8.0}) {
+    std::vector<fcl::CollisionObjectd> scene = mixedScene(spread, spread == 1.5);
+    for (const auto& [name, make] : managers()) {
+      SCOPED_TRACE(name);
+      Objects all;
+      for (fcl::CollisionObjectd& object : scene) all.push_back(&object);
+      // FCL's box of an octree is that of all its keys, thousands of units: too many cells to hash.
+      if (name == "SpatialHashing") all.pop_back();
+      const MixedAnswer self = bruteForce(all, [](std::size_t, std::size_t) { return true; });
+      any_apart = any_apart || self.distance > 0;
+      for (const auto& [a, b] : self.touching) {
+        any_shapes_touch = any_shapes_touch || (a->getObjectType() == fcl::OT_GEOM &&
+                                                b->getObjectType() == fcl::OT_GEOM);
+      }
+      const Manager every = filled(make, all);
+      expectAnswer(
+          [&](auto* c, auto* d) {
+            every->collide(c, collide);
+            every->distance(d, nearest);
+          },
+          self);
+      const auto middle = all.begin() + 5;
+      const Manager few = filled(make, {all.begin(), middle});
+      const Manager many = filled(make, {middle, all.end()});
+      expectAnswer(
+          [&](auto* c, auto* d) {
+            few->collide(many.get(), c, collide);
+            few->distance(many.get(), d, nearest);
+          },
+          bruteForce(all, [](std::size_t i, std::size_t j) { return i < 5 && j >= 5; }));
+      const Manager others = filled(make, {all.begin() + 1, all.end()});
+      expectAnswer(
+          [&](auto* c, auto* d) {
+            others->collide(all[0], c, collide);
+            others->distance(all[0], d, nearest);
+          },
+          bruteForce(all, [](std::size_t i, std::size_t) { return i == 0; }));
+      // A mesh and a shape: through the manager as without it, bit by bit.
+      fcl::DefaultDistanceData<double> distance;
+      filled(make, {all[0], all[8]})->distance(&distance, nearest);
+      fcl::DistanceResultd alone;
+      fcl::distance(all[0], all[8], fcl::DistanceRequestd(), alone);
+      EXPECT_EQ(distance.result.min_distance, alone.min_distance);
+    }
+  }
+  EXPECT_TRUE(any_apart && any_shapes_touch);
 }
 
 }  // namespace

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Cost sources and occupancy: what fcl::collide reports of meshes that are free, uncertain or
-// occupied, against OBBRSS models of the same meshes.
+// Cost sources and occupancy: the reports of fcl::collide about meshes and shapes that are free,
+// uncertain or occupied; for two meshes against OBBRSS models of the same meshes.
 
 #include <gtest/gtest.h>
 
 #include "fcl/mesh_cases.h"
+#include "solid/shape_oracle.h"
 
 namespace kios::testing {
 namespace {
@@ -15,12 +16,14 @@ using ObbrssModel = fcl::BVHModel<fcl::OBBRSSd>;
 
 enum class Occupancy { kFree, kUncertain, kOccupied };
 
-template <typename Model>
-void setOccupancy(Model& model, Occupancy occupancy) {
-  model.threshold_free = 0.25;
-  model.threshold_occupied = 0.75;
-  model.cost_density = occupancy == Occupancy::kFree ? 0.125 : 0.5;
-  if (occupancy == Occupancy::kOccupied) model.cost_density = 2;
+constexpr Occupancy kAllOccupancies[] = {Occupancy::kFree, Occupancy::kUncertain,
+                                         Occupancy::kOccupied};
+
+void setOccupancy(fcl::CollisionGeometryd& geometry, Occupancy occupancy) {
+  geometry.threshold_free = 0.25;
+  geometry.threshold_occupied = 0.75;
+  geometry.cost_density = occupancy == Occupancy::kFree ? 0.125 : 0.5;
+  if (occupancy == Occupancy::kOccupied) geometry.cost_density = 2;
 }
 
 template <typename Model>
@@ -98,9 +101,8 @@ TEST_F(Cost, NoneUnlessAskedFor) {
 }
 
 TEST_F(Cost, OccupancyDecidesBetweenContactsAndSources) {
-  constexpr Occupancy kAll[] = {Occupancy::kFree, Occupancy::kUncertain, Occupancy::kOccupied};
-  for (const Occupancy of_a : kAll) {
-    for (const Occupancy of_b : kAll) {
+  for (const Occupancy of_a : kAllOccupancies) {
+    for (const Occupancy of_b : kAllOccupancies) {
       setOccupancy(*kios_a_, of_a);
       setOccupancy(*obbrss_a_, of_a);
       setOccupancy(*kios_b_, of_b);
@@ -121,6 +123,54 @@ TEST_F(Cost, OccupancyDecidesBetweenContactsAndSources) {
       }
       EXPECT_EQ(contacts > 0, both);
       EXPECT_EQ(sources > 0, !any_free);
+    }
+  }
+}
+
+// FCL.md, defects 3, 10 and 23: contacts need that both are occupied, sources that neither is free;
+// and sources lie where mesh and shape do, in the world.
+TEST(ShapeCosts, OccupancyDecidesBetweenContactsAndSources) {
+  const auto model = kiosModel(scenes::icosphere(0.5, 1));
+  const Transform3d X_WA(Eigen::Translation3d(100, 0, 0));
+  const Transform3d X_WB = X_WA * Eigen::Translation3d(0.3, 0.1, 0.1);
+  scenes::Random random(3);
+  for (const Shape kind : kShapes) {
+    SCOPED_TRACE(nameOf(kind));
+    std::shared_ptr<fcl::CollisionGeometryd> shape;
+    setOccupancy(*model, Occupancy::kOccupied);
+    for (bool meets = false; !meets;) {
+      shape = makeShape<double>(randomShape(kind, random));
+      fcl::CollisionResultd contacts;
+      meets = fcl::collide(model.get(), X_WA, shape.get(), X_WB, {}, contacts) > 0;
+    }
+    const fcl::CollisionGeometryd *a = model.get(), *b = shape.get();
+    for (const Occupancy of_mesh : kAllOccupancies) {
+      for (const Occupancy of_shape : kAllOccupancies) {
+        setOccupancy(*model, of_mesh);
+        setOccupancy(*shape, of_shape);
+        for (const bool mesh_first : {true, false}) {
+          for (const bool approximate : {true, false}) {
+            const fcl::CollisionRequestd request(kAllContacts, false, 100, true, approximate);
+            fcl::CollisionResultd result;
+            if (mesh_first) fcl::collide(a, X_WA, b, X_WB, request, result);
+            if (!mesh_first) fcl::collide(b, X_WB, a, X_WA, request, result);
+            EXPECT_EQ(result.isCollision(),
+                      of_mesh == Occupancy::kOccupied && of_shape == Occupancy::kOccupied);
+            std::vector<fcl::CostSourced> sources;
+            result.getCostSources(sources);
+            EXPECT_EQ(!sources.empty(),
+                      of_mesh != Occupancy::kFree && of_shape != Occupancy::kFree);
+            for (const fcl::CostSourced& source : sources) {
+              EXPECT_DOUBLE_EQ(source.cost_density, model->cost_density * shape->cost_density);
+              for (int i = 0; i < 3; ++i) {  // within the mesh's box, with room for approximation
+                EXPECT_GE(source.aabb_min[i], X_WA.translation()[i] - 1);
+                EXPECT_LE(source.aabb_max[i], X_WA.translation()[i] + 1);
+                EXPECT_LE(source.aabb_min[i], source.aabb_max[i]);
+              }
+            }
+          }
+        }
+      }
     }
   }
 }

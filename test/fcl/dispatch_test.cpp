@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which calls reach kIOS: every way to write a query, every kind of other object.
+// Calls that reach kIOS: every way to write a query, every kind of other object.
 
 #include <gtest/gtest.h>
 
@@ -9,18 +9,13 @@
 #include <map>
 #include <string>
 
-#include <fcl/geometry/octree/octree.h>
-#include <fcl/geometry/shape/halfspace.h>
-#include <fcl/geometry/shape/plane.h>
 #include <fcl/math/motion/translation_motion.h>
 
 #include "fcl/expect_refused.h"
-#include "fcl/mesh_cases.h"
+#include "fcl/partners.h"
 
 namespace kios::testing {
 namespace {
-
-using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 const Transform3d kHere = Transform3d::Identity();
 const Transform3d kThere(Eigen::Translation3d(0.5, 0.25, 0.125));
@@ -58,28 +53,10 @@ TEST_F(Dispatch, QualifiedUnqualifiedAndCallbackCallsMeetOurOverloads) {
 
 std::map<std::string, Geometry> othersThanKios() {
   const Mesh mesh = scenes::icosphere(0.5, 1);
-  std::map<std::string, Geometry> others;
-  others["Box"] = std::make_shared<fcl::Boxd>(1, 1, 1);
-  others["Sphere"] = std::make_shared<fcl::Sphered>(1);
-  others["Ellipsoid"] = std::make_shared<fcl::Ellipsoidd>(1, 2, 1);
-  others["Capsule"] = std::make_shared<fcl::Capsuled>(0.5, 1);
-  others["Cone"] = std::make_shared<fcl::Coned>(0.5, 1);
-  others["Cylinder"] = std::make_shared<fcl::Cylinderd>(0.5, 1);
-  others["Plane"] = std::make_shared<fcl::Planed>(Vector3d::UnitZ(), 0);
-  others["Halfspace"] = std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0);
+  std::map<std::string, Geometry> others = partners();
+  others.erase("mesh");
   others["TriangleP"] =
       std::make_shared<fcl::TrianglePd>(Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ());
-  const auto faces = std::make_shared<std::vector<int>>();
-  for (const fcl::Triangle& t : mesh.triangles) {
-    faces->push_back(3);
-    for (int i = 0; i < 3; ++i) faces->push_back(static_cast<int>(t[i]));
-  }
-  others["Convex"] =
-      std::make_shared<fcl::Convexd>(std::make_shared<std::vector<Vector3d>>(mesh.vertices),
-                                     static_cast<int>(mesh.triangles.size()), faces);
-  const auto octree = std::make_shared<octomap::OcTree>(0.1);
-  octree->updateNode(octomap::point3d(0, 0, 0), true);
-  others["OcTree"] = std::make_shared<fcl::OcTreed>(octree);
   others["OBBRSS"] = scenes::buildModel<fcl::OBBRSSd>(mesh);
   others["fcl::kIOS"] = scenes::buildModel<fcl::kIOSd>(mesh);
   others["AABB"] = scenes::buildModel<fcl::AABBd>(mesh);
@@ -87,7 +64,7 @@ std::map<std::string, Geometry> othersThanKios() {
   return others;
 }
 
-/// Shapes and octrees, which all queries serve (test/shape, test/octree, test/continuous).
+/// True for shapes and octrees, which all queries serve.
 bool isServed(const fcl::CollisionGeometryd& other) {
   return other.getObjectType() == fcl::OT_OCTREE ||
          (other.getObjectType() == fcl::OT_GEOM && other.getNodeType() != fcl::GEOM_TRIANGLE);
@@ -172,9 +149,9 @@ TEST_F(Dispatch, FormsWithASolver) {
 
 TEST_F(Dispatch, PairsWithoutKiosAreFcls) {
   const auto others = othersThanKios();
-  for (const auto& [a, b] : {std::pair("Box", "Sphere"), std::pair("OBBRSS", "OBBRSS"),
-                             std::pair("fcl::kIOS", "fcl::kIOS"), std::pair("OBBRSS", "Box"),
-                             std::pair("Capsule", "Convex"), std::pair("AABB", "AABB")}) {
+  for (const auto& [a, b] : {std::pair("box", "sphere"), std::pair("OBBRSS", "OBBRSS"),
+                             std::pair("fcl::kIOS", "fcl::kIOS"), std::pair("OBBRSS", "box"),
+                             std::pair("capsule", "convex"), std::pair("AABB", "AABB")}) {
     for (const Frame& frame : randomFrames(10, 1.5, 71)) {
       const fcl::CollisionGeometryd *g1 = others.at(a).get(), *g2 = others.at(b).get();
       const fcl::CollisionRequestd request(kAllContacts, true);

@@ -7,9 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fcl/math/motion/translation_motion.h>
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 
 #include "fcl/mesh_cases.h"
+#include "model/deform.h"
 #include "scenes/random.h"
 
 namespace kios::testing {
@@ -181,6 +183,10 @@ TEST(FclDefect14, ReusedResultIsMovedAgain) {
   EXPECT_FALSE(reusedResultKeepsItsPoints<FclKios>());
 }
 
+TEST(FclDefect14, ReusedResultIsMovedAgainOverObbrss) {
+  EXPECT_FALSE(reusedResultKeepsItsPoints<fcl::OBBRSSd>());
+}
+
 // Results name the caller's models. FCL's kIOS does, too; its RSS models are copied and rebuilt
 // for each query, and contacts name the copies, which are gone.
 template <typename BV>
@@ -198,6 +204,134 @@ bool contactsNameTheModels() {
 TEST(FclDefect15, ContactsNameCopiesThatAreGone) {
   EXPECT_TRUE(contactsNameTheModels<kIOSd>());
   EXPECT_FALSE(contactsNameTheModels<fcl::RSSd>());
+}
+
+// The nearest points of a mesh and a sphere are as far apart as the answer says, and each is on its
+// object.
+template <typename BV>
+bool nearestPointsToASphereAreRight() {
+  const Mesh mesh = scenes::icosphere(0.6, 1);
+  const auto model = scenes::buildModel<BV>(mesh);
+  const fcl::Sphered sphere(0.5);
+  const Transform3d I = Transform3d::Identity();
+  for (const Transform3d& X : scenes::randomPoses(20, 2, 124)) {
+    fcl::DistanceResultd result;
+    const double d = fcl::distance(model.get(), I, &sphere, X, fcl::DistanceRequestd(true), result);
+    if (!(d > 1e-6)) continue;
+    const bool model_is_first = result.o1 == model.get();
+    const Vector3d& p = result.nearest_points[model_is_first ? 0 : 1];
+    const Vector3d& q = result.nearest_points[model_is_first ? 1 : 0];
+    const auto triangle = model_is_first ? result.b1 : result.b2;
+    if (triangle < 0 || triangle >= model->num_tris || std::abs((p - q).norm() - d) > 1e-6 ||
+        distanceToTriangle(p, I, mesh, triangle) > 1e-6 ||
+        std::abs((q - X.translation()).norm() - 0.5) > 1e-6) {
+      return false;
+    }
+  }
+  return true;
+}
+
+TEST(FclDefect16, NearestPointsToASphere) {
+  EXPECT_TRUE(nearestPointsToASphereAreRight<kIOSd>());
+  EXPECT_FALSE(nearestPointsToASphereAreRight<fcl::OBBRSSd>());
+}
+
+template <typename BV>
+double distanceToAHalfspace() {
+  const auto model = scenes::buildModel<BV>(scenes::icosphere(0.6, 1));
+  const fcl::Halfspaced halfspace(Vector3d::UnitZ(), -2);
+  const Transform3d I = Transform3d::Identity();
+  fcl::DistanceResultd result;
+  return fcl::distance(model.get(), I, &halfspace, I, fcl::DistanceRequestd(), result);
+}
+
+// FCL calls a null pointer, here in a process of its own.
+TEST(FclDefect17DeathTest, DistanceToAHalfspace) {
+  EXPECT_NEAR(distanceToAHalfspace<kIOSd>(), 1.4, 0.1);
+  EXPECT_DEATH(distanceToAHalfspace<fcl::OBBRSSd>(), "");
+}
+
+// Two things that fly at each other from 3 to either side of the origin, and hit halfway.
+template <typename BV>
+struct HeadOn {
+  HeadOn(const Mesh& a, const Mesh& b, fcl::CCDSolverType solver) {
+    const Transform3d left(Eigen::Translation3d(-3, 0.05, 0));
+    const Transform3d right(Eigen::Translation3d(3, 0, 0.02));
+    const auto model_a = scenes::buildModel<BV>(a), model_b = scenes::buildModel<BV>(b);
+    const fcl::TranslationMotiond motion_a(left, right), motion_b(right, left);
+    const fcl::ContinuousCollisionRequestd request(10, 1e-3, fcl::CCDM_TRANS, fcl::GST_LIBCCD,
+                                                   solver);
+    ::testing::internal::CaptureStderr();  // FCL's messages
+    fcl::continuousCollide(model_a.get(), &motion_a, model_b.get(), &motion_b, request, result);
+    ::testing::internal::GetCapturedStderr();
+    unmoved = std::equal(a.vertices.begin(), a.vertices.end(), model_a->vertices);
+  }
+  fcl::ContinuousCollisionResultd result;
+  bool unmoved;
+};
+
+// Sampling passes over a contact that is shorter than its steps.
+TEST(FclContinuous, NaiveTunnels) {
+  const Mesh plate = scenes::subdividedBox({0.01, 2, 2}, 1), ball = scenes::icosphere(0.1, 1);
+  const auto kNaive = fcl::CCDC_NAIVE;
+  EXPECT_TRUE(HeadOn<kIOSd>(plate, ball, kNaive).result.is_collide);
+  EXPECT_FALSE(HeadOn<fcl::OBBRSSd>(plate, ball, kNaive).result.is_collide);
+}
+
+TEST(FclDefect20, AdvancementMissesAHeadOnHit) {
+  const Mesh box = scenes::subdividedBox({1, 1, 1}, 1);
+  const auto kAdvance = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  EXPECT_TRUE(HeadOn<kIOSd>(box, box, kAdvance).result.is_collide);
+  EXPECT_FALSE(HeadOn<fcl::OBBRSSd>(box, box, kAdvance).result.is_collide);
+}
+
+TEST(FclDefect22, PolynomialSolverMovesTheModels) {
+  const Mesh box = scenes::subdividedBox({1, 1, 1}, 1);
+  EXPECT_TRUE(HeadOn<kIOSd>(box, box, fcl::CCDC_POLYNOMIAL_SOLVER).unmoved);
+  EXPECT_FALSE(HeadOn<fcl::OBBRSSd>(box, box, fcl::CCDC_POLYNOMIAL_SOLVER).unmoved);
+}
+
+// Number of frames in which the distance is off by more than 1e-12, all objects moved by `offset`.
+template <typename BV>
+int wrongDistances(const fcl::BVHModel<BV>& model, const Mesh& mesh, const Vector3d& offset) {
+  const Mesh other = scenes::icosphere(0.7, 1);
+  const auto other_model = scenes::buildModel<BV>(other);
+  const scenes::MeshOracle oracle(mesh, other);
+  int wrong = 0;
+  for (const Frame& frame : randomFrames(20, 1.2, 125, offset)) {
+    fcl::DistanceResultd result;
+    const double d = fcl::distance(&model, frame.X_WA, other_model.get(), frame.X_WB,
+                                   fcl::DistanceRequestd(), result);
+    wrong += !(std::abs(d - oracle.distance(frame.X_WA, frame.X_WB)) <= 1e-12);
+  }
+  return wrong;
+}
+
+template <typename BV>
+int wrongAtACommonOffset() {
+  const Mesh mesh = scenes::bumpyTorus(200);
+  return wrongDistances(*scenes::buildModel<BV>(mesh), mesh, Vector3d::Constant(0x1p30));
+}
+
+TEST(FclMeshes, ACommonOffsetCostsAccuracy) {
+  EXPECT_EQ(wrongAtACommonOffset<kIOSd>(), 0);
+  EXPECT_GT(wrongAtACommonOffset<fcl::OBBRSSd>(), 0);
+}
+
+template <typename BV>
+int wrongAfterABottomUpRefit() {
+  Mesh mesh = scenes::bumpyTorus(200);
+  const auto model = scenes::buildModel<BV>(mesh);
+  mesh.vertices = swayed(mesh, 0.7);
+  model->beginReplaceModel();
+  model->replaceSubModel(mesh.vertices);
+  model->endReplaceModel(true, true);
+  return wrongDistances(*model, mesh, Vector3d::Zero());
+}
+
+TEST(FclMeshes, ABottomUpRefitLosesContent) {
+  EXPECT_EQ(wrongAfterABottomUpRefit<kIOSd>(), 0);
+  EXPECT_GT(wrongAfterABottomUpRefit<fcl::OBBRSSd>(), 0);
 }
 
 }  // namespace

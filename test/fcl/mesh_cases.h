@@ -66,7 +66,7 @@ inline std::vector<Frame> randomFrames(int count, double spread, std::uint64_t s
   return frames;
 }
 
-/// The larger extent of the two: what errors are measured by.
+/// The larger extent of the two, by which errors are measured.
 inline double sizeOf(const Mesh& a, const Mesh& b) { return std::max(extent(a), extent(b)); }
 
 inline std::shared_ptr<Modeld> kiosModel(const Mesh& mesh) {
@@ -99,10 +99,11 @@ inline double distanceToTriangle(const Vector3d& p, const Transform3d& X_WT, con
 }
 
 /// The triangle pairs that contacts name, ascending, each once.
-inline Pairs contactPairs(const fcl::CollisionResultd& result) {
+template <typename S>
+Pairs contactPairs(const fcl::CollisionResult<S>& result) {
   std::set<std::pair<int, int>> pairs;
   for (std::size_t i = 0; i < result.numContacts(); ++i) {
-    const fcl::Contactd& contact = result.getContact(i);
+    const fcl::Contact<S>& contact = result.getContact(i);
     pairs.emplace(static_cast<int>(contact.b1), static_cast<int>(contact.b2));
   }
   return {pairs.begin(), pairs.end()};
@@ -143,7 +144,7 @@ inline Pairs leafPairs(const Mesh& a, const Mesh& b, const Frame& frame) {
   return pairs;
 }
 
-/// What FCL's triangle routine says of a pair that meets, in A's frame.
+/// The answer of FCL's triangle routine for a pair that meets, in A's frame.
 struct FclContact {
   std::array<Vector3d, 3> points;  ///< FCL's routine writes up to 3
   unsigned int num_points = 0;

@@ -136,7 +136,7 @@ TEST_F(Nodes, InitializeQualifiedWithFclsNamespace) {
     ASSERT_TRUE(fcl::detail::initialize(collision, a, frame.X_WA, b, frame.X_WB,
                                         fcl::CollisionRequestd(kAllContacts), contacts));
     EXPECT_TRUE(std::equal(a.vertices, a.vertices + a.num_vertices, a_.vertices));
-    ASSERT_TRUE(collision.X_12.has_value());
+    ASSERT_TRUE(collision.X_AB.has_value());
     fcl::detail::collide<double>(&collision);
     EXPECT_EQ(contactPairs(contacts), oracle_.collidingPairs(frame.X_WA, frame.X_WB));
     DistanceNode distance;
@@ -144,7 +144,7 @@ TEST_F(Nodes, InitializeQualifiedWithFclsNamespace) {
     ASSERT_TRUE(fcl::detail::initialize(distance, a, frame.X_WA, b, frame.X_WB,
                                         fcl::DistanceRequestd(), result));
     EXPECT_TRUE(std::equal(b.vertices, b.vertices + b.num_vertices, b_.vertices));
-    ASSERT_TRUE(distance.X_12.has_value());
+    ASSERT_TRUE(distance.X_AB.has_value());
     fcl::detail::distance<double>(&distance);
     EXPECT_NEAR(result.min_distance, oracle_.distance(frame.X_WA, frame.X_WB), 2e-12);
   }

@@ -184,9 +184,13 @@ TYPED_TEST(Octree, EqualsBruteForce) {
             EXPECT_GE(contact.penetration_depth, 0);
           }
           EXPECT_EQ(found, expected.meeting);
-          fcl::CollisionResult<S> few;
-          fcl::collide(o, X_WO, m, X_WM, fcl::CollisionRequest<S>(2, enable_contact), few);
-          EXPECT_EQ(few.numContacts(), std::min<std::size_t>(2, found.size()));
+          for (const std::size_t limit : {1U, 2U}) {
+            fcl::CollisionResult<S> few;
+            const fcl::CollisionRequest<S> few_wanted(limit, enable_contact);
+            turned ? fcl::collide(m, X_WM, o, X_WO, few_wanted, few)
+                   : fcl::collide(o, X_WO, m, X_WM, few_wanted, few);
+            EXPECT_EQ(few.numContacts(), std::min(limit, found.size()));
+          }
         }
       }
     }

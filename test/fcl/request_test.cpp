@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What fcl::DistanceRequest and a DistanceResult on entry promise, kept.
+// The promises of fcl::DistanceRequest and of a DistanceResult on entry are kept.
 
 #include <gtest/gtest.h>
 
@@ -279,7 +279,7 @@ TEST_F(Request, UnlimitedErrorStillAnswers) {
     const Frame& frame = frames_.front();
     const auto answer = kios::distance(*a_, frame.X_WA, *b_, frame.X_WB, options);
     EXPECT_LT(answer.distance, 100) << rel;
-    EXPECT_GE(answer.triangle1, 0) << rel;
+    EXPECT_GE(answer.triangle_a, 0) << rel;
   }
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "fcl/mesh_cases.h"
-#include "fcl/tree_check.h"
+#include "model/bvh_check.h"
 #include "volume/fit/all_fits.h"
 
 namespace kios::testing {

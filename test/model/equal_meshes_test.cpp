@@ -7,11 +7,11 @@
 
 #include <atomic>
 #include <list>
-#include <thread>
 
 #include "fcl/mesh_cases.h"
-#include "fcl/tree_check.h"
+#include "model/bvh_check.h"
 #include "model/deform.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -139,23 +139,19 @@ TEST_F(EqualMeshes, AnotherFitterAfterTheBuild) {
 // Models that others copy from go, move and are built anew while threads build.
 TEST_F(EqualMeshes, InManyThreads) {
   std::atomic<int> wrong{0};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 10; ++t) {
-    threads.emplace_back([&, t] {
-      std::list<std::shared_ptr<Modeld>> mine;
-      for (int i = 0; i < 60; ++i) {
-        mine.push_back(i % 5 == 4 ? std::make_shared<Modeld>(*mine.back()) : kiosModel(mesh_));
-        wrong += !sameTree(*mine.back(), built_);
-        if (i % 15 == t) wrong += wrongAnswers(*mine.back(), mesh_.vertices);
-        if (i % 4 == 3) {
-          replace(*mine.front(), swayed(mesh_, t), i % 8 == 3, i % 16 == 3);
-          if (i % 15 == t) wrong += wrongAnswers(*mine.front(), swayed(mesh_, t));
-        }
-        if (mine.size() > 3 || i % 4 == 3) mine.pop_front();
+  together(10, [&](int t) {
+    std::list<std::shared_ptr<Modeld>> mine;
+    for (int i = 0; i < 60; ++i) {
+      mine.push_back(i % 5 == 4 ? std::make_shared<Modeld>(*mine.back()) : kiosModel(mesh_));
+      wrong += !sameTree(*mine.back(), built_);
+      if (i % 15 == t) wrong += wrongAnswers(*mine.back(), mesh_.vertices);
+      if (i % 4 == 3) {
+        replace(*mine.front(), swayed(mesh_, t), i % 8 == 3, i % 16 == 3);
+        if (i % 15 == t) wrong += wrongAnswers(*mine.front(), swayed(mesh_, t));
       }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
+      if (mine.size() > 3 || i % 4 == 3) mine.pop_front();
+    }
+  });
   EXPECT_EQ(wrong, 0);
 }
 

@@ -276,7 +276,7 @@ TEST_F(Memory, RefitsAreRepeated) {
   }
 }
 
-// What a query prepares of a state of the model that is no more.
+// Memory may run out while a query prepares a refitted model whose earlier state was prepared.
 TEST_F(Memory, QueriesAfterARefit) {
   const auto moved = swayed(mesh_, 0.7);
   std::shared_ptr<Modeld> model;

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <thread>
 
 #include "fcl/mesh_cases.h"
-#include "fcl/tree_check.h"
+#include "model/bvh_check.h"
 #include "model/deform.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -159,9 +159,7 @@ TEST_F(Refit, CopiesRefitInTwoThreadsAsInOne) {
   work(two_alone, 7);
   for (int round = 0; round < 3; ++round) {
     Modeld a(original), b(original);
-    std::thread thread(work, std::ref(a), 0);
-    work(b, 7);
-    thread.join();
+    together(2, [&](int t) { t == 0 ? work(a, 0) : work(b, 7); });
     EXPECT_TRUE(sameTree(a, one_alone));
     EXPECT_TRUE(sameTree(b, two_alone));
   }
@@ -172,11 +170,7 @@ TEST_F(Refit, ModelsBuiltInManyThreadsAreAsBuiltAlone) {
   std::vector<std::vector<fcl::BVNode<kIOSd>>> alone;
   for (std::size_t i = 0; i < 8; ++i) alone.push_back(nodesOf(*kiosModel(meshOf(i))));
   std::vector<std::shared_ptr<Modeld>> models(8);
-  std::vector<std::thread> threads;
-  for (std::size_t i = 0; i < 8; ++i) {
-    threads.emplace_back([&, i] { models[i] = kiosModel(meshOf(i)); });
-  }
-  for (std::thread& thread : threads) thread.join();
+  together(8, [&](int t) { models[t] = kiosModel(meshOf(t)); });
   for (std::size_t i = 0; i < 8; ++i) EXPECT_TRUE(sameTree(*models[i], alone[i])) << i;
 }
 

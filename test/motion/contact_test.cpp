@@ -148,7 +148,7 @@ TEST(SpinningRods, DontTunnel) {
   }
 }
 
-// What slides at a small gap takes few steps, however small the gap.
+// A body that slides at a small gap takes few steps, however small the gap.
 TEST(Sliding, TakesFewSteps) {
   const Mesh table = scenes::subdividedBox({6, 6, 1}, 8), box = scenes::subdividedBox({1, 1, 1}, 4);
   const Pair pair(table, box);

@@ -142,7 +142,7 @@ TEST(HardCases, RefittedModels) {
   EXPECT_NEAR(after.time_of_contact, fresh.time_of_contact, 1e-7);
 }
 
-// What isn't occupied touches nothing, as in collide().
+// Models that aren't occupied touch nothing, as in collide().
 TEST(HardCases, FreeModels) {
   const auto a = kiosModel(scenes::subdividedBox({1, 1, 1}, 1));
   const auto b = kiosModel(scenes::subdividedBox({1, 1, 1}, 1));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,7 +48,7 @@ inline Transform3d poseAt(const fcl::MotionBased& motion, double t) {
   return X;
 }
 
-/// Whether two geometries in motion touch, by samples of the time.
+/// Finds by samples of the time whether two geometries in motion touch.
 struct Sampling {
   const fcl::CollisionGeometryd& first;
   const fcl::MotionBased& motion1;
@@ -117,6 +118,36 @@ inline Answer ask(const Pair& pair, const fcl::MotionBased& a, const fcl::Motion
   EXPECT_EQ(returned, answer.result.time_of_contact);
   return answer;
 }
+
+/// Asks in both orders, which must give one answer.
+inline fcl::ContinuousCollisionResultd askBoth(const fcl::CollisionGeometryd& a,
+                                               const fcl::MotionBased& motion_a,
+                                               const fcl::CollisionGeometryd& b,
+                                               const fcl::MotionBased& motion_b, double toc_err,
+                                               ContinuousCounts* counts = nullptr) {
+  fcl::ContinuousCollisionResultd forth, back;
+  const auto request = requestFor(fcl::CCDM_TRANS, toc_err);
+  const double toc = firstContact(a, &motion_a, b, &motion_b, request, forth, counts);
+  EXPECT_EQ(toc, forth.time_of_contact);
+  EXPECT_EQ(toc, fcl::continuousCollide(&b, &motion_b, &a, &motion_a, request, back));
+  EXPECT_EQ(forth.is_collide, back.is_collide);
+  EXPECT_EQ(forth.contact_tf1.matrix(), back.contact_tf2.matrix());
+  return forth;
+}
+
+/// The outcomes of random motions, of which some must hit and others miss.
+struct Outcomes {
+  int hits = 0, queries = 0;
+  ContinuousCounts counts;
+
+  void expectBothKinds() const {
+    EXPECT_GT(hits, queries / 10);
+    EXPECT_LT(hits, queries * 9 / 10);
+    std::printf("%d of %d hit; a query: %lld steps, %lld volume tests, %lld leaf tests\n", hits,
+                queries, counts.steps / queries, counts.volume_tests / queries,
+                counts.leaf_tests / queries);
+  }
+};
 
 /// Checks an answer against the exact contacts at `samples` + 1 times: none before the time of
 /// contact, and one no later than toc_err after it. Contacts too short for the samples are looked

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <thread>
 
 #include "fcl/expect_refused.h"
 #include "motion/moving_meshes.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -173,15 +173,11 @@ TEST_F(Continuous, ThreadsShareModelsAndMotions) {
     for (std::size_t i = 0; i < 8; ++i) expected.push_back(answer(*own, i));
   }
   std::atomic<int> wrong{0};
-  std::vector<std::thread> threads;
-  for (int k = 0; k < 8; ++k) {
-    threads.emplace_back([&, k] {
-      for (std::size_t i = 0; i < 8; ++i) {
-        if (answer(*torus, (i + k) % 8) != expected[(i + k) % 8]) ++wrong;
-      }
-    });
-  }
-  for (auto& thread : threads) thread.join();
+  together(8, [&](int k) {
+    for (std::size_t i = 0; i < 8; ++i) {
+      if (answer(*torus, (i + k) % 8) != expected[(i + k) % 8]) ++wrong;
+    }
+  });
   EXPECT_EQ(wrong, 0);
 }
 

@@ -4,7 +4,8 @@
 #
 # usage: coverage.sh SOURCE_DIR
 # Every test that docs/fcl-coverage.md names as `folder/file_test.cpp: Suite.Name, ...` exists, and
-# each of its rows names one or says why there is none.
+# each of its rows names one or says why there is none. Every path that any page names exists, but
+# for placeholders (FOLDER/NAME) and other projects' files (swapping.md).
 set -euo pipefail
 
 cd "$1"
@@ -35,6 +36,11 @@ done < <(grep -oE '`[a-z_/]+_test\.cpp: [^`]+`' "$doc" | tr -d '`')
 while IFS= read -r row; do
   grep -qE '_test\.cpp: |not reachable' <<<"$row" || fail "a row without a test: $row"
 done < <(grep -E '^\|' "$doc" | grep -vE '^\|[-:| ]+\|$|^\| (FCL entry point|#) ')
+
+while IFS=: read -r page path; do
+  compgen -G "${path#\`}*" >/dev/null || { echo "$page: no ${path#\`}" && status=1; }
+done < <(grep -HoE '`(src|include|test|benchmarks|scripts|cmake|examples)/[A-Za-z0-9_./-]+' \
+  README.md CONTRIBUTING.md docs/*.md | grep -vE '^docs/swapping|NAME')
 
 if ((count < 30)); then fail "only $count tests are named"; fi
 ((status == 0)) && echo "$doc: $count named tests exist"

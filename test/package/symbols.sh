@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: symbols.sh LIBRARY SOURCE_DIR. The shared library exports all that cmake/exports.map lists
-# and nothing else: a weak symbol of FCL or Eigen would replace libfcl's in the whole process, and a
-# name of ours that no public header knows is internal.
+# and nothing else: a weak symbol of FCL or Eigen would replace libfcl's in the whole process, a
+# unique one would keep dlclose() from unloading the library, and a name of ours that no public
+# header knows is internal.
 set -euo pipefail
 
 library=$1 map=$2/cmake/exports.map headers=$2/include/fcl_kios
@@ -28,6 +29,10 @@ for symbol in "${symbols[@]}"; do
     status=1
   fi
 done
+while read -r symbol; do
+  echo "exported as unique: $(c++filt "$symbol")"
+  status=1
+done < <(nm -D --defined-only "$library" | awk '$2 == "u" { print $3 }')
 for pattern in "${patterns[@]}"; do
   if [[ -z ${met[$pattern]:-} ]]; then
     echo "listed, but not exported: $pattern"

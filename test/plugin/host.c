@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// usage: host PLUGIN [TLS_USER...]
-// A program of C without the C++ runtime. It opens, asks and closes the plug-in in every way, from
-// many threads, after the TLS users have taken what static thread-local storage there is.
+// usage: host LIBRARY PLUGIN [TLS_USER...]
+// A program of C without the C++ runtime. It loads and unloads the library; then it opens, asks and
+// closes the plug-in in every way, from many threads, after the TLS users have taken all static
+// thread-local storage.
 
 #include <dlfcn.h>
 #include <pthread.h>
@@ -71,15 +72,23 @@ static void let_threads_outlive(int flags) {
   pthread_barrier_destroy(&closed);
 }
 
+static void load_and_unload(const char* library) {
+  void* handle = dlopen(library, RTLD_NOW);
+  if (!handle) printf("%s\n", dlerror());
+  require(handle != NULL && dlclose(handle) == 0, "dlopen and dlclose of the library");
+  require(dlopen(library, RTLD_NOW | RTLD_NOLOAD) == NULL, "dlclose unloads the library");
+}
+
 int main(int argc, char** argv) {
   static const int ways[] = {RTLD_LOCAL | RTLD_NOW, RTLD_LOCAL | RTLD_LAZY, RTLD_GLOBAL | RTLD_NOW,
                              RTLD_GLOBAL | RTLD_LAZY};
   int users = 0;
   pthread_t threads[kThreads];
-  require(argc > 1, "usage");
-  plugin = argv[1];
-  for (int i = 2; i < argc && dlopen(argv[i], RTLD_NOW); ++i) ++users;
-  require(argc == 2 || users + 2 < argc, "TLS users leave static storage");
+  require(argc > 2, "usage");
+  load_and_unload(argv[1]);
+  plugin = argv[2];
+  for (int i = 3; i < argc && dlopen(argv[i], RTLD_NOW); ++i) ++users;
+  require(argc == 3 || users + 3 < argc, "TLS users leave static storage");
   for (int w = 0; w < 4; ++w) {
     let_threads_outlive(ways[w]);
     for (int i = 0; i < kRounds; ++i) open_and_ask(ways[w]);

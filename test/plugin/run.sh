@@ -2,17 +2,17 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: run.sh HOST PLUGIN TLS_USER WORK_DIR SANITIZED PYTHON
+# usage: run.sh HOST LIBRARY PLUGIN TLS_USER WORK_DIR SANITIZED PYTHON
 # The plug-in in a plain host, in one whose static thread-local storage is used up, and in Python.
 set -euo pipefail
 
-host=$1 plugin=$2 tls_user=$3 work=$4 sanitized=$5 python=$6
+host=$1 library=$2 plugin=$3 tls_user=$4 work=$5 sanitized=$6 python=$7
 
 if [[ $sanitized == 0 ]] && readelf -dW "$host" | grep -E 'libstdc\+\+|libc\+\+|libfcl'; then
   echo "the host is no plain program of C"
   exit 1
 fi
-"$host" "$plugin"
+"$host" "$library" "$plugin"
 
 # Each copy of the file is another library to the loader.
 rm -rf "$work"
@@ -22,7 +22,7 @@ for i in {1..400}; do
   users+=("$work/tls_user_$i.so")
   cp "$tls_user" "${users[-1]}"
 done
-"$host" "$plugin" "${users[@]}"
+"$host" "$library" "$plugin" "${users[@]}"
 rm -rf "$work"
 
 if [[ $sanitized == 1 ]]; then

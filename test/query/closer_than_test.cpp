@@ -46,7 +46,7 @@ class CloserThan : public ::testing::Test {
             << d << " " << t;
         if (d <= t) {
           ASSERT_LE(proof.distance, t);
-          ASSERT_GE(proof.triangle1, 0);
+          ASSERT_GE(proof.triangle_a, 0);
         } else {
           ASSERT_TRUE(proof.lower_bound > t || proof.distance == d) << d << " " << t;
         }

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What the options of kios::distance promise: exact answers are fcl::distance's whatever they start
-// from, budgets are monotone, tolerances are honoured everywhere, threads agree.
+// The options of kios::distance: exact answers are fcl::distance's whatever they start from,
+// budgets are monotone, tolerances are honoured everywhere, threads agree.
 
 #include "fcl_kios/query/distance.h"
 
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "query/query_cases.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -61,8 +60,8 @@ std::vector<Scene<S>> scenesOf() {
 
 template <typename S>
 bool same(const DistanceAnswer<S>& a, const DistanceAnswer<S>& b) {
-  return a.distance == b.distance && a.triangle1 == b.triangle1 && a.triangle2 == b.triangle2 &&
-         a.point1 == b.point1 && a.point2 == b.point2 && a.lower_bound == b.lower_bound &&
+  return a.distance == b.distance && a.triangle_a == b.triangle_a && a.triangle_b == b.triangle_b &&
+         a.point_a == b.point_a && a.point_b == b.point_b && a.lower_bound == b.lower_bound &&
          a.upper_bound == b.upper_bound && a.stop == b.stop;
 }
 
@@ -86,8 +85,8 @@ TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
                      result, &counts);
       ASSERT_EQ(cold.distance, result.min_distance);
       if (counts.tree_searches == 0) {
-        ASSERT_EQ(cold.triangle1, result.b1);
-        ASSERT_EQ(cold.triangle2, result.b2);
+        ASSERT_EQ(cold.triangle_a, result.b1);
+        ASSERT_EQ(cold.triangle_b, result.b2);
         ASSERT_EQ(cold.counts.expansions, counts.expansions);
         ASSERT_EQ(cold.counts.exact, counts.exact);
       }
@@ -97,8 +96,8 @@ TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
         DistanceOptions<S> options;
         options.warm_start = start;
         const auto warm = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
-        ASSERT_EQ(start->triangle1, cold.triangle1);
-        ASSERT_EQ(start->triangle2, cold.triangle2);
+        ASSERT_EQ(start->triangle_a, cold.triangle_a);
+        ASSERT_EQ(start->triangle_b, cold.triangle_b);
         ASSERT_TRUE(same(warm, cold)) << warm.distance << " " << cold.distance;
         // Bounds that don't stop the search change nothing either, but what is proven.
         options.near_enough = S(0.5) * cold.distance;
@@ -106,8 +105,8 @@ TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
         const auto bounded = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
         ASSERT_EQ(bounded.distance, cold.distance);
         if (cold.distance > 0) {
-          ASSERT_EQ(bounded.triangle1, cold.triangle1);
-          ASSERT_EQ(bounded.triangle2, cold.triangle2);
+          ASSERT_EQ(bounded.triangle_a, cold.triangle_a);
+          ASSERT_EQ(bounded.triangle_b, cold.triangle_b);
           ASSERT_EQ(bounded.stop, DistanceStop::kTolerance);
         }
       }
@@ -175,7 +174,9 @@ TYPED_TEST(Distance, ManyThreadsOneAnswer) {
   using S = TypeParam;
   const auto all = scenesOf<S>();
   const auto& scene = all.front();
-  const auto ask = [&scene](std::vector<DistanceAnswer<S>>& answers) {
+  std::vector<std::vector<DistanceAnswer<S>>> all_answers(4);
+  together(4, [&](int thread) {
+    std::vector<DistanceAnswer<S>>& answers = all_answers[thread];
     WarmStart warm;
     for (const auto& [X_WA, X_WB] : scene.poses) {
       DistanceOptions<S> options;
@@ -187,16 +188,12 @@ TYPED_TEST(Distance, ManyThreadsOneAnswer) {
       closerThan(*scene.model_a, X_WA, *scene.model_b, X_WB, S(0.05), &proof);
       answers.push_back(proof);
     }
-  };
-  std::vector<std::vector<DistanceAnswer<S>>> answers(4);
-  std::vector<std::thread> threads;
-  for (auto& own : answers) threads.emplace_back(ask, std::ref(own));
-  for (std::thread& thread : threads) thread.join();
-  for (const auto& own : answers) {
+  });
+  for (const auto& own : all_answers) {
     for (std::size_t i = 0; i < own.size(); ++i) {
-      ASSERT_EQ(own[i].distance, answers[0][i].distance);
-      ASSERT_EQ(own[i].lower_bound, answers[0][i].lower_bound);
-      ASSERT_EQ(own[i].triangle1, answers[0][i].triangle1);
+      ASSERT_EQ(own[i].distance, all_answers[0][i].distance);
+      ASSERT_EQ(own[i].lower_bound, all_answers[0][i].lower_bound);
+      ASSERT_EQ(own[i].triangle_a, all_answers[0][i].triangle_a);
     }
   }
 }
@@ -239,9 +236,9 @@ TEST(DistanceOptionsTest, NothingLookedAt) {
     const auto answer = kios::distance(*model, X, *model, far, options);
     EXPECT_EQ(answer.stop, DistanceStop::kFar);
     EXPECT_EQ(answer.distance, std::numeric_limits<double>::infinity());
-    EXPECT_EQ(answer.triangle1, -1);
-    EXPECT_TRUE(std::isnan(answer.point1.x()));
-    EXPECT_EQ(warm.triangle1, 7);
+    EXPECT_EQ(answer.triangle_a, -1);
+    EXPECT_TRUE(std::isnan(answer.point_a.x()));
+    EXPECT_EQ(warm.triangle_a, 7);
   }
   EXPECT_EQ(preparedBytes(*model), 0u);
 }

@@ -77,7 +77,8 @@ TYPED_TEST(Fallback, EveryCallNamesTheNearestOfBruteForce) {
     fcl::DistanceResult<S> result;
     ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result), least);
     if (least == 0) continue;
-    ASSERT_EQ(std::make_pair(answer.triangle1, answer.triangle2), std::make_pair(least_a, least_b));
+    ASSERT_EQ(std::make_pair(answer.triangle_a, answer.triangle_b),
+              std::make_pair(least_a, least_b));
     ASSERT_EQ(result.b1, least_a);
     ASSERT_EQ(result.b2, least_b);
   }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Meshes far from their own origins: what the common frame's rounding costs (docs/guarantees.md),
+// Meshes far from their own origins: the cost of the common frame's rounding (docs/guarantees.md),
 // measured in long double.
 
 #include <gtest/gtest.h>

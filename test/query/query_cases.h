@@ -90,7 +90,7 @@ DistanceOptions<S> randomOptions(Random& random, double exact, double length) {
   return options;
 }
 
-/// What is wrong with an answer, if anything.
+/// Returns the fault of an answer, or nullptr.
 template <typename S>
 const char* faultOf(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options,
                     double exact) {
@@ -98,7 +98,7 @@ const char* faultOf(const DistanceAnswer<S>& answer, const DistanceOptions<S>& o
   if (!(lower <= exact)) return "the lower bound exceeds the distance";
   if (!(upper >= exact)) return "the upper bound is below the distance";
   if (!(lower >= 0 && lower <= distance && distance <= upper)) return "bounds out of order";
-  if ((answer.triangle1 < 0) != std::isinf(distance)) return "a distance of no triangles";
+  if ((answer.triangle_a < 0) != std::isinf(distance)) return "a distance of no triangles";
   const double allowed = std::max(double{options.rel_err} * exact, double{options.abs_err});
   switch (answer.stop) {
     case DistanceStop::kTolerance:

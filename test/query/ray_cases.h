@@ -106,7 +106,7 @@ void expectOnBoth(const Model<S>& model, const Ray<S>& ray, const RayHit<S>& hit
     point += hit.weights[i] * corner;
     size += corner.norm();
   }
-  // What is below the least number is rounded absolutely.
+  // Numbers below the least normal one are rounded absolutely.
   const long double bound = 8 * std::numeric_limits<S>::epsilon() * size +
                             8 * static_cast<long double>(std::numeric_limits<S>::denorm_min());
   EXPECT_LE((start + way - point).norm(), bound);

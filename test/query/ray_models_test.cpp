@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <thread>
 
 #include "model/deform.h"
 #include "query/ray_cases.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -70,24 +70,19 @@ TEST(RayModels, ThreadsGiveOneThreadsAnswers) {
   while (rays.size() < kRays) rays.push_back(source.next());
   std::vector<std::vector<RayHit<double>>> expected;
   for (const Rayd& ray : rays) expected.push_back(allHits(*alone, kIdentity<double>, ray));
-  std::atomic<int> ready{0}, wrong{0};
-  std::vector<std::thread> threads;
-  for (int t = 0; t < kThreads; ++t) {
-    threads.emplace_back([&, t] {
-      for (++ready; ready < kThreads;) std::this_thread::yield();
-      for (int i = 0; i < kRays; ++i) {
-        const auto k = static_cast<std::size_t>((i + 31 * t) % kRays);
-        const auto hits = allHits(*model, kIdentity<double>, rays[k]);
-        const auto first = firstHit(*model, kIdentity<double>, rays[k]);
-        bool right = hits.size() == expected[k].size() && first.has_value() == !hits.empty();
-        for (std::size_t h = 0; right && h < hits.size(); ++h) {
-          right = same(hits[h], expected[k][h]) && (h > 0 || same(*first, hits[0]));
-        }
-        wrong += right ? 0 : 1;
+  std::atomic<int> wrong{0};
+  together(kThreads, [&](int t) {
+    for (int i = 0; i < kRays; ++i) {
+      const auto k = static_cast<std::size_t>((i + 31 * t) % kRays);
+      const auto hits = allHits(*model, kIdentity<double>, rays[k]);
+      const auto first = firstHit(*model, kIdentity<double>, rays[k]);
+      bool right = hits.size() == expected[k].size() && first.has_value() == !hits.empty();
+      for (std::size_t h = 0; right && h < hits.size(); ++h) {
+        right = same(hits[h], expected[k][h]) && (h > 0 || same(*first, hits[0]));
       }
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
+      wrong += right ? 0 : 1;
+    }
+  });
   EXPECT_EQ(wrong, 0);
 }
 

@@ -249,7 +249,7 @@ TYPED_TEST(RayQuery, BadInputIsRefused) {
   EXPECT_TRUE(firstHit(*model, kIdentity<S>, Ray<S>()));
 }
 
-// What lies beyond the largest finite t is no hit, and never infinite.
+// A point beyond the largest finite t is no hit, and no hit is infinite.
 TYPED_TEST(RayQuery, TinyDirections) {
   using S = TypeParam;
   const auto model = scenes::buildModel<kIOS<S>>(scenes::subdividedBox({2, 2, 2}, 1));

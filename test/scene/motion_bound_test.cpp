@@ -56,7 +56,7 @@ void expectSound(const Motion<S>& motion, const scene::Sphere& sphere, Random& r
   const Exact c(sphere.center[0], sphere.center[1], sphere.center[2]);
   long double most = 0;
   for (int i = 0; i < 30; ++i) {
-    // Where R1 - R0 stretches most, and anywhere on the sphere.
+    // Directions along which R1 - R0 stretches most, and any others.
     Exact v = anyDirection(random).cast<long double>();
     if (i < 3) {
       const fcl::Matrix3d M = motion.R1.template cast<double>() - motion.R0.template cast<double>();

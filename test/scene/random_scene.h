@@ -19,7 +19,7 @@
 
 namespace kios::testing {
 
-/// How far apart things are, how large, and where in the world.
+/// The spread of a scene's objects, their size, and their place in the world.
 struct SceneSettings {
   int objects = 8;
   double spread = 2;

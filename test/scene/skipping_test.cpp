@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What scene queries leave out, and what they refuse: counts, laziness, memory, threads, bad input.
+// The pairs that scene queries leave out, and the input that they refuse: counts, laziness, memory,
+// threads.
 
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <thread>
 
 #include "scene/random_scene.h"
 #include "scenes/robots.h"
+#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -175,9 +176,7 @@ TEST(SceneSkipping, ThreadsShareModels) {
     return sum;
   };
   std::vector<double> sums(4);
-  std::vector<std::thread> threads;
-  for (int t = 0; t < 4; ++t) threads.emplace_back([&, t] { sums[t] = run(10 + t % 2); });
-  for (std::thread& thread : threads) thread.join();
+  together(4, [&](int t) { sums[t] = run(10 + t % 2); });
   for (int t = 0; t < 4; ++t) EXPECT_EQ(sums[t], run(10 + t % 2));
 }
 
@@ -201,7 +200,7 @@ TEST(SceneRefuses, BadInput) {
   EXPECT_EQ(scene.size(), 1u);
   EXPECT_FALSE(scene.closestPair());
 
-  // An object's pose gone bad, and repaired: what moved meanwhile is not forgotten.
+  // An object's pose gone bad, and repaired: objects that moved meanwhile are not forgotten.
   fcl::CollisionObjectd first(model, at(3)), second(kiosModel(scenes::icosphere(0.5, 1)), at(9));
   scene.add(&first);
   scene.add(&second);

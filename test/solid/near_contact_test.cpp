@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What docs/shapes.md promises of a triangle and a shape that nearly touch: verdicts, distances,
-// lower bounds, nearest points and early ends, with gaps from 1e-15 to 0.1 of the shape, for flat
-// and thin shapes, and for triangles from 1e-9 to 1e6 of the shape that may degenerate.
+// The promises of docs/shapes.md about a triangle and a shape that nearly touch: verdicts,
+// distances, lower bounds, nearest points and early ends, with gaps from 1e-15 to 0.1 of the shape,
+// for flat and thin shapes, and for triangles from 1e-9 to 1e6 of the shape that may degenerate.
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ bool isRound(Kind kind) {
   return kind == Kind::kEllipsoid || kind == Kind::kCylinder || kind == Kind::kCone;
 }
 
-/// How far a point lies from a triangle, or outside of a solid.
+/// Returns the distance of a point to a triangle, or to a solid.
 Real offTriangle(const Vec& p, const Triangle& t) {
   const ExactPoint x = p.cast<Real>();
   return scenes::triangleDistance({x, x, x}, exact(t));

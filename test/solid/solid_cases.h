@@ -152,7 +152,7 @@ struct NearPair {
   shape::Solid solid;
   shape::Triangle triangle;
   std::vector<ExactTriangle> faces;
-  Real extent;         ///< what promises are measured by
+  Real extent;         ///< the length that promises are relative to
   Real distance;       ///< 0 at overlap
   Real depth;          ///< at overlap: of a ball in the solid about a point of the triangle
   bool judged = true;  ///< false for what may lie in the inside of a shape too thin for this oracle

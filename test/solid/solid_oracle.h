@@ -282,7 +282,7 @@ class FaceLevel {
   Real thickness_;
 };
 
-/// Distance of a triangle and a face, both held by doubles: whether they meet is decided exactly,
+/// Distance of a triangle and a face, both held by doubles. Their meeting is decided exactly,
 /// as long double can't for thin ones.
 inline Real faceDistance(const shape::Triangle& t, const ExactTriangle& face) {
   const shape::Triangle f = {face[0].cast<double>(), face[1].cast<double>(),

@@ -14,8 +14,8 @@
 #include "scenes/rational_oracle.h"
 #include "scenes/triangle_classes.h"
 
-// What the headers of the triangle kernels promise, checked for one pair. Shared by the tests and
-// the fuzz target.
+// Checks the promises of the triangle kernels' headers for one pair. Shared by the tests and the
+// fuzz target.
 
 namespace kios::testing {
 
@@ -175,7 +175,7 @@ ContractResult contractOf(const RoundedPair<S>& pair) {
 constexpr std::array<std::array<int, 3>, 6> kVertexOrders{
     {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
 
-/// Whether distance, points and verdict stay the same with the vertices in orders p and q, and with
+/// True if distance, points and verdict stay the same with the vertices in orders p and q, and with
 /// swapped triangles.
 template <typename S>
 bool sameForOrder(const RoundedPair<S>& pair, const std::array<int, 3>& p,

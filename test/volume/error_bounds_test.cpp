@@ -110,11 +110,11 @@ TYPED_TEST(ErrorBounds, PointsInTheCommonFrame) {
         plus(times(X_WB.linear(), exact<S>(x)),
              minus(exact<S>(X_WB.translation()), exact<S>(X_WA.translation())));
     const double off = length(minus(times(X_WA.linear(), in_world, true), exact<S>(computed)));
-    frame.add(off, error_bounds::frameError<S>(norm1<S>(x), X_AB.T_norm1));
+    frame.add(off, error_bounds::frameError<S>(norm1<S>(x), detail::boundsOf(X_AB).T_norm1));
     // Against the frame as it is stored.
-    const ExactVector stored = plus(times(X_AB.R, exact<S>(x)), exact<S>(X_AB.T));
+    const ExactVector stored = plus(times(X_AB.R(), exact<S>(x)), exact<S>(X_AB.T()));
     sum.add(length(minus(stored, exact<S>(computed))),
-            error_bounds::sumError<S>(1.8 * norm1<S>(x) + X_AB.T_norm1));
+            error_bounds::sumError<S>(1.8 * norm1<S>(x) + detail::boundsOf(X_AB).T_norm1));
   }
   frame.expectWithin("frame", 8);
   sum.expectWithin("sum", 32);
@@ -133,7 +133,7 @@ TYPED_TEST(ErrorBounds, Stretch) {
     const RelativePose<S> X_AB(X_WA, X_WB);
     // The frame's first coordinate is along that axis of A.
     ExactVector row = times(X_WB.linear(), exact<S>(X_WA.linear().col(0)), true);
-    share.add(length(row) - 1, X_AB.stretch);
+    share.add(length(row) - 1, detail::boundsOf(X_AB).stretch);
     (void)row;
   }
   share.expectWithin("stretch", 2);
@@ -170,7 +170,7 @@ TEST(ErrorBoundsOfLanes, CapsAgainstCaps) {
         const auto radius = [](const kIOSd& v, int s) {
           return s == 0 ? double{v.radius0} : double{v.cap_r[s - 1]};
         };
-        const ExactVector c_b = plus(times(X.R, center(bv[1], b)), exact<double>(X.T));
+        const ExactVector c_b = plus(times(X.R(), center(bv[1], b)), exact<double>(X.T()));
         const double value =
             length(minus(c_b, center(bv[0], a))) - radius(bv[0], a) - radius(bv[1], b);
         if (a + b == 0) central = value;
@@ -181,15 +181,15 @@ TEST(ErrorBoundsOfLanes, CapsAgainstCaps) {
     const fcl::Vector3d d = X * bv[1].center0 - bv[0].center0;
     const double scale = norm1<double>(d) + bv[0].reach + bv[1].reach;
     const double lanes = error_bounds::laneError(scale);
-    const double central_pad =
-        X.stretch * bv[1].radius0 +
-        error_bounds::volumeError<double>(norm1<double>(bv[1].center0),
-                                          X.T_norm1 + norm1<double>(bv[0].center0), bv[0].radius0,
-                                          bv[1].radius0);
+    const double central_pad = detail::boundsOf(X).stretch * bv[1].radius0 +
+                               error_bounds::volumeError<double>(
+                                   norm1<double>(bv[1].center0),
+                                   detail::boundsOf(X).T_norm1 + norm1<double>(bv[0].center0),
+                                   bv[0].radius0, bv[1].radius0);
     // Only where the caps, not the central spheres in double, gave the bound.
     if (!(bound > central - central_pad + 1e-14 * scale)) continue;
     ++lanes_decide;
-    const double pads = lanes + X.stretch * bv[1].reach + central_pad;
+    const double pads = lanes + detail::boundsOf(X).stretch * bv[1].reach + central_pad;
     share.add(std::abs(bound + pads - best), lanes);
   }
   EXPECT_GT(lanes_decide, 1000);

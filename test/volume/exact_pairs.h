@@ -20,7 +20,7 @@ class HardPair {
   fcl::Matrix3<S> R = fcl::Matrix3<S>::Identity();
   fcl::Vector3<S> T = fcl::Vector3<S>::Zero();
 
-  /// Whether all pairs of points are at least `bound` apart, R and T taken as exact.
+  /// True if all pairs of points are at least `bound` apart, R and T taken as exact.
   bool distanceIsAtLeast(double bound) const {
     return allPairs([&](const auto& p, const auto& q) {
       long double y[3], error = 0;
@@ -75,7 +75,7 @@ class HardPair {
     return best;
   }
 
-  /// What roundings of a test are relative to.
+  /// The length that roundings of a test are relative to.
   long double magnitude() const {
     return 2 * (norm1(a.center0) + norm1(b.center0) + norm1(T)) + reaches();
   }
@@ -127,7 +127,7 @@ class HardPair {
     moveBy(q, T, y, magnitude);
   }
 
-  /// Whether |p - y| >= bound for certain, y having been summed from `magnitude` in N.
+  /// True if |p - y| >= bound for certain, y having been summed from `magnitude` in N.
   template <typename N>
   static bool apart(const fcl::Vector3<S>& p, const N y[3], const N& magnitude, double bound) {
     if (!(bound > 0)) return true;

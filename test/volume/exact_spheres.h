@@ -64,7 +64,7 @@ struct StoredSphere {
   }
 };
 
-/// Whether stored sphere i contains p + t, without rounding.
+/// True if stored sphere i contains p + t, without rounding.
 template <typename S>
 bool sphereContains(const kIOS<S>& v, int i, const fcl::Vector3<S>& p,
                     const fcl::Vector3<S>& t = fcl::Vector3<S>::Zero()) {
@@ -80,6 +80,15 @@ bool sphereContains(const kIOS<S>& v, int i, const fcl::Vector3<S>& p,
                       Exact(p[2]) + Exact(t[2])};
   Exact error;
   return sphere.distanceTo(q, &error) <= sphere.radius;
+}
+
+/// True if all spheres that k counts contain p, without rounding.
+template <typename S>
+bool containsExactly(const kIOS<S>& v, const fcl::Vector3<S>& p) {
+  for (int i = 0; i < v.k(); ++i) {
+    if (!sphereContains(v, i, p)) return false;
+  }
+  return true;
 }
 
 /// Names what is wrong with v as a volume around the points (moved by t), or is empty.

@@ -31,13 +31,7 @@ BV fitted(const Points<double>& points) {
   return v;
 }
 
-/// Whether every sphere contains p, without rounding.
-bool containsExactly(const kIOSd& v, const Vec& p) {
-  for (int i = 0; i < v.k(); ++i) {
-    if (!sphereContains(v, i, p)) return false;
-  }
-  return true;
-}
+using test::containsExactly;  // of ours; and likewise of FCL's
 bool containsExactly(const FclKios& v, const Vec& p) {
   for (unsigned i = 0; i < v.num_spheres; ++i) {
     kIOSd sphere;

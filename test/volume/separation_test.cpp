@@ -141,10 +141,10 @@ TYPED_TEST(Separation, PairOfPosesMovesPointsAsDocumented) {
     }
     const long double size = point.template cast<long double>().norm() + std::sqrt(shift2);
     for (int c = 0; c < 3; ++c) {
-      long double in_a = 0, posed = pose.T[c];
+      long double in_a = 0, posed = pose.T()[c];
       for (int j = 0; j < 3; ++j) {
         in_a += static_cast<long double>(X[0].linear()(j, c)) * in_world[j];
-        posed += static_cast<long double>(pose.R(c, j)) * point[j];
+        posed += static_cast<long double>(pose.R()(c, j)) * point[j];
       }
       ASSERT_LE(std::abs(posed - in_a), 4 * std::numeric_limits<S>::epsilon() * size)
           << "pair " << i;

@@ -10,10 +10,11 @@
 #include <fcl/math/triangle.h>
 #include "fcl_kios/volume/fit.h"
 
-// How fcl::BVHModel<kios::kIOS<S>> builds and refits. FCL's copy constructor shares fitter and
-// splitter between models, so neither holds what a build knows: that lives as long as the build
-// (model.h), and models may be built in many threads at once. Only where they are called by FCL's
-// interface, as where one of the two is the user's, each holds one state a thread until clear().
+// These classes build and refit fcl::BVHModel<kios::kIOS<S>>. FCL's copy constructor shares fitter
+// and splitter between models, so neither holds the state of a build: that lives as long as the
+// build (model.h), and models may be built in many threads at once. Only if they are called by
+// FCL's interface, as when one of the two is the user's, each holds one state a thread until
+// clear().
 
 namespace kios {
 namespace engine {
@@ -31,8 +32,8 @@ namespace detail {
 /// Fits a node's kIOS to the distinct vertices of its triangles (or to its points). fit() throws
 /// std::invalid_argument at a NaN or infinite vertex; the model then stays unfinished.
 /// `model.bv_fitter.reset(new BVFitter<kios::kIOSd>(kios::FitMethod::kMethodII))` before
-/// endModel() chooses the published fit; kios::FitOptions chooses more. What queries prepare is
-/// fitted for itself where the model's is not the tuned fit.
+/// endModel() chooses the published fit; kios::FitOptions chooses more. Prepared trees are
+/// fitted anew if the model's fit is not the tuned one.
 template <typename S_>
 class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
  public:
@@ -54,7 +55,7 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   friend kios::engine::TreeCache* kios::treesOf(const fcl::BVHModel<kios::kIOS<T>>&);
 
   const kios::FitOptions options_;
-  /// What queries prepared of the models that share this fitter: a model and its copies.
+  /// The trees that queries prepared of the models that share this fitter: a model and its copies.
   const std::unique_ptr<kios::engine::TreeCache> trees_;
   const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };
@@ -62,8 +63,8 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
 /// Splits a node across the longest principal axis of its vertices: at the mean or the median of
 /// the triangles' centroids, or at the centre of the box along the axes. One made without a method,
 /// as models have it, splits by the cost of a search: with the tuned fit, a mesh is then divided
-/// and fitted in one go, in about half the time, and what queries prepare takes over its tree.
-/// Where that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
+/// and fitted in one go, in about half the time, and queries take its tree over.
+/// If that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
 /// mean.
 template <typename S_>
 class BVSplitter<kios::kIOS<S_>> : public BVSplitterBase<kios::kIOS<S_>> {

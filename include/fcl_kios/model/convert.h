@@ -10,7 +10,8 @@
 namespace kios {
 
 namespace detail {
-/// What toKIOS() checks first: the model is a finished mesh. Throws std::invalid_argument.
+/// Checks that the model is a finished mesh, which toKIOS() does first. Throws
+/// std::invalid_argument if not.
 void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
                         int num_bvs);
 }  // namespace detail

@@ -5,7 +5,7 @@
 #include <fcl/math/motion/tbv_motion_bound_visitor.h>
 #include "fcl_kios/volume/kios.h"
 
-// How far a moving k-IOS gets, for FCL's generic conservative advancement; its own answer for a
+// Bounds the motion of a k-IOS for FCL's generic conservative advancement, whose own answer for a
 // foreign volume is 0, which bounds nothing. Double only: FCL 0.7's motions don't compile for
 // float.
 

@@ -8,20 +8,20 @@
 
 namespace kios {
 
-/// Makes now what the model's first query would make; its other threads wait for it. Does nothing
-/// if it exists, or can't be used. Models of equal vertices and triangles, anywhere in the process,
-/// share what is made, which goes with the last of them. Throws std::invalid_argument if the model
-/// is not a finished mesh.
+/// Prepares the model's tree now, as its first query would; other threads that need the tree wait
+/// for it. Does nothing if the tree exists, or queries couldn't use it. Models of equal vertices
+/// and triangles, anywhere in the process, share one tree, which goes with the last of them. Throws
+/// std::invalid_argument if the model is not a finished mesh.
 template <typename S>
 void prepare(const Model<S>& model);
 
-/// Bytes held by what queries prepared of this model and of its copies, each part once; parts that
-/// other models of equal content hold too are counted in full.
+/// Bytes of the trees that were prepared of this model and of its copies, each tree once; trees
+/// that models of equal content share are counted in full.
 template <typename S>
 std::size_t preparedBytes(const Model<S>& model);
 
 /// To be called after vertices were written without beginReplaceModel() or beginUpdateModel():
-/// refits the model's volumes and drops what was prepared. Throws as validate().
+/// refits the model's volumes and drops its prepared trees. Throws as validate().
 template <typename S>
 void invalidate(Model<S>& model);
 

@@ -34,14 +34,14 @@ struct ContinuousCounts {
 /// Throws std::invalid_argument if a model is not a finished mesh, the pair is not served, a pose
 /// not rigid, a motion of another type or not finite, or toc_err NaN or negative. `counts`, if
 /// given, is added to.
-double firstContact(const fcl::CollisionGeometryd& o1, const fcl::MotionBased* motion1,
-                    const fcl::CollisionGeometryd& o2, const fcl::MotionBased* motion2,
+double firstContact(const fcl::CollisionGeometryd& a, const fcl::MotionBased* motion_a,
+                    const fcl::CollisionGeometryd& b, const fcl::MotionBased* motion_b,
                     const fcl::ContinuousCollisionRequestd& request,
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts = nullptr);
 /// From pose to pose, by the motion that request.ccd_motion_type names.
-double firstContact(const fcl::CollisionGeometryd& o1, const fcl::Transform3d& tf1_beg,
-                    const fcl::Transform3d& tf1_end, const fcl::CollisionGeometryd& o2,
-                    const fcl::Transform3d& tf2_beg, const fcl::Transform3d& tf2_end,
+double firstContact(const fcl::CollisionGeometryd& a, const fcl::Transform3d& X_WA_begin,
+                    const fcl::Transform3d& X_WA_end, const fcl::CollisionGeometryd& b,
+                    const fcl::Transform3d& X_WB_begin, const fcl::Transform3d& X_WB_end,
                     const fcl::ContinuousCollisionRequestd& request,
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts = nullptr);
 

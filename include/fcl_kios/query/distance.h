@@ -19,11 +19,11 @@ namespace kios {
 /// answer (both tolerances 0, no budget, not stopped by near_enough or far_enough) is bitwise the
 /// same with and without.
 struct WarmStart {
-  int triangle1 = -1, triangle2 = -1;
+  int triangle_a = -1, triangle_b = -1;
 };
 
-/// What is asked for. A search stops as soon as one of these holds; the defaults ask for the exact
-/// distance. Lengths are in the models' units.
+/// Options of a distance query. The search stops as soon as one of these holds; the defaults ask
+/// for the exact distance. Lengths are in the models' units.
 template <typename S>
 struct DistanceOptions {
   /// The distance may exceed the exact one by max(rel_err * exact, abs_err): either suffices. >= 0.
@@ -35,7 +35,7 @@ struct DistanceOptions {
   /// So many pairs of nodes were expanded. A larger budget never gives a larger distance or a
   /// smaller lower bound; upper_bound may differ by its own rounding term. >= 0.
   long long max_expansions = std::numeric_limits<long long>::max();
-  /// Whether to set the nearest points.
+  /// If true, the nearest points of the answer are set.
   bool nearest_points = true;
   /// Read at the start, and set to the answer's triangles if there are any. No other thread may use
   /// it meanwhile.
@@ -44,17 +44,17 @@ struct DistanceOptions {
 using DistanceOptionsd = DistanceOptions<double>;
 using DistanceOptionsf = DistanceOptions<float>;
 
-/// Why a search ended; of several reasons the first.
+/// The reason why a search ended; if several hold, the first of them.
 enum class DistanceStop {
-  kTolerance,  ///< the distance is as exact as was asked for
+  kTolerance,  ///< the distance is as exact as the options want
   kFar,        ///< lower_bound >= far_enough
   kNear,       ///< distance <= near_enough
   kBudget      ///< the budget was spent before any of these, or, with a budget, the distance is
                ///< within rounding of far_enough and nothing more was looked at
 };
 
-/// What was proven. In every case lower_bound <= exact distance <= upper_bound, for the models'
-/// vertices and poses as they are given, in the common frame of docs/guarantees.md.
+/// The answer of a distance query. In every case lower_bound <= exact distance <= upper_bound, for
+/// the models' vertices and poses as they are given, in the common frame of docs/guarantees.md.
 template <typename S>
 struct DistanceAnswer {
   /// Distance of the triangles below, right to 16 eps of their extent; 0 if and only if they
@@ -63,37 +63,36 @@ struct DistanceAnswer {
   S lower_bound = 0;  ///< proven; 0 at contact
   /// `distance` with its own error and the common frame's; infinity if that is.
   S upper_bound = std::numeric_limits<S>::infinity();
-  int triangle1 = -1, triangle2 = -1;  ///< of the models; -1 if no pair was looked at
+  int triangle_a = -1, triangle_b = -1;  ///< of the models; -1 if no pair was looked at
   /// Nearest points of those triangles in the world frame; NaN if there are none, or none were
   /// asked for.
-  fcl::Vector3<S> point1 = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
-  fcl::Vector3<S> point2 = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
+  fcl::Vector3<S> point_a = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
+  fcl::Vector3<S> point_b = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
   DistanceStop stop = DistanceStop::kTolerance;
   SearchCounts counts;  ///< work done
 };
 using DistanceAnswerd = DistanceAnswer<double>;
 using DistanceAnswerf = DistanceAnswer<float>;
 
-/// Distance of two meshes at poses X_W1, X_W2 in the world. Where both tolerances are 0 and nothing
+/// Distance of two meshes at poses X_WA, X_WB in the world. Where both tolerances are 0 and nothing
 /// else stops the search, `distance` and the triangles are fcl::distance's. Safe from many threads.
 /// Throws std::invalid_argument if a model is not a finished mesh, a pose is not rigid, or an
 /// option is out of range. Source of the search: paper, Algorithm 2 and IV, best first.
 template <typename S>
-DistanceAnswer<S> distance(const Model<S>& model1, const fcl::Transform3<S>& X_W1,
-                           const Model<S>& model2, const fcl::Transform3<S>& X_W2,
-                           const DistanceOptions<S>& options = {});
+DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                           const fcl::Transform3<S>& X_WB, const DistanceOptions<S>& options = {});
 
-/// Whether the models are at most t apart: true if and only if the exact distance(...).distance
-/// <= t, bit for bit. Much faster than that where the answer is clear: a pair of triangles nearer
-/// than t ends the search, and all that is farther is left out. False for t < 0, true for
-/// +infinity. Throws as distance() does, and if t is NaN.
+/// Returns true if and only if the models are at most t apart: the exact distance(...).distance is
+/// <= t, bit for bit. If the answer is clear, this is much faster than distance(): a pair of
+/// triangles nearer than t ends the search, and all pairs that are farther are left out. False for
+/// t < 0, true for +infinity. Throws as distance() does, and if t is NaN.
 ///
 /// The certificate, if asked for, proves the verdict: a pair of triangles with distance <= t, or
 /// lower_bound > t; where t is within rounding of the distance, an exact answer decides. Its points
 /// are not set.
 template <typename S>
-bool closerThan(const Model<S>& model1, const fcl::Transform3<S>& X_W1, const Model<S>& model2,
-                const fcl::Transform3<S>& X_W2, std::common_type_t<S> t,
+bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                const fcl::Transform3<S>& X_WB, std::common_type_t<S> t,
                 std::common_type_t<DistanceAnswer<S>>* certificate = nullptr,
                 WarmStart* warm_start = nullptr);
 

@@ -10,18 +10,18 @@
 #include "fcl_kios/volume/separation.h"
 
 // Oriented traversal nodes for two meshes over k-IOS, for FCL's own recursion (front lists and
-// self-collision included). Models are neither copied nor moved; all tests are in model 1's frame.
+// self-collision included). Models are neither copied nor moved; all tests are in A's frame.
 
 namespace kios {
 
-/// Contacts and cost sources of two meshes; contacts are in the world frame, normals from 1 to 2.
+/// Contacts and cost sources of two meshes; contacts are in the world frame, normals from A to B.
 template <typename S>
 class MeshCollisionTraversalNode : public fcl::detail::MeshCollisionTraversalNode<kIOS<S>> {
  public:
   bool BVTesting(int b1, int b2) const override;
   void leafTesting(int b1, int b2) const override;
 
-  std::optional<RelativePose<S>> X_12;  ///< set by initialize()
+  std::optional<RelativePose<S>> X_AB;  ///< set by initialize()
 };
 using MeshCollisionTraversalNoded = MeshCollisionTraversalNode<double>;
 using MeshCollisionTraversalNodef = MeshCollisionTraversalNode<float>;
@@ -40,15 +40,15 @@ class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<
   void leafTesting(int b1, int b2) const override;
   bool canStop(S bound) const override;
 
-  std::optional<RelativePose<S>> X_12;  ///< set by initialize()
+  std::optional<RelativePose<S>> X_AB;  ///< set by initialize()
 
  private:
   void lowerTo(S distance) const;
 
-  mutable S best_;                           ///< distance to beat
-  mutable S prune_at_;                       ///< a node pair at least this far can't matter
-  mutable int tri1_ = -1, tri2_ = -1;        ///< -1 while nothing nearer was found
-  mutable fcl::Vector3<S> point1_, point2_;  ///< nearest points in model 1's frame
+  mutable S best_;                                 ///< distance to beat
+  mutable S prune_at_;                             ///< a node pair at least this far can't matter
+  mutable int triangle_a_ = -1, triangle_b_ = -1;  ///< -1 while nothing nearer was found
+  mutable fcl::Vector3<S> point_a_, point_b_;      ///< nearest points in A's frame
 };
 using MeshDistanceTraversalNoded = MeshDistanceTraversalNode<double>;
 using MeshDistanceTraversalNodef = MeshDistanceTraversalNode<float>;
@@ -56,32 +56,30 @@ using MeshDistanceTraversalNodef = MeshDistanceTraversalNode<float>;
 /// FCL's signature, found by argument-dependent lookup. Throws std::invalid_argument if a model is
 /// not a finished mesh, a pose is not rigid, or an error bound is negative or NaN. Returns true.
 template <typename S>
-bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& model1,
-                const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                const fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
-                fcl::CollisionResult<S>& result);
+bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& a,
+                const fcl::Transform3<S>& X_WA, const Model<S>& b, const fcl::Transform3<S>& X_WB,
+                const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result);
 template <typename S>
-bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& model1,
-                const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
-                fcl::DistanceResult<S>& result);
+bool initialize(MeshDistanceTraversalNode<S>& node, const Model<S>& a,
+                const fcl::Transform3<S>& X_WA, const Model<S>& b, const fcl::Transform3<S>& X_WB,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result);
 
 // Arguments that aren't const would make FCL's generic initialize(), which moves the models' own
 // vertices, an equal match.
 template <typename S>
-bool initialize(MeshCollisionTraversalNode<S>& node, Model<S>& model1, fcl::Transform3<S>& tf1,
-                Model<S>& model2, fcl::Transform3<S>& tf2, const fcl::CollisionRequest<S>& request,
+bool initialize(MeshCollisionTraversalNode<S>& node, Model<S>& a, fcl::Transform3<S>& X_WA,
+                Model<S>& b, fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
                 fcl::CollisionResult<S>& result) {
-  const Model<S>&m1 = model1, &m2 = model2;
-  const fcl::Transform3<S>&x1 = tf1, &x2 = tf2;
+  const Model<S>&m1 = a, &m2 = b;
+  const fcl::Transform3<S>&x1 = X_WA, &x2 = X_WB;
   return initialize(node, m1, x1, m2, x2, request, result);
 }
 template <typename S>
-bool initialize(MeshDistanceTraversalNode<S>& node, Model<S>& model1, fcl::Transform3<S>& tf1,
-                Model<S>& model2, fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+bool initialize(MeshDistanceTraversalNode<S>& node, Model<S>& a, fcl::Transform3<S>& X_WA,
+                Model<S>& b, fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
                 fcl::DistanceResult<S>& result) {
-  const Model<S>&m1 = model1, &m2 = model2;
-  const fcl::Transform3<S>&x1 = tf1, &x2 = tf2;
+  const Model<S>&m1 = a, &m2 = b;
+  const fcl::Transform3<S>&x1 = X_WA, &x2 = X_WB;
   return initialize(node, m1, x1, m2, x2, request, result);
 }
 

@@ -14,11 +14,11 @@
 namespace kios {
 
 /// fcl::collide and fcl::distance of two meshes over k-IOS, with FCL's conventions for requests
-/// and results: poses tf1 and tf2 in the world, points and normals of results there too, lengths in
-/// the models' units. Collision is exact; distance is right to 16 eps of the extent of the nearest
-/// triangles, or to what the request allows (docs/guarantees.md). Safe from many threads. Source of
-/// the tests of volumes: paper, IV. Throw std::invalid_argument if a model is not a finished mesh,
-/// a pose is not rigid, or an error bound is negative or NaN.
+/// and results: poses X_WA and X_WB in the world, points and normals of results there too, lengths
+/// in the models' units. Collision is exact; distance is right to 16 eps of the extent of the
+/// nearest triangles, or to what the request allows (docs/guarantees.md). Safe from many threads.
+/// Source of the tests of volumes: paper, IV. Throw std::invalid_argument if a model is not a
+/// finished mesh, a pose is not rigid, or an error bound is negative or NaN.
 ///
 /// A pair that the root volumes can't decide is searched in trees that the models prepare at their
 /// first such query and keep (see prepare()). Cost sources, models whose BVFitter is not ours, and
@@ -26,13 +26,12 @@ namespace kios {
 /// size, or far from each other for their size) are searched in FCL's tree instead, by the
 /// traversal nodes of mesh_nodes.h. `counts`, if given, is added to.
 template <typename S>
-std::size_t collideMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1,
-                          const Model<S>& model2, const fcl::Transform3<S>& tf2,
-                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
-                          SearchCounts* counts = nullptr);
+std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                          const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
+                          fcl::CollisionResult<S>& result, SearchCounts* counts = nullptr);
 template <typename S>
-S distanceMeshes(const Model<S>& model1, const fcl::Transform3<S>& tf1, const Model<S>& model2,
-                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
+S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                 const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
                  fcl::DistanceResult<S>& result, SearchCounts* counts = nullptr);
 
 }  // namespace kios

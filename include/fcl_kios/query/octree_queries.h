@@ -17,9 +17,9 @@
 
 namespace kios {
 
-/// fcl::collide and fcl::distance of an octree and a mesh over k-IOS (docs/shapes.md): poses tf1 of
-/// the octree and tf2 of the mesh in the world. The octree is object 1 of the results whatever the
-/// order of FCL's call, and b1 the query cell id, as FCL does. Occupied cells are full boxes;
+/// fcl::collide and fcl::distance of an octree and a mesh over k-IOS (docs/shapes.md): poses X_WO
+/// of the octree and X_WM of the mesh in the world. The octree is object 1 of the results whatever
+/// the order of FCL's call, and b1 the query cell id, as FCL does. Occupied cells are full boxes;
 /// collide follows FCL's thresholds for occupied, uncertain and free cells. An octree without cells
 /// touches nothing and is infinitely far. `counts`, if given, is added to: volume_tests, and
 /// leaf_kernels for pairs of a cell and a triangle.
@@ -27,14 +27,15 @@ namespace kios {
 /// Throw std::invalid_argument if the model is not a finished mesh, a pose is not rigid, or an
 /// error bound is negative or NaN.
 template <typename S>
-std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1,
-                          const Model<S>& model, const fcl::Transform3<S>& tf2,
+std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                          const Model<S>& model, const fcl::Transform3<S>& X_WM,
                           const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                           SearchCounts* counts = nullptr);
 template <typename S>
-S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& tf1, const Model<S>& model,
-                 const fcl::Transform3<S>& tf2, const fcl::DistanceRequest<S>& request,
-                 fcl::DistanceResult<S>& result, SearchCounts* counts = nullptr);
+S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                 const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
+                 SearchCounts* counts = nullptr);
 
 }  // namespace kios
 #endif  // FCL_HAVE_OCTOMAP

@@ -39,15 +39,16 @@ struct RayInterval {
 using RayIntervald = RayInterval<double>;
 using RayIntervalf = RayInterval<float>;
 
-/// What of the ray, given in the volume's frame, may lie in the volume: a lower bound of the t at
-/// which it has entered all k spheres, and an upper bound of that at which it leaves the first,
-/// both within [t_min, t_max]; none if there is provably nothing. No point of the content that lies
-/// on the ray is ever left out. No wider than for spheres larger by 2^-45 (|origin - c| + reach),
-/// as much longer at both ends, c and reach the centre of S0 and what the spheres reach from there.
+/// Returns the part of the ray, given in the volume's frame, that may lie in the volume: a lower
+/// bound of the t at which it has entered all k spheres, and an upper bound of the t at which it
+/// leaves the first, both within [t_min, t_max]; none if the ray provably misses the volume. No
+/// point of the content that lies on the ray is ever left out. No wider than for spheres larger by
+/// 2^-45 (|origin - c| + reach), as much longer at both ends, c and reach the centre of S0 and what
+/// the spheres reach from there.
 template <typename S>
 std::optional<RayInterval<S>> rayInterval(const kIOS<S>& bv, const Ray<S>& ray);
 
-/// Whether rayInterval() finds anything.
+/// Returns true if rayInterval() finds an interval.
 template <typename S>
 bool overlap(const Ray<S>& ray, const kIOS<S>& bv);
 
@@ -61,7 +62,7 @@ enum class RaySide {
 /// A ray and a triangle.
 template <typename S>
 struct RayHit {
-  /// Where the ray first meets the closed triangle: the exact parameter, rounded once to double
+  /// The parameter at which the ray first meets the closed triangle: exact, rounded once to double
   /// (and then to S). Triangles that are hit in one point have bitwise one t.
   S t;
   /// That point in the world, to 8 eps (S) of the triangle's coordinates there and in the model.
@@ -91,7 +92,7 @@ template <typename S>
 std::optional<RayHit<S>> firstHit(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                                   const Ray<S>& ray, SearchCounts* counts = nullptr);
 
-/// Whether firstHit() finds anything, in less time.
+/// Returns true if firstHit() finds a hit, in less time.
 template <typename S>
 bool anyHit(const Model<S>& model, const fcl::Transform3<S>& X_WM, const Ray<S>& ray,
             SearchCounts* counts = nullptr);

@@ -14,7 +14,7 @@
 namespace kios {
 
 /// fcl::collide and fcl::distance of a mesh over k-IOS and one of FCL's nine shapes
-/// (docs/shapes.md): poses tf1 of the mesh and tf2 of the shape in the world, results there too,
+/// (docs/shapes.md): poses X_WM of the mesh and X_WS of the shape in the world, results there too,
 /// with the mesh as object 1 whatever the order of FCL's call, as FCL does. The shape is full, the
 /// plane infinitely thin; distance at overlap is 0. No GJK solver is used, and the model is not
 /// copied. Safe from many threads. `counts`, if given, is added to: volume_tests, and leaf_kernels
@@ -24,13 +24,13 @@ namespace kios {
 /// or has a size that is negative or not finite, a pose is not rigid, or an error bound is negative
 /// or NaN.
 template <typename S>
-std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                         const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& tf2,
+std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                          SearchCounts* counts = nullptr);
 template <typename S>
-S distanceShape(const Model<S>& model, const fcl::Transform3<S>& tf1,
-                const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& tf2,
+S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
                 SearchCounts* counts = nullptr);
 

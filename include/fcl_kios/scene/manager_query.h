@@ -30,7 +30,7 @@ template <typename S>
 class ManagerQuery {
  public:
   using Object = fcl::CollisionObject<S>;
-  /// Whether to look at the pair.
+  /// Returns true if a query should look at the pair.
   using Filter = std::function<bool(const Object*, const Object*)>;
 
   /// Two objects, as the manager ordered them.

@@ -17,7 +17,8 @@ namespace kios {
 
 /// Distances in a scene of many objects over many frames. Answers equal fcl::distance over all
 /// admissible pairs, bit for bit, with the object of the smaller id as the first argument; ties go
-/// to the smallest ids. What a query needn't look at, it leaves out, and says so in counts().
+/// to the smallest ids. A query leaves out the pairs that it needn't look at, and counts() tells
+/// how many.
 ///
 /// A pair is admissible unless it is excluded, refused by the filter, or both are obstacles. Two
 /// meshes over k-IOS are never asked twice at one relative pose, nor while their last proven
@@ -31,8 +32,8 @@ class SceneDistance {
  public:
   using Geometry = fcl::CollisionGeometry<S>;
   using Pose = fcl::Transform3<S>;
-  /// Whether to look at the pair, a < b. Asked only about pairs that are near enough to matter;
-  /// must give the same answer throughout a query.
+  /// Returns true if a query should look at the pair a < b. It is called only for pairs that are
+  /// near enough to matter, and must give the same answer throughout a query.
   using Filter = std::function<bool(int a, int b)>;
 
   SceneDistance();
@@ -69,12 +70,12 @@ class SceneDistance {
   /// The distance of every admissible pair, in ascending order of (a, b).
   std::vector<ScenePair<S>> clearances(const SceneRequest& request = {});
 
-  /// Of the last query.
+  /// Counts of the last query.
   const SceneCounts& counts() const;
   /// Pairs of which something is remembered: at most twice those that the last query came near,
   /// plus 1024, and never more than kMaxRemembered.
   std::size_t rememberedPairs() const;
-  static constexpr std::size_t kMaxRemembered = std::size_t{1} << 18;
+  enum : std::size_t { kMaxRemembered = std::size_t{1} << 18 };
   /// Forgets all that was learnt of pairs; answers don't depend on it.
   void forget();
 

@@ -12,9 +12,9 @@ namespace kios {
 /// Two obstacles are never asked about each other.
 enum class Role : std::uint8_t { kBody, kObstacle };
 
-/// What a scene query is asked for besides the distances.
+/// Options of a scene query.
 struct SceneRequest {
-  bool nearest_points = false;  ///< whether to set ScenePair::nearest_a and nearest_b
+  bool nearest_points = false;  ///< sets ScenePair::nearest_a and nearest_b
   /// If false, pairsWithin() may report any distance of two points of the pair up to the margin,
   /// which spares most of the search; which pairs are reported doesn't depend on it.
   bool exact = true;
@@ -27,13 +27,13 @@ struct ScenePair {
   S distance = 0;      ///< in the models' units; 0 at contact
   /// The triangles that realise the distance; -1 for geometries that have none.
   std::intptr_t triangle_a = -1, triangle_b = -1;
-  /// In the world; set if asked for.
+  /// In the world; set if the request wants them.
   fcl::Vector3<S> nearest_a = fcl::Vector3<S>::Zero(), nearest_b = fcl::Vector3<S>::Zero();
 };
 using ScenePaird = ScenePair<double>;
 using ScenePairf = ScenePair<float>;
 
-/// What became of the pairs of a scene query; all but `proven_farther` and `search` add up to
+/// Counts how a scene query dealt with its pairs; all but `proven_farther` and `search` add up to
 /// `total`.
 struct SceneCounts {
   long long total = 0;      ///< n (n - 1) / 2
@@ -45,7 +45,7 @@ struct SceneCounts {
   long long near_by_proof = 0;     ///< known nearer than the margin, where that was all to know
   long long ties = 0;              ///< no distance is small enough: after a contact, or margin <= 0
   long long queried = 0;           ///< searched by the narrow phase
-  long long proven_farther = 0;    ///< of those, proven farther than what was asked
+  long long proven_farther = 0;    ///< of those, proven farther than the query asked for
   SearchCounts search;             ///< the work of the narrow phase
 
   /// Pairs that the narrow phase was spared.

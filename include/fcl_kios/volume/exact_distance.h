@@ -29,7 +29,7 @@ struct ExactDistance {
   /// origin, R -> exp([w]) R. About a point c of frame A instead: (q - c) x normal.
   fcl::Vector3d moment = fcl::Vector3d::Zero();
 
-  /// Whether the volumes are proven to have no point in common.
+  /// True if the volumes are proven to have no point in common.
   bool apart() const { return distance > 0; }
 };
 

@@ -6,7 +6,7 @@
 
 namespace kios {
 
-/// How spheres are fitted to points.
+/// The method by which spheres are fitted to points.
 enum class FitMethod {
   kTuned,    ///< Near-minimal S0; each cap re-centred in its plane, with its own radius (default).
   kMethodI,  ///< Caps from the curvature of the smallest enclosing ellipsoid (paper, III-B.1).
@@ -14,7 +14,7 @@ enum class FitMethod {
   kMethodII,  ///< As published: PCA, caps at pi/6, k by the ratio 1.5, the shift (paper, III-B.2).
 };
 
-/// How many spheres a volume gets.
+/// The number of spheres that a volume gets.
 enum class SphereCount {
   kByRatio,  ///< 1, 3 or 5 by a/c and a/b against 1.5 (paper, III-C), the tuned fit against 1.1.
   kAll,      ///< Always 5.
@@ -34,7 +34,7 @@ struct FitOptions {
   /// kMethodI. A smaller angle gives larger spheres. Paper, III-B.2: pi/6.
   double angle = kPublishedAngle;
 
-  /// Whether this is the tuned fit without changes.
+  /// True if this is the tuned fit without changes.
   bool plain() const {
     return method == FitMethod::kTuned && count == SphereCount::kByRatio && !shared_radius &&
            angle == kPublishedAngle;

@@ -24,8 +24,8 @@ template <typename S_>
 class kIOS {
  public:
   using S = S_;
-  static constexpr int kMaxSpheres = 5;
-  static constexpr int kCaps = 4;
+  // Static members would be unique symbols, which keep dlclose() from unloading the library.
+  enum : int { kMaxSpheres = 5, kCaps = 4 };
 
   /// Tests of a pair in one frame: paper, IV-A (Algorithm 1) and IV-B (Algorithm 2).
   bool overlap(const kIOS& other) const;

@@ -7,38 +7,63 @@
 
 namespace kios {
 
-/// Pose of frame B in frame A, x_A = R x_B + T, with what the bounds need of it precomputed.
 template <typename S>
-struct RelativePose {
+class RelativePose;
+
+namespace detail {
+
+/// The parts of a pose that bounds need.
+struct PoseBounds {
+  float R[3][3];   ///< rounded to float
+  double T_norm1;  ///< |T|_1
+  double stretch;  ///< |R|_2 - 1 <= stretch
+};
+template <typename S>
+const PoseBounds& boundsOf(const RelativePose<S>& X_AB);
+
+}  // namespace detail
+
+/// Pose of frame B in frame A, x_A = R x_B + T, with bounds of its errors, which are computed once.
+template <typename S>
+class RelativePose {
+ public:
   /// Throws std::invalid_argument if the pose is not finite or not rigid: the Frobenius norm of
   /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float), and a reflection is not rigid.
   RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
-  /// The pose x -> R1^T (R2 x + (t2 - t1)) of every query, for X_W1 and X_W2 in a common frame W,
+  /// The pose x -> R_WA^T (R_WB x + (t_WB - t_WA)) of every query, for poses in a common frame W,
   /// each of which must be rigid. A coordinate of a point is off by at most
-  /// 3.5 eps (|R1|^T |R2| |x|) + 2.5 eps (|R1|^T |t2 - t1|), absolute values by entry, so by 4 eps
-  /// (|x|_1 + |t2 - t1|) with room for R1 and R2 that aren't quite orthonormal.
-  RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2);
+  /// 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T |t_WB - t_WA|), absolute values by entry, so
+  /// by 4 eps (|x|_1 + |t_WB - t_WA|) with room for rotations that aren't quite orthonormal.
+  RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB);
   /// The same for rotations that were checked: `squared_errors` is at least the sum of the squares
   /// of their errors, |R^T R - I| each (Frobenius).
-  RelativePose(const fcl::Transform3<S>& X_W1, const fcl::Transform3<S>& X_W2,
+  RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
                double squared_errors);
 
   /// A point of B in A.
   fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const {
-    return detail::rotate<S>(R, x_B) + T;
+    return detail::rotate<S>(R_, x_B) + T_;
   }
-
-  fcl::Matrix3<S> R;  ///< as given, or R1^T R2
-  fcl::Vector3<S> T;  ///< origin of B in A
-  float Rf[3][3];     ///< R rounded to float.
-  double T_norm1;     ///< |T|_1.
-  double stretch;     ///< |R|_2 - 1 <= stretch.
+  /// The rotation as given, or R_WA^T R_WB.
+  const fcl::Matrix3<S>& R() const { return R_; }
+  /// The origin of B in A.
+  const fcl::Vector3<S>& T() const { return T_; }
 
  private:
-  void precompute(double squared_errors);
+  friend const detail::PoseBounds& detail::boundsOf<S>(const RelativePose& X_AB);
+  void computeBounds(double squared_errors);
+
+  fcl::Matrix3<S> R_;
+  fcl::Vector3<S> T_;
+  detail::PoseBounds bounds_;
 };
 using RelativePosed = RelativePose<double>;
 using RelativePosef = RelativePose<float>;
+
+template <typename S>
+const detail::PoseBounds& detail::boundsOf(const RelativePose<S>& X_AB) {
+  return X_AB.bounds_;
+}
 
 /// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
 /// B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame A.

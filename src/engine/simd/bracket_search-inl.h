@@ -9,10 +9,11 @@ namespace kios::engine::HWY_NAMESPACE {
 /// with the leaves that a descent ends at, and two vertices are an upper bound that prunes, as
 /// their triangles are evaluated in the end if nothing nearer was found.
 ///
-/// What was not evaluated is still in the frontier or in flight, or was left out as not nearer than
-/// prune_at, which only falls. So min(prune_at, bounds of what waits) bounds it at any time, and
-/// the largest such value of a search is what it proved. Bounds of what waits never fall, as pairs
-/// inherit their parents': it suffices to look whenever prune_at is about to fall.
+/// A pair that was not evaluated is still in the frontier or in flight, or was left out as not
+/// nearer than prune_at, which only falls. So min(prune_at, bounds of the waiting pairs) is a lower
+/// bound at any time, and the search has proved the largest such value. Bounds of waiting pairs
+/// never fall, as pairs inherit their parents': the search takes the value when prune_at is about
+/// to fall.
 class BracketSearch {
  public:
   explicit BracketSearch(const Search& search)

@@ -121,7 +121,8 @@ HWY_INLINE Direction directionOf(Vec3 v) {
   return rescaled(v);
 }
 
-/// What is known of two sets of points a and b. Unset where they are apart.
+/// The result of a search for a slab between two sets of points a and b. If `apart` is set, the
+/// other members are not.
 struct Slab {
   bool apart;             ///< proven at least the distance apart that was asked for
   Direction along;        ///< from a to b

@@ -105,7 +105,7 @@ class LeafDistances {
   }
 
  private:
-  /// What a row holds: vertex `index`, or edge `index` of those gathered, against lanes.
+  /// A row tests one feature against lanes: vertex `index`, or edge `index` of those gathered.
   struct Row {
     PairKind kind;
     int index, chunk;

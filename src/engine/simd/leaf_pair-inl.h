@@ -33,7 +33,8 @@ struct EdgeRows {
   int chunks() const { return (count + kLanes - 1) / kLanes; }
 
   Lanes rows[6 * kMaxChunks];
-  /// Which of the leaf's edges, << 16, and its ends as in Leaf. A vector more than fits is written.
+  /// The edge's index in the leaf, << 16, and its ends as in Leaf. Writes go in whole vectors and
+  /// may run one vector over the end.
   alignas(32) uint32_t edges[kMaxLeafFeatures + kLanes];
   int count;
 

@@ -66,8 +66,8 @@ class RayTraversal {
     high = hn::Min(high, hn::Add(b, h));
   }
 
-  /// Which of a block's boxes the ray may meet before the end, lanes from `l`; raises the lower
-  /// bounds of where.
+  /// Returns as bits the boxes of a block that the ray may meet before its end, lanes from `l`;
+  /// raises `enters` to the lower bounds of where it does.
   HWY_INLINE uint32_t meets(const BoxBlock& block, size_t l, float* enters) const {
     const V x = hn::Sub(set(ray_.origin[0]), load(block.x[kCenter], l));
     const V y = hn::Sub(set(ray_.origin[1]), load(block.y[kCenter], l));

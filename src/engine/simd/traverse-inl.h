@@ -135,7 +135,8 @@ class Expander {
   }
 
  private:
-  /// How many children that overlap and are not pairs of leaves precede the deepest of them.
+  /// Of the children that overlap and are not pairs of leaves, returns how many precede the
+  /// deepest.
   static uint32_t deepestOf(const Expansion& e, uint32_t leaves) {
     const uint32_t children = e.near & ~leaves;
     V least = hn::Zero(d);

@@ -12,8 +12,8 @@ namespace kios::inspect {
 /// A triangle whose height over its longest edge is below this part of that edge is a sliver.
 constexpr double kSliverHeight = 1e-3;
 
-/// What is odd about a mesh. Queries answer exactly for all of it; it costs time, or shows that an
-/// exporter went wrong. Corners count as the same where their coordinates are equal.
+/// The oddities of a mesh. Queries answer exactly in spite of all; they cost time, or show that an
+/// exporter went wrong. Corners count as the same if their coordinates are equal.
 struct Defects {
   std::size_t distinct_vertices = 0;  ///< by coordinates, of those that a triangle uses
   std::size_t unreferenced = 0;       ///< vertices that no triangle uses

@@ -34,7 +34,7 @@ struct Inspection {
 };
 
 /// Reads and examines a file. Throws InputError as readMesh() does, and where a mesh is beyond the
-/// library's range. `tightness`: whether to measure the levels.
+/// library's range. `tightness`: measure the levels.
 Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress);
 
 }  // namespace kios::inspect

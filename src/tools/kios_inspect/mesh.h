@@ -10,8 +10,8 @@
 
 namespace kios::inspect {
 
-/// What a file holds: all its meshes in one frame, at least one triangle, indices in range and
-/// finite vertices. Units are the file's.
+/// All meshes of a file in one frame: at least one triangle, indices in range, finite vertices.
+/// Units are the file's.
 struct Mesh {
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;

@@ -70,7 +70,7 @@ struct Units {
     return result;
   }
 
-  /// What renderer.js reads of a volume: 32 numbers.
+  /// Appends the 32 numbers by which renderer.js draws a volume.
   void append(const kIOSd& volume, const Inspection& inspection, const Color& color,
               std::vector<float>& out) const {
     const auto put = [&](const fcl::Vector3d& v, double last) {
@@ -208,8 +208,8 @@ std::string page(const std::vector<Inspection>& inspections, const PairQuery* pa
        {{"radius", world.diagonal().norm() / (2 * units.scale)},
         {"level", options.level < 0 ? levelToLookAt(meshes) : options.level},
         {"meshes", meshes},
-        {"segment",
-         pair ? Json{placed(pair->answer.point1), placed(pair->answer.point2)} : Json(nullptr)}}}};
+        {"segment", pair ? Json{placed(pair->answer.point_a), placed(pair->answer.point_b)}
+                         : Json(nullptr)}}}};
   std::string data = content.dump(-1, ' ', false, Json::error_handler_t::replace);
   // A file may be called </script>.
   for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;) {

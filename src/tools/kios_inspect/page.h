@@ -12,7 +12,7 @@ namespace kios::inspect {
 
 struct PageOptions {
   int level = -1;               ///< shown at first; -1: the deepest of at most 64 volumes
-  double limit_megabytes = 20;  ///< of meshes and volumes; what is beyond it is left out
+  double limit_megabytes = 20;  ///< of meshes and volumes; the rest is left out
 };
 
 /// One self-contained HTML page that shows one or two meshes and the volumes of a level, with the

@@ -107,10 +107,10 @@ Json toJson(const PairQuery& q) {
           {"distance", q.answer.distance},
           {"lower_bound", q.answer.lower_bound},
           {"upper_bound", q.answer.upper_bound},
-          {"point_a", toJson(q.answer.point1)},
-          {"point_b", toJson(q.answer.point2)},
-          {"triangle_a", q.answer.triangle1},
-          {"triangle_b", q.answer.triangle2},
+          {"point_a", toJson(q.answer.point_a)},
+          {"point_b", toJson(q.answer.point_b)},
+          {"triangle_a", q.answer.triangle_a},
+          {"triangle_b", q.answer.triangle_b},
           {"repeats", q.repeats},
           {"median_us", 1e6 * q.median_seconds},
           {"min_us", 1e6 * q.min_seconds},
@@ -165,8 +165,8 @@ std::string toText(const PairQuery& q) {
   const auto witness = [&](const char* name, const fcl::Vector3d& p, int triangle) {
     print(out, "  %s   (%.9g, %.9g, %.9g) on triangle %d\n", name, p[0], p[1], p[2], triangle);
   };
-  witness("point on A", a.point1, a.triangle1);
-  witness("point on B", a.point2, a.triangle2);
+  witness("point on A", a.point_a, a.triangle_a);
+  witness("point on B", a.point_b, a.triangle_b);
   print(out, "  time         %s, median of %d (least %s), %s\n", seconds(q.median_seconds).c_str(),
         q.repeats, seconds(q.min_seconds).c_str(), simdTarget());
   return out;

@@ -12,7 +12,8 @@ namespace kios::inspect {
 
 using Json = nlohmann::ordered_json;
 
-/// What docs/inspect.md lists; lengths in the file's units, slack in parts of the content's size.
+/// The report that docs/inspect.md lists: lengths in the file's units, slack in parts of the
+/// content's size.
 Json toJson(const Inspection& inspection);
 Json toJson(const PairQuery& query);
 

@@ -9,8 +9,8 @@
 
 namespace kios::inspect {
 
-/// How far a volume reaches along the unit vector n, from the centre of S0 (its support function),
-/// low by at most 1e-5 of S0's radius.
+/// The support function of a volume: returns how far it reaches along the unit vector n from the
+/// centre of S0, low by at most 1e-5 of S0's radius.
 double support(const kIOSd& volume, const fcl::Vector3d& n);
 
 /// Slack of a volume in a direction: how far it reaches beyond its content there (difference of
@@ -19,13 +19,13 @@ double support(const kIOSd& volume, const fcl::Vector3d& n);
 struct Slack {
   double size = 0;           ///< of the content, in the file's units
   double mean = 0, max = 0;  ///< over directions
-  double mean_s0 = 0;        ///< of sphere S0 alone: what one sphere would do
+  double mean_s0 = 0;        ///< of sphere S0 alone, as if it were the volume
 };
 
 /// Slack of a node's volume; no slack if its content is a single point.
 Slack slackOf(const VolumeTree& tree, int node);
 
-/// What the volumes of a level are like: those of VolumeTree::level().
+/// Measures of the volumes of a level, those of VolumeTree::level().
 struct LevelTightness {
   int level = 0;
   std::size_t volumes = 0;

@@ -34,7 +34,8 @@ double rounding(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
   const auto norm1 = [](const kIOS<S>& v) {
     return v.center0.template cast<double>().template lpNorm<1>();
   };
-  return error_bounds::volumeError<S>(norm1(b), X.T_norm1 + norm1(a), a.radius0, b.radius0);
+  return error_bounds::volumeError<S>(norm1(b), detail::boundsOf(X).T_norm1 + norm1(a), a.radius0,
+                                      b.radius0);
 }
 
 }  // namespace
@@ -43,10 +44,10 @@ template <typename S>
 ExactDistance exact::exactDistance(const kIOS<S>& a, const SphereIntersection& body_a,
                                    const kIOS<S>& b, const SphereIntersection& body_b,
                                    const RelativePose<S>& X) {
-  const fcl::Matrix3d R = X.R.template cast<double>();
+  const fcl::Matrix3d R = X.R().template cast<double>();
   const fcl::Vector3d center_a = a.center0.template cast<double>();
   const fcl::Vector3d arm = R * b.center0.template cast<double>();
-  const fcl::Vector3d offset = (arm + X.T.template cast<double>()) - center_a;
+  const fcl::Vector3d offset = (arm + X.T().template cast<double>()) - center_a;
   const NearestPair pair = nearestPair(body_a, body_b, R, offset);
 
   ExactDistance result;

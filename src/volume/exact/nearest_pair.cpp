@@ -92,7 +92,7 @@ Pair::Slab Pair::widest(Slab best) {
     const Matrix3d H =
         unit_a_ * best.on_a.curvature + unit_b_ * (R_ * best.on_b.curvature * R_.transpose());
     Eigen::Matrix2d M = T.transpose() * H * T;
-    // Where the bodies overlap h < 0, and M + h I may not be definite away from the maximum.
+    // If the bodies overlap, h < 0, and M + h I may be indefinite away from the maximum.
     const Eigen::Matrix2d full = M + best.height * Eigen::Matrix2d::Identity();
     const bool definite =
         full.trace() > 0 && full.determinant() > 1e-6 * full.trace() * full.trace();
@@ -148,7 +148,7 @@ double Pair::provenHeight(const Slab& s) const {
   return height - 16 * kUlpDouble * size_ - 8 * kUlpDouble * std::abs(height);
 }
 
-/// Whether p is in both bodies, but for rounding.
+/// True if p is in both bodies, but for rounding.
 bool Pair::inBoth(const Vector3d& p) const {
   const auto outside = [](const SphereIntersection& body, double unit, const Vector3d& x) {
     return unit > 0 ? unit * body.violation(x / unit) : x.norm();

@@ -11,7 +11,7 @@ struct NearestPair {
   int exponent = 0;
   /// Proven: no point of a is nearer to one of b, if the offset is as given. <= 0: not apart.
   double lower = 0;
-  double upper = 0;  ///< |q - p|, and what p and q lie outside of their bodies
+  double upper = 0;  ///< |q - p|, plus the distances of p and q to their bodies
   Vector3d p = Vector3d::Zero(), q = Vector3d::Zero();
   Vector3d normal = Vector3d::Zero();  ///< unit, from a to b
   Vector3d q_arm = Vector3d::Zero();   ///< q from b's S0 centre, in frame A

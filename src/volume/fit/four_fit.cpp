@@ -94,10 +94,10 @@ void project(const FourSets& s, InFrame& f) {
   }
 }
 
-/// Where the largest of q - 2 u t over points is about least when u^2 is added: the coordinate of a
-/// centre along an axis that points have the coordinates t along, q being their squared distances
-/// from the centre at u = 0. From there along the parabola that is uppermost, then along the one
-/// that it crosses first.
+/// Returns the u at which max(q - 2 u t) + u^2 over the points is about least: the coordinate of a
+/// centre along an axis, where t are the points' coordinates along the axis and q their squared
+/// distances from the centre at u = 0. The step follows the uppermost parabola from u = 0, then the
+/// first one that it crosses.
 Float4 lowestOn(const Float4* t, const Float4* q, int n) {
   constexpr int kSteps = 2;
   const Float4 zero = broadcast(0);

@@ -15,7 +15,7 @@ struct FourSets {
   lanes::Float4 weight[kMost];  ///< 0 or 1
 };
 
-/// Where the spheres of four volumes lie: S0 in the frame of the points, caps relative to it.
+/// The places of the spheres of four volumes: S0 in the frame of the points, caps relative to it.
 struct FourSites {
   int k[4];
   lanes::Float4 center[3];

@@ -14,7 +14,7 @@ struct PointQuad {
   lanes::Float4 x, y, z;
 };
 
-/// Where the spheres of a volume lie: S0 in the frame of the points, k - 1 caps relative to it.
+/// The places of a volume's spheres: S0 in the frame of the points, k - 1 caps relative to it.
 struct SphereSites {
   int k = 1;
   float center[3] = {};

@@ -19,25 +19,29 @@ using lanes::load;
 
 double sum(Float4 v) { return double{v[0]} + v[1] + v[2] + v[3]; }
 
+/// Adds up x, y, z, xx, xy, xz, yy, yz and zz of the points from `begin` to `end`, four a step.
+inline void addMoments(const PointLanes& points, int begin, int end, Float4 (&t)[9]) {
+  for (int i = begin; i < end; i += 4) {
+    const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
+    t[0] += x;
+    t[1] += y;
+    t[2] += z;
+    t[3] += x * x;
+    t[4] += x * y;
+    t[5] += x * z;
+    t[6] += y * y;
+    t[7] += y * z;
+    t[8] += z * z;
+  }
+}
+
 /// n times the covariance; the padding repeats point 0, the origin, and adds nothing.
 Eigen::Matrix3d covariance(const PointLanes& points) {
   double s[9] = {};
   constexpr int kBlock = 1024;  // float sums of at most 256 terms a lane
   for (int begin = 0; begin < points.paddedSize(); begin += kBlock) {
     Float4 t[9] = {};
-    const int end = std::min(begin + kBlock, points.paddedSize());
-    for (int i = begin; i < end; i += 4) {
-      const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
-      t[0] += x;
-      t[1] += y;
-      t[2] += z;
-      t[3] += x * x;
-      t[4] += x * y;
-      t[5] += x * z;
-      t[6] += y * y;
-      t[7] += y * z;
-      t[8] += z * z;
-    }
+    addMoments(points, begin, std::min(begin + kBlock, points.paddedSize()), t);
     for (int j = 0; j < 9; ++j) s[j] += sum(t[j]);
   }
   const Eigen::Vector3d first(s[0], s[1], s[2]);
@@ -114,18 +118,7 @@ PrincipalFrame frameAlong(const Eigen::Matrix3f& axes, const PointLanes& points,
 /// In floats: the axes serve to place spheres only, and need not be exact.
 Eigen::Matrix3f quickAxesOf(const PointLanes& points) {
   Float4 t[9] = {};
-  for (int i = 0; i < points.paddedSize(); i += 4) {
-    const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
-    t[0] += x;
-    t[1] += y;
-    t[2] += z;
-    t[3] += x * x;
-    t[4] += x * y;
-    t[5] += x * z;
-    t[6] += y * y;
-    t[7] += y * z;
-    t[8] += z * z;
-  }
+  addMoments(points, 0, points.paddedSize(), t);
   float s[9];
   for (int j = 0; j < 9; ++j) s[j] = (t[j][0] + t[j][1]) + (t[j][2] + t[j][3]);
   const float part = 1.0F / static_cast<float>(points.size());

@@ -129,7 +129,7 @@ void adjustCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
     constexpr double kLeastGain = 0.1;
     int kept = 1;
     for (int i = 1; i < centers.k; i += 2) {
-      // What the far sides of the two caps leave of S0.
+      // The part of S0 that the far sides of the two caps leave.
       const double middle = centers.sphere[0][axis[i]];
       const double top =
           std::min(middle + radius[0], centers.sphere[i + 1][axis[i]] + radius[i + 1]);

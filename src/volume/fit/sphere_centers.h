@@ -8,7 +8,7 @@
 
 namespace kios {
 
-/// Where a fit puts the spheres of a node: k of them, along the frame's axes, relative to its
+/// The places where a fit puts the k spheres of a node, along the frame's axes, relative to its
 /// middle. Sphere 0 is S0; 1, 2 lie along the shortest axis, 3, 4 along the middle one, and 5, 6,
 /// which a kIOS has no place for, along the longest.
 struct SphereCenters {
@@ -18,7 +18,7 @@ struct SphereCenters {
   double least_cap_radius = 0;  ///< > 0 where all caps share a radius, as published
 };
 
-/// Which axis of the frame the caps i, 1 <= i < k, lie along.
+/// Returns the axis of the frame along which cap i lies, 1 <= i < k.
 inline int axisOfCap(const PrincipalFrame& frame, int i) { return frame.order[2 - (i - 1) / 2]; }
 
 /// The tuned fit: S0 nearly minimal; each cap starts as a sphere through the rim of the far face

@@ -13,8 +13,8 @@ namespace kios {
 template <typename S>
 class SphereFitter {
  public:
-  /// What the fit of a node tells its split: the box centre and the longest axis, in the model, and
-  /// all principal axes, in no order.
+  /// The results of a node's fit that its split needs: the box centre and the longest axis, in the
+  /// model, and all principal axes, in no order.
   struct Split {
     Eigen::Vector3d center;
     Eigen::Vector3d axis;
@@ -25,7 +25,7 @@ class SphereFitter {
   kIOS<S> fit(const fcl::Vector3<S>* points, int n, const FitOptions& options,
               Split* split = nullptr);
 
-  /// Where the spheres of a fit lie: S0 in the model's frame, k - 1 caps relative to it.
+  /// The places of a fit's spheres: S0 in the model's frame, k - 1 caps relative to it.
   struct Placement {
     int k = 0;
     Eigen::Vector3d center0 = Eigen::Vector3d::Zero();

@@ -77,7 +77,8 @@ kIOS<S> fitTriangle(const fcl::Vector3<S>* points) {
     return bv;
   }
   const Vec middle = 0.5 * (from + to), edge = to - from;
-  // What may be small is measured from the nearer end: slivers would lose it from the middle.
+  // A small height is measured from the nearer end: for slivers, rounding would swallow it if it
+  // were measured from the middle.
   const double along = (p[apex] - middle).dot(edge);
   const Vec from_nearer = p[apex] - (along > 0 ? to : from);
   const Vec across = from_nearer - from_nearer.dot(edge) / square * edge;

@@ -144,7 +144,7 @@ TEST(Variants, BoundsNeverExceedTheDistance) {
   EXPECT_GT(apart, tested / 5);
 }
 
-// What a bound is worth: no conservative pad may eat it up at any place or scale.
+// Bounds are tight: no conservative pad eats them up at any place or scale.
 TEST(Variants, BoundsOfSeparatedSetsAreTight) {
   Random random(5);
   for (int i = 0; i < 300; ++i) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What fixed directions promise: little memory, and nothing to compute again when a model turns
-// (paper, III-A and V-B).
+// Fixed directions need little memory, and nothing is computed again when a model turns (paper,
+// III-A and V-B).
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -116,7 +116,7 @@ TEST(FixedDirections, FitIsThatOfTheTurnedContent) {
       ASSERT_NEAR(v.radius, w.radius, 0.03 * size);
       for (int i = 0; i < 6; ++i) {
         ASSERT_NEAR(v.height[i], w.height[i], 0.4 * size) << "set " << set << " cap " << i;
-        // Where the cap ends is what bounds the content.
+        // The cap's end bounds the content.
         ASSERT_NEAR(std::abs(v.height[i]) - v.r[i], std::abs(w.height[i]) - w.r[i], 0.15 * size);
       }
     }

@@ -97,7 +97,7 @@ TEST(Motions, ShuffledIsASeededPermutation) {
   EXPECT_EQ(mixed, heights(frames));
 }
 
-// What the loader says about a file of the given text; empty if it takes the file.
+// Returns the loader's message about a file of the given text; empty if it takes the file.
 template <typename Load>
 std::string complaint(const std::string& text, const Load& load) {
   const auto file =

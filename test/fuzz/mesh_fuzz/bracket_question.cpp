@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// kios::distance and kios::closerThan: what DistanceAnswer promises for every option.
+// kios::distance and kios::closerThan: the promises of DistanceAnswer for every option.
 
 #include "fcl_kios/query/distance.h"
 
@@ -103,9 +103,9 @@ class BracketQuestion {
 
   WarmStart anyStart() {
     WarmStart start;
-    if (chance(random_, 0.3)) return {exact_.triangle1, exact_.triangle2};
-    start.triangle1 = scenes::integer(random_, -2, pair_.A->num_tris);
-    start.triangle2 = scenes::integer(random_, -2, pair_.B->num_tris);
+    if (chance(random_, 0.3)) return {exact_.triangle_a, exact_.triangle_b};
+    start.triangle_a = scenes::integer(random_, -2, pair_.A->num_tris);
+    start.triangle_b = scenes::integer(random_, -2, pair_.B->num_tris);
     return start;
   }
 
@@ -128,7 +128,7 @@ class BracketQuestion {
          << "; o.far_enough = " << literal(options.far_enough)
          << "; o.max_expansions = " << options.max_expansions << "; ";
     if (warm) {
-      call << "kios::WarmStart w = {" << start.triangle1 << ", " << start.triangle2
+      call << "kios::WarmStart w = {" << start.triangle_a << ", " << start.triangle_b
            << "}; o.warm_start = &w; ";
       options.warm_start = &start;
     }
@@ -160,12 +160,12 @@ class BracketQuestion {
                 const std::string& call) const {
     const char* fault = faultOf(answer, options);
     if (!fault) {
-      const std::pair<int, int> ids = {answer.triangle1, answer.triangle2};
-      const bool points = options.nearest_points && answer.triangle1 >= 0;
-      if (points != answer.point1.allFinite()) {
+      const std::pair<int, int> ids = {answer.triangle_a, answer.triangle_b};
+      const bool points = options.nearest_points && answer.triangle_a >= 0;
+      if (points != answer.point_a.allFinite()) {
         fault = "points that were not asked for, or none";
       } else if (points) {
-        const auto wrong = faultOfPoints<S>(truth_, ids, answer.point1, answer.point2,
+        const auto wrong = faultOfPoints<S>(truth_, ids, answer.point_a, answer.point_b,
                                             answer.distance, pair_.X, pair_.Y);
         if (wrong) return failure(Words() << *wrong, call);
       }
@@ -174,8 +174,8 @@ class BracketQuestion {
     constexpr const char* kStops[] = {"kTolerance", "kFar", "kNear", "kBudget"};
     Words words;
     words << fault << ": lower bound " << answer.lower_bound << ", distance " << answer.distance
-          << ", upper bound " << answer.upper_bound << ", triangles (" << answer.triangle1 << ", "
-          << answer.triangle2 << "), stop " << kStops[static_cast<int>(answer.stop)]
+          << ", upper bound " << answer.upper_bound << ", triangles (" << answer.triangle_a << ", "
+          << answer.triangle_b << "), stop " << kStops[static_cast<int>(answer.stop)]
           << "; brute force " << truth_.distance << " of " << text(truth_.nearest)
           << "; default answer " << exact_.distance;
     if (given_ >= 0) words << "; as given " << given_;
@@ -183,7 +183,7 @@ class BracketQuestion {
   }
 
   const char* faultOf(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options) const {
-    const std::pair<int, int> ids = {answer.triangle1, answer.triangle2};
+    const std::pair<int, int> ids = {answer.triangle_a, answer.triangle_b};
     const double lower = answer.lower_bound, distance = answer.distance, upper = answer.upper_bound,
                  exact = truth_.distance;
     const double slack = 16 * truth_.kEps * truth_.extentOf(truth_.nearest) + truth_.kLeast;
@@ -195,8 +195,8 @@ class BracketQuestion {
       if (!(upper >= given_ - rounding)) return "the upper bound is below the exact distance";
     }
     if (!(lower >= 0 && lower <= distance && distance <= upper)) return "bounds out of order";
-    if (answer.triangle1 < 0) {
-      if (!std::isinf(distance) || answer.triangle2 >= 0) return "a distance of no triangles";
+    if (answer.triangle_a < 0) {
+      if (!std::isinf(distance) || answer.triangle_b >= 0) return "a distance of no triangles";
     } else {
       if (!truth_.contains(ids)) return "triangles that don't exist";
       if (answer.distance != truth_.distanceOf(ids)) return "not the distance of its triangles";
@@ -204,14 +204,14 @@ class BracketQuestion {
     if (distance == 0 && lower != 0) return "a lower bound at contact";
     switch (answer.stop) {
       case DistanceStop::kTolerance: {
-        if (answer.triangle1 < 0) return "no answer";
+        if (answer.triangle_a < 0) return "no answer";
         const double allowed = std::max(double{options.rel_err} * exact, double{options.abs_err});
         if (!(distance <= exact + allowed * (1 + 4 * truth_.kEps) + truth_.tolerance(ids))) {
           return "error too large";
         }
         const bool same = answer.distance == exact_.distance &&
-                          (distance == 0 || (answer.triangle1 == exact_.triangle1 &&
-                                             answer.triangle2 == exact_.triangle2));
+                          (distance == 0 || (answer.triangle_a == exact_.triangle_a &&
+                                             answer.triangle_b == exact_.triangle_b));
         const bool is_exact = options.rel_err == 0 && options.abs_err == 0 &&
                               options.max_expansions == std::numeric_limits<long long>::max();
         return is_exact && !same ? "not the default answer, though exact" : nullptr;

@@ -77,17 +77,19 @@ class BruteForce {
     return fuzz::extentOf(a_[static_cast<std::size_t>(ids.first)],
                           b_[static_cast<std::size_t>(ids.second)]);
   }
-  /// What two answers may differ by that name these triangles and the nearest: 16 eps L each.
+  /// The largest difference of two right answers, one for these triangles and one for the nearest:
+  /// 16 eps L each.
   double tolerance(const Ids& ids) const {
     return 16 * kEps * (extentOf(ids) + extentOf(nearest)) + 2 * kLeast;
   }
-  /// How far b's triangle may be from where exact arithmetic puts it (docs/guarantees.md).
+  /// Bounds the error of the place of b's triangle in the common frame (docs/guarantees.md).
   double frameError(int b) const {
     double most = 0;
     for (const auto& p : b_in_b_[static_cast<std::size_t>(b)]) {
       most = std::max(most, p.template cast<double>().stableNorm());
     }
-    return 4 * 1.8 * kEps * ((1 + X_AB.stretch) * most + X_AB.T_norm1);
+    const auto& bounds = detail::boundsOf(X_AB);
+    return 4 * 1.8 * kEps * ((1 + bounds.stretch) * most + bounds.T_norm1);
   }
   const std::vector<S>& distances() const { return distances_; }
   const std::vector<TriangleVertices<S>>& trianglesOfA() const { return a_; }

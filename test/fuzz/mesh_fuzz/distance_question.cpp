@@ -100,7 +100,7 @@ class DistanceQuestion {
          {&truth_.trianglesInB()[ids.second], &reverse_.trianglesInB()[ids.first]}) {
       reach += (*t)[0].template cast<double>().norm();
     }
-    reach += truth_.X_AB.T_norm1;
+    reach += detail::boundsOf(truth_.X_AB).T_norm1;
     const double skew = 2 * (skewOf(pair_.X) + skewOf(pair_.Y)) * reach;
     const double bound = 16 * truth_.kEps * L + frames + skew + 2 * truth_.kLeast;
     if (!(std::abs(double{d} - double{e}) <= bound)) {

@@ -21,7 +21,7 @@ using fcl::Vector3d;
 using scenes::Mesh;
 using scenes::Random;
 
-/// What is wrong with an answer: for people, and as the call that shows it, C++ in the names of
+/// The fault of an answer: in words, and as the call that shows it, in C++ with the names of
 /// listing.h (A, B: models; X[frame][model]: poses).
 struct Failure {
   std::string what, call;
@@ -44,7 +44,7 @@ const std::vector<Question>& questions();
 
 struct Case {
   const Question* question = nullptr;
-  std::uint64_t draw = 0;  ///< what the question draws of its own comes from this seed
+  std::uint64_t draw = 0;  ///< the seed of the draws of the question itself
   bool in_float = false;   ///< asked of kIOSf
   bool foreign = false;    ///< the models' fitter isn't ours, so that FCL's tree is searched
   std::vector<Mesh> meshes;

@@ -12,7 +12,7 @@
 #include "fuzz/mesh_fuzz/brute_force.h"
 #include "scenes/foreign_fitter.h"
 
-// What the questions share: models as a case wants them, and how a failure is told.
+// Shared by the questions: models as a case wants them, and the report of a failure.
 
 namespace kios::fuzz {
 
@@ -94,8 +94,9 @@ double distanceTo(const fcl::Vector3<S>& p, const TriangleVertices<S>& t,
   return triangleDistance<double>({q, q, q}, world).distance;
 }
 
-/// What is wrong with nearest points in the world, if anything: each lies on its triangle, and they
-/// are as far apart as is said, up to rounding of the coordinates in the frames that they pass.
+/// Returns the fault of nearest points in the world, if any. Each must lie on its triangle, and
+/// they must be as far apart as the answer says, up to rounding of the coordinates in the frames
+/// that they pass.
 template <typename S>
 std::optional<std::string> faultOfPoints(const BruteForce<S>& truth, const std::pair<int, int>& ids,
                                          const fcl::Vector3<S>& p, const fcl::Vector3<S>& q,

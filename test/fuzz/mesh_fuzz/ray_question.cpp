@@ -160,8 +160,8 @@ class RayQuestion {
     return std::nullopt;
   }
 
-  /// Whether rounding may decide: the ray's part passes the triangle's border, or begins or ends at
-  /// it, within what mapping it moves its points.
+  /// True if rounding may decide: the ray's part passes the triangle's border, or begins or ends at
+  /// it, by no more than the rounding of the mapped points.
   bool nearEdge(const GivenRay& ray, const TriangleVertices<double>& t, double error) const {
     const double length = ray.direction.norm();
     const auto far = [&](double at) {  // beyond the mesh nothing matters

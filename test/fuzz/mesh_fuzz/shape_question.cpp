@@ -110,7 +110,7 @@ class ShapeQuestion {
     Y_.translation() = p + away * n;
   }
 
-  /// How far the shape reaches against n from its origin, if that is simple.
+  /// Returns how far the shape reaches against n from its origin, for shapes with a simple formula.
   double alongNormal(const Vector3d& n) const {
     const Vector3d m = (Y_.linear().transpose() * n).cwiseAbs();
     if (spec_.kind == Shape::kBox) return 0.5 * m.dot(spec_.size);

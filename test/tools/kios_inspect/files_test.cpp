@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What assimp's formats become, and what a page holds of them.
+// Files in assimp's formats become meshes, and pages hold them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,7 +73,8 @@ std::vector<float> floatsOf(const std::string& base64) {
 }
 
 TEST(Files, APageHoldsTheVolumesThatItDraws) {
-  // What renderer.js evaluates is 0 on the surface of each volume, and negative inside.
+  // The function that renderer.js evaluates is 0 on the surface of each volume, and negative
+  // inside.
   std::vector<Inspection> inspections;
   inspections.push_back(inspected(writeStl("torus.stl", scenes::knobbyTorus())));
   const Inspection& inspection = inspections[0];

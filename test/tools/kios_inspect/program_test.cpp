@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// kios_inspect as a user runs it: what it prints, its exit codes, its errors.
+// kios_inspect as a user runs it: its output, exit codes and errors.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -181,11 +181,11 @@ TEST(Program, TheDistanceOfTwoMeshesIsTheLibrarys) {
       json(files + " --pose-a -1,2.5,0.25 --pose-b 3,-0.5,1,0.5,0.5,-0.5,0.5")["pair"];
   const auto expected = distance(*a, X_WA, *b, X_WB);
   EXPECT_EQ(pair["distance"].get<double>(), expected.distance);
-  EXPECT_EQ(pair["triangle_a"], expected.triangle1);
-  EXPECT_EQ(pair["triangle_b"], expected.triangle2);
+  EXPECT_EQ(pair["triangle_a"], expected.triangle_a);
+  EXPECT_EQ(pair["triangle_b"], expected.triangle_b);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(pair["point_a"][i].get<double>(), expected.point1[i]);
-    EXPECT_EQ(pair["point_b"][i].get<double>(), expected.point2[i]);
+    EXPECT_EQ(pair["point_a"][i].get<double>(), expected.point_a[i]);
+    EXPECT_EQ(pair["point_b"][i].get<double>(), expected.point_b[i]);
   }
   EXPECT_GT(pair["median_us"].get<double>(), 0);
   EXPECT_LE(pair["min_us"].get<double>(), pair["median_us"].get<double>());

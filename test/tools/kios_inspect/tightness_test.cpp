@@ -40,7 +40,7 @@ kIOSd fitted(const Points& points) {
 const fcl::Vector3d kHalves[] = {{1, 1, 1},     {1, 0.5, 0.2},   {1, 1, 0.01},    {1, 1, 0},
                                  {1, 0.1, 0.1}, {1, 1e-3, 1e-4}, {1, 1e-9, 1e-9}, {1, 0.3, 0.001}};
 
-/// How far x is out of the sphere of the volume that it violates most.
+/// Returns how far x sticks out of the sphere of the volume that it violates most.
 double excess(const kIOSd& volume, const fcl::Vector3d& x) {
   double worst = -HUGE_VAL;
   for (int i = 0; i < volume.k(); ++i) {

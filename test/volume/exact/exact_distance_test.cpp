@@ -34,7 +34,7 @@ Real3 middleOf(const Points<S>& points, const kIOS<S>& v) {
 template <typename S>
 constexpr double kUnderflow = 256.0 * std::numeric_limits<S>::denorm_min();
 
-/// What errors are relative to: the size of the pair, and what rounding makes of translations.
+/// The length that errors are relative to: the size of the pair, and the rounding of translations.
 template <typename S>
 Real scaleOf(const HardPair<S>& pair) {
   return pair.reaches() + 1e14L * pair.rounding() * pair.magnitude();
@@ -112,7 +112,7 @@ TYPED_TEST(ExactPair, WitnessesLieOnTheVolumesAlongTheNormal) {
     const Real33 R = pair.R.template cast<Real>();
     const Real3 in_a = exact.p.template cast<Real>() - a.center0;
     const Real3 in_b =
-        R.inverse() * (exact.q - X.T.template cast<double>()).template cast<Real>() - b.center0;
+        R.inverse() * (exact.q - X.T().template cast<double>()).template cast<Real>() - b.center0;
     ASSERT_LE(a.outside(in_a), rounding) << "pair " << i;
     ASSERT_LE(b.outside(in_b), 8 * rounding) << "pair " << i;
     const Real3 between = (exact.q - exact.p).template cast<Real>();
@@ -127,7 +127,7 @@ TYPED_TEST(ExactPair, WitnessesLieOnTheVolumesAlongTheNormal) {
       ASSERT_LE((along - between).norm(), 1e-5L * between.norm() + kUnderflow<S>) << "pair " << i;
     }
     const fcl::Vector3d moment =
-        (exact.q - X.T.template cast<double>()).cross(exact.normal) - exact.moment;
+        (exact.q - X.T().template cast<double>()).cross(exact.normal) - exact.moment;
     ASSERT_LE(moment.norm(), 8 * rounding) << "pair " << i;
   }
 }

@@ -111,7 +111,7 @@ TEST(ExactGradient, IsContinuousAlongRandomPaths) {
     double nearest = 1e300;
     const double coarse = largestStep(100, &nearest), fine = largestStep(2'000, &nearest);
     if (!(nearest > 0.05)) continue;
-    // What turns the normal are steps of (1 + arm) / distance.
+    // A step turns the normal by at most (1 + arm) / distance times its length.
     ASSERT_LE(coarse, 8.0 / 100 / nearest) << i;
     ASSERT_LE(fine, 8.0 / 2'000 / nearest) << i;
     ++paths;

@@ -62,7 +62,8 @@ TEST(Ellipsoid, OfAnAffineImageOfARegularSolidIsTheImageOfItsSphere) {
   }
 }
 
-/// Why e is no enclosing ellipsoid of volume at most (1 + gap)^(rank/2) times the least, or empty.
+/// Returns why e is no enclosing ellipsoid of volume at most (1 + gap)^(rank/2) times the least;
+/// empty if it is one.
 std::string wrong(const EnclosingEllipsoid& e, const PointLanes& lanes) {
   if (!(e.axes.transpose() * e.axes).isIdentity(1e-9)) return "axes are not orthonormal";
   for (int k = 0; k < 3; ++k) {

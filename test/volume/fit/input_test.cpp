@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What a fit accepts, and how it refuses the rest.
+// Fits accept finite points of allowed size, and refuse all others.
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-#include <thread>
 
 #include "fcl_kios/volume/fit.h"
+#include "together.h"
 #include "volume/exact_spheres.h"
 #include "volume/fit/all_fits.h"
 
@@ -15,8 +15,8 @@ namespace kios::test {
 namespace {
 
 template <typename S>
-class FitInput : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class FitInput : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(FitInput, Scalars);
 
 const std::vector<FitOptions> kFits = allFits();
@@ -128,16 +128,12 @@ TYPED_TEST(FitInput, ThreadsFitAlike) {
   std::vector<Points<S>> sets;
   for (int i = 0; i < 500; ++i) sets.push_back(hardPointSet<S>(random, randomCount(random)));
   std::vector<kIOS<S>> results[3];
-  std::vector<std::thread> threads;
-  for (auto& result : results) {
-    threads.emplace_back([&sets, &result] {
-      for (const auto& points : sets) {
-        result.emplace_back();
-        fit(points.data(), static_cast<int>(points.size()), result.back());
-      }
-    });
-  }
-  for (auto& thread : threads) thread.join();
+  testing::together(3, [&](int t) {
+    for (const auto& points : sets) {
+      results[t].emplace_back();
+      fit(points.data(), static_cast<int>(points.size()), results[t].back());
+    }
+  });
   for (std::size_t i = 0; i < sets.size(); ++i) {
     EXPECT_TRUE(bitwiseEqual(results[0][i], results[1][i]));
     EXPECT_TRUE(bitwiseEqual(results[0][i], results[2][i]));

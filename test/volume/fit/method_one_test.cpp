@@ -142,7 +142,7 @@ TEST(FitOptions, KIsChosenAsAsked) {
   }
 }
 
-/// How far S0's centre is from the far side of cap i.
+/// The distance of S0's centre to the far side of cap i.
 double farSide(const kIOSd& v, int i) { return capRadius(v, i) - capOffset(v, i).norm(); }
 
 TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// How much larger than needed the tuned fit's spheres are, against minimal balls by brute force.
+// The tuned fit's spheres are hardly larger than minimal balls, which are found by brute force.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -171,7 +171,7 @@ TEST(TightnessOfMethods, TunedCapsAreSmallerThanPublished) {
   EXPECT_LT(tuned, 0.92 * published);  // measured 0.914; 0.931 without re-centring
 }
 
-// What counts in a query: the extent of what is bounded, along the normal of a patch.
+// The extent of a volume along the normal of a patch decides how well it prunes.
 TEST(TightnessOfMethods, TunedVolumesAreFlatterThanPublished) {
   Random random(4);
   double tuned = 0, published = 0;

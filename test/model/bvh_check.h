@@ -2,31 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include <gtest/gtest.h>
 
-#include "fcl_kios/model/model.h"
+#include <algorithm>
+#include <vector>
 
-// Whether the tree of an fcl::BVHModel over k-IOS is what queries rely on.
+#include "fcl_kios/model/model.h"
+#include "volume/exact_spheres.h"
+
+// Checks of the tree of an fcl::BVHModel over k-IOS; engine/tree_check.h checks prepared trees.
 
 namespace kios::testing {
-
-/// Whether p lies in each sphere of the representation, in long double.
-template <typename S>
-bool containsExactly(const kIOS<S>& bv, const fcl::Vector3<S>& p) {
-  using Point = Eigen::Matrix<long double, 3, 1>;
-  const Point v = p.template cast<long double>() - bv.center0.template cast<long double>();
-  if (bv.k() == 0 || !(v.norm() <= static_cast<long double>(bv.radius0))) return false;
-  for (int i = 0; i + 1 < bv.k(); ++i) {
-    const Point unscaled(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]);
-    const long double scale = std::ldexp(1.0L, bv.exponent);
-    if (!((v - scale * unscaled).norm() <= scale * bv.cap_r[i])) return false;
-  }
-  return true;
-}
 
 /// The triangles that the leaves below `node` hold.
 template <typename S>
@@ -62,20 +48,12 @@ void expectValidTree(const Model<S>& model) {
         const std::size_t id = model.tri_indices[triangle][corner];
         for (const auto* vertices : {model.vertices, model.prev_vertices}) {
           if (!vertices) continue;
-          outside += !containsExactly(bv, vertices[id]) || !bv.contain(vertices[id]);
+          outside += !test::containsExactly(bv, vertices[id]) || !bv.contain(vertices[id]);
         }
       }
     }
   }
   EXPECT_EQ(outside, 0);
-}
-
-template <typename S>
-bool sameVolume(const kIOS<S>& a, const kIOS<S>& b) {
-  const auto same = [](const float* x, const float* y) { return std::equal(x, x + 4, y); };
-  return a.center0 == b.center0 && a.radius0 == b.radius0 && same(a.cap_x, b.cap_x) &&
-         same(a.cap_y, b.cap_y) && same(a.cap_z, b.cap_z) && same(a.cap_r, b.cap_r) &&
-         a.reach == b.reach && a.exponent == b.exponent && a.k() == b.k();
 }
 
 /// The nodes of a model that may go: while it lives, builds of equal meshes copy them.
@@ -90,7 +68,7 @@ bool sameTree(const Model<S>& a, const std::vector<fcl::BVNode<kIOS<S>>>& b) {
   return a.getNumBVs() == static_cast<int>(b.size()) &&
          std::equal(b.begin(), b.end(), &a.getBV(0), [](const auto& x, const auto& y) {
            return x.first_child == y.first_child && x.first_primitive == y.first_primitive &&
-                  x.num_primitives == y.num_primitives && sameVolume(x.bv, y.bv);
+                  x.num_primitives == y.num_primitives && test::bitwiseEqual(x.bv, y.bv);
          });
 }
 template <typename S>
