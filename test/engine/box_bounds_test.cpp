@@ -212,8 +212,8 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
   engine::FramePair frames;
   const RelativePose<double> pose(fcl::Transform3d::Identity(), X_AB);
   if (!engine::makeFramePair(a, b, pose, frames)) return;
-  const Mat R = pose.R.cast<Real>();
-  const Vec t = pose.T.cast<Real>();
+  const Mat R = pose.R().cast<Real>();
+  const Vec t = pose.T().cast<Real>();
   for (const bool contact : {false, true}) {
     alignas(32) float found[kLanes], without_pad[kLanes];
     HWY_DYNAMIC_DISPATCH(engine::bounds)
