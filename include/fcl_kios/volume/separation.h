@@ -60,10 +60,12 @@ class RelativePose {
 using RelativePosed = RelativePose<double>;
 using RelativePosef = RelativePose<float>;
 
+namespace detail {
 template <typename S>
-const detail::PoseBounds& detail::boundsOf(const RelativePose<S>& X_AB) {
+const PoseBounds& boundsOf(const RelativePose<S>& X_AB) {
   return X_AB.bounds_;
 }
+}  // namespace detail
 
 /// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
 /// B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame A.
