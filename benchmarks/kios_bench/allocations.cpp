@@ -60,5 +60,6 @@ Allocations::~Allocations() { counting = false; }
 
 long long Allocations::held() const { return held_bytes; }
 long long Allocations::peak() const { return peak_bytes; }
+void Allocations::resetPeak() { peak_bytes = held_bytes.load(); }
 
 }  // namespace kios::bench

@@ -14,6 +14,7 @@ class Allocations {
 
   long long held() const;  ///< since it began; blocks from before that were freed count below 0
   long long peak() const;  ///< the most that were held
+  void resetPeak();        ///< to what is held now
 };
 
 }  // namespace kios::bench

@@ -65,6 +65,7 @@ class MeshSetOf final : public MeshSet {
     bodies_.clear();
     for (const scenes::Mesh& mesh : meshes) {
       const std::shared_ptr<Model> model = built(mesh);
+      if constexpr (Kind::kPrepared) prepare(*model);
       add(model);
       bodies_.back().model = model;
     }

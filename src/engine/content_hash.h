@@ -8,17 +8,20 @@
 
 namespace kios::engine {
 
-/// 128 bits of a mesh's arrays, by which meshes of equal content find each other. Two meshes that
-/// differ in any bit of a vertex, an index, a count or their scalar share a hash with probability
-/// 2^-128: the seed is drawn anew by each process. Nobody compares the arrays themselves, since
-/// those of a model are its owner's, who may write them at any time.
+/// What a mesh's arrays are known by, so that meshes of equal content find each other: XXH3's 128
+/// bits and a polynomial over the arrays modulo 2^61 - 1, at a point that each process draws. Two
+/// meshes of other content, whatever they are, agree in the polynomial with a probability of at
+/// most (their 32-bit words) / 2^61. Nobody compares the arrays themselves, since those of a model
+/// are its owner's, who may write them at any time.
 struct ContentHash {
-  std::uint64_t low = 0, high = 0;
+  std::uint64_t low = 0, high = 0, polynomial = 0;
 
-  bool operator==(const ContentHash& o) const { return low == o.low && high == o.high; }
+  bool operator==(const ContentHash& o) const {
+    return low == o.low && high == o.high && polynomial == o.polynomial;
+  }
 };
 
-/// Takes 1 to 3 ns a triangle, where a build takes 600.
+/// Takes about a hundredth of the build.
 template <typename S>
 ContentHash contentHash(const MeshView<S>& mesh);
 

@@ -83,6 +83,11 @@ SharedTree& SharedTree::operator=(SharedTree&& other) noexcept {
 
 SharedTree::~SharedTree() { Directory::release(entry_); }
 
+bool SharedTree::isHeld(const ContentHash& content) {
+  const std::lock_guard<std::mutex> lock(Directory::mutex);
+  return Directory::map && Directory::map->count(content) > 0;
+}
+
 const Tree* SharedTree::get() const { return entry_ ? entry_->tree.get() : nullptr; }
 
 Tree& SharedTree::detach() {

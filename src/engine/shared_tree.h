@@ -25,6 +25,9 @@ class SharedTree {
   SharedTree& operator=(SharedTree&& other) noexcept;
   ~SharedTree();
 
+  /// Whether somebody holds a tree for this content, or is making one.
+  static bool isHeld(const ContentHash& content);
+
   /// nullptr if nothing is held.
   const Tree* get() const;
   explicit operator bool() const { return entry_ != nullptr; }

@@ -85,8 +85,9 @@ bool TreeCache::isBuilt(std::uint64_t root_stamp) const {
 long long TreeCache::testsToSpare(std::size_t num_triangles) const {
   constexpr long long kTestsATriangle = 4;  // 50 ns each; a tree takes 0.2 us a triangle
   if (made_.load(std::memory_order_relaxed)) return 0;
+  constexpr long long kMost = 1 << 28;  // FCL's nodes count in ints
   const long long price = kTestsATriangle * static_cast<long long>(num_triangles);
-  return std::max(0LL, price - spent_.load(std::memory_order_relaxed));
+  return std::max(0LL, std::min(price, kMost) - spent_.load(std::memory_order_relaxed));
 }
 
 std::size_t TreeCache::bytes() {

@@ -71,8 +71,10 @@ class TreeCache {
 
   /// Tests of volumes that queries which can do without a tree may make, before it would have paid
   /// to make one for so many triangles: so that at most twice the work is done that was needed. 0
-  /// as soon as a tree was made.
+  /// as soon as a tree was made, or spareNothing() was called.
   long long testsToSpare(std::size_t num_triangles) const;
+  /// To be called where making a tree costs next to nothing: an equal one is held elsewhere.
+  void spareNothing() { made_.store(true, std::memory_order_relaxed); }
   /// To be called with what a query that did without has made.
   void spend(long long tests) { spent_.fetch_add(tests, std::memory_order_relaxed); }
 

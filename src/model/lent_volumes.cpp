@@ -54,7 +54,7 @@ void enter(const ContentHash& content, const void* nodes, const void* primitives
   try {
     if (!ledger) ledger = new Ledger;
     const auto loan = std::make_shared<Loan>(content, nodes, primitives);
-    ledger->by_nodes.emplace(nodes, loan);
+    if (!ledger->by_nodes.emplace(nodes, loan).second) return;  // these are lent already
     std::vector<Loan*>& equal = ledger->by_content[content];
     loan->place = equal.size();
     equal.push_back(loan.get());

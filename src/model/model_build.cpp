@@ -151,7 +151,7 @@ class Division {
 /// The tree of the engine's own partition, which queries read: a copy where an equal mesh lives.
 /// False where there is none.
 template <typename S>
-bool buildByCost(const Arrays<S>& model, int num_triangles) {
+bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& trees) {
   if (model.type != fcl::BVH_MODEL_TRIANGLES) return false;
   const auto n = static_cast<std::size_t>(num_triangles);
   const engine::MeshView<S> mesh = {model.vertices, static_cast<std::size_t>(model.num_vertices),
@@ -163,6 +163,8 @@ bool buildByCost(const Arrays<S>& model, int num_triangles) {
     return false;
   }
   lendVolumes(content, model.nodes, model.primitives);
+  trees.noteBuilt(model.nodes[0].bv.stamp);
+  if (engine::SharedTree::isHeld(content)) trees.spareNothing();
   return true;
 }
 
@@ -175,8 +177,7 @@ int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
   const auto* const own_splitter = exactly<Splitter<S>>(splitter);
   if (own_fitter && own_splitter) {
     if (own_splitter->byCost() && own_fitter->options().plain() &&
-        buildByCost(model, num_primitives)) {
-      trees->noteBuilt(model.nodes[0].bv.stamp);
+        buildByCost(model, num_primitives, *trees)) {
       return 2 * num_primitives - 1;
     }
     OwnSteps<S> steps{model.build(), own_fitter->options(), own_splitter->method()};

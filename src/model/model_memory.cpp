@@ -130,6 +130,7 @@ int end(Members<S> m) {
     return fcl::BVH_ERR_BUILD_EMPTY_MODEL;
   }
   const int num_nodes = 2 * m.numPrimitives() - 1;
+  withdrawVolumes(m.nodes);
   try {
     shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
     shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);

@@ -24,7 +24,7 @@ std::size_t bytesOf(const Modeld& a, const Modeld& b) {
 TEST(Unprepared, TheVerdictIsTheSame) {
   for (const MeshCase& meshes : meshCases()) {
     SCOPED_TRACE(meshes.name);
-    const auto a = kiosModel(meshes.a), b = kiosModel(meshes.b);
+    const auto a = modelAlone(meshes.a), b = modelAlone(meshes.b);
     prepare(*a);
     prepare(*b);
     int touching = 0;

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Which volumes are lent to builds of equal meshes, and when no more.
+
+#include "model/lent_volumes.h"
+
+#include <gtest/gtest.h>
+
+#include "fcl/mesh_cases.h"
+#include "model/bvh_check.h"
+#include "model/deform.h"
+#include "model/prepared.h"
+
+namespace kios::testing {
+namespace {
+
+class LentVolumes : public ::testing::Test {
+ protected:
+  /// Whether a build of this mesh would find volumes to copy.
+  static bool areLent(const Mesh& mesh) {
+    const std::size_t n = mesh.triangles.size();
+    std::vector<fcl::BVNode<kIOSd>> nodes(2 * n - 1);
+    std::vector<unsigned int> primitives(n);
+    const engine::ContentHash content = engine::contentHash(engine::MeshView<double>{
+        mesh.vertices.data(), mesh.vertices.size(), mesh.triangles.data(), n});
+    return copyLentVolumes<double>(content, n, {nodes.data(), primitives.data()});
+  }
+
+  const Mesh mesh_ = scenes::bumpyTorus(300);
+};
+
+TEST_F(LentVolumes, AsLongAsAModelLives) {
+  EXPECT_FALSE(areLent(mesh_));
+  auto model = kiosModel(mesh_);
+  EXPECT_TRUE(areLent(mesh_));
+  auto copy = std::make_shared<Modeld>(*model);
+  auto second = kiosModel(mesh_);
+  model.reset();
+  EXPECT_TRUE(areLent(mesh_));
+  second.reset();
+  EXPECT_TRUE(areLent(mesh_));  // of the copy
+  copy.reset();
+  EXPECT_FALSE(areLent(mesh_));
+}
+
+TEST_F(LentVolumes, UntilTheyChange) {
+  for (int way = 0; way < 6; ++way) {
+    const auto model = kiosModel(mesh_);
+    ASSERT_TRUE(areLent(mesh_));
+    if (way == 0) replace(*model, swayed(mesh_, 1), true, true);
+    if (way == 1) replace(*model, swayed(mesh_, 1), true, false);
+    if (way == 2) replace(*model, swayed(mesh_, 1), false, true);
+    if (way == 3) update(*model, swayed(mesh_, 1), true, true);
+    if (way == 4) invalidate(*model);
+    if (way == 5) {
+      ::testing::internal::CaptureStderr();
+      model->beginModel();
+      ::testing::internal::GetCapturedStderr();
+    }
+    EXPECT_FALSE(areLent(mesh_)) << way;
+  }
+}
+
+// Volumes that were written show that a build reads them.
+TEST_F(LentVolumes, ABuildCopiesThem) {
+  const auto first = kiosModel(mesh_);
+  first->getBV(5).bv.radius0 *= 2;
+  const auto second = kiosModel(mesh_);
+  EXPECT_TRUE(sameTree(*second, *first));
+  const auto third = modelAlone(mesh_);
+  EXPECT_FALSE(sameTree(*third, *first));
+}
+
+TEST_F(LentVolumes, OnlyThoseOfTheTunedFitByCost) {
+  Modeld published, median, cloud;
+  published.bv_fitter.reset(new fcl::detail::BVFitter<kIOSd>(FitMethod::kMethodII));
+  median.bv_splitter.reset(new fcl::detail::BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEDIAN));
+  for (Modeld* model : {&published, &median}) {
+    model->beginModel();
+    model->addSubModel(mesh_.vertices, mesh_.triangles);
+    model->endModel();
+  }
+  cloud.beginModel();
+  cloud.addSubModel(mesh_.vertices);
+  cloud.endModel();
+  EXPECT_FALSE(areLent(mesh_));
+}
+
+// A model that could use a prepared tree at once doesn't do without.
+TEST_F(LentVolumes, AnEqualPreparedTreeIsUsedAtOnce) {
+  const auto prepared = kiosModel(mesh_);
+  prepare(*prepared);
+  const auto equal = kiosModel(mesh_);
+  SearchCounts counts;
+  fcl::CollisionResultd result;
+  collideMeshes(*equal, Transform3d::Identity(), *prepared,
+                Transform3d(fcl::Translation3d(0.3, 0.2, 0.1)), fcl::CollisionRequestd(), result,
+                &counts);
+  EXPECT_EQ(counts.tree_searches, 0);
+  EXPECT_EQ(preparedTree(*equal).operator->(), preparedTree(*prepared).operator->());
+}
+
+}  // namespace
+}  // namespace kios::testing
