@@ -3,7 +3,6 @@
 #include "engine/prepare.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -300,9 +299,7 @@ template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh) {
   const std::unique_ptr<VolumeNode<S>[]> volumes(new VolumeNode<S>[2 * mesh.num_triangles - 1]);
   std::vector<unsigned int> primitives(mesh.num_triangles);
-  if (!buildVolumes(mesh, volumes.get(), primitives.data())) {
-    throw std::logic_error("fcl_kios: a mesh beyond the range of floats was to be prepared.");
-  }
+  if (!buildVolumes(mesh, volumes.get(), primitives.data())) return nullptr;
   return prepare(mesh, volumes.get());
 }
 

@@ -19,7 +19,7 @@ class SharedTree {
 
   SharedTree() = default;
   /// Holds the tree that others hold for this content, or else make()'s. Threads that come at once
-  /// wait for one of them to make it; what make() throws passes through.
+  /// wait for one of them to make it; what make() throws passes through. It may make nullptr.
   SharedTree(const ContentHash& content, const Make& make);
   SharedTree(SharedTree&& other) noexcept;
   SharedTree& operator=(SharedTree&& other) noexcept;
@@ -28,7 +28,7 @@ class SharedTree {
   /// Whether somebody holds a tree for this content, or is making one.
   static bool isHeld(const ContentHash& content);
 
-  /// nullptr if nothing is held.
+  /// nullptr if nothing is held, or that was made.
   const Tree* get() const;
   explicit operator bool() const { return entry_ != nullptr; }
 

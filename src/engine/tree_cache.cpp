@@ -28,9 +28,9 @@ TreeCache::Use TreeCache::find(const TreeKey& key) {
 }
 
 TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
-  if (Use found = find(key)) return found;
+  if (Use found = find(key); found.isKnown()) return found;
   const std::lock_guard<std::mutex> lock(making_);
-  if (Use found = find(key)) return found;
+  if (Use found = find(key); found.isKnown()) return found;
   SharedTree tree = make(earlierState(key));
   made_.store(true, std::memory_order_relaxed);
   // A slot with an outdated state of the same vertices is taken first, then an empty slot.
@@ -50,7 +50,7 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
 SharedTree TreeCache::earlierState(const TreeKey& key) {
   for (Cell& cell : cells_) {
     SharedTree taken;
-    if (cell.tree && cell.key.triangles == key.triangles && cell.key.root_stamp != key.root_stamp &&
+    if (cell.tree.get() && cell.key.triangles == key.triangles && cell.key.root_stamp != key.root_stamp &&
         tryReplace(cell, TreeKey(), taken)) {
       return taken;
     }

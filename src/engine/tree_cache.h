@@ -42,6 +42,8 @@ class TreeCache {
     ~Use();
 
     explicit operator bool() const { return tree_ != nullptr; }
+    /// Also where it is known that no tree can be made.
+    bool isKnown() const { return cell_ != nullptr || own_; }
     const Tree& operator*() const { return *tree_; }
     const Tree* operator->() const { return tree_; }
 

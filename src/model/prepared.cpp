@@ -35,7 +35,7 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
   const engine::MeshView<S> mesh = viewOf(model);
   const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
                                mesh.num_triangles};
-  if (engine::TreeCache::Use found = trees->find(key)) return found;
+  if (engine::TreeCache::Use found = trees->find(key); found.isKnown()) return found;
   return trees->findOrMake(key, [&](engine::SharedTree old) {
     if (old && engine::refit(mesh, old.detach())) return old;
     return engine::SharedTree(engine::contentHash(mesh), [&] {

@@ -255,6 +255,37 @@ TEST_F(Stale, FreedWithTheLastCopy) {
   EXPECT_TRUE(owner.expired());  // and the trees, which it owns
 }
 
+// Where floats are too coarse for a mesh's place no tree is made, and that is known from then on.
+TEST(StaleFloat, MeshesFarFromTheirOrigin) {
+  const Mesh mesh = scenes::bumpyTorus(100);
+  const auto at = [&](float scale, float offset) {
+    std::vector<fcl::Vector3f> vertices;
+    for (const Vector3d& p : mesh.vertices) {
+      vertices.push_back(scale * p.cast<float>() + fcl::Vector3f(offset, 0, 0));
+    }
+    return vertices;
+  };
+  const auto far = makeModel<float>(at(0x1p38F, 0x1p61F), mesh.triangles);
+  const auto moved = makeModel<float>(at(1, 0), mesh.triangles);
+  moved->beginReplaceModel();
+  moved->replaceSubModel(at(0x1p38F, 0x1p61F));
+  moved->endReplaceModel();
+  for (const auto& model : {far, moved}) {
+    for (int turn = 0; turn < 2; ++turn) {
+      fcl::DistanceResultf result;
+      SearchCounts counts;
+      const float d = distanceMeshes(*model, fcl::Transform3f::Identity(), *far,
+                                     fcl::Transform3f(fcl::Translation3f(0, 0, 0x1p41F)),
+                                     fcl::DistanceRequestf(), result, &counts);
+      EXPECT_GT(d, 0x1p39F);
+      EXPECT_LT(d, 0x1p41F);
+      EXPECT_EQ(counts.tree_searches, 1);
+      EXPECT_EQ(preparedBytes(*model), 0U);
+    }
+    prepare(*model);
+  }
+}
+
 // The volumes of a model that was made relative to their parents are others; its mesh is not.
 TEST_F(Stale, MadeParentRelative) {
   const auto model = kiosModel(mesh_);

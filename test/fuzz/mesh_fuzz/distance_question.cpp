@@ -97,7 +97,8 @@ class DistanceQuestion {
     // Transposes of what is no rotation: |E| of the lengths that they take back.
     double reach = L + double{d};
     for (const auto* t :
-         {&truth_.trianglesInB()[ids.second], &reverse_.trianglesInB()[ids.first]}) {
+         {&truth_.trianglesInB()[ids.second], &reverse_.trianglesInB()[ids.first],
+          &truth_.trianglesInB()[ids_e.first], &reverse_.trianglesInB()[ids_e.second]}) {
       reach += (*t)[0].template cast<double>().norm();
     }
     reach += detail::boundsOf(truth_.X_AB).T_norm1;
