@@ -57,7 +57,6 @@ first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
 first contact, strips                            | strips collide fcl_obbrss
 nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_obbrss threshold=1.1
 closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
-distance of a mesh to a cone                     | shapes/cone distance fcl_obbrss
 all contacts of a mesh and a convex shape        | shapes/convex contacts fcl_obbrss
 moving tori, linear motion                       | continuous/linear continuous fcl_obbrss_sampling
 the same | continuous/linear continuous fcl_obbrss_advancement
