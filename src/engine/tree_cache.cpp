@@ -50,8 +50,8 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
 SharedTree TreeCache::earlierState(const TreeKey& key) {
   for (Cell& cell : cells_) {
     SharedTree taken;
-    if (cell.tree.get() && cell.key.triangles == key.triangles && cell.key.root_stamp != key.root_stamp &&
-        tryReplace(cell, TreeKey(), taken)) {
+    if (cell.tree.get() && cell.key.triangles == key.triangles &&
+        cell.key.root_stamp != key.root_stamp && tryReplace(cell, TreeKey(), taken)) {
       return taken;
     }
   }
