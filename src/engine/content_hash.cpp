@@ -3,6 +3,7 @@
 #include "engine/content_hash.h"
 
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <random>
 
