@@ -42,7 +42,8 @@ bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, Fr
   out.a_from_b = toFloat(R, t);
   out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, t));
   out.pad = roundUpFloat(pad);
-  out.box_pad = roundUpFloat(pad + 3 * error_bounds::laneError(scale));
+  out.box_pad =
+      roundUpFloat(pad + (error_bounds::boxError(scale) - error_bounds::laneError(scale)));
   out.scale = roundUpFloat(scale);
   return true;
 }

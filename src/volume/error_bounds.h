@@ -61,6 +61,10 @@ double stretchOf(double squared_errors) {
 /// 2^-24 at most (volume/separation.cpp and engine/frame_pair.h count them), and as much again.
 inline double laneError(double scale) { return 0x1p-19 * scale; }
 
+/// Of a bound of boxes in float lanes: at most 96 roundings of 2^-24, which engine/frame_pair.h
+/// counts (test/engine/box_bounds_test.cpp measures them), and a third more.
+inline double boxError(double scale) { return 4 * laneError(scale); }
+
 /// Of the distance of two triangles: the kernel promises 16 eps of their extent, the diagonal of
 /// their common box (triangle/distance.h).
 template <typename S>
