@@ -10,11 +10,24 @@
 #include "solid/growing_hull.h"
 #include "solid/hull.h"
 #include "solid/polygon.h"
+#include "triangle/expansion.h"
 
 namespace kios::shape {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The normal of a triangle with edges e, as the cross product of the two shorter ones: of a
+/// needle's long edges it would have no digits. `accurate` says that it has nearly all: the sine of
+/// the angle between the two, the triangle's largest, is 1/2 at least.
+Vec normalOf(const Vec (&e)[3], bool& accurate) {
+  const double sizes[3] = {e[0].squaredNorm(), e[1].squaredNorm(), e[2].squaredNorm()};
+  const auto longest = std::max_element(sizes, sizes + 3) - sizes;
+  const int i = (longest + 1) % 3, j = (longest + 2) % 3;
+  const Vec n = e[i].cross(e[j]);
+  accurate = 4 * n.squaredNorm() > sizes[i] * sizes[j];
+  return n;
+}
 
 /// Separating axes: three of the box, the triangle's normal, nine cross products of edges. The zero
 /// axes of degenerate triangles separate nothing, and the others suffice for those. An axis that
@@ -32,18 +45,14 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
     return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
   };
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
-  const Vec normal = edges[0].cross(edges[1]);
-  if (separates(normal)) return false;
+  bool accurate;
+  if (separates(normalOf(edges, accurate))) return false;
   for (const Vec& e : edges) {
     if (separates({0, -e.z(), e.y()}) || separates({e.z(), 0, -e.x()}) ||
         separates({-e.y(), e.x(), 0})) {
       return false;
     }
   }
-  const double sizes[3] = {edges[0].squaredNorm(), edges[1].squaredNorm(), edges[2].squaredNorm()};
-  // The sine of the largest angle, between the two shorter edges, is 1/2 at least.
-  const double longest = std::max({sizes[0], sizes[1], sizes[2]});
-  const bool accurate = 4 * normal.squaredNorm() * longest > sizes[0] * sizes[1] * sizes[2];
   if (accurate && !common) return true;
   Polygon polygon(t);
   for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, h[axis]);
@@ -56,12 +65,14 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
 }
 
 /// Returns true if the z axis pierces the polygon's inside, and sets `common` to that point. A
-/// polygon seen from its edge has no inside. The edges' directions come first: far from the axis
-/// products of coordinates lose digits.
+/// polygon seen from its edge has no inside. The areas keep their digits however thin the polygon
+/// is: they are the weights of its corners.
 bool aroundAxis(const Polygon& polygon, Vec* common) {
   bool left = true, right = true;
   const auto side = [](const Vec& a, const Vec& b) {
-    return a.x() * (b.y() - a.y()) - a.y() * (b.x() - a.x());
+    const Twofold area =
+        Twofold{a.x(), 0} * Twofold{b.y(), 0} - Twofold{a.y(), 0} * Twofold{b.x(), 0};
+    return area.high + area.low;
   };
   for (int i = 0; i < polygon.size; ++i) {
     const double at = side(polygon.corner[i], polygon.corner[(i + 1) % polygon.size]);

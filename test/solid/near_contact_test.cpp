@@ -59,7 +59,8 @@ TEST_P(NearContact, PromisesAreKept) {
   const Kind kind = GetParam();
   const Real promised = isRound(kind) ? 0x1p-43L : 0x1p-46L;
   const int count = isRound(kind) ? 150 : 1500;
-  SolidCases cases(31 + static_cast<int>(kind));
+  SolidCases cases((std::getenv("SEED") ? 1000 * atoi(std::getenv("SEED")) : 31) +
+                   static_cast<int>(kind));
   for (const Size size : kSizes) {
     int apart = 0, wrong_verdicts = 0, wrong_ends = 0;
     Real worst = 0, below = 0, above = 0, off = 0, split = 0, contact_off = 0;
@@ -68,8 +69,9 @@ TEST_P(NearContact, PromisesAreKept) {
       const Real L = pair.extent;
       // Ellipsoids are judged in units of their radii.
       Real band = 0x1p-46L * L;
-      if (kind == Kind::kEllipsoid) band *= pair.solid.half.maxCoeff();
-      if (kind == Kind::kEllipsoid) band /= std::max(1e-40, pair.solid.half.minCoeff());
+      if (kind == Kind::kEllipsoid && !pair.solid.half.isZero(0)) {
+        band *= pair.solid.half.maxCoeff() / std::max(1e-40, pair.solid.half.minCoeff());
+      }
       const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
       const bool meets = shape::intersects(pair.solid, pair.triangle);
       EXPECT_EQ(d.distance == 0, meets);
@@ -110,6 +112,31 @@ TEST_P(NearContact, PromisesAreKept) {
     EXPECT_LE(off, 0x1p-46L) << where() << ": witness points";
     EXPECT_LE(contact_off, 0x1p-46L) << where() << ": contact point";
   }
+}
+
+// The normal of a needle has digits only as the product of its short edges.
+TEST_P(NearContact, NeedlesAreJudgedAsWell) {
+  const Kind kind = GetParam();
+  const Real promised = isRound(kind) ? 0x1p-43L : 0x1p-46L;
+  SolidCases cases(51 + static_cast<int>(kind));
+  int apart = 0, wrong_verdicts = 0;
+  Real worst = 0;
+  for (int i = 0; i < (isRound(kind) ? 300 : 4000); ++i) {
+    const NearPair pair = nearNeedle(cases, kind);
+    if (!pair.judged) continue;
+    Real band = 0x1p-46L * pair.extent;
+    if (kind == Kind::kEllipsoid) band *= pair.solid.half.maxCoeff() / pair.solid.half.minCoeff();
+    const bool meets = shape::intersects(pair.solid, pair.triangle);
+    const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
+    EXPECT_EQ(d.distance == 0, meets);
+    wrong_verdicts += meets ? pair.distance > band : pair.depth > band;
+    if (meets || pair.depth > 0) continue;
+    ++apart;
+    worst = std::max(worst, std::abs(d.distance - pair.distance) / pair.extent);
+  }
+  EXPECT_GT(apart, isRound(kind) ? 100 : 1000) << nameOf(kind);
+  EXPECT_EQ(wrong_verdicts, 0) << nameOf(kind);
+  EXPECT_LE(worst, promised) << nameOf(kind);
 }
 
 // A triangle through a point of a shape without an inside, away from both their borders.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -73,6 +74,7 @@ class SolidCases {
       const int axis = pick(3);
       for (shape::Vec& p : t) p[axis] = t[0][axis];
     }
+    std::rotate(t.begin(), t.begin() + pick(3), t.end());  // no corner is special
     return t;
   }
 
@@ -225,6 +227,24 @@ inline NearPair nearPair(SolidCases& cases, shape::Kind kind, Size size) {
   const double margin = pair.solid.margin();
   if (margin > 0 && cases.pick(3) == 0) gap = -std::min(gap, margin) * cases.unit();
   setGap(gap, pair);
+  return pair;
+}
+
+/// A needle that passes the solid with its inside: up to 1e6 of that long, about as wide.
+inline NearPair nearNeedle(SolidCases& cases, shape::Kind kind) {
+  NearPair pair;
+  pair.solid = cases.solid(kind, Size::kPlain);
+  pair.faces = coreFaces(pair.solid);
+  const double reach = pair.solid.reach(), length = reach * cases.power(1, 6);
+  const shape::Vec along = length * cases.vector(),
+                   across = reach * cases.power(-1, 1) * cases.vector();
+  const double u = cases.unit(), v = (1 - u) * cases.unit();
+  const shape::Vec at = 2 * reach * cases.vector();
+  pair.triangle = {shape::Vec(at - u * along - v * across),
+                   shape::Vec(at + (1 - u) * along - v * across),
+                   shape::Vec(at - u * along + (1 - v) * across)};
+  std::rotate(pair.triangle.begin(), pair.triangle.begin() + cases.pick(3), pair.triangle.end());
+  setGap(length * cases.power(-14, -9), pair);
   return pair;
 }
 

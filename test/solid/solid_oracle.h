@@ -129,7 +129,7 @@ inline Real pointLevel(const shape::Solid& s, const ExactPoint& p, ExactPoint* n
     }
   }
   const Real slant = std::hypot(2 * h, r);
-  const Real side = !cone ? rho - r : slant > 0 ? (2 * h * (rho - r) + r * (z + h)) / slant : 1;
+  const Real side = !cone || h == 0 ? rho - r : (2 * h * (rho - r) + r * (z + h)) / slant;
   const Real inside = std::max({side, -h - z, z - h});
   if (inside <= 0) {
     if (nearest) *nearest = p;
@@ -250,6 +250,15 @@ inline ExactNearest roundDistance(const shape::Solid& s, const ExactTriangle& t)
 class FaceLevel {
  public:
   FaceLevel(const shape::Solid& s, const std::vector<ExactTriangle>& faces) {
+    if (s.kind == shape::Kind::kBox) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const ExactPoint n = ExactPoint::Unit(axis);
+        planes_.push_back({n, s.half[axis]});
+        planes_.push_back({-n, s.half[axis]});
+      }
+      thickness_ = s.half.minCoeff() / s.reach();
+      return;
+    }
     ExactPoint middle = ExactPoint::Zero();
     for (const shape::Vec& p : s.points) middle += p.cast<Real>() / Real(s.points.size());
     for (const ExactTriangle& face : faces) {
