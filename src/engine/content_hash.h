@@ -25,6 +25,12 @@ struct ContentHash {
 template <typename S>
 ContentHash contentHash(const MeshView<S>& mesh);
 
+/// Of the triangles' indices alone.
+template <typename S>
+ContentHash indexHash(const MeshView<S>& mesh) {
+  return contentHash(MeshView<S>{nullptr, 0, mesh.triangles, mesh.num_triangles});
+}
+
 /// For unordered containers.
 struct HashOfContent {
   std::size_t operator()(const ContentHash& hash) const {

@@ -26,14 +26,15 @@ class Preparation {
       : mesh_(mesh),
         volumes_(volumes),
         tree_(std::make_unique<Tree>()),
-        corners_(tree_->corners),
+        corners_(mesh.num_triangles),
         order_(mesh.num_triangles) {
     const std::vector<std::uint32_t> first = weld(mesh);
-    corners_.resize(mesh.num_triangles);
     fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
     for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
       for (int k = 0; k < 3; ++k) {
-        corners_[t][k] = first[mesh.index(t, k)];
+        const std::size_t v = mesh.index(t, k);
+        corners_[t][k] = first[v];
+        welds_ |= first[v] != v;
         low = low.cwiseMin(mesh.corner(t, k));
         high = high.cwiseMax(mesh.corner(t, k));
       }
@@ -54,6 +55,8 @@ class Preparation {
     fillLeaves();
     placeVolumes();
     tree_->cost = searchCost(*tree_);
+    tree_->indices = indexHash(mesh_);
+    if (welds_) tree_->corners = std::move(corners_);
     return std::move(tree_);
   }
 
@@ -276,7 +279,8 @@ class Preparation {
   const MeshView<S> mesh_;
   const VolumeNode<S>* const volumes_;
   std::unique_ptr<Tree> tree_;
-  std::vector<Corners3>& corners_;  ///< of the tree
+  std::vector<Corners3> corners_;  ///< by triangle, welded
+  bool welds_ = false;             ///< they aren't the mesh's own
   Eigen::Vector3d origin_;
   std::vector<std::uint32_t> order_;
   std::vector<Eigen::Vector3f> points_;  ///< relative to the origin, by welded vertex

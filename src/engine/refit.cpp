@@ -36,16 +36,13 @@ class Refit {
   }
 
  private:
-  /// True if the mesh has the corners that the tree was made of: the tree's topology is then the
-  /// mesh's.
+  /// True if the mesh has the triangles that the tree was made of, and what was one vertex still
+  /// is: the tree's topology is then the mesh's.
   bool sameTopology() const {
-    if (mesh_.num_triangles != tree_.corners.size()) return false;
-    for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
+    if (!(indexHash(mesh_) == tree_.indices)) return false;
+    for (std::size_t t = 0; t < tree_.corners.size(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        const std::size_t stored = mesh_.index(t, k), welded = tree_.corners[t][k];
-        if (stored == welded) continue;
-        if (welded >= mesh_.num_vertices) return false;
-        if (mesh_.vertices[stored] != mesh_.vertices[welded]) return false;
+        if (mesh_.corner(t, k) != mesh_.vertices[tree_.corners[t][k]]) return false;
       }
     }
     return true;
@@ -53,10 +50,10 @@ class Refit {
 
   void moveOrigin() {
     fcl::Vector3<S> low = mesh_.corner(0, 0), high = low;
-    for (const Corners3& corners : tree_.corners) {
-      for (const std::uint32_t v : corners) {
-        low = low.cwiseMin(mesh_.vertices[v]);
-        high = high.cwiseMax(mesh_.vertices[v]);
+    for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        low = low.cwiseMin(mesh_.corner(t, k));
+        high = high.cwiseMax(mesh_.corner(t, k));
       }
     }
     origin_ = 0.5 * (low.template cast<double>() + high.template cast<double>());
@@ -71,9 +68,9 @@ class Refit {
     for (std::size_t l = 0; l < tree_.leaves.size(); ++l) {
       Leaf& leaf = tree_.leaves[l];
       for (int i = 0; i < leaf.num_faces; ++i) {
-        const Corners3& corners = tree_.corners[tree_.features[leaf.feature_offset + i].triangle()];
+        const std::uint32_t t = tree_.features[leaf.feature_offset + i].triangle();
         for (int k = 0; k < 3; ++k) {
-          faces[i][k] = mesh_.vertices[corners[k]].template cast<double>() - origin_;
+          faces[i][k] = mesh_.corner(t, k).template cast<double>() - origin_;
           vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
         }
       }

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/content_hash.h"
+
 // The prepared tree: what the SIMD kernels stream. All floats are relative to the tree's origin, in
 // the model's units. It holds no coordinates for exact evaluation, only the ids of features.
 
@@ -118,8 +120,11 @@ struct Tree {
   std::vector<Leaf> leaves;
   std::vector<Lanes> lanes;
   std::vector<FeatureId> features;
-  std::vector<Corners3> corners;  ///< by triangle
-  double cost = 0;                ///< searchCost() as partitioned
+  /// The triangles as prepared, for refits. `corners`, by triangle, welded; none if no two vertices
+  /// in use were equal, and the mesh's indices are its topology.
+  std::vector<Corners3> corners;
+  ContentHash indices;  ///< of the triangles
+  double cost = 0;      ///< searchCost() as partitioned
 
   std::size_t bytes() const {
     return sizeof(*this) + nodes.capacity() * sizeof(Node) + boxes.capacity() * sizeof(Box) +
