@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "contest.h"
+#include "robot_classes.h"
 #include "scenario.h"
 #include "scenes/arms.h"
+#include "scenes/cad_parts.h"
+#include "scenes/mesh_folder.h"
 #include "scenes/ur5_data.h"
 
 namespace kios::bench {
@@ -38,10 +41,32 @@ std::vector<Question> questionsOf(const scenes::Arm& arm, const fcl::Transform3d
   return questions;
 }
 
+/// What rows there are beside those of whole frames: of frames before which the processor did
+/// something else, and of the pairs of each class, a pair a frame.
+void addDetails(const Task& whole, const std::vector<scenes::Mesh>& meshes, Contest& contest,
+                std::vector<Row>& rows) {
+  Task task = whole;
+  task.cold = true;
+  task.scenario = whole.scenario + "/cold";
+  for (const Query query : {Query::kDistance, Query::kCollide}) {
+    task.query = query;
+    append(contest.queryRows(task), rows);
+  }
+  task.cold = false;
+  const auto classes = byClass(meshes, whole.questions);
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    task.scenario = whole.scenario + "/" + name(static_cast<PairClass>(i));
+    task.questions = classes[i];
+    task.frames = classes[i].size();
+    task.query = Query::kCollide;
+    append(contest.queryRows(task), rows);
+  }
+}
+
 /// Reports distance, collide and build rows: times and tests are sums over the pairs of a frame,
 /// `total_pairs` counts the queries of all frames. `frames` if the options name none.
 void reportArms(const std::string& scenario, const scenes::Arm& arm, const fcl::Transform3d& X_W2,
-                int frames, const Options& options, Report& report) {
+                int frames, const Options& options, Report& report, bool details = false) {
   if (options.frames > 0) {
     frames = options.frames;
   } else if (options.quick) {
@@ -59,8 +84,17 @@ void reportArms(const std::string& scenario, const scenes::Arm& arm, const fcl::
     task.query = query;
     append(contest.queryRows(task), rows);
   }
+  if (details) addDetails(task, meshes, contest, rows);
   append(contest.buildRows(scenario), rows);
   report.add(rows);
+}
+
+/// The second of two robots of one kind that face each other.
+fcl::Transform3d facing(double distance) {
+  fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
+  X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();
+  X_W2.translation().x() = distance;
+  return X_W2;
 }
 
 }  // namespace
@@ -77,16 +111,21 @@ void runStrips(const Options& options, Report& report) {
 
 void runRobots(const Options& options, Report& report) {
   constexpr int kFrames = 100;  // FCL's OBBRSS takes 17 ms for one
-  fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
-  X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();  // they face each other
-  X_W2.translation().x() = 0.7;
-  reportArms("robots/generated", scenes::cadArm(), X_W2, kFrames, options, report);
+  if (options.robot) {
+    const scenes::Arm chain = scenes::chainOf(scenes::loadMeshes(*options.robot));
+    reportArms("robots/" + options.robot->lexically_normal().filename().string(), chain,
+               facing(0.45 * scenes::chainLength(chain)), kFrames, options, report, true);
+    return;
+  }
+  reportArms("robots/generated", scenes::cadArm(), facing(0.7), kFrames, options, report, true);
+  const scenes::Arm parts = scenes::chainOf(scenes::cadParts());
+  reportArms("robots/parts", parts, facing(0.45 * scenes::chainLength(parts)), kFrames, options,
+             report, true);
 
   const auto data = findData(options);
   if (data && scenes::holdsUr5(*data)) {
-    X_W2.setIdentity();
-    X_W2.translation().y() = 0.5;
-    reportArms("robots/ur5", scenes::loadUr5(*data), X_W2, kFrames, options, report);
+    const fcl::Transform3d X_W2(Eigen::Translation3d(0, 0.5, 0));
+    reportArms("robots/ur5", scenes::loadUr5(*data), X_W2, kFrames, options, report, true);
   } else {
     std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
   }

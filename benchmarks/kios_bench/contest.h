@@ -22,7 +22,8 @@ struct Task {
   Query query = Query::kDistance;
   std::vector<Question> questions;
   std::size_t frames = 0;
-  Maybe threshold;  // as the rows state it
+  Maybe threshold;    // as the rows state it
+  bool cold = false;  // before every frame the processor has done something else
 };
 
 /// The task of a scene with the meshes 0 and 1.
@@ -49,8 +50,8 @@ class Contest {
                              Refit how, const Question& question);
 
   /// Asks all questions, options.repeats times. In a repeat the volumes take turns at blocks of
-  /// questions, each block with another one first. All answers are then compared with the oracle,
-  /// and tests are counted in a pass that is not timed.
+  /// questions, each block with another one first; if task.cold, at frames. All answers are then
+  /// compared with the oracle, and tests are counted in a pass that is not timed.
   std::vector<Row> queryRows(const Task& task);
 
   /// The least time of each frame over options.repeats, by volume, in microseconds.

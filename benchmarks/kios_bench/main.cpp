@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,7 @@ int run(int argc, char** argv) {
   std::string data;
   std::string json;
   std::string markdown;
+  std::string robot;
   bool list = false;
   bool check_rows = false;
   app.add_option("scenario", options.scenario, "what to run")
@@ -87,6 +89,9 @@ int run(int argc, char** argv) {
                  "largest meshes of 'scaling', to 1000000")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--robot", robot,
+                 "folder of binary STL and OBJ files, by name the links of a robot for 'robots'")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
   app.add_option("--json", json, "file for one JSON object a row");
   app.add_option("--markdown", markdown, "file for the table of 'stability'");
@@ -103,6 +108,10 @@ int run(int argc, char** argv) {
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
   if (!markdown.empty()) options.markdown = markdown;
+  if (!robot.empty() && options.scenario != "robots") {
+    throw std::invalid_argument("--robot is an option of the scenario 'robots'");
+  }
+  if (!robot.empty()) options.robot = robot;
   const auto scenario = std::find_if(scenarios().begin(), scenarios().end(),
                                      [&](const auto& s) { return s.name == options.scenario; });
   Report report(json.empty() ? std::nullopt : std::optional<std::filesystem::path>(json));

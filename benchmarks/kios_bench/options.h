@@ -23,6 +23,7 @@ struct Options {
   int oracle_frames = 300;    // frames judged by the oracle, evenly chosen; 0 = all
   int max_triangles = 80000;  // of each mesh of 'scaling'
   std::uint64_t seed = 1;
+  std::optional<std::filesystem::path> robot;     // folder of meshes, for 'robots'
   std::optional<std::filesystem::path> markdown;  // file for the table of a scenario that has one
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
 };

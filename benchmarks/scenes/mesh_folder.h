@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "arms.h"
+
+// A robot of one's own, from the meshes of its links.
+
+namespace kios::scenes {
+
+/// The meshes of a folder's binary STL and OBJ files, by name, equal vertices welded. Polygons of
+/// OBJ become fans. Throws std::runtime_error that names the file and what is wrong with it, or the
+/// folder if it holds none.
+std::vector<Mesh> loadMeshes(const std::filesystem::path& folder);
+
+/// An OBJ file's vertices and faces; everything else in it is passed over. Throws likewise.
+Mesh loadObj(const std::filesystem::path& file);
+
+/// The meshes as links of an arm, in their order: each with the longest side of its box along the
+/// arm, from joint to joint, the joints twisting and bending in turn. All that is known of the
+/// robot are its sizes.
+Arm chainOf(const std::vector<Mesh>& meshes);
+
+/// Length of the chain when stretched.
+double chainLength(const Arm& chain);
+
+}  // namespace kios::scenes
