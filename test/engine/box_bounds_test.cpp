@@ -41,9 +41,8 @@ void bounds(const BoxBlock& block, const Box& box, const FloatPose& X, float pad
   Box moved;
   move(box, X, moved);
   for (size_t l = 0; l < kLanes; l += step()) {
-    hn::StoreU(
-        contact ? boxBounds<true>(block, l, moved, pad) : boxBounds<false>(block, l, moved, pad), d,
-        out + l);
+    const BoxLanes a(block, l), b(moved);
+    hn::StoreU(contact ? contactBounds(a, b, pad) : distanceBounds(a, b, pad), d, out + l);
   }
 }
 

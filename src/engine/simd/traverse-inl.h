@@ -174,13 +174,15 @@ class Expander {
   HWY_NOINLINE void testBoxes(Expansion& e) const {
     Box moved;
     move(trees_[1 - e.side]->boxes[e.side == 0 ? e.at.b : e.at.a], *to_[e.side], moved);
+    const BoxLanes other(moved);
     const BoxBlock& block = trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
     const bool contact = search_.evaluator.prune_at == 0;
     const V limit = hn::Set(d, search_.evaluator.prune_at);
     uint32_t near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
-      const V lower = contact ? boxBounds<true>(block, l, moved, search_.frames.box_pad)
-                              : boxBounds<false>(block, l, moved, search_.frames.box_pad);
+      const BoxLanes boxes(block, l);
+      const V lower = contact ? contactBounds(boxes, other, search_.frames.box_pad)
+                              : distanceBounds(boxes, other, search_.frames.box_pad);
       const V bounds = hn::Load(d, e.bounds + l);
       const V least = hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds);
       hn::Store(least, d, e.bounds + l);
