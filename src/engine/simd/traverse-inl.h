@@ -60,9 +60,19 @@ class Expander {
     search_.counts.volume_tests += childrenOf(e).count;
   }
 
-  /// The children that matter and that spheres bound badly.
+  /// The children that matter and that spheres bound badly: flat ones, and in contact those that
+  /// overlap by little.
   uint32_t flatOf(const Expansion& e) const {
-    return e.other->flat != 0 ? e.near : e.near & childrenOf(e).flat;
+    if (e.other->flat != 0) return e.near;
+    uint32_t flat = childrenOf(e).flat;
+    if (search_.evaluator.prune_at == 0) {
+      constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
+      const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
+      for (size_t l = 0; l < kLanes; l += step()) {
+        flat |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), least)) << l;
+      }
+    }
+    return e.near & flat;
   }
   /// Tests boxes too, once, if that helps any child.
   void tighten(Expansion& e) const {
