@@ -46,7 +46,20 @@ struct FloatPose {
 ///   4 u |t|; their sum, of 7 roundings: 12 u (r + r'); the difference and the quotient by |w|,
 ///   or the root of a sum of squares: 7 u S.
 /// These are 54 u of the reach that stands still, 90 u of that which moves, and 25 u |t|: below
-/// 96 u S. What vanishes below 2^-126 is far below 128 u S, as S >= 2^-35: see boxBounds().
+/// 96 u S. What vanishes below 2^-126 is far below 128 u S, as S >= 2^-35: see distanceBounds().
+///
+/// Products of axes (acrossEdges()) take w = C_1j e_2 - C_2j e_1, with C_ij = e_i . e'_j, C as
+/// computed, off by 3 u. It is e_0 x e'_j but for rounding, no longer than 1, and its dots with all
+/// axes are elements of C, which are used in their place. Vertices, axes and their moves cost what
+/// they do above: 18 u r, 51 u reach' + 14 u |t|. Then, with c' - c as computed,
+/// - w . (c' - c), from dots off by 4 u |c' - c| each: 8 u |c' - c| <= 14 u (reach + reach') +
+///   8 u |t|;
+/// - |w . e_i| h_i: axes at right angles but for 4 u, 12 u r; products and sums 4 u r;
+/// - |w . e'_j| h'_j, which is left out: 5 u h'_j; the other two are minors of C, which equal
+///   elements of C for rotations; e' are off by 8 u, e by u, so minors by 30 u, elements by 12 u:
+///   42 u (h'_1 + h'_2), in all 110 u r'; products and sums 4 u r'.
+/// These are 48 u of the reach that stands still, 180 u of that which moves, and 22 u |t|: below
+/// 192 u S, for which twice the pad is taken.
 struct FramePair {
   FloatPose a_from_b, b_from_a;
   float pad;

@@ -158,8 +158,9 @@ double reachOf(const Box& box) {
 
 struct Outcome {
   long bounded = 0, wrong = 0, without_pad = 0;
-  double shares = 0;    ///< sum of bound / distance
-  double pad_used = 0;  ///< the largest share of the pad that rounding takes
+  long parted = 0, missed = 0;  ///< boxes apart, and those that contact bounds don't tell so
+  double shares = 0;            ///< sum of bound / distance
+  double pad_used = 0;          ///< the largest share of the pad that rounding takes
 };
 
 /// Boxes of about `size`, their centres up to `offset` sizes from their origins, apart by `gap`
@@ -229,6 +230,10 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
         sum.pad_used = std::max(
             sum.pad_used, static_cast<double>((without_pad[lane] - distance) / frames.box_pad));
       }
+      if (contact && distance > 0.05L * static_cast<Real>(size) && offset <= 1) {
+        ++sum.parted;
+        sum.missed += !(found[lane] > 0);
+      }
       if (contact || !(distance > 0.01L * static_cast<Real>(size)) || offset > 1) continue;
       ++sum.bounded;
       sum.shares += static_cast<double>(std::max(0.0F, found[lane]) / distance);
@@ -256,6 +261,9 @@ TEST_P(BoxBounds, AreBelowTheDistance) {
   EXPECT_GT(sum.without_pad, 500);  // it is the pad that makes them right
   ASSERT_GT(sum.bounded, 500);
   EXPECT_GT(sum.shares / static_cast<double>(sum.bounded), 0.94);  // and they tell nearly all
+  // All axes together separate whatever is apart; nearest() may stop at points farther than that.
+  ASSERT_GT(sum.parted, 500);
+  EXPECT_LE(sum.missed, sum.parted / 1000);
   std::printf("rounding takes %.3f of the pad at most; bounds are %.3f of distances\n",
               sum.pad_used, sum.shares / static_cast<double>(sum.bounded));
 }
