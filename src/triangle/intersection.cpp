@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "triangle/common_point.h"
+#include "triangle/plain_intersection.h"
 #include "triangle/predicates.h"
 
 namespace kios {
@@ -348,6 +349,8 @@ bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
 template <typename S>
 bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   if (boxesApart(a, b)) return false;
+  const Plainly plain = plainlyMeet(a, b);
+  if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;
   return PairIntersection(coordinates(a, b)).test();
 }
 

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <utility>
+
+#include "fcl_kios/triangle/triangle.h"
+
+namespace kios {
+
+/// Signs of determinants by plain arithmetic: (p - origin) . (e x f).
+class PlainPlane {
+ public:
+  template <typename S>
+  PlainPlane(const Point<S>& origin, const Point<S>& to_e, const Point<S>& to_f)
+      : origin_(origin.template cast<double>()) {
+    const Point<double> e = to_e.template cast<double>() - origin_,
+                        f = to_f.template cast<double>() - origin_;
+    normal_ = e.cross(f);
+    size_ = e.lpNorm<1>() * f.lpNorm<1>();
+  }
+
+  /// -1 or 1, or 0 if rounding might have made the sign.
+  // Differences are off by u each, so components of the normal by 4 u times the sizes of their two
+  // products, and the sum of three products by 8 u |e|_1 |f|_1 |p - origin|_max, u = 2^-53. What
+  // underflows adds less than 2^-700 within these ranges.
+  template <typename S>
+  int side(const Point<S>& p) const {
+    const Point<double> d = p.template cast<double>() - origin_;
+    const double reach = d.lpNorm<Eigen::Infinity>(), height = normal_.dot(d);
+    const double error = 16 * 0x1p-53 * size_ * reach + 0x1p-700;
+    if (!(size_ <= 0x1p600 && reach <= 0x1p300)) return 0;
+    return (height > error) - (height < -error);
+  }
+
+ private:
+  Point<double> origin_, normal_;
+  double size_;
+};
+
+enum class Plainly { kApart, kMeet, kUnclear };
+
+/// Whether two triangles intersect, where every sign that decides is clear by plain arithmetic:
+/// nearly always. The steps are those of PairIntersection (Guigue and Devillers, 2003).
+template <typename S>
+Plainly plainlyMeet(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+  const PlainPlane plane_a(a[2], a[1], a[0]), plane_b(b[2], b[1], b[0]);
+  int side_a[3], side_b[3];
+  for (int i = 0; i < 3; ++i) side_b[i] = plane_a.side(b[i]);
+  if (std::abs(side_b[0] + side_b[1] + side_b[2]) == 3) return Plainly::kApart;
+  for (int i = 0; i < 3; ++i) side_a[i] = plane_b.side(a[i]);
+  if (std::abs(side_a[0] + side_a[1] + side_a[2]) == 3) return Plainly::kApart;
+  const auto unclear = [](const int(&side)[3]) { return side[0] * side[1] * side[2] == 0; };
+  if (unclear(side_a) || unclear(side_b)) return Plainly::kUnclear;
+  // Each meets the planes' common line between two edges, which start in the vertex that is alone
+  // on its side.
+  const auto alone = [](const int(&side)[3]) {
+    return side[1] == side[2] ? 0 : (side[0] == side[2] ? 1 : 2);
+  };
+  const int of_a = alone(side_a), of_b = alone(side_b);
+  int begin_a = (of_a + 1) % 3, end_a = (of_a + 2) % 3;
+  int begin_b = (of_b + 1) % 3, end_b = (of_b + 2) % 3;
+  if (side_a[of_a] > 0) std::swap(begin_b, end_b);
+  if (side_b[of_b] < 0) std::swap(begin_a, end_a);
+  const auto order = [&](int i, int j) {  // of these edges' crossings along the line
+    return PlainPlane(b[j], a[of_a], a[i]).side(b[of_b]);
+  };
+  const int first = order(begin_a, end_b), last = order(end_a, begin_b);
+  if (first > 0 || last < 0) return Plainly::kApart;
+  return first < 0 && last > 0 ? Plainly::kMeet : Plainly::kUnclear;
+}
+
+}  // namespace kios
