@@ -18,7 +18,7 @@ RUNS = {  # scenario: options
     "generated": f"--frames 300 --repeats 5 {PAIR}",
     "rootreject": f"--frames 2000 --repeats 5 {PAIR}",
     "strips": f"--frames 20 --repeats 5 {PAIR}",
-    "robots": f"--frames 60 --repeats 3 {PAIR}",
+    "robots": f"--frames 60 --repeats 3 --oracle 100 {PAIR}",
     "scaling": f"--frames 32 --repeats 5 {PAIR}",
     "build": "--repeats 5",
     "refit": f"--repeats 3 --max-triangles 5000 {PAIR}",

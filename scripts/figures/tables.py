@@ -5,6 +5,7 @@
 A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several words, such as
 `<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
 from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
+from figures.robots import arms, links  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
 
 
@@ -213,21 +214,6 @@ FCL's OBBRSS: how far? | distance fcl_obbrss rel_err=0 abs_err=0
             scenario = column[0].replace("generated", "generated/falling")
         return number(rows.us(scenario, *line, **settings))
     return grid("us", lines, columns, cell)
-
-
-def arms(rows):
-    lines = spec("""
-`SceneDistance`, closest pair | closest kios
-FCL's `DynamicAABBTreeCollisionManager`, OBBRSS, closest pair | closest fcl_manager
-`SceneDistance`, all within 0.1, with distances | within kios
-the same with `exact = false`: only which | verdicts kios
-FCL's manager, all within 0.1 | within fcl_manager
-`SceneDistance`, every clearance | clearances kios
-`fcl::distance` of each pair over k-IOS | clearances kios_pairs
-""")
-    return grid("us a frame", lines, spec("smooth motion | smooth\nrandom poses | random"),
-                lambda line, column, _: number(
-                    rows.us(f"robots/ur5/{column[0]}/{line[0]}", "scene", line[1])))
 
 
 def preparing(rows):
