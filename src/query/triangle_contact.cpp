@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "query/triangle_contact.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
-#include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 #include "fcl_kios/triangle/intersection.h"
 
 namespace kios {
@@ -19,34 +20,72 @@ Point<S> normalOf(const TriangleVertices<S>& t) {
   return n.squaredNorm() > 0 ? Point<S>(n.normalized()) : Point<S>(Point<S>::Zero());
 }
 
-/// True if FCL's routine finds the triangle's plane. It squares the area twice, and if that under-
-/// or overflows, it reads a normal that it never set.
+/// The plane of a triangle as FCL's buildTrianglePlane() computes it: n . x = offset. Nothing where
+/// the square of the area under- or overflows.
 template <typename S>
-bool hasPlaneForFCL(const TriangleVertices<S>& t) {
-  const S squared = (t[1] - t[0]).cross(t[2] - t[0]).squaredNorm();
-  return squared >= std::numeric_limits<S>::min() && squared <= std::numeric_limits<S>::max();
-}
+struct Plane {
+  explicit Plane(const TriangleVertices<S>& t) : normal((t[1] - t[0]).cross(t[2] - t[0])) {
+    const S squared = normal.squaredNorm();
+    found = squared >= std::numeric_limits<S>::min() && squared <= std::numeric_limits<S>::max();
+    if (!found) return;
+    normal /= std::sqrt(squared);
+    offset = normal.dot(t[0]);
+  }
+
+  Point<S> normal;
+  S offset = 0;
+  bool found;
+};
+
+/// The vertices that lie deepest below a plane, as FCL's computeDeepestPoints() finds them: with
+/// its tolerances, and its 1e-5 of any unit of length.
+template <typename S>
+struct Deepest {
+  Deepest(const TriangleVertices<S>& t, const Plane<S>& plane) {
+    constexpr S kEpsilon = S(1e-5);
+    constexpr double kEqual = 1e-6;
+    bool above = false, below = false, in_plane = false;
+    for (const Point<S>& p : t) {
+      const S below_by = -(plane.normal.dot(p) - plane.offset);
+      below |= below_by > kEpsilon;
+      above |= below_by < -kEpsilon;
+      in_plane |= !(below_by > kEpsilon) && !(below_by < -kEpsilon);
+      if (below_by > depth) {
+        depth = below_by;
+        points[0] = p;
+        count = 1;
+      } else if (below_by + kEqual >= depth) {
+        points[count++] = p;
+      }
+    }
+    if (depth < -kEpsilon || (!in_plane && !(above && below))) count = 0;
+  }
+
+  S depth = -std::numeric_limits<S>::max();
+  Point<S> points[3];
+  std::size_t count = 0;
+};
 
 }  // namespace
 
+// FCL tests 17 axes first; that the triangles intersect is known here.
 template <typename S>
 TriangleContact<S> triangleContact(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   TriangleContact<S> contact;
-  const Point<S> normal_a = normalOf(a), normal_b = normalOf(b);
-  if (!normal_a.isZero(0) && !normal_b.isZero(0) && hasPlaneForFCL(a) && hasPlaneForFCL(b)) {
-    Point<S> points[3];  // FCL's room for deepest vertices
-    unsigned int num_points = 0;
-    contact.depth = 0;
-    if (fcl::detail::Intersect<S>::intersect_Triangle(a[0], a[1], a[2], b[0], b[1], b[2], points,
-                                                      &num_points, &contact.depth,
-                                                      &contact.normal) &&
-        num_points > 0 && contact.normal.allFinite()) {
-      contact.num_points = std::min(num_points, 2U);
-      contact.depth = std::max(S(0), contact.depth);  // FCL's tolerance is 1e-5 of any unit
-      std::copy_n(points, contact.num_points, contact.points);
+  const Plane<S> plane_a(a), plane_b(b);
+  if (plane_a.found && plane_b.found) {
+    const Deepest<S> of_b(b, plane_a), of_a(a, plane_b);
+    const bool along_a = of_a.depth > of_b.depth;
+    const Deepest<S>& deepest = along_a ? of_b : of_a;
+    contact.normal = along_a ? plane_a.normal : Point<S>(-plane_b.normal);
+    if (deepest.count > 0 && contact.normal.allFinite()) {
+      contact.num_points = std::min<std::size_t>(deepest.count, 2);
+      contact.depth = std::max(S(0), deepest.depth);
+      std::copy_n(deepest.points, contact.num_points, contact.points);
       return contact;
     }
   }
+  const Point<S> normal_a = normalOf(a), normal_b = normalOf(b);
   contact.points[0] = intersectionPoint(a, b);
   contact.num_points = 1;
   contact.normal = !normal_a.isZero(0)
