@@ -6,6 +6,8 @@
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "fcl_kios/triangle/distance.h"
+#include "model/prepared.h"
+#include "query/bracket.h"
 #include "query/mesh_pair.h"
 #include "volume/balls.h"
 
@@ -30,6 +32,30 @@ bool MovingMeshes::touching(double t) {
   fcl::CollisionResultd result;
   return collideMeshes(a_, motion_.a().pose(t), b_, motion_.b().pose(t), fcl::CollisionRequestd(),
                        result) > 0;
+}
+
+// By the engine, as soon as it has paid to prepare both models.
+double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
+  const long long tests = counts_.volume_tests + 4 * counts_.leaf_tests;
+  const long long more = tests - std::exchange(spent_, tests);
+  bool paid = true;
+  for (const Modeld* model : {&a_, &b_}) {
+    engine::TreeCache* const trees = treesOf(*model);
+    if (!trees) return 0;
+    trees->spend(more);
+    paid &= trees->testsToSpare(static_cast<std::size_t>(model->num_tris)) == 0;
+  }
+  if (!paid) return 0;
+  const PairFrame<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));
+  engine::PairQuery query;
+  query.rel_err = 0.05;
+  query.start = nearest_;
+  const DistanceAnswer<double> answer = bracketDistance(frame, query);
+  nearest_ = {answer.triangle_a, answer.triangle_b};
+  const kIOSd &a = frame.rootA(), &b = frame.rootB();
+  return v.apartTime(v.ballOfA(a.center0, a.radius0),
+                     v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())),
+                     answer.lower_bound);
 }
 
 double MovingMeshes::centersGap(NodePair pair, const RelativeVelocities& v) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/pair_query.h"
 #include "motion/pair_search.h"
 
 namespace kios::continuous {
@@ -16,12 +17,15 @@ class MovingMeshes final : public PairSearch {
   bool touching(double t) override;
 
  private:
+  double wholeApart(double t, const RelativeVelocities& v) override;
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
   double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
   int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
   const Modeld &a_, &b_;
+  engine::TrianglePairIds nearest_;  ///< at the last step
+  long long spent_ = 0;              ///< tests that the models' trees know of
 };
 
 }  // namespace kios::continuous

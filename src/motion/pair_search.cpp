@@ -17,19 +17,25 @@ double reachOf(const Modeld& model) {
 // Long steps have many triangles in each other's reach, short ones advance little: a step is halved
 // whenever it has cost its budget of tests. What was pruned before stays apart. The budget doubles
 // with each halving, and for the next step: else pairs of which no step is cheap would get ever
-// shorter ones, never reach the end, and count as contact.
+// shorter ones, never reach the end, and count as contact. What the pair as a whole is proven apart
+// for tells how long a step should be looked for: more of it as long as that costs little.
 double PairSearch::apartFor(double t) {
   if (motion_.still()) return 1;
   const double left = 1 - t;
   const double window = motion_.steady() ? left : std::min(left, window_);
   const RelativeVelocities v = motion_.at(t, window);
 
+  const double whole = std::min(window, wholeApart(t, v));
+  if (whole >= left) return left;
+  const double most = whole > 0 ? std::max(slide_, reach_ * whole) : window;
+
   // The pair that ended the last step will probably end this one: it gives a first upper bound.
   NodePair parts[kMostParts];
   if (last_.a < 0) {
     for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];
   }
-  double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_});
+  double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_, most});
+  const long long before = counts_.volume_tests + 3 * counts_.leaf_tests;
   long long budget = budget_, budget_ends = counts_.volume_tests + budget;
   stack_.assign(1, {0, 0});
   while (!stack_.empty() && h > 0) {
@@ -54,6 +60,12 @@ double PairSearch::apartFor(double t) {
     }
   }
   budget_ = budget > budget_ ? budget : std::max(kLeastBudget, budget / 2);
+  constexpr long long kCheap = 300;
+  const long long cost = counts_.volume_tests + 3 * counts_.leaf_tests - before;
+  if (h >= 0.7 * most && (most == slide_ || cost < kCheap)) {
+    (most == slide_ ? slide_ : reach_) *= 2;
+  }
+  h = std::max(h, whole);
   window_ = std::min(1.0, 8 * h);
   last_step_ = h;
   return h;

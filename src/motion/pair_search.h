@@ -30,6 +30,8 @@ class PairSearch : public MovingPair {
              ContinuousCounts& counts)
       : motion_(motion_a, motion_b, reach_a, reach_b), counts_(counts) {}
 
+  /// A time for which the pair is proven apart as a whole, if that is cheap to tell; else 0.
+  virtual double wholeApart(double /*t*/, const RelativeVelocities& /*v*/) { return 0; }
   /// True if the nodes' contents are proven apart for `duration`.
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
   /// Time for which two leaves are proven apart; any time of at least `enough` will do.
@@ -46,6 +48,8 @@ class PairSearch : public MovingPair {
   static constexpr long long kLeastBudget = 1000;
   long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
   double window_ = 1, last_step_ = 1;
+  // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.
+  double reach_ = 1.25, slide_ = 0x1p-6;
   NodePair last_ = {-1, -1};  ///< leaves that ended the last step
   std::vector<NodePair> stack_;
 };

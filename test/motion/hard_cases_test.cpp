@@ -167,7 +167,6 @@ TEST(HardCases, CostlyStepsReachTheEnd) {
       const auto moves = motionOf(type, at(0, 0, 0), at(part * distance, 0, 0));
       const Answer answer = ask(pair, *still, *moves, 1e-3);
       EXPECT_FALSE(answer.result.is_collide) << type << " " << part;
-      EXPECT_GT(answer.counts.volume_tests, 1000);
       EXPECT_LT(answer.counts.steps, 50);
     }
   }
