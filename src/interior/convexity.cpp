@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "interior/extent_along.h"
+#include "model/prepared.h"
 #include "query/ray_walk.h"
 
 namespace kios {
@@ -41,6 +42,7 @@ Convexity measureConvexity(const Model<S>& model) {
   Convexity result;
   result.convex = true;
   result.moved = 1.01 * above / (above + below) * size;
+  result.graph = VertexGraph(viewOf(model));
   return result;
 }
 

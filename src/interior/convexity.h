@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fcl_kios/model/model.h"
+#include "interior/vertex_graph.h"
 
 namespace kios {
 
@@ -16,6 +17,7 @@ namespace kios {
 struct Convexity {
   bool convex = false;  ///< s is at most 2^-20
   double moved = 0;     ///< >= the way of any vertex of the hull to its place in the solid
+  VertexGraph graph;    ///< empty unless convex
 };
 
 /// The model must be a solid of one component.

@@ -29,6 +29,47 @@ double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double enough) {
   return bound;
 }
 
+/// The nearest point of a segment.
+fcl::Vector3d nearestOnSegment(const fcl::Vector3d& p, const fcl::Vector3d& a,
+                               const fcl::Vector3d& b) {
+  const fcl::Vector3d d = b - a;
+  const double square = d.squaredNorm();
+  if (!(square > 0)) return a;
+  return a + std::clamp(d.dot(p - a) / square, 0.0, 1.0) * d;
+}
+
+struct NearPoint {
+  double distance;
+  fcl::Vector3d at;
+};
+
+/// Over the face of an ordinary triangle the plane tells the distance, else the nearest edge. About
+/// its border a point counts as over the face, where the plane is nearer than the edge by rounding
+/// only. The plane's normal has 2^-50 / thin, thin at least 2^-5. All else goes to the robust
+/// kernel.
+NearPoint nearestOnTriangle(const fcl::Vector3d& p, const TriangleVertices<double>& t) {
+  const fcl::Vector3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0], n = u.cross(v);
+  const double square = n.squaredNorm();
+  const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (t[2] - t[1]).squaredNorm()});
+  if (!(square > 0x1p-10 * longest * longest && longest > 0x1p-400 && longest < 0x1p400)) {
+    const auto d = triangleDistance<double>({p, p, p}, t);
+    return {d.distance, d.point_b};
+  }
+  constexpr double kBorder = -1e-9;
+  const double at_v = n.dot(u.cross(w)) / square, at_u = n.dot(w.cross(v)) / square;
+  if (at_u >= kBorder && at_v >= kBorder && at_u + at_v <= 1 - kBorder) {
+    const double height = n.dot(w) / square;
+    return {std::abs(height) * std::sqrt(square), p - height * n};
+  }
+  NearPoint best = {std::numeric_limits<double>::infinity(), t[0]};
+  for (int k = 0; k < 3; ++k) {
+    const fcl::Vector3d q = nearestOnSegment(p, t[k], t[k == 2 ? 0 : k + 1]);
+    const double distance = (p - q).norm();
+    if (distance < best.distance) best = {distance, q};
+  }
+  return best;
+}
+
 }  // namespace
 
 // Distances from volumes take 8 roundings of |p| + |c| + reach at most; those from triangles are
@@ -76,10 +117,10 @@ NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, dou
     const fcl::Triangle& ids = model.tri_indices[node.primitiveId()];
     TriangleVertices<double> corners;
     for (int k = 0; k < 3; ++k) corners[k] = model.vertices[ids[k]].template cast<double>();
-    const auto d = triangleDistance<double>({p, p, p}, corners);
-    if (!(d.distance < best.upper)) continue;
-    best.upper = d.distance;
-    best.point = d.point_b;
+    const NearPoint near = nearestOnTriangle(p, corners);
+    if (!(near.distance < best.upper)) continue;
+    best.upper = near.distance;
+    best.point = near.at;
     prune_at = std::min(prune_at, best.upper * (1 - rel_err));
   }
   best.lower = std::max(0.0, std::min(left_out, best.upper) - surfaceError(model, p));

@@ -78,11 +78,13 @@ template <typename S>
 SolidMark<S>* findMark(const Model<S>& model);
 }  // namespace detail
 
+/// True if any model is marked.
+inline bool marksExist() { return detail::num_solid_marks.load(std::memory_order_relaxed) != 0; }
+
 /// The model's mark; nullptr if it has none.
 template <typename S>
 SolidMark<S>* markOf(const Model<S>& model) {
-  if (detail::num_solid_marks.load(std::memory_order_relaxed) == 0) return nullptr;
-  return detail::findMark(model);
+  return marksExist() ? detail::findMark(model) : nullptr;
 }
 
 /// True if both models are marked. Throws std::invalid_argument if one that is is no solid any
