@@ -99,9 +99,9 @@ class ExitSearch {
       test = pair_.test(at, best_.length);
     }
     accept(at, test);
-    constexpr double kEnough = 0.995;
+    constexpr double kEnough = 0.98;
     constexpr std::size_t kPlanes = 6;
-    for (int idle = 0; idle < 3 && !exhausted();) {
+    for (int idle = 0; idle < 2 && !exhausted();) {
       const double before = best_.length;
       if (test.nearest) {
         best_.on_a = test.on_a;
@@ -147,7 +147,8 @@ class ExitSearch {
 }  // namespace
 
 template <typename S>
-Exit leaveHull(SolidPair<S>& pair, const Differences<S>& differences, const Vec& direction) {
+Exit leaveHull(SolidPair<S>& pair, const Differences<S>& differences, const Vec& direction,
+               double reach) {
   const Vec n = (pair.R_WA().transpose() * direction).normalized();
   const double length = differences.height(n);
   double margin = 8 * pair.rounding();
@@ -156,7 +157,7 @@ Exit leaveHull(SolidPair<S>& pair, const Differences<S>& differences, const Vec&
     const Vec x = ((std::max(length, 0.0) + margin) * (pair.R_WA() * n))
                       .template cast<S>()
                       .template cast<double>();
-    const auto test = pair.test(x, pair.size());
+    const auto test = pair.test(x, reach);
     if (test.apart) return {x, x.norm(), test.on_a};
   }
   throw std::logic_error("fcl_kios: no translation parts the hulls of two solids.");
@@ -167,8 +168,8 @@ Exit shorten(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>& direc
   return ExitSearch<S>(pair, exit, tests).run(directions);
 }
 
-#define KIOS_INSTANTIATE(S)                                                  \
-  template Exit leaveHull(SolidPair<S>&, const Differences<S>&, const Vec&); \
+#define KIOS_INSTANTIATE(S)                                                          \
+  template Exit leaveHull(SolidPair<S>&, const Differences<S>&, const Vec&, double); \
   template Exit shorten(SolidPair<S>&, const Exit&, const std::vector<Vec>&, int);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

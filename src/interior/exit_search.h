@@ -17,10 +17,11 @@ struct Exit {
 };
 
 /// b leaves a's hull along `direction` (in the world, unit): the length that suffices, and a little
-/// more for rounding. Throws std::logic_error if that isn't proven, which can't be.
+/// more for rounding. Nearest points are looked for up to `reach`. Throws std::logic_error if that
+/// isn't proven, which can't be.
 template <typename S>
 Exit leaveHull(SolidPair<S>& pair, const Differences<S>& differences,
-               const fcl::Vector3d& direction);
+               const fcl::Vector3d& direction, double reach);
 
 /// Shortens an exit: along `directions` (in the world, unit), and then by steps into the gap that
 /// is left, towards the origin as far as the planes between nearest points allow that were met on

@@ -59,7 +59,7 @@ class PenetrationQuery {
       directions = pair_.exitDirections();
       direction = shortest(differences, directions);
     }
-    exit_ = leaveHull(pair_, differences, direction.normalized());
+    exit_ = leaveHull(pair_, differences, direction.normalized(), convex ? pair_.size() : 0);
     if (convex) lower_ = lowerOfHulls(lower);
     if (!closed()) {
       if (!convex) exit_ = shorten(pair_, exit_, directions, options_.max_tests);
@@ -78,7 +78,7 @@ class PenetrationQuery {
  private:
   /// Of the first few directions, that along which b leaves a's hull soonest.
   Vec shortest(const Differences<S>& differences, const std::vector<Vec>& directions) const {
-    constexpr std::size_t kFew = 4;
+    constexpr std::size_t kFew = 2;
     Vec best = Vec::UnitX();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {

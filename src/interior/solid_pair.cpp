@@ -65,7 +65,6 @@ typename SolidPair<S>::Test SolidPair<S>::test(const Vec& translation, double re
   ++tests_;
   const PairFrame<S> moved = this->moved(translation);
   Test result;
-  if (surfacesMeet(moved, counts_)) return result;
   engine::PairQuery query;
   query.rel_err = 0.02;
   query.far_enough = std::max(reach, 8 * rounding_);
@@ -133,7 +132,7 @@ std::vector<Vec> SolidPair<S>::exitDirections() {
     add(nearestSurface(a_, b_in_a, 0.05).point - b_in_a);
     add(R_AB_ * (a_in_b - nearestSurface(b_, a_in_b, 0.05).point));
   }
-  constexpr std::size_t kMost = 8;
+  constexpr std::size_t kMost = 6;
   for (const Vec& n : normals) {
     if (directions.size() < kMost) add(n);
   }

@@ -276,10 +276,11 @@ TEST(SolidQueries, SignedDistancesGiveOptimisersAGradient) {
     fcl::Transform3d moved = X;
     moved.translation() += -d * normal;
     EXPECT_GE(distance(a, kHere, b, moved, true), -1e-9);
-    // After half of it the other half is a way out; a search from there finds one about as short.
+    // After half of it the other half is a way out, than which no bound may be longer.
     moved = X;
     moved.translation() += -0.5 * d * normal;
-    EXPECT_GE(distance(a, kHere, b, moved, true), 0.6 * d);
+    EXPECT_LE(penetration<double>(*a, kHere, *b, moved).lower, -0.5 * d + 1e-9);
+    EXPECT_GT(distance(a, kHere, b, moved, true), d);
   }
   EXPECT_GT(overlapping, 40);
 }
