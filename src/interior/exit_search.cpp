@@ -85,7 +85,23 @@ class ExitSearch {
         best = x;
       }
     }
-    return best;
+    return relax(best);
+  }
+
+  /// If b's way out is long for the bodies, there may be room among a's parts: b is pushed out of
+  /// what it meets, step by step.
+  Vec relax(const Vec& best) {
+    constexpr double kLong = 0.1;
+    if (!(best.norm() > kLong * pair_.size())) return best;
+    constexpr int kSteps = 6;
+    const double step = 0.6 / kSteps * best.norm();
+    Vec x = Vec::Zero();
+    for (int i = 0; i < kSteps && !exhausted(); ++i) {
+      const Vec n = pair_.pushOut(x);
+      if (n.isZero(0)) break;
+      x = rounded(x + step * n);
+    }
+    return x.norm() > 0 && x.norm() < best.norm() && pair_.seemsApart(x) ? x : best;
   }
 
   // The planes between nearest points bound where b may go without passing a there, as long as it

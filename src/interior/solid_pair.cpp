@@ -61,6 +61,20 @@ bool SolidPair<S>::seemsApart(const Vec& translation) {
 }
 
 template <typename S>
+Vec SolidPair<S>::pushOut(const Vec& translation) {
+  ++tests_;
+  const PairFrame<S> frame = moved(translation);
+  std::vector<engine::TrianglePairIds> ids;
+  constexpr std::size_t kContacts = 12;
+  if (!searchContacts(frame, kContacts, ids, counts_)) return Vec::Zero();
+  Vec out = Vec::Zero();
+  for (const auto& pair : ids) {
+    out += normalOf(frame.triangleA(pair.a)) - normalOf(frame.triangleB(pair.b));
+  }
+  return out.norm() > 1e-3 ? Vec((R_WA_ * out).normalized()) : Vec(Vec::Zero());
+}
+
+template <typename S>
 typename SolidPair<S>::Test SolidPair<S>::test(const Vec& translation, double reach) {
   ++tests_;
   const PairFrame<S> moved = this->moved(translation);

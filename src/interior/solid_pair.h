@@ -32,6 +32,9 @@ class SolidPair {
   Test test(const fcl::Vector3d& translation, double reach);
   /// True if test() would find no contact, but for distances of rounding; in less time.
   bool seemsApart(const fcl::Vector3d& translation);
+  /// The mean direction, unit and in the world, in which b's triangles would leave those of a that
+  /// they meet after a translation; zero if seemsApart(), or if they tell nothing.
+  fcl::Vector3d pushOut(const fcl::Vector3d& translation);
   int tests() const { return tests_; }
 
   /// A direction in the world, unit, along which b's triangles may leave a's, by those that meet:
