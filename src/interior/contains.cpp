@@ -13,7 +13,8 @@
 namespace kios {
 
 template <typename S>
-bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM, const fcl::Vector3<S>& point) {
+bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
+              const fcl::Vector3<std::common_type_t<S>>& point) {
   checkSolid(solid);
   if (!(point.allFinite() && double{point.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>)) {
     std::ostringstream message;

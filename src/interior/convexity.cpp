@@ -24,7 +24,7 @@ Convexity measureConvexity(const Model<S>& model) {
     const fcl::Triangle& ids = model.tri_indices[t];
     if (ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0]) continue;
     fcl::Vector3d p[3];
-    for (int k = 0; k < 3; ++k) p[k] = model.vertices[ids[k]].template cast<double>() - center;
+    for (int k = 0; k < 3; ++k) p[k] = model.vertices[ids[k]].template cast<double>();
     if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // passed once each way
     const fcl::Vector3d u = p[1] - p[0], v = p[2] - p[0], w = p[2] - p[1];
     const double longest = std::max({u.norm(), v.norm(), w.norm()});
@@ -32,9 +32,10 @@ Convexity measureConvexity(const Model<S>& model) {
     const double thin = cross.norm();  // the height over the longest edge, relative to it
     if (!(thin > 0)) return {};
     const fcl::Vector3d n = cross / thin;
-    // The computed normal is off by 2^-48 / thin; positions by the rounding of differences.
+    // Edges are right to a rounding, so that the normal is off by less than 2^-48 / thin, and
+    // heights over the centre by that of the size, and by the rounding of coordinates.
     const double error = 0x1p-48 / thin * size + 0x1p-46 * largest;
-    const double at = n.dot(p[0]);
+    const double at = n.dot(p[0] - center);
     above = std::max(above, farthestAlong(model, n).height - n.dot(center) - at + error);
     below = std::min(below, at - error);  // the root's centre is at height 0
     if (!(below > 0) || !(above <= kMost * below)) return {};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <type_traits>
+
 #include "fcl_kios/model/model.h"
 
 // Meshes that have an inside. A mesh is a soup of triangles until it is marked: then a body within
@@ -40,6 +42,7 @@ bool isSolid(const Model<S>& model);
 /// model is not marked, has been opened or is unfinished, the pose is not rigid, or the point is
 /// not finite.
 template <typename S>
-bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM, const fcl::Vector3<S>& point);
+bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
+              const fcl::Vector3<std::common_type_t<S>>& point);
 
 }  // namespace kios
