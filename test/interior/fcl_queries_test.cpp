@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "fcl/managers.h"
 #include "interior/solid_meshes.h"
+#include "together.h"
 
 // fcl::collide, fcl::distance, FCL's managers and scenes with marked models.
 
@@ -200,6 +203,25 @@ TEST(SolidQueries, AReplaceThatOpensTheMeshIsAnErrorAtTheQuery) {
   replace();
   unmarkSolid(*big);
   EXPECT_EQ(collide(big, kHere, small, kHere), 0u);
+}
+
+// The first queries of a state examine it, and the first penetration measures its convexity.
+TEST(SolidQueries, ManyThreadsMayAskFirst) {
+  for (int round = 0; round < 5; ++round) {
+    const auto big = solidOf(scenes::icosphere(2, 3)), small = solidOf(scenes::icosphere(0.5, 2));
+    big->beginReplaceModel();
+    big->replaceSubModel(scenes::icosphere(2, 3).vertices);
+    big->endReplaceModel(true, true);
+    std::atomic<int> wrong{0};
+    testing::together(4, [&](int thread) {
+      const fcl::Transform3d X = at(0.1 * thread, 0, 0);
+      if (collide(big, kHere, small, X) != 1) ++wrong;
+      if (!contains(*big, kHere, X.translation())) ++wrong;
+      const Penetration p = penetration(*big, kHere, *small, X);
+      if (!(p.lower > 1 && p.upper <= 1.05 * p.lower)) ++wrong;
+    });
+    EXPECT_EQ(wrong, 0);
+  }
 }
 
 /// A ball in a shell's wall and one outside, through each manager, and free when unmarked.
