@@ -101,6 +101,8 @@ std::string toJson(const Row& row) {
       {"mean_abs_error", orNull(row.errors.mean_abs)},
       {"mean_rel_error", orNull(row.errors.mean_rel)},
       {"bracket_width", orNull(row.errors.bracket_width)},
+      {"bracket_ratio", orNull(row.errors.bracket_ratio)},
+      {"max_bracket_ratio", orNull(row.errors.max_bracket_ratio)},
       {"budget", orNull(row.asked.budget)},
       {"wrong_verdicts", orNull(row.errors.wrong)},
       {"bv_tests", orNull(row.tests.bvs)},

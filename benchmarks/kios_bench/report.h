@@ -27,9 +27,10 @@ struct Asked {
 /// Answers against the oracle's.
 struct Errors {
   Maybe max_abs, max_rel, mean_abs;
-  Maybe mean_rel;       ///< over frames without contact
-  Maybe bracket_width;  ///< mean of distance - proven lower bound
-  MaybeCount wrong;     ///< verdicts
+  Maybe mean_rel;                          ///< over frames without contact
+  Maybe bracket_width;                     ///< mean of distance - proven lower bound
+  Maybe bracket_ratio, max_bracket_ratio;  ///< of upper / lower bound: median, largest
+  MaybeCount wrong;                        ///< verdicts
 };
 
 /// Tests of bounding volumes and of triangle pairs, of a frame.

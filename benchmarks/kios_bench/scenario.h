@@ -52,6 +52,7 @@ void runContinuous(const Options& options, Report& report);
 void runBuild(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);
+void runSolids(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
 void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);

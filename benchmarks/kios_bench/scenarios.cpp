@@ -54,6 +54,9 @@ const std::vector<Scenario>& scenarios() {
        "endModel, preparation, first query, the same mesh again, memory, for every volume of FCL: "
        "tori of 1k to 80k triangles (1M by --max-triangles), welded and not, and the UR5 (data)",
        runBuild},
+      {"solids",
+       "points in solids; penetration of boxes, balls, tori, a bunny in a torus, links in a table",
+       runSolids},
       {"refit", "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
        runRefit},
       {"rays",

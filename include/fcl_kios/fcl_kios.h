@@ -9,6 +9,9 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/distance.h>
+#include "fcl_kios/interior/closedness.h"
+#include "fcl_kios/interior/penetration.h"
+#include "fcl_kios/interior/solids.h"
 #include "fcl_kios/model/bounds.h"
 #include "fcl_kios/model/bv_traits.h"
 #include "fcl_kios/model/bvh_build.h"

@@ -47,7 +47,8 @@ std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>&
                     const CollisionRequest<float>& request, CollisionResult<float>& result);
 
 /// Returns result.min_distance: 0 for meshes that intersect (polygon soups have no inside, so
-/// enable_signed_distance adds nothing), unchanged if the pair is not nearer than it was on entry.
+/// enable_signed_distance adds nothing, but for marked solids: interior/solids.h), unchanged if the
+/// pair is not nearer than it was on entry.
 double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                 const DistanceRequest<double>& request, DistanceResult<double>& result);
 double distance(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,

@@ -361,6 +361,34 @@ Embree differs | wrong embree
     return grid("us: first / any / all hits", lines, columns, cell)
 
 
+# docs/solids.md
+
+def containment(rows):
+    """Time of a point, and the points that were judged wrongly."""
+    lines = []
+    for scenario in rows.scenarios("solids/contains/*"):
+        row = rows.find(scenario, "contains")
+        lines.append([scenario.split("/")[2], f"{row['triangles']:,}", number(row["median_us"]),
+                      row["wrong_verdicts"]])
+    return table(["solid", "triangles", "us a point", "wrong"], lines)
+
+
+def solids(rows):
+    lines = []
+    for scenario in rows.scenarios("solids/*"):
+        if scenario.startswith("solids/contains/"):
+            continue
+        row = rows.find(scenario, "penetration")
+        us, collide = row["median_us"], rows.us(scenario, "collide")
+        off = rows.find(scenario, "contacts", OBBRSS)["mean_rel_error"]
+        lines.append([scenario[7:].replace("_", " ").replace("/", ", link "), row["frames"],
+                      number(us), f"{us / collide:.0f}", f"{row['bracket_ratio']:.3f}",
+                      number(row.get("max_bracket_ratio")), row["wrong_verdicts"],
+                      f"{100 * off:.0f} %"])
+    return table(["scene", "frames", "us", "in collide queries", "upper / lower, median",
+                  "largest", "wrong", "FCL's deepest contact off by"], lines)
+
+
 # docs/stability.md
 
 def stability(rows):

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 
 #include "engine/shared_tree.h"
@@ -33,6 +34,14 @@ class TreeCache {
   struct Cell;
 
  public:
+  /// Something that the layers above keep with a model and its copies; see interior/solid_mark.h.
+  class Attachment {
+   public:
+    virtual ~Attachment() = default;
+  };
+  /// Written only while nobody uses a model that shares this cache.
+  std::unique_ptr<Attachment> attachment;
+
   /// A tree in use. Empty if there is none.
   class Use {
    public:

@@ -10,6 +10,8 @@
 #include "fcl_kios/fcl_own.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/mesh_queries.h"
+#include "interior/solid_mark.h"
+#include "interior/solid_queries.h"
 #include "model/kios_model.h"
 #include "query/mesh_and_other.h"
 
@@ -29,11 +31,35 @@ void requireRelativeError(const fcl::DistanceRequest<S>& request) {
   throw std::invalid_argument(message.str());
 }
 
+/// True if both are marked meshes, or one is and the other a shape: the two meshes, or null where
+/// there is none, each with its partner. Throws std::invalid_argument if a marked one is no solid
+/// any more.
+template <typename S>
+bool solidPair(const Model<S>* mesh_a, const fcl::CollisionGeometry<S>* b, const Model<S>* mesh_b,
+               const fcl::CollisionGeometry<S>* a) {
+  if (mesh_a && mesh_b) {
+    requireFinished(*mesh_a);
+    requireFinished(*mesh_b);
+    return areSolids(*mesh_a, *mesh_b);
+  }
+  const Model<S>* const mesh = mesh_a ? mesh_a : mesh_b;
+  if (!mesh || !isShape(mesh_a ? *b : *a)) return false;
+  requireFinished(*mesh);
+  SolidMark<S>* const mark = markOf(*mesh);
+  if (mark) mark->check(*mesh);
+  return mark != nullptr;
+}
+
 template <typename S>
 std::size_t collide(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
                     const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
+  if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
+    if (!mesh_b) return collideSolidShape(*mesh_a, X_WA, *b, X_WB, request, result);
+    if (!mesh_a) return collideSolidShape(*mesh_b, X_WB, *a, X_WA, request, result);
+    return collideSolids(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
+  }
   if (mesh_a && mesh_b) return collideMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
   if (mesh_a) return collideOther(*mesh_a, X_WA, *b, X_WB, request, result);
   if (mesh_b) return collideOther(*mesh_b, X_WB, *a, X_WA, request, result);
@@ -46,6 +72,11 @@ S distance(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
            const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
   if (mesh_a || mesh_b) requireRelativeError(request);
+  if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
+    if (!mesh_b) return distanceSolidShape(*mesh_a, X_WA, *b, X_WB, request, result);
+    if (!mesh_a) return distanceSolidShape(*mesh_b, X_WB, *a, X_WA, request, result);
+    return distanceSolids(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
+  }
   if (mesh_a && mesh_b) return distanceMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
   if (mesh_a) return distanceOther(*mesh_a, X_WA, *b, X_WB, request, result);
   if (mesh_b) return distanceOther(*mesh_b, X_WB, *a, X_WA, request, result);

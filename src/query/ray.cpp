@@ -8,20 +8,14 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "engine/ray_search.h"
-#include "engine/search.h"
 #include "fcl_kios/volume/separation.h"
 #include "model/kios_model.h"
-#include "model/prepared.h"
+#include "query/ray_walk.h"
 #include "triangle/ray_triangle.h"
-#include "volume/balls.h"
-#include "volume/ray_interval.h"
 #include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename T>
 [[noreturn]] void refuse(const char* what, const T& value, const char* must) {
@@ -68,7 +62,7 @@ GivenRay mapped(const Ray<S>& ray, const fcl::Transform3<S>& X) {
 
 /// The search for the first hits of one ray, by t and then by triangle.
 template <typename S>
-class RayCast final : public engine::RayEvaluator {
+class RayCast final : public RayWalk<S> {
  public:
   struct Found {
     TriangleHit hit;
@@ -80,27 +74,18 @@ class RayCast final : public engine::RayEvaluator {
 
   RayCast(const Model<S>& model, const GivenRay& ray, std::size_t limit, bool any,
           SearchCounts& counts)
-      : model_(model),
-        ray_(ray, largestOf(model)),
-        line_(ray.origin, ray.direction, ray.exponent),
-        limit_(limit),
-        any_(any),
-        counts_(counts),
-        last_(ray.t_max) {}
+      : RayWalk<S>(model, ray, counts), ray_(ray, largestOf(model)), limit_(limit), any_(any) {}
 
   std::vector<Found> run() {
-    if (limit_ > 0) search();
+    if (limit_ > 0) this->walk();
     std::sort(found_.begin(), found_.end());
     return std::move(found_);
   }
 
   bool evaluate(std::uint32_t triangle) override {
-    ++counts_.exact;
-    const fcl::Triangle& ids = model_.tri_indices[triangle];
-    TriangleVertices<double> corners;
-    for (int i = 0; i < 3; ++i) corners[i] = model_.vertices[ids[i]].template cast<double>();
+    ++this->counts().exact;
     Found found = {{}, static_cast<int>(triangle)};
-    if (!ray_.hits(corners, found.hit)) return false;
+    if (!ray_.hits(this->cornersOf(triangle), found.hit)) return false;
     if (found_.size() == limit_) {  // a heap, the last hit on top
       if (!(found < found_.front())) return false;
       std::pop_heap(found_.begin(), found_.end());
@@ -108,82 +93,15 @@ class RayCast final : public engine::RayEvaluator {
     }
     found_.push_back(found);
     std::push_heap(found_.begin(), found_.end());
-    if (found_.size() == limit_) {
-      last_ = found_.front().hit.t;
-      if (tree_) end = engine::toLength(*tree_, line_.lengthOf(last_, near_.t, 0));
-    }
+    if (found_.size() == limit_) this->endAt(found_.front().hit.t);
     return any_;
   }
 
  private:
-  static double largestOf(const Model<S>& model) {
-    const kIOS<S>& root = model.getBV(0).bv;
-    return double{root.center0.cwiseAbs().maxCoeff()} + double{root.radius0};
-  }
-
-  void search() {
-    double enter, exit;
-    if (!reaches(0, enter, exit)) return;
-    const engine::TreeCache::Use tree = preparedTree(model_);
-    engine::FloatRay ray;
-    const GivenRay& given = ray_.given();
-    const engine::RayFit fit =
-        tree ? engine::makeFloatRay(*tree, line_, given.t_min, given.t_max, near_, ray)
-             : engine::RayFit::kRefused;
-    if (fit == engine::RayFit::kMiss) return;
-    if (fit == engine::RayFit::kRefused) return searchFCLTree(enter);
-    tree_ = &*tree;
-    end = ray.end;
-    engine::kernels().ray({*tree, ray, *this, counts_});
-  }
-
-  /// Front to back, in double.
-  void searchFCLTree(double enter) {
-    ++counts_.tree_searches;
-    struct Waiting {
-      double enter;
-      int node;
-    };
-    std::vector<Waiting> waiting = {{enter, 0}};
-    while (!waiting.empty()) {
-      const Waiting at = waiting.back();
-      waiting.pop_back();
-      if (at.enter > last_) continue;
-      const auto& node = model_.getBV(at.node);
-      if (node.isLeaf()) {
-        ++counts_.leaf_pairs;
-        if (evaluate(static_cast<std::uint32_t>(node.primitiveId()))) return;
-        continue;
-      }
-      ++counts_.expansions;
-      counts_.volume_tests += 2;
-      Waiting children[2] = {{0, node.leftChild()}, {0, node.rightChild()}};
-      double exit;
-      const bool left = reaches(children[0].node, children[0].enter, exit);
-      const bool right = reaches(children[1].node, children[1].enter, exit);
-      const bool left_first = !right || (left && children[0].enter <= children[1].enter);
-      if (left_first) std::swap(children[0], children[1]);  // the nearest last
-      if (left_first ? right : left) waiting.push_back(children[0]);
-      if (left_first ? left : right) waiting.push_back(children[1]);
-    }
-  }
-
-  /// A hit's t is rounded, so that it may lie beyond the exact one by half an ulp.
-  bool reaches(int node, double& enter, double& exit) const {
-    return rayInterval(model_.getBV(node).bv, line_, enter, exit) && exit >= ray_.given().t_min &&
-           enter <= std::nextafter(last_, kInfinity);
-  }
-
-  const Model<S>& model_;
   const ExactRay ray_;
-  const RayLine line_;
   const std::size_t limit_;
   const bool any_;
-  SearchCounts& counts_;
-  double last_;  ///< hits at a larger t don't matter
   std::vector<Found> found_;
-  const engine::Tree* tree_ = nullptr;
-  RayLine::Near near_ = {};
 };
 
 template <typename S>

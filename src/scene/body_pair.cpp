@@ -9,6 +9,8 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
+#include "interior/containment.h"
+#include "interior/solid_mark.h"
 #include "query/bracket.h"
 #include "query/pair_search.h"
 #include "volume/error_bounds.h"
@@ -168,7 +170,8 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   proof->apart = apart;
   proof->exact = exact;
   proof->distance = answer.distance;
-  if (answer.triangle_a >= 0 || !same) {  // else the old triangles may still be the nearest
+  // Of a bound alone, the old triangles may still be the nearest.
+  if (answer.triangle_a >= 0 || exact || !same) {
     proof->triangle_a = answer.triangle_a;
     proof->triangle_b = answer.triangle_b;
   }
@@ -239,8 +242,22 @@ typename BodyPair<S>::Answer BodyPair<S>::decideMeshes(double limit, SearchCount
 }
 
 template <typename S>
+bool BodyPair<S>::contained(SearchCounts& counts) const {
+  if (!areSolids(*a_.model, *b_.model) || frame().rootBound(0) > 0) return false;
+  return containedPoint(frame(), counts).has_value();
+}
+
+template <typename S>
 typename BodyPair<S>::Answer BodyPair<S>::search(double limit, bool exact, SearchCounts& counts) {
-  if (meshes()) return exact ? searchMeshes(limit, counts) : decideMeshes(limit, counts);
+  if (meshes()) {
+    const Answer answer = exact ? searchMeshes(limit, counts) : decideMeshes(limit, counts);
+    if (marksExist() && !(answer.within && answer.distance == 0) && contained(counts)) {
+      const Answer contact = {limit >= 0, S(0), -1, -1};
+      remember(0, true, contact);
+      return contact;
+    }
+    return answer;
+  }
   const fcl::DistanceRequest<S> request;
   fcl::DistanceResult<S> result;
   const S distance =
@@ -252,7 +269,7 @@ typename BodyPair<S>::Answer BodyPair<S>::search(double limit, bool exact, Searc
 
 template <typename S>
 void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair) {
-  if (a.model && b.model) {
+  if (a.model && b.model && pair.triangle_a >= 0) {
     const TriangleDistance<S> nearest = frameOf(a, b).distanceOf(
         {static_cast<int>(pair.triangle_a), static_cast<int>(pair.triangle_b)});
     pair.nearest_a = a.X_W * nearest.point_a;

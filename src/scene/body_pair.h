@@ -64,6 +64,8 @@ class BodyPair {
   /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
   double outlook(double limit) const;
+  /// True if the bodies are solids and one, whose surface is apart from the other's, lies in it.
+  bool contained(SearchCounts& counts) const;
   Answer searchMeshes(double limit, SearchCounts& counts);
   Answer decideMeshes(double limit, SearchCounts& counts);
   void remember(double apart, bool exact, const Answer& answer);

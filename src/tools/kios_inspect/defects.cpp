@@ -65,24 +65,6 @@ void countDuplicates(std::vector<Corners> corners, Defects& defects) {
   }
 }
 
-void countEdges(const std::vector<Corners>& corners, Defects& defects) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  edges.reserve(3 * corners.size());
-  for (const Corners& c : corners) {
-    for (int i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(c[i], c[(i + 1) % 3]);
-      if (low != high) edges.emplace_back(low, high);
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-    while (end < edges.size() && edges[end] == edges[i]) ++end;
-    ++defects.edges;
-    if (end - i == 1) ++defects.open_edges;
-    if (end - i > 2) ++defects.branching_edges;
-  }
-}
-
 std::string counted(std::size_t n, const std::string& one, const std::string& many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
@@ -112,7 +94,7 @@ Defects findDefects(const Mesh& mesh) {
       if (result.slivers++ == 0) result.first_sliver = i;
     }
   }
-  countEdges(corners, result);
+  result.surface = inspectClosedness<double>(mesh.vertices, mesh.triangles);
   countDuplicates(std::move(corners), result);
   return result;
 }
@@ -138,9 +120,13 @@ std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
     result.push_back(std::to_string(defects.unreferenced) + " of " +
                      std::to_string(mesh.vertices.size()) + " vertices in no triangle");
   }
-  if (defects.branching_edges > 0) {
-    result.push_back(counted(defects.branching_edges, "edge", "edges") +
-                     " of more than two triangles");
+  const Closednessd& surface = defects.surface;
+  if (surface.branching_edges > 0) {
+    const auto n = static_cast<std::size_t>(surface.branching_edges);
+    result.push_back(counted(n, "edge", "edges") + " of more than two triangles");
+  }
+  if (surface.closed && !surface.oriented) {
+    result.push_back("closed, but no solid: " + faultsOf(surface));
   }
   if (mesh.other_faces > 0) {
     result.push_back(counted(mesh.other_faces, "point or line", "points or lines") + " left out");

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fcl_kios/interior/closedness.h"
 #include "mesh.h"
 
 namespace kios::inspect {
@@ -20,14 +21,10 @@ struct Defects {
   std::size_t zero_area = 0;          ///< corners that coincide, or lie on a line to rounding
   std::size_t slivers = 0;            ///< thinner than kSliverHeight, but of some area
   std::size_t duplicates = 0;         ///< triangles with the corners of an earlier one
-  std::size_t edges = 0;              ///< between distinct corners
-  std::size_t open_edges = 0;         ///< of one triangle
-  std::size_t branching_edges = 0;    ///< of three triangles or more
   std::size_t first_zero_area = 0;    ///< a triangle of each kind, if there is one
   std::size_t first_sliver = 0;
   std::size_t first_duplicate = 0;
-
-  bool closed() const { return edges > 0 && open_edges == 0 && branching_edges == 0; }
+  Closednessd surface;  ///< whether and why it can't be a solid
 };
 
 Defects findDefects(const Mesh& mesh);

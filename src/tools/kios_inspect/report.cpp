@@ -46,11 +46,15 @@ std::string bytes(std::size_t n) {
   return text;
 }
 
-std::string surface(const Defects& defects) {
-  if (defects.closed()) return "closed";
-  if (defects.open_edges == 0) return "not a surface";
+std::string surface(const Closednessd& surface) {
+  if (surface.edges == 0) return "not a surface";
   std::string text;
-  print(text, "open, %zu edges of one triangle", defects.open_edges);
+  if (surface.closed) {
+    text = "closed";
+    if (surface.components > 1) print(text, ", %d components", surface.components);
+  } else {
+    print(text, "open, %d open %s", surface.open_edges, surface.open_edges == 1 ? "edge" : "edges");
+  }
   return text;
 }
 
@@ -72,7 +76,8 @@ Json toJson(const Inspection& i) {
   return {{"file", i.file},
           {"parts", i.mesh.parts},
           {"triangles", i.mesh.triangles.size()},
-          {"surface", surface(i.defects)},
+          {"solid", i.defects.surface.isSolid()},
+          {"surface", surface(i.defects.surface)},
           {"vertices", i.mesh.vertices.size()},
           {"distinct_vertices", i.defects.distinct_vertices},
           {"box", {{"lower", toJson(i.box.min())}, {"upper", toJson(i.box.max())}}},
@@ -81,8 +86,10 @@ Json toJson(const Inspection& i) {
             {"slivers", i.defects.slivers},
             {"duplicates", i.defects.duplicates},
             {"unreferenced_vertices", i.defects.unreferenced},
-            {"open_edges", i.defects.open_edges},
-            {"branching_edges", i.defects.branching_edges},
+            {"open_edges", i.defects.surface.open_edges},
+            {"misoriented_edges", i.defects.surface.misoriented_edges},
+            {"inside_out_components", i.defects.surface.inside_out},
+            {"branching_edges", i.defects.surface.branching_edges},
             {"points_and_lines", i.mesh.other_faces}}},
           {"warnings", warnings(i.mesh, i.defects)},
           {"nodes", i.nodes()},
@@ -123,7 +130,7 @@ std::string toText(const Inspection& i) {
   std::string out;
   out += i.file + "\n";
   print(out, "  triangles  %zu in %d %s, %s\n", i.mesh.triangles.size(), i.mesh.parts,
-        i.mesh.parts == 1 ? "mesh" : "meshes", surface(i.defects).c_str());
+        i.mesh.parts == 1 ? "mesh" : "meshes", surface(i.defects.surface).c_str());
   print(out, "  vertices   %zu distinct of %zu as read\n", i.defects.distinct_vertices,
         i.mesh.vertices.size());
   print(out, "  box        %g x %g x %g, from (%g, %g, %g)\n", sizes[0], sizes[1], sizes[2],

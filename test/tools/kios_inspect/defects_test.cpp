@@ -20,8 +20,9 @@ TEST(Defects, NoneInACleanMesh) {
   for (const scenes::Mesh& shape : {scenes::knobbyTorus(), scenes::soup(scenes::bumpyBlob())}) {
     const Mesh mesh = meshOf(shape);
     const Defects found = findDefects(mesh);
-    EXPECT_TRUE(found.closed());
-    EXPECT_EQ(2 * found.edges, 3 * mesh.triangles.size());
+    EXPECT_TRUE(found.surface.closed);
+    EXPECT_TRUE(found.surface.oriented);
+    EXPECT_EQ(2 * static_cast<std::size_t>(found.surface.edges), 3 * mesh.triangles.size());
     EXPECT_TRUE(warnings(mesh, found).empty());
   }
 }
@@ -54,8 +55,8 @@ TEST(Defects, EachKindIsCountedOnce) {
     EXPECT_EQ(found.first_duplicate, 4u);
     EXPECT_EQ(found.unreferenced, 1u);
     EXPECT_EQ(found.distinct_vertices, 8u);
-    EXPECT_EQ(found.branching_edges, 2u);  // 0-1, and 1-2 by the one with two equal corners
-    EXPECT_FALSE(found.closed());
+    EXPECT_EQ(found.surface.branching_edges, 2);  // 0-1, and 1-2 by the one with two equal corners
+    EXPECT_FALSE(found.surface.closed);
     EXPECT_EQ(warnings(mesh, found).size(), 5u);
   }
 }
@@ -66,7 +67,7 @@ TEST(Defects, APointIsNoClosedSurface) {
   mesh.triangles = {{0, 0, 0}};
   const Defects found = findDefects(mesh);
   EXPECT_EQ(found.zero_area, 1u);
-  EXPECT_FALSE(found.closed());
+  EXPECT_FALSE(found.surface.closed);
 }
 
 }  // namespace

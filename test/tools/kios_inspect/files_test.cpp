@@ -33,7 +33,7 @@ TEST(Files, ObjAndStlAgree) {
   EXPECT_EQ(obj.mesh.triangles.size(), shape.triangles.size());
   EXPECT_EQ(stl.defects.distinct_vertices, shape.vertices.size());
   EXPECT_EQ(obj.defects.distinct_vertices, shape.vertices.size());
-  EXPECT_TRUE(stl.defects.closed());
+  EXPECT_TRUE(stl.defects.surface.closed);
   EXPECT_EQ(stl.nodes(), 2 * static_cast<int>(shape.triangles.size()) - 1);
   EXPECT_EQ(stl.k[0] + stl.k[1] + stl.k[2], static_cast<std::size_t>(stl.nodes()));
   EXPECT_GT(stl.prepared_bytes, 100 * shape.triangles.size());

@@ -1,0 +1,305 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Containment and penetration of solids.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fcl/math/bv/OBBRSS.h>
+
+#include "contest.h"
+#include "fcl_kios/fcl_kios.h"
+#include "scenario.h"
+#include "scenes/arms.h"
+#include "scenes/containment_oracle.h"
+#include "scenes/motions.h"
+#include "scenes/random.h"
+#include "scenes/shapes.h"
+#include "scenes/ur5_data.h"
+
+namespace kios::bench {
+namespace {
+
+using scenes::Frame;
+using scenes::Mesh;
+
+Row baseOf(const std::string& name, std::size_t triangles, std::size_t frames,
+           const Options& options) {
+  Row row;
+  row.scenario = name;
+  row.triangles = triangles;
+  row.frames = frames;
+  row.seed = options.seed;
+  return row;
+}
+
+/// Points in and about the mesh's box, judged by rational arithmetic.
+void contain(const std::string& name, const Mesh& mesh, const Options& options, Report& report) {
+  const auto model = scenes::buildModel<kIOSd>(mesh);
+  markSolid(*model);
+  scenes::Random random(options.seed);
+  const fcl::Transform3d X = fcl::Transform3d::Identity();
+  model->computeLocalAABB();
+  const fcl::Vector3d center = model->aabb_center;
+  const fcl::Vector3d half = 0.6 * (model->aabb_local.max_ - model->aabb_local.min_);
+  const int count = options.frames > 0 ? options.frames : (options.quick ? 200 : 20000);
+  std::vector<fcl::Vector3d> points;
+  for (int i = 0; i < count; ++i) {
+    fcl::Vector3d p;
+    for (int c = 0; c < 3; ++c) p[c] = center[c] + half[c] * random.uniform(-1, 1);
+    points.push_back(p);
+  }
+  std::vector<char> inside(points.size());
+  std::vector<Competitor> competitors = {{"kios", [&](std::size_t begin, std::size_t end) {
+                                            for (std::size_t i = begin; i < end; ++i) {
+                                              inside[i] = contains<double>(*model, X, points[i]);
+                                            }
+                                          }}};
+  Race{points.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
+  Row base = baseOf(name, mesh.triangles.size(), points.size(), options);
+  base.query = "contains";
+  base.extent = scenes::extent(mesh);
+  Row row = base.of(competitors[0]);
+  row.simd_target = simdTarget();
+  const scenes::ContainmentOracle oracle(mesh);
+  const std::size_t judged = std::min<std::size_t>(points.size(), 300);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < judged; ++i) {
+    const auto place = oracle.placeOf(points[i]);
+    wrong += (place != scenes::ContainmentOracle::Place::kOutside) != (inside[i] != 0);
+  }
+  row.errors.wrong = wrong;
+  report.add({row});
+}
+
+/// Overlapping frames of two solids: penetration() beside fcl::collide for one contact, of ours,
+/// and for the deepest of a hundred contacts over OBBRSS, which is what users of FCL take for a
+/// depth.
+class Overlaps {
+ public:
+  /// The depth of a frame, where it is known: at least and at most.
+  struct Known {
+    double least, most;
+  };
+  using Depth = std::function<Known(const Frame&)>;
+
+  Overlaps(const Mesh& a, const Mesh& b)
+      : a_(scenes::buildModel<kIOSd>(a)),
+        b_(scenes::buildModel<kIOSd>(b)),
+        fcl_a_(scenes::buildModel<fcl::OBBRSSd>(a)),
+        fcl_b_(scenes::buildModel<fcl::OBBRSSd>(b)),
+        triangles_(a.triangles.size() + b.triangles.size()),
+        extent_(std::max(scenes::extent(a), scenes::extent(b))) {
+    markSolid(*a_);
+    markSolid(*b_);
+  }
+
+  void run(const std::string& name, const std::vector<Frame>& frames, const Depth& known,
+           const Options& options, Report& report) {
+    std::vector<Frame> overlapping;
+    const std::size_t most = options.quick ? 3 : 300;
+    for (const Frame& frame : frames) {
+      if (overlapping.size() < most && collide(frame)) overlapping.push_back(frame);
+    }
+    if (overlapping.empty()) return;
+    const std::size_t n = overlapping.size();
+    std::vector<Penetration> found(n);
+    std::vector<double> deepest(n);
+    std::size_t contacts = 0;
+    std::vector<Competitor> competitors = {{"penetration",
+                                            [&](std::size_t begin, std::size_t end) {
+                                              for (std::size_t i = begin; i < end; ++i)
+                                                found[i] = depthOf(overlapping[i]);
+                                            }},
+                                           {"collide",
+                                            [&](std::size_t begin, std::size_t end) {
+                                              for (std::size_t i = begin; i < end; ++i)
+                                                contacts += collide(overlapping[i]);
+                                            }},
+                                           {"contacts", [&](std::size_t begin, std::size_t end) {
+                                              for (std::size_t i = begin; i < end; ++i)
+                                                deepest[i] = deepestContact(overlapping[i]);
+                                            }}};
+    Race{n, options.repeats, 8, 8, true}.run(competitors);
+    std::vector<Row> rows;
+    for (const Competitor& competitor : competitors) {
+      Row base = baseOf(name, triangles_, n, options);
+      base.extent = extent_;
+      Row& row = rows.emplace_back(base.of(competitor));
+      row.query = competitor.name;
+      row.bv = competitor.name == "contacts" ? "fcl_obbrss" : "kios";
+      if (row.bv == "kios") row.simd_target = simdTarget();
+    }
+    std::vector<double> ratios;
+    std::size_t wrong = 0;
+    double off = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Penetration& p = found[i];
+      ratios.push_back(p.lower > 0 ? p.upper / p.lower : std::numeric_limits<double>::infinity());
+      off += std::abs(deepest[i] - p.upper) / p.upper / static_cast<double>(n);
+      bool holds = partsThem(overlapping[i], p);
+      if (known) {
+        const Known depth = known(overlapping[i]);
+        holds &= p.lower <= depth.most * (1 + 1e-9) && p.upper >= depth.least * (1 - 1e-9);
+      }
+      wrong += holds ? 0 : 1;
+    }
+    rows[0].errors.wrong = wrong;
+    rows[0].errors.bracket_ratio = median(ratios);
+    rows[0].errors.max_bracket_ratio = *std::max_element(ratios.begin(), ratios.end());
+    rows[2].errors.mean_rel = off;
+    report.add(rows);
+    std::printf("  upper / lower: median %s, at most %s; %.0f collide queries a penetration\n",
+                cell(rows[0].errors.bracket_ratio, "%.3f").c_str(),
+                cell(rows[0].errors.max_bracket_ratio, "%.2f").c_str(),
+                rows[0].times.median_us / rows[1].times.median_us);
+    if (contacts == 0) std::printf("no contact\n");
+  }
+
+ private:
+  std::size_t collide(const Frame& f) const {
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    return fcl::collide(a_.get(), f.X_WA, b_.get(), f.X_WB, request, result);
+  }
+
+  Penetration depthOf(const Frame& f) const {
+    return penetration<double>(*a_, f.X_WA, *b_, f.X_WB);
+  }
+
+  double deepestContact(const Frame& f) const {
+    const fcl::CollisionRequestd request(100, true);
+    fcl::CollisionResultd result;
+    fcl::collide(fcl_a_.get(), f.X_WA, fcl_b_.get(), f.X_WB, request, result);
+    double depth = 0;
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      depth = std::max(depth, result.getContact(i).penetration_depth);
+    }
+    return depth;
+  }
+
+  /// By FCL's own volume, and by our verdicts about containment.
+  bool partsThem(Frame f, const Penetration& p) const {
+    f.X_WB.translation() += p.translation;
+    const fcl::CollisionRequestd request;
+    fcl::CollisionResultd result;
+    if (fcl::collide(fcl_a_.get(), f.X_WA, fcl_b_.get(), f.X_WB, request, result) > 0) return false;
+    return collide(f) == 0;
+  }
+
+  const std::shared_ptr<Modeld> a_, b_;
+  const std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> fcl_a_, fcl_b_;
+  const std::size_t triangles_;
+  const double extent_;
+};
+
+void overlap(const std::string& name, const Mesh& a, const Mesh& b,
+             const std::vector<Frame>& frames, const Overlaps::Depth& known, const Options& options,
+             Report& report) {
+  try {
+    Overlaps(a, b).run("solids/" + name, frames, known, options, report);
+  } catch (const std::invalid_argument& refused) {
+    std::printf("solids/%s is left out: %s\n", name.c_str(), refused.what());
+  }
+}
+
+/// b within a cube about a.
+std::vector<Frame> posesWithin(double half_width, int count, std::uint64_t seed) {
+  std::vector<Frame> frames;
+  for (const fcl::Transform3d& X : scenes::randomPoses(count, half_width, seed)) {
+    frames.push_back({fcl::Transform3d::Identity(), X});
+  }
+  return frames;
+}
+
+/// Two boxes of these sizes: the least overlap along the axes of faces and crossed edges.
+Overlaps::Depth depthOfBoxes(const fcl::Vector3d& size_a, const fcl::Vector3d& size_b) {
+  return [size_a, size_b](const Frame& f) {
+    const fcl::Matrix3d &A = f.X_WA.linear(), &B = f.X_WB.linear();
+    const fcl::Vector3d d = f.X_WB.translation() - f.X_WA.translation();
+    double depth = std::numeric_limits<double>::infinity();
+    const auto along = [&](fcl::Vector3d n) {
+      if (!(n.norm() > 1e-9)) return;
+      n.normalize();
+      const double reach = 0.5 * size_a.dot((A.transpose() * n).cwiseAbs()) +
+                           0.5 * size_b.dot((B.transpose() * n).cwiseAbs());
+      depth = std::min(depth, reach - std::abs(n.dot(d)));
+    };
+    for (int i = 0; i < 3; ++i) {
+      along(A.col(i));
+      along(B.col(i));
+      for (int j = 0; j < 3; ++j) along(A.col(i).cross(B.col(j)));
+    }
+    return Overlaps::Known{depth, depth};
+  };
+}
+
+void penetrate(const Options& options, Report& report) {
+  const int count = options.quick ? 20 : 600;
+  const auto box_size = fcl::Vector3d(1, 1.5, 0.7);
+  const Mesh box = scenes::subdividedBox(box_size, 8), ball = scenes::icosphere(0.8, 4);
+  overlap("boxes", box, box, posesWithin(0.8, count, options.seed),
+          depthOfBoxes(box_size, box_size), options, report);
+  constexpr double kFacets = 0.997;  // inner radius of the icosphere over its radius
+  overlap(
+      "balls", ball, ball, posesWithin(0.7, count, options.seed),
+      [](const Frame& f) {
+        const double apart = (f.X_WB.translation() - f.X_WA.translation()).norm();
+        return Overlaps::Known{1.6 * kFacets - apart, 1.6 - apart};
+      },
+      options, report);
+  overlap("ball_and_box", ball, box, posesWithin(0.9, count, options.seed), nullptr, options,
+          report);
+
+  // PQP's tori and bunny have open edges: the generated ones stand for them.
+  const scenes::MovingPair falling = generatedFalling();
+  overlap("falling", falling.a, falling.b, falling.frames, nullptr, options, report);
+  overlap("blob_in_torus", scenes::knobbyTorus(), scenes::bumpyBlob(),
+          posesWithin(0.5, count, options.seed), nullptr, options, report);
+
+  std::vector<Frame> linked = posesWithin(0.35, count, options.seed + 1);
+  for (Frame& f : linked) f.X_WB.translation()[0] += 1;
+  const Mesh torus = scenes::bumpyTorus(2000);
+  overlap("linked_tori", torus, torus, linked, nullptr, options, report);
+
+  const auto data = findData(options);
+  const bool ur5 = data && scenes::holdsUr5(*data);
+  const scenes::Arm arm = ur5 ? scenes::loadUr5(*data) : scenes::cadArm();
+  const Mesh table = scenes::subdividedBox({4, 4, 0.4}, 8);
+  scenes::Random random(options.seed);
+  for (std::size_t i = 1; i < arm.links.size(); ++i) {
+    const Mesh& link = arm.links[i].mesh;
+    std::vector<Frame> pressed;
+    for (const fcl::Transform3d& turned :
+         scenes::randomPoses(count / 6 + 1, 0.5, options.seed + i)) {
+      Frame f = {fcl::Transform3d::Identity(), turned};
+      double bottom = std::numeric_limits<double>::infinity();
+      for (const fcl::Vector3d& p : link.vertices) bottom = std::min(bottom, (f.X_WB * p)[2]);
+      // Pressed in by up to a twentieth of the link's size.
+      f.X_WB.translation()[2] += 0.2 - bottom - random.uniform(0.002, 0.05) * scenes::extent(link);
+      pressed.push_back(f);
+    }
+    overlap((ur5 ? "ur5_in_table/" : "arm_in_table/") + std::to_string(i), table, link, pressed,
+            nullptr, options, report);
+  }
+}
+
+}  // namespace
+
+void runSolids(const Options& options, Report& report) {
+  contain("solids/contains/torus", scenes::bumpyTorus(options.quick ? 1000 : 20000), options,
+          report);
+  contain("solids/contains/box", scenes::subdividedBox({1, 2, 3}, options.quick ? 5 : 41), options,
+          report);
+  contain("solids/contains/ball", scenes::icosphere(1, options.quick ? 2 : 5), options, report);
+  penetrate(options, report);
+}
+
+}  // namespace kios::bench

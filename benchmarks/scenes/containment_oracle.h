@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mesh.h"
+
+// Exact answers for a point and a closed oriented mesh, in integers of any size: the judge of
+// containment. Shares no formula with the library: it intersects rays with planes and clips by
+// edges (ray_oracle.h), and casts another ray where one meets an edge.
+
+namespace kios::scenes {
+
+class ContainmentOracle {
+ public:
+  explicit ContainmentOracle(const Mesh& mesh);
+
+  enum class Place { kOutside, kSurface, kInside };
+  /// Inside is where the mesh winds round the point at least once.
+  Place placeOf(const Eigen::Vector3d& point) const;
+
+ private:
+  std::vector<std::array<Eigen::Vector3d, 3>> triangles_;
+  std::vector<std::pair<Eigen::Vector3d, double>> balls_;  ///< around the triangles
+  double reach_ = 0;
+};
+
+}  // namespace kios::scenes

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+
+#include "fcl_kios/model/model.h"
+
+namespace kios {
+
+/// The surface of a model about a point.
+struct NearestSurface {
+  double lower = 0;  ///< no point of the surface is nearer: rounding is paid for
+  double upper = std::numeric_limits<double>::infinity();  ///< distance of `point`; infinite: none
+  fcl::Vector3d point = fcl::Vector3d::Zero();
+};
+
+/// For a point in the model's frame: lower >= upper (1 - rel_err) but for rounding, or lower >=
+/// enough, at which the search ends.
+template <typename S>
+NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
+                              double enough = std::numeric_limits<double>::infinity());
+
+/// What `lower` pays for rounding.
+template <typename S>
+double surfaceError(const Model<S>& model, const fcl::Vector3d& p);
+
+}  // namespace kios

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "engine/mesh.h"
+
+namespace kios {
+
+/// The vertices of a mesh, equal ones as one, and the edges between them. On a convex one a walk
+/// uphill along edges ends at the farthest vertex.
+class VertexGraph {
+ public:
+  VertexGraph() = default;
+  template <typename S>
+  explicit VertexGraph(const engine::MeshView<S>& mesh);
+
+  bool empty() const { return points_.empty(); }
+  const fcl::Vector3d& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  /// A vertex with no neighbour that is farther along n, reached from `start`.
+  int climb(const fcl::Vector3d& n, int start) const;
+
+ private:
+  std::vector<fcl::Vector3d> points_;
+  std::vector<int> begin_, neighbours_;
+};
+
+}  // namespace kios

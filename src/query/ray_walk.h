@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/ray_search.h"
+#include "engine/tree.h"
+#include "fcl_kios/model/model.h"
+#include "triangle/ray_triangle.h"
+#include "volume/ray_interval.h"
+
+namespace kios {
+
+/// The largest coordinate of a model, to rounding.
+template <typename S>
+double largestOf(const Model<S>& model) {
+  const kIOS<S>& root = model.getBV(0).bv;
+  return double{root.center0.cwiseAbs().maxCoeff()} + double{root.radius0};
+}
+
+/// Visits every triangle of a model that a ray in the model's frame may meet, those ahead first: in
+/// the prepared tree, or in FCL's where floats can't serve.
+template <typename S>
+class RayWalk : public engine::RayEvaluator {
+ public:
+  RayWalk(const Model<S>& model, const GivenRay& ray, SearchCounts& counts)
+      : model_(model),
+        ray_(ray),
+        line_(ray.origin, ray.direction, ray.exponent),
+        counts_(counts),
+        last_(ray.t_max) {}
+
+  void walk();
+
+ protected:
+  ~RayWalk() = default;
+
+  TriangleVertices<double> cornersOf(std::uint32_t triangle) const {
+    const fcl::Triangle& ids = model_.tri_indices[triangle];
+    TriangleVertices<double> corners;
+    for (int i = 0; i < 3; ++i) corners[i] = model_.vertices[ids[i]].template cast<double>();
+    return corners;
+  }
+  /// Hits at a larger t don't matter from now on.
+  void endAt(double t);
+
+  const Model<S>& model_;
+  SearchCounts& counts() { return counts_; }
+
+ private:
+  void walkFCLTree(double enter);
+  bool reaches(int node, double& enter, double& exit) const;
+
+  const GivenRay ray_;
+  const RayLine line_;
+  SearchCounts& counts_;
+  double last_;
+  const engine::Tree* tree_ = nullptr;
+  RayLine::Near near_ = {};
+};
+
+}  // namespace kios
