@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/body_queries.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "model/kios_model.h"
+#include "motion/shape_gap.h"
+#include "query/bracket.h"
+#include "query/mesh_and_other.h"
+
+namespace kios::articulated {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Of the distance that a query finds. Halving an interval costs as much as closing a bracket.
+constexpr double kRelErr = 1;
+
+/// A ball's centre in the frame of a body, whose distance from the body's shape bounds that of the
+/// ball's content.
+double ballBound(const BodyData& shape, const fcl::Transform3d& X_WS, const Eigen::Vector3d& center,
+                 double radius) {
+  const Eigen::Vector3d p = X_WS.linear().transpose() * (center - X_WS.translation());
+  return shape::pointBound(shape.solid, p) - radius;
+}
+
+/// The error of the distance of a mesh from a shape or a cell, L the extent (docs/shapes.md).
+double kernelError(const BodyData& other, double length) {
+  const shape::Solid& solid = other.solid;
+  if (other.kind == BodyKind::kShape && solid.kind == shape::Kind::kConvex && solid.num_faces == 0) {
+    return 0x1p-28 * length;
+  }
+  double error = 0x1p-41 * length;
+  if (other.kind == BodyKind::kShape && solid.kind == shape::Kind::kEllipsoid) {
+    double least = kInfinity;
+    for (int i = 0; i < 3; ++i) {
+      if (!shape::isFlat(solid.half, i)) least = std::min(least, solid.half[i]);
+    }
+    if (least < length) error *= length / least;
+  }
+  return error;
+}
+
+}  // namespace
+
+void BodyQueries::requireServed(int a, int b) const {
+  const BodyData &first = body(a), &second = body(b);
+  if (first.kind == BodyKind::kMesh || second.kind == BodyKind::kMesh) return;
+  if (first.kind == BodyKind::kOctree || second.kind == BodyKind::kOctree) {
+    refusePair("checkMotion", *first.geometry, *second.geometry);
+  }
+  if (!first.bounded && !second.bounded) {
+    throw std::invalid_argument(
+        "fcl_kios: half-spaces and planes are not checked against each other; allow the pair.");
+  }
+}
+
+double BodyQueries::rootBound(int a, int b, const Configuration& at, double enough) const {
+  const BodyData &first = body(a), &second = body(b);
+  const double pad = path_.pad(a, b);
+  if (first.model && second.model) {
+    const RelativePose<double> X_AB(at.pose(a), at.pose(b),
+                                    path_.rotationSquare(a) + path_.rotationSquare(b));
+    return separation(first.model->getBV(0).bv, second.model->getBV(0).bv, X_AB, enough + pad) -
+           pad;
+  }
+  double bound = -kInfinity;
+  if (first.kind == BodyKind::kShape && second.bounded) {
+    bound = ballBound(first, at.pose(a), at.center(b), second.content.radius);
+  }
+  if (second.kind == BodyKind::kShape && first.bounded) {
+    bound =
+        std::max(bound, ballBound(second, at.pose(b), at.center(a), first.content.radius));
+  }
+  return bound - pad;
+}
+
+Nearness BodyQueries::ask(int a, int b, const Configuration& at, double enough, double roots,
+                          engine::TrianglePairIds& start) const {
+  ++counts_.narrow_queries;
+  const bool mesh_a = body(a).model, mesh_b = body(b).model;
+  if (mesh_a && mesh_b) return askMeshes(a, b, at, enough, roots, start);
+  if (mesh_a) return askMeshAndOther(a, b, at, enough);
+  if (mesh_b) return askMeshAndOther(b, a, at, enough);
+  return askShapes(a, b, at);
+}
+
+Nearness BodyQueries::askMeshes(int a, int b, const Configuration& at, double enough, double roots,
+                                engine::TrianglePairIds& start) const {
+  const double pad = path_.pad(a, b);
+  const PairFrame<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
+                                path_.rotationSquare(a) + path_.rotationSquare(b));
+  engine::PairQuery query;
+  query.rel_err = kRelErr;
+  query.near_enough = min_separation_;
+  query.far_enough = (enough + pad) * (1 + 0x1p-50);
+  query.start = start;
+  const auto search = [&] {
+    const auto answer = bracketDistance(frame, query, std::max(0.0, roots));
+    counts_.expansions += answer.counts.expansions;
+    if (answer.triangle_a >= 0) query.start = start = {answer.triangle_a, answer.triangle_b};
+    return answer;
+  };
+  auto answer = search();
+  // A bracket that holds the separation asked for may not stay open.
+  if (answer.distance > min_separation_ && answer.lower_bound <= min_separation_ + pad &&
+      min_separation_ > 0) {
+    query.rel_err = 0;
+    answer = search();
+  }
+  return {answer.lower_bound - pad, answer.distance <= min_separation_};
+}
+
+Nearness BodyQueries::askMeshAndOther(int mesh, int other, const Configuration& at,
+                                      double enough) const {
+  const Modeld& model = *body(mesh).model;
+  const fcl::CollisionGeometryd& geometry = *body(other).geometry;
+  const double error = path_.pad(mesh, other) +
+                       kernelError(body(other), path_.length(mesh) + path_.length(other));
+  fcl::DistanceRequestd request;
+  fcl::DistanceResultd result;
+  request.rel_err = 0.5;
+  result.min_distance = (enough + error) * (1 + request.rel_err) * (1 + 0x1p-40);
+  const double asked = result.min_distance;
+  const auto search = [&] {
+    return distanceOther(model, at.pose(mesh), geometry, at.pose(other), request, result);
+  };
+  double distance = search();
+  const double apart = distance / (1 + request.rel_err) * (1 - 0x1p-40) - error;
+  if (distance > min_separation_ && apart > min_separation_) return {apart, false};
+  if (distance >= asked) return {apart, false};
+  if (min_separation_ > 0) {
+    if (distance > min_separation_) {
+      request.rel_err = 0;
+      result = fcl::DistanceResultd();
+      result.min_distance = distance;
+      distance = search();
+    }
+    return {distance - error, distance <= min_separation_};
+  }
+  if (distance > error) return {apart, false};
+  fcl::CollisionResultd contacts;
+  return {apart, collideOther(model, at.pose(mesh), geometry, at.pose(other),
+                              fcl::CollisionRequestd(), contacts) > 0};
+}
+
+Nearness BodyQueries::askShapes(int a, int b, const Configuration& at) const {
+  const BodyData &first = body(a), &second = body(b);
+  const double pad = path_.pad(a, b);
+  const double apart = shapeGap(first, at.pose(a), second, at.pose(b)) - pad;
+  if (apart > min_separation_) return {apart, false};
+  return {apart, shapesMeet(first, at.pose(a), second, at.pose(b), min_separation_)};
+}
+
+}  // namespace kios::articulated

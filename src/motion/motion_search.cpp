@@ -1,0 +1,252 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/motion_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kios::articulated {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kCached = 32;
+// Root volumes that prove so much of an interval spare it a query.
+constexpr double kRootsShare = 0.35;
+// Where something was left undecided, intervals shorter than this aren't searched for contacts.
+constexpr double kShort = 0x1p-6;
+
+/// A number in the middle of an interval with few bits, so that many pairs are asked about in one
+/// configuration.
+double middleOf(double from, double to) {
+  constexpr double kAside = 0.1;
+  const double length = to - from, middle = from + 0.5 * length;
+  const double low = middle - kAside * length, high = middle + kAside * length;
+  if (!(high > low)) return middle;
+  for (double step = std::ldexp(1.0, std::ilogb(length)); step > 0.125 * kAside * length;
+       step *= 0.5) {
+    const double s = std::ceil(low / step) * step;
+    if (s <= high) return s;
+  }
+  return middle;
+}
+
+/// The squared distance of a point from a box; 0 inside.
+double squaredDistance(const Eigen::Vector3d& p, const ObstacleBox& box) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double off = std::max({box.low[i] - p[i], p[i] - box.high[i], 0.0});
+    square += off * off;
+  }
+  return square;
+}
+
+}  // namespace
+
+MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
+    : path_(path), request_(request), queries_(path, request.min_separation, counts_) {
+  cache_.reserve(kCached);
+}
+
+const Configuration& MotionSearch::at(double s) {
+  for (const Configuration& c : cache_) {
+    if (c.s() == s) return c;
+  }
+  ++counts_.configurations;
+  if (cache_.size() < kCached) {
+    cache_.emplace_back(path_, s);
+    return cache_.back();
+  }
+  Configuration& c = cache_[next_];
+  next_ = (next_ + 1) % kCached;
+  c.set(path_, s);
+  return c;
+}
+
+// All pairs at the middle of the path: most are so far apart that half of the path doesn't bring
+// them together.
+void MotionSearch::findSuspects() {
+  const Linkage::Impl& linkage = path_.linkage();
+  const Configuration& middle = at(0.5);
+  counts_.pairs = linkage.num_pairs;
+  for (const CarriedBody& carried : linkage.carried) {
+    const int id = carried.body;
+    const Eigen::Vector3d& center = middle.center(id);
+    const double radius = linkage.bodies[id].content.radius;
+    if (!carried.obstacles.empty()) {
+      const double far = request_.min_separation + radius + 0.5 * middle.speed(id, 0);
+      for (const ObstacleBox& box : carried.obstacles) {
+        const double least = far + path_.pad(id, box.body);
+        if (linkage.bodies[id].bounded && squaredDistance(center, box) > least * least) continue;
+        addSuspect(id, box.body, 0, middle);
+      }
+    }
+    for (const Partner& other : carried.others) {
+      const double least = request_.min_separation + path_.pad(id, other.body) + radius +
+                           linkage.bodies[other.body].content.radius +
+                           0.5 * (middle.speed(id, other.shared) +
+                                  middle.speed(other.body, other.shared));
+      const bool bounded = linkage.bodies[id].bounded && linkage.bodies[other.body].bounded;
+      if (bounded && (center - middle.center(other.body)).squaredNorm() > least * least) continue;
+      addSuspect(id, other.body, other.shared, middle);
+    }
+  }
+  counts_.proven_at_once = counts_.pairs - static_cast<long long>(suspects_.size());
+}
+
+void MotionSearch::addSuspect(int a, int b, int shared, const Configuration& middle) {
+  const int first = std::min(a, b), second = std::max(a, b);
+  queries_.requireServed(first, second);
+  const double speed = middle.speed(a, shared) + middle.speed(b, shared);
+  const double motion = 0.5 * speed + request_.min_separation;
+  const double roots = queries_.rootBound(first, second, middle, motion);
+  if (roots > motion) return;
+  suspects_.push_back({first, second, shared, {}, roots});
+  waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, roots - motion});
+}
+
+MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart,
+                                        double speed) const {
+  using Outcome = Look::Outcome;
+  const double left = apart - request_.min_separation;
+  const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
+  if (left > half * speed) return {Outcome::kProven, s, task.from, task.to, apart, speed};
+  if (!(left > 0)) return {Outcome::kUndecided, s, s, s, apart, speed};
+  // Rounded down, so that the interval is proven as it is stored.
+  const double way = left / speed * (1 - 0x1p-40);
+  const double from = s - way + 0x1p-52, to = s + way - 0x1p-52;
+  if (!(from < to)) return {Outcome::kPart, s, s, s, apart, speed};
+  return {Outcome::kPart, s, from, to, apart, speed};
+}
+
+MotionSearch::Look MotionSearch::look(const Task& task) {
+  using Outcome = Look::Outcome;
+  Suspect& pair = suspects_[task.suspect];
+  const double s = middleOf(task.from, task.to);
+  const Configuration& c = at(s);
+  const double speed = c.speed(pair.a, pair.shared) + c.speed(pair.b, pair.shared);
+  const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
+  const double enough = request_.min_separation + half * speed;
+  const double roots = s == 0.5 ? pair.roots : queries_.rootBound(pair.a, pair.b, c, enough);
+  const double roots_left = roots - request_.min_separation;
+  if (roots_left > half * speed || (roots_left > 0 && roots_left > kRootsShare * half * speed)) {
+    return proven(task, s, roots, speed);
+  }
+  const Nearness near = queries_.ask(pair.a, pair.b, c, enough, roots, pair.nearest);
+  if (near.contact) return {Outcome::kContact, s, s, s, near.apart, speed};
+  return proven(task, s, std::max(near.apart, roots), speed);
+}
+
+void MotionSearch::undecided(const Look& look, int suspect) {
+  if (end_.suspect >= 0) return;
+  const double half = 0.5 * request_.resolution;
+  end_ = {MotionVerdict::kUnresolved, std::max(0.0, look.s - half), std::min(1.0, look.s + half),
+          suspect};
+}
+
+void MotionSearch::anyContact() {
+  using Outcome = Look::Outcome;
+  std::make_heap(waiting_.begin(), waiting_.end());
+  const auto push = [&](int suspect, double from, double to, const Look& look) {
+    if (!(from < to)) return;
+    if (end_.suspect >= 0 && to - from < kShort) return;
+    waiting_.push_back(
+        {suspect, from, to, look.apart - request_.min_separation - look.speed * (to - from)});
+    std::push_heap(waiting_.begin(), waiting_.end());
+  };
+  while (!waiting_.empty()) {
+    std::pop_heap(waiting_.begin(), waiting_.end());
+    const Task task = waiting_.back();
+    waiting_.pop_back();
+    const Look result = look(task);
+    switch (result.outcome) {
+      case Outcome::kProven:
+        break;
+      case Outcome::kContact:
+        end_ = {MotionVerdict::kContact, result.s, result.s, task.suspect};
+        return;
+      case Outcome::kPart:
+        if (task.to - task.from > request_.resolution) {
+          push(task.suspect, task.from, result.from, result);
+          push(task.suspect, result.to, task.to, result);
+          break;
+        }
+        undecided(result, task.suspect);
+        break;
+      case Outcome::kUndecided:
+        undecided(result, task.suspect);
+        push(task.suspect, task.from, result.s - request_.resolution, result);
+        push(task.suspect, result.s + request_.resolution, task.to, result);
+    }
+  }
+}
+
+// The pairs one after the other, each from the start of the path up to what is known of those before.
+void MotionSearch::firstContact() {
+  std::sort(waiting_.begin(), waiting_.end(),
+            [](const Task& a, const Task& b) { return a.margin < b.margin; });
+  const std::vector<Task> tasks = std::move(waiting_);
+  for (const Task& task : tasks) firstContactOf(task.suspect);
+}
+
+void MotionSearch::firstContactOf(int suspect) {
+  using Outcome = Look::Outcome;
+  // What lies after this doesn't matter.
+  const auto limit = [&] {
+    return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
+  };
+  Suspect& pair = suspects_[suspect];
+  std::vector<Task> stack = {{suspect, 0, limit()}};
+  while (!stack.empty()) {
+    Task task = stack.back();
+    stack.pop_back();
+    if (task.from >= limit() && end_.suspect >= 0) continue;
+    task.to = std::min(task.to, limit());
+    const bool ends_in_contact = end_.verdict == MotionVerdict::kContact &&
+                                 end_.suspect == suspect && task.to == end_.to;
+    if (ends_in_contact && task.to - task.from <= request_.resolution) {
+      end_.from = task.from;
+      continue;
+    }
+    const Look result = look(task);
+    if (result.outcome == Outcome::kContact) {
+      end_ = {MotionVerdict::kContact, task.from, result.s, suspect};
+      if (task.from == 0 && result.s > 0) {
+        const Nearness start = queries_.ask(pair.a, pair.b, at(0), request_.min_separation,
+                                            -kInfinity, pair.nearest);
+        if (start.contact) end_ = {MotionVerdict::kContact, 0, 0, suspect};
+      }
+      stack.push_back({suspect, task.from, end_.to});
+      if (end_.to == 0) return;
+    } else if (result.outcome == Outcome::kPart && task.to - task.from > request_.resolution) {
+      if (result.to < task.to) stack.push_back({suspect, result.to, task.to});
+      if (task.from < result.from) stack.push_back({suspect, task.from, result.from});
+    } else if (result.outcome != Outcome::kProven) {
+      const double half = 0.5 * request_.resolution;
+      end_ = {MotionVerdict::kUnresolved, std::max(task.from, result.s - half),
+              std::min(1.0, result.s + half), suspect};
+      stack.push_back({suspect, task.from, end_.from});
+    }
+  }
+}
+
+MotionAnswer MotionSearch::run() {
+  findSuspects();
+  if (request_.first_contact) {
+    firstContact();
+  } else {
+    anyContact();
+  }
+  MotionAnswer answer;
+  answer.verdict = end_.verdict;
+  answer.from = end_.from;
+  answer.to = end_.to;
+  if (end_.suspect >= 0) {
+    answer.body_a = suspects_[end_.suspect].a;
+    answer.body_b = suspects_[end_.suspect].b;
+  }
+  answer.counts = counts_;
+  return answer;
+}
+
+}  // namespace kios::articulated

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "motion/body_queries.h"
+
+namespace kios::articulated {
+
+/// The search for a contact on a path, or for the proof that there is none. A pair of bodies that is
+/// proven to be d apart at a configuration s stays apart while |s' - s| times the speed of the pair,
+/// the sum of both bodies' by the joints between them, is below d less the separation asked for. A
+/// query in the middle of an interval asks whether it is proven as a whole; if not, what is left of
+/// it on both sides is asked about later.
+class MotionSearch {
+ public:
+  MotionSearch(const Path& path, const MotionRequest& request);
+
+  MotionAnswer run();
+
+ private:
+  /// A pair that its bounding volumes don't prove for the whole path at once.
+  struct Suspect {
+    int a, b, shared;
+    engine::TrianglePairIds nearest;  ///< of the last query
+    double roots;                     ///< rootBound() in the middle of the path
+  };
+  /// An interval that is not proven yet. The task whose distance falls short of its motion most comes
+  /// first.
+  struct Task {
+    int suspect;
+    double from, to;
+    double margin = 0;  ///< distance less motion, by what is known of a configuration nearby
+    bool operator<(const Task& o) const { return margin > o.margin; }
+  };
+  /// What a task came to: the whole interval is proven; the part `from` to `to` of it is, which may
+  /// be empty; there is a contact at `s`; or nothing can be proven of `s`, by no shorter interval.
+  struct Look {
+    enum class Outcome { kProven, kPart, kContact, kUndecided } outcome;
+    double s = 0, from = 0, to = 0, apart = 0, speed = 0;
+  };
+  /// Where the path isn't clear.
+  struct End {
+    MotionVerdict verdict = MotionVerdict::kClear;
+    double from = 0, to = 1;
+    int suspect = -1;
+  };
+
+  const Configuration& at(double s);
+  void findSuspects();
+  void addSuspect(int a, int b, int shared, const Configuration& middle);
+  Look look(const Task& task);
+  Look proven(const Task& task, double s, double apart, double speed) const;
+  void anyContact();
+  void firstContact();
+  void firstContactOf(int suspect);
+  void undecided(const Look& look, int suspect);
+
+  const Path& path_;
+  const MotionRequest& request_;
+  MotionCounts counts_;
+  const BodyQueries queries_;
+  std::vector<Configuration> cache_;  ///< the last ones
+  std::size_t next_ = 0;              ///< of the cache, to be overwritten
+  std::vector<Suspect> suspects_;
+  std::vector<Task> waiting_;
+  End end_;
+};
+
+}  // namespace kios::articulated
