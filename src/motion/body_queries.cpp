@@ -27,6 +27,11 @@ double ballBound(const BodyData& shape, const fcl::Transform3d& X_WS, const Eige
   return shape::pointBound(shape.solid, p) - radius;
 }
 
+Eigen::Vector3d unitOrZero(const Eigen::Vector3d& v) {
+  const double length = v.norm();
+  return length > 0x1p-500 ? Eigen::Vector3d(v / length) : Eigen::Vector3d::Zero();
+}
+
 /// The error of the distance of a mesh from a shape or a cell, L the extent (docs/shapes.md).
 double kernelError(const BodyData& other, double length) {
   const shape::Solid& solid = other.solid;
@@ -58,7 +63,8 @@ void BodyQueries::requireServed(int a, int b) const {
   }
 }
 
-double BodyQueries::rootBound(int a, int b, const Configuration& at, double enough) const {
+double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double enough) const {
+  const int a = pair.a, b = pair.b;
   const BodyData &first = body(a), &second = body(b);
   const double pad = path_.pad(a, b);
   if (first.model && second.model) {
@@ -78,18 +84,24 @@ double BodyQueries::rootBound(int a, int b, const Configuration& at, double enou
   return bound - pad;
 }
 
-Nearness BodyQueries::ask(int a, int b, const Configuration& at, double enough, double roots,
-                          engine::TrianglePairIds& start) const {
-  ++counts_.narrow_queries;
-  const bool mesh_a = body(a).model, mesh_b = body(b).model;
-  if (mesh_a && mesh_b) return askMeshes(a, b, at, enough, roots, start);
-  if (mesh_a) return askMeshAndOther(a, b, at, enough);
-  if (mesh_b) return askMeshAndOther(b, a, at, enough);
-  return askShapes(a, b, at);
+double BodyQueries::slab(const Pair& pair, const Configuration& at) const {
+  if (!body(pair.a).bounded || !body(pair.b).bounded) return -kInfinity;
+  const Eigen::Vector3d& n = pair.direction;
+  return -at.support(pair.b, -n) - at.support(pair.a, n) - path_.pad(pair.a, pair.b);
 }
 
-Nearness BodyQueries::askMeshes(int a, int b, const Configuration& at, double enough, double roots,
-                                engine::TrianglePairIds& start) const {
+Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, double roots) const {
+  ++counts_.narrow_queries;
+  const bool mesh_a = body(pair.a).model, mesh_b = body(pair.b).model;
+  if (mesh_a && mesh_b) return askMeshes(pair, at, enough, roots);
+  if (mesh_a) return askMeshAndOther(pair, pair.a, pair.b, at, enough);
+  if (mesh_b) return askMeshAndOther(pair, pair.b, pair.a, at, enough);
+  return askShapes(pair.a, pair.b, at);
+}
+
+Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough,
+                                double roots) const {
+  const int a = pair.a, b = pair.b;
   const double pad = path_.pad(a, b);
   const PairFrame<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
                                 path_.rotationSquare(a) + path_.rotationSquare(b));
@@ -97,11 +109,10 @@ Nearness BodyQueries::askMeshes(int a, int b, const Configuration& at, double en
   query.rel_err = kRelErr;
   query.near_enough = min_separation_;
   query.far_enough = (enough + pad) * (1 + 0x1p-50);
-  query.start = start;
   const auto search = [&] {
     const auto answer = bracketDistance(frame, query, std::max(0.0, roots));
     counts_.expansions += answer.counts.expansions;
-    if (answer.triangle_a >= 0) query.start = start = {answer.triangle_a, answer.triangle_b};
+    if (answer.triangle_a >= 0) query.start = pair.nearest = {answer.triangle_a, answer.triangle_b};
     return answer;
   };
   auto answer = search();
@@ -111,10 +122,13 @@ Nearness BodyQueries::askMeshes(int a, int b, const Configuration& at, double en
     query.rel_err = 0;
     answer = search();
   }
+  if (answer.triangle_a >= 0) {
+    pair.direction = unitOrZero(at.pose(a).linear() * (answer.point_b - answer.point_a));
+  }
   return {answer.lower_bound - pad, answer.distance <= min_separation_};
 }
 
-Nearness BodyQueries::askMeshAndOther(int mesh, int other, const Configuration& at,
+Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                                       double enough) const {
   const Modeld& model = *body(mesh).model;
   const fcl::CollisionGeometryd& geometry = *body(other).geometry;
@@ -123,12 +137,17 @@ Nearness BodyQueries::askMeshAndOther(int mesh, int other, const Configuration& 
   fcl::DistanceRequestd request;
   fcl::DistanceResultd result;
   request.rel_err = 0.5;
+  request.enable_nearest_points = true;
   result.min_distance = (enough + error) * (1 + request.rel_err) * (1 + 0x1p-40);
   const double asked = result.min_distance;
   const auto search = [&] {
     return distanceOther(model, at.pose(mesh), geometry, at.pose(other), request, result);
   };
   double distance = search();
+  if (distance > 0 && distance < asked) {
+    const Eigen::Vector3d d = result.nearest_points[1] - result.nearest_points[0];
+    pair.direction = unitOrZero(result.o1 == body(pair.a).geometry.get() ? d : -d);
+  }
   const double apart = distance / (1 + request.rel_err) * (1 - 0x1p-40) - error;
   if (distance > min_separation_ && apart > min_separation_) return {apart, false};
   if (distance >= asked) return {apart, false};

@@ -7,6 +7,15 @@
 
 namespace kios::articulated {
 
+/// A pair of bodies, a < b, and where queries about it begin.
+struct Pair {
+  int a, b;
+  int shared;  ///< moving joints that carry both
+  engine::TrianglePairIds nearest = {};  ///< of the last query
+  /// Of the last query, from a to b in the world; 0 if there was none.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+};
+
 /// What is known of a pair of bodies at a configuration.
 struct Nearness {
   /// They are proven so far apart, for the bodies at exact kinematics: the path's pad is subtracted.
@@ -22,21 +31,22 @@ class BodyQueries {
       : path_(path), min_separation_(min_separation), counts_(counts) {}
 
   /// A lower bound by the bodies' root volumes; once it exceeds `enough`, that will do.
-  double rootBound(int a, int b, const Configuration& at, double enough) const;
+  double rootBound(const Pair& pair, const Configuration& at, double enough) const;
+  /// The width of the slab between the bodies across the pair's direction: all of a lies below it,
+  /// all of b above it. Negative if they overlap along it.
+  double slab(const Pair& pair, const Configuration& at) const;
   /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two of
-  /// the distance; or in contact. `roots` is what rootBound() gave. `start` is where the search
-  /// begins, and is set to where it ended.
-  Nearness ask(int a, int b, const Configuration& at, double enough, double roots,
-               engine::TrianglePairIds& start) const;
+  /// the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
+  Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;
 
   /// Throws std::invalid_argument if no query serves the pair.
   void requireServed(int a, int b) const;
 
  private:
   const BodyData& body(int id) const { return path_.linkage().bodies[id]; }
-  Nearness askMeshes(int a, int b, const Configuration& at, double enough, double roots,
-                     engine::TrianglePairIds& start) const;
-  Nearness askMeshAndOther(int mesh, int other, const Configuration& at, double enough) const;
+  Nearness askMeshes(Pair& pair, const Configuration& at, double enough, double roots) const;
+  Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
+                           double enough) const;
   Nearness askShapes(int a, int b, const Configuration& at) const;
 
   const Path& path_;

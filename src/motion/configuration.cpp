@@ -37,7 +37,7 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
   requireCoordinates(q0, linkage.coordinates, "q0");
   requireCoordinates(q1, linkage.coordinates, "q1");
   constexpr double kSlack = 0x1p-49;  // 16 u
-  changes_.resize(static_cast<std::size_t>(linkage.coordinates));
+  rates_.resize(static_cast<std::size_t>(linkage.coordinates));
   // By link: what prismatic joints add to lengths, and the rounding of angles and of lengths.
   std::vector<double> travel(linkage.links.size()), angles = travel, shifts = travel;
   for (std::size_t i = 0; i < linkage.links.size(); ++i) {
@@ -50,7 +50,7 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
     if (link.coordinate < 0) continue;
     const double a = q0[link.coordinate], b = q1[link.coordinate];
     const double most = std::max(std::abs(a), std::abs(b)) * link.unit;
-    changes_[link.coordinate] = std::abs(b - a) * link.unit * (1 + 0x1p-50);
+    rates_[link.coordinate] = (b - a) * link.unit;
     if (link.type == JointType::kPrismatic) {
       travel[i] += most * (1 + 0x1p-50);
       shifts[i] += kSlack * most;
@@ -58,99 +58,146 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
       angles[i] += kSlack * most;
     }
   }
-  for (const BodyData& body : linkage.bodies) {
-    double length = body.t_LB.norm() + body.reach, level = 2, slack = 0;
-    if (body.link >= 0) {
-      const LinkData& link = linkage.links[body.link];
-      length += link.offsets + travel[body.link];
-      level += link.level;
-      slack = angles[body.link] * length + shifts[body.link];
-    }
-    lengths_.push_back(length * (1 + 0x1p-50));
-    levels_.push_back(level);
-    slacks_.push_back(slack * (1 + 0x1p-50));
+  shares_.resize(linkage.carried.size() + 1);
+  for (const CarriedBody& carried : linkage.carried) {
+    const BodyData& body = linkage.bodies[carried.body];
+    const LinkData& link = linkage.links[body.link];
+    Share& share = shares_[body.carried + 1];
+    share.length = (body.X_LB.translation().norm() + body.reach + link.offsets +
+                    travel[body.link]) * (1 + 0x1p-50);
+    share.level = link.level + 2;
+    share.slack = (angles[body.link] * share.length + shifts[body.link]) * (1 + 0x1p-50);
   }
 }
 
 void Configuration::set(const Path& path, double s) {
+  path_ = &path;
   s_ = s;
-  speeds_.clear();
   const auto& links = path.linkage().links;
-  const auto& bodies = path.linkage().bodies;
-  R_.resize(links.size());
-  t_.resize(links.size());
-  axes_.resize(links.size());
+  links_.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     const LinkData& link = links[i];
+    PlacedLink& placed = links_[i];
     if (link.parent < 0) {
-      R_[i] = link.R_PJ;
-      t_[i] = link.t_PJ;
+      placed.R = link.R_PJ;
+      placed.t = link.t_PJ;
     } else {
-      R_[i].noalias() = R_[link.parent] * link.R_PJ;
-      t_[i] = t_[link.parent] + R_[link.parent] * link.t_PJ;
+      const PlacedLink& parent = links_[link.parent];
+      placed.R.noalias() = parent.R * link.R_PJ;
+      placed.t = parent.t + parent.R * link.t_PJ;
     }
     if (link.coordinate < 0) continue;
-    axes_[i] = R_[i] * link.axis;
+    placed.axis = placed.R * link.axis;
     const double value = path.coordinate(link.coordinate, s) * link.unit;
     if (link.type == JointType::kPrismatic) {
-      t_[i] += value * axes_[i];
+      placed.t += value * placed.axis;
     } else {
-      R_[i] = (R_[i] * rotationAbout(link.axis, value)).eval();
+      placed.R = (placed.R * rotationAbout(link.axis, value)).eval();
     }
   }
-  poses_.resize(bodies.size());
-  centers_.resize(bodies.size());
-  first_speed_.assign(bodies.size(), 0);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const BodyData& body = bodies[i];
-    fcl::Transform3d& X = poses_[i];
-    X.setIdentity();
-    if (body.link < 0) {
-      X.linear() = body.R_LB;
-      X.translation() = body.t_LB;
-      centers_[i] = body.content.center;
-      continue;
+  placed_.resize(path.linkage().carried.size());
+  for (PlacedBody& body : placed_) body.ready = false;
+  motions_.resize(static_cast<std::size_t>(path.linkage().num_motions));
+}
+
+void Configuration::place(const BodyData& body, int id) const {
+  const PlacedLink& link = links_[body.link];
+  PlacedBody& placed = placed_[body.carried];
+  placed.ready = true;
+  placed.X.setIdentity();
+  placed.X.linear().noalias() = link.R * body.X_LB.linear();
+  placed.X.translation() = link.t + link.R * body.X_LB.translation();
+  placed.center = link.t + link.R * body.content.center;
+  addMotions(body, id);
+}
+
+// From the last joint to the first, each sum taking in one more joint.
+void Configuration::addMotions(const BodyData& body, int id) const {
+  const auto& links = path_->linkage().links;
+  const auto& moving = links[body.link].moving;
+  const PlacedLink& own = links_[body.link];
+  const Vector3d ends[2] = {own.t + own.R * body.content.ends[0],
+                            own.t + own.R * body.content.ends[1]};
+  const Vector3d& center = placed_[body.carried].center;
+  const double rounding = path_->axisRounding(id);
+  // For the stretch of rotations that are ones to rounding, and for the sums.
+  constexpr double kSums = 1 + 0x1p-30;
+
+  BodyMotion* const motions = &motions_[body.first_motion];
+  motions[moving.size()] = BodyMotion();
+  Vector3d turning = Vector3d::Zero(), velocities[2] = {turning, turning};
+  double most = 0, second = 0, third = 0, outer = 0, rates = 0;
+  for (std::size_t i = moving.size(); i-- > 0;) {
+    const int link = moving[i];
+    const double rate = path_->rate(link), speed = std::abs(rate) * (1 + 0x1p-50);
+    const Vector3d &axis = links_[link].axis, &origin = links_[link].t;
+    if (speed > 0 && links[link].type == JointType::kPrismatic) {
+      velocities[0] += rate * axis;
+      velocities[1] += rate * axis;
+      most += speed;
+    } else if (speed > 0) {
+      const Vector3d arms[2] = {axis.cross(ends[0] - origin), axis.cross(ends[1] - origin)};
+      double away =
+          std::sqrt(std::max(arms[0].squaredNorm(), arms[1].squaredNorm())) +
+          body.content.capsule_radius;
+      away = std::min(away, axis.cross(center - origin).norm() + body.content.radius) + rounding;
+      if (link == body.link) away = std::min(away, body.own_radius);
+      turning += rate * axis;
+      velocities[0] += rate * arms[0];
+      velocities[1] += rate * arms[1];
+      second += speed * (speed * away + 2 * most);
+      third += speed * (speed * most + 2 * outer);
+      outer += speed * most;
+      most += speed * away;
+      rates += speed;
     }
-    const Matrix3d& R = R_[body.link];
-    const Vector3d& t = t_[body.link];
-    X.linear().noalias() = R * body.R_LB;
-    X.translation() = t + R * body.t_LB;
-    centers_[i] = t + R * body.content.center;
-    setSpeeds(path, static_cast<int>(i));
+    BodyMotion& motion = motions[i];
+    motion.most = most * kSums;
+    motion.ends[0] = velocities[0];
+    motion.ends[1] = velocities[1];
+    motion.swing = turning * body.content.capsule_radius;
+    motion.rounding = 4 * rounding * rates + 0x1p-40 * most;
+    motion.change[0] = second * kSums;
+    motion.change[1] = third * kSums;
   }
 }
 
-void Configuration::setSpeeds(const Path& path, int id) {
-  const BodyData& body = path.linkage().bodies[id];
-  const auto& links = path.linkage().links;
-  const auto& moving = links[body.link].moving;
-  const Matrix3d& R = R_[body.link];
-  const Vector3d& t = t_[body.link];
-  const Vector3d ends[2] = {t + R * body.content.ends[0], t + R * body.content.ends[1]};
-  const double rounding = path.axisRounding(id);
-  first_speed_[id] = static_cast<int>(speeds_.size());
-  speeds_.resize(speeds_.size() + moving.size() + 1);
-  double* const speeds = &speeds_[first_speed_[id]];
-  double speed = 0;
-  speeds[moving.size()] = 0;
-  for (std::size_t i = moving.size(); i-- > 0;) {
-    const int link = moving[i];
-    const double change = path.change(link);
-    double per_unit = 1;
-    if (links[link].type == JointType::kRevolute && change > 0) {
-      const auto distance = [&](const Vector3d& p) {
-        return axes_[link].cross(p - t_[link]).norm();
-      };
-      const double ball = distance(centers_[id]) + body.content.radius;
-      const double capsule =
-          std::max(distance(ends[0]), distance(ends[1])) + body.content.capsule_radius;
-      per_unit = std::min(ball, capsule) + rounding;
-      if (link == body.link) per_unit = std::min(per_unit, body.own_radius);
-    }
-    speed += change * per_unit;
-    // For the stretch of rotations that are ones to rounding, and for the sums.
-    speeds[i] = speed * (1 + 0x1p-30);
+PairMotion::PairMotion(const BodyMotion& a, const BodyMotion& b)
+    : a_(a),
+      b_(b),
+      most_(a.most + b.most),
+      second_(a.change[0] + b.change[0]),
+      third_(a.change[1] + b.change[1]) {
+  double square = 0;
+  for (const Vector3d& u : a.ends) {
+    for (const Vector3d& v : b.ends) square = std::max(square, (u - v).squaredNorm());
   }
+  first_ = std::sqrt(square) + a.swing.norm() + b.swing.norm() + a.rounding + b.rounding;
+}
+
+double PairMotion::timeFor(double gap, double longest) const {
+  return std::max(timeForSlab(gap, first_, longest), std::min(longest, gap / most_));
+}
+
+PairMotion::Closing PairMotion::closing(const Vector3d& n) const {
+  const double a[2] = {n.dot(a_.ends[0]), n.dot(a_.ends[1])};
+  const double b[2] = {n.dot(b_.ends[0]), n.dot(b_.ends[1])};
+  const double swing =
+      n.cross(a_.swing).norm() + n.cross(b_.swing).norm() + a_.rounding + b_.rounding;
+  return {std::max(a[0], a[1]) - std::min(b[0], b[1]) + swing,
+          std::max(b[0], b[1]) - std::min(a[0], a[1]) + swing};
+}
+
+// What is used up is convex in time and 0 at 0. Newton's steps come down to the time looked for from
+// above, and the chord from 0 then ends below it.
+double PairMotion::timeForSlab(double gap, double speed, double longest) const {
+  double time = longest, used = after(time, speed);
+  if (used < gap) return longest;
+  for (int step = 0; step < 3; ++step) {
+    time -= (used - gap) / (speed + time * (second_ + 1.5 * time * third_));
+    used = after(time, speed);
+  }
+  return used > gap ? time * (gap / used) * (1 - 0x1p-45) : time * (1 - 0x1p-45);
 }
 
 }  // namespace kios::articulated

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "motion/link_tree.h"
@@ -18,7 +19,14 @@ namespace kios::articulated {
 /// prismatic): T_1' .. T_(i-1)' is rigid, and a turn by an angle moves a point by at most the angle
 /// times its distance from the axis, which does not depend on the joints before i. All distances are
 /// taken at the one configuration q. Seen from a link that carries both of two bodies, the joints
-/// before that link drop out.
+/// before that link drop out. This is `most` below.
+///
+/// Near q the velocity tells more, in which motions of joints cancel: x moves by h x'(q) and at most
+/// h^2 / 2 times the largest acceleration on the way. With w_i the rate of joint i,
+///   |x''| <= sum_i |w_i| rho_i (|w_i| + 2 sum_(j < i) |w_j|),
+/// as each turn carries the velocities of the joints after it along (prismatic joints: |w_i| (2 sum)).
+/// There rho_i is that of the moment, at most rho_i(q) and h times what the joints after i move by.
+/// `first`, `second` and `third` are the factors of h, h^2 / 2 and h^3 / 2.
 ///
 /// Rounding, u = 2^-53. A level of joints takes two products of rotations, 9 u each (Frobenius), and
 /// a rotation about an axis, 40 u: the axis is of length 1 and in its direction to 4 u, and an entry
@@ -40,33 +48,82 @@ class Path {
   double coordinate(int k, double s) const {
     return s == 1 ? q1_[k] : q0_[k] + s * (q1_[k] - q0_[k]);
   }
-  /// |q1 - q0| of a moving joint, in radians or lengths, rounded up.
-  double change(int link) const { return changes_[linkage_.links[link].coordinate]; }
+  /// q1 - q0 of a moving joint, in radians or lengths, to 2^-52 of it.
+  double rate(int link) const { return rates_[linkage_.links[link].coordinate]; }
 
-  /// L of a body, with the rounding that is its own share of a pair's.
-  double length(int body) const { return lengths_[body]; }
-  /// The part of the pad and of the detour that a body pays in every pair: the pair's is (n + n' + 4)
-  /// (L + L') times 1024 u, and both slacks.
+  /// L of a body.
+  double length(int body) const { return shares_[slot(body)].length + obstacleLength(body); }
+  /// Of a pair.
   double pad(int a, int b) const {
-    return 0x1p-43 * (levels_[a] + levels_[b]) * (lengths_[a] + lengths_[b]) + slacks_[a] +
-           slacks_[b];
+    const Share &x = shares_[slot(a)], &y = shares_[slot(b)];
+    return 0x1p-43 * (x.level + y.level) * (length(a) + length(b)) + x.slack + y.slack;
   }
   /// A bound of the rounding of the distance of a body's content from an axis.
-  double axisRounding(int body) const { return 0x1p-43 * levels_[body] * lengths_[body]; }
+  double axisRounding(int body) const {
+    return 0x1p-43 * shares_[slot(body)].level * length(body);
+  }
   /// >= the square of the Frobenius norm of E = R^T R - I of a body's pose.
   double rotationSquare(int body) const {
-    const double error = 0x1p-44 * levels_[body];
+    const double error = 0x1p-44 * shares_[slot(body)].level;
     return error * error;
   }
 
  private:
+  struct Share {
+    double length = 0, level = 2, slack = 0;  ///< the level is n + 2
+  };
+  std::size_t slot(int body) const {
+    return static_cast<std::size_t>(linkage_.bodies[body].carried + 1);
+  }
+  double obstacleLength(int body) const { return linkage_.bodies[body].obstacle_length; }
+
   const Linkage::Impl& linkage_;
   const Eigen::VectorXd &q0_, &q1_;
-  std::vector<double> changes_;                   // by coordinate
-  std::vector<double> lengths_, levels_, slacks_;  // by body; levels are n + 2
+  std::vector<double> rates_;   // by coordinate
+  std::vector<Share> shares_;   // of all obstacles, then by carried body
 };
 
-/// All bodies at a configuration s of a path.
+/// The motion of a body near a configuration, seen from the link that carries another body as well: by
+/// the joints that carry only this one. Velocities are in the world's axes, times are those of s.
+struct BodyMotion {
+  double most = 0;  ///< no point moves farther than this in a unit of s, from the configuration on
+  /// Velocities of the ends of the capsule, and the angular one times its radius. Along any direction
+  /// n no point of the capsule is faster than an end by more than |n x swing|, and `rounding`.
+  Eigen::Vector3d ends[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Eigen::Vector3d swing = Eigen::Vector3d::Zero();
+  double rounding = 0;
+  double change[2] = {0, 0};  ///< accelerations are at most change[0] + change[1] h, h away from s
+};
+
+/// The motion of two bodies relative to each other.
+class PairMotion {
+ public:
+  PairMotion(const BodyMotion& a, const BodyMotion& b);
+
+  /// Within `time` of the configuration no distance changes by more than this.
+  double during(double time) const { return std::min(most_ * time, after(time, first_)); }
+  /// A time of at most `longest` in which no distance changes by more than `gap` > 0.
+  double timeFor(double gap, double longest) const;
+
+  /// The speeds at which a slab across n, |n| = 1, between a and b is used up, as s grows and as it
+  /// falls.
+  struct Closing {
+    double forth, back;
+  };
+  Closing closing(const Eigen::Vector3d& n) const;
+  /// A time of at most `longest` in which a slab as wide as `gap` > 0 isn't used up.
+  double timeForSlab(double gap, double speed, double longest) const;
+
+ private:
+  double after(double time, double speed) const {
+    return time * (speed + 0.5 * time * (second_ + time * third_));
+  }
+
+  const BodyMotion &a_, &b_;
+  double most_, first_, second_, third_;
+};
+
+/// The bodies at a configuration s of a path.
 class Configuration {
  public:
   Configuration(const Path& path, double s) { set(path, s); }
@@ -74,23 +131,52 @@ class Configuration {
   void set(const Path& path, double s);
 
   double s() const { return s_; }
-  const fcl::Transform3d& pose(int body) const { return poses_[body]; }
+  const fcl::Transform3d& pose(int id) const {
+    const BodyData& body = bodyAt(id);
+    return body.carried < 0 ? body.X_LB : placed_[body.carried].X;
+  }
   /// Centre of a body's ball in the world.
-  const Eigen::Vector3d& center(int body) const { return centers_[body]; }
-  /// Bound of the way of any point of the body in a unit of s, by the joints after the first `shared`
-  /// that carry it; the same for all s.
-  double speed(int body, int shared) const { return speeds_[first_speed_[body] + shared]; }
+  const Eigen::Vector3d& center(int id) const {
+    const BodyData& body = bodyAt(id);
+    return body.carried < 0 ? body.content.center : placed_[body.carried].center;
+  }
+  /// >= n . x for every point x of a bounded body in the world.
+  double support(int id, const Eigen::Vector3d& n) const {
+    const BodyData& body = path_->linkage().bodies[id];
+    if (body.link < 0) return body.supports.along(n);
+    const PlacedLink& link = links_[body.link];
+    return n.dot(link.t) + body.supports.along(link.R.transpose() * n);
+  }
+  /// By the joints after the first `shared` that carry the body.
+  const BodyMotion& motion(int id, int shared) const {
+    const BodyData& body = bodyAt(id);
+    return motions_[body.carried < 0 ? 0 : body.first_motion + shared];
+  }
 
  private:
-  void setSpeeds(const Path& path, int body);
+  /// A link in the world, and the axis of its joint.
+  struct PlacedLink {
+    Eigen::Matrix3d R;
+    Eigen::Vector3d t, axis;
+  };
+  struct PlacedBody {
+    fcl::Transform3d X;
+    Eigen::Vector3d center;
+    bool ready = false;  ///< it is set when it is asked for
+  };
+  const BodyData& bodyAt(int id) const {
+    const BodyData& body = path_->linkage().bodies[id];
+    if (body.carried >= 0 && !placed_[body.carried].ready) place(body, id);
+    return body;
+  }
+  void place(const BodyData& body, int id) const;
+  void addMotions(const BodyData& body, int id) const;
 
+  const Path* path_ = nullptr;
   double s_ = 0;
-  std::vector<Eigen::Matrix3d> R_;  // by link
-  std::vector<Eigen::Vector3d> t_, axes_;
-  std::vector<fcl::Transform3d> poses_;
-  std::vector<Eigen::Vector3d> centers_;
-  std::vector<int> first_speed_;
-  std::vector<double> speeds_;
+  std::vector<PlacedLink> links_;
+  mutable std::vector<PlacedBody> placed_;  // those that are carried
+  mutable std::vector<BodyMotion> motions_;
 };
 
 }  // namespace kios::articulated

@@ -103,9 +103,14 @@ Hull hullOf(const shape::Solid& solid) {
 
 Hull hullOf(const Modeld& model) {
   Hull hull;
-  hull.points.reserve(3 * static_cast<std::size_t>(model.num_tris));
+  std::vector<char> taken(static_cast<std::size_t>(model.num_vertices), 0);
+  hull.points.reserve(taken.size());
   for (int i = 0; i < model.num_tris; ++i) {
-    for (int k = 0; k < 3; ++k) hull.points.push_back(model.vertices[model.tri_indices[i][k]]);
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t vertex = model.tri_indices[i][k];
+      if (taken[vertex] == 0) hull.points.push_back(model.vertices[vertex]);
+      taken[vertex] = 1;
+    }
   }
   hull.center = model.getBV(0).bv.center0;
   return hull;
@@ -220,9 +225,10 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   BodyData body;
   body.geometry = std::move(geometry);
   body.link = link;
-  body.R_LB = continuous::orthonormal(X_LB.linear(), "pose of a body");
-  body.t_LB = X_LB.translation();
-  requireTranslation(body.t_LB, "pose of a body");
+  body.X_LB.setIdentity();
+  body.X_LB.linear() = continuous::orthonormal(X_LB.linear(), "pose of a body");
+  body.X_LB.translation() = X_LB.translation();
+  requireTranslation(X_LB.translation(), "pose of a body");
   Hull hull = measure(body);
   body.meets = body.geometry->isOccupied() && !hull.points.empty();
   if (!body.bounded && turns(links, link)) {
@@ -234,11 +240,12 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   if (!(size <= kLargest)) refuse("a body of a linkage is too large.");
 
   // Moved points round by less than 16 u of the lengths.
-  hull.margin += 0x1p-48 * (size + body.t_LB.norm());
-  for (Vector3d& p : hull.points) p = body.R_LB * p + body.t_LB;
-  hull.center = body.R_LB * hull.center + body.t_LB;
+  hull.margin += 0x1p-48 * (size + X_LB.translation().norm());
+  for (Vector3d& p : hull.points) p = body.X_LB * p;
+  hull.center = body.X_LB * hull.center;
   body.content = articulated::boundOf(hull.points, hull.margin, hull.center);
   body.reach = body.content.reach();
+  if (body.bounded) body.supports = articulated::SupportTable(hull.points, hull.margin);
   if (link >= 0) {
     body.own_radius = articulated::farthestFromAxis(hull.points, hull.margin, Vector3d::Zero(),
                                                     links[link].axis);
@@ -253,6 +260,13 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
         box.high[i] = std::max(box.high[i], p[i] + hull.margin);
       }
     }
+  }
+  if (link < 0) {
+    body.obstacle_length = (X_LB.translation().norm() + body.reach) * (1 + 0x1p-50);
+  } else {
+    body.carried = static_cast<int>(carried.size());
+    body.first_motion = num_motions;
+    num_motions += static_cast<int>(links[link].moving.size()) + 1;
   }
   bodies.push_back(std::move(body));
   const int id = static_cast<int>(bodies.size()) - 1;

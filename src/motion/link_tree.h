@@ -9,6 +9,7 @@
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/motion/linkage.h"
 #include "motion/content_bound.h"
+#include "motion/support.h"
 #include "solid/solid.h"
 
 namespace kios::articulated {
@@ -36,13 +37,16 @@ struct BodyData {
   const Modeld* model = nullptr;  ///< of a mesh
   shape::Solid solid;             ///< of a shape
   int link = -1;
-  Eigen::Matrix3d R_LB;
-  Eigen::Vector3d t_LB;
+  fcl::Transform3d X_LB;  ///< its rotation orthonormal as a link's
   bool bounded = true;    ///< half-spaces and planes are not
   bool meets = true;      ///< false: it isn't occupied, or an octree without cells
   ContentBound content;   ///< in the link's frame
   double own_radius = 0;  ///< largest distance of the content from the axis of its link's own joint
+  SupportTable supports;  ///< of the content in the link's frame; empty if unbounded
   double reach = 0;       ///< of the content from its link's origin; of an unbounded one, of its plane
+  double obstacle_length = 0;  ///< how far an obstacle reaches from the world's origin
+  int carried = -1;       ///< among those on links
+  int first_motion = 0;   ///< of its BodyMotions in a configuration; those of obstacles are all one
   /// State of a mesh when it was added.
   std::uint64_t stamp = 0;
   const void* vertices = nullptr;
@@ -79,6 +83,7 @@ class Linkage::Impl {
   std::vector<articulated::CarriedBody> carried;
   std::vector<articulated::ObstacleBox> obstacles;  ///< all
   int coordinates = 0;
+  int num_motions = 1;  ///< of bodies in a configuration: one by each moving joint, and one more
   long long num_pairs = 0;
 
   int addLink(int parent, const Joint& joint);

@@ -10,9 +10,10 @@ namespace kios::articulated {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kCached = 32;
+constexpr std::size_t kCached = 16;
 // Root volumes that prove so much of an interval spare it a query.
 constexpr double kRootsShare = 0.35;
+constexpr double kSlabShare = 0.35;
 // Where something was left undecided, intervals shorter than this aren't searched for contacts.
 constexpr double kShort = 0x1p-6;
 
@@ -74,7 +75,7 @@ void MotionSearch::findSuspects() {
     const Eigen::Vector3d& center = middle.center(id);
     const double radius = linkage.bodies[id].content.radius;
     if (!carried.obstacles.empty()) {
-      const double far = request_.min_separation + radius + 0.5 * middle.speed(id, 0);
+      const double far = request_.min_separation + radius + middle.motion(id, 0).most * 0.5;
       for (const ObstacleBox& box : carried.obstacles) {
         const double least = far + path_.pad(id, box.body);
         if (linkage.bodies[id].bounded && squaredDistance(center, box) > least * least) continue;
@@ -84,8 +85,8 @@ void MotionSearch::findSuspects() {
     for (const Partner& other : carried.others) {
       const double least = request_.min_separation + path_.pad(id, other.body) + radius +
                            linkage.bodies[other.body].content.radius +
-                           0.5 * (middle.speed(id, other.shared) +
-                                  middle.speed(other.body, other.shared));
+                           0.5 * (middle.motion(id, other.shared).most +
+                                  middle.motion(other.body, other.shared).most);
       const bool bounded = linkage.bodies[id].bounded && linkage.bodies[other.body].bounded;
       if (bounded && (center - middle.center(other.body)).squaredNorm() > least * least) continue;
       addSuspect(id, other.body, other.shared, middle);
@@ -97,44 +98,75 @@ void MotionSearch::findSuspects() {
 void MotionSearch::addSuspect(int a, int b, int shared, const Configuration& middle) {
   const int first = std::min(a, b), second = std::max(a, b);
   queries_.requireServed(first, second);
-  const double speed = middle.speed(a, shared) + middle.speed(b, shared);
-  const double motion = 0.5 * speed + request_.min_separation;
-  const double roots = queries_.rootBound(first, second, middle, motion);
+  const PairMotion moving(middle.motion(a, shared), middle.motion(b, shared));
+  const double motion = moving.during(0.5) + request_.min_separation;
+  const Pair pair = {first, second, shared};
+  const double roots = queries_.rootBound(pair, middle, motion);
   if (roots > motion) return;
-  suspects_.push_back({first, second, shared, {}, roots});
+  suspects_.push_back({pair, roots});
   waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, roots - motion});
 }
 
 MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart,
-                                        double speed) const {
+                                        const PairMotion& motion) const {
   using Outcome = Look::Outcome;
   const double left = apart - request_.min_separation;
   const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
-  if (left > half * speed) return {Outcome::kProven, s, task.from, task.to, apart, speed};
-  if (!(left > 0)) return {Outcome::kUndecided, s, s, s, apart, speed};
-  // Rounded down, so that the interval is proven as it is stored.
-  const double way = left / speed * (1 - 0x1p-40);
-  const double from = s - way + 0x1p-52, to = s + way - 0x1p-52;
-  if (!(from < to)) return {Outcome::kPart, s, s, s, apart, speed};
-  return {Outcome::kPart, s, from, to, apart, speed};
+  if (left > motion.during(half)) return {Outcome::kProven, s, task.from, task.to};
+  if (!(left > 0)) return {Outcome::kUndecided, s, s, s, 0};
+  const double way = motion.timeFor(left, half) * (1 - 0x1p-40);
+  const double from = s - way + 0x1p-52, to = s + way - 0x1p-52;  // rounded towards s
+  if (!(from < to)) return {Outcome::kPart, s, s, s, 0};
+  return {Outcome::kPart, s, from, to, way};
+}
+
+// Across the direction of the nearest points most of the motion doesn't matter.
+MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pair& pair,
+                                         const Configuration& c, const PairMotion& motion) const {
+  using Outcome = Look::Outcome;
+  if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
+  if (pair.direction.isZero(0)) return look;
+  const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
+  const double s = look.s;
+  const double gap = queries_.slab(pair, c) - request_.min_separation;
+  if (!(gap > 0)) return look;
+  Look wide = look;
+  wide.outcome = Outcome::kPart;
+  const double back = std::max(0.0, s - task.from) * (1 + 0x1p-50),
+               forth = std::max(0.0, task.to - s) * (1 + 0x1p-50);
+  const double way_back = motion.timeForSlab(gap, closing.back, back),
+               way_forth = motion.timeForSlab(gap, closing.forth, forth);
+  wide.from = way_back < back ? std::min(look.from, s - way_back * (1 - 0x1p-40) + 0x1p-52) : task.from;
+  wide.to = way_forth < forth ? std::max(look.to, s + way_forth * (1 - 0x1p-40) - 0x1p-52) : task.to;
+  if (wide.from <= task.from && wide.to >= task.to) wide.outcome = Outcome::kProven;
+  wide.way = std::max(look.way, std::min(way_back, way_forth));
+  return wide;
 }
 
 MotionSearch::Look MotionSearch::look(const Task& task) {
   using Outcome = Look::Outcome;
-  Suspect& pair = suspects_[task.suspect];
+  Pair& pair = suspects_[task.suspect].pair;
   const double s = middleOf(task.from, task.to);
   const Configuration& c = at(s);
-  const double speed = c.speed(pair.a, pair.shared) + c.speed(pair.b, pair.shared);
+  const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
   const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
-  const double enough = request_.min_separation + half * speed;
-  const double roots = s == 0.5 ? pair.roots : queries_.rootBound(pair.a, pair.b, c, enough);
+  const double moved = motion.during(half), enough = request_.min_separation + moved;
+  const double roots =
+      s == 0.5 ? suspects_[task.suspect].roots : queries_.rootBound(pair, c, enough);
   const double roots_left = roots - request_.min_separation;
-  if (roots_left > half * speed || (roots_left > 0 && roots_left > kRootsShare * half * speed)) {
-    return proven(task, s, roots, speed);
+  if (roots_left > moved || (roots_left > 0 && roots_left > kRootsShare * moved)) {
+    return proven(task, s, roots, motion);
   }
-  const Nearness near = queries_.ask(pair.a, pair.b, c, enough, roots, pair.nearest);
-  if (near.contact) return {Outcome::kContact, s, s, s, near.apart, speed};
-  return proven(task, s, std::max(near.apart, roots), speed);
+  const Look nothing = {Outcome::kUndecided, s, s, s, 0};
+  const Look before = widened(task, nothing, pair, c, motion);
+  if (before.outcome == Outcome::kProven) return before;
+  if (before.outcome == Outcome::kPart &&
+      before.to - before.from > kSlabShare * (task.to - task.from)) {
+    return before;
+  }
+  const Nearness near = queries_.ask(pair, c, enough, roots);
+  if (near.contact) return {Outcome::kContact, s, s, s, 0};
+  return widened(task, proven(task, s, std::max(near.apart, roots), motion), pair, c, motion);
 }
 
 void MotionSearch::undecided(const Look& look, int suspect) {
@@ -150,8 +182,7 @@ void MotionSearch::anyContact() {
   const auto push = [&](int suspect, double from, double to, const Look& look) {
     if (!(from < to)) return;
     if (end_.suspect >= 0 && to - from < kShort) return;
-    waiting_.push_back(
-        {suspect, from, to, look.apart - request_.min_separation - look.speed * (to - from)});
+    waiting_.push_back({suspect, from, to, look.way - 0.5 * (to - from)});
     std::push_heap(waiting_.begin(), waiting_.end());
   };
   while (!waiting_.empty()) {
@@ -195,7 +226,7 @@ void MotionSearch::firstContactOf(int suspect) {
   const auto limit = [&] {
     return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
   };
-  Suspect& pair = suspects_[suspect];
+  Pair& pair = suspects_[suspect].pair;
   std::vector<Task> stack = {{suspect, 0, limit()}};
   while (!stack.empty()) {
     Task task = stack.back();
@@ -212,8 +243,7 @@ void MotionSearch::firstContactOf(int suspect) {
     if (result.outcome == Outcome::kContact) {
       end_ = {MotionVerdict::kContact, task.from, result.s, suspect};
       if (task.from == 0 && result.s > 0) {
-        const Nearness start = queries_.ask(pair.a, pair.b, at(0), request_.min_separation,
-                                            -kInfinity, pair.nearest);
+        const Nearness start = queries_.ask(pair, at(0), request_.min_separation, -kInfinity);
         if (start.contact) end_ = {MotionVerdict::kContact, 0, 0, suspect};
       }
       stack.push_back({suspect, task.from, end_.to});
@@ -242,8 +272,8 @@ MotionAnswer MotionSearch::run() {
   answer.from = end_.from;
   answer.to = end_.to;
   if (end_.suspect >= 0) {
-    answer.body_a = suspects_[end_.suspect].a;
-    answer.body_b = suspects_[end_.suspect].b;
+    answer.body_a = suspects_[end_.suspect].pair.a;
+    answer.body_b = suspects_[end_.suspect].pair.b;
   }
   answer.counts = counts_;
   return answer;

@@ -23,9 +23,8 @@ class MotionSearch {
  private:
   /// A pair that its bounding volumes don't prove for the whole path at once.
   struct Suspect {
-    int a, b, shared;
-    engine::TrianglePairIds nearest;  ///< of the last query
-    double roots;                     ///< rootBound() in the middle of the path
+    Pair pair;
+    double roots;  ///< rootBound() in the middle of the path
   };
   /// An interval that is not proven yet. The task whose distance falls short of its motion most comes
   /// first.
@@ -39,7 +38,7 @@ class MotionSearch {
   /// be empty; there is a contact at `s`; or nothing can be proven of `s`, by no shorter interval.
   struct Look {
     enum class Outcome { kProven, kPart, kContact, kUndecided } outcome;
-    double s = 0, from = 0, to = 0, apart = 0, speed = 0;
+    double s = 0, from = 0, to = 0, way = 0;
   };
   /// Where the path isn't clear.
   struct End {
@@ -52,7 +51,9 @@ class MotionSearch {
   void findSuspects();
   void addSuspect(int a, int b, int shared, const Configuration& middle);
   Look look(const Task& task);
-  Look proven(const Task& task, double s, double apart, double speed) const;
+  Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
+  Look widened(const Task& task, const Look& look, Pair& pair, const Configuration& c,
+               const PairMotion& motion) const;
   void anyContact();
   void firstContact();
   void firstContactOf(int suspect);
