@@ -11,6 +11,7 @@
 #include "motion/shape_gap.h"
 #include "query/bracket.h"
 #include "query/mesh_and_other.h"
+#include "query/pair_search.h"
 
 namespace kios::articulated {
 namespace {
@@ -84,10 +85,37 @@ double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double 
   return bound - pad;
 }
 
-double BodyQueries::slab(const Pair& pair, const Configuration& at) const {
+// Frank-Wolfe steps towards the shortest difference of both hulls, as the tables bound them: v is a
+// difference, and the hulls' support points along it give the slab, and the segment to search next.
+double BodyQueries::slab(Pair& pair, const Configuration& at) const {
+  constexpr int kSteps = 6;
+  constexpr double kClose = 0.9;  // of the width that is possible
   if (!body(pair.a).bounded || !body(pair.b).bounded) return -kInfinity;
-  const Eigen::Vector3d& n = pair.direction;
-  return -at.support(pair.b, -n) - at.support(pair.a, n) - path_.pad(pair.a, pair.b);
+  Eigen::Vector3d v = pair.direction, n = v;
+  if (v.isZero(0)) v = at.center(pair.b) - at.center(pair.a);
+  double best = -kInfinity;
+  for (int step = 0; step < kSteps; ++step) {
+    const double length = v.norm();
+    if (!(length > 0x1p-500)) break;
+    n = v / length;
+    Eigen::Vector3d on_a, on_b;
+    const double gap = -at.support(pair.b, -n, on_b) - at.support(pair.a, n, on_a);
+    if (gap > best) {
+      best = gap;
+      pair.direction = n;
+    }
+    const Eigen::Vector3d w = on_b - on_a;
+    if (step > 0 && gap >= kClose * length) break;
+    if (step == 0) {
+      v = w;
+      continue;
+    }
+    const Eigen::Vector3d d = w - v;
+    const double square = d.squaredNorm();
+    if (!(square > 0)) break;
+    v += std::clamp(-v.dot(d) / square, 0.0, 1.0) * d;
+  }
+  return best - path_.pad(pair.a, pair.b);
 }
 
 Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, double roots) const {
@@ -97,6 +125,19 @@ Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, do
   if (mesh_a) return askMeshAndOther(pair, pair.a, pair.b, at, enough);
   if (mesh_b) return askMeshAndOther(pair, pair.b, pair.a, at, enough);
   return askShapes(pair.a, pair.b, at);
+}
+
+bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
+  const BodyData &a = body(pair.a), &b = body(pair.b);
+  if (!a.model || !b.model || min_separation_ > 0) return false;
+  ++counts_.narrow_queries;
+  const PairFrame<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
+                                path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
+  SearchCounts counts;
+  std::vector<engine::TrianglePairIds> found;
+  searchContacts(frame, 1, found, counts);
+  counts_.expansions += counts.expansions;
+  return !found.empty();
 }
 
 Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough,

@@ -12,7 +12,7 @@ struct Pair {
   int a, b;
   int shared;  ///< moving joints that carry both
   engine::TrianglePairIds nearest = {};  ///< of the last query
-  /// Of the last query, from a to b in the world; 0 if there was none.
+  /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
 
@@ -32,12 +32,15 @@ class BodyQueries {
 
   /// A lower bound by the bodies' root volumes; once it exceeds `enough`, that will do.
   double rootBound(const Pair& pair, const Configuration& at, double enough) const;
-  /// The width of the slab between the bodies across the pair's direction: all of a lies below it,
-  /// all of b above it. Negative if they overlap along it.
-  double slab(const Pair& pair, const Configuration& at) const;
+  /// The width of a slab between the bodies: all of a lies below it, all of b above it, along the
+  /// pair's direction, which is set. Negative if none was found: the hulls overlap, or nearly so.
+  double slab(Pair& pair, const Configuration& at) const;
   /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two of
   /// the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
   Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;
+  /// True only if the bodies are in contact, by a query that tells nothing else and takes less time;
+  /// false if that would take a query as long as ask().
+  bool touching(const Pair& pair, const Configuration& at) const;
 
   /// Throws std::invalid_argument if no query serves the pair.
   void requireServed(int a, int b) const;

@@ -162,6 +162,12 @@ void Configuration::addMotions(const BodyData& body, int id) const {
   }
 }
 
+double BodyMotion::during(double time) const {
+  const double speed =
+      std::sqrt(std::max(ends[0].squaredNorm(), ends[1].squaredNorm())) + swing.norm() + rounding;
+  return std::min(most, speed + 0.5 * time * (change[0] + time * change[1])) * time;
+}
+
 PairMotion::PairMotion(const BodyMotion& a, const BodyMotion& b)
     : a_(a),
       b_(b),

@@ -93,6 +93,9 @@ struct BodyMotion {
   Eigen::Vector3d swing = Eigen::Vector3d::Zero();
   double rounding = 0;
   double change[2] = {0, 0};  ///< accelerations are at most change[0] + change[1] h, h away from s
+
+  /// No point moves farther than this within `time` of the configuration.
+  double during(double time) const;
 };
 
 /// The motion of two bodies relative to each other.
@@ -140,12 +143,14 @@ class Configuration {
     const BodyData& body = bodyAt(id);
     return body.carried < 0 ? body.content.center : placed_[body.carried].center;
   }
-  /// >= n . x for every point x of a bounded body in the world.
-  double support(int id, const Eigen::Vector3d& n) const {
+  /// >= n . x for every point x of a bounded body in the world; `point` as SupportTable::along().
+  double support(int id, const Eigen::Vector3d& n, Eigen::Vector3d& point) const {
     const BodyData& body = path_->linkage().bodies[id];
-    if (body.link < 0) return body.supports.along(n);
+    if (body.link < 0) return body.supports.along(n, &point);
     const PlacedLink& link = links_[body.link];
-    return n.dot(link.t) + body.supports.along(link.R.transpose() * n);
+    const double along = body.supports.along(link.R.transpose() * n, &point);
+    point = link.t + link.R * point;
+    return n.dot(link.t) + along;
   }
   /// By the joints after the first `shared` that carry the body.
   const BodyMotion& motion(int id, int shared) const {

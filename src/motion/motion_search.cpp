@@ -64,47 +64,72 @@ const Configuration& MotionSearch::at(double s) {
   return c;
 }
 
-// All pairs at the middle of the path: most are so far apart that half of the path doesn't bring
-// them together.
-void MotionSearch::findSuspects() {
+/// Calls visit(pair) for every pair that its balls and boxes don't prove apart for `time` to both
+/// sides of a configuration.
+template <typename Visit>
+void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit& visit) {
   const Linkage::Impl& linkage = path_.linkage();
-  const Configuration& middle = at(0.5);
-  counts_.pairs = linkage.num_pairs;
   for (const CarriedBody& carried : linkage.carried) {
     const int id = carried.body;
-    const Eigen::Vector3d& center = middle.center(id);
-    const double radius = linkage.bodies[id].content.radius;
+    const BodyData& body = linkage.bodies[id];
+    const Eigen::Vector3d& center = c.center(id);
+    const double reach = request_.min_separation + body.content.radius;
     if (!carried.obstacles.empty()) {
-      const double far = request_.min_separation + radius + middle.motion(id, 0).most * 0.5;
+      const double far = reach + c.motion(id, 0).during(time);
       for (const ObstacleBox& box : carried.obstacles) {
         const double least = far + path_.pad(id, box.body);
-        if (linkage.bodies[id].bounded && squaredDistance(center, box) > least * least) continue;
-        addSuspect(id, box.body, 0, middle);
+        if (body.bounded && squaredDistance(center, box) > least * least) continue;
+        visit(Pair{std::min(id, box.body), std::max(id, box.body), 0});
       }
     }
     for (const Partner& other : carried.others) {
-      const double least = request_.min_separation + path_.pad(id, other.body) + radius +
-                           linkage.bodies[other.body].content.radius +
-                           0.5 * (middle.motion(id, other.shared).most +
-                                  middle.motion(other.body, other.shared).most);
-      const bool bounded = linkage.bodies[id].bounded && linkage.bodies[other.body].bounded;
-      if (bounded && (center - middle.center(other.body)).squaredNorm() > least * least) continue;
-      addSuspect(id, other.body, other.shared, middle);
+      const BodyData& with = linkage.bodies[other.body];
+      const double least = reach + path_.pad(id, other.body) + with.content.radius +
+                           c.motion(id, other.shared).during(time) +
+                           c.motion(other.body, other.shared).during(time);
+      if (body.bounded && with.bounded &&
+          (center - c.center(other.body)).squaredNorm() > least * least) {
+        continue;
+      }
+      visit(Pair{std::min(id, other.body), std::max(id, other.body), other.shared});
     }
   }
+}
+
+// Most pairs are so far apart at the middle of the path that half of it doesn't bring them together.
+void MotionSearch::findSuspects() {
+  const Configuration& middle = at(0.5);
+  counts_.pairs = path_.linkage().num_pairs;
+  forNearPairs(middle, 0.5, [&](const Pair& pair) {
+    queries_.requireServed(pair.a, pair.b);
+    const PairMotion motion(middle.motion(pair.a, pair.shared), middle.motion(pair.b, pair.shared));
+    const double moved = motion.during(0.5) + request_.min_separation;
+    const double roots = queries_.rootBound(pair, middle, moved);
+    if (roots > moved) return;
+    suspects_.push_back({pair, roots});
+    waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, roots - moved});
+  });
   counts_.proven_at_once = counts_.pairs - static_cast<long long>(suspects_.size());
 }
 
-void MotionSearch::addSuspect(int a, int b, int shared, const Configuration& middle) {
-  const int first = std::min(a, b), second = std::max(a, b);
-  queries_.requireServed(first, second);
-  const PairMotion moving(middle.motion(a, shared), middle.motion(b, shared));
-  const double motion = moving.during(0.5) + request_.min_separation;
-  const Pair pair = {first, second, shared};
-  const double roots = queries_.rootBound(pair, middle, motion);
-  if (roots > motion) return;
-  suspects_.push_back({pair, roots});
-  waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, roots - motion});
+// The deepest pairs first.
+bool MotionSearch::touchingAt(double s) {
+  const Configuration& c = at(s);
+  std::vector<Suspect> near;
+  forNearPairs(c, 0, [&](const Pair& pair) {
+    queries_.requireServed(pair.a, pair.b);
+    const double roots = queries_.rootBound(pair, c, 0);
+    if (roots <= 0) near.push_back({pair, roots});
+  });
+  std::sort(near.begin(), near.end(),
+            [](const Suspect& a, const Suspect& b) { return a.roots < b.roots; });
+  for (Suspect& suspect : near) {
+    if (queries_.slab(suspect.pair, c) > 0 || !queries_.touching(suspect.pair, c)) continue;
+    suspects_.assign(1, suspect);
+    end_ = {MotionVerdict::kContact, s, s, 0};
+    return true;
+  }
+  return false;
 }
 
 MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart,
@@ -125,11 +150,10 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pai
                                          const Configuration& c, const PairMotion& motion) const {
   using Outcome = Look::Outcome;
   if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
-  if (pair.direction.isZero(0)) return look;
-  const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
   const double s = look.s;
   const double gap = queries_.slab(pair, c) - request_.min_separation;
   if (!(gap > 0)) return look;
+  const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
   Look wide = look;
   wide.outcome = Outcome::kPart;
   const double back = std::max(0.0, s - task.from) * (1 + 0x1p-50),
@@ -163,6 +187,9 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   if (before.outcome == Outcome::kPart &&
       before.to - before.from > kSlabShare * (task.to - task.from)) {
     return before;
+  }
+  if (roots <= 0 && before.outcome == Outcome::kUndecided && queries_.touching(pair, c)) {
+    return {Outcome::kContact, s, s, s, 0};
   }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
@@ -261,10 +288,11 @@ void MotionSearch::firstContactOf(int suspect) {
 }
 
 MotionAnswer MotionSearch::run() {
-  findSuspects();
   if (request_.first_contact) {
+    findSuspects();
     firstContact();
-  } else {
+  } else if (request_.min_separation > 0 || !touchingAt(1)) {
+    findSuspects();
     anyContact();
   }
   MotionAnswer answer;

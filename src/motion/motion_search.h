@@ -48,8 +48,10 @@ class MotionSearch {
   };
 
   const Configuration& at(double s);
+  template <typename Visit>
+  void forNearPairs(const Configuration& c, double time, const Visit& visit);
   void findSuspects();
-  void addSuspect(int a, int b, int shared, const Configuration& middle);
+  bool touchingAt(double s);
   Look look(const Task& task);
   Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
   Look widened(const Task& task, const Look& look, Pair& pair, const Configuration& c,

@@ -63,28 +63,38 @@ SupportTable::SupportTable(const std::vector<Vector3d>& points, double margin) {
 
 // The barycentric coordinates of n in its triangle sum to |n|_1 but for 8 u, which times heights is
 // far below the margin of 2^-48 |n|_1 size that the sum of three heights gets here.
-double SupportTable::along(const Vector3d& n) const {
+double SupportTable::along(const Vector3d& n, Vector3d* point) const {
   const double length = n.lpNorm<1>();
-  if (!(length > 0)) return 0;
+  if (!(length > 0)) {
+    if (point) point->setZero();
+    return 0;
+  }
   int octant = 0;
   for (int c = 0; c < 3; ++c) octant |= n[c] < 0 ? 1 << c : 0;
   const double x = std::abs(n[0]) / length * kCuts, y = std::abs(n[1]) / length * kCuts;
   const int i = std::min(static_cast<int>(x), kCuts - 1);
   const int j = std::min(static_cast<int>(y), kCuts - 1 - i);
   const double u = x - i, v = y - j;
-  double height, size;
+  const double b = heights_[indexOf(octant, i + 1, j)], c = heights_[indexOf(octant, i, j + 1)];
+  double a, by_x, by_y, height;
   if (u + v <= 1 || i + j == kCuts - 1) {
-    const double a = heights_[indexOf(octant, i, j)], b = heights_[indexOf(octant, i + 1, j)],
-                 c = heights_[indexOf(octant, i, j + 1)];
-    height = a + u * (b - a) + v * (c - a);
-    size = std::abs(a) + std::abs(b) + std::abs(c);
+    a = heights_[indexOf(octant, i, j)];
+    by_x = b - a;
+    by_y = c - a;
+    height = a + u * by_x + v * by_y;
   } else {  // the triangle on the other side
-    const double a = heights_[indexOf(octant, i + 1, j + 1)],
-                 b = heights_[indexOf(octant, i, j + 1)], c = heights_[indexOf(octant, i + 1, j)];
-    height = a + (1 - u) * (b - a) + (1 - v) * (c - a);
-    size = std::abs(a) + std::abs(b) + std::abs(c);
+    a = heights_[indexOf(octant, i + 1, j + 1)];
+    by_x = a - c;
+    by_y = a - b;
+    height = a + (u - 1) * by_x + (v - 1) * by_y;
   }
-  return (height + 0x1p-48 * size) * length;
+  if (point) {
+    // Along the triangle by_x is 1 / kCuts of p_x - p_z, by_y of p_y - p_z, in the octant's signs.
+    const double z = height - x * by_x - y * by_y;
+    const Vector3d p(z + kCuts * by_x, z + kCuts * by_y, z);
+    for (int k = 0; k < 3; ++k) (*point)[k] = (octant & (1 << k)) != 0 ? -p[k] : p[k];
+  }
+  return (height + 0x1p-48 * (std::abs(a) + std::abs(b) + std::abs(c))) * length;
 }
 
 }  // namespace kios::articulated

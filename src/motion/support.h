@@ -20,8 +20,9 @@ class SupportTable {
   SupportTable(const std::vector<fcl::Vector3d>& points, double margin);
 
   bool empty() const { return heights_.empty(); }
-  /// >= n . x for every point x, if n is finite.
-  double along(const fcl::Vector3d& n) const;
+  /// >= n . x for every point x, if n is finite. `point`, if given, is where the bound would be
+  /// attained, near the content's surface.
+  double along(const fcl::Vector3d& n, fcl::Vector3d* point = nullptr) const;
 
  private:
   static constexpr int kCuts = 8;  ///< of an edge of the octahedron
