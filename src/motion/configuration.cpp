@@ -96,11 +96,11 @@ void Configuration::set(const Path& path, double s) {
     }
   }
   placed_.resize(path.linkage().carried.size());
-  for (PlacedBody& body : placed_) body.ready = false;
+  for (PlacedBody& body : placed_) body.ready = body.moves = false;
   motions_.resize(static_cast<std::size_t>(path.linkage().num_motions));
 }
 
-void Configuration::place(const BodyData& body, int id) const {
+void Configuration::place(const BodyData& body) const {
   const PlacedLink& link = links_[body.link];
   PlacedBody& placed = placed_[body.carried];
   placed.ready = true;
@@ -108,11 +108,11 @@ void Configuration::place(const BodyData& body, int id) const {
   placed.X.linear().noalias() = link.R * body.X_LB.linear();
   placed.X.translation() = link.t + link.R * body.X_LB.translation();
   placed.center = link.t + link.R * body.content.center;
-  addMotions(body, id);
 }
 
 // From the last joint to the first, each sum taking in one more joint.
 void Configuration::addMotions(const BodyData& body, int id) const {
+  placed_[body.carried].moves = true;
   const auto& links = path_->linkage().links;
   const auto& moving = links[body.link].moving;
   const PlacedLink& own = links_[body.link];

@@ -58,6 +58,11 @@ class Path {
     const Share &x = shares_[slot(a)], &y = shares_[slot(b)];
     return 0x1p-43 * (x.level + y.level) * (length(a) + length(b)) + x.slack + y.slack;
   }
+  /// >= the pad of a carried body with any obstacle.
+  double padOfObstacles(int body) const {
+    const Share& share = shares_[slot(body)];
+    return 0x1p-43 * (share.level + 2) * (share.length + linkage_.farthest_obstacle) + share.slack;
+  }
   /// A bound of the rounding of the distance of a body's content from an axis.
   double axisRounding(int body) const {
     return 0x1p-43 * shares_[slot(body)].level * length(body);
@@ -155,7 +160,9 @@ class Configuration {
   /// By the joints after the first `shared` that carry the body.
   const BodyMotion& motion(int id, int shared) const {
     const BodyData& body = bodyAt(id);
-    return motions_[body.carried < 0 ? 0 : body.first_motion + shared];
+    if (body.carried < 0) return motions_[0];
+    if (!placed_[body.carried].moves) addMotions(body, id);
+    return motions_[body.first_motion + shared];
   }
 
  private:
@@ -167,14 +174,14 @@ class Configuration {
   struct PlacedBody {
     fcl::Transform3d X;
     Eigen::Vector3d center;
-    bool ready = false;  ///< it is set when it is asked for
+    bool ready = false, moves = false;  ///< the pose, and the motions, were asked for and are set
   };
   const BodyData& bodyAt(int id) const {
     const BodyData& body = path_->linkage().bodies[id];
-    if (body.carried >= 0 && !placed_[body.carried].ready) place(body, id);
+    if (body.carried >= 0 && !placed_[body.carried].ready) place(body);
     return body;
   }
-  void place(const BodyData& body, int id) const;
+  void place(const BodyData& body) const;
   void addMotions(const BodyData& body, int id) const;
 
   const Path* path_ = nullptr;

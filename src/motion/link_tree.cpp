@@ -263,6 +263,7 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   }
   if (link < 0) {
     body.obstacle_length = (X_LB.translation().norm() + body.reach) * (1 + 0x1p-50);
+    farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
   } else {
     body.carried = static_cast<int>(carried.size());
     body.first_motion = num_motions;

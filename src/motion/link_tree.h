@@ -85,6 +85,7 @@ class Linkage::Impl {
   int coordinates = 0;
   int num_motions = 1;  ///< of bodies in a configuration: one by each moving joint, and one more
   long long num_pairs = 0;
+  double farthest_obstacle = 0;  ///< the largest obstacle_length
 
   int addLink(int parent, const Joint& joint);
   int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,

@@ -75,18 +75,22 @@ void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit
     const Eigen::Vector3d& center = c.center(id);
     const double reach = request_.min_separation + body.content.radius;
     if (!carried.obstacles.empty()) {
-      const double far = reach + c.motion(id, 0).during(time);
+      const double far = body.bounded
+                             ? reach + path_.padOfObstacles(id) +
+                                   (time > 0 ? c.motion(id, 0).during(time) : 0)
+                             : kInfinity;
       for (const ObstacleBox& box : carried.obstacles) {
-        const double least = far + path_.pad(id, box.body);
-        if (body.bounded && squaredDistance(center, box) > least * least) continue;
+        if (squaredDistance(center, box) > far * far) continue;
         visit(Pair{std::min(id, box.body), std::max(id, box.body), 0});
       }
     }
     for (const Partner& other : carried.others) {
       const BodyData& with = linkage.bodies[other.body];
-      const double least = reach + path_.pad(id, other.body) + with.content.radius +
-                           c.motion(id, other.shared).during(time) +
-                           c.motion(other.body, other.shared).during(time);
+      double least = reach + path_.pad(id, other.body) + with.content.radius;
+      if (time > 0) {
+        least += c.motion(id, other.shared).during(time) +
+                 c.motion(other.body, other.shared).during(time);
+      }
       if (body.bounded && with.bounded &&
           (center - c.center(other.body)).squaredNorm() > least * least) {
         continue;
