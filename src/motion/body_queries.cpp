@@ -149,7 +149,7 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
   engine::PairQuery query;
   query.rel_err = kRelErr;
   query.near_enough = min_separation_;
-  query.far_enough = (enough + pad) * (1 + 0x1p-50);
+  query.far_enough = (enough + pad) * (1 + 0x1p-40);
   const auto search = [&] {
     const auto answer = bracketDistance(frame, query, std::max(0.0, roots));
     counts_.expansions += answer.counts.expansions;
@@ -179,7 +179,7 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   fcl::DistanceResultd result;
   request.rel_err = 0.5;
   request.enable_nearest_points = true;
-  result.min_distance = (enough + error) * (1 + request.rel_err) * (1 + 0x1p-40);
+  result.min_distance = (enough + error) * (1 + request.rel_err) * (1 + 0x1p-30);
   const double asked = result.min_distance;
   const auto search = [&] {
     return distanceOther(model, at.pose(mesh), geometry, at.pose(other), request, result);

@@ -24,6 +24,8 @@ void requireCoordinates(const Eigen::VectorXd& q, int size, const char* name) {
             << size << ".";
   } else if (!q.allFinite()) {
     message << "fcl_kios: a coordinate of " << name << " is NaN or infinite.";
+  } else if (!(q.size() == 0 || q.lpNorm<Eigen::Infinity>() <= 0x1p300)) {
+    message << "fcl_kios: a coordinate of " << name << " is too large.";
   } else {
     return;
   }

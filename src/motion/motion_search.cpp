@@ -200,11 +200,22 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   return widened(task, proven(task, s, std::max(near.apart, roots), motion), pair, c, motion);
 }
 
-void MotionSearch::undecided(const Look& look, int suspect) {
-  if (end_.suspect >= 0) return;
-  const double half = 0.5 * request_.resolution;
-  end_ = {MotionVerdict::kUnresolved, std::max(0.0, look.s - half), std::min(1.0, look.s + half),
-          suspect};
+bool MotionSearch::contactAt(double s, int suspect) {
+  return queries_.ask(suspects_[suspect].pair, at(s), request_.min_separation, -kInfinity).contact;
+}
+
+// True if an end of the interval is in contact: paths begin and end in poses that touch. Else the
+// first interval of this kind is kept as the answer, should no contact turn up.
+bool MotionSearch::undecided(const Task& task, const Look& look) {
+  const double half = 0.25 * request_.resolution;
+  const double from = std::max(task.from, look.s - half), to = std::min(task.to, look.s + half);
+  for (const double s : {from, to}) {
+    if (!contactAt(s, task.suspect)) continue;
+    end_ = {MotionVerdict::kContact, s, s, task.suspect};
+    return true;
+  }
+  if (end_.suspect < 0) end_ = {MotionVerdict::kUnresolved, from, to, task.suspect};
+  return false;
 }
 
 void MotionSearch::anyContact() {
@@ -233,10 +244,10 @@ void MotionSearch::anyContact() {
           push(task.suspect, result.to, task.to, result);
           break;
         }
-        undecided(result, task.suspect);
+        if (undecided(task, result)) return;
         break;
       case Outcome::kUndecided:
-        undecided(result, task.suspect);
+        if (undecided(task, result)) return;
         push(task.suspect, task.from, result.s - request_.resolution, result);
         push(task.suspect, result.s + request_.resolution, task.to, result);
     }
@@ -257,7 +268,6 @@ void MotionSearch::firstContactOf(int suspect) {
   const auto limit = [&] {
     return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
   };
-  Pair& pair = suspects_[suspect].pair;
   std::vector<Task> stack = {{suspect, 0, limit()}};
   while (!stack.empty()) {
     Task task = stack.back();
@@ -272,21 +282,20 @@ void MotionSearch::firstContactOf(int suspect) {
     }
     const Look result = look(task);
     if (result.outcome == Outcome::kContact) {
-      end_ = {MotionVerdict::kContact, task.from, result.s, suspect};
-      if (task.from == 0 && result.s > 0) {
-        const Nearness start = queries_.ask(pair, at(0), request_.min_separation, -kInfinity);
-        if (start.contact) end_ = {MotionVerdict::kContact, 0, 0, suspect};
-      }
-      stack.push_back({suspect, task.from, end_.to});
+      const bool starts = task.from == 0 && result.s > 0 && contactAt(0, suspect);
+      end_ = {MotionVerdict::kContact, task.from, starts ? 0 : result.s, suspect};
       if (end_.to == 0) return;
+      stack.push_back({suspect, task.from, end_.to});
     } else if (result.outcome == Outcome::kPart && task.to - task.from > request_.resolution) {
       if (result.to < task.to) stack.push_back({suspect, result.to, task.to});
       if (task.from < result.from) stack.push_back({suspect, task.from, result.from});
     } else if (result.outcome != Outcome::kProven) {
-      const double half = 0.5 * request_.resolution;
-      end_ = {MotionVerdict::kUnresolved, std::max(task.from, result.s - half),
-              std::min(1.0, result.s + half), suspect};
-      stack.push_back({suspect, task.from, end_.from});
+      const double half = 0.25 * request_.resolution;  // so that repeated steps end
+      const double from = std::max(task.from, result.s - half),
+                   to = std::min(task.to, result.s + half);
+      const bool touches = contactAt(to, suspect);
+      end_ = {touches ? MotionVerdict::kContact : MotionVerdict::kUnresolved, from, to, suspect};
+      stack.push_back({suspect, task.from, touches ? to : from});
     }
   }
 }

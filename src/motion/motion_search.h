@@ -59,7 +59,8 @@ class MotionSearch {
   void anyContact();
   void firstContact();
   void firstContactOf(int suspect);
-  void undecided(const Look& look, int suspect);
+  bool undecided(const Task& task, const Look& look);
+  bool contactAt(double s, int suspect);
 
   const Path& path_;
   const MotionRequest& request_;

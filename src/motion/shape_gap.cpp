@@ -74,13 +74,13 @@ double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
 
 bool shapesMeet(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
                 const Transform3d& X_WB, double within) {
+  if (!a.bounded || !b.bounded) return shapeGap(a, X_WA, b, X_WB) <= within;
   fcl::CollisionResultd contacts;
-  const fcl::CollisionRequestd request;
-  if (fcl_own::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, contacts) > 0) {
+  if (fcl_own::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, fcl::CollisionRequestd(),
+                       contacts) > 0) {
     return true;
   }
   if (!(within > 0)) return false;
-  if (!a.bounded || !b.bounded) return shapeGap(a, X_WA, b, X_WB) <= within;
   fcl::DistanceResultd result;
   return nearestPoints(a, X_WA, b, X_WB, result) && result.min_distance <= within;
 }
