@@ -54,7 +54,7 @@ SupportTable::SupportTable(const std::vector<Vector3d>& points, double margin) {
         if (first != octant) {
           height = heights_[indexOf(first, i, j)];
         } else {
-          height = farthest(p, n) + margin + 0x1p-49 * size;
+          height = farthest(p, n) + margin * n.norm() + 0x1p-49 * size;
         }
       }
     }
