@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -32,10 +33,14 @@ class MotionSet {
   std::string name_;
 };
 
-/// By their names in rows: `kios`, checkMotion(); `kios_sampled` and `fcl_obbrss`, samples at most
+/// By their names in rows: `kios`, checkMotion(); `sampled_kios` and `fcl_obbrss`, samples at most
 /// 0.01 rad apart in the largest joint, each with FCL's dynamic AABB trees over k-IOS and OBBRSS;
-/// `kios_scene_sampled`, the same samples by SceneDistance. Samples are taken in the order of OMPL's
-/// discrete validator: the end, the middle, the middles of the halves. The cell must outlive it.
+/// `sampled_scene`, the same samples by SceneDistance. Samples are taken in the order of
+/// OMPL's discrete validator: the end, the middle, the middles of the halves. The cell must outlive
+/// it.
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell);
+
+/// True if a configuration is free of contact, by the static query of every pair whose boxes meet.
+std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& cell);
 
 }  // namespace kios::bench

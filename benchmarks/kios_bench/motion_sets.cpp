@@ -29,8 +29,7 @@ std::vector<std::shared_ptr<fcl::BVHModel<BV>>> modelsOf(const scenes::Cell& cel
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models;
   for (int body = 0; body < cell.bodies(); ++body) {
     const bool again = body >= cell.links() && body < cell.moving();
-    models.push_back(again ? models[body % cell.links()]
-                           : scenes::buildModel<BV>(cell.mesh(body)));
+    models.push_back(again ? models[body % cell.links()] : scenes::buildModel<BV>(cell.mesh(body)));
   }
   return models;
 }
@@ -64,14 +63,14 @@ class Sampled : public MotionSet {
     double most = 0;
     for (std::size_t i = 0; i < q0.size(); ++i) most = std::max(most, std::abs(q1[i] - q0[i]));
     const int count = std::max(1, static_cast<int>(std::ceil(most / kStep - 1e-9)));
-    if (!isFree(q1)) return false;
+    if (!isFreeAt(q1)) return false;
     halves_.assign(1, {1, count - 1});
     while (!halves_.empty()) {
       const auto [first, last] = halves_.front();
       halves_.pop_front();
       if (first > last) continue;
       const int middle = (first + last) / 2;
-      if (!isFree(scenes::between(q0, q1, 1.0 * middle / count))) return false;
+      if (!isFreeAt(scenes::between(q0, q1, 1.0 * middle / count))) return false;
       halves_.emplace_back(first, middle - 1);
       halves_.emplace_back(middle + 1, last);
     }
@@ -80,7 +79,7 @@ class Sampled : public MotionSet {
   long long takeQueried() override { return std::exchange(queried_, 0); }
 
  protected:
-  virtual bool isFree(const scenes::Joints& q) = 0;
+  virtual bool isFreeAt(const scenes::Joints& q) = 0;
 
   const scenes::Cell& cell_;
   std::vector<fcl::Transform3d> poses_;
@@ -107,8 +106,7 @@ class Managed final : public Sampled {
     still_.setup();
   }
 
- private:
-  bool isFree(const scenes::Joints& q) override {
+  bool isFreeAt(const scenes::Joints& q) override {
     scenes::placeLinks(cell_, q, poses_);
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       objects_[i]->setTransform(poses_[i]);
@@ -121,6 +119,7 @@ class Managed final : public Sampled {
     return !contact_;
   }
 
+ private:
   static int idOf(const Object* object) {
     return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
   }
@@ -156,7 +155,7 @@ class SceneSampled final : public Sampled {
   }
 
  private:
-  bool isFree(const scenes::Joints& q) override {
+  bool isFreeAt(const scenes::Joints& q) override {
     scenes::placeLinks(cell_, q, poses_);
     for (std::size_t i = 0; i < poses_.size(); ++i) scene_.move(static_cast<int>(i), poses_[i]);
     SceneRequest request;
@@ -193,10 +192,15 @@ Linkage linkageOf(const scenes::Cell& cell) {
   return linkage;
 }
 
+std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& cell) {
+  const auto set = std::make_shared<Managed<kIOSd, KiosCalls>>("", cell);
+  return [set](const scenes::Joints& q) { return set->isFreeAt(q); };
+}
+
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell) {
   if (name == "kios") return std::make_unique<Certified>(name, cell);
-  if (name == "kios_scene_sampled") return std::make_unique<SceneSampled>(name, cell);
-  if (name == "kios_sampled") return std::make_unique<Managed<kIOSd, KiosCalls>>(name, cell);
+  if (name == "sampled_scene") return std::make_unique<SceneSampled>(name, cell);
+  if (name == "sampled_kios") return std::make_unique<Managed<kIOSd, KiosCalls>>(name, cell);
   return std::make_unique<Managed<fcl::OBBRSSd, FclCalls>>(name, cell);
 }
 

@@ -20,7 +20,7 @@ struct Cell {
   Robot robot;
   std::vector<fcl::Transform3d> bases;  // in the world
   std::vector<Mesh> obstacles;
-  std::vector<fcl::Transform3d> places;     // of the obstacles in the world
+  std::vector<fcl::Transform3d> places;      // of the obstacles in the world
   std::vector<std::pair<int, int>> allowed;  // pairs of bodies a < b that may touch, ascending
 
   int links() const { return static_cast<int>(robot.links.size()); }

@@ -36,7 +36,8 @@ Eigen::Vector3d unitOrZero(const Eigen::Vector3d& v) {
 /// The error of the distance of a mesh from a shape or a cell, L the extent (docs/shapes.md).
 double kernelError(const BodyData& other, double length) {
   const shape::Solid& solid = other.solid;
-  if (other.kind == BodyKind::kShape && solid.kind == shape::Kind::kConvex && solid.num_faces == 0) {
+  if (other.kind == BodyKind::kShape && solid.kind == shape::Kind::kConvex &&
+      solid.num_faces == 0) {
     return 0x1p-28 * length;
   }
   double error = 0x1p-41 * length;
@@ -79,8 +80,7 @@ double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double 
     bound = ballBound(first, at.pose(a), at.center(b), second.content.radius);
   }
   if (second.kind == BodyKind::kShape && first.bounded) {
-    bound =
-        std::max(bound, ballBound(second, at.pose(b), at.center(a), first.content.radius));
+    bound = std::max(bound, ballBound(second, at.pose(b), at.center(a), first.content.radius));
   }
   return bound - pad;
 }
@@ -173,8 +173,8 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
                                       double enough) const {
   const Modeld& model = *body(mesh).model;
   const fcl::CollisionGeometryd& geometry = *body(other).geometry;
-  const double error = path_.pad(mesh, other) +
-                       kernelError(body(other), path_.length(mesh) + path_.length(other));
+  const double error =
+      path_.pad(mesh, other) + kernelError(body(other), path_.length(mesh) + path_.length(other));
   fcl::DistanceRequestd request;
   fcl::DistanceResultd result;
   request.rel_err = 0.5;

@@ -10,7 +10,7 @@ namespace kios::articulated {
 /// A pair of bodies, a < b, and where queries about it begin.
 struct Pair {
   int a, b;
-  int shared;  ///< moving joints that carry both
+  int shared;                            ///< moving joints that carry both
   engine::TrianglePairIds nearest = {};  ///< of the last query
   /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
@@ -18,7 +18,8 @@ struct Pair {
 
 /// What is known of a pair of bodies at a configuration.
 struct Nearness {
-  /// They are proven so far apart, for the bodies at exact kinematics: the path's pad is subtracted.
+  /// They are proven so far apart, for the bodies at exact kinematics: the path's pad is
+  /// subtracted.
   double apart = 0;
   bool contact = false;  ///< confirmed by the static query
 };
@@ -35,11 +36,11 @@ class BodyQueries {
   /// The width of a slab between the bodies: all of a lies below it, all of b above it, along the
   /// pair's direction, which is set. Negative if none was found: the hulls overlap, or nearly so.
   double slab(Pair& pair, const Configuration& at) const;
-  /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two of
-  /// the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
+  /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two
+  /// of the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
   Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;
-  /// True only if the bodies are in contact, by a query that tells nothing else and takes less time;
-  /// false if that would take a query as long as ask().
+  /// True only if the bodies are in contact, by a query that tells nothing else and takes less
+  /// time; false if that would take a query as long as ask().
   bool touching(const Pair& pair, const Configuration& at) const;
 
   /// Throws std::invalid_argument if no query serves the pair.

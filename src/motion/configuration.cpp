@@ -65,8 +65,9 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
     const BodyData& body = linkage.bodies[carried.body];
     const LinkData& link = linkage.links[body.link];
     Share& share = shares_[body.carried + 1];
-    share.length = (body.X_LB.translation().norm() + body.reach + link.offsets +
-                    travel[body.link]) * (1 + 0x1p-50);
+    share.length =
+        (body.X_LB.translation().norm() + body.reach + link.offsets + travel[body.link]) *
+        (1 + 0x1p-50);
     share.level = link.level + 2;
     share.slack = (angles[body.link] * share.length + shifts[body.link]) * (1 + 0x1p-50);
   }
@@ -139,9 +140,8 @@ void Configuration::addMotions(const BodyData& body, int id) const {
       most += speed;
     } else if (speed > 0) {
       const Vector3d arms[2] = {axis.cross(ends[0] - origin), axis.cross(ends[1] - origin)};
-      double away =
-          std::sqrt(std::max(arms[0].squaredNorm(), arms[1].squaredNorm())) +
-          body.content.capsule_radius;
+      double away = std::sqrt(std::max(arms[0].squaredNorm(), arms[1].squaredNorm())) +
+                    body.content.capsule_radius;
       away = std::min(away, axis.cross(center - origin).norm() + body.content.radius) + rounding;
       if (link == body.link) away = std::min(away, body.own_radius);
       turning += rate * axis;
@@ -196,8 +196,8 @@ PairMotion::Closing PairMotion::closing(const Vector3d& n) const {
           std::max(b[0], b[1]) - std::min(a[0], a[1]) + swing};
 }
 
-// What is used up is convex in time and 0 at 0. Newton's steps come down to the time looked for from
-// above, and the chord from 0 then ends below it.
+// What is used up is convex in time and 0 at 0. Newton's steps come down to the time looked for
+// from above, and the chord from 0 then ends below it.
 double PairMotion::timeForSlab(double gap, double speed, double longest) const {
   double time = longest, used = after(time, speed);
   if (used < gap) return longest;

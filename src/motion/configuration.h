@@ -9,7 +9,8 @@
 
 namespace kios::articulated {
 
-/// The path q(s) = q0 + s (q1 - q0) of a linkage, s in [0, 1], and the bounds that hold all along it.
+/// The path q(s) = q0 + s (q1 - q0) of a linkage, s in [0, 1], and the bounds that hold all along
+/// it.
 ///
 /// Let x(q) be a point of a body in the world, by exact kinematics with the stored rotations, and
 /// T_i the motion of joint i of the n joints on the way to it. Between two configurations q, q'
@@ -17,28 +18,30 @@ namespace kios::articulated {
 ///                  <= sum_i |q_i' - q_i| unit_i rho_i(q),
 /// rho_i(q) the distance of x(q) from the axis of joint i in the configuration q (1 if i is
 /// prismatic): T_1' .. T_(i-1)' is rigid, and a turn by an angle moves a point by at most the angle
-/// times its distance from the axis, which does not depend on the joints before i. All distances are
-/// taken at the one configuration q. Seen from a link that carries both of two bodies, the joints
-/// before that link drop out. This is `most` below.
+/// times its distance from the axis, which does not depend on the joints before i. All distances
+/// are taken at the one configuration q. Seen from a link that carries both of two bodies, the
+/// joints before that link drop out. This is `most` below.
 ///
-/// Near q the velocity tells more, in which motions of joints cancel: x moves by h x'(q) and at most
-/// h^2 / 2 times the largest acceleration on the way. With w_i the rate of joint i,
+/// Near q the velocity tells more, in which motions of joints cancel: x moves by h x'(q) and at
+/// most h^2 / 2 times the largest acceleration on the way. With w_i the rate of joint i,
 ///   |x''| <= sum_i |w_i| rho_i (|w_i| + 2 sum_(j < i) |w_j|),
-/// as each turn carries the velocities of the joints after it along (prismatic joints: |w_i| (2 sum)).
-/// There rho_i is that of the moment, at most rho_i(q) and h times what the joints after i move by.
-/// `first`, `second` and `third` are the factors of h, h^2 / 2 and h^3 / 2.
+/// as each turn carries the velocities of the joints after it along (prismatic joints: |w_i| (2
+/// sum)). There rho_i is that of the moment, at most rho_i(q) and h times what the joints after i
+/// move by. `first`, `second` and `third` are the factors of h, h^2 / 2 and h^3 / 2.
 ///
-/// Rounding, u = 2^-53. A level of joints takes two products of rotations, 9 u each (Frobenius), and
-/// a rotation about an axis, 40 u: the axis is of length 1 and in its direction to 4 u, and an entry
-/// takes 8 roundings. Translations take 12 u of the lengths of a level and 2 u of what they add up
-/// to. With L the sum of the lengths of all offsets, of the prismatic joints' travel and of the
-/// content's reach, a point of the body is off by at most 80 u (n + 2) L, n the level of its link:
-/// the two more are the body's own pose. Rotations are orthonormal to 160 u (n + 2) (spectral norm of
-/// E = R^T R - I), so that a distance d in the first body's frame is one of at least d - 3 |E| (L +
-/// L') in the world, as no length in it exceeds L + L'. Both together are below 640 u (n + n' + 4) (L
+/// Rounding, u = 2^-53. A level of joints takes two products of rotations, 9 u each (Frobenius),
+/// and a rotation about an axis, 40 u: the axis is of length 1 and in its direction to 4 u, and an
+/// entry takes 8 roundings. Translations take 12 u of the lengths of a level and 2 u of what they
+/// add up to. With L the sum of the lengths of all offsets, of the prismatic joints' travel and of
+/// the content's reach, a point of the body is off by at most 80 u (n + 2) L, n the level of its
+/// link: the two more are the body's own pose. Rotations are orthonormal to 160 u (n + 2) (spectral
+/// norm of E = R^T R - I), so that a distance d in the first body's frame is one of at least d - 3
+/// |E| (L + L') in the world, as no length in it exceeds L + L'. Both together are below 640 u (n +
+/// n' + 4) (L
 /// + L'); 1024 u is `pad`, and pays for the bounds of balls and boxes too, which take fewer than 40
 /// roundings of such lengths. Coordinates as computed are those of q(s) to 5 u max(|q0|, |q1|), and
-/// the angle or length is to 4 u more; 16 u is `slack`, by which the path is as if it took a detour.
+/// the angle or length is to 4 u more; 16 u is `slack`, by which the path is as if it took a
+/// detour.
 class Path {
  public:
   /// Throws std::invalid_argument if a configuration isn't of the linkage's size or not finite.
@@ -64,9 +67,7 @@ class Path {
     return 0x1p-43 * (share.level + 2) * (share.length + linkage_.farthest_obstacle) + share.slack;
   }
   /// A bound of the rounding of the distance of a body's content from an axis.
-  double axisRounding(int body) const {
-    return 0x1p-43 * shares_[slot(body)].level * length(body);
-  }
+  double axisRounding(int body) const { return 0x1p-43 * shares_[slot(body)].level * length(body); }
   /// >= the square of the Frobenius norm of E = R^T R - I of a body's pose.
   double rotationSquare(int body) const {
     const double error = 0x1p-44 * shares_[slot(body)].level;
@@ -84,16 +85,18 @@ class Path {
 
   const Linkage::Impl& linkage_;
   const Eigen::VectorXd &q0_, &q1_;
-  std::vector<double> rates_;   // by coordinate
-  std::vector<Share> shares_;   // of all obstacles, then by carried body
+  std::vector<double> rates_;  // by coordinate
+  std::vector<Share> shares_;  // of all obstacles, then by carried body
 };
 
-/// The motion of a body near a configuration, seen from the link that carries another body as well: by
-/// the joints that carry only this one. Velocities are in the world's axes, times are those of s.
+/// The motion of a body near a configuration, seen from the link that carries another body as well:
+/// by the joints that carry only this one. Velocities are in the world's axes, times are those of
+/// s.
 struct BodyMotion {
   double most = 0;  ///< no point moves farther than this in a unit of s, from the configuration on
-  /// Velocities of the ends of the capsule, and the angular one times its radius. Along any direction
-  /// n no point of the capsule is faster than an end by more than |n x swing|, and `rounding`.
+  /// Velocities of the ends of the capsule, and the angular one times its radius. Along any
+  /// direction n no point of the capsule is faster than an end by more than |n x swing|, and
+  /// `rounding`.
   Eigen::Vector3d ends[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Vector3d swing = Eigen::Vector3d::Zero();
   double rounding = 0;

@@ -25,8 +25,8 @@ struct ContentBound {
 ContentBound boundOf(const std::vector<fcl::Vector3d>& points, double margin,
                      const fcl::Vector3d& center);
 
-/// Upper bound of the distance of any of `points`, grown by `margin`, from the line through `origin`
-/// along the unit vector `axis`.
+/// Upper bound of the distance of any of `points`, grown by `margin`, from the line through
+/// `origin` along the unit vector `axis`.
 double farthestFromAxis(const std::vector<fcl::Vector3d>& points, double margin,
                         const fcl::Vector3d& origin, const fcl::Vector3d& axis);
 

@@ -247,8 +247,8 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   body.reach = body.content.reach();
   if (body.bounded) body.supports = articulated::SupportTable(hull.points, hull.margin);
   if (link >= 0) {
-    body.own_radius = articulated::farthestFromAxis(hull.points, hull.margin, Vector3d::Zero(),
-                                                    links[link].axis);
+    body.own_radius =
+        articulated::farthestFromAxis(hull.points, hull.margin, Vector3d::Zero(), links[link].axis);
   }
   ObstacleBox box = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}, 0};
   if (body.bounded) {

@@ -24,9 +24,10 @@ struct LinkData {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
   double unit = 0;      ///< radians or lengths that a unit of the coordinate means
   int coordinate = -1;  ///< -1 if fixed
-  std::vector<int> moving;  ///< links with moving joints from the world to this one, itself included
-  int level = 0;            ///< joints, fixed ones included, from the world to this link
-  double offsets = 0;       ///< sum of |t_PJ| of those, rounded up
+  std::vector<int>
+      moving;          ///< links with moving joints from the world to this one, itself included
+  int level = 0;       ///< joints, fixed ones included, from the world to this link
+  double offsets = 0;  ///< sum of |t_PJ| of those, rounded up
 };
 
 enum class BodyKind { kMesh, kShape, kOctree };
@@ -43,10 +44,10 @@ struct BodyData {
   ContentBound content;   ///< in the link's frame
   double own_radius = 0;  ///< largest distance of the content from the axis of its link's own joint
   SupportTable supports;  ///< of the content in the link's frame; empty if unbounded
-  double reach = 0;       ///< of the content from its link's origin; of an unbounded one, of its plane
+  double reach = 0;  ///< of the content from its link's origin; of an unbounded one, of its plane
   double obstacle_length = 0;  ///< how far an obstacle reaches from the world's origin
-  int carried = -1;       ///< among those on links
-  int first_motion = 0;   ///< of its BodyMotions in a configuration; those of obstacles are all one
+  int carried = -1;            ///< among those on links
+  int first_motion = 0;  ///< of its BodyMotions in a configuration; those of obstacles are all one
   /// State of a mesh when it was added.
   std::uint64_t stamp = 0;
   const void* vertices = nullptr;
@@ -58,8 +59,8 @@ struct ObstacleBox {
   int body;
 };
 
-/// A body on another link. The first `shared` moving joints on the ways from the world to both links
-/// are the same ones: they move both bodies alike.
+/// A body on another link. The first `shared` moving joints on the ways from the world to both
+/// links are the same ones: they move both bodies alike.
 struct Partner {
   int body, shared;
 };

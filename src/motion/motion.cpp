@@ -15,9 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using fcl::Transform3d;
 
-Matrix3d orthonormal(const Matrix3d& R) {
-  return continuous::orthonormal(R, "pose of a motion");
-}
+Matrix3d orthonormal(const Matrix3d& R) { return continuous::orthonormal(R, "pose of a motion"); }
 
 /// Axis and angle in [0, pi] that take R0 to R1.
 Eigen::AngleAxisd turn(const Matrix3d& R0, const Matrix3d& R1) {

@@ -75,10 +75,9 @@ void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit
     const Eigen::Vector3d& center = c.center(id);
     const double reach = request_.min_separation + body.content.radius;
     if (!carried.obstacles.empty()) {
-      const double far = body.bounded
-                             ? reach + path_.padOfObstacles(id) +
-                                   (time > 0 ? c.motion(id, 0).during(time) : 0)
-                             : kInfinity;
+      const double far = body.bounded ? reach + path_.padOfObstacles(id) +
+                                            (time > 0 ? c.motion(id, 0).during(time) : 0)
+                                      : kInfinity;
       for (const ObstacleBox& box : carried.obstacles) {
         if (squaredDistance(center, box) > far * far) continue;
         visit(Pair{std::min(id, box.body), std::max(id, box.body), 0});
@@ -100,7 +99,8 @@ void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit
   }
 }
 
-// Most pairs are so far apart at the middle of the path that half of it doesn't bring them together.
+// Most pairs are so far apart at the middle of the path that half of it doesn't bring them
+// together.
 void MotionSearch::findSuspects() {
   const Configuration& middle = at(0.5);
   counts_.pairs = path_.linkage().num_pairs;
@@ -164,8 +164,10 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pai
                forth = std::max(0.0, task.to - s) * (1 + 0x1p-50);
   const double way_back = motion.timeForSlab(gap, closing.back, back),
                way_forth = motion.timeForSlab(gap, closing.forth, forth);
-  wide.from = way_back < back ? std::min(look.from, s - way_back * (1 - 0x1p-40) + 0x1p-52) : task.from;
-  wide.to = way_forth < forth ? std::max(look.to, s + way_forth * (1 - 0x1p-40) - 0x1p-52) : task.to;
+  wide.from =
+      way_back < back ? std::min(look.from, s - way_back * (1 - 0x1p-40) + 0x1p-52) : task.from;
+  wide.to =
+      way_forth < forth ? std::max(look.to, s + way_forth * (1 - 0x1p-40) - 0x1p-52) : task.to;
   if (wide.from <= task.from && wide.to >= task.to) wide.outcome = Outcome::kProven;
   wide.way = std::max(look.way, std::min(way_back, way_forth));
   return wide;
@@ -254,7 +256,8 @@ void MotionSearch::anyContact() {
   }
 }
 
-// The pairs one after the other, each from the start of the path up to what is known of those before.
+// The pairs one after the other, each from the start of the path up to what is known of those
+// before.
 void MotionSearch::firstContact() {
   std::sort(waiting_.begin(), waiting_.end(),
             [](const Task& a, const Task& b) { return a.margin < b.margin; });
@@ -274,8 +277,8 @@ void MotionSearch::firstContactOf(int suspect) {
     stack.pop_back();
     if (task.from >= limit() && end_.suspect >= 0) continue;
     task.to = std::min(task.to, limit());
-    const bool ends_in_contact = end_.verdict == MotionVerdict::kContact &&
-                                 end_.suspect == suspect && task.to == end_.to;
+    const bool ends_in_contact =
+        end_.verdict == MotionVerdict::kContact && end_.suspect == suspect && task.to == end_.to;
     if (ends_in_contact && task.to - task.from <= request_.resolution) {
       end_.from = task.from;
       continue;

@@ -9,11 +9,11 @@
 
 namespace kios::articulated {
 
-/// The search for a contact on a path, or for the proof that there is none. A pair of bodies that is
-/// proven to be d apart at a configuration s stays apart while |s' - s| times the speed of the pair,
-/// the sum of both bodies' by the joints between them, is below d less the separation asked for. A
-/// query in the middle of an interval asks whether it is proven as a whole; if not, what is left of
-/// it on both sides is asked about later.
+/// The search for a contact on a path, or for the proof that there is none. A pair of bodies that
+/// is proven to be d apart at a configuration s stays apart while |s' - s| times the speed of the
+/// pair, the sum of both bodies' by the joints between them, is below d less the separation asked
+/// for. A query in the middle of an interval asks whether it is proven as a whole; if not, what is
+/// left of it on both sides is asked about later.
 class MotionSearch {
  public:
   MotionSearch(const Path& path, const MotionRequest& request);
@@ -26,8 +26,8 @@ class MotionSearch {
     Pair pair;
     double roots;  ///< rootBound() in the middle of the path
   };
-  /// An interval that is not proven yet. The task whose distance falls short of its motion most comes
-  /// first.
+  /// An interval that is not proven yet. The task whose distance falls short of its motion most
+  /// comes first.
   struct Task {
     int suspect;
     double from, to;

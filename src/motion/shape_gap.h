@@ -13,9 +13,10 @@ namespace kios::articulated {
 double shapeGap(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
                 const fcl::Transform3d& X_WB);
 
-/// FCL's own verdict: are they in contact, or at most `within` > 0 apart? Half-spaces and planes are
-/// judged by their gap, which is exact but for rounding: FCL finds cylinders in planes that they don't
-/// meet, unless it is asked for contacts, and then libccd may not return for other shapes.
+/// FCL's own verdict: are they in contact, or at most `within` > 0 apart? Half-spaces and planes
+/// are judged by their gap, which is exact but for rounding: FCL finds cylinders in planes that
+/// they don't meet, unless it is asked for contacts, and then libccd may not return for other
+/// shapes.
 bool shapesMeet(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
                 const fcl::Transform3d& X_WB, double within);
 

@@ -10,9 +10,9 @@ namespace kios::articulated {
 
 /// How far a content reaches along any direction, from above: h(n) = max n . x is convex and
 /// homogeneous, so that for n = sum l_i g_i, l_i >= 0, h(n) <= sum l_i h(g_i). The table holds h at
-/// the points g of a grid on the octahedron |x|_1 = 1; a direction lies in one of its triangles. The
-/// bound is exact where one point of the content is farthest along all three corners, as in most
-/// directions from polyhedra, and above by about 1 / 1000 of the size for smooth contents.
+/// the points g of a grid on the octahedron |x|_1 = 1; a direction lies in one of its triangles.
+/// The bound is exact where one point of the content is farthest along all three corners, as in
+/// most directions from polyhedra, and above by about 1 / 1000 of the size for smooth contents.
 class SupportTable {
  public:
   SupportTable() = default;

@@ -86,7 +86,7 @@ DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQ
   return answer;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                   \
+#define KIOS_INSTANTIATE(S)                                                                  \
   template DistanceAnswer<S> bracketDistance(const PairFrame<S>&, const engine::PairQuery&); \
   template DistanceAnswer<S> bracketDistance(const PairFrame<S>&, const engine::PairQuery&, double);
 KIOS_INSTANTIATE(double)

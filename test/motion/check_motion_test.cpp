@@ -11,9 +11,7 @@
 namespace kios::testing {
 namespace {
 
-Transform3d at(double x, double y, double z) {
-  return Transform3d(Eigen::Translation3d(x, y, z));
-}
+Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Translation3d(x, y, z)); }
 
 Joint joint(JointType type, const Vector3d& place, const Vector3d& axis) {
   Joint result;
@@ -158,9 +156,12 @@ TEST(CheckMotion, SharedJointsCancel) {
 
 /// Shapes as links, and as obstacles.
 std::vector<Geometry> shapes() {
-  return {std::make_shared<fcl::Sphered>(0.12),         std::make_shared<fcl::Capsuled>(0.05, 0.4),
-          std::make_shared<fcl::Boxd>(0.1, 0.3, 0.2),   std::make_shared<fcl::Cylinderd>(0.1, 0.3),
-          std::make_shared<fcl::Coned>(0.12, 0.3),      std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.15)};
+  return {std::make_shared<fcl::Sphered>(0.12),
+          std::make_shared<fcl::Capsuled>(0.05, 0.4),
+          std::make_shared<fcl::Boxd>(0.1, 0.3, 0.2),
+          std::make_shared<fcl::Cylinderd>(0.1, 0.3),
+          std::make_shared<fcl::Coned>(0.12, 0.3),
+          std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.15)};
 }
 
 RobotCase shapeRobot(Random& random, bool meshes_too) {
@@ -171,7 +172,8 @@ RobotCase shapeRobot(Random& random, bool meshes_too) {
                        inBall(random));
     robot.addLink(i - 1, each);
     const bool mesh = meshes_too && i % 2 == 0;
-    robot.addBody(i, mesh ? box(0.3, 0.1, 0.1) : all[static_cast<std::size_t>(random.uniform(0, 6))],
+    robot.addBody(i,
+                  mesh ? box(0.3, 0.1, 0.1) : all[static_cast<std::size_t>(random.uniform(0, 6))],
                   randomPose(random, 0.1));
     if (i > 0) robot.allow(i - 1, i);
   }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The bounds that a proof consists of, each against exact kinematics in long double: what a linkage's
-// motion does to distances and to slabs, and how far contents reach.
+// The bounds that a proof consists of, each against exact kinematics in long double: what a
+// linkage's motion does to distances and to slabs, and how far contents reach.
 
 #include "motion/configuration.h"
 #include "motion/link_tree.h"
@@ -16,7 +16,8 @@ using articulated::PairMotion;
 using articulated::Path;
 
 Mesh linkMesh(Random& random) {
-  Mesh mesh = random.unit() < 0.5 ? scenes::bumpyTorus(100) : scenes::subdividedBox({4, 0.3, 0.2}, 1);
+  Mesh mesh =
+      random.unit() < 0.5 ? scenes::bumpyTorus(100) : scenes::subdividedBox({4, 0.3, 0.2}, 1);
   const double size = random.uniform(0.05, 0.3);
   for (Vector3d& p : mesh.vertices) p *= size;
   return mesh;
@@ -66,7 +67,8 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
     const Path path(linkage.impl(), q0, q1);
     const double s = random.unit();
     const Configuration c(path, s);
-    const int shared = linkage.impl().shared(chains.robot.bodies[0].link, chains.robot.bodies[1].link);
+    const int shared =
+        linkage.impl().shared(chains.robot.bodies[0].link, chains.robot.bodies[1].link);
     const PairMotion motion(c.motion(0, shared), c.motion(1, shared));
     const double pad = path.pad(0, 1);
     const auto X = chains.robot.poses(between(q0, q1, s));
@@ -187,9 +189,10 @@ TEST(LinkageBounds, ContentsLieInTheirBallsAndCapsules) {
     const Vector3d d = bound.ends[1] - bound.ends[0];
     for (const Vector3d& p : mesh.vertices) {
       EXPECT_LE((p - bound.center).norm() + margin, bound.radius);
-      const double t = d.squaredNorm() > 0
-                           ? std::min(1.0, std::max(0.0, d.dot(p - bound.ends[0]) / d.squaredNorm()))
-                           : 0;
+      const double t =
+          d.squaredNorm() > 0
+              ? std::min(1.0, std::max(0.0, d.dot(p - bound.ends[0]) / d.squaredNorm()))
+              : 0;
       EXPECT_LE((p - bound.ends[0] - t * d).norm() + margin, bound.capsule_radius);
       EXPECT_LE(p.norm() + margin, bound.reach());
     }

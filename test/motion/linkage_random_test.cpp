@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Random trees of joints among random obstacles: the answers of checkMotion() against dense samples.
+// Random trees of joints among random obstacles: the answers of checkMotion() against dense
+// samples.
 
 #include "motion/robot_cases.h"
 
@@ -86,8 +87,8 @@ void runRandom(const Kind& kind, int robots, double separation, std::uint64_t se
     allowContacts(robot, q0, separation);
     for (const double length : {0.03, 0.3, 0.3, 1.0, 3.0}) {
       const Joints q1 = q0 + randomJoints(n, length, random);
-      SCOPED_TRACE("robot " + std::to_string(i) + " of seed " + std::to_string(seed) +
-                   ", length " + std::to_string(length));
+      SCOPED_TRACE("robot " + std::to_string(i) + " of seed " + std::to_string(seed) + ", length " +
+                   std::to_string(length));
       expectRight(robot, q0, q1, 200, tally, separation);
       if (::testing::Test::HasFailure()) return;
     }

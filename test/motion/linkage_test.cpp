@@ -136,15 +136,25 @@ TEST(Linkages, BadLinksAndBodiesAreRefused) {
   };
   expectRefused([&] { linkage.addLink(0, Joint()); }, "parent");
   expectRefused([&] { linkage.addLink(-2, Joint()); }, "parent");
-  for (const Vector3d& axis : {Vector3d(0, 0, 0), Vector3d(kNaN, 0, 1), Vector3d(0, kInfinity, 0)}) {
-    expectRefused([&] { linkage.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, axis)); },
-                  "axis");
-    expectRefused([&] { linkage.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, axis)); },
-                  "axis");
+  for (const Vector3d& axis :
+       {Vector3d(0, 0, 0), Vector3d(kNaN, 0, 1), Vector3d(0, kInfinity, 0)}) {
+    expectRefused(
+        [&] {
+          linkage.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, axis));
+        },
+        "axis");
+    expectRefused(
+        [&] {
+          linkage.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, axis));
+        },
+        "axis");
   }
   expectRefused([&] { linkage.addLink(-1, joint(static_cast<JointType>(7))); }, "type");
-  expectRefused([&] { linkage.addLink(-1, joint(JointType::kFixed, {kNaN, 0, 0})); },
-                "translation");
+  expectRefused(
+      [&] {
+        linkage.addLink(-1, joint(JointType::kFixed, {kNaN, 0, 0}));
+      },
+      "translation");
   Joint skew = joint(JointType::kRevolute);
   skew.X_PJ.linear()(0, 1) = 0.01;
   expectRefused([&] { linkage.addLink(-1, skew); }, "pose of a joint");
@@ -166,8 +176,7 @@ TEST(Linkages, BadLinksAndBodiesAreRefused) {
   mirrored.linear()(2, 2) = -1;
   expectRefused([&] { linkage.addBody(-1, cube(), mirrored); }, "pose of a body");
   expectRefused(
-      [&] { linkage.addBody(0, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0)); },
-      "turn");
+      [&] { linkage.addBody(0, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0)); }, "turn");
   unchanged(1, 0, 1);
   linkage.addBody(0, cube());
   linkage.addBody(-1, cube(), shifted(9, 0, 0));

@@ -123,7 +123,8 @@ struct RobotCase {
             double separation) const {
     const auto *first = bodies[a].geometry.get(), *second = bodies[b].geometry.get();
     fcl::CollisionResultd contacts;
-    if (fcl::collide(first, X_WA, second, X_WB, fcl::CollisionRequestd(), contacts) > 0) return true;
+    if (fcl::collide(first, X_WA, second, X_WB, fcl::CollisionRequestd(), contacts) > 0)
+      return true;
     if (!(separation > 0)) return false;
     fcl::DistanceResultd result;
     result.min_distance = 2 * separation;
@@ -134,7 +135,7 @@ struct RobotCase {
     const int count = static_cast<int>(bodies.size());
     for (int a = 0; a < count; ++a) {
       for (int b = a + 1; b < count; ++b) {
-          if (checked(a, b) && meet(a, X[a], b, X[b], separation)) return true;
+        if (checked(a, b) && meet(a, X[a], b, X[b], separation)) return true;
       }
     }
     return false;
@@ -164,9 +165,10 @@ struct MotionTally {
   void expectBothKinds() const {
     EXPECT_GT(clear, all() / 10);
     EXPECT_GT(contact, all() / 10);
-    std::printf("%d clear, %d in contact, %d unresolved; a path: %.1f configurations, %.1f queries\n",
-                clear, contact, unresolved, 1.0 * counts.configurations / all(),
-                1.0 * counts.narrow_queries / all());
+    std::printf(
+        "%d clear, %d in contact, %d unresolved; a path: %.1f configurations, %.1f queries\n",
+        clear, contact, unresolved, 1.0 * counts.configurations / all(),
+        1.0 * counts.narrow_queries / all());
   }
 };
 

@@ -28,8 +28,8 @@ struct Joint {
 
 /// Links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(q_k), J a
 /// rotation about the axis or a translation along it. It is built once and then asked: const calls
-/// are safe from many threads, and the geometry of its bodies must stay as it was. It may be copied;
-/// copies share the geometry.
+/// are safe from many threads, and the geometry of its bodies must stay as it was. It may be
+/// copied; copies share the geometry.
 class Linkage {
  public:
   Linkage();
@@ -44,11 +44,11 @@ class Linkage {
   /// axis is not finite or of length 0; nothing is changed then.
   int addLink(int parent, const Joint& joint);
 
-  /// Adds a body to a link, -1 for an obstacle that stands in the world, at X_LB in the link's frame,
-  /// and returns its number: 0, 1, ... Served are finished meshes over k-IOS, FCL's nine shapes and
-  /// octrees. Half-spaces and planes must not turn: no revolute joint may carry them. Throws
-  /// std::invalid_argument if there is no such link, the geometry is null, not served or unusable, or
-  /// the pose is not rigid; nothing is changed then.
+  /// Adds a body to a link, -1 for an obstacle that stands in the world, at X_LB in the link's
+  /// frame, and returns its number: 0, 1, ... Served are finished meshes over k-IOS, FCL's nine
+  /// shapes and octrees. Half-spaces and planes must not turn: no revolute joint may carry them.
+  /// Throws std::invalid_argument if there is no such link, the geometry is null, not served or
+  /// unusable, or the pose is not rigid; nothing is changed then.
   int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
               const fcl::Transform3d& X_LB = fcl::Transform3d::Identity());
 
@@ -60,8 +60,8 @@ class Linkage {
   int links() const;
   int bodies() const;
 
-  /// The pose of a body in the world. Throws std::invalid_argument if there is no such body, or q is
-  /// not of size coordinates() or not finite.
+  /// The pose of a body in the world. Throws std::invalid_argument if there is no such body, or q
+  /// is not of size coordinates() or not finite.
   fcl::Transform3d pose(int body, const Eigen::VectorXd& q) const;
 
   class Impl;  // hidden
@@ -90,11 +90,11 @@ struct MotionRequest {
 
 /// Work done by checkMotion.
 struct MotionCounts {
-  long long configurations = 0;   ///< for which the poses of all bodies were computed
-  long long pairs = 0;            ///< of bodies that may be checked
-  long long proven_at_once = 0;   ///< of these, by bounding volumes at one configuration
-  long long narrow_queries = 0;   ///< a pair at a configuration: farther apart than it may move?
-  long long expansions = 0;       ///< nodes of prepared trees whose children these tested
+  long long configurations = 0;  ///< for which the poses of all bodies were computed
+  long long pairs = 0;           ///< of bodies that may be checked
+  long long proven_at_once = 0;  ///< of these, by bounding volumes at one configuration
+  long long narrow_queries = 0;  ///< a pair at a configuration: farther apart than it may move?
+  long long expansions = 0;      ///< nodes of prepared trees whose children these tested
 };
 
 struct MotionAnswer {
@@ -109,14 +109,15 @@ struct MotionAnswer {
 
 /// Is the path q(s) = q0 + s (q1 - q0), 0 <= s <= 1, clear of contact? kClear is a proof for every
 /// real s and exact kinematics, with the rounding of poses, angles and bounds paid for. kContact
-/// means that the static query (fcl::collide, or fcl::distance <= min_separation) confirms a contact
-/// of the bodies at their pose() in the configuration `to`, computed as q0 + to * (q1 - q0), and q1
-/// at 1. Two shapes are posed as FCL poses them: a contact is what FCL's GJK says it is, while kClear
-/// is proven by a separating slab. Pairs of which one is not occupied are never in contact.
+/// means that the static query (fcl::collide, or fcl::distance <= min_separation) confirms a
+/// contact of the bodies at their pose() in the configuration `to`, computed as q0 + to * (q1 -
+/// q0), and q1 at 1. Two shapes are posed as FCL poses them: a contact is what FCL's GJK says it
+/// is, while kClear is proven by a separating slab. Pairs of which one is not occupied are never in
+/// contact.
 ///
-/// Throws std::invalid_argument if q0 or q1 is not of size coordinates() or not finite, an option is
-/// out of range, a body's mesh was changed since it was added, or a pair that moves can't be served:
-/// an octree against anything but a mesh, or half-spaces and planes against each other.
+/// Throws std::invalid_argument if q0 or q1 is not of size coordinates() or not finite, an option
+/// is out of range, a body's mesh was changed since it was added, or a pair that moves can't be
+/// served: an octree against anything but a mesh, or half-spaces and planes against each other.
 MotionAnswer checkMotion(const Linkage& linkage, const Eigen::VectorXd& q0,
                          const Eigen::VectorXd& q1, const MotionRequest& request = {});
 
