@@ -87,12 +87,13 @@ double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double 
 
 // Frank-Wolfe steps towards the shortest difference of both hulls, as the tables bound them: v is a
 // difference, and the hulls' support points along it give the slab, and the segment to search next.
-double BodyQueries::slab(Pair& pair, const Configuration& at) const {
+double BodyQueries::slab(Pair& pair, const Configuration& at, double enough) const {
   constexpr int kSteps = 6;
   constexpr double kClose = 0.9;  // of the width that is possible
   if (!body(pair.a).bounded || !body(pair.b).bounded) return -kInfinity;
   Eigen::Vector3d v = pair.direction, n = v;
   if (v.isZero(0)) v = at.center(pair.b) - at.center(pair.a);
+  const double pad = path_.pad(pair.a, pair.b);
   double best = -kInfinity;
   for (int step = 0; step < kSteps; ++step) {
     const double length = v.norm();
@@ -105,7 +106,7 @@ double BodyQueries::slab(Pair& pair, const Configuration& at) const {
       pair.direction = n;
     }
     const Eigen::Vector3d w = on_b - on_a;
-    if (step > 0 && gap >= kClose * length) break;
+    if (gap - pad > enough || (step > 0 && gap >= kClose * length)) break;
     if (step == 0) {
       v = w;
       continue;
@@ -115,7 +116,7 @@ double BodyQueries::slab(Pair& pair, const Configuration& at) const {
     if (!(square > 0)) break;
     v += std::clamp(-v.dot(d) / square, 0.0, 1.0) * d;
   }
-  return best - path_.pad(pair.a, pair.b);
+  return best - pad;
 }
 
 Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, double roots) const {

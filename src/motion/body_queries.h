@@ -34,8 +34,9 @@ class BodyQueries {
   /// A lower bound by the bodies' root volumes; once it exceeds `enough`, that will do.
   double rootBound(const Pair& pair, const Configuration& at, double enough) const;
   /// The width of a slab between the bodies: all of a lies below it, all of b above it, along the
-  /// pair's direction, which is set. Negative if none was found: the hulls overlap, or nearly so.
-  double slab(Pair& pair, const Configuration& at) const;
+  /// pair's direction, which is set. Negative if none was found: the hulls overlap, or nearly so. A
+  /// slab wider than `enough` will do.
+  double slab(Pair& pair, const Configuration& at, double enough) const;
   /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two
   /// of the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
   Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -72,6 +73,23 @@ struct CarriedBody {
   std::vector<Partner> others;  ///< carried before it
 };
 
+struct Scratch;
+
+/// Memory of searches that ended, for the next one; whoever takes it has it alone. A copy is empty.
+class SpareScratch {
+ public:
+  SpareScratch() = default;
+  SpareScratch(const SpareScratch& /*other*/) {}
+  SpareScratch& operator=(const SpareScratch&) = delete;
+  ~SpareScratch();
+
+  std::unique_ptr<Scratch> take() const;
+  void giveBack(std::unique_ptr<Scratch> scratch) const;
+
+ private:
+  mutable std::atomic<Scratch*> spare_{nullptr};
+};
+
 }  // namespace kios::articulated
 
 namespace kios {
@@ -92,6 +110,8 @@ class Linkage::Impl {
   int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
               const fcl::Transform3d& X_LB);
   void allow(int a, int b);
+
+  articulated::SpareScratch spare;
 
   /// The number of moving joints that carry both links.
   int shared(int link_a, int link_b) const;

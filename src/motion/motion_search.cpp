@@ -15,6 +15,7 @@ constexpr std::size_t kCached = 16;
 constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
 // Where something was left undecided, intervals shorter than this aren't searched for contacts.
+constexpr std::size_t kMany = 8;
 constexpr double kShort = 0x1p-6;
 
 /// A number in the middle of an interval with few bits, so that many pairs are asked about in one
@@ -36,7 +37,8 @@ double middleOf(double from, double to) {
 double squaredDistance(const Eigen::Vector3d& p, const ObstacleBox& box) {
   double square = 0;
   for (int i = 0; i < 3; ++i) {
-    const double off = std::max({box.low[i] - p[i], p[i] - box.high[i], 0.0});
+    const double below = box.low[i] - p[i], above = p[i] - box.high[i];
+    const double outside = below > above ? below : above, off = outside > 0 ? outside : 0;
     square += off * off;
   }
   return square;
@@ -44,24 +46,49 @@ double squaredDistance(const Eigen::Vector3d& p, const ObstacleBox& box) {
 
 }  // namespace
 
-MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
-    : path_(path), request_(request), queries_(path, request.min_separation, counts_) {
-  cache_.reserve(kCached);
+SpareScratch::~SpareScratch() { delete spare_.load(std::memory_order_acquire); }
+
+std::unique_ptr<Scratch> SpareScratch::take() const {
+  std::unique_ptr<Scratch> scratch(spare_.exchange(nullptr, std::memory_order_acquire));
+  return scratch ? std::move(scratch) : std::make_unique<Scratch>();
 }
 
+void SpareScratch::giveBack(std::unique_ptr<Scratch> scratch) const {
+  delete spare_.exchange(scratch.release(), std::memory_order_acq_rel);
+}
+
+MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
+    : path_(path),
+      request_(request),
+      queries_(path, request.min_separation, counts_),
+      scratch_(path.linkage().spare.take()),
+      cache_(scratch_->configurations),
+      suspects_(scratch_->suspects),
+      waiting_(scratch_->waiting) {
+  cache_.reserve(kCached);
+  suspects_.clear();
+  waiting_.clear();
+}
+
+MotionSearch::~MotionSearch() { path_.linkage().spare.giveBack(std::move(scratch_)); }
+
 const Configuration& MotionSearch::at(double s) {
-  for (const Configuration& c : cache_) {
-    if (c.s() == s) return c;
+  for (std::size_t i = 0; i < cached_; ++i) {
+    if (cache_[i].s() == s) return cache_[i];
   }
   ++counts_.configurations;
-  if (cache_.size() < kCached) {
-    cache_.emplace_back(path_, s);
-    return cache_.back();
+  std::size_t place = next_;
+  if (cached_ < kCached) {
+    place = cached_++;
+  } else {
+    next_ = (next_ + 1) % kCached;
   }
-  Configuration& c = cache_[next_];
-  next_ = (next_ + 1) % kCached;
-  c.set(path_, s);
-  return c;
+  if (place == cache_.size()) {
+    cache_.emplace_back(path_, s);
+  } else {
+    cache_[place].set(path_, s);
+  }
+  return cache_[place];
 }
 
 /// Calls visit(pair) for every pair that its balls and boxes don't prove apart for `time` to both
@@ -119,7 +146,8 @@ void MotionSearch::findSuspects() {
 // The deepest pairs first.
 bool MotionSearch::touchingAt(double s) {
   const Configuration& c = at(s);
-  std::vector<Suspect> near;
+  std::vector<Suspect>& near = scratch_->near;
+  near.clear();
   forNearPairs(c, 0, [&](const Pair& pair) {
     queries_.requireServed(pair.a, pair.b);
     const double roots = queries_.rootBound(pair, c, 0);
@@ -128,7 +156,7 @@ bool MotionSearch::touchingAt(double s) {
   std::sort(near.begin(), near.end(),
             [](const Suspect& a, const Suspect& b) { return a.roots < b.roots; });
   for (Suspect& suspect : near) {
-    if (queries_.slab(suspect.pair, c) > 0 || !queries_.touching(suspect.pair, c)) continue;
+    if (queries_.slab(suspect.pair, c, 0) > 0 || !queries_.touching(suspect.pair, c)) continue;
     suspects_.assign(1, suspect);
     end_ = {MotionVerdict::kContact, s, s, 0};
     return true;
@@ -155,7 +183,7 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pai
   using Outcome = Look::Outcome;
   if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
   const double s = look.s;
-  const double gap = queries_.slab(pair, c) - request_.min_separation;
+  const double gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
   if (!(gap > 0)) return look;
   const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
   Look wide = look;
@@ -261,7 +289,7 @@ void MotionSearch::anyContact() {
 void MotionSearch::firstContact() {
   std::sort(waiting_.begin(), waiting_.end(),
             [](const Task& a, const Task& b) { return a.margin < b.margin; });
-  const std::vector<Task> tasks = std::move(waiting_);
+  const std::vector<Task> tasks = waiting_;
   for (const Task& task : tasks) firstContactOf(task.suspect);
 }
 
@@ -309,7 +337,9 @@ MotionAnswer MotionSearch::run() {
     firstContact();
   } else if (request_.min_separation > 0 || !touchingAt(1)) {
     findSuspects();
-    anyContact();
+    // Where much is left to be proven, a few looks for contacts cost little beside it.
+    const bool look = suspects_.size() > kMany && !(request_.min_separation > 0);
+    if (!look || !(touchingAt(0.5) || touchingAt(0.25) || touchingAt(0.75))) anyContact();
   }
   MotionAnswer answer;
   answer.verdict = end_.verdict;
