@@ -4,6 +4,7 @@
 
 A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several words, such as
 `<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
+from figures.motions import missed, motions  # noqa: F401
 from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
 
@@ -335,47 +336,6 @@ wrong              | wrong fcl_obbrss_advancement
     motions = spec("\n".join(f"{motion} | {motion}"
                              for motion in ("translation", "linear", "screw", "spline")))
     return grid("motion", motions, columns, cell)
-
-
-def motions(rows):
-    """docs/motions.md: time by path, and how many pairs are asked."""
-    columns = spec("""
-proven                  | us kios
-queries                 | narrow_queries kios
-samples, k-IOS          | us sampled_kios
-samples, OBBRSS         | median_us fcl_obbrss
-queries                 | narrow_queries fcl_obbrss
-""")
-
-    def cell(line, column, _):
-        row = rows.find(line[0], "motion", column[1])
-        if column[0] == "narrow_queries":
-            return number(row["narrow_queries"])
-        text = time(row["median_us"])
-        return text if column[0] == "median_us" else (
-            f"{text} ({number(row['ratio_to_fcl_obbrss'])})")
-    cells = {"cell": "in the cell", "pair": "two arms"}
-    lines = [(f"{cells[cell_]}, {length} rad, {kind}", f"motions/ur5_{cell_}/{of}/{length}")
-             for cell_ in cells for kind, of in (("free", "valid"), ("not free", "invalid"))
-             for length in ("0.05", "0.2", "0.8")]
-    return grid("path", spec("\n".join(f"{label} | {name}" for label, name in lines)), columns, cell)
-
-
-def missed(rows):
-    columns = spec("""
-paths           | frames kios
-proven          | wrong_verdicts kios
-samples, k-IOS  | wrong_verdicts sampled_kios
-samples, OBBRSS | wrong_verdicts fcl_obbrss
-""")
-
-    def cell(line, column, _):
-        return number(rows.find(line[0], "motion", column[1])[column[0]])
-    names = rows.scenarios("motions/*/missed/*")
-    lines = [(name.replace("motions/ur5_", "").replace("/missed/", ", ") + " rad", name)
-             for name in names]
-    return grid("missed", spec("\n".join(f"{label} | {name}" for label, name in lines)), columns,
-                cell)
 
 
 def shapes(rows):

@@ -154,7 +154,7 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
   const auto search = [&] {
     const auto answer = bracketDistance(frame, query, std::max(0.0, roots));
     counts_.expansions += answer.counts.expansions;
-    if (answer.triangle_a >= 0) query.start = pair.nearest = {answer.triangle_a, answer.triangle_b};
+    query.start = {answer.triangle_a, answer.triangle_b};
     return answer;
   };
   auto answer = search();

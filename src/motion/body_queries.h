@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/pair_query.h"
 #include "motion/configuration.h"
 
 namespace kios::articulated {
 
-/// A pair of bodies, a < b, and where queries about it begin.
+/// A pair of bodies, a < b, and where the search for a slab between them begins.
 struct Pair {
   int a, b;
   int shared;                            ///< moving joints that carry both
-  engine::TrianglePairIds nearest = {};  ///< of the last query
   /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };

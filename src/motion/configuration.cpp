@@ -201,6 +201,7 @@ PairMotion::Closing PairMotion::closing(const Vector3d& n) const {
 double PairMotion::timeForSlab(double gap, double speed, double longest) const {
   double time = longest, used = after(time, speed);
   if (used < gap) return longest;
+  if (!(used < 0x1p500)) return 0;  // an overflow proves nothing
   for (int step = 0; step < 3; ++step) {
     time -= (used - gap) / (speed + time * (second_ + 1.5 * time * third_));
     used = after(time, speed);

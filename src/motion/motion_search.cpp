@@ -65,6 +65,7 @@ MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
       cache_(scratch_->configurations),
       suspects_(scratch_->suspects),
       waiting_(scratch_->waiting) {
+  counts_.pairs = path.linkage().num_pairs;
   cache_.reserve(kCached);
   suspects_.clear();
   waiting_.clear();
@@ -130,7 +131,6 @@ void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit
 // together.
 void MotionSearch::findSuspects() {
   const Configuration& middle = at(0.5);
-  counts_.pairs = path_.linkage().num_pairs;
   forNearPairs(middle, 0.5, [&](const Pair& pair) {
     queries_.requireServed(pair.a, pair.b);
     const PairMotion motion(middle.motion(pair.a, pair.shared), middle.motion(pair.b, pair.shared));
@@ -192,10 +192,10 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pai
                forth = std::max(0.0, task.to - s) * (1 + 0x1p-50);
   const double way_back = motion.timeForSlab(gap, closing.back, back),
                way_forth = motion.timeForSlab(gap, closing.forth, forth);
-  wide.from =
-      way_back < back ? std::min(look.from, s - way_back * (1 - 0x1p-40) + 0x1p-52) : task.from;
-  wide.to =
-      way_forth < forth ? std::max(look.to, s + way_forth * (1 - 0x1p-40) - 0x1p-52) : task.to;
+  const double from = s - way_back * (1 - 0x1p-40) + 0x1p-52,
+               to = s + way_forth * (1 - 0x1p-40) - 0x1p-52;
+  wide.from = way_back >= back ? task.from : std::min(look.from, from);
+  wide.to = way_forth >= forth ? task.to : std::max(look.to, to);
   if (wide.from <= task.from && wide.to >= task.to) wide.outcome = Outcome::kProven;
   wide.way = std::max(look.way, std::min(way_back, way_forth));
   return wide;
