@@ -9,7 +9,7 @@ namespace kios::articulated {
 /// A pair of bodies, a < b, and where the search for a slab between them begins.
 struct Pair {
   int a, b;
-  int shared;                            ///< moving joints that carry both
+  int shared;  ///< moving joints that carry both
   /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
 };
