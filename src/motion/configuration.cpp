@@ -40,24 +40,24 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
   requireCoordinates(q1, linkage.coordinates, "q1");
   constexpr double kSlack = 0x1p-49;  // 16 u
   rates_.resize(static_cast<std::size_t>(linkage.coordinates));
+  struct Sums {
+    double travel = 0, angles = 0, shifts = 0;
+  };
   // By link: what prismatic joints add to lengths, and the rounding of angles and of lengths.
-  std::vector<double> travel(linkage.links.size()), angles = travel, shifts = travel;
+  std::vector<Sums> sums(linkage.links.size());
   for (std::size_t i = 0; i < linkage.links.size(); ++i) {
     const LinkData& link = linkage.links[i];
-    if (link.parent >= 0) {
-      travel[i] = travel[link.parent];
-      angles[i] = angles[link.parent];
-      shifts[i] = shifts[link.parent];
-    }
+    Sums& sum = sums[i];
+    if (link.parent >= 0) sum = sums[link.parent];
     if (link.coordinate < 0) continue;
     const double a = q0[link.coordinate], b = q1[link.coordinate];
     const double most = std::max(std::abs(a), std::abs(b)) * link.unit;
     rates_[link.coordinate] = (b - a) * link.unit;
     if (link.type == JointType::kPrismatic) {
-      travel[i] += most * (1 + 0x1p-50);
-      shifts[i] += kSlack * most;
+      sum.travel += most * (1 + 0x1p-50);
+      sum.shifts += kSlack * most;
     } else {
-      angles[i] += kSlack * most;
+      sum.angles += kSlack * most;
     }
   }
   shares_.resize(linkage.carried.size() + 1);
@@ -66,10 +66,10 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
     const LinkData& link = linkage.links[body.link];
     Share& share = shares_[body.carried + 1];
     share.length =
-        (body.X_LB.translation().norm() + body.reach + link.offsets + travel[body.link]) *
+        (body.X_LB.translation().norm() + body.reach + link.offsets + sums[body.link].travel) *
         (1 + 0x1p-50);
     share.level = link.level + 2;
-    share.slack = (angles[body.link] * share.length + shifts[body.link]) * (1 + 0x1p-50);
+    share.slack = (sums[body.link].angles * share.length + sums[body.link].shifts) * (1 + 0x1p-50);
   }
 }
 
