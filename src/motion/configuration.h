@@ -35,13 +35,12 @@ namespace kios::articulated {
 /// add up to. With L the sum of the lengths of all offsets, of the prismatic joints' travel and of
 /// the content's reach, a point of the body is off by at most 80 u (n + 2) L, n the level of its
 /// link: the two more are the body's own pose. Rotations are orthonormal to 160 u (n + 2) (spectral
-/// norm of E = R^T R - I), so that a distance d in the first body's frame is one of at least d - 3
-/// |E| (L + L') in the world, as no length in it exceeds L + L'. Both together are below 640 u (n +
-/// n' + 4) (L
-/// + L'); 1024 u is `pad`, and pays for the bounds of balls and boxes too, which take fewer than 40
-/// roundings of such lengths. Coordinates as computed are those of q(s) to 5 u max(|q0|, |q1|), and
-/// the angle or length is to 4 u more; 16 u is `slack`, by which the path is as if it took a
-/// detour.
+/// norm of E = R^T R - I), so that a distance d in the first body's frame is one of at least
+/// d - 3 |E| (L + L') in the world, as no length in it exceeds L + L'. Both together are below
+/// 640 u (n + n' + 4) (L + L'). `pad` is 1024 u in the place of 640, and pays for the bounds of
+/// balls, boxes and supports too, which take fewer than 40 roundings of such lengths. Coordinates
+/// as computed are those of q(s) to 5 u max(|q0|, |q1|), and the angle or length is to 4 u more; 16
+/// u is `slack`, by which the path is as if it took a detour.
 class Path {
  public:
   /// Throws std::invalid_argument if a configuration isn't of the linkage's size or not finite.

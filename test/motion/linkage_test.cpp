@@ -225,8 +225,7 @@ TEST(Linkages, BadPathsAreRefused) {
             MotionVerdict::kClear);
   for (const double far : {1e30, 1e90}) {
     EXPECT_NE(ask(q, Eigen::Vector2d(far, far)).verdict, MotionVerdict::kClear);
-    EXPECT_NE(ask(Eigen::Vector2d(far, 1), Eigen::Vector2d(far, 2)).verdict,
-              MotionVerdict::kClear);
+    EXPECT_NE(ask(Eigen::Vector2d(far, 1), Eigen::Vector2d(far, 2)).verdict, MotionVerdict::kClear);
   }
   expectRefused([&] { ask(q, Eigen::Vector2d(-1e300, 0)); }, "q1 is too large");
 
