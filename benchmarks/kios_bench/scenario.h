@@ -49,6 +49,7 @@ void runExact(const Options& options, Report& report);
 void runShapes(const Options& options, Report& report);
 void runOctrees(const Options& options, Report& report);
 void runContinuous(const Options& options, Report& report);
+void runMotions(const Options& options, Report& report);
 void runBuild(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);

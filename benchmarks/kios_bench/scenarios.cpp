@@ -46,6 +46,10 @@ const std::vector<Scenario>& scenarios() {
       {"octrees", "the same mesh against an octree", runOctrees},
       {"continuous", "first contact in time of two tori on random motions, and FCL's",
        runContinuous},
+      {"motions",
+       "straight paths in joint space, UR5 (data) or a generated arm amid obstacles, and two arms: "
+       "proven, and sampled 0.01 rad apart",
+       runMotions},
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",

@@ -20,6 +20,7 @@
 #include "fcl_kios/model/motion_bounds.h"
 #include "fcl_kios/model/prepare.h"
 #include "fcl_kios/motion/continuous.h"
+#include "fcl_kios/motion/linkage.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/clearance.h"
 #include "fcl_kios/query/distance.h"

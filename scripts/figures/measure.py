@@ -28,6 +28,7 @@ RUNS = {  # scenario: options
     "octrees": "--frames 60 --repeats 5",
     "continuous": "--frames 40 --repeats 5",
     "solids": "--repeats 5",
+    "motions": "--frames 200 --repeats 3 --oracle 1000",
     "rays": "--frames 4096 --repeats 5",
     "paper": "--frames 20 --repeats 2",
     "fits": "--frames 100 --repeats 3",

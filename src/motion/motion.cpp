@@ -15,14 +15,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using fcl::Transform3d;
 
-/// The rotation itself if it is orthonormal to rounding, else that of its quaternion.
-Matrix3d orthonormal(const Matrix3d& R) {
-  constexpr double kRounded = 16 * kUlpDouble;
-  const double square = squaredRotationError(R);
-  requireRotation<double>(square, determinant(R), "pose of a motion");
-  if (square <= kRounded * kRounded) return R;
-  return Eigen::Quaterniond(R).normalized().toRotationMatrix();
-}
+Matrix3d orthonormal(const Matrix3d& R) { return continuous::orthonormal(R, "pose of a motion"); }
 
 /// Axis and angle in [0, pi] that take R0 to R1.
 Eigen::AngleAxisd turn(const Matrix3d& R0, const Matrix3d& R1) {
@@ -77,6 +70,14 @@ Vector3d angularVelocity(const Vector3d& w, const Vector3d& dw) {
 }
 
 }  // namespace
+
+Matrix3d orthonormal(const Matrix3d& R, const char* what) {
+  constexpr double kRounded = 16 * kUlpDouble;
+  const double square = squaredRotationError(R);
+  requireRotation<double>(square, determinant(R), what);
+  if (square <= kRounded * kRounded) return R;
+  return Eigen::Quaterniond(R).normalized().toRotationMatrix();
+}
 
 Motion Motion::twist(const Transform3d& X_0, const Vector3d& velocity, const Vector3d& axis,
                      double angle, const Vector3d& arm) {

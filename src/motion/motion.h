@@ -9,6 +9,10 @@
 
 namespace kios::continuous {
 
+/// The rotation itself if it is orthonormal to rounding (16 u, the Frobenius norm of R^T R - I),
+/// else that of its quaternion. Throws std::invalid_argument, naming `what`, if it isn't rigid.
+Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& R, const char* what);
+
 /// A rigid motion X(t) of a body in the world, t in [0, 1]: a plain value, read by any number of
 /// threads. Rotations that are not orthonormal to rounding are replaced by the nearest
 /// quaternion's.

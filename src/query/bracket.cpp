@@ -43,14 +43,23 @@ DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQ
     answer.stop = DistanceStop::kFar;
     return answer;
   }
+  double roots = 0;
   if (query.far_enough < kInfinity || query.hasBudget()) {
-    const double roots = frame.rootBound(std::min(query.far_enough, 0x1p1000));
+    roots = frame.rootBound(std::min(query.far_enough, 0x1p1000));
     answer.lower_bound = roundDown<S>(std::max(0.0, roots));
     if (double{answer.lower_bound} >= query.far_enough) {
       answer.stop = DistanceStop::kFar;
       return answer;
     }
   }
+  return bracketDistance(frame, query, roots);
+}
+
+template <typename S>
+DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query,
+                                  double roots) {
+  DistanceAnswer<S> answer;
+  answer.lower_bound = roundDown<S>(std::max(0.0, roots));
   const engine::PairAnswer<S> found = searchNearest(frame, query, answer.counts);
   setBounds(frame, found, answer);
   if (answer.distance == 0) {
@@ -77,7 +86,11 @@ DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQ
   return answer;
 }
 
-template DistanceAnswer<double> bracketDistance(const PairFrame<double>&, const engine::PairQuery&);
-template DistanceAnswer<float> bracketDistance(const PairFrame<float>&, const engine::PairQuery&);
+#define KIOS_INSTANTIATE(S)                                                                  \
+  template DistanceAnswer<S> bracketDistance(const PairFrame<S>&, const engine::PairQuery&); \
+  template DistanceAnswer<S> bracketDistance(const PairFrame<S>&, const engine::PairQuery&, double);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
 
 }  // namespace kios

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <fcl_kios/motion/linkage.h>
+
+#include "scenes/cells.h"
+
+namespace kios::bench {
+
+/// The linkage of a cell: bodies have the cell's numbers.
+Linkage linkageOf(const scenes::Cell& cell);
+
+/// A way to tell whether a straight path in joint space is free of contact.
+class MotionSet {
+ public:
+  explicit MotionSet(std::string name) : name_(std::move(name)) {}
+  virtual ~MotionSet() = default;
+
+  const std::string& name() const { return name_; }
+  /// True if no contact is found from q0, which is free, to q1.
+  virtual bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) = 0;
+  /// Pairs for which the narrow phase was asked since the last call, and, of ours, undecided paths.
+  virtual long long takeQueried() { return 0; }
+  virtual long long takeUnresolved() { return 0; }
+
+ private:
+  std::string name_;
+};
+
+/// By their names in rows: `kios`, checkMotion(); `sampled_kios` and `fcl_obbrss`, samples at most
+/// 0.01 rad apart in the largest joint, each with FCL's dynamic AABB trees over k-IOS and OBBRSS;
+/// `sampled_scene`, the same samples by SceneDistance. Samples are taken in the order of
+/// OMPL's discrete validator: the end, the middle, the middles of the halves. The cell must outlive
+/// it.
+std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell);
+
+/// True if a configuration is free of contact, by the static query of every pair whose boxes meet.
+std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& cell);
+
+}  // namespace kios::bench

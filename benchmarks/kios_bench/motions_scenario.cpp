@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Straight paths in the joint space of robots: proven by checkMotion(), and sampled.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "motion_set.h"
+#include "scenario.h"
+#include "scenes/ur5_data.h"
+
+namespace kios::bench {
+namespace {
+
+using scenes::Joints;
+
+struct Edge {
+  Joints q0, q1;
+};
+
+constexpr double kStep = 0.01;  // of the samples, in the largest joint
+constexpr double kLengths[] = {0.05, 0.2, 0.8};
+constexpr const char* kSets[] = {"kios", "sampled_kios", "sampled_scene", "fcl_obbrss"};
+
+/// The truth: an exact static query at so many configurations, and of those that checkMotion()
+/// names.
+class Oracle {
+ public:
+  explicit Oracle(const scenes::Cell& cell)
+      : linkage_(linkageOf(cell)), free_(makeStaticCheck(cell)) {}
+
+  bool isFreeAt(const Joints& q) const { return free_(q); }
+  /// False if one of `samples` + 1 configurations from q0 to q1 is in contact, or one between them
+  /// that a contact is said to be in.
+  bool isFree(const Edge& edge, int samples) const {
+    for (int i = 0; i <= samples; ++i) {
+      if (!free_(scenes::between(edge.q0, edge.q1, 1.0 * i / samples))) return false;
+    }
+    const auto vector = [](const Joints& q) {
+      return Eigen::VectorXd(
+          Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
+    };
+    const MotionAnswer answer = checkMotion(linkage_, vector(edge.q0), vector(edge.q1));
+    if (answer.verdict != MotionVerdict::kContact) return true;
+    return free_(scenes::between(edge.q0, edge.q1, answer.to));
+  }
+
+ private:
+  const Linkage linkage_;
+  const std::function<bool(const Joints&)> free_;
+};
+
+/// A path of this length from a free configuration.
+Edge drawEdge(const scenes::Cell& cell, const Oracle& oracle, double length,
+              scenes::Random& random) {
+  Edge edge;
+  do {
+    edge.q0 = scenes::randomJoints(cell, random);
+    edge.q1 = scenes::randomStep(edge.q0, length, random);
+  } while (!oracle.isFreeAt(edge.q0));
+  return edge;
+}
+
+/// As many of either kind, if there are so many among many.
+struct Edges {
+  std::vector<Edge> free, blocked;
+};
+
+Edges drawEdges(const scenes::Cell& cell, const Oracle& oracle, double length, int count,
+                int samples, std::uint64_t seed) {
+  scenes::Random random(seed);
+  Edges edges;
+  const auto wanted = static_cast<std::size_t>(count);
+  for (int tries = 0; tries < 100 * count; ++tries) {
+    if (edges.free.size() >= wanted && edges.blocked.size() >= wanted) break;
+    const Edge edge = drawEdge(cell, oracle, length, random);
+    auto& kind = oracle.isFree(edge, samples) ? edges.free : edges.blocked;
+    if (kind.size() < wanted) kind.push_back(edge);
+  }
+  return edges;
+}
+
+Row rowOf(const std::string& scenario, const scenes::Cell& cell, std::size_t edges,
+          const Options& options) {
+  Row row;
+  row.scenario = scenario;
+  row.query = "motion";
+  row.frames = edges;
+  row.seed = options.seed;
+  for (int body = 0; body < cell.bodies(); ++body) {
+    row.triangles += cell.mesh(body).triangles.size();
+  }
+  return row;
+}
+
+/// Reports how many contacts each set misses, and how many it sees where none is; not timed.
+void reportMissed(const std::string& scenario, const scenes::Cell& cell, const Oracle& oracle,
+                  double length, int count, int samples, const Options& options, Report& report) {
+  scenes::Random random(options.seed + 1);
+  std::vector<Edge> edges;
+  std::vector<char> free;
+  for (int i = 0; i < count; ++i) {
+    edges.push_back(drawEdge(cell, oracle, length, random));
+    free.push_back(oracle.isFree(edges.back(), samples) ? 1 : 0);
+  }
+  std::printf("%s: %d paths, %d of them free, by %d samples each\n", scenario.c_str(), count,
+              static_cast<int>(std::count(free.begin(), free.end(), 1)), samples);
+  std::vector<Row> rows;
+  for (const char* name : kSets) {
+    const auto set = makeMotionSet(name, cell);
+    int missed = 0, extra = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const bool found = set->isFree(edges[i].q0, edges[i].q1);
+      missed += found && free[i] == 0 ? 1 : 0;
+      extra += !found && free[i] != 0 ? 1 : 0;
+    }
+    const long long unresolved = set->takeUnresolved();
+    std::printf("  %-20s missed %d, more %d, unresolved %lld\n", name, missed, extra, unresolved);
+    Row row = rowOf(scenario, cell, edges.size(), options);
+    row.bv = name;
+    row.errors.wrong = static_cast<std::size_t>(missed);
+    rows.push_back(row);
+  }
+  report.addUnprinted(rows);
+}
+
+std::size_t admissiblePairs(const scenes::Cell& cell) {
+  std::size_t count = 0;
+  for (int a = 0; a < cell.bodies(); ++a) {
+    for (int b = a + 1; b < cell.bodies(); ++b) count += cell.admissible(a, b) ? 1 : 0;
+  }
+  return count;
+}
+
+void reportEdges(const std::string& scenario, const scenes::Cell& cell,
+                 const std::vector<Edge>& edges, double length, bool free, const Options& options,
+                 Report& report) {
+  if (edges.empty()) return;
+  std::vector<std::unique_ptr<MotionSet>> sets;
+  std::vector<Competitor> competitors;
+  std::vector<std::vector<char>> verdicts;
+  for (const char* name : kSets) {
+    sets.push_back(makeMotionSet(name, cell));
+    verdicts.emplace_back(edges.size(), 0);
+  }
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    competitors.push_back({sets[i]->name(), [&, i](std::size_t begin, std::size_t end) {
+                             for (std::size_t e = begin; e < end; ++e) {
+                               verdicts[i][e] = sets[i]->isFree(edges[e].q0, edges[e].q1) ? 1 : 0;
+                             }
+                           }});
+  }
+  Race race{edges.size(), options.repeats, 20};
+  race.warm_up = true;
+  race.run(competitors);
+  const Row base = rowOf(scenario, cell, edges.size(), options);
+  const double steps = std::ceil(length / kStep);
+  std::vector<Row> rows;
+  const auto asked = static_cast<double>(edges.size()) * (options.repeats + 1);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    Row row = base.of(competitors[i], named("fcl_obbrss", competitors));
+    // Contacts that were missed, and contacts that no sample of the oracle confirms.
+    row.errors.wrong = std::count(verdicts[i].begin(), verdicts[i].end(), free ? 0 : 1);
+    row.pairs.narrow_queries = static_cast<double>(sets[i]->takeQueried()) / asked;
+    // Of all pairs in all samples.
+    row.pairs.total = static_cast<std::size_t>(steps * edges.size() * admissiblePairs(cell));
+    row.pairs.skipped =
+        *row.pairs.total -
+        std::min(*row.pairs.total, static_cast<std::size_t>(*row.pairs.narrow_queries *
+                                                            static_cast<double>(edges.size())));
+    rows.push_back(row);
+    if (const long long open = sets[i]->takeUnresolved(); open > 0) {
+      std::printf("%s: %lld of %.0f unresolved\n", scenario.c_str(), open, asked);
+    }
+  }
+  report.add(rows);
+  for (const Row& row : rows) {
+    std::printf("  %-20s narrow queries an edge: %.2f\n", row.bv.c_str(),
+                *row.pairs.narrow_queries);
+  }
+}
+
+void reportCell(const std::string& name, const scenes::Cell& cell, const Options& options,
+                Report& report) {
+  const int count = options.frames > 0 ? options.frames : (options.quick ? 10 : 200);
+  const int judged = options.quick ? 20 : options.oracle_frames;
+  const int samples = options.quick ? 100 : 400;
+  const Oracle oracle(cell);
+  for (const double length : kLengths) {
+    const Edges edges = drawEdges(cell, oracle, length, count, samples, options.seed);
+    char suffix[32];
+    std::snprintf(suffix, sizeof suffix, "/%g", length);
+    reportEdges(name + "/valid" + suffix, cell, edges.free, length, true, options, report);
+    reportEdges(name + "/invalid" + suffix, cell, edges.blocked, length, false, options, report);
+    reportMissed(name + "/missed" + suffix, cell, oracle, length, judged, 10 * samples, options,
+                 report);
+  }
+}
+
+}  // namespace
+
+void runMotions(const Options& options, Report& report) {
+  const auto data = findData(options);
+  const bool ur5 = data && scenes::holdsUr5(*data);
+  const scenes::Robot robot = scenes::robotOf(ur5 ? scenes::loadUr5(*data) : scenes::cadArm());
+  const std::string kind = ur5 ? "ur5" : "arm";
+  reportCell("motions/" + kind + "_cell",
+             scenes::workCell(robot, 20, options.quick ? 0.05 : 1, options.seed), options, report);
+  fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
+  if (ur5) {
+    X_W2.translation().y() = 0.5;
+  } else {
+    X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();
+    X_W2.translation().x() = 0.7;
+  }
+  reportCell("motions/" + kind + "_pair", scenes::sideBySide(robot, X_W2), options, report);
+}
+
+}  // namespace kios::bench

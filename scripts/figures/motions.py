@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The blocks of docs/motions.md."""
+from figures.rows import grid, number, spec, time
+
+
+def motions(rows):
+    """Time by kind of path, and how many pairs are asked."""
+    columns = spec("""
+proven                  | us kios
+queries                 | narrow_queries kios
+samples, k-IOS          | us sampled_kios
+samples, OBBRSS         | median_us fcl_obbrss
+queries                 | narrow_queries fcl_obbrss
+""")
+
+    def cell(line, column, _):
+        row = rows.find(line[0], "motion", column[1])
+        if column[0] == "narrow_queries":
+            return number(row["narrow_queries"])
+        text = time(row["median_us"])
+        return text if column[0] == "median_us" else (
+            f"{text} ({number(row['ratio_to_fcl_obbrss'])})")
+    lines = [f"{place}, {length} rad, {kind} | motions/ur5_{scene}/{of}/{length}"
+             for scene, place in (("cell", "in the cell"), ("pair", "two arms"))
+             for kind, of in (("free", "valid"), ("not free", "invalid"))
+             for length in ("0.05", "0.2", "0.8")]
+    return grid("path", spec("\n".join(lines)), columns, cell)
+
+
+def missed(rows):
+    """How many contacts each way misses, of paths at random."""
+    columns = spec("""
+paths           | frames kios
+proven          | wrong_verdicts kios
+samples, k-IOS  | wrong_verdicts sampled_kios
+samples, OBBRSS | wrong_verdicts fcl_obbrss
+""")
+
+    def cell(line, column, _):
+        return number(rows.find(line[0], "motion", column[1])[column[0]])
+    lines = [f"{place}, {length} rad | motions/ur5_{scene}/missed/{length}"
+             for scene, place in (("cell", "in the cell"), ("pair", "two arms"))
+             for length in ("0.05", "0.2", "0.8")]
+    return grid("missed", spec("\n".join(lines)), columns, cell)

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "motion/configuration.h"
+
+namespace kios::articulated {
+
+/// A pair of bodies, a < b, and where the search for a slab between them begins.
+struct Pair {
+  int a, b;
+  int shared;  ///< moving joints that carry both
+  /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+};
+
+/// What is known of a pair of bodies at a configuration.
+struct Nearness {
+  /// They are proven so far apart, for the bodies at exact kinematics: the path's pad is
+  /// subtracted.
+  double apart = 0;
+  bool contact = false;  ///< confirmed by the static query
+};
+
+/// The static queries about two bodies of a linkage at a configuration of a path, a < b. Asks by
+/// thresholds: nothing is computed more exactly than the motion needs.
+class BodyQueries {
+ public:
+  BodyQueries(const Path& path, double min_separation, MotionCounts& counts)
+      : path_(path), min_separation_(min_separation), counts_(counts) {}
+
+  /// A lower bound by the bodies' root volumes; once it exceeds `enough`, that will do.
+  double rootBound(const Pair& pair, const Configuration& at, double enough) const;
+  /// The width of a slab between the bodies: all of a lies below it, all of b above it, along the
+  /// pair's direction, which is set. Negative if none was found: the hulls overlap, or nearly so. A
+  /// slab wider than `enough` will do.
+  double slab(Pair& pair, const Configuration& at, double enough) const;
+  /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two
+  /// of the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
+  Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;
+  /// True only if the bodies are in contact, by a query that tells nothing else and takes less
+  /// time; false if that would take a query as long as ask().
+  bool touching(const Pair& pair, const Configuration& at) const;
+
+  /// Throws std::invalid_argument if no query serves the pair.
+  void requireServed(int a, int b) const;
+
+ private:
+  const BodyData& body(int id) const { return path_.linkage().bodies[id]; }
+  Nearness askMeshes(Pair& pair, const Configuration& at, double enough, double roots) const;
+  Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
+                           double enough) const;
+  Nearness askShapes(int a, int b, const Configuration& at) const;
+
+  const Path& path_;
+  const double min_separation_;
+  MotionCounts& counts_;
+};
+
+}  // namespace kios::articulated

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/motion/linkage.h"
+#include "motion/content_bound.h"
+#include "motion/support.h"
+#include "solid/solid.h"
+
+namespace kios::articulated {
+
+/// A link with its joint. The rotation is orthonormal to 16 u (Frobenius norm of R^T R - I, u =
+/// 2^-53), the axis of length 1 to rounding.
+struct LinkData {
+  int parent = -1;
+  JointType type = JointType::kFixed;
+  Eigen::Matrix3d R_PJ;
+  Eigen::Vector3d t_PJ;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
+  double unit = 0;      ///< radians or lengths that a unit of the coordinate means
+  int coordinate = -1;  ///< -1 if fixed
+  std::vector<int>
+      moving;          ///< links with moving joints from the world to this one, itself included
+  int level = 0;       ///< joints, fixed ones included, from the world to this link
+  double offsets = 0;  ///< sum of |t_PJ| of those, rounded up
+};
+
+enum class BodyKind { kMesh, kShape, kOctree };
+
+struct BodyData {
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  BodyKind kind = BodyKind::kMesh;
+  const Modeld* model = nullptr;  ///< of a mesh
+  shape::Solid solid;             ///< of a shape
+  int link = -1;
+  fcl::Transform3d X_LB;  ///< its rotation orthonormal as a link's
+  bool bounded = true;    ///< half-spaces and planes are not
+  bool meets = true;      ///< false: it isn't occupied, or an octree without cells
+  ContentBound content;   ///< in the link's frame
+  double own_radius = 0;  ///< largest distance of the content from the axis of its link's own joint
+  SupportTable supports;  ///< of the content in the link's frame; empty if unbounded
+  double reach = 0;  ///< of the content from its link's origin; of an unbounded one, of its plane
+  double obstacle_length = 0;  ///< how far an obstacle reaches from the world's origin
+  int carried = -1;            ///< among those on links
+  int first_motion = 0;  ///< of its BodyMotions in a configuration; those of obstacles are all one
+  /// State of a mesh when it was added.
+  std::uint64_t stamp = 0;
+  const void* vertices = nullptr;
+};
+
+/// A box around an obstacle's content in the world; the whole world around an unbounded one.
+struct ObstacleBox {
+  double low[3], high[3];
+  int body;
+};
+
+/// A body on another link. The first `shared` moving joints on the ways from the world to both
+/// links are the same ones: they move both bodies alike.
+struct Partner {
+  int body, shared;
+};
+
+/// A body on a link, and those with which it must not come into contact.
+struct CarriedBody {
+  int body;
+  std::vector<ObstacleBox> obstacles;
+  std::vector<Partner> others;  ///< carried before it
+};
+
+struct Scratch;
+
+/// Memory of searches that ended, for the next one; whoever takes it has it alone. A copy is empty.
+class SpareScratch {
+ public:
+  SpareScratch() = default;
+  SpareScratch(const SpareScratch& /*other*/) {}
+  SpareScratch& operator=(const SpareScratch&) = delete;
+  ~SpareScratch();
+
+  std::unique_ptr<Scratch> take() const;
+  void giveBack(std::unique_ptr<Scratch> scratch) const;
+
+ private:
+  mutable std::atomic<Scratch*> spare_{nullptr};
+};
+
+}  // namespace kios::articulated
+
+namespace kios {
+
+class Linkage::Impl {
+ public:
+  std::vector<articulated::LinkData> links;
+  std::vector<articulated::BodyData> bodies;
+  /// The pairs to be checked: all but those of one link and those that are allowed.
+  std::vector<articulated::CarriedBody> carried;
+  std::vector<articulated::ObstacleBox> obstacles;  ///< all
+  int coordinates = 0;
+  int num_motions = 1;  ///< of bodies in a configuration: one by each moving joint, and one more
+  long long num_pairs = 0;
+  double farthest_obstacle = 0;  ///< the largest obstacle_length
+
+  int addLink(int parent, const Joint& joint);
+  int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
+              const fcl::Transform3d& X_LB);
+  void allow(int a, int b);
+
+  articulated::SpareScratch spare;
+
+  /// The number of moving joints that carry both links.
+  int shared(int link_a, int link_b) const;
+
+ private:
+  void addPairs(int body, const articulated::ObstacleBox& box);
+};
+
+}  // namespace kios

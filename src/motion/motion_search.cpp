@@ -1,0 +1,356 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/motion_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace kios::articulated {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t kCached = 16;
+// Root volumes that prove so much of an interval spare it a query.
+constexpr double kRootsShare = 0.35;
+constexpr double kSlabShare = 0.35;
+// Where something was left undecided, intervals shorter than this aren't searched for contacts.
+constexpr std::size_t kMany = 8;
+constexpr double kShort = 0x1p-6;
+
+/// A number in the middle of an interval with few bits, so that many pairs are asked about in one
+/// configuration.
+double middleOf(double from, double to) {
+  constexpr double kAside = 0.1;
+  const double length = to - from, middle = from + 0.5 * length;
+  const double low = middle - kAside * length, high = middle + kAside * length;
+  if (!(high > low)) return middle;
+  for (double step = std::ldexp(1.0, std::ilogb(length)); step > 0.125 * kAside * length;
+       step *= 0.5) {
+    const double s = std::ceil(low / step) * step;
+    if (s <= high) return s;
+  }
+  return middle;
+}
+
+/// The squared distance of a point from a box; 0 inside.
+double squaredDistance(const Eigen::Vector3d& p, const ObstacleBox& box) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double below = box.low[i] - p[i], above = p[i] - box.high[i];
+    const double outside = below > above ? below : above, off = outside > 0 ? outside : 0;
+    square += off * off;
+  }
+  return square;
+}
+
+}  // namespace
+
+SpareScratch::~SpareScratch() { delete spare_.load(std::memory_order_acquire); }
+
+std::unique_ptr<Scratch> SpareScratch::take() const {
+  std::unique_ptr<Scratch> scratch(spare_.exchange(nullptr, std::memory_order_acquire));
+  return scratch ? std::move(scratch) : std::make_unique<Scratch>();
+}
+
+void SpareScratch::giveBack(std::unique_ptr<Scratch> scratch) const {
+  delete spare_.exchange(scratch.release(), std::memory_order_acq_rel);
+}
+
+MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
+    : path_(path),
+      request_(request),
+      queries_(path, request.min_separation, counts_),
+      scratch_(path.linkage().spare.take()),
+      cache_(scratch_->configurations),
+      suspects_(scratch_->suspects),
+      waiting_(scratch_->waiting) {
+  counts_.pairs = path.linkage().num_pairs;
+  cache_.reserve(kCached);
+  suspects_.clear();
+  waiting_.clear();
+}
+
+MotionSearch::~MotionSearch() { path_.linkage().spare.giveBack(std::move(scratch_)); }
+
+const Configuration& MotionSearch::at(double s) {
+  for (std::size_t i = 0; i < cached_; ++i) {
+    if (cache_[i].s() == s) return cache_[i];
+  }
+  ++counts_.configurations;
+  std::size_t place = next_;
+  if (cached_ < kCached) {
+    place = cached_++;
+  } else {
+    next_ = (next_ + 1) % kCached;
+  }
+  if (place == cache_.size()) {
+    cache_.emplace_back(path_, s);
+  } else {
+    cache_[place].set(path_, s);
+  }
+  return cache_[place];
+}
+
+/// Calls visit(pair) for every pair that its balls and boxes don't prove apart for `time` to both
+/// sides of a configuration.
+template <typename Visit>
+void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit& visit) {
+  const Linkage::Impl& linkage = path_.linkage();
+  for (const CarriedBody& carried : linkage.carried) {
+    const int id = carried.body;
+    const BodyData& body = linkage.bodies[id];
+    const Eigen::Vector3d& center = c.center(id);
+    const double reach = request_.min_separation + body.content.radius;
+    if (!carried.obstacles.empty()) {
+      const double far = body.bounded ? reach + path_.padOfObstacles(id) +
+                                            (time > 0 ? c.motion(id, 0).during(time) : 0)
+                                      : kInfinity;
+      for (const ObstacleBox& box : carried.obstacles) {
+        if (squaredDistance(center, box) > far * far) continue;
+        visit(Pair{std::min(id, box.body), std::max(id, box.body), 0});
+      }
+    }
+    for (const Partner& other : carried.others) {
+      const BodyData& with = linkage.bodies[other.body];
+      double least = reach + path_.pad(id, other.body) + with.content.radius;
+      if (time > 0) {
+        least += c.motion(id, other.shared).during(time) +
+                 c.motion(other.body, other.shared).during(time);
+      }
+      if (body.bounded && with.bounded &&
+          (center - c.center(other.body)).squaredNorm() > least * least) {
+        continue;
+      }
+      visit(Pair{std::min(id, other.body), std::max(id, other.body), other.shared});
+    }
+  }
+}
+
+// Most pairs are so far apart at the middle of the path that half of it doesn't bring them
+// together.
+void MotionSearch::findSuspects() {
+  const Configuration& middle = at(0.5);
+  forNearPairs(middle, 0.5, [&](const Pair& pair) {
+    queries_.requireServed(pair.a, pair.b);
+    const PairMotion motion(middle.motion(pair.a, pair.shared), middle.motion(pair.b, pair.shared));
+    const double moved = motion.during(0.5) + request_.min_separation;
+    const double roots = queries_.rootBound(pair, middle, moved);
+    if (roots > moved) return;
+    suspects_.push_back({pair, roots});
+    waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, roots - moved});
+  });
+  counts_.proven_at_once = counts_.pairs - static_cast<long long>(suspects_.size());
+}
+
+// The deepest pairs first.
+bool MotionSearch::touchingAt(double s) {
+  const Configuration& c = at(s);
+  std::vector<Suspect>& near = scratch_->near;
+  near.clear();
+  forNearPairs(c, 0, [&](const Pair& pair) {
+    queries_.requireServed(pair.a, pair.b);
+    const double roots = queries_.rootBound(pair, c, 0);
+    if (roots <= 0) near.push_back({pair, roots});
+  });
+  std::sort(near.begin(), near.end(),
+            [](const Suspect& a, const Suspect& b) { return a.roots < b.roots; });
+  for (Suspect& suspect : near) {
+    if (queries_.slab(suspect.pair, c, 0) > 0 || !queries_.touching(suspect.pair, c)) continue;
+    suspects_.assign(1, suspect);
+    end_ = {MotionVerdict::kContact, s, s, 0};
+    return true;
+  }
+  return false;
+}
+
+MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart,
+                                        const PairMotion& motion) const {
+  using Outcome = Look::Outcome;
+  const double left = apart - request_.min_separation;
+  const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
+  if (left > motion.during(half)) return {Outcome::kProven, s, task.from, task.to};
+  if (!(left > 0)) return {Outcome::kUndecided, s, s, s, 0};
+  const double way = motion.timeFor(left, half) * (1 - 0x1p-40);
+  const double from = s - way + 0x1p-52, to = s + way - 0x1p-52;  // rounded towards s
+  if (!(from < to)) return {Outcome::kPart, s, s, s, 0};
+  return {Outcome::kPart, s, from, to, way};
+}
+
+// Across the direction of the nearest points most of the motion doesn't matter.
+MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pair& pair,
+                                         const Configuration& c, const PairMotion& motion) const {
+  using Outcome = Look::Outcome;
+  if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
+  const double s = look.s;
+  const double gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
+  if (!(gap > 0)) return look;
+  const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
+  Look wide = look;
+  wide.outcome = Outcome::kPart;
+  const double back = std::max(0.0, s - task.from) * (1 + 0x1p-50),
+               forth = std::max(0.0, task.to - s) * (1 + 0x1p-50);
+  const double way_back = motion.timeForSlab(gap, closing.back, back),
+               way_forth = motion.timeForSlab(gap, closing.forth, forth);
+  const double from = s - way_back * (1 - 0x1p-40) + 0x1p-52,
+               to = s + way_forth * (1 - 0x1p-40) - 0x1p-52;
+  wide.from = way_back >= back ? task.from : std::min(look.from, from);
+  wide.to = way_forth >= forth ? task.to : std::max(look.to, to);
+  if (wide.from <= task.from && wide.to >= task.to) wide.outcome = Outcome::kProven;
+  wide.way = std::max(look.way, std::min(way_back, way_forth));
+  return wide;
+}
+
+MotionSearch::Look MotionSearch::look(const Task& task) {
+  using Outcome = Look::Outcome;
+  Pair& pair = suspects_[task.suspect].pair;
+  const double s = middleOf(task.from, task.to);
+  const Configuration& c = at(s);
+  const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
+  const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
+  const double moved = motion.during(half), enough = request_.min_separation + moved;
+  const double roots =
+      s == 0.5 ? suspects_[task.suspect].roots : queries_.rootBound(pair, c, enough);
+  const double roots_left = roots - request_.min_separation;
+  if (roots_left > moved || (roots_left > 0 && roots_left > kRootsShare * moved)) {
+    return proven(task, s, roots, motion);
+  }
+  const Look nothing = {Outcome::kUndecided, s, s, s, 0};
+  const Look before = widened(task, nothing, pair, c, motion);
+  if (before.outcome == Outcome::kProven) return before;
+  if (before.outcome == Outcome::kPart &&
+      before.to - before.from > kSlabShare * (task.to - task.from)) {
+    return before;
+  }
+  if (roots <= 0 && before.outcome == Outcome::kUndecided && queries_.touching(pair, c)) {
+    return {Outcome::kContact, s, s, s, 0};
+  }
+  const Nearness near = queries_.ask(pair, c, enough, roots);
+  if (near.contact) return {Outcome::kContact, s, s, s, 0};
+  return widened(task, proven(task, s, std::max(near.apart, roots), motion), pair, c, motion);
+}
+
+bool MotionSearch::contactAt(double s, int suspect) {
+  return queries_.ask(suspects_[suspect].pair, at(s), request_.min_separation, -kInfinity).contact;
+}
+
+// True if an end of the interval is in contact: paths begin and end in poses that touch. Else the
+// first interval of this kind is kept as the answer, should no contact turn up.
+bool MotionSearch::undecided(const Task& task, const Look& look) {
+  const double half = 0.25 * request_.resolution;
+  const double from = std::max(task.from, look.s - half), to = std::min(task.to, look.s + half);
+  for (const double s : {from, to}) {
+    if (!contactAt(s, task.suspect)) continue;
+    end_ = {MotionVerdict::kContact, s, s, task.suspect};
+    return true;
+  }
+  if (end_.suspect < 0) end_ = {MotionVerdict::kUnresolved, from, to, task.suspect};
+  return false;
+}
+
+void MotionSearch::anyContact() {
+  using Outcome = Look::Outcome;
+  std::make_heap(waiting_.begin(), waiting_.end());
+  const auto push = [&](int suspect, double from, double to, const Look& look) {
+    if (!(from < to)) return;
+    if (end_.suspect >= 0 && to - from < kShort) return;
+    waiting_.push_back({suspect, from, to, look.way - 0.5 * (to - from)});
+    std::push_heap(waiting_.begin(), waiting_.end());
+  };
+  while (!waiting_.empty()) {
+    std::pop_heap(waiting_.begin(), waiting_.end());
+    const Task task = waiting_.back();
+    waiting_.pop_back();
+    const Look result = look(task);
+    switch (result.outcome) {
+      case Outcome::kProven:
+        break;
+      case Outcome::kContact:
+        end_ = {MotionVerdict::kContact, result.s, result.s, task.suspect};
+        return;
+      case Outcome::kPart:
+        if (task.to - task.from > request_.resolution) {
+          push(task.suspect, task.from, result.from, result);
+          push(task.suspect, result.to, task.to, result);
+          break;
+        }
+        if (undecided(task, result)) return;
+        break;
+      case Outcome::kUndecided:
+        if (undecided(task, result)) return;
+        push(task.suspect, task.from, result.s - request_.resolution, result);
+        push(task.suspect, result.s + request_.resolution, task.to, result);
+    }
+  }
+}
+
+// The pairs one after the other, each from the start of the path up to what is known of those
+// before.
+void MotionSearch::firstContact() {
+  std::sort(waiting_.begin(), waiting_.end(),
+            [](const Task& a, const Task& b) { return a.margin < b.margin; });
+  const std::vector<Task> tasks = waiting_;
+  for (const Task& task : tasks) firstContactOf(task.suspect);
+}
+
+void MotionSearch::firstContactOf(int suspect) {
+  using Outcome = Look::Outcome;
+  // What lies after this doesn't matter.
+  const auto limit = [&] {
+    return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
+  };
+  std::vector<Task> stack = {{suspect, 0, limit()}};
+  while (!stack.empty()) {
+    Task task = stack.back();
+    stack.pop_back();
+    if (task.from >= limit() && end_.suspect >= 0) continue;
+    task.to = std::min(task.to, limit());
+    const bool ends_in_contact =
+        end_.verdict == MotionVerdict::kContact && end_.suspect == suspect && task.to == end_.to;
+    if (ends_in_contact && task.to - task.from <= request_.resolution) {
+      end_.from = task.from;
+      continue;
+    }
+    const Look result = look(task);
+    if (result.outcome == Outcome::kContact) {
+      const bool starts = task.from == 0 && result.s > 0 && contactAt(0, suspect);
+      end_ = {MotionVerdict::kContact, task.from, starts ? 0 : result.s, suspect};
+      if (end_.to == 0) return;
+      stack.push_back({suspect, task.from, end_.to});
+    } else if (result.outcome == Outcome::kPart && task.to - task.from > request_.resolution) {
+      if (result.to < task.to) stack.push_back({suspect, result.to, task.to});
+      if (task.from < result.from) stack.push_back({suspect, task.from, result.from});
+    } else if (result.outcome != Outcome::kProven) {
+      const double half = 0.25 * request_.resolution;  // so that repeated steps end
+      const double from = std::max(task.from, result.s - half),
+                   to = std::min(task.to, result.s + half);
+      const bool touches = contactAt(to, suspect);
+      end_ = {touches ? MotionVerdict::kContact : MotionVerdict::kUnresolved, from, to, suspect};
+      stack.push_back({suspect, task.from, touches ? to : from});
+    }
+  }
+}
+
+MotionAnswer MotionSearch::run() {
+  if (request_.first_contact) {
+    findSuspects();
+    firstContact();
+  } else if (request_.min_separation > 0 || !touchingAt(1)) {
+    findSuspects();
+    // Where much is left to be proven, a few looks for contacts cost little beside it.
+    const bool look = suspects_.size() > kMany && !(request_.min_separation > 0);
+    if (!look || !(touchingAt(0.5) || touchingAt(0.25) || touchingAt(0.75))) anyContact();
+  }
+  MotionAnswer answer;
+  answer.verdict = end_.verdict;
+  answer.from = end_.from;
+  answer.to = end_.to;
+  if (end_.suspect >= 0) {
+    answer.body_a = suspects_[end_.suspect].pair.a;
+    answer.body_b = suspects_[end_.suspect].pair.b;
+  }
+  answer.counts = counts_;
+  return answer;
+}
+
+}  // namespace kios::articulated

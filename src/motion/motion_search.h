@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "motion/body_queries.h"
+
+namespace kios::articulated {
+
+/// A pair that its bounding volumes don't prove for the whole path at once.
+struct Suspect {
+  Pair pair;
+  double roots;  ///< rootBound() in the middle of the path
+};
+
+/// An interval that is not proven yet for a suspect. The task whose distance falls short of its
+/// motion most comes first.
+struct Task {
+  int suspect;
+  double from, to;
+  double margin = 0;  ///< distance less motion, by what is known of a configuration nearby
+  bool operator<(const Task& o) const { return margin > o.margin; }
+};
+
+/// The memory of a search.
+struct Scratch {
+  std::vector<Configuration> configurations;
+  std::vector<Suspect> suspects, near;
+  std::vector<Task> waiting;
+};
+
+/// The search for a contact on a path, or for the proof that there is none. A pair of bodies that
+/// is proven to be d apart at a configuration stays apart as long as its motion (PairMotion) uses
+/// up less than d and the separation asked for leave. A query in the middle of an interval asks
+/// whether it is proven as a whole; if not, the rest of it on both sides is asked about later.
+class MotionSearch {
+ public:
+  MotionSearch(const Path& path, const MotionRequest& request);
+  ~MotionSearch();
+  MotionSearch(const MotionSearch&) = delete;
+  MotionSearch& operator=(const MotionSearch&) = delete;
+
+  MotionAnswer run();
+
+ private:
+  /// What a task came to: the whole interval is proven; the part `from` to `to` of it is, which may
+  /// be empty; there is a contact at `s`; or nothing can be proven of `s`, by no shorter interval.
+  struct Look {
+    enum class Outcome { kProven, kPart, kContact, kUndecided } outcome;
+    double s = 0, from = 0, to = 0, way = 0;
+  };
+  /// Where the path isn't clear.
+  struct End {
+    MotionVerdict verdict = MotionVerdict::kClear;
+    double from = 0, to = 1;
+    int suspect = -1;
+  };
+
+  const Configuration& at(double s);
+  template <typename Visit>
+  void forNearPairs(const Configuration& c, double time, const Visit& visit);
+  void findSuspects();
+  bool touchingAt(double s);
+  Look look(const Task& task);
+  Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
+  Look widened(const Task& task, const Look& look, Pair& pair, const Configuration& c,
+               const PairMotion& motion) const;
+  void anyContact();
+  void firstContact();
+  void firstContactOf(int suspect);
+  bool undecided(const Task& task, const Look& look);
+  bool contactAt(double s, int suspect);
+
+  const Path& path_;
+  const MotionRequest& request_;
+  MotionCounts counts_;
+  const BodyQueries queries_;
+  std::unique_ptr<Scratch> scratch_;
+  std::vector<Configuration>& cache_;
+  std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
+  std::vector<Suspect>& suspects_;
+  std::vector<Task>& waiting_;
+  End end_;
+};
+
+}  // namespace kios::articulated

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "motion/shape_gap.h"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
+#include "fcl_kios/fcl_own.h"
+
+namespace kios::articulated {
+namespace {
+
+using Eigen::Vector3d;
+using fcl::Transform3d;
+
+/// The largest n . x over a bounded shape in the world.
+double supportIn(const BodyData& body, const Transform3d& X, const Vector3d& n) {
+  return n.dot(X.translation()) + shape::extentAlong(body.solid, X.linear().transpose() * n);
+}
+
+/// The gap along n, of any length near 1, from a to b.
+double slab(const BodyData& a, const Transform3d& X_WA, const BodyData& b, const Transform3d& X_WB,
+            const Vector3d& n) {
+  const double length = n.norm();
+  if (!(length > 0)) return -std::numeric_limits<double>::infinity();
+  const Vector3d unit = n / length;
+  return -supportIn(b, X_WB, -unit) - supportIn(a, X_WA, unit);
+}
+
+/// From a half-space or plane to a bounded shape: along its normal, or for a plane against it.
+double gapFromPlane(const BodyData& plane, const Transform3d& X_WP, const BodyData& b,
+                    const Transform3d& X_WB) {
+  const Vector3d n = X_WP.linear() * plane.solid.normal;
+  const double offset = n.dot(X_WP.translation()) + plane.solid.offset;
+  const double above = -supportIn(b, X_WB, -n) - offset;
+  if (plane.solid.kind == shape::Kind::kHalfspace) return above;
+  return std::max(above, offset - supportIn(b, X_WB, n));
+}
+
+/// FCL's nearest points, or none where its solver gives up.
+bool nearestPoints(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
+                   const Transform3d& X_WB, fcl::DistanceResultd& result) {
+  fcl::DistanceRequestd request(true);
+  try {
+    return fcl_own::distance(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, result) > 0;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
+                const Transform3d& X_WB) {
+  if (!a.bounded) return gapFromPlane(a, X_WA, b, X_WB);
+  if (!b.bounded) return gapFromPlane(b, X_WB, a, X_WA);
+  double gap = slab(a, X_WA, b, X_WB, X_WB.translation() - X_WA.translation());
+  fcl::DistanceResultd result;
+  if (nearestPoints(a, X_WA, b, X_WB, result)) {
+    const Vector3d n = result.nearest_points[1] - result.nearest_points[0];
+    gap = std::max(gap, slab(a, X_WA, b, X_WB, n));
+  }
+  for (const auto* X : {&X_WA, &X_WB}) {
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d n = X->linear().col(i);
+      gap = std::max({gap, slab(a, X_WA, b, X_WB, n), slab(a, X_WA, b, X_WB, -n)});
+    }
+  }
+  return gap;
+}
+
+bool shapesMeet(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
+                const Transform3d& X_WB, double within) {
+  if (!a.bounded || !b.bounded) return shapeGap(a, X_WA, b, X_WB) <= within;
+  fcl::CollisionResultd contacts;
+  if (fcl_own::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, fcl::CollisionRequestd(),
+                       contacts) > 0) {
+    return true;
+  }
+  if (!(within > 0)) return false;
+  fcl::DistanceResultd result;
+  return nearestPoints(a, X_WA, b, X_WB, result) && result.min_distance <= within;
+}
+
+}  // namespace kios::articulated
