@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A mesh and one of FCL's shapes, or an octree.
+#include <cmath>
+#include <exception>
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+#include "fcl_kios/query/octree_queries.h"
+#include "fcl_kios/query/shape_queries.h"
+#include "preload/back.h"
+
+namespace kios::preload {
+namespace {
+
+/// What FCL's search is taken to cost, in nanoseconds: its tests can't be counted from here.
+constexpr double kCollideByFcl = 5e3, kDistanceByFcl = 50e3;
+/// Triangles beyond which comparing costs more than it saves.
+constexpr std::size_t kMostToCollide = 2000, kMostForDistance = 40000;
+
+bool isOctree(const Geometry& geometry) { return geometry.getNodeType() == fcl::GEOM_OCTREE; }
+
+/// Radius of a sphere about the shape's origin that holds it; infinity where that isn't cheap.
+double radiusOf(const Geometry& shape) {
+  switch (shape.getNodeType()) {
+    case fcl::GEOM_BOX:
+      return static_cast<const fcl::Boxd&>(shape).side.norm() / 2;
+    case fcl::GEOM_SPHERE:
+      return static_cast<const fcl::Sphered&>(shape).radius;
+    case fcl::GEOM_ELLIPSOID:
+      return static_cast<const fcl::Ellipsoidd&>(shape).radii.maxCoeff();
+    case fcl::GEOM_CAPSULE: {
+      const auto& capsule = static_cast<const fcl::Capsuled&>(shape);
+      return capsule.radius + capsule.lz / 2;
+    }
+    case fcl::GEOM_CONE: {
+      const auto& cone = static_cast<const fcl::Coned&>(shape);
+      return cone.radius + cone.lz / 2;
+    }
+    case fcl::GEOM_CYLINDER: {
+      const auto& cylinder = static_cast<const fcl::Cylinderd&>(shape);
+      return cylinder.radius + cylinder.lz / 2;
+    }
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
+/// A box that holds the model, by its root: centre and half sides along axes.
+struct RootBox {
+  fcl::Matrix3d axes;
+  fcl::Vector3d center, half;
+};
+RootBox boxOf(const fcl::OBBd& box) { return {box.axis, box.To, box.extent}; }
+RootBox boxOf(const fcl::OBBRSSd& bv) { return boxOf(bv.obb); }
+RootBox boxOf(const fcl::kIOSd& bv) { return boxOf(bv.obb); }
+RootBox boxOf(const fcl::RSSd& bv) {
+  const fcl::Vector3d sides(bv.l[0] / 2, bv.l[1] / 2, 0);
+  return {bv.axis, bv.To + bv.axis * sides, sides + fcl::Vector3d::Constant(bv.r)};
+}
+
+RootBox rootOf(const Geometry* model) {
+  switch (model->getNodeType()) {
+    case fcl::BV_OBB:
+      return boxOf(modelOf<fcl::OBBd>(model).getBV(0).bv);
+    case fcl::BV_RSS:
+      return boxOf(modelOf<fcl::RSSd>(model).getBV(0).bv);
+    case fcl::BV_kIOS:
+      return boxOf(modelOf<fcl::kIOSd>(model).getBV(0).bv);
+    default:
+      return boxOf(modelOf<fcl::OBBRSSd>(model).getBV(0).bv);
+  }
+}
+
+/// Whether FCL, too, will see at its first tests that the shape is away from the model.
+bool isAway(const Pair& pair) {
+  const RootBox root = rootOf(pair.a);
+  const fcl::Vector3d center =
+      root.axes.transpose() *
+      (pair.X_WA.linear().transpose() * (pair.X_WB.translation() - pair.X_WA.translation()) -
+       root.center);
+  return ((center.cwiseAbs() - root.half).array() > radiusOf(*pair.b)).any();
+}
+
+/// Calls ask(twin) with the mesh's current twin. False if there is none.
+template <typename Ask>
+bool askTwin(Back& back, const Mesh& mesh, double cost_of_fcl, const Ask& ask) {
+  for (bool made = !back.always();; made = true) {
+    bool stale = true;
+    {
+      const Twins::Hold hold = back.twins.hold(mesh);
+      if (!hold) return false;
+      if (hold.hasTwin() && hold.isCurrent()) {
+        ask(hold.twin());
+        return true;
+      }
+      stale = true;
+    }
+    if (made) {
+      if (stale) back.twins.pay(mesh, cost_of_fcl);
+      return false;
+    }
+    back.twins.make(mesh);
+  }
+}
+
+}  // namespace
+
+By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
+                    CollisionResult& result) {
+  const bool octree = isOctree(*pair.b);
+  if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
+  if (!back.always() && mesh.num_triangles > kMostToCollide) return By::kHandedOn;
+  if (!octree && isAway(pair)) return By::kHandedOn;
+  if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
+  try {
+    CollisionResult verdict;
+    const auto ask = [&](const Modeld& twin) {
+      const CollisionRequest one(1, false);
+      if (octree) {
+        collideOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA, one,
+                      verdict);
+      } else {
+        collideShape(twin, pair.X_WA, *pair.b, pair.X_WB, one, verdict);
+      }
+    };
+    if (!askTwin(back, mesh, kCollideByFcl, ask)) return By::kHandedOn;
+    if (!verdict.isCollision()) return By::kTwins;
+    if (wantsContacts(request)) return By::kHandedOn;
+    fcl::Contact<double> contact = verdict.getContact(0);
+    (octree ? contact.o2 : contact.o1) = pair.a;
+    result.addContact(contact);
+    return By::kTwins;
+  } catch (const std::exception&) {
+    return By::kHandedOn;
+  }
+}
+
+By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const DistanceRequest& request,
+                   DistanceResult& result) {
+  if (!back.always() && mesh.num_triangles > kMostForDistance) return By::kHandedOn;
+  if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
+  const bool octree = isOctree(*pair.b);
+  try {
+    DistanceResult found(result.min_distance);
+    const auto ask = [&](const Modeld& twin) {
+      if (octree) {
+        distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA,
+                       exact(request.enable_nearest_points), found);
+      } else {  // FCL gives the nearest points whether they are wanted or not
+        distanceShape(twin, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
+      }
+    };
+    if (!askTwin(back, mesh, kDistanceByFcl, ask)) return By::kHandedOn;
+    // At overlap FCL gives what its solver does: -1, a depth.
+    if (!(found.min_distance > 0)) return By::kHandedOn;
+    if (found.min_distance < result.min_distance) {
+      (octree ? found.o2 : found.o1) = pair.a;
+      if (octree && !request.enable_nearest_points) {
+        found.nearest_points[0] = result.nearest_points[0];
+        found.nearest_points[1] = result.nearest_points[1];
+      }
+      result = found;
+    }
+    return By::kTwins;
+  } catch (const std::exception&) {
+    return By::kHandedOn;
+  }
+}
+
+}  // namespace kios::preload
