@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
     if (row.find("bounded") != std::string::npos) result.min_distance = gap / 2;
     return fcl::distance(&a, others[i].get(), distance_request, result);
   };
-  double sum;
+  double sum = 0;
   // Before it is timed, as a planner does.
   const auto begin = std::chrono::steady_clock::now();
   int warm = 0;
