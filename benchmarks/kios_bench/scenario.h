@@ -53,6 +53,9 @@ void runBuild(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
+#ifdef KIOS_HAVE_PRELOAD
+void runPreload(const Options& options, Report& report);
+#endif
 void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
 

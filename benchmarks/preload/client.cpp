@@ -18,6 +18,10 @@
 #include <vector>
 
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/octree/octree.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/collision_object.h>
@@ -65,6 +69,22 @@ fcl::Vector3d randomDirection(std::mt19937& random) {
   return fcl::Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
+/// What the torus meets: another, unless the row names one of FCL's shapes or an octree.
+std::shared_ptr<fcl::CollisionGeometryd> partner(const std::string& row, int triangles) {
+  const auto names = [&](const char* word) { return row.find(word) != std::string::npos; };
+  if (names("box")) return std::make_shared<fcl::Boxd>(0.6, 0.5, 0.8);
+  if (names("sphere")) return std::make_shared<fcl::Sphered>(0.4);
+  if (names("cylinder")) return std::make_shared<fcl::Cylinderd>(0.3, 0.9);
+  if (!names("octree")) return torus(triangles);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> place(-0.7F, 0.7F);
+  const auto cells = std::make_shared<octomap::OcTree>(0.05);
+  for (int i = 0; i < 400; ++i) {
+    cells->updateNode(octomap::point3d(place(random), place(random), place(random)), true);
+  }
+  return std::make_shared<fcl::OcTreed>(cells);
+}
+
 using Pairs = std::vector<std::unique_ptr<fcl::CollisionObjectd>>;
 
 double distanceOf(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
@@ -80,7 +100,8 @@ void place(const fcl::CollisionObjectd& a, fcl::CollisionObjectd& b, const fcl::
   for (int i = 0; i < 45; ++i) {
     const double middle = (touching + apart) / 2;
     b.setTranslation(middle * direction);
-    (distanceOf(a, b) > std::max(gap, 0.0) ? apart : touching) = middle;
+    // FCL's solvers for shapes see an overlap a little early.
+    (distanceOf(a, b) > std::max(gap, 1e-5) ? apart : touching) = middle;
   }
   if (gap < 0) b.setTranslation((touching + gap) * direction);
 }
@@ -112,13 +133,14 @@ int main(int argc, char** argv) {
                      : row.find("touch") != std::string::npos ? -1e-4
                      : row.find("deep") != std::string::npos  ? -0.15
                                                               : 4.0;
-  const auto model_a = torus(triangles), model_b = torus(triangles);
+  const auto model_a = torus(triangles);
+  const std::shared_ptr<fcl::CollisionGeometryd> other = partner(row, triangles);
   std::mt19937 random(7);
   constexpr int kPoses = 24;
   const fcl::CollisionObjectd a(model_a, fcl::Transform3d::Identity());
   Pairs others;
   for (int i = 0; i < kPoses; ++i) {
-    others.push_back(std::make_unique<fcl::CollisionObjectd>(model_b));
+    others.push_back(std::make_unique<fcl::CollisionObjectd>(other));
     others.back()->setRotation(randomRotation(random));
     const fcl::Vector3d direction = randomDirection(random);
     if (gap >= 4) {

@@ -218,7 +218,15 @@ void changeModels(const std::string& name) {
 /// of an updated model hold it before, after and at any time between.
 template <typename BV>
 void writeInPlace(const std::string& name) {
-  const Soup soup = torus(18, 12), smaller = torus(18, 12, 0.8);
+  // Each triangle's centre is a vertex, too, that no triangle has yet.
+  Soup soup = torus(18, 12), smaller = torus(18, 12, 0.8);
+  const std::size_t num_corners = soup.vertices.size();
+  for (Soup* const all : {&soup, &smaller}) {
+    for (const fcl::Triangle& t : all->triangles) {
+      all->vertices.push_back((all->vertices[t[0]] + all->vertices[t[1]] + all->vertices[t[2]]) /
+                              3);
+    }
+  }
   const auto a = build<BV>(soup), b = build<BV>(torus(16, 12));
   a->beginUpdateModel();
   a->updateSubModel(smaller.vertices);
@@ -246,12 +254,13 @@ void writeInPlace(const std::string& name) {
     // Right after, and once the twin has caught up.
     ask("_written", round % 6 == 5 ? 60 : 2);
   }
-  // The last triangles become others near by, whose volumes hold them: each its neighbour's half.
-  for (int i = 0; i < 20; ++i) {
-    const int last = a->num_tris - 1 - 7 * i;
-    a->tri_indices[last] =
-        fcl::Triangle(a->tri_indices[last][0], a->tri_indices[last][1], a->tri_indices[last][1]);
-    ask("_triangle_written", 4);
+  // A third of some triangles is left, in the volumes that hold the whole.
+  for (int round = 0; round < 10; ++round) {
+    for (int i = round; i < a->num_tris; i += 11) {
+      fcl::Triangle& t = a->tri_indices[i];
+      t = fcl::Triangle(t[0], t[1], num_corners + static_cast<std::size_t>(i));
+    }
+    ask("_triangles_written", round % 5 == 4 ? 40 : 3);
   }
 }
 

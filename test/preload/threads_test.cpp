@@ -35,7 +35,7 @@ bool touch(const Model& a, const Model& b, const Transform3d& X_WB) {
 TEST(Threads, SharedModelsWhileOthersComeAndGo) {
   ASSERT_TRUE(little_memory);
   const auto a = build<fcl::OBBRSSd>(torus(20, 14)), b = build<fcl::OBBRSSd>(torus(18, 12));
-  constexpr int kPoses = 40, kThreads = 4, kRounds = 6;
+  constexpr int kPoses = 40, kThreads = 4, kRounds = 60;
   std::mt19937 random(1);
   std::vector<Transform3d> poses;
   std::vector<double> distances;
