@@ -112,6 +112,14 @@ By Back::distance(const Pair& pair, const DistanceRequest& request, DistanceResu
   });
 }
 
+void Back::makeTwin(const Mesh& mesh) {
+  {
+    const Twins::Hold hold = twins.hold(mesh);
+    if (!hold || (hold.hasTwin() && hold.isCurrent())) return;
+  }
+  twins.make(mesh);
+}
+
 bool isRigid(const Pose& X) {
   // A tenth of what k-IOS takes, so that roundings don't matter. False for NaN.
   constexpr double kMost = 1e-5;

@@ -43,6 +43,8 @@ class Back {
 
   /// Every pair is asked of twins, from the first query on.
   bool always() const { return start.mode == Mode::kVerify; }
+  /// The model's twin of its present content.
+  void makeTwin(const Mesh& mesh);
 };
 
 // The parts of Back::collide() and Back::distance(), for models over BV.

@@ -19,10 +19,28 @@
 namespace kios::preload {
 namespace {
 
-/// What FCL's search is taken to cost, in nanoseconds: its tests can't be counted from here.
-constexpr double kCollideByFcl = 5e3, kDistanceByFcl = 50e3;
-/// Triangles beyond which comparing costs more than it saves.
-constexpr std::size_t kMostToCollide = 2000, kMostForDistance = 40000;
+// What FCL's searches take, in nanoseconds, as `kios_bench preload` measures them: their tests
+// can't be counted from here.
+constexpr double kCollideByFcl = 3e3;
+double timeOfDistance(const Mesh& mesh) {
+  return 1e4 + 20 * static_cast<double>(mesh.num_triangles);
+}
+/// How long a mesh may be compared for a distance: FCL's take so much longer that any comparison
+/// pays.
+constexpr double kAnyTime = 1e9;
+
+/// The same for a verdict about a near pair: FCL's time less the twin's.
+double timeToCompare(const Geometry& other) {
+  switch (other.getNodeType()) {
+    case fcl::GEOM_BOX:
+    case fcl::GEOM_PLANE:
+    case fcl::GEOM_HALFSPACE:
+    case fcl::GEOM_OCTREE:  // of 20 us or more that both take
+      return 1.3e3;
+    default:
+      return 6e3;  // FCL's GJK
+  }
+}
 
 bool isOctree(const Geometry& geometry) { return geometry.getNodeType() == fcl::GEOM_OCTREE; }
 
@@ -88,26 +106,26 @@ bool isAway(const Pair& pair) {
   return ((center.cwiseAbs() - root.half).array() > radiusOf(*pair.b)).any();
 }
 
-/// Calls ask(twin) with the mesh's current twin. False if there is none.
+/// Calls ask(twin) with the mesh's current twin. False if there is none, or comparing it would take
+/// longer than that.
 template <typename Ask>
-bool askTwin(Back& back, const Mesh& mesh, double cost_of_fcl, const Ask& ask) {
-  for (bool made = !back.always();; made = true) {
-    bool stale = true;
-    {
-      const Twins::Hold hold = back.twins.hold(mesh);
-      if (!hold) return false;
-      if (hold.hasTwin() && hold.isCurrent()) {
-        ask(hold.twin());
-        return true;
-      }
-      stale = true;
-    }
-    if (made) {
-      if (stale) back.twins.pay(mesh, cost_of_fcl);
+bool askTwin(Back& back, const Mesh& mesh, double time_to_compare, double time_of_fcl,
+             const Ask& ask) {
+  if (back.always()) back.makeTwin(mesh);
+  {
+    const Twins::Hold hold = back.twins.hold(mesh);
+    if (!hold) return false;
+    if (!back.always() && timeOfComparison(hold.bytesToCompare()) > time_to_compare &&
+        (hold.hasTwin() || back.start.mode != Mode::kTrust)) {
       return false;
     }
-    back.twins.make(mesh);
+    if (hold.hasTwin() && hold.isCurrent()) {
+      ask(hold.twin());
+      return true;
+    }
   }
+  back.twins.pay(mesh, time_of_fcl);
+  return false;
 }
 
 }  // namespace
@@ -115,8 +133,9 @@ bool askTwin(Back& back, const Mesh& mesh, double cost_of_fcl, const Ask& ask) {
 By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
                     CollisionResult& result) {
   const bool octree = isOctree(*pair.b);
+  // Contacts are FCL's to list, after which a verdict was in vain.
+  if (wantsContacts(request) && !back.always()) return By::kHandedOn;
   if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
-  if (!back.always() && mesh.num_triangles > kMostToCollide) return By::kHandedOn;
   if (!octree && isAway(pair)) return By::kHandedOn;
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   try {
@@ -130,7 +149,7 @@ By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const Collis
         collideShape(twin, pair.X_WA, *pair.b, pair.X_WB, one, verdict);
       }
     };
-    if (!askTwin(back, mesh, kCollideByFcl, ask)) return By::kHandedOn;
+    if (!askTwin(back, mesh, timeToCompare(*pair.b), kCollideByFcl, ask)) return By::kHandedOn;
     if (!verdict.isCollision()) return By::kTwins;
     if (wantsContacts(request)) return By::kHandedOn;
     fcl::Contact<double> contact = verdict.getContact(0);
@@ -144,7 +163,6 @@ By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const Collis
 
 By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const DistanceRequest& request,
                    DistanceResult& result) {
-  if (!back.always() && mesh.num_triangles > kMostForDistance) return By::kHandedOn;
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   const bool octree = isOctree(*pair.b);
   try {
@@ -157,7 +175,7 @@ By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const Distanc
         distanceShape(twin, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
       }
     };
-    if (!askTwin(back, mesh, kDistanceByFcl, ask)) return By::kHandedOn;
+    if (!askTwin(back, mesh, kAnyTime, timeOfDistance(mesh), ask)) return By::kHandedOn;
     // At overlap FCL gives what its solver does: -1, a depth.
     if (!(found.min_distance > 0)) return By::kHandedOn;
     if (found.min_distance < result.min_distance) {

@@ -50,18 +50,6 @@ void pay(Back& back, const Mesh& a, const Mesh& b, double nanoseconds) {
   }
 }
 
-/// In Mode::kVerify twins are there before the first answer.
-void makeTwins(Back& back, const Mesh& a, const Mesh& b) {
-  for (const Mesh* const mesh : {&a, &b}) {
-    bool lacks;
-    {
-      const Twins::Hold hold = back.twins.hold(*mesh);
-      lacks = hold && !(hold.hasTwin() && hold.isCurrent());
-    }
-    if (lacks) back.twins.make(*mesh);
-  }
-}
-
 /// Whether the twins touch, and by which triangles. Throws as k-IOS's queries.
 bool touch(const Asked& asked, const Pair& pair, int& id_a, int& id_b) {
   CollisionResult verdict;
@@ -103,7 +91,10 @@ By collideModels(Back& back, const Pair& pair, const CollisionRequest& request,
     }
   };
 
-  if (back.always()) makeTwins(back, a, b);
+  if (back.always()) {
+    back.makeTwin(a);
+    back.makeTwin(b);
+  }
   bool stale = false;
   {
     const Asked asked(back, a, b, wantsContacts(request) ? Kind::kContacts : Kind::kVerdict);
@@ -152,7 +143,10 @@ By distanceOfModels(Back& back, const Pair& pair, const DistanceRequest& request
     return distanceByFcl(model_a, pair.X_WA, model_b, pair.X_WB, request, result, limit);
   };
 
-  if (back.always()) makeTwins(back, a, b);
+  if (back.always()) {
+    back.makeTwin(a);
+    back.makeTwin(b);
+  }
   bool stale = false;
   {
     const Asked asked(back, a, b, Kind::kDistance);

@@ -28,8 +28,9 @@
 #define KIOS_FIT_FUNCTION(SPACE, NAME, VOLUME)                                                \
   "_ZN3fcl6detail" SPACE "4" NAME "IdEEvPKN5Eigen6MatrixIT_Li3ELi1ELi0ELi3ELi1EEERNS_" VOLUME \
   "IS5_EE"
-#define KIOS_FITN_FUNCTION(SPACE, VOLUME)                                                         \
-  "_ZN3fcl6detail" SPACE "4fitnIdEEvPKN5Eigen6MatrixIT_Li3ELi1ELi0ELi3ELi1EEEiRNS_" VOLUME "IS5_" \
-                                                                                           "EE"
+#define KIOS_FITN_FUNCTION(SPACE, VOLUME)                                                  \
+  "_ZN3fcl6detail" SPACE "4fitnIdEEvPKN5Eigen6MatrixIT_Li3ELi1ELi0ELi3ELi1EEEiRNS_" VOLUME \
+  "IS5_"                                                                                   \
+  "EE"
 #define KIOS_FITTER(VOLUME) \
   "_ZN3fcl6detail6FitterIdNS_" VOLUME "IdEEE3fitEPKN5Eigen6MatrixIdLi3ELi1ELi0ELi3ELi1EEEiRS3_"

@@ -25,10 +25,14 @@ std::uint16_t inUnits(double nanoseconds) {
 
 }  // namespace
 
+double timeOfComparison(std::size_t bytes) {
+  constexpr double kByte = 1.0 / 30;  // a core compares 20 to 60 bytes a nanosecond
+  return kByte * static_cast<double>(bytes);
+}
+
 double costOfTwins(Kind kind, std::size_t bytes_to_compare) {
-  // A core compares 20 to 60 bytes a nanosecond, and searches for about so long.
-  constexpr double kByte = 1.0 / 30, kSearch[] = {2000, 2000, 7000};
-  return kByte * static_cast<double>(bytes_to_compare) + kSearch[static_cast<std::size_t>(kind)];
+  constexpr double kSearch[] = {2000, 2000, 7000};
+  return timeOfComparison(bytes_to_compare) + kSearch[static_cast<std::size_t>(kind)];
 }
 
 std::uint32_t Rule::tagOf(const Question& question) {

@@ -20,6 +20,9 @@ struct Question {
   double twins_cost;  ///< what the twins need, in nanoseconds
 };
 
+/// What it takes to compare so many bytes, in nanoseconds.
+double timeOfComparison(std::size_t bytes);
+
 /// What the twins need for a query: to compare so many bytes, and to search.
 double costOfTwins(Kind kind, std::size_t bytes_to_compare);
 

@@ -219,7 +219,9 @@ bool Twins::Hold::trusted() const {
          twins_->fits_.seen(mesh_.vertices);
 }
 
-std::size_t Twins::Hold::bytesToCompare() const { return trusted() ? 0 : mesh_.bytes(); }
+std::size_t Twins::Hold::bytesToCompare() const {
+  return hasTwin() && trusted() ? 0 : mesh_.bytes();
+}
 
 bool Twins::Hold::isCurrent() const {
   if (trusted()) return true;

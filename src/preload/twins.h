@@ -29,7 +29,7 @@ class Twins {
     explicit operator bool() const { return cell_ != nullptr; }
     /// Whether there is a twin, of the present content or of one before.
     bool hasTwin() const;
-    /// Bytes that isCurrent() compares; 0 where nothing was fitted since it was last true.
+    /// Bytes that isCurrent() compares; 0 where nothing was fitted since that was last true.
     std::size_t bytesToCompare() const;
     /// Whether the twin has the model's present content. If not, it will not be asked again.
     bool isCurrent() const;
