@@ -51,8 +51,9 @@ struct Calls {
 /// What the environment variable FCL_KIOS_PRELOAD asks for.
 enum class Mode { kOff, kOn, kTrust, kVerify, kStats };
 
-/// Calls of FCL's functions that fit a volume, as builds and refits of models make them. Counted in
-/// Mode::kTrust only.
+/// Calls of FCL's functions without which no model gets another content, but by writing it in
+/// place: those that fit a volume, as builds and refits make them, and the end of a geometry, to
+/// whose place another may be copied. Counted in Mode::kTrust only.
 struct Fits {
   std::atomic<std::uint64_t> count{0};
   /// Whether a build was seen that read these vertices.

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Stands in for libfcl's functions that fit volumes, counts their calls and hands them on. Only
-// pointers and numbers pass through, so that no type of FCL is needed.
+// Stands in for libfcl's functions that fit volumes and end geometries, counts their calls and
+// hands them on. Only pointers and numbers pass through, so that no type of FCL is needed.
 #include "preload/fits.h"
 
 #include <cstddef>
@@ -55,6 +55,7 @@ using Covariance = void(const void* vertices, const void* previous, void* triang
                         unsigned int* primitives, int n, void* covariance);
 using Fit = void(const void* points, void* volume);
 using FitN = void(const void* points, int n, void* volume);
+using End = void(void* geometry);
 
 }  // namespace
 
@@ -78,6 +79,13 @@ void getCovariance(const void* vertices, const void* previous, void* triangles,
   }
   KIOS_NEXT(Covariance, KIOS_GET_COVARIANCE);
   fcl(vertices, previous, triangles, primitives, n, covariance);
+}
+
+void endOfGeometry(void* geometry) KIOS_STANDS_FOR(KIOS_END_OF_GEOMETRY);
+void endOfGeometry(void* geometry) {
+  count();
+  KIOS_NEXT(End, KIOS_END_OF_GEOMETRY);
+  fcl(geometry);
 }
 
 #define KIOS_FIT(function, name)                                         \

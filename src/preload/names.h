@@ -34,3 +34,7 @@
   "EE"
 #define KIOS_FITTER(VOLUME) \
   "_ZN3fcl6detail6FitterIdNS_" VOLUME "IdEEE3fitEPKN5Eigen6MatrixIdLi3ELi1ELi0ELi3ELi1EEEiRS3_"
+
+// A geometry's end: the destructor of models calls it. Another model may be copied to its place,
+// without a fit.
+#define KIOS_END_OF_GEOMETRY "_ZN3fcl17CollisionGeometryIdED2Ev"

@@ -48,20 +48,36 @@ Rule::Past Rule::find(const Question& question) {
   return past.tag == tagOf(question) ? past : Past{};
 }
 
+/// Of all pairs with the first model that have no history.
+Question Rule::ofFirst(const Question& question) {
+  Question first = question;
+  first.serial_b = 0;
+  return first;
+}
+
 double Rule::fclLimit(const Question& question) {
-  Past past = find(question);
-  if (past.tag == 0) return question.twins_cost;
+  Question about = question;
+  Past past = find(about);
+  if (past.tag == 0) {
+    about = ofFirst(question);
+    past = find(about);
+    if (past.tag == 0) return question.twins_cost;
+  }
   if (past.touched) return kInfinity;
   if (past.cost * kUnit <= question.twins_cost) return 2 * question.twins_cost;
   const bool probes = past.until_probe == 0;
   past.until_probe = probes ? kProbeEvery - 1 : static_cast<std::uint8_t>(past.until_probe - 1);
-  placeOf(question).store(past, std::memory_order_relaxed);
+  placeOf(about).store(past, std::memory_order_relaxed);
   return probes ? question.twins_cost : 0;
 }
 
 void Rule::note(const Question& question, const Search& search, double limit, bool touches) {
-  Past past = find(question);
-  const bool known = past.tag != 0;
+  noteOne(question, search, limit, touches);
+  noteOne(ofFirst(question), search, limit, false);
+}
+
+void Rule::noteOne(const Question& question, const Search& search, double limit, bool touches) {
+  const Past past = find(question);
   const std::uint16_t cost = inUnits(search.done ? search.nanoseconds : 2 * limit);
   Past next = past;
   next.tag = tagOf(question);
@@ -69,12 +85,12 @@ void Rule::note(const Question& question, const Search& search, double limit, bo
     next.cost = std::max(past.cost, cost);
     next.until_probe = kProbeEvery - 1;
   } else {
-    next.cost = known ? static_cast<std::uint16_t>((3 * past.cost + cost + 2) / 4) : cost;
+    next.cost = past.tag != 0 ? static_cast<std::uint16_t>((3 * past.cost + cost + 2) / 4) : cost;
     next.touched = touches && question.kind == Kind::kContacts;
   }
   if (next.tag == past.tag && next.cost == past.cost && next.until_probe == past.until_probe &&
       next.touched == past.touched) {
-    return;
+    return;  // no other thread's cache has to learn of it
   }
   placeOf(question).store(next, std::memory_order_relaxed);
 }

@@ -29,7 +29,8 @@ double costOfTwins(Kind kind, std::size_t bytes_to_compare);
 /// Decides for each pair whether FCL or the twins are asked first, from what FCL's searches of that
 /// pair have cost: in tests, not in time, so that a program's answers don't depend on the machine's
 /// load. FCL is cheaper where its volumes decide soon, and for contacts, which it has to list; the
-/// twins' price is the comparison of their contents. A pair's history may be lost.
+/// twins' price is the comparison of their contents. A pair without a history, which may also be
+/// lost, begins with that of its first model.
 class Rule {
  public:
   /// How much FCL's search may cost before the twins are asked: 0 if they come first, infinity if
@@ -50,9 +51,11 @@ class Rule {
     bool touched = false;
   };
 
-  std::atomic<Past>& placeOf(const Question& question);
+  static Question ofFirst(const Question& question);
   static std::uint32_t tagOf(const Question& question);
+  std::atomic<Past>& placeOf(const Question& question);
   Past find(const Question& question);
+  void noteOne(const Question& question, const Search& search, double limit, bool touches);
 
   std::array<std::atomic<Past>, 1 << 15> pasts_{};
 };

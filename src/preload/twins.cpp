@@ -224,7 +224,10 @@ std::size_t Twins::Hold::bytesToCompare() const {
 }
 
 bool Twins::Hold::isCurrent() const {
-  if (trusted()) return true;
+  if (trusted()) {
+    cell_->uses.fetch_add(1, std::memory_order_relaxed);
+    return true;
+  }
   Content& content = *cell_->content;
   const std::uint64_t fits = twins_->fits_.count.load(std::memory_order_acquire);
   const bool equal = content.mesh.num_vertices == mesh_.num_vertices &&

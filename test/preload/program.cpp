@@ -288,6 +288,25 @@ void reuseAddresses(const std::string& name) {
   }
 }
 
+/// A model that goes, and one that is copied to its place: nothing is fitted meanwhile.
+void copyToAddresses() {
+  using Model = fcl::BVHModel<fcl::OBBRSSd>;
+  alignas(Model) static unsigned char memory[sizeof(Model)];
+  const auto big = build<fcl::OBBRSSd>(torus(16, 12)),
+             small = build<fcl::OBBRSSd>(torus(16, 12, 0.6));
+  const auto b = build<fcl::OBBRSSd>(torus(14, 12));
+  std::mt19937 random(23);
+  for (int generation = 0; generation < 16; ++generation) {
+    const auto destroy = [](Model* model) { model->~Model(); };
+    const std::shared_ptr<Model> a(new (memory) Model(generation % 2 == 0 ? *big : *small),
+                                   destroy);
+    for (int i = 0; i < 25; ++i) {
+      askDistance("copied", a, Transform3d::Identity(), b, randomPose(random, 2.4, 3.5),
+                  fcl::DistanceRequestd(true));
+    }
+  }
+}
+
 /// FCL's manager with its default callbacks, a motion, and a result that several pairs share.
 void askThroughFcl() {
   const auto model = build<fcl::OBBRSSd>(torus(16, 12));
@@ -385,6 +404,7 @@ int main(int argc, char** argv) {
                 [] {
                   reuseAddresses<fcl::OBBRSSd>("obbrss");
                   reuseAddresses<fcl::RSSd>("rss");
+                  copyToAddresses();
                 }},
                {"fcl", askThroughFcl},
                {"threads", askByThreads}};

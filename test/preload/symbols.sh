@@ -18,7 +18,7 @@ exports() { nm -D --defined-only "$1" | awk '{ print $NF }'; }
 libfcl=$(ldd "$program" | awk '/libfcl\.so\.0\.7/ { print $3 }')
 
 mapfile -t defined < <(exports "$front")
-((${#defined[@]} == 19)) || fault "the front defines ${#defined[@]} symbols"
+((${#defined[@]} == 20)) || fault "the front defines ${#defined[@]} symbols"
 declare -A in_libfcl=() counted=()
 while read -r symbol; do in_libfcl[$symbol]=1; done < <(exports "$libfcl")
 for symbol in "${defined[@]}"; do
@@ -28,7 +28,7 @@ done
 while read -r symbol; do
   [[ -n ${counted[$symbol]:-} ]] || fault "not counted: $(c++filt "$symbol")"
 done < <(nm -D --undefined-only "$program" | awk '{ print $NF }' |
-  grep -E '^_ZN3fcl(13getCovarianceId|6detail[0-9]+[A-Za-z]+_fit_functions4fit[36n]Id|6detail6FitterId)')
+  grep -E '^_ZN3fcl(13getCovarianceId|6detail[0-9]+[A-Za-z]+_fit_functions4fit[36n]Id|6detail6FitterId|17CollisionGeometryIdED)')
 [[ $(exports "$back") == fcl_kios_preload_open ]] || fault "the back exports: $(exports "$back")"
 if readelf -dW "$front" | grep NEEDED | grep -vE 'lib(c|dl|pthread)\.so|ld-linux'; then
   fault "the front needs these libraries"
