@@ -106,7 +106,8 @@ void runPreload(const Options& options, Report& report) {
                                  {"collide_near_contacts", {5000}},
                                  {"collide_touch_contacts", {5000, 100000}},
                                  {"collide_deep_contacts", {5000, 100000}},
-                                 {"collide_box_near", {1000, 5000, 20000}},
+                                 {"collide_box_near", {1000, 20000}},
+                                 {"collide_sphere_near", {5000}},
                                  {"collide_box_reject", {5000}}};
   const int repeats = options.quick ? 1 : options.repeats;
   for (const Rows& rows : all) {
@@ -115,8 +116,8 @@ void runPreload(const Options& options, Report& report) {
       const bool short_query = std::string(rows.name).find("reject") != std::string::npos;
       const std::string command = "'" + client.string() + "' " + rows.name + " " +
                                   std::to_string(triangles) + (short_query ? " 2000" : " 12");
-      report.add(measure(std::string("preload/") + rows.name, front, command,
-                         2 * static_cast<std::size_t>(triangles), repeats));
+      report.add(measure(std::string("preload/") + rows.name + "/" + std::to_string(triangles),
+                         front, command, 2 * static_cast<std::size_t>(triangles), repeats));
     }
   }
   if (!fs::exists(dart)) return;

@@ -96,14 +96,17 @@ RootBox rootOf(const Geometry* model) {
   }
 }
 
-/// Whether FCL, too, will see at its first tests that the shape is away from the model.
+/// Whether the shape is clear of the model's root volume, by more than FCL's solvers are inexact:
+/// FCL's volumes or solvers find no contact either.
 bool isAway(const Pair& pair) {
+  constexpr double kMargin = 1e-3;
   const RootBox root = rootOf(pair.a);
   const fcl::Vector3d center =
       root.axes.transpose() *
       (pair.X_WA.linear().transpose() * (pair.X_WB.translation() - pair.X_WA.translation()) -
        root.center);
-  return ((center.cwiseAbs() - root.half).array() > radiusOf(*pair.b)).any();
+  const double radius = radiusOf(*pair.b) + kMargin * root.half.maxCoeff();
+  return ((center.cwiseAbs() - root.half).array() > (1 + kMargin) * radius).any();
 }
 
 /// Calls ask(twin) with the mesh's current twin. False if there is none, or comparing it would take
@@ -111,17 +114,21 @@ bool isAway(const Pair& pair) {
 template <typename Ask>
 bool askTwin(Back& back, const Mesh& mesh, double time_to_compare, double time_of_fcl,
              const Ask& ask) {
+  const auto takesTooLong = [&](std::size_t bytes) {
+    return !back.always() && timeOfComparison(bytes) > time_to_compare;
+  };
+  const bool may_trust = back.start.mode == Mode::kTrust;
+  if (!may_trust && takesTooLong(mesh.bytes())) return false;
   if (back.always()) back.makeTwin(mesh);
   {
     const Twins::Hold hold = back.twins.hold(mesh);
     if (!hold) return false;
-    if (!back.always() && timeOfComparison(hold.bytesToCompare()) > time_to_compare &&
-        (hold.hasTwin() || back.start.mode != Mode::kTrust)) {
-      return false;
-    }
-    if (hold.hasTwin() && hold.isCurrent()) {
-      ask(hold.twin());
-      return true;
+    if (hold.hasTwin()) {
+      if (takesTooLong(hold.bytesToCompare())) return false;
+      if (hold.isCurrent()) {
+        ask(hold.twin());
+        return true;
+      }
     }
   }
   back.twins.pay(mesh, time_of_fcl);
@@ -133,11 +140,11 @@ bool askTwin(Back& back, const Mesh& mesh, double time_to_compare, double time_o
 By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
                     CollisionResult& result) {
   const bool octree = isOctree(*pair.b);
+  if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
+  if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
+  if (!octree && isAway(pair)) return By::kFclSearch;
   // Contacts are FCL's to list, after which a verdict was in vain.
   if (wantsContacts(request) && !back.always()) return By::kHandedOn;
-  if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
-  if (!octree && isAway(pair)) return By::kHandedOn;
-  if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   try {
     CollisionResult verdict;
     const auto ask = [&](const Modeld& twin) {

@@ -100,6 +100,7 @@ By collideModels(Back& back, const Pair& pair, const CollisionRequest& request,
     const Asked asked(back, a, b, wantsContacts(request) ? Kind::kContacts : Kind::kVerdict);
     if (asked.have_twins) {
       const double limit = back.always() ? 0 : back.rule.fclLimit(asked.question);
+      if (limit == Rule::kHandOn) return By::kHandedOn;
       if (limit > 0) {
         const Search search = searchByFcl(limit);
         back.rule.note(asked.question, search, limit, result.numContacts() > before);

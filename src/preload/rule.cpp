@@ -11,6 +11,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = 64;              // nanoseconds
 constexpr std::uint8_t kProbeEvery = 64;  // queries; FCL may have become the cheaper
+constexpr std::uint8_t kWatchEvery = 8;   // a pair of which contacts are listed may part
 
 std::uint64_t mixed(const Question& question) {
   std::uint64_t x = std::uint64_t{question.serial_a} << 34 ^ std::uint64_t{question.serial_b} << 2 ^
@@ -63,11 +64,12 @@ double Rule::fclLimit(const Question& question) {
     past = find(about);
     if (past.tag == 0) return question.twins_cost;
   }
-  if (past.touched) return kInfinity;
-  if (past.cost * kUnit <= question.twins_cost) return 2 * question.twins_cost;
+  if (!past.touched && past.cost * kUnit <= question.twins_cost) return 2 * question.twins_cost;
   const bool probes = past.until_probe == 0;
-  past.until_probe = probes ? kProbeEvery - 1 : static_cast<std::uint8_t>(past.until_probe - 1);
+  const std::uint8_t every = past.touched ? kWatchEvery : kProbeEvery;
+  past.until_probe = probes ? every - 1 : static_cast<std::uint8_t>(past.until_probe - 1);
   placeOf(about).store(past, std::memory_order_relaxed);
+  if (past.touched) return probes ? kInfinity : kHandOn;
   return probes ? question.twins_cost : 0;
 }
 

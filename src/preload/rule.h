@@ -34,8 +34,9 @@ double costOfTwins(Kind kind, std::size_t bytes_to_compare);
 class Rule {
  public:
   /// How much FCL's search may cost before the twins are asked: 0 if they come first, infinity if
-  /// FCL alone.
+  /// FCL alone, and kHandOn if its search need not even be watched.
   double fclLimit(const Question& question);
+  static constexpr double kHandOn = -1;
 
   /// Notes how FCL's search ended, and whether it found contacts.
   void note(const Question& question, const Search& search, double limit, bool touches);
