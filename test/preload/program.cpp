@@ -92,7 +92,9 @@ template <typename BV>
 void askMeshes(const std::string& name) {
   const auto a = build<BV>(torus(24, 16)), b = build<BV>(torus(20, 15, 0.9));
   std::mt19937 random(3);
-  for (int i = 0; i < 120; ++i) {
+  // FCL copies and builds both models over RSS for each verdict.
+  const int poses = std::is_same<BV, fcl::RSSd>::value ? 50 : 120;
+  for (int i = 0; i < poses; ++i) {
     const Transform3d X_WA = randomPose(random, 0, 3),
                       X_WB = X_WA * randomPose(random, i % 3 == 0 ? 3.0 : 0.2, 3.2);
     askCollide(name + "_verdict", a, X_WA, b, X_WB, fcl::CollisionRequestd());

@@ -2,13 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: run.sh FRONT WORK_FILE PROGRAM [ARGUMENT]
+# usage: run.sh FRONT WORK_FILE PROGRAM
 # The program writes FCL's answers, and compares those that it gets with the library preloaded, in
 # each mode. Twins must have answered a good part, or nothing was tested.
 set -euo pipefail
 
-front=$1 answers=$2.answers log=$2.log
-program=("${@:3}")
+front=$1 answers=$2.answers log=$2.log program=$3
 fail() {
   echo "$*"
   cat "$log"
@@ -16,7 +15,7 @@ fail() {
 }
 # preloaded MODE ARGUMENTS: what the program writes on stderr goes to the log.
 preloaded() {
-  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$front "${program[@]}" "${@:2}" 2>"$log"
+  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$front "$program" "${@:2}" 2>"$log"
 }
 # count WORDS QUESTION: of the report's line about collide or distance.
 count() { sed -nE "s/^fcl_kios_preload: $2: .*[^0-9]?\b([0-9]+) $1.*/\1/p" "$log"; }
@@ -27,7 +26,7 @@ at_least() {
   ((${found:-0} >= $1)) || fail "$3: ${found:-no} $2, not $1"
 }
 
-"${program[@]}" write "$answers" 2>"$log" || fail "the program without the library"
+"$program" write "$answers" 2>"$log" || fail "the program without the library"
 for mode in off on; do
   echo "== $mode"
   preloaded "$mode" check "$answers" || fail "other answers in mode $mode"
@@ -54,6 +53,6 @@ if grep differs "$log" || ! grep -q ' 0 differences' "$log"; then fail "differen
 # It may miss what is written in place, and nothing else.
 echo "== trust"
 parts=(obbrss obb rss kios poses others changes reuse fcl threads)
-"${program[@]}" write "$answers" "${parts[@]}" 2>"$log" || fail "the program without the library"
+"$program" write "$answers" "${parts[@]}" 2>"$log" || fail "the program without the library"
 preloaded trust check "$answers" "${parts[@]}" || fail "other answers in mode trust"
 rm -f "$answers" "$log"

@@ -33,4 +33,7 @@ done < <(nm -D --undefined-only "$program" | awk '{ print $NF }' |
 if readelf -dW "$front" | grep NEEDED | grep -vE 'lib(c|dl|pthread)\.so|ld-linux'; then
   fault "the front needs these libraries"
 fi
+if nm -DC --undefined-only "$front" | grep -E 'fcl|kios|std::'; then
+  fault "the front asks for these symbols"
+fi
 exit "$status"
