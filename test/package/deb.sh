@@ -35,8 +35,10 @@ case ${5-} in
     ldconfig -p | grep -q 'libfcl_kios\.so\.' || fail "ldconfig doesn't know the library"
     "$source_dir/test/consumer/use.sh" "$source_dir" /usr "$(mktemp -d)" "$cmake" "$cxx" ""
     # A program that was compiled for FCL alone.
-    "$cxx" -std=c++17 -I"$source_dir/benchmarks" $(pkg-config --cflags eigen3) \
-      "$source_dir/test/preload/program.cpp" -o /tmp/fcl_program -lfcl -loctomap -loctomath -lpthread
+    read -ra eigen <<<"$(pkg-config --cflags eigen3)"
+    "$cxx" -std=c++17 -I"$source_dir/benchmarks" "${eigen[@]}" \
+      "$source_dir/test/preload/program.cpp" -o /tmp/fcl_program \
+      -lfcl -lccd -loctomap -loctomath -lpthread
     FCL_KIOS_PRELOAD=stats LD_PRELOAD=libfcl_kios_preload.so /tmp/fcl_program write /dev/null \
       threads 2>&1 | grep -E 'distance: [0-9]{2,} by k-IOS' || fail "nothing was preloaded"
     dpkg --purge libfcl-kios-preload libfcl-kios-dev "libfcl-kios${version%.*}"
