@@ -67,7 +67,7 @@ struct Start {
 };
 
 /// The back's only symbol: its four calls. They throw nothing of their own.
-using Open = const Calls& (*)(const Start&);
+using Open = const Calls* (*)(const Start*);
 constexpr const char* kOpenName = "fcl_kios_preload_open";
 
 }  // namespace kios::preload

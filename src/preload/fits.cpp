@@ -64,6 +64,7 @@ const Fits& fits() { return ofProcess(); }
 void countFits() { counting.store(true, std::memory_order_relaxed); }
 
 #define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
+// NOLINTBEGIN(bugprone-macro-parentheses): types and names of functions stand in none.
 #define KIOS_NEXT(Function, name)        \
   static std::atomic<Function*> found{}; \
   Function* const fcl = next(found, name, __builtin_return_address(0))
@@ -117,5 +118,7 @@ KIOS_FITN(fitterOBB, KIOS_FITTER("3OBB"))
 KIOS_FITN(fitterRSS, KIOS_FITTER("3RSS"))
 KIOS_FITN(fitterKIOS, KIOS_FITTER("4kIOS"))
 KIOS_FITN(fitterOBBRSS, KIOS_FITTER("6OBBRSS"))
+
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace kios::preload

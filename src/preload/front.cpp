@@ -16,11 +16,16 @@ std::atomic<const Calls*> calls{nullptr};
 pthread_mutex_t choosing = PTHREAD_MUTEX_INITIALIZER;
 Mode mode = Mode::kOff;
 
-__attribute__((constructor)) void start() {
+pthread_once_t started = PTHREAD_ONCE_INIT;
+
+void readEnvironment() {
   mode = modeOfEnvironment();
   if (mode != Mode::kOff) reportReach();
   if (mode == Mode::kTrust) countFits();
 }
+
+/// Also called by the first query, which another library's constructor may make before this one.
+__attribute__((constructor)) void start() { pthread_once(&started, &readEnvironment); }
 
 template <typename Call>
 void find(Call& call, const char* name, const void* caller) {
@@ -29,6 +34,7 @@ void find(Call& call, const char* name, const void* caller) {
 
 /// At the first query: FCL's own functions, and the back's unless FCL is another one.
 const Calls* choose(const void* caller) {
+  start();
   pthread_mutex_lock(&choosing);
   const Calls* chosen = calls.load(std::memory_order_relaxed);
   if (!chosen) {

@@ -97,11 +97,11 @@ constexpr Calls kWatched = {&collideObjectsWatched, &collideWatched, &distanceOb
 }  // namespace kios::preload
 
 /// To be called once.
-extern "C" __attribute__((visibility("default"))) const kios::preload::Calls& fcl_kios_preload_open(
-    const kios::preload::Start& start) {
+extern "C" __attribute__((visibility("default"))) const kios::preload::Calls* fcl_kios_preload_open(
+    const kios::preload::Start* start) {
   using namespace kios::preload;
-  back = new Back(start);
-  if (start.mode != Mode::kVerify && start.mode != Mode::kStats) return kCalls;
+  back = new Back(*start);
+  if (start->mode != Mode::kVerify && start->mode != Mode::kStats) return &kCalls;
   watch = new Watch(*back);
-  return kWatched;
+  return &kWatched;
 }

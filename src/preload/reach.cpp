@@ -108,7 +108,7 @@ const Calls* openBack(const Start& start) {
     say("nothing is done: ", why ? why : path);
     return nullptr;
   }
-  return &reinterpret_cast<Open>(open)(start);
+  return reinterpret_cast<Open>(open)(&start);
 }
 
 }  // namespace kios::preload

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -20,9 +21,17 @@ namespace {
 
 /// Bytes that twins may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
 std::size_t limitOfEnvironment() {
+  constexpr long long kDefault = 1024, kMost = 1LL << 40;
   const char* const text = std::getenv("FCL_KIOS_PRELOAD_MIB");
-  const long long mib = text ? std::atoll(text) : 0;
-  return static_cast<std::size_t>(mib > 0 ? mib : 1024) << 20;
+  long long mib = text ? std::atoll(text) : kDefault;
+  if (mib < 1 || mib > kMost) {
+    std::fprintf(stderr,
+                 "fcl_kios_preload: FCL_KIOS_PRELOAD_MIB is \"%s\", but must be a number of MiB "
+                 "from 1 on: it is taken as %lld.\n",
+                 text, kDefault);
+    mib = kDefault;
+  }
+  return static_cast<std::size_t>(mib) << 20;
 }
 
 Fingerprint fingerprintOf(const Mesh& mesh) {

@@ -29,6 +29,8 @@ says sometimes '"sometimes", but must be off, on, trust, verify or stats: nothin
 says on 'before this library (FCL is linked statically?)' "$static"
 says off '' "$static"
 says on '' "$program" write /dev/null none
+FCL_KIOS_PRELOAD_MIB=lots says on '"lots", but must be a number of MiB' "$program" write /dev/null \
+  threads
 says fast '"fast", but must be' "$program" write /dev/null none
 
 # Another FCL: the same functions from a library of another name.
