@@ -7,11 +7,6 @@
 namespace kios::preload {
 namespace {
 
-bool isServed(fcl::NODE_TYPE type) {
-  return type == fcl::BV_OBB || type == fcl::BV_RSS || type == fcl::BV_kIOS ||
-         type == fcl::BV_OBBRSS;
-}
-
 bool isOther(fcl::NODE_TYPE type) {
   switch (type) {
     case fcl::GEOM_BOX:
@@ -65,9 +60,7 @@ By askAboutOther(const Pair& pair, fcl::NODE_TYPE type_a, fcl::NODE_TYPE type_b,
 }  // namespace
 
 By Back::collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result) {
-  if (!pair.a || !pair.b) return By::kHandedOn;
   const fcl::NODE_TYPE type_a = pair.a->getNodeType(), type_b = pair.b->getNodeType();
-  if (!isServed(type_a) && !isServed(type_b)) return By::kHandedOn;
   if (request.enable_cost || request.num_max_contacts == 0 || request.enable_cached_gjk_guess ||
       !isKnown(request.gjk_solver_type)) {
     return By::kHandedOn;
@@ -90,9 +83,7 @@ By Back::collide(const Pair& pair, const CollisionRequest& request, CollisionRes
 }
 
 By Back::distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result) {
-  if (!pair.a || !pair.b) return By::kHandedOn;
   const fcl::NODE_TYPE type_a = pair.a->getNodeType(), type_b = pair.b->getNodeType();
-  if (!isServed(type_a) && !isServed(type_b)) return By::kHandedOn;
   // FCL stops at once at a bound of 0 or less, but may ask for the depth of a negative one.
   if (!isKnown(request.gjk_solver_type) || !(result.min_distance > 0)) return By::kHandedOn;
   if (type_a == type_b) {

@@ -28,12 +28,24 @@ struct Pair {
   const Pose& X_WB;
 };
 
+/// Whether models over a volume have twins.
+inline bool isServed(fcl::NODE_TYPE type) {
+  return type == fcl::BV_OBB || type == fcl::BV_RSS || type == fcl::BV_kIOS ||
+         type == fcl::BV_OBBRSS;
+}
+
+/// Whether a pair can concern us at all: most pairs of FCL's shapes leave here.
+inline bool isServed(const Geometry* a, const Geometry* b) {
+  return a && b && (isServed(a->getNodeType()) || isServed(b->getNodeType()));
+}
+
 /// Answers for FCL. Whatever it can't answer as FCL would, or is cheaper there, it leaves to be
 /// handed on; so it does where k-IOS refuses what it is given.
 class Back {
  public:
   explicit Back(const Start& start) : start(start), twins(start) {}
 
+  /// For pairs that isServed() says.
   By collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result);
   By distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result);
 

@@ -12,6 +12,10 @@ namespace {
 Back* back = nullptr;
 Watch* watch = nullptr;
 
+bool isServed(const Object* a, const Object* b) {
+  return a && b && preload::isServed(a->collisionGeometry().get(), b->collisionGeometry().get());
+}
+
 Pair pairOf(const Object& a, const Object& b) {
   return {a.collisionGeometry().get(), a.getTransform(), b.collisionGeometry().get(),
           b.getTransform()};
@@ -19,7 +23,7 @@ Pair pairOf(const Object& a, const Object& b) {
 
 std::size_t collideObjects(const Object* a, const Object* b, const CollisionRequest& request,
                            CollisionResult& result) {
-  if (!a || !b || back->collide(pairOf(*a, *b), request, result) == By::kHandedOn) {
+  if (!isServed(a, b) || back->collide(pairOf(*a, *b), request, result) == By::kHandedOn) {
     return back->start.fcl.collide_objects(a, b, request, result);
   }
   return result.numContacts();
@@ -27,7 +31,8 @@ std::size_t collideObjects(const Object* a, const Object* b, const CollisionRequ
 
 std::size_t collide(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
                     const CollisionRequest& request, CollisionResult& result) {
-  if (back->collide({a, X_WA, b, X_WB}, request, result) == By::kHandedOn) {
+  if (!preload::isServed(a, b) ||
+      back->collide({a, X_WA, b, X_WB}, request, result) == By::kHandedOn) {
     return back->start.fcl.collide(a, X_WA, b, X_WB, request, result);
   }
   return result.numContacts();
@@ -35,7 +40,7 @@ std::size_t collide(const Geometry* a, const Pose& X_WA, const Geometry* b, cons
 
 double distanceObjects(const Object* a, const Object* b, const DistanceRequest& request,
                        DistanceResult& result) {
-  if (!a || !b || back->distance(pairOf(*a, *b), request, result) == By::kHandedOn) {
+  if (!isServed(a, b) || back->distance(pairOf(*a, *b), request, result) == By::kHandedOn) {
     return back->start.fcl.distance_objects(a, b, request, result);
   }
   return result.min_distance;
@@ -43,7 +48,8 @@ double distanceObjects(const Object* a, const Object* b, const DistanceRequest& 
 
 double distance(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
                 const DistanceRequest& request, DistanceResult& result) {
-  if (back->distance({a, X_WA, b, X_WB}, request, result) == By::kHandedOn) {
+  if (!preload::isServed(a, b) ||
+      back->distance({a, X_WA, b, X_WB}, request, result) == By::kHandedOn) {
     return back->start.fcl.distance(a, X_WA, b, X_WB, request, result);
   }
   return result.min_distance;
@@ -56,7 +62,8 @@ std::size_t collideObjectsWatched(const Object* a, const Object* b, const Collis
   const auto ask_fcl = [&](CollisionResult& r) {
     return back->start.fcl.collide_objects(a, b, request, r);
   };
-  return a && b ? watch->collide(pairOf(*a, *b), request, result, ask_fcl) : ask_fcl(result);
+  return isServed(a, b) ? watch->collide(pairOf(*a, *b), request, result, ask_fcl)
+                        : ask_fcl(result);
 }
 
 std::size_t collideWatched(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
@@ -64,6 +71,7 @@ std::size_t collideWatched(const Geometry* a, const Pose& X_WA, const Geometry* 
   const auto ask_fcl = [&](CollisionResult& r) {
     return back->start.fcl.collide(a, X_WA, b, X_WB, request, r);
   };
+  if (!preload::isServed(a, b)) return ask_fcl(result);
   return watch->collide({a, X_WA, b, X_WB}, request, result, ask_fcl);
 }
 
@@ -72,7 +80,8 @@ double distanceObjectsWatched(const Object* a, const Object* b, const DistanceRe
   const auto ask_fcl = [&](DistanceResult& r) {
     return back->start.fcl.distance_objects(a, b, request, r);
   };
-  return a && b ? watch->distance(pairOf(*a, *b), request, result, ask_fcl) : ask_fcl(result);
+  return isServed(a, b) ? watch->distance(pairOf(*a, *b), request, result, ask_fcl)
+                        : ask_fcl(result);
 }
 
 double distanceWatched(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
@@ -80,6 +89,7 @@ double distanceWatched(const Geometry* a, const Pose& X_WA, const Geometry* b, c
   const auto ask_fcl = [&](DistanceResult& r) {
     return back->start.fcl.distance(a, X_WA, b, X_WB, request, r);
   };
+  if (!preload::isServed(a, b)) return ask_fcl(result);
   return watch->distance({a, X_WA, b, X_WB}, request, result, ask_fcl);
 }
 
