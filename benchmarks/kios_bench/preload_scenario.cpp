@@ -113,9 +113,14 @@ void runPreload(const Options& options, Report& report) {
   for (const Rows& rows : all) {
     for (const int triangles : rows.triangles) {
       if (options.quick && triangles > 5000) continue;
-      const bool short_query = std::string(rows.name).find("reject") != std::string::npos;
-      const std::string command = "'" + client.string() + "' " + rows.name + " " +
-                                  std::to_string(triangles) + (short_query ? " 2000" : " 12");
+      const std::string name = rows.name;
+      const auto names = [&](const char* word) { return name.find(word) != std::string::npos; };
+      const char* const times = names("reject")     ? " 2000"
+                                : names("collide")  ? " 100"
+                                : triangles > 20000 ? " 12"
+                                                    : " 30";
+      const std::string command =
+          "'" + client.string() + "' " + name + " " + std::to_string(triangles) + times;
       report.add(measure(std::string("preload/") + rows.name + "/" + std::to_string(triangles),
                          front, command, 2 * static_cast<std::size_t>(triangles), repeats));
     }
