@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# `cpack -G DEB`: the packages libfcl-kios<version>, the shared library, and libfcl-kios-dev. For a
-# build that was configured with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
+# `cpack -G DEB`: the packages libfcl-kios<version>, the shared library, libfcl-kios-dev, and
+# libfcl-kios-preload, which programs that know FCL alone preload. For a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
 set(control_dir ${PROJECT_BINARY_DIR}/debian)
 set(so_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(runtime_package libfcl-kios${so_version})
 set(dev_package libfcl-kios-dev)
+set(preload_package libfcl-kios-preload)
 file(STRINGS package.xml maintainer REGEX "<maintainer ")
 string(REGEX REPLACE ".*email=\"(.*)\">(.*)</.*" "\\2 <\\1>" maintainer "${maintainer}")
 
@@ -43,6 +44,16 @@ if(BUILD_SHARED_LIBS)
   set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${control_dir}/triggers)
 else()
   list(APPEND dev_depends libhwy-dev)
+endif()
+if(TARGET fcl_kios_preload)
+  list(APPEND CPACK_COMPONENTS_ALL preload)
+  set(CPACK_DEBIAN_PRELOAD_PACKAGE_NAME ${preload_package})
+  set(CPACK_DEBIAN_PRELOAD_PACKAGE_SECTION libs)
+  set(CPACK_DEBIAN_PRELOAD_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION}-1)")
+  set(CPACK_DEBIAN_PRELOAD_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
+  set(CPACK_COMPONENT_PRELOAD_DESCRIPTION
+    "${text}\n.\nThis package holds the library to preload before programs that were built for FCL.")
 endif()
 list(JOIN dev_depends ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 

@@ -55,6 +55,9 @@ void runScaling(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);
 void runSolids(const Options& options, Report& report);
 void runRefit(const Options& options, Report& report);
+#ifdef KIOS_HAVE_PRELOAD
+void runPreload(const Options& options, Report& report);
+#endif
 void runError(const Options& options, Report& report);
 void runStability(const Options& options, Report& report);
 

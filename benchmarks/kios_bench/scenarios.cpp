@@ -68,6 +68,10 @@ const std::vector<Scenario>& scenarios() {
        "strips; "
        "FCL has no rays",
        runRays},
+#ifdef KIOS_HAVE_PRELOAD
+      {"preload", "a program that knows FCL alone, with and without the preloaded library; DART",
+       runPreload},
+#endif
       {"error",
        "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
        "with their error members set",

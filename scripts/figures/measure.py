@@ -35,6 +35,7 @@ RUNS = {  # scenario: options
     "packing": "--repeats 5",
     "exact": "--repeats 5",
     "stability": "--frames 2000 --repeats 1",
+    "preload": "--repeats 3",
 }
 
 

@@ -419,3 +419,48 @@ def block(rows, name):
     if not callable(make) or word in ("grid", "number", "spec", "table", "time", "block"):
         raise LookupError(f"scripts/figures/tables.py has no block '{name}'")
     return make(rows, *others)
+
+
+# docs/preload.md
+
+PRELOADED = spec("""
+distance, 0.02 apart, 1,000 triangles          | distance_near/1000 distance
+5,000                                          | distance_near/5000 distance
+10,000                                         | distance_near/10000 distance
+100,000                                        | distance_near/100000 distance
+0.0005 apart, 10,000                           | distance_close/10000 distance
+1 apart, 10,000                                | distance_far/10000 distance
+1 apart, 100,000                               | distance_far/100000 distance
+nearer than 0.01? 0.02 apart, 5,000            | distance_near_bounded/5000 distance
+the same, 100,000                              | distance_near_bounded/100000 distance
+distance to a box, 5,000                       | distance_box_near/5000 distance
+distance to an octree, 5,000                   | distance_octree_near/5000 distance
+do they touch? far apart, 5,000                | collide_reject/5000 collide
+0.02 apart, 1,000                              | collide_near/1000 collide
+0.02 apart, 5,000                              | collide_near/5000 collide
+0.02 apart, 100,000                            | collide_near/100000 collide
+0.0005 apart, 5,000                            | collide_close/5000 collide
+just touching, 5,000                           | collide_touch/5000 collide
+just touching, 100,000                         | collide_touch/100000 collide
+deep in each other, 5,000                      | collide_deep/5000 collide
+deep in each other, 100,000                    | collide_deep/100000 collide
+up to 100 contacts, 0.02 apart, 5,000          | collide_near_contacts/5000 collide
+100 contacts, 5,000                            | collide_deep_contacts/5000 collide
+100 contacts, 100,000                          | collide_deep_contacts/100000 collide
+a box, 0.02 apart, 1,000                       | collide_box_near/1000 collide
+a box, 0.02 apart, 20,000                      | collide_box_near/20000 collide
+a sphere, 0.02 apart, 5,000                    | collide_sphere_near/5000 collide
+a box far apart, 5,000                         | collide_box_reject/5000 collide
+DART: distance of two robots of 7 links        | dart_distance distance
+""")
+
+
+def preload(rows):
+    columns = spec("FCL | fcl_obbrss\npreloaded | kios\ntrust | kios_trust")
+
+    def cell(line, column, _):
+        key = f"preload/{line[0]}", line[1], column[0]
+        us = time(rows.us(*key))
+        return us if column[0] == OBBRSS else (
+            f"{us} ({number(rows.find(*key)['ratio_to_fcl_obbrss'])})")
+    return grid("time (FCL's / preloaded)", PRELOADED, columns, cell)

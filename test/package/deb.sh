@@ -34,7 +34,14 @@ case ${5-} in
     dpkg -i "$build_dir"/*.deb
     ldconfig -p | grep -q 'libfcl_kios\.so\.' || fail "ldconfig doesn't know the library"
     "$source_dir/test/consumer/use.sh" "$source_dir" /usr "$(mktemp -d)" "$cmake" "$cxx" ""
-    dpkg --purge libfcl-kios-dev "libfcl-kios${version%.*}"
+    # A program that was compiled for FCL alone.
+    read -ra eigen <<<"$(pkg-config --cflags eigen3)"
+    "$cxx" -std=c++17 -I"$source_dir/benchmarks" "${eigen[@]}" \
+      "$source_dir/test/preload/program.cpp" -o /tmp/fcl_program \
+      -lfcl -lccd -loctomap -loctomath -lpthread
+    FCL_KIOS_PRELOAD=stats LD_PRELOAD=libfcl_kios_preload.so /tmp/fcl_program write /dev/null \
+      threads 2>&1 | grep -E 'distance: [0-9]{2,} by k-IOS' || fail "nothing was preloaded"
+    dpkg --purge libfcl-kios-preload libfcl-kios-dev "libfcl-kios${version%.*}"
     left=$(find /usr \( -name '*fcl_kios*' -o -name '*fcl-kios*' \) -print)
     [[ -z $left ]] || fail "left after the packages were removed: $left"
     exit 0
@@ -44,7 +51,7 @@ esac
 rm -f "$build_dir"/*.deb
 (cd "$build_dir" && cpack -G DEB >cpack.log 2>&1) || fail "cpack: $(<"$build_dir/cpack.log")"
 debs=("$build_dir"/*.deb)
-((${#debs[@]} == 2)) || fail "cpack made ${#debs[@]} packages: ${debs[*]}"
+((${#debs[@]} == 3)) || fail "cpack made ${#debs[@]} packages: ${debs[*]}"
 for deb in "${debs[@]}"; do
   depends=$(dpkg-deb -f "$deb" Depends)
   echo "${deb##*/} depends on $depends"

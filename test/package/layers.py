@@ -10,7 +10,8 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["volume", "triangle", "solid", "engine", "model", "query", "interior", "motion", "fcl", "scene"]
+LAYERS = ["volume", "triangle", "solid", "engine", "model", "query", "interior", "motion", "fcl",
+          "scene", "preload"]
 # Headers of include/fcl_kios itself.
 TOP = {"fcl_own.h": -1, "overloads.h": LAYERS.index("fcl"), "fcl_kios.h": len(LAYERS),
        "version.h": -1}

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fcl/narrowphase/collision_object.h>
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+#include <fcl/narrowphase/distance_request.h>
+#include <fcl/narrowphase/distance_result.h>
+#include "preload/calls.h"
+#include "preload/rule.h"
+#include "preload/twins.h"
+
+namespace kios::preload {
+
+/// Who answered a query.
+enum class By {
+  kHandedOn,   ///< nobody yet: FCL's own function is to be called, with the result as it was
+  kFclSearch,  ///< FCL's search, made here: its first test, or all of it
+  kTwins
+};
+
+/// Two geometries at poses in the world.
+struct Pair {
+  const Geometry* a;
+  const Pose& X_WA;
+  const Geometry* b;
+  const Pose& X_WB;
+};
+
+/// Whether models over a volume have twins.
+inline bool isServed(fcl::NODE_TYPE type) {
+  return type == fcl::BV_OBB || type == fcl::BV_RSS || type == fcl::BV_kIOS ||
+         type == fcl::BV_OBBRSS;
+}
+
+/// Whether a pair can concern us at all: most pairs of FCL's shapes leave here.
+inline bool isServed(const Geometry* a, const Geometry* b) {
+  return a && b && (isServed(a->getNodeType()) || isServed(b->getNodeType()));
+}
+
+/// Answers for FCL. Whatever it can't answer as FCL would, or is cheaper there, it leaves to be
+/// handed on; so it does where k-IOS refuses what it is given.
+class Back {
+ public:
+  explicit Back(const Start& start) : start(start), twins(start) {}
+
+  /// For pairs that isServed() says.
+  By collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result);
+  By distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result);
+
+  const Start start;
+  Twins twins;
+  Rule rule;
+
+  /// Every pair is asked of twins, from the first query on.
+  bool always() const { return start.mode == Mode::kVerify; }
+  /// The model's twin of its present content.
+  void makeTwin(const Mesh& mesh);
+};
+
+// The parts of Back::collide() and Back::distance(), for models over BV.
+
+template <typename BV>
+By collideModels(Back& back, const Pair& pair, const CollisionRequest& request,
+                 CollisionResult& result);
+template <typename BV>
+By distanceOfModels(Back& back, const Pair& pair, const DistanceRequest& request,
+                    DistanceResult& result);
+
+/// The mesh is the pair's a, whatever the order of FCL's call.
+By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
+                    CollisionResult& result);
+By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const DistanceRequest& request,
+                   DistanceResult& result);
+
+/// Whether a pose is surely one that k-IOS takes: finite, rigid, no reflection.
+bool isRigid(const Pose& X);
+
+/// Whether contacts, rather than a verdict, are wanted.
+inline bool wantsContacts(const CollisionRequest& request) {
+  return request.enable_contact || request.num_max_contacts > 1;
+}
+
+/// The exact distance, whatever errors the request allows: FCL ignores those.
+DistanceRequest exact(bool nearest_points);
+
+}  // namespace kios::preload

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Stands in for libfcl's functions that fit volumes and end geometries, counts their calls and
+// hands them on. Only pointers and numbers pass through, so that no type of FCL is needed.
+#include "preload/fits.h"
+
+#include <cstddef>
+
+#include "preload/names.h"
+#include "preload/reach.h"
+
+namespace kios::preload {
+namespace {
+
+std::atomic<bool> counting{false};
+
+/// Vertices of which a build was seen, each at a place that its address gives; a later one may
+/// take it.
+constexpr std::size_t kPlaces = 1 << 14;
+std::atomic<const void*> builds[kPlaces];
+
+std::atomic<const void*>& placeOf(const void* vertices) {
+  const auto address = reinterpret_cast<std::uintptr_t>(vertices);
+  return builds[(address * 0x9E3779B97F4A7C15U) >> 40 & (kPlaces - 1)];
+}
+
+bool seen(const void* vertices) {
+  return placeOf(vertices).load(std::memory_order_relaxed) == vertices;
+}
+
+Fits& ofProcess() {
+  static Fits fits{{}, &seen};  // constant, so that no guard is needed
+  return fits;
+}
+
+void count() {
+  if (counting.load(std::memory_order_relaxed)) {
+    ofProcess().count.fetch_add(1, std::memory_order_release);
+  }
+}
+
+/// FCL's function of that name, found at its first call.
+template <typename Function>
+Function* next(std::atomic<Function*>& found, const char* name, const void* caller) {
+  Function* function = found.load(std::memory_order_acquire);
+  if (!function) {
+    function = reinterpret_cast<Function*>(nextDefinition(name, caller));
+    found.store(function, std::memory_order_release);
+  }
+  return function;
+}
+
+using Covariance = void(const void* vertices, const void* previous, void* triangles,
+                        unsigned int* primitives, int n, void* covariance);
+using Fit = void(const void* points, void* volume);
+using FitN = void(const void* points, int n, void* volume);
+using End = void(void* geometry);
+
+}  // namespace
+
+const Fits& fits() { return ofProcess(); }
+
+void countFits() { counting.store(true, std::memory_order_relaxed); }
+
+#define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
+// NOLINTBEGIN(bugprone-macro-parentheses): types and names of functions stand in none.
+#define KIOS_NEXT(Function, name)        \
+  static std::atomic<Function*> found{}; \
+  Function* const fcl = next(found, name, __builtin_return_address(0))
+
+void getCovariance(const void* vertices, const void* previous, void* triangles,
+                   unsigned int* primitives, int n, void* covariance)
+    KIOS_STANDS_FOR(KIOS_GET_COVARIANCE);
+void getCovariance(const void* vertices, const void* previous, void* triangles,
+                   unsigned int* primitives, int n, void* covariance) {
+  if (counting.load(std::memory_order_relaxed)) {
+    placeOf(vertices).store(vertices, std::memory_order_relaxed);
+    count();
+  }
+  KIOS_NEXT(Covariance, KIOS_GET_COVARIANCE);
+  fcl(vertices, previous, triangles, primitives, n, covariance);
+}
+
+void endOfGeometry(void* geometry) KIOS_STANDS_FOR(KIOS_END_OF_GEOMETRY);
+void endOfGeometry(void* geometry) {
+  count();
+  KIOS_NEXT(End, KIOS_END_OF_GEOMETRY);
+  fcl(geometry);
+}
+
+#define KIOS_FIT(function, name)                                         \
+  void function(const void* points, void* volume) KIOS_STANDS_FOR(name); \
+  void function(const void* points, void* volume) {                      \
+    count();                                                             \
+    KIOS_NEXT(Fit, name);                                                \
+    fcl(points, volume);                                                 \
+  }
+#define KIOS_FITN(function, name)                                               \
+  void function(const void* points, int n, void* volume) KIOS_STANDS_FOR(name); \
+  void function(const void* points, int n, void* volume) {                      \
+    count();                                                                    \
+    KIOS_NEXT(FitN, name);                                                      \
+    fcl(points, n, volume);                                                     \
+  }
+
+KIOS_FIT(fit3OBB, KIOS_FIT_FUNCTION("17OBB_fit_functions", "fit3", "3OBB"))
+KIOS_FIT(fit6OBB, KIOS_FIT_FUNCTION("17OBB_fit_functions", "fit6", "3OBB"))
+KIOS_FITN(fitnOBB, KIOS_FITN_FUNCTION("17OBB_fit_functions", "3OBB"))
+KIOS_FIT(fit3RSS, KIOS_FIT_FUNCTION("17RSS_fit_functions", "fit3", "3RSS"))
+KIOS_FIT(fit6RSS, KIOS_FIT_FUNCTION("17RSS_fit_functions", "fit6", "3RSS"))
+KIOS_FITN(fitnRSS, KIOS_FITN_FUNCTION("17RSS_fit_functions", "3RSS"))
+KIOS_FIT(fit3KIOS, KIOS_FIT_FUNCTION("18kIOS_fit_functions", "fit3", "4kIOS"))
+KIOS_FITN(fitnKIOS, KIOS_FITN_FUNCTION("18kIOS_fit_functions", "4kIOS"))
+KIOS_FIT(fit3OBBRSS, KIOS_FIT_FUNCTION("20OBBRSS_fit_functions", "fit3", "6OBBRSS"))
+KIOS_FITN(fitnOBBRSS, KIOS_FITN_FUNCTION("20OBBRSS_fit_functions", "6OBBRSS"))
+KIOS_FITN(fitterOBB, KIOS_FITTER("3OBB"))
+KIOS_FITN(fitterRSS, KIOS_FITTER("3RSS"))
+KIOS_FITN(fitterKIOS, KIOS_FITTER("4kIOS"))
+KIOS_FITN(fitterOBBRSS, KIOS_FITTER("6OBBRSS"))
+
+// NOLINTEND(bugprone-macro-parentheses)
+
+}  // namespace kios::preload

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A mesh and one of FCL's shapes, or an octree.
+#include <cmath>
+#include <exception>
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+#include "fcl_kios/query/octree_queries.h"
+#include "fcl_kios/query/shape_queries.h"
+#include "preload/back.h"
+
+namespace kios::preload {
+namespace {
+
+// What FCL's searches take, in nanoseconds, as `kios_bench preload` measures them: their tests
+// can't be counted from here.
+constexpr double kCollideByFcl = 3e3;
+double timeOfDistance(const Mesh& mesh) {
+  return 1e4 + 20 * static_cast<double>(mesh.num_triangles);
+}
+/// How long a mesh may be compared for a distance: FCL's take so much longer that any comparison
+/// pays.
+constexpr double kAnyTime = 1e9;
+
+/// The same for a verdict about a near pair: FCL's time less the twin's.
+double timeToCompare(const Geometry& other) {
+  switch (other.getNodeType()) {
+    case fcl::GEOM_BOX:
+    case fcl::GEOM_PLANE:
+    case fcl::GEOM_HALFSPACE:
+    case fcl::GEOM_OCTREE:  // of 20 us or more that both take
+      return 1.3e3;
+    default:
+      return 6e3;  // FCL's GJK
+  }
+}
+
+bool isOctree(const Geometry& geometry) { return geometry.getNodeType() == fcl::GEOM_OCTREE; }
+
+/// Radius of a sphere about the shape's origin that holds it; infinity where that isn't cheap.
+double radiusOf(const Geometry& shape) {
+  switch (shape.getNodeType()) {
+    case fcl::GEOM_BOX:
+      return static_cast<const fcl::Boxd&>(shape).side.norm() / 2;
+    case fcl::GEOM_SPHERE:
+      return static_cast<const fcl::Sphered&>(shape).radius;
+    case fcl::GEOM_ELLIPSOID:
+      return static_cast<const fcl::Ellipsoidd&>(shape).radii.maxCoeff();
+    case fcl::GEOM_CAPSULE: {
+      const auto& capsule = static_cast<const fcl::Capsuled&>(shape);
+      return capsule.radius + capsule.lz / 2;
+    }
+    case fcl::GEOM_CONE: {
+      const auto& cone = static_cast<const fcl::Coned&>(shape);
+      return cone.radius + cone.lz / 2;
+    }
+    case fcl::GEOM_CYLINDER: {
+      const auto& cylinder = static_cast<const fcl::Cylinderd&>(shape);
+      return cylinder.radius + cylinder.lz / 2;
+    }
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
+}
+
+/// A box that holds the model, by its root: centre and half sides along axes.
+struct RootBox {
+  fcl::Matrix3d axes;
+  fcl::Vector3d center, half;
+};
+RootBox boxOf(const fcl::OBBd& box) { return {box.axis, box.To, box.extent}; }
+RootBox boxOf(const fcl::OBBRSSd& bv) { return boxOf(bv.obb); }
+RootBox boxOf(const fcl::kIOSd& bv) { return boxOf(bv.obb); }
+RootBox boxOf(const fcl::RSSd& bv) {
+  const fcl::Vector3d sides(bv.l[0] / 2, bv.l[1] / 2, 0);
+  return {bv.axis, bv.To + bv.axis * sides, sides + fcl::Vector3d::Constant(bv.r)};
+}
+
+RootBox rootOf(const Geometry* model) {
+  switch (model->getNodeType()) {
+    case fcl::BV_OBB:
+      return boxOf(modelOf<fcl::OBBd>(model).getBV(0).bv);
+    case fcl::BV_RSS:
+      return boxOf(modelOf<fcl::RSSd>(model).getBV(0).bv);
+    case fcl::BV_kIOS:
+      return boxOf(modelOf<fcl::kIOSd>(model).getBV(0).bv);
+    default:
+      return boxOf(modelOf<fcl::OBBRSSd>(model).getBV(0).bv);
+  }
+}
+
+/// Whether the shape is clear of the model's root volume, by more than FCL's solvers are inexact:
+/// FCL's volumes or solvers find no contact either.
+bool isAway(const Pair& pair) {
+  constexpr double kMargin = 1e-3;
+  const RootBox root = rootOf(pair.a);
+  const fcl::Vector3d center =
+      root.axes.transpose() *
+      (pair.X_WA.linear().transpose() * (pair.X_WB.translation() - pair.X_WA.translation()) -
+       root.center);
+  const double radius = radiusOf(*pair.b) + kMargin * root.half.maxCoeff();
+  return ((center.cwiseAbs() - root.half).array() > (1 + kMargin) * radius).any();
+}
+
+/// Calls ask(twin) with the mesh's current twin. False if there is none, or comparing it would take
+/// longer than that.
+template <typename Ask>
+bool askTwin(Back& back, const Mesh& mesh, double time_to_compare, double time_of_fcl,
+             const Ask& ask) {
+  const auto takesTooLong = [&](std::size_t bytes) {
+    return !back.always() && timeOfComparison(bytes) > time_to_compare;
+  };
+  const bool may_trust = back.start.mode == Mode::kTrust;
+  if (!may_trust && takesTooLong(mesh.bytes())) return false;
+  if (back.always()) back.makeTwin(mesh);
+  {
+    const Twins::Hold hold = back.twins.hold(mesh);
+    if (!hold) return false;
+    if (hold.hasTwin()) {
+      if (takesTooLong(hold.bytesToCompare())) return false;
+      if (hold.isCurrent()) {
+        ask(hold.twin());
+        return true;
+      }
+    }
+  }
+  back.twins.pay(mesh, time_of_fcl);
+  return false;
+}
+
+}  // namespace
+
+By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
+                    CollisionResult& result) {
+  const bool octree = isOctree(*pair.b);
+  if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
+  if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
+  if (!octree && isAway(pair)) return By::kFclSearch;
+  // Contacts are FCL's to list, after which a verdict was in vain.
+  if (wantsContacts(request) && !back.always()) return By::kHandedOn;
+  try {
+    CollisionResult verdict;
+    const auto ask = [&](const Modeld& twin) {
+      const CollisionRequest one(1, false);
+      if (octree) {
+        collideOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA, one,
+                      verdict);
+      } else {
+        collideShape(twin, pair.X_WA, *pair.b, pair.X_WB, one, verdict);
+      }
+    };
+    if (!askTwin(back, mesh, timeToCompare(*pair.b), kCollideByFcl, ask)) return By::kHandedOn;
+    if (!verdict.isCollision()) return By::kTwins;
+    if (wantsContacts(request)) return By::kHandedOn;
+    fcl::Contact<double> contact = verdict.getContact(0);
+    (octree ? contact.o2 : contact.o1) = pair.a;
+    result.addContact(contact);
+    return By::kTwins;
+  } catch (const std::exception&) {
+    return By::kHandedOn;
+  }
+}
+
+By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const DistanceRequest& request,
+                   DistanceResult& result) {
+  if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
+  const bool octree = isOctree(*pair.b);
+  try {
+    DistanceResult found(result.min_distance);
+    const auto ask = [&](const Modeld& twin) {
+      if (octree) {
+        distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA,
+                       exact(request.enable_nearest_points), found);
+      } else {  // FCL gives the nearest points whether they are wanted or not
+        distanceShape(twin, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
+      }
+    };
+    if (!askTwin(back, mesh, kAnyTime, timeOfDistance(mesh), ask)) return By::kHandedOn;
+    // At overlap FCL gives what its solver does: -1, a depth.
+    if (!(found.min_distance > 0)) return By::kHandedOn;
+    if (found.min_distance < result.min_distance) {
+      (octree ? found.o2 : found.o1) = pair.a;
+      if (octree && !request.enable_nearest_points) {
+        found.nearest_points[0] = result.nearest_points[0];
+        found.nearest_points[1] = result.nearest_points[1];
+      }
+      result = found;
+    }
+    return By::kTwins;
+  } catch (const std::exception&) {
+    return By::kHandedOn;
+  }
+}
+
+}  // namespace kios::preload

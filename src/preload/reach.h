@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "preload/calls.h"
+
+namespace kios::preload {
+
+/// The definition of a symbol that this library stands before: the next in the order of the global
+/// scope, else libfcl.so.0.7's wherever it was loaded, else that which the caller's own library
+/// would have found. Ends the program if there is none, which the loader rules out.
+void* nextDefinition(const char* name, const void* caller);
+
+/// Whether a definition of nextDefinition() is libfcl.so.0.7's.
+bool isOfLibfcl(const void* definition);
+
+/// Says in one line on stderr if the queries of this program can't be answered, or not yet.
+void reportReach();
+
+/// "fcl_kios_preload: " and the words on a line of stderr.
+void say(const char* words, const char* more = "", const char* end = "");
+
+/// What FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
+Mode modeOfEnvironment();
+
+/// Opens the back and returns its calls; nullptr, and says why, if it can't.
+const Calls* openBack(const Start& start);
+
+}  // namespace kios::preload

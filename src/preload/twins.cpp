@@ -1,0 +1,334 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "preload/twins.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "fcl_kios/model/prepare.h"
+#include "preload/fingerprint.h"
+
+namespace kios::preload {
+namespace {
+
+/// Bytes that twins may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
+std::size_t limitOfEnvironment() {
+  constexpr long long kDefault = 1024, kMost = 1LL << 40;
+  const char* const text = std::getenv("FCL_KIOS_PRELOAD_MIB");
+  long long mib = text ? std::atoll(text) : kDefault;
+  if (mib < 1 || mib > kMost) {
+    std::fprintf(stderr,
+                 "fcl_kios_preload: FCL_KIOS_PRELOAD_MIB is \"%s\", but must be a number of MiB "
+                 "from 1 on: it is taken as %lld.\n",
+                 text, kDefault);
+    mib = kDefault;
+  }
+  return static_cast<std::size_t>(mib) << 20;
+}
+
+Fingerprint fingerprintOf(const Mesh& mesh) {
+  return fingerprint(mesh.vertices, mesh.vertexBytes(), mesh.triangles, mesh.triangleBytes());
+}
+
+/// What a twin costs to make, in nanoseconds.
+double priceOf(const Mesh& mesh) { return 5e3 + 950.0 * static_cast<double>(mesh.num_triangles); }
+
+/// A twin and what it was made of. Constant, but for the count of fits.
+struct Content {
+  Mesh mesh;
+  Fingerprint print;
+  std::shared_ptr<const Modeld> twin;
+  std::size_t bytes = 0;
+  std::atomic<std::uint64_t> fits_at_last_comparison{0};
+};
+
+/// nullptr for a mesh that k-IOS refuses.
+std::unique_ptr<Content> makeContent(const Mesh& mesh, std::uint64_t fits) {
+  try {
+    const std::vector<fcl::Vector3d> vertices(mesh.vertices, mesh.vertices + mesh.num_vertices);
+    const std::vector<fcl::Triangle> triangles(mesh.triangles, mesh.triangles + mesh.num_triangles);
+    auto content = std::make_unique<Content>();
+    content->mesh = mesh;
+    content->fits_at_last_comparison.store(fits, std::memory_order_relaxed);
+    const auto twin = makeModel(vertices, triangles);
+    prepare(*twin);
+    const Mesh copy = {twin.get(), twin->vertices, twin->tri_indices, mesh.num_vertices,
+                       mesh.num_triangles};
+    content->print = fingerprintOf(copy);
+    // The content that is proven later by its fingerprint is, byte by byte, the twin's.
+    if (std::memcmp(copy.vertices, mesh.vertices, mesh.vertexBytes()) != 0 ||
+        std::memcmp(copy.triangles, mesh.triangles, mesh.triangleBytes()) != 0) {
+      return nullptr;
+    }
+    content->bytes = mesh.bytes() + preparedBytes(*twin) +
+                     mesh.num_triangles * (2 * sizeof(fcl::BVNode<kIOSd>) + sizeof(unsigned int));
+    content->twin = twin;
+    return content;
+  } catch (const std::exception&) {
+    return nullptr;
+  }
+}
+
+constexpr std::uint32_t kClosed = 1U << 31;
+constexpr std::size_t kSets = 512, kWays = 8;
+
+}  // namespace
+
+/// The place of one model.
+struct alignas(64) Twins::Cell {
+  std::atomic<std::uint32_t> holders{0};  ///< kClosed is added while the next two change
+  std::unique_ptr<Content> content;
+  std::uint32_t serial = 0;
+
+  std::atomic<bool> stale{false}, making{false};
+  std::atomic<double> paid{0};
+  std::atomic<std::uint32_t> uses{0};   ///< of this twin
+  std::atomic<std::uint32_t> price{1};  ///< factor; grows for models that change often
+  std::atomic<std::uint32_t> used_at{0};
+
+  bool tryHold() {
+    if (holders.fetch_add(1, std::memory_order_acquire) < kClosed) return true;
+    holders.fetch_sub(1, std::memory_order_release);
+    return false;
+  }
+  void release() { holders.fetch_sub(1, std::memory_order_release); }
+
+  /// Waits for those who hold it; others go without meanwhile.
+  void close() {
+    holders.fetch_or(kClosed, std::memory_order_acquire);
+    while (holders.load(std::memory_order_acquire) != kClosed) std::this_thread::yield();
+  }
+  bool tryClose() {
+    std::uint32_t nobody = 0;
+    return holders.compare_exchange_strong(nobody, kClosed, std::memory_order_acquire);
+  }
+  void open() { holders.fetch_and(~kClosed, std::memory_order_release); }
+};
+
+/// Models by their addresses, in sets of a few places.
+struct Twins::Table {
+  struct Set {
+    std::atomic<const Geometry*> models[kWays] = {};
+    Cell cells[kWays];
+  };
+  Set sets[kSets];
+  std::mutex changing;
+  std::atomic<std::uint32_t> clock{1};  ///< of queries that FCL answered for want of a twin
+  std::uint32_t num_serials = 0;
+  std::size_t bytes = 0, count = 0;
+
+  static std::size_t setOf(const Geometry* model) {
+    return (reinterpret_cast<std::uintptr_t>(model) * 0x9E3779B97F4A7C15U) >> 50 & (kSets - 1);
+  }
+
+  /// The cell of a model; it may become another's unless it is held, or `changing` locked.
+  Cell* find(const Geometry* model) {
+    Set& set = sets[setOf(model)];
+    for (std::size_t i = 0; i < kWays; ++i) {
+      if (set.models[i].load(std::memory_order_acquire) == model) return &set.cells[i];
+    }
+    return nullptr;
+  }
+
+  // The following want `changing` locked.
+
+  /// Gives a model a place: an empty one, else that which was not used for longest. nullptr if
+  /// somebody holds that: the caller may, so it must not be waited for.
+  Cell* insert(const Geometry* model) {
+    Set& set = sets[setOf(model)];
+    std::size_t best = 0;
+    for (std::size_t i = 0; i < kWays; ++i) {
+      if (!set.models[i].load(std::memory_order_relaxed)) {
+        best = i;
+        break;
+      }
+      if (age(set.cells[i]) > age(set.cells[best])) best = i;
+    }
+    Cell& cell = set.cells[best];
+    if (!cell.tryClose()) return nullptr;
+    fill(cell, nullptr);
+    set.models[best].store(model, std::memory_order_release);
+    cell.serial = ++num_serials;
+    cell.paid.store(0, std::memory_order_relaxed);
+    cell.price.store(1, std::memory_order_relaxed);
+    cell.used_at.store(clock.load(std::memory_order_relaxed), std::memory_order_relaxed);
+    cell.open();
+    return &cell;
+  }
+
+  std::uint32_t age(const Cell& cell) const {
+    return clock.load(std::memory_order_relaxed) - cell.used_at.load(std::memory_order_relaxed);
+  }
+
+  /// Of a closed cell.
+  void fill(Cell& cell, std::unique_ptr<Content> content) {
+    if (cell.content) bytes -= cell.content->bytes, --count;
+    if (content) bytes += content->bytes, ++count;
+    cell.content = std::move(content);
+    cell.stale.store(false, std::memory_order_relaxed);
+    cell.uses.store(0, std::memory_order_relaxed);
+  }
+
+  void exchange(Cell& cell, std::unique_ptr<Content> content) {
+    cell.close();
+    fill(cell, std::move(content));
+    cell.open();
+  }
+
+  /// Drops what was not used for longest until so many bytes are left; false if that can't be.
+  bool makeRoom(std::size_t wanted, std::size_t limit) {
+    if (wanted > limit) return false;
+    while (bytes + wanted > limit) {
+      Cell* oldest = nullptr;
+      for (Set& set : sets) {
+        for (Cell& cell : set.cells) {
+          if (!cell.content) continue;
+          if (!oldest || age(cell) > age(*oldest)) oldest = &cell;
+        }
+      }
+      if (!oldest) return false;
+      exchange(*oldest, nullptr);
+    }
+    return true;
+  }
+};
+
+Twins::Hold::Hold(Hold&& o) noexcept
+    : twins_(o.twins_), cell_(std::exchange(o.cell_, nullptr)), mesh_(o.mesh_) {}
+
+Twins::Hold& Twins::Hold::operator=(Hold&& o) noexcept {
+  std::swap(twins_, o.twins_);
+  std::swap(cell_, o.cell_);
+  std::swap(mesh_, o.mesh_);
+  return *this;
+}
+
+Twins::Hold::~Hold() {
+  if (cell_) cell_->release();
+}
+
+bool Twins::Hold::hasTwin() const {
+  return cell_ && cell_->content && !cell_->stale.load(std::memory_order_relaxed);
+}
+
+bool Twins::Hold::trusted() const {
+  if (twins_->mode_ != Mode::kTrust) return false;
+  const Content& content = *cell_->content;
+  return content.mesh == mesh_ &&
+         content.fits_at_last_comparison.load(std::memory_order_relaxed) ==
+             twins_->fits_.count.load(std::memory_order_acquire) &&
+         twins_->fits_.seen(mesh_.vertices);
+}
+
+std::size_t Twins::Hold::bytesToCompare() const {
+  return hasTwin() && trusted() ? 0 : mesh_.bytes();
+}
+
+bool Twins::Hold::isCurrent() const {
+  if (trusted()) {
+    cell_->uses.fetch_add(1, std::memory_order_relaxed);
+    return true;
+  }
+  Content& content = *cell_->content;
+  const std::uint64_t fits = twins_->fits_.count.load(std::memory_order_acquire);
+  const bool equal = content.mesh.num_vertices == mesh_.num_vertices &&
+                     content.mesh.num_triangles == mesh_.num_triangles &&
+                     content.print == fingerprintOf(mesh_);
+  if (equal) {
+    if (content.mesh == mesh_) {
+      content.fits_at_last_comparison.store(fits, std::memory_order_relaxed);
+    }
+    cell_->uses.fetch_add(1, std::memory_order_relaxed);
+    return true;
+  }
+  if (!cell_->stale.exchange(true, std::memory_order_relaxed)) {
+    // A model that changes all the time shall not cost a twin for every few queries.
+    constexpr std::uint32_t kOften = 256, kMost = 1024;
+    const std::uint32_t price = cell_->price.load(std::memory_order_relaxed);
+    const bool often = cell_->uses.load(std::memory_order_relaxed) < kOften;
+    cell_->price.store(often ? std::min(2 * price, kMost) : 1, std::memory_order_relaxed);
+    cell_->paid.store(0, std::memory_order_relaxed);
+  }
+  return false;
+}
+
+const Modeld& Twins::Hold::twin() const { return *cell_->content->twin; }
+std::uint32_t Twins::Hold::serial() const { return cell_->serial; }
+
+Twins::Twins(const Start& start)
+    : mode_(start.mode),
+      fits_(*start.fits),
+      limit_(limitOfEnvironment()),
+      table_(std::make_unique<Table>()) {}
+Twins::~Twins() = default;
+
+Twins::Hold Twins::hold(const Mesh& mesh) {
+  Cell* cell = table_->find(mesh.model);
+  if (!cell) {
+    const std::unique_lock<std::mutex> lock(table_->changing, std::try_to_lock);
+    if (!lock) return {};
+    cell = table_->find(mesh.model);
+    if (!cell) cell = table_->insert(mesh.model);
+  }
+  if (!cell->tryHold()) return {};
+  Hold hold;
+  hold.twins_ = this;
+  hold.cell_ = cell;
+  hold.mesh_ = mesh;
+  if (table_->find(mesh.model) != cell) return {};  // another's by now
+  const std::uint32_t now = table_->clock.load(std::memory_order_relaxed);
+  if (cell->used_at.load(std::memory_order_relaxed) != now) {
+    cell->used_at.store(now, std::memory_order_relaxed);
+  }
+  return hold;
+}
+
+void Twins::pay(const Mesh& mesh, double nanoseconds) {
+  table_->clock.fetch_add(1, std::memory_order_relaxed);
+  Cell* const cell = table_->find(mesh.model);
+  if (!cell) return;
+  const double paid = cell->paid.load(std::memory_order_relaxed) + nanoseconds;
+  cell->paid.store(paid, std::memory_order_relaxed);  // one of two at once may be lost
+  if (paid >= priceOf(mesh) * cell->price.load(std::memory_order_relaxed)) make(mesh);
+}
+
+void Twins::make(const Mesh& mesh) {
+  Cell* const asked = table_->find(mesh.model);
+  if (!asked || asked->making.exchange(true, std::memory_order_acquire)) return;
+  std::unique_ptr<Content> made = makeContent(mesh, fits_.count.load(std::memory_order_acquire));
+  {
+    const std::lock_guard<std::mutex> lock(table_->changing);
+    Cell* const cell = table_->find(mesh.model);
+    if (cell) {
+      table_->exchange(*cell, nullptr);
+      if (made && table_->makeRoom(made->bytes, limit_)) {
+        table_->exchange(*cell, std::move(made));
+        cell->paid.store(0, std::memory_order_relaxed);
+      } else {
+        constexpr double kPatience = 16;  // times its price, before it is tried again
+        cell->paid.store(-kPatience * priceOf(mesh), std::memory_order_relaxed);
+      }
+    }
+  }
+  asked->making.store(false, std::memory_order_release);
+}
+
+std::size_t Twins::count() const {
+  const std::lock_guard<std::mutex> lock(table_->changing);
+  return table_->count;
+}
+
+std::size_t Twins::bytes() const {
+  const std::lock_guard<std::mutex> lock(table_->changing);
+  return table_->bytes;
+}
+
+}  // namespace kios::preload

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "preload/watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace kios::preload {
+namespace {
+
+constexpr const char* kQuestions[] = {"collide", "distance"};
+
+/// The size of numbers that a distance is computed from.
+double scaleOf(const Pair& pair) {
+  return 1 + pair.X_WA.translation().norm() + pair.X_WB.translation().norm();
+}
+
+bool areMeshes(const Pair& pair) {
+  return pair.a->getObjectType() == fcl::OT_BVH && pair.b->getObjectType() == fcl::OT_BVH;
+}
+
+}  // namespace
+
+void Watch::compare(const Pair& pair, const CollisionRequest& /*request*/,
+                    const CollisionResult& ours, const CollisionResult& fcls) {
+  const char* what = nullptr;
+  if (ours.isCollision() != fcls.isCollision()) {
+    what = "the verdict";
+  } else if (ours.numContacts() != fcls.numContacts()) {
+    what = "the number of contacts";
+  } else if (ours.isCollision() && pair.a->getNodeType() != fcl::BV_RSS) {
+    // FCL's models over RSS are copies, gone by now.
+    const auto &mine = ours.getContact(0), &theirs = fcls.getContact(0);
+    if (mine.o1 != theirs.o1 || mine.o2 != theirs.o2) what = "the order of the objects";
+  }
+  if (!what) return;
+  counts_[0].differences.fetch_add(1, std::memory_order_relaxed);
+  std::fprintf(stderr,
+               "fcl_kios_preload: collide of %p and %p differs in %s: %zu contacts, FCL %zu.\n",
+               static_cast<const void*>(pair.a), static_cast<const void*>(pair.b), what,
+               ours.numContacts(), fcls.numContacts());
+}
+
+void Watch::compare(const Pair& pair, const DistanceRequest& request, const DistanceResult& ours,
+                    const DistanceResult& fcls) {
+  // FCL's solvers for shapes are as exact as the request asks.
+  const double tolerance =
+      scaleOf(pair) * (areMeshes(pair) ? 1e-12 : std::max(1e-5, 10 * request.distance_tolerance));
+  const double difference = std::abs(ours.min_distance - fcls.min_distance);
+  const bool agree = difference <= tolerance || ours.min_distance == fcls.min_distance;
+  // A bound on entry may be lowered by one of the two alone, by a rounding.
+  const auto isAnswer = [&](const DistanceResult& result) {
+    return (result.o1 == pair.a && result.o2 == pair.b) ||
+           (result.o1 == pair.b && result.o2 == pair.a);
+  };
+  const bool ordered = ours.o1 == fcls.o1 || !isAnswer(ours) || !isAnswer(fcls);
+  if (agree && ordered) return;
+  counts_[1].differences.fetch_add(1, std::memory_order_relaxed);
+  std::fprintf(stderr, "fcl_kios_preload: distance of %p and %p differs%s: %.17g, FCL %.17g.\n",
+               static_cast<const void*>(pair.a), static_cast<const void*>(pair.b),
+               agree ? " in its objects" : "", ours.min_distance, fcls.min_distance);
+}
+
+void Watch::report() const {
+  for (int i = 0; i < 2; ++i) {
+    const Counts& counts = counts_[i];
+    const auto queries = [&](By by) {
+      return static_cast<unsigned long long>(
+          counts.queries[static_cast<int>(by)].load(std::memory_order_relaxed));
+    };
+    std::fprintf(
+        stderr, "fcl_kios_preload: %s: %llu by k-IOS, %llu by FCL's volumes, %llu handed to FCL",
+        kQuestions[i], queries(By::kTwins), queries(By::kFclSearch), queries(By::kHandedOn));
+    if (verify_) {
+      std::fprintf(stderr, "; %llu differences",
+                   static_cast<unsigned long long>(counts.differences.load()));
+    }
+    const double probes = static_cast<double>(counts.probes.load());
+    if (!verify_ && probes > 0) {
+      const double ours = static_cast<double>(counts.ours_ns.load()) / probes;
+      const double fcls = static_cast<double>(counts.fcl_ns.load()) / probes;
+      std::fprintf(stderr, "; %.3g us a query, FCL %.3g us, about %.3g s saved", ours * 1e-3,
+                   fcls * 1e-3, (fcls - ours) * 1e-9 * static_cast<double>(queries(By::kTwins)));
+    }
+    std::fprintf(stderr, ".\n");
+  }
+  std::fprintf(stderr, "fcl_kios_preload: %zu twins of %.1f MiB.\n", back_.twins.count(),
+               static_cast<double>(back_.twins.bytes()) / (1 << 20));
+}
+
+}  // namespace kios::preload
