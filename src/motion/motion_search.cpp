@@ -295,6 +295,9 @@ void MotionSearch::firstContact() {
 
 void MotionSearch::firstContactOf(int suspect) {
   using Outcome = Look::Outcome;
+  // Bodies close in more slowly than the bounds say: what is proven must come nearer to a contact
+  // than the resolution is long.
+  constexpr double kApproach = 0x1p-8;
   // What lies after this doesn't matter.
   const auto limit = [&] {
     return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
@@ -317,7 +320,8 @@ void MotionSearch::firstContactOf(int suspect) {
       end_ = {MotionVerdict::kContact, task.from, starts ? 0 : result.s, suspect};
       if (end_.to == 0) return;
       stack.push_back({suspect, task.from, end_.to});
-    } else if (result.outcome == Outcome::kPart && task.to - task.from > request_.resolution) {
+    } else if (result.outcome == Outcome::kPart &&
+               task.to - task.from > kApproach * request_.resolution) {
       if (result.to < task.to) stack.push_back({suspect, result.to, task.to});
       if (task.from < result.from) stack.push_back({suspect, task.from, result.from});
     } else if (result.outcome != Outcome::kProven) {

@@ -278,7 +278,7 @@ Twins::Hold Twins::hold(const Mesh& mesh) {
     cell = table_->find(mesh.model);
     if (!cell) cell = table_->insert(mesh.model);
   }
-  if (!cell->tryHold()) return {};
+  if (!cell || !cell->tryHold()) return {};
   Hold hold;
   hold.twins_ = this;
   hold.cell_ = cell;
