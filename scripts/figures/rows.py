@@ -32,7 +32,7 @@ class Rows:
     def us(self, *key, **settings):
         """Time of a query; of the mean pair, where a frame asks for several."""
         row = self.find(*key, **settings)
-        pairs = row.get("total_pairs") if row["query"] != "scene" else None
+        pairs = row.get("total_pairs") if row["query"] not in ("scene", "motion") else None
         return row["median_us"] / (pairs / row["frames"] if pairs else 1)
 
     def ratio(self, scenario, query, bv=OBBRSS, **settings):

@@ -61,11 +61,10 @@ nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_o
 closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
 all contacts of a mesh and a convex shape        | shapes/convex contacts fcl_obbrss
 moving tori, linear motion                       | continuous/linear continuous fcl_obbrss_sampling
-the same | continuous/linear continuous fcl_obbrss_advancement
 moving tori, screw motion                        | continuous/screw continuous fcl_obbrss_sampling
+a path of 0.2 rad is free, UR5 in a cell         | motions/ur5_cell/valid/0.2 motion fcl_obbrss
 first hit of a random ray, 80,000 triangles      | rays/80000/random first embree
-build a torus of 80,000 triangles                | build/welded/80000 build fcl_obbrss
-build and prepare it                             | build/welded/80000 prepared fcl_obbrss
+build and prepare a torus of 80,000 triangles    | build/welded/80000 prepared fcl_obbrss
 build and prepare an equal one                   | build/welded/80000 again fcl_obbrss
 """)
 OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree":
