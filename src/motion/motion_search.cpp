@@ -327,7 +327,7 @@ void MotionSearch::firstContactOf(int suspect) {
     } else if (result.outcome != Outcome::kProven) {
       const double half = 0.25 * request_.resolution;  // so that repeated steps end
       const double from = std::max(task.from, result.s - half),
-                   to = std::min(task.to, result.s + half);
+                   to = std::min(limit(), result.s + half);  // a task may be shorter
       const bool touches = contactAt(to, suspect);
       end_ = {touches ? MotionVerdict::kContact : MotionVerdict::kUnresolved, from, to, suspect};
       stack.push_back({suspect, task.from, touches ? to : from});

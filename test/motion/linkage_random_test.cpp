@@ -95,6 +95,7 @@ void runRandom(const Kind& kind, int robots, double separation, std::uint64_t se
   }
   tally.expectBothKinds();
   EXPECT_EQ(tally.unresolved, 0);
+  EXPECT_LE(tally.first_unresolved, tally.contact / 100);
 }
 
 TEST(RandomLinkages, ShortChains) { runRandom({1, 3, 0.4, 1, 10, 0.7}, 150, 0, 1); }

@@ -152,6 +152,7 @@ struct RobotCase {
 /// Answers of random paths, of which some must be clear and others not.
 struct MotionTally {
   int clear = 0, contact = 0, unresolved = 0;
+  int first_unresolved = 0;  ///< of first contacts
   MotionCounts counts;
 
   void add(const MotionAnswer& answer) {
@@ -181,6 +182,7 @@ inline void expectRight(const RobotCase& robot, const Joints& q0, const Joints& 
   request.first_contact = true;
   const MotionAnswer first = checkMotion(robot.linkage, q0, q1, request);
   tally.add(any);
+  tally.first_unresolved += first.verdict == MotionVerdict::kUnresolved ? 1 : 0;
   const double sample = robot.firstSample(q0, q1, n, separation);
   for (const MotionAnswer& answer : {any, first}) {
     if (answer.verdict == MotionVerdict::kClear) {
