@@ -55,11 +55,13 @@ std::string faultsOf(const Closedness<S>& c) {
   return text.str();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
 #define KIOS_INSTANTIATE(S)                                                     \
   template Closedness<S> inspectClosedness(const Model<S>&);                    \
   template Closedness<S> inspectClosedness(const std::vector<fcl::Vector3<S>>&, \
                                            const std::vector<fcl::Triangle>&);  \
   template std::string faultsOf(const Closedness<S>&);
+// NOLINTEND(bugprone-macro-parentheses)
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

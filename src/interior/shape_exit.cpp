@@ -106,16 +106,19 @@ class ShapeExit {
     for (int c = 0; c < 3; ++c) {
       add(Vec::Unit(c));
       add(-Vec::Unit(c));
-      directions.push_back(R_WS_.col(c).normalized());
-      directions.push_back(-R_WS_.col(c).normalized());
+      directions.emplace_back(R_WS_.col(c).normalized());
+      directions.emplace_back(-R_WS_.col(c).normalized());
     }
     return directions;
   }
 
   /// Keeps the translation if it is proven to part them and shorter.
   bool accept(const Vec& x, Penetration& result) const {
+    // Copies, also where S is double.
+    // NOLINTBEGIN(performance-unnecessary-copy-initialization)
     const fcl::Vector3<S> rounded = x.template cast<S>();
     const Vec translation = rounded.template cast<double>();
+    // NOLINTEND(performance-unnecessary-copy-initialization)
     const double length = translation.norm();
     if (result.upper > 0 && !(length < result.upper)) return false;
     fcl::Transform3<S> X_WS = X_WS_;
@@ -160,12 +163,14 @@ Penetration shapeExit(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
   return ShapeExit<S>(solid, X_WM, shape, X_WS).run();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
 #define KIOS_INSTANTIATE(S)                                                                        \
   template std::optional<fcl::Vector3<S>> shapePointIn(const Model<S>&, const fcl::Transform3<S>&, \
                                                        const fcl::CollisionGeometry<S>&,           \
                                                        const fcl::Transform3<S>&);                 \
   template Penetration shapeExit(const Model<S>&, const fcl::Transform3<S>&,                       \
                                  const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&);
+// NOLINTEND(bugprone-macro-parentheses)
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

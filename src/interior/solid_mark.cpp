@@ -177,6 +177,7 @@ bool isSolid(const Model<S>& model) {
   return mark->stateOf(model)->closedness().isSolid();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
 #define KIOS_INSTANTIATE(S)                                                    \
   template class SolidState<S>;                                                \
   template class SolidMark<S>;                                                 \
@@ -186,6 +187,7 @@ bool isSolid(const Model<S>& model) {
   template void markSolid(Model<S>&);                                          \
   template void unmarkSolid(Model<S>&);                                        \
   template bool isSolid(const Model<S>&);
+// NOLINTEND(bugprone-macro-parentheses)
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -78,7 +78,8 @@ class Path {
     double length = 0, level = 2, slack = 0;  ///< the level is n + 2
   };
   std::size_t slot(int body) const {
-    return static_cast<std::size_t>(linkage_.bodies[body].carried + 1);
+    const int after_obstacles = linkage_.bodies[body].carried + 1;
+    return static_cast<std::size_t>(after_obstacles);
   }
   double obstacleLength(int body) const { return linkage_.bodies[body].obstacle_length; }
 
@@ -91,8 +92,8 @@ class Path {
 /// The motion of a body near a configuration, seen from the link that carries another body as well:
 /// by the joints that carry only this one. Velocities are in the world's axes, times are those of
 /// s.
-struct BodyMotion {
-  double most = 0;  ///< no point moves farther than this in a unit of s, from the configuration on
+struct BodyMotion {  // NOLINT(bugprone-reserved-identifier): in the copy of an array
+  double most = 0;   ///< no point moves farther than this in a unit of s, from the configuration on
   /// Velocities of the ends of the capsule, and the angular one times its radius. Along any
   /// direction n no point of the capsule is faster than an end by more than |n x swing|, and
   /// `rounding`.

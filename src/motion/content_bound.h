@@ -10,7 +10,7 @@ namespace kios::articulated {
 
 /// Two simple sets, each of which contains a body's whole content, in one frame: a ball, and a
 /// capsule, which is much nearer to a long link. Radii are rounded up.
-struct ContentBound {
+struct ContentBound {  // NOLINT(bugprone-reserved-identifier): in the copy of an array
   fcl::Vector3d center = fcl::Vector3d::Zero();
   double radius = 0;
   fcl::Vector3d ends[2] = {fcl::Vector3d::Zero(), fcl::Vector3d::Zero()};
