@@ -67,8 +67,8 @@ void Components<S>::connect() {
     parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
   }
   // A root is the least of its component, so that components are numbered in the triangles' order.
-  // Triangles that are points have no edge, and join the first component.
-  component_.assign(mesh_.num_triangles, 0);
+  // Triangles that are points have no edge, and are of no component.
+  component_.assign(mesh_.num_triangles, -1);
   std::vector<int> number(mesh_.num_triangles, 0);
   for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
     const std::uint32_t a = welded_[mesh_.index(t, 0)];
@@ -82,11 +82,14 @@ void Components<S>::connect() {
   }
   closedness_.components = static_cast<int>(first_.size());
   begin_.assign(first_.size() + 1, 0);
-  for (const int c : component_) ++begin_[static_cast<std::size_t>(c) + (first_.empty() ? 0 : 1)];
+  for (const int c : component_) {
+    if (c >= 0) ++begin_[static_cast<std::size_t>(c) + 1];
+  }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::vector<int> next = begin_;
-  triangles_.resize(mesh_.num_triangles);
+  triangles_.resize(static_cast<std::size_t>(begin_.back()));
   for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
+    if (component_[t] < 0) continue;
     triangles_[static_cast<std::size_t>(next[static_cast<std::size_t>(component_[t])]++)] =
         static_cast<int>(t);
   }

@@ -54,7 +54,7 @@ class Components {
   const engine::MeshView<S> mesh_;
   std::vector<std::uint32_t> welded_;
   std::vector<Half> halves_;
-  std::vector<int> component_;  ///< by triangle
+  std::vector<int> component_;  ///< by triangle; -1 for points
   std::vector<int> first_;      ///< triangle of each component
   std::vector<int> triangles_;  ///< component by component
   std::vector<int> begin_;      ///< of each component in triangles_

@@ -19,7 +19,8 @@ Convexity measureConvexity(const Model<S>& model) {
   const kIOS<S>& root = model.getBV(0).bv;
   const fcl::Vector3d center = root.center0.template cast<double>();
   const double size = 2 * double{root.radius0}, largest = largestOf(model);
-  double above = 0, below = std::numeric_limits<double>::infinity();
+  double above = 0, below = std::numeric_limits<double>::infinity(), farthest = 0;
+  fcl::Vector3d asked = fcl::Vector3d::Zero();
   for (int t = 0; t < model.num_tris; ++t) {
     const fcl::Triangle& ids = model.tri_indices[t];
     if (ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0]) continue;
@@ -36,10 +37,19 @@ Convexity measureConvexity(const Model<S>& model) {
     // heights over the centre by that of the size, and by the rounding of coordinates.
     const double error = 0x1p-48 / thin * size + 0x1p-46 * largest;
     const double at = n.dot(p[0] - center);
-    above = std::max(above, farthestAlong(model, n).height - n.dot(center) - at + error);
+    // A flat face has many triangles, and along its normal all its vertices are farthest: what was
+    // found for nearly the same normal holds, but for the turn.
+    const double turned = (n - asked).norm() * 0.5 * size;
+    if (!(turned <= error)) {
+      asked = n;
+      farthest = farthestAlong(model, n).height - n.dot(center);
+    }
+    const double found = farthest + (turned <= error ? turned : 0.0);
+    above = std::max(above, found - at + error);
     below = std::min(below, at - error);  // the root's centre is at height 0
     if (!(below > 0) || !(above <= kMost * below)) return {};
   }
+  if (!std::isfinite(below)) return {};  // sheets and needles: no inside
   Convexity result;
   result.convex = true;
   result.moved = 1.01 * above / (above + below) * size;

@@ -39,7 +39,7 @@ template <typename S>
 class ExitSearch {
  public:
   ExitSearch(SolidPair<S>& pair, const Exit& exit, int tests)
-      : pair_(pair), best_(exit), last_test_(pair.tests() + tests) {}
+      : pair_(pair), best_(exit), last_test_(static_cast<long long>(pair.tests()) + tests) {}
 
   Exit run(const std::vector<Vec>& directions) {
     descend(tryDirections(directions));
@@ -81,7 +81,8 @@ class ExitSearch {
     for (const Vec& n : directions) {
       for (double share = 0.7; !exhausted(); share = 0.5) {
         const Vec x = rounded(share * best.norm() * n);
-        if (!pair_.seemsApart(x)) break;
+        // Shorter ones can't be proven: bodies that only just touch seem apart at any length.
+        if (!(x.norm() > 16 * pair_.rounding()) || !pair_.seemsApart(x)) break;
         best = x;
       }
     }
@@ -110,6 +111,10 @@ class ExitSearch {
   void descend(Vec at) {
     std::vector<Plane> planes;
     Test test = pair_.test(at, best_.length);
+    for (int i = 0; i < 8 && !test.apart && 4 * at.norm() < best_.length; ++i) {
+      at = rounded(4 * at);  // too close to be proven
+      test = pair_.test(at, best_.length);
+    }
     if (!test.apart) {
       at = best_.translation;
       test = pair_.test(at, best_.length);
@@ -157,7 +162,7 @@ class ExitSearch {
 
   SolidPair<S>& pair_;
   Exit best_;
-  const int last_test_;
+  const long long last_test_;
 };
 
 }  // namespace

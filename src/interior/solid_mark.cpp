@@ -147,14 +147,13 @@ std::shared_ptr<const SolidState<S>> requireSolid(const Model<S>& model) {
 template <typename S>
 void markSolid(Model<S>& model) {
   validate(model);
+  const Closedness<S> closedness = inspectClosedness(model);
+  if (!closedness.isSolid()) {  // before anything changes
+    refuse("the model bounds no solid: " + faultsOf(closedness) + ".");
+  }
   engine::TreeCache& trees = ownTrees(model);
   stampAnew(model, trees);
-  auto mark = std::make_unique<SolidMark<S>>();
-  const auto state = mark->stateOf(model);
-  if (!state->closedness().isSolid()) {
-    refuse("the model bounds no solid: " + faultsOf(state->closedness()) + ".");
-  }
-  trees.attachment = std::move(mark);
+  trees.attachment = std::make_unique<SolidMark<S>>();
 }
 
 template <typename S>

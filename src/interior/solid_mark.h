@@ -64,9 +64,9 @@ class SolidMark final : public engine::TreeCache::Attachment {
     std::uint64_t stamp = 0;
     std::shared_ptr<const SolidState<S>> state;
   };
-  std::array<std::atomic<std::uint64_t>, 8> good_{};  ///< stamps of states that are solids
+  std::array<std::atomic<std::uint64_t>, 32> good_{};  ///< stamps of states that are solids
   std::mutex mutex_;
-  std::array<Known, 8> known_;
+  std::array<Known, 32> known_;
   std::size_t next_ = 0;
 };
 
