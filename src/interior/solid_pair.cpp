@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include "fcl_kios/triangle/intersection.h"
@@ -44,6 +45,10 @@ SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const
   T_AB_ = R_WA_.transpose() * (X_WB.translation().template cast<double>() - t_WA_);
   size_ = double{frame_.rootA().radius0} + double{frame_.rootB().radius0};
   rounding_ = frame_.distanceError(size_);
+  if (!(size_ >= 0x1p-300 && size_ <= 0x1p300)) {  // lengths are squared
+    throw std::invalid_argument(
+        "fcl_kios: solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
+  }
 }
 
 template <typename S>

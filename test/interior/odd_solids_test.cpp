@@ -108,6 +108,20 @@ TEST(OddSolids, ManyTestsAreNotNone) {
   EXPECT_LE(most, penetration(*shape, kHere, *cube, at(2, 1.2, 0.5)).upper + 1e-12);
 }
 
+// Squares of lengths would vanish, or overflow.
+TEST(OddSolids, ScalesBeyondAllSquaresAreRefused) {
+  for (const double scale : {1e-165, 1e-100, 1e-80, 1e80, 1e100, 1e155}) {
+    const auto cube = solidOf(scenes::subdividedBox({scale, scale, scale}, 1));
+    const auto X = at(0.5 * scale, 0, 0);
+    EXPECT_EQ(contacts(*cube, *cube), 1u);
+    if (scale < 1e-90 || scale > 1e90) {
+      EXPECT_THROW(penetration(*cube, kHere, *cube, X), std::invalid_argument) << scale;
+    } else {
+      EXPECT_GE(penetration(*cube, kHere, *cube, X).upper, 0.5 * scale * (1 - 1e-12));
+    }
+  }
+}
+
 // Both of whose sides are one: nothing is inside.
 TEST(OddSolids, ASheetHasNoDepth) {
   Mesh sheet = scenes::singleTriangle({1, 0, 0}, {-1, 1, 0}, {0, -1, 0});
