@@ -4,6 +4,7 @@
 
 A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several words, such as
 `<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
+from figures.builds import building, memory, memory_parts, preparing, refits  # noqa: F401
 from figures.motions import missed, motions  # noqa: F401
 from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
 from figures.robots import arms, links  # noqa: F401
@@ -131,17 +132,6 @@ touching, contact   | touching collide
     return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
 
 
-def memory_parts(rows):
-    """Where the bytes of a triangle go."""
-    meshes = {"shared vertices": "build/bytes/welded", "three vertices each": "build/bytes/soup"}
-    parts = dict.fromkeys(row["query"] for row in rows.rows if row["scenario"] in meshes.values())
-    lines = [[part, *(rows.find(scenario, part)["bytes_per_triangle"]
-                      for scenario in meshes.values())] for part in parts]
-    lines.append(["all", *(sum(line[i] for line in lines) for i in (1, 2))])
-    return table(["bytes a triangle", *meshes], [[line[0], *map(number, line[1:])]
-                                                 for line in lines])
-
-
 # docs/scene.md
 
 def scenes(rows):
@@ -214,89 +204,6 @@ FCL's OBBRSS: how far? | distance fcl_obbrss rel_err=0 abs_err=0
             scenario = column[0].replace("generated", "generated/falling")
         return number(rows.us(scenario, *line, **settings))
     return grid("us", lines, columns, cell)
-
-
-def preparing(rows):
-    lines = spec("""
-build (`endModel`) | scaling/20000 build
-build, prepare and first query | scaling/20000 prepare
-then: a distance at a gap of 0.1 | scaling/20000/gap_0.1 distance
-a distance at contact | scaling/20000/touching distance
-a pair that the root volumes decide: collide | rootreject/far collide
-a pair that they decide: a threshold | rootreject/far threshold
-""")
-    columns = spec("k-IOS | kios\nFCL OBBRSS | fcl_obbrss")
-    return grid("two tori of 20,000 triangles", lines, columns,
-                lambda line, column, _: time(rows.us(*line, *column)))
-
-
-def building(rows):
-    lines = spec("""
-k-IOS: `endModel`            | build kios
-with `kios::prepare`         | prepared kios
-with a first query           | first_query kios
-the same again, and prepared | again kios
-OBBRSS: `endModel`           | build fcl_obbrss
-OBB                          | build fcl_obb
-RSS                          | build fcl_rss
-FCL's kIOS                   | build fcl_kios_builtin
-AABB                         | build fcl_aabb
-k-DOP, 24 planes             | build fcl_kdop24
-""")
-    columns = spec("""
-1k triangles        | welded/1000
-20k                 | welded/20000
-80k                 | welded/80000
-80k, no shared vertex | soup/80000
-UR5, 7 links        | ur5
-""")
-
-    def cell(line, column, _):
-        row = rows.find(f"build/{column[0]}", *line)
-        return f"{time(row['median_us'])} ({number(1 / row['ratio_to_fcl_obbrss'])})"
-    return grid("time (by OBBRSS's `endModel`)", lines, columns, cell)
-
-
-def memory(rows):
-    lines = spec("""
-k-IOS: a model                | build kios
-with what queries prepare     | prepared kios
-OBBRSS                        | build fcl_obbrss
-AABB                          | build fcl_aabb
-""")
-    columns = spec("""
-80k triangles         | welded/80000
-80k, no shared vertex | soup/80000
-UR5, 7 links          | ur5
-""")
-
-    def cell(line, column, _):
-        row = rows.find(f"build/{column[0]}", *line)
-        return f"{number(row['bytes_per_triangle'])} ({number(row['peak_bytes_per_triangle'])})"
-    return grid("bytes a triangle (peak)", lines, columns, cell)
-
-
-def refits(rows):
-    lines = spec("""
-`endReplaceModel(false)`: rebuild | refit/5000/rebuild kios
-`endReplaceModel(true, false)`: refit top-down | refit/5000/top_down kios
-`endReplaceModel(true, true)`: refit bottom-up | refit/5000/bottom_up kios
-OBBRSS: rebuild | refit/5000/rebuild fcl_obbrss
-OBBRSS: refit bottom-up | refit/5000/bottom_up fcl_obbrss
-""")
-    columns = spec("""
-change and first query | refit median_us
-distance after it | distance median_us
-volume tests | distance bv_tests
-worst error | distance max_abs_error
-""")
-
-    def cell(line, column, _):
-        value = rows.find(line[0], column[0], line[1])[column[1]]
-        if column[1] == "max_abs_error":
-            return f"{value:.0e}"
-        return time(value) if column[1] == "median_us" else number(value)
-    return grid("two tori of 5,000 triangles", lines, columns, cell)
 
 
 # docs/continuous.md, docs/shapes.md, docs/rays.md
