@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # `cpack -G DEB`: the packages libfcl-kios<version>, the shared library, libfcl-kios-dev, and
-# libfcl-kios-preload, which programs that know FCL alone preload. For a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
+# libfcl-kios-preload, which programs that know FCL alone preload. For a build that was configured
+# with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
 set(control_dir ${PROJECT_BINARY_DIR}/debian)
 set(so_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(runtime_package libfcl-kios${so_version})

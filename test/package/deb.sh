@@ -35,11 +35,12 @@ case ${5-} in
     ldconfig -p | grep -q 'libfcl_kios\.so\.' || fail "ldconfig doesn't know the library"
     "$source_dir/test/consumer/use.sh" "$source_dir" /usr "$(mktemp -d)" "$cmake" "$cxx" ""
     # A program that was compiled for FCL alone.
+    program=$(mktemp -d)/fcl_program
     read -ra eigen <<<"$(pkg-config --cflags eigen3)"
     "$cxx" -std=c++17 -I"$source_dir/benchmarks" "${eigen[@]}" \
-      "$source_dir/test/preload/program.cpp" -o /tmp/fcl_program \
+      "$source_dir/test/preload/program.cpp" -o "$program" \
       -lfcl -lccd -loctomap -loctomath -lpthread
-    FCL_KIOS_PRELOAD=stats LD_PRELOAD=libfcl_kios_preload.so /tmp/fcl_program write /dev/null \
+    FCL_KIOS_PRELOAD=stats LD_PRELOAD=libfcl_kios_preload.so "$program" write /dev/null \
       threads 2>&1 | grep -E 'distance: [0-9]{2,} by k-IOS' || fail "nothing was preloaded"
     dpkg --purge libfcl-kios-preload libfcl-kios-dev "libfcl-kios${version%.*}"
     left=$(find /usr \( -name '*fcl_kios*' -o -name '*fcl-kios*' \) -print)
