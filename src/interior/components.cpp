@@ -9,21 +9,13 @@
 
 #include "engine/weld.h"
 #include "interior/winding.h"
+#include "triangle/integer.h"
 #include "triangle/ray_crossing.h"
 
 namespace kios {
 namespace {
 
 using boost::multiprecision::cpp_int;
-
-/// v 2^1074, an integer for every finite double.
-cpp_int integer(double v) {
-  int e;
-  const double mantissa = std::frexp(v, &e);
-  cpp_int n = static_cast<long long>(std::ldexp(mantissa, 53));
-  const int shift = e - 53 + 1074;
-  return shift >= 0 ? cpp_int(n << shift) : cpp_int(n / (cpp_int(1) << -shift));
-}
 
 int findRoot(std::vector<int>& parent, int i) {
   while (parent[static_cast<std::size_t>(i)] != i) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "triangle/determinant.h"
+#include "triangle/integer.h"
 
 namespace kios {
 namespace {
@@ -14,16 +15,6 @@ namespace {
 using boost::multiprecision::cpp_int;
 
 int signOf(double v) { return (v > 0) - (v < 0); }
-
-/// v 2^1074, an integer for every finite double.
-cpp_int integer(double v) {
-  int e;
-  const double mantissa = std::frexp(v, &e);  // v = mantissa 2^e, |mantissa| in [1/2, 1)
-  cpp_int n = static_cast<long long>(std::ldexp(mantissa, 53));
-  const int shift = e - 53 + 1074;
-  // Subnormals have zeros below bit 0.
-  return shift >= 0 ? cpp_int(n << shift) : cpp_int(n / (cpp_int(1) << -shift));
-}
 
 /// n 2^exponent, rounded to 53 bits.
 template <typename Rounded>

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "triangle/determinant.h"
+#include "triangle/integer.h"
 #include "triangle/ray_triangle.h"
 
 namespace kios {
@@ -53,15 +54,6 @@ Sign turnedSide(const Dot& along_ray, const Component& component) {
   if (const Sign s = along_ray()) return s;
   if (const Sign s = component(0)) return s;
   return component(1);
-}
-
-/// v 2^1074, an integer for every finite double.
-cpp_int integer(double v) {
-  int e;
-  const double mantissa = std::frexp(v, &e);
-  cpp_int n = static_cast<long long>(std::ldexp(mantissa, 53));
-  const int shift = e - 53 + 1074;
-  return shift >= 0 ? cpp_int(n << shift) : cpp_int(n / (cpp_int(1) << -shift));
 }
 
 Crossing verdict(Sign height, const Sign (&sides)[3]) {
