@@ -63,15 +63,35 @@ class DistanceSearch {
 
   void run() {
     if (descend()) return;
+    if (expander_.isLarge()) {
+      search<true>();
+    } else {
+      search<false>();
+    }
+  }
+
+ private:
+  static constexpr float kWave = 0.5F;
+  static constexpr uint32_t kMaxWaiting = 256;
+
+  template <bool kLarge>
+  void search() {
+    constexpr size_t kBatch = kLarge ? 16 : 4, kLeafPairs = kLarge ? 8 : 1;
     for (;;) {
       while (!frontier_.leaves.empty()) {
-        if (boundLeaves(frontier_.leaves.pop())) return;
+        PairList::Entry pairs[kLeafPairs];
+        const size_t n = frontier_.leaves.pop(pairs);
+        if (kLarge) fetchLeaves(pairs, n);
+        for (size_t i = n; i-- > 0;) {
+          if (boundLeaves(pairs[i])) return;
+        }
       }
       PairList::Entry batch[kBatch];
       const size_t n = frontier_.inner.pop(batch);
       expander_.expand<false>(batch, n, frontier_);
       if (n == 0) {
         if (!frontier_.nextWave(search_.evaluator.prune_at, kWave)) return;
+        if (kLarge) fetchWave();
         while (!frontier_.bounded.empty()) {
           const PairList::Entry entry = frontier_.bounded.pop();
           if (entry.bound >= search_.evaluator.prune_at) continue;
@@ -80,11 +100,6 @@ class DistanceSearch {
       }
     }
   }
-
- private:
-  static constexpr size_t kBatch = 4;
-  static constexpr float kWave = 0.5F;
-  static constexpr uint32_t kMaxWaiting = 256;
 
   /// True to end the search. Not inlined: its path is large, and not needed for long.
   HWY_NOINLINE bool descend() {
@@ -112,6 +127,37 @@ class DistanceSearch {
     if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return evaluateFeatures(slabbed, bound);
     frontier_.keep(bound, num_waiting_++);
     return false;
+  }
+
+  // All pairs are fetched at once, in as few steps as the addresses allow.
+
+  HWY_INLINE void fetchWave() const {
+    for (size_t i = 0; i < frontier_.inner.size(); ++i) expander_.fetchNodes(frontier_.inner[i]);
+    for (size_t i = 0; i < frontier_.bounded.size(); ++i) {
+      const Pair at = waiting_[frontier_.bounded[i].a].nodes;
+      fetchFeatures(search_.a, leafA(at));
+      fetchFeatures(search_.b, leafB(at));
+    }
+  }
+  static HWY_INLINE void fetchFeatures(const Tree& tree, const Leaf& leaf) {
+    const LeafView view(tree, leaf);
+    fetch(view.faces, kFaceRows);
+    fetch(view.ids, size_t{leaf.num_faces} + leaf.num_edges + leaf.num_owned);
+  }
+
+  HWY_INLINE void fetchLeaves(const PairList::Entry* pairs, size_t count) const {
+    for (size_t i = 0; i < count; ++i) {
+      fetch(leafA(pairs[i].pair));
+      fetch(leafB(pairs[i].pair));
+    }
+    for (size_t i = 0; i < count; ++i) {
+      fetchVertices(search_.a, leafA(pairs[i].pair));
+      fetchVertices(search_.b, leafB(pairs[i].pair));
+    }
+  }
+  static HWY_INLINE void fetchVertices(const Tree& tree, const Leaf& leaf) {
+    const LeafView view(tree, leaf);
+    fetch(view.vertices.rows, 3 * static_cast<size_t>(view.vertices.chunks));
   }
 
   const Leaf& leafA(Pair at) const { return search_.a.leaves[search_.a.nodes[at.a].leaf()]; }

@@ -44,6 +44,7 @@ class Descent {
   bool step() {
     Expansion& e = path_[steps_];
     expander_.start(end_.pair, e);
+    if (expander_.isLarge()) expander_.fetchBoxes(e);
     expander_.test(e);
     // Where few are flat it costs less to wait for the bound that excludes most.
     if (2 * hwy::PopCount(expander_.flatOf(e)) >= hwy::PopCount(e.near)) expander_.tighten(e);

@@ -39,6 +39,21 @@ class ToFront {
   const decltype(hn::IndicesFromVec(d, hn::Zero(du))) order_;
 };
 
+/// Brings something into the caches. What only fetches has to be inlined: compilers drop calls of
+/// functions without effects.
+template <class T>
+HWY_INLINE void fetch(const T* data, size_t count) {
+  constexpr size_t kLine = 64;
+  const char* const bytes = reinterpret_cast<const char*>(data);
+  const size_t size = count * sizeof(T);
+  for (size_t at = 0; at < size; at += kLine) hwy::Prefetch(bytes + at);
+  if (alignof(T) < kLine) hwy::Prefetch(bytes + size - 1);
+}
+template <class T>
+HWY_INLINE void fetch(const T& data) {
+  fetch(&data, 1);
+}
+
 /// Nodes of a and b; which fields hold something else is said where it is so.
 struct Pair {
   uint32_t a, b;
@@ -55,10 +70,11 @@ class PairList {
 
   bool empty() const { return size_ == 0; }
   size_t size() const { return size_; }
+  Pair operator[](size_t i) const { return {a_[i], b_[i]}; }
 
   /// Room for so many more.
   void reserve(size_t more) {
-    if (HWY_UNLIKELY(size_ + more + kLanes > capacity_)) grow(2 * (size_ + more + kLanes));
+    if (HWY_UNLIKELY(size_ + more + kRoom > capacity_)) grow(2 * (size_ + more + kRoom));
   }
 
   /// There must be room: see reserve().
@@ -95,7 +111,7 @@ class PairList {
   /// Pops up to `most`; returns how many.
   template <size_t kMax>
   size_t pop(Entry (&out)[kMax], size_t most = kMax) {
-    static_assert(kMax <= kLanes);
+    static_assert(kMax <= kRoom);
     const size_t count = std::min(most, size_);
     size_ -= count;
     for (size_t i = 0; i < kMax; ++i) {  // there is room for all of them beyond the end
@@ -144,6 +160,7 @@ class PairList {
   }
 
   static constexpr size_t kUsual = 512;
+  static constexpr size_t kRoom = 2 * kLanes;  ///< beyond the end, for whole vectors and batches
   float usual_bounds_[kUsual];
   uint32_t usual_a_[kUsual], usual_b_[kUsual];
   std::unique_ptr<float[]> more_bounds_;

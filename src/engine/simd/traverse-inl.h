@@ -26,7 +26,7 @@ class Expander {
         trees_{&search.a, &search.b},
         to_{&search.frames.a_from_b, &search.frames.b_from_a},
         boxes_(!search.a.boxes.empty() && !search.b.boxes.empty()),
-        large_(search.a.blocks.size() + search.b.blocks.size() > 512) {}
+        large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
 
   void start(Pair at, Expansion& e) const {
     const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
@@ -39,8 +39,7 @@ class Expander {
     e.side = rank(*nodes[0]) > rank(*nodes[1]) ? 0 : 1;
     e.parent = nodes[e.side];
     e.other = nodes[1 - e.side];
-    const char* const block = reinterpret_cast<const char*>(&blockOf(e));
-    for (size_t line = 0; line < sizeof(Block); line += 64) hwy::Prefetch(block + line);
+    fetch(blockOf(e));
   }
 
   void test(Expansion& e) const {
@@ -83,6 +82,20 @@ class Expander {
 
   /// Whether both trees have boxes: those of CAD meshes.
   bool hasBoxes() const { return boxes_; }
+  /// Whether the trees are more than a core's caches hold, so that it pays to fetch what is needed
+  /// next, as much of it at once as there is; a limit found by trying.
+  bool isLarge() const { return large_; }
+
+  HWY_INLINE void fetchNodes(Pair at) const {
+    fetch(search_.a.nodes[at.a]);
+    fetch(search_.b.nodes[at.b]);
+  }
+  /// The boxes that may be tested.
+  HWY_INLINE void fetchBoxes(const Expansion& e) const {
+    if (!boxes_ || (childrenOf(e).flat | e.other->flat) == 0) return;
+    fetch(boxBlockOf(e));
+    fetch(otherBox(e));
+  }
 
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
@@ -90,11 +103,13 @@ class Expander {
   void expand(const PairList::Entry (&pairs)[kMax], size_t count, Frontier& frontier) const {
     Expansion batch[kMax];
     size_t n = 0;
+    for (size_t i = 0; large_ && i < count; ++i) fetchNodes(pairs[i].pair);
     for (size_t i = 0; i < count; ++i) {
       if (pairs[i].bound >= search_.evaluator.prune_at) continue;
       batch[n].bound = pairs[i].bound;
       start(pairs[i].pair, batch[n++]);
     }
+    for (size_t i = 0; large_ && i < n; ++i) fetchBoxes(batch[i]);
     for (size_t i = 0; i < n; ++i) test(batch[i]);
     for (size_t i = 0; i < n; ++i) spread<kInherit>(batch[i], frontier);
   }
@@ -140,8 +155,6 @@ class Expander {
                     hn::IfVecThenElse(expanded, child, a), hn::IfVecThenElse(expanded, b, child));
     }
     frontier.inner.raise(deepest);
-    if (!large_) return;
-    for (uint32_t left = e.near; left != 0; left &= left - 1) prefetchNode(e, firstOf(left));
   }
 
  private:
@@ -167,13 +180,6 @@ class Expander {
   }
   static uint32_t firstBit(uint32_t bits) { return bits & (0U - bits); }  // 0 for none
 
-  /// Pays where caches don't hold the trees.
-  void prefetchNode(const Expansion& e, uint32_t lane) const {
-    const Node* const child = &trees_[e.side]->nodes[e.parent->first_child + lane];
-    hwy::Prefetch(child);
-    hwy::Prefetch(reinterpret_cast<const char*>(child) + sizeof(Node) - 1);
-  }
-
   const Block& blockOf(const Expansion& e) const {
     return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
   }
@@ -181,11 +187,18 @@ class Expander {
     return trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
   }
 
+  const BoxBlock& boxBlockOf(const Expansion& e) const {
+    return trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
+  }
+  const Box& otherBox(const Expansion& e) const {
+    return trees_[1 - e.side]->boxes[e.side == 0 ? e.at.b : e.at.a];
+  }
+
   HWY_NOINLINE void testBoxes(Expansion& e) const {
     Box moved;
-    move(trees_[1 - e.side]->boxes[e.side == 0 ? e.at.b : e.at.a], *to_[e.side], moved);
+    move(otherBox(e), *to_[e.side], moved);
     const BoxLanes other(moved);
-    const BoxBlock& block = trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
+    const BoxBlock& block = boxBlockOf(e);
     const bool contact = search_.evaluator.prune_at == 0;
     const V limit = hn::Set(d, search_.evaluator.prune_at);
     uint32_t near = 0;
@@ -213,7 +226,7 @@ class Expander {
   const Tree* trees_[2];
   const FloatPose* to_[2];  ///< the frame of a side from the other's
   const bool boxes_;        ///< both trees have them
-  const bool large_;        ///< more than a core's caches hold; a limit found by trying
+  const bool large_;
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE
