@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstring>
 #include <exception>
+#include <numeric>
 #include <random>
 
 #include "engine/simd/targets.h"
@@ -58,8 +59,14 @@ void addProducts(const uint8_t* HWY_RESTRICT data, size_t bytes, const uint8_t* 
     a0 = hn::Add(a0, product(x, key0 + i));
     b0 = hn::Add(b0, product(x, key1 + i));
   }
-  sums[0] += hn::GetLane(hn::SumOfLanes(whole, hn::Add(a0, a1)));
-  sums[1] += hn::GetLane(hn::SumOfLanes(whole, hn::Add(b0, b1)));
+  // Not by SumOfLanes, which compilers of AVX-512 may add up as signed numbers, that must not wrap.
+  const auto sum = [&](hn::Vec<decltype(whole)> lanes) {
+    HWY_ALIGN uint64_t each[HWY_MAX_BYTES / sizeof(uint64_t)];
+    hn::Store(lanes, whole, each);
+    return std::accumulate(each, each + hn::Lanes(whole), uint64_t{0});
+  };
+  sums[0] += sum(hn::Add(a0, a1));
+  sums[1] += sum(hn::Add(b0, b1));
 #endif
 }
 
