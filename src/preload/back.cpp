@@ -99,7 +99,10 @@ By Back::distance(const Pair& pair, const DistanceRequest& request, DistanceResu
     }
   }
   return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const Pair& ordered) {
-    return distanceToOther(*this, mesh, ordered, request, result);
+    // Nor has it that of OBB and a shape.
+    const bool octree = ordered.b->getNodeType() == fcl::GEOM_OCTREE;
+    if (ordered.a->getNodeType() == fcl::BV_OBB && !octree) return By::kHandedOn;
+    return distanceToOther(*this, mesh, ordered, result);
   });
 }
 

@@ -71,8 +71,7 @@ By distanceOfModels(Back& back, const Pair& pair, const DistanceRequest& request
 /// The mesh is the pair's a, whatever the order of FCL's call.
 By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
                     CollisionResult& result);
-By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const DistanceRequest& request,
-                   DistanceResult& result);
+By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, DistanceResult& result);
 
 /// Whether a pose is surely one that k-IOS takes: finite, rigid, no reflection.
 bool isRigid(const Pose& X);

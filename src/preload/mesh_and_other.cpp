@@ -168,17 +168,16 @@ By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const Collis
   }
 }
 
-By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const DistanceRequest& request,
-                   DistanceResult& result) {
+By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, DistanceResult& result) {
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   const bool octree = isOctree(*pair.b);
   try {
     DistanceResult found(result.min_distance);
-    const auto ask = [&](const Modeld& twin) {
+    const auto ask = [&](const Modeld& twin) {  // FCL gives nearest points, wanted or not
       if (octree) {
         distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA,
-                       exact(request.enable_nearest_points), found);
-      } else {  // FCL gives the nearest points whether they are wanted or not
+                       exact(true), found);
+      } else {
         distanceShape(twin, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
       }
     };
@@ -187,10 +186,6 @@ By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, const Distanc
     if (!(found.min_distance > 0)) return By::kHandedOn;
     if (found.min_distance < result.min_distance) {
       (octree ? found.o2 : found.o1) = pair.a;
-      if (octree && !request.enable_nearest_points) {
-        found.nearest_points[0] = result.nearest_points[0];
-        found.nearest_points[1] = result.nearest_points[1];
-      }
       result = found;
     }
     return By::kTwins;

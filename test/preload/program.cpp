@@ -99,7 +99,20 @@ void askOthers() {
       const fcl::DistanceRequestd request(true);
       askDistance(name + "_distance", mesh, X_WM, other, X_WO, request, 0, 2e-5);
       askDistance(name + "_distance_swapped", other, X_WO, mesh, X_WM, request, 0, 2e-5);
+      if (other == sphere) continue;  // FCL's points are in no frame
+      fcl::DistanceResultd unasked;   // of points, which FCL gives nevertheless
+      const fcl::CollisionGeometryd *const of_mesh = mesh.get(), *const of_other = other.get();
+      fcl::distance(of_mesh, X_WM, of_other, X_WO, fcl::DistanceRequestd(), unasked);
+      transcript->add(name + "_unasked_points",
+                      (unasked.nearest_points[0] - unasked.nearest_points[1]).norm(), 2e-4);
     }
+  }
+  // FCL has no distance of OBB and a shape, and never gets one.
+  const auto obb = build<fcl::OBBd>(torus(20, 14));
+  for (int i = 0; i < 100; ++i) {
+    const Transform3d X_WM = randomPose(random, 0, 2), X_WO = X_WM * randomPose(random, 3.6, 6);
+    askDistance("obb_box", obb, X_WM, box, X_WO, fcl::DistanceRequestd(true));
+    askDistance("obb_octree", octree, X_WO, obb, X_WM, fcl::DistanceRequestd(true), 0, 2e-5);
   }
 }
 
