@@ -66,8 +66,21 @@ struct Start {
   const Fits* fits;
 };
 
-/// The back's only symbol: its four calls. They throw nothing of their own.
-using Open = const Calls* (*)(const Start*);
+/// What the front calls around fork(): before it, and after it in both processes. The child has one
+/// thread, and so must find nothing that another one had taken.
+struct Forks {
+  void (*before)();
+  void (*in_parent)();
+  void (*in_child)();
+};
+
+struct Opened {
+  const Calls* calls;
+  Forks forks;
+};
+
+/// The back's only symbol. Its calls throw nothing of their own.
+using Open = Opened (*)(const Start*);
 constexpr const char* kOpenName = "fcl_kios_preload_open";
 
 }  // namespace kios::preload

@@ -14,11 +14,27 @@ namespace {
 
 std::atomic<const Calls*> calls{nullptr};
 pthread_mutex_t choosing = PTHREAD_MUTEX_INITIALIZER;
+Forks forks = {};  // guarded by it
 Mode mode = Mode::kOff;
 
 pthread_once_t started = PTHREAD_ONCE_INIT;
 
+// Forks wait for the choice, and then for what the back does.
+void beforeFork() {
+  pthread_mutex_lock(&choosing);
+  if (forks.before) forks.before();
+}
+void afterForkInParent() {
+  if (forks.in_parent) forks.in_parent();
+  pthread_mutex_unlock(&choosing);
+}
+void afterForkInChild() {
+  if (forks.in_child) forks.in_child();
+  pthread_mutex_unlock(&choosing);
+}
+
 void readEnvironment() {
+  pthread_atfork(&beforeFork, &afterForkInParent, &afterForkInChild);
   mode = modeOfEnvironment();
   if (mode != Mode::kOff) reportReach();
   if (mode == Mode::kTrust) countFits();
@@ -51,7 +67,11 @@ const Calls* choose(const void* caller) {
                                reinterpret_cast<const void*>(back.fcl.distance)};
     bool reached = mode != Mode::kOff;
     for (const void* const definition : all) reached = reached && isOfLibfcl(definition);
-    if (reached) chosen = openBack(back);
+    if (reached) {
+      const Opened opened = openBack(back);
+      chosen = opened.calls;
+      forks = opened.forks;
+    }
     if (!chosen) chosen = &back.fcl;
     calls.store(chosen, std::memory_order_release);
   }

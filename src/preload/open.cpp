@@ -100,6 +100,8 @@ struct ReportAtExit {
 } report_at_exit;
 
 constexpr Calls kCalls = {&collideObjects, &collide, &distanceObjects, &distance};
+constexpr Forks kForks = {[] { back->twins.beforeFork(); }, [] { back->twins.afterFork(); },
+                          [] { back->twins.afterForkInChild(); }};
 constexpr Calls kWatched = {&collideObjectsWatched, &collideWatched, &distanceObjectsWatched,
                             &distanceWatched};
 
@@ -107,11 +109,11 @@ constexpr Calls kWatched = {&collideObjectsWatched, &collideWatched, &distanceOb
 }  // namespace kios::preload
 
 /// To be called once.
-extern "C" __attribute__((visibility("default"))) const kios::preload::Calls* fcl_kios_preload_open(
+extern "C" __attribute__((visibility("default"))) kios::preload::Opened fcl_kios_preload_open(
     const kios::preload::Start* start) {
   using namespace kios::preload;
   back = new Back(*start);
-  if (start->mode != Mode::kVerify && start->mode != Mode::kStats) return &kCalls;
+  if (start->mode != Mode::kVerify && start->mode != Mode::kStats) return {&kCalls, kForks};
   watch = new Watch(*back);
-  return &kWatched;
+  return {&kWatched, kForks};
 }

@@ -92,12 +92,12 @@ Mode modeOfEnvironment() {
   return Mode::kOff;
 }
 
-const Calls* openBack(const Start& start) {
+Opened openBack(const Start& start) {
   // Beside this library: fcl_kios/libfcl_kios_preload_back.so.
   char path[PATH_MAX + 64];
   if (!realpath(fileOf(here()), path)) {
     say("nothing is done: this library's own place is not known.");
-    return nullptr;
+    return {};
   }
   char* const slash = std::strrchr(path, '/');
   std::strcpy(slash ? slash + 1 : path, "fcl_kios/libfcl_kios_preload_back.so");
@@ -106,7 +106,7 @@ const Calls* openBack(const Start& start) {
   if (!open) {
     const char* const why = dlerror();
     say("nothing is done: ", why ? why : path);
-    return nullptr;
+    return {};
   }
   return reinterpret_cast<Open>(open)(&start);
 }

@@ -23,7 +23,7 @@ void say(const char* words, const char* more = "", const char* end = "");
 /// What FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
 Mode modeOfEnvironment();
 
-/// Opens the back and returns its calls; nullptr, and says why, if it can't.
-const Calls* openBack(const Start& start);
+/// Opens the back; no calls, and says why, if it can't.
+Opened openBack(const Start& start);
 
 }  // namespace kios::preload

@@ -121,6 +121,8 @@ struct Twins::Table {
   };
   Set sets[kSets];
   std::mutex changing;
+  std::atomic<int> makers{0};  ///< threads in make(): they lock more than `changing`
+  std::atomic<bool> forking{false};
   std::atomic<std::uint32_t> clock{1};  ///< of queries that FCL answered for want of a twin
   std::uint32_t num_serials = 0;
   std::size_t bytes = 0, count = 0;
@@ -267,7 +269,9 @@ Twins::Twins(const Start& start)
     : mode_(start.mode),
       fits_(*start.fits),
       limit_(limitOfEnvironment()),
-      table_(std::make_unique<Table>()) {}
+      table_(std::make_unique<Table>()) {
+  fingerprint(nullptr, 0, nullptr, 0);  // its keys, of which a fork sees all or none
+}
 Twins::~Twins() = default;
 
 Twins::Hold Twins::hold(const Mesh& mesh) {
@@ -301,6 +305,12 @@ void Twins::pay(const Mesh& mesh, double nanoseconds) {
 }
 
 void Twins::make(const Mesh& mesh) {
+  struct Maker {
+    explicit Maker(std::atomic<int>& all) : makers(all) { ++makers; }
+    ~Maker() { --makers; }
+    std::atomic<int>& makers;
+  } const maker(table_->makers);
+  if (table_->forking) return;  // another query will
   Cell* const asked = table_->find(mesh.model);
   if (!asked || asked->making.exchange(true, std::memory_order_acquire)) return;
   std::unique_ptr<Content> made = makeContent(mesh, fits_.count.load(std::memory_order_acquire));
@@ -319,6 +329,24 @@ void Twins::make(const Mesh& mesh) {
     }
   }
   asked->making.store(false, std::memory_order_release);
+}
+
+void Twins::beforeFork() {
+  table_->forking = true;
+  while (table_->makers > 0) std::this_thread::yield();
+  table_->changing.lock();  // so that no cell is closed
+}
+
+void Twins::afterFork() {
+  table_->changing.unlock();
+  table_->forking = false;
+}
+
+void Twins::afterForkInChild() {
+  for (Table::Set& set : table_->sets) {
+    for (Cell& cell : set.cells) cell.holders.store(0, std::memory_order_relaxed);
+  }
+  afterFork();
 }
 
 std::size_t Twins::count() const {

@@ -60,6 +60,12 @@ class Twins {
   /// Makes the model's twin now, unless it has a current one.
   void make(const Mesh& mesh);
 
+  /// Waits for twins that are being made; no other is until afterFork(). All that threads hold is
+  /// free in the child, which has none of them.
+  void beforeFork();
+  void afterFork();
+  void afterForkInChild();
+
   std::size_t count() const;
   std::size_t bytes() const;
 
