@@ -135,6 +135,24 @@ TEST(SolidQueries, AShapeInASolidIsInContactWithIt) {
   EXPECT_NEAR(distance(shell, kHere, ground, kHere, true), -0.1, 1e-9);
 }
 
+// Their normals are rounded on the way into the world and back.
+TEST(SolidQueries, HalfspacesAndPlanesHaveADepthInAnyPose) {
+  const auto box = solidOf(scenes::subdividedBox({2, 2, 2}, 2));
+  const fcl::Vector3d n = fcl::Vector3d(1, 2, 3).normalized();
+  const Geometry ground = std::make_shared<fcl::Halfspaced>(n, -0.9);
+  const Geometry plane = std::make_shared<fcl::Planed>(n, 0.9);
+  fcl::Transform3d X_BG = kHere;  // n is the box's z
+  X_BG.linear() = Eigen::Quaterniond::FromTwoVectors(n, fcl::Vector3d::UnitZ()).matrix();
+  scenes::Random random(5);
+  for (int i = 0; i < 50; ++i) {
+    const fcl::Vector3d axis = fcl::Vector3d(random.unit(), random.unit(), 0.1).normalized();
+    fcl::Transform3d X = at(random.uniform(-9, 9), random.uniform(-9, 9), random.uniform(-9, 9));
+    X.linear() = Eigen::AngleAxisd(random.uniform(-3, 3), axis).matrix();
+    EXPECT_NEAR(distance(box, X, ground, X * X_BG, true), -0.1, 1e-9);
+    EXPECT_NEAR(distance(box, X, plane, X * X_BG, true), -0.1, 1e-9);
+  }
+}
+
 TEST(SolidQueries, UnmarkedModelsAreAsBefore) {
   const auto a = modelOf(scenes::icosphere(2, 2)), b = modelOf(scenes::icosphere(0.5, 1));
   const auto other = solidOf(scenes::icosphere(1, 1));  // marks exist
