@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "fcl_kios/query/mesh_queries.h"
 #include "model/kios_model.h"
 #include "motion/shape_gap.h"
 #include "query/bracket.h"
@@ -31,6 +32,14 @@ double ballBound(const BodyData& shape, const fcl::Transform3d& X_WS, const Eige
 Eigen::Vector3d unitOrZero(const Eigen::Vector3d& v) {
   const double length = v.norm();
   return length > 0x1p-500 ? Eigen::Vector3d(v / length) : Eigen::Vector3d::Zero();
+}
+
+/// What fcl::distance() gives. Searches that begin or end otherwise may find another of two pairs
+/// of triangles that are equally near, and so differ by a rounding.
+double distanceOfQuery(const Modeld& a, const fcl::Transform3d& X_WA, const Modeld& b,
+                       const fcl::Transform3d& X_WB) {
+  fcl::DistanceResultd result;
+  return distanceMeshes(a, X_WA, b, X_WB, fcl::DistanceRequestd(), result);
 }
 
 /// The error of the distance of a mesh from a shape or a cell, L the extent (docs/shapes.md).
@@ -167,7 +176,12 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
   if (answer.triangle_a >= 0) {
     pair.direction = unitOrZero(at.pose(a).linear() * (answer.point_b - answer.point_a));
   }
-  return {answer.lower_bound - pad, answer.distance <= min_separation_};
+  bool contact = answer.distance <= min_separation_;
+  if (contact && min_separation_ > 0 && answer.distance > min_separation_ - pad) {
+    contact =
+        distanceOfQuery(*body(a).model, at.pose(a), *body(b).model, at.pose(b)) <= min_separation_;
+  }
+  return {answer.lower_bound - pad, contact};
 }
 
 Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
@@ -194,10 +208,9 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   if (distance > min_separation_ && apart > min_separation_) return {apart, false};
   if (distance >= asked) return {apart, false};
   if (min_separation_ > 0) {
-    if (distance > min_separation_) {
+    if (distance > min_separation_ - error) {  // as fcl::distance() finds it
       request.rel_err = 0;
       result = fcl::DistanceResultd();
-      result.min_distance = distance;
       distance = search();
     }
     return {distance - error, distance <= min_separation_};
