@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The four functions that stand in for libfcl's.
+#include <cstdint>
+#include <cstdlib>
+
 #include <pthread.h>
 
 #include "preload/calls.h"
@@ -43,37 +46,98 @@ void readEnvironment() {
 /// Also called by the first query, which another library's constructor may make before this one.
 __attribute__((constructor)) void start() { pthread_once(&started, &readEnvironment); }
 
-template <typename Call>
-void find(Call& call, const char* name, const void* caller) {
-  call = reinterpret_cast<Call>(nextDefinition(name, caller));
+/// In the place of a function that nobody can call, as the caller's FCL has none.
+void undefined() {
+  say("a function of FCL is called that its library lacks.");
+  std::abort();
 }
 
-/// At the first query: FCL's own functions, and the back's unless FCL is another one.
+template <typename Call>
+void find(Call& call, const char* name, const void* caller) {
+  void* const found = findDefinition(name, caller);
+  call = reinterpret_cast<Call>(found ? found : reinterpret_cast<void*>(&undefined));
+}
+
+/// The calls of a place in the code, by its return address, where no FCL is in the global scope:
+/// plug-ins may each have one of their own. Their files stay loaded, as findDefinition() opens
+/// them.
+struct Site {
+  const void* caller;
+  Calls fcl;
+  const Calls* calls;
+};
+constexpr std::size_t kSites = 1 << 10, kTried = 8;
+std::atomic<Site*> sites[kSites];
+
+std::atomic<Site*>& siteAt(const void* caller, std::size_t i) {
+  const auto address = reinterpret_cast<std::uintptr_t>(caller);
+  return sites[((address * 0x9E3779B97F4A7C15U >> 40) + i) % kSites];
+}
+
+const Calls* callsOf(const void* caller) {
+  for (std::size_t i = 0; i < kTried; ++i) {
+    const Site* const site = siteAt(caller, i).load(std::memory_order_acquire);
+    if (!site) break;
+    if (site->caller == caller) return site->calls;
+  }
+  return nullptr;
+}
+
+/// The back's calls, opened at most once, if these are libfcl's and the mode isn't kOff.
+const Calls* backOf(const Calls& fcl) {
+  static bool opened = false;
+  static const Calls* of_back = nullptr;
+  static Start back;
+  if (mode == Mode::kOff) return nullptr;
+  for (const void* const definition : {reinterpret_cast<const void*>(fcl.collide_objects),
+                                       reinterpret_cast<const void*>(fcl.collide),
+                                       reinterpret_cast<const void*>(fcl.distance_objects),
+                                       reinterpret_cast<const void*>(fcl.distance)}) {
+    if (!isOfLibfcl(definition)) return nullptr;
+  }
+  if (!opened) {
+    opened = true;
+    back.fcl = fcl;
+    back.mode = mode;
+    back.fits = &fits();
+    const Opened now = openBack(back);
+    of_back = now.calls;
+    forks = now.forks;
+  }
+  return of_back;
+}
+
+/// At the first query of a process, or of a place in it: FCL's own functions, and the back's if
+/// they are libfcl's.
 const Calls* choose(const void* caller) {
   start();
   pthread_mutex_lock(&choosing);
   const Calls* chosen = calls.load(std::memory_order_relaxed);
+  if (!chosen) chosen = callsOf(caller);
   if (!chosen) {
-    static Start back;
-    find(back.fcl.collide_objects, KIOS_COLLIDE_OBJECTS, caller);
-    find(back.fcl.collide, KIOS_COLLIDE, caller);
-    find(back.fcl.distance_objects, KIOS_DISTANCE_OBJECTS, caller);
-    find(back.fcl.distance, KIOS_DISTANCE, caller);
-    back.mode = mode;
-    back.fits = &fits();
-    const void* const all[] = {reinterpret_cast<const void*>(back.fcl.collide_objects),
-                               reinterpret_cast<const void*>(back.fcl.collide),
-                               reinterpret_cast<const void*>(back.fcl.distance_objects),
-                               reinterpret_cast<const void*>(back.fcl.distance)};
-    bool reached = mode != Mode::kOff;
-    for (const void* const definition : all) reached = reached && isOfLibfcl(definition);
-    if (reached) {
-      const Opened opened = openBack(back);
-      chosen = opened.calls;
-      forks = opened.forks;
+    auto* const site = static_cast<Site*>(std::malloc(sizeof(Site)));
+    if (!site) std::abort();
+    site->caller = caller;
+    find(site->fcl.collide_objects, KIOS_COLLIDE_OBJECTS, caller);
+    find(site->fcl.collide, KIOS_COLLIDE, caller);
+    find(site->fcl.distance_objects, KIOS_DISTANCE_OBJECTS, caller);
+    find(site->fcl.distance, KIOS_DISTANCE, caller);
+    chosen = backOf(site->fcl);
+    if (!chosen) chosen = &site->fcl;
+    site->calls = chosen;
+    bool kept = chosen == &site->fcl;
+    if (isGlobal(KIOS_COLLIDE)) {
+      calls.store(chosen, std::memory_order_release);
+    } else {
+      for (std::size_t i = 0; i < kTried; ++i) {
+        std::atomic<Site*>& place = siteAt(caller, i);
+        if (place.load(std::memory_order_relaxed)) continue;
+        place.store(site, std::memory_order_release);
+        kept = true;
+        break;
+      }
     }
-    if (!chosen) chosen = &back.fcl;
-    calls.store(chosen, std::memory_order_release);
+    if (!kept) std::free(site);
   }
   pthread_mutex_unlock(&choosing);
   return chosen;
@@ -81,10 +145,13 @@ const Calls* choose(const void* caller) {
 
 }  // namespace
 
-// Written out where the caller's place is known; it is asked for once.
+// Written out where the caller's place is known.
 #define KIOS_CALLS()                                           \
   const Calls* chosen = calls.load(std::memory_order_acquire); \
-  if (__builtin_expect(!chosen, 0)) chosen = choose(__builtin_return_address(0))
+  if (__builtin_expect(!chosen, 0)) {                          \
+    chosen = callsOf(__builtin_return_address(0));             \
+    if (!chosen) chosen = choose(__builtin_return_address(0)); \
+  }
 
 #define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
 
@@ -99,25 +166,25 @@ double distance(const Geometry*, const Pose&, const Geometry*, const Pose&, cons
 
 std::size_t collideObjects(const Object* a, const Object* b, const CollisionRequest& request,
                            CollisionResult& result) {
-  KIOS_CALLS();
+  KIOS_CALLS()
   return chosen->collide_objects(a, b, request, result);
 }
 
 std::size_t collide(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
                     const CollisionRequest& request, CollisionResult& result) {
-  KIOS_CALLS();
+  KIOS_CALLS()
   return chosen->collide(a, X_WA, b, X_WB, request, result);
 }
 
 double distanceObjects(const Object* a, const Object* b, const DistanceRequest& request,
                        DistanceResult& result) {
-  KIOS_CALLS();
+  KIOS_CALLS()
   return chosen->distance_objects(a, b, request, result);
 }
 
 double distance(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
                 const DistanceRequest& request, DistanceResult& result) {
-  KIOS_CALLS();
+  KIOS_CALLS()
   return chosen->distance(a, X_WA, b, X_WB, request, result);
 }
 

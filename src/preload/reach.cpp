@@ -41,12 +41,18 @@ void say(const char* words, const char* more, const char* end) {
   std::fprintf(stderr, "fcl_kios_preload: %s%s%s\n", words, more, end);
 }
 
-void* nextDefinition(const char* name, const void* caller) {
+bool isGlobal(const char* name) { return dlsym(RTLD_NEXT, name) != nullptr; }
+
+void* findDefinition(const char* name, const void* caller) {
   if (void* const next = dlsym(RTLD_NEXT, name)) return next;
-  if (void* const loaded = find(kLibfcl, name)) return loaded;
   if (void* const own = find(fileOf(caller), name)) {
     if (baseOf(own) != baseOf(here())) return own;
   }
+  return find(kLibfcl, name);
+}
+
+void* nextDefinition(const char* name, const void* caller) {
+  if (void* const found = findDefinition(name, caller)) return found;
   say("there is no other definition of ", name, ".");
   std::abort();
 }

@@ -7,9 +7,13 @@
 namespace kios::preload {
 
 /// The definition of a symbol that this library stands before: the next in the order of the global
-/// scope, else libfcl.so.0.7's wherever it was loaded, else that which the caller's own library
-/// would have found. Ends the program if there is none, which the loader rules out.
+/// scope, else that which the caller's own library would have found, else libfcl.so.0.7's wherever
+/// it was loaded; nullptr if there is none.
+void* findDefinition(const char* name, const void* caller);
+/// The same; ends the program if there is none, which the loader rules out for what is called.
 void* nextDefinition(const char* name, const void* caller);
+/// Whether the definition is one for all callers, in the global scope.
+bool isGlobal(const char* name);
 
 /// Whether a definition of nextDefinition() is libfcl.so.0.7's.
 bool isOfLibfcl(const void* definition);
