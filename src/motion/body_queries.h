@@ -42,6 +42,11 @@ class BodyQueries {
   /// time; false if that would take a query as long as ask().
   bool touching(const Pair& pair, const Configuration& at) const;
 
+  /// Of the bodies' balls.
+  double smallerRadius(const Pair& pair) const {
+    return std::min(body(pair.a).content.radius, body(pair.b).content.radius);
+  }
+
   /// Throws std::invalid_argument if no query serves the pair.
   void requireServed(int a, int b) const;
 

@@ -18,16 +18,17 @@ Matrix3d rotationAbout(const Vector3d& axis, double angle) {
 }
 
 void requireCoordinates(const Eigen::VectorXd& q, int size, const char* name) {
+  if (q.size() == size && (size == 0 || q.lpNorm<Eigen::Infinity>() <= 0x1p300) && q.allFinite()) {
+    return;
+  }
   std::ostringstream message;
   if (q.size() != size) {
     message << "fcl_kios: " << name << " has " << q.size() << " coordinates, but the linkage "
             << size << ".";
   } else if (!q.allFinite()) {
     message << "fcl_kios: a coordinate of " << name << " is NaN or infinite.";
-  } else if (!(q.size() == 0 || q.lpNorm<Eigen::Infinity>() <= 0x1p300)) {
-    message << "fcl_kios: a coordinate of " << name << " is too large.";
   } else {
-    return;
+    message << "fcl_kios: a coordinate of " << name << " is too large.";
   }
   throw std::invalid_argument(message.str());
 }
@@ -69,6 +70,7 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
         (body.X_LB.translation().norm() + body.reach + link.offsets + sums[body.link].travel) *
         (1 + 0x1p-50);
     share.level = link.level + 2;
+    largest_level_ = std::max(largest_level_, share.level);
     share.slack = (sums[body.link].angles * share.length + sums[body.link].shifts) * (1 + 0x1p-50);
   }
 }

@@ -65,6 +65,11 @@ class Path {
     const Share& share = shares_[slot(body)];
     return 0x1p-43 * (share.level + 2) * (share.length + linkage_.farthest_obstacle) + share.slack;
   }
+  /// Of two carried bodies these sum to at least their pad.
+  double padShare(int body) const {
+    const Share& share = shares_[slot(body)];
+    return 0x1p-42 * largest_level_ * share.length + share.slack;
+  }
   /// A bound of the rounding of the distance of a body's content from an axis.
   double axisRounding(int body) const { return 0x1p-43 * shares_[slot(body)].level * length(body); }
   /// >= the square of the Frobenius norm of E = R^T R - I of a body's pose.
@@ -87,6 +92,7 @@ class Path {
   const Eigen::VectorXd &q0_, &q1_;
   std::vector<double> rates_;  // by coordinate
   std::vector<Share> shares_;  // of all obstacles, then by carried body
+  double largest_level_ = 2;
 };
 
 /// The motion of a body near a configuration, seen from the link that carries another body as well:

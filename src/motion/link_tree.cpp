@@ -283,29 +283,25 @@ int Linkage::Impl::shared(int link_a, int link_b) const {
                           a.begin());
 }
 
-void Linkage::Impl::addPairs(int body, const ObstacleBox& box) {
+void Linkage::Impl::addPairs(int body, const articulated::ObstacleBox& box) {
   const BodyData& data = bodies[body];
+  const auto meet = [&](int other) { return data.meets && bodies[other].meets; };
   if (data.link < 0) {
-    obstacles.push_back(box);
     if (!data.meets) return;
-    for (CarriedBody& other : carried) {
-      if (!bodies[other.body].meets) continue;
-      other.obstacles.push_back(box);
-      ++num_pairs;
-    }
+    obstacles.push_back(box);
+    obstacle_tree.reset();
+    for (const CarriedBody& other : carried) num_pairs += meet(other.body) ? 1 : 0;
     return;
   }
   CarriedBody added;
   added.body = body;
-  for (const ObstacleBox& obstacle : obstacles) {
-    if (data.meets && bodies[obstacle.body].meets) added.obstacles.push_back(obstacle);
-  }
+  if (data.meets) num_pairs += static_cast<long long>(obstacles.size());
   for (const CarriedBody& other : carried) {
     const BodyData& with = bodies[other.body];
-    if (!data.meets || !with.meets || with.link == data.link) continue;
-    added.others.push_back({other.body, shared(with.link, data.link)});
+    const bool checked = meet(other.body) && with.link != data.link;
+    added.shared.push_back(checked ? shared(with.link, data.link) : CarriedBody::kNever);
+    num_pairs += checked ? 1 : 0;
   }
-  num_pairs += static_cast<long long>(added.obstacles.size() + added.others.size());
   carried.push_back(std::move(added));
 }
 
@@ -315,19 +311,19 @@ void Linkage::Impl::allow(int a, int b) {
     refuse("a pair of bodies is allowed of which one was not added: " + std::to_string(a) +
            " and " + std::to_string(b) + ".");
   }
-  const auto drop = [this](auto& partners, int body) {
-    const auto at = std::find_if(partners.begin(), partners.end(),
-                                 [body](const auto& partner) { return partner.body == body; });
-    if (at == partners.end()) return;
-    partners.erase(at);
-    --num_pairs;
-  };
-  for (CarriedBody& body : carried) {
-    if (body.body != a && body.body != b) continue;
-    const int other = body.body == a ? b : a;
-    drop(body.obstacles, other);
-    drop(body.others, other);
+  if (bodies[a].carried < bodies[b].carried) std::swap(a, b);
+  if (a == b || bodies[a].carried < 0) return;
+  CarriedBody& body = carried[bodies[a].carried];
+  if (bodies[b].carried >= 0) {
+    int& joints = body.shared[bodies[b].carried];
+    if (joints != CarriedBody::kNever) --num_pairs;
+    joints = CarriedBody::kNever;
+    return;
   }
+  const auto at = std::lower_bound(body.allowed.begin(), body.allowed.end(), b);
+  if (at != body.allowed.end() && *at == b) return;
+  body.allowed.insert(at, b);
+  if (bodies[a].meets && bodies[b].meets) --num_pairs;
 }
 
 }  // namespace kios

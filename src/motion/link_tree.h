@@ -10,6 +10,7 @@
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/motion/linkage.h"
 #include "motion/content_bound.h"
+#include "motion/obstacle_tree.h"
 #include "motion/support.h"
 #include "solid/solid.h"
 
@@ -54,23 +55,15 @@ struct BodyData {
   const void* vertices = nullptr;
 };
 
-/// A box around an obstacle's content in the world; the whole world around an unbounded one.
-struct ObstacleBox {
-  double low[3], high[3];
-  int body;
-};
-
-/// A body on another link. The first `shared` moving joints on the ways from the world to both
-/// links are the same ones: they move both bodies alike.
-struct Partner {
-  int body, shared;
-};
-
 /// A body on a link, and those with which it must not come into contact.
 struct CarriedBody {
   int body;
-  std::vector<ObstacleBox> obstacles;
-  std::vector<Partner> others;  ///< carried before it
+  std::vector<int> allowed;  ///< obstacles that it may touch, ascending
+  /// By the bodies that are carried before it: the first `shared` moving joints on the ways from
+  /// the world to both links are the same ones, and move both bodies alike. kNever if the pair
+  /// isn't checked.
+  std::vector<int> shared;
+  static constexpr int kNever = -1;
 };
 
 struct Scratch;
@@ -100,7 +93,8 @@ class Linkage::Impl {
   std::vector<articulated::BodyData> bodies;
   /// The pairs to be checked: all but those of one link and those that are allowed.
   std::vector<articulated::CarriedBody> carried;
-  std::vector<articulated::ObstacleBox> obstacles;  ///< all
+  std::vector<articulated::ObstacleBox> obstacles;  ///< of those that anything can meet
+  articulated::LazyObstacleTree obstacle_tree;
   int coordinates = 0;
   int num_motions = 1;  ///< of bodies in a configuration: one by each moving joint, and one more
   long long num_pairs = 0;

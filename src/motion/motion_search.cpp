@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kCached = 16;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 // Root volumes that prove so much of an interval spare it a query.
 constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
@@ -31,17 +32,6 @@ double middleOf(double from, double to) {
     if (s <= high) return s;
   }
   return middle;
-}
-
-/// The squared distance of a point from a box; 0 inside.
-double squaredDistance(const Eigen::Vector3d& p, const ObstacleBox& box) {
-  double square = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double below = box.low[i] - p[i], above = p[i] - box.high[i];
-    const double outside = below > above ? below : above, off = outside > 0 ? outside : 0;
-    square += off * off;
-  }
-  return square;
 }
 
 }  // namespace
@@ -92,71 +82,55 @@ const Configuration& MotionSearch::at(double s) {
   return cache_[place];
 }
 
-/// Calls visit(pair) for every pair that its balls and boxes don't prove apart for `time` to both
-/// sides of a configuration.
-template <typename Visit>
-void MotionSearch::forNearPairs(const Configuration& c, double time, const Visit& visit) {
-  const Linkage::Impl& linkage = path_.linkage();
-  for (const CarriedBody& carried : linkage.carried) {
-    const int id = carried.body;
-    const BodyData& body = linkage.bodies[id];
-    const Eigen::Vector3d& center = c.center(id);
-    const double reach = request_.min_separation + body.content.radius;
-    if (!carried.obstacles.empty()) {
-      const double far = body.bounded ? reach + path_.padOfObstacles(id) +
-                                            (time > 0 ? c.motion(id, 0).during(time) : 0)
-                                      : kInfinity;
-      for (const ObstacleBox& box : carried.obstacles) {
-        if (squaredDistance(center, box) > far * far) continue;
-        visit(Pair{std::min(id, box.body), std::max(id, box.body), 0});
-      }
-    }
-    for (const Partner& other : carried.others) {
-      const BodyData& with = linkage.bodies[other.body];
-      double least = reach + path_.pad(id, other.body) + with.content.radius;
-      if (time > 0) {
-        least += c.motion(id, other.shared).during(time) +
-                 c.motion(other.body, other.shared).during(time);
-      }
-      if (body.bounded && with.bounded &&
-          (center - c.center(other.body)).squaredNorm() > least * least) {
-        continue;
-      }
-      visit(Pair{std::min(id, other.body), std::max(id, other.body), other.shared});
-    }
-  }
-}
-
 // Most pairs are so far apart at the middle of the path that half of it doesn't bring them
-// together.
+// together. A short path is seen through from its end, which was looked at.
 void MotionSearch::findSuspects() {
-  const Configuration& middle = at(0.5);
-  forNearPairs(middle, 0.5, [&](const Pair& pair) {
+  constexpr std::size_t kFew = 12;
+  std::vector<Pair>& pairs = scratch_->pairs;
+  const auto gather = [&](double s, double time, std::size_t most) {
+    pairs.clear();
+    scratch_->near_pairs.forEach(path_, at(s), request_.min_separation, time, most,
+                                 [&](const Pair& pair) { pairs.push_back(pair); });
+  };
+  found_at_ = 0.5;
+  if (looked_at_end_) {
+    gather(1, 1, kFew);
+    if (pairs.size() <= kFew) found_at_ = 1;
+  }
+  if (found_at_ != 1) gather(0.5, 0.5, kAll);
+  const Configuration& c = at(found_at_);
+  const double time = found_at_;
+  for (const Pair& pair : pairs) {
     queries_.requireServed(pair.a, pair.b);
-    const PairMotion motion(middle.motion(pair.a, pair.shared), middle.motion(pair.b, pair.shared));
-    const double moved = motion.during(0.5) + request_.min_separation;
-    const double roots = queries_.rootBound(pair, middle, moved);
-    if (roots > moved) return;
+    const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
+    const double moved = motion.during(time) + request_.min_separation;
+    const double roots = queries_.rootBound(pair, c, moved);
+    if (roots > moved) continue;
     suspects_.push_back({pair, roots});
-    waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, roots - moved});
-  });
+    waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, found_at_, roots - moved});
+  }
   counts_.proven_at_once = counts_.pairs - static_cast<long long>(suspects_.size());
 }
 
-// The deepest pairs first.
+// First the pairs whose volumes overlap most for their size: they are in contact more often than
+// not, and no slab is looked for between those that overlap deeply.
 bool MotionSearch::touchingAt(double s) {
+  constexpr double kDeep = -0.4;
   const Configuration& c = at(s);
   std::vector<Suspect>& near = scratch_->near;
   near.clear();
-  forNearPairs(c, 0, [&](const Pair& pair) {
+  const auto visit = [&](const Pair& pair) {
     queries_.requireServed(pair.a, pair.b);
     const double roots = queries_.rootBound(pair, c, 0);
-    if (roots <= 0) near.push_back({pair, roots});
-  });
+    if (roots <= 0)
+      near.push_back({pair, roots / std::max(queries_.smallerRadius(pair), 0x1p-500)});
+  };
+  scratch_->near_pairs.forEach(path_, c, 0, 0, kAll, visit);
   std::sort(near.begin(), near.end(),
             [](const Suspect& a, const Suspect& b) { return a.roots < b.roots; });
   for (Suspect& suspect : near) {
-    if (queries_.slab(suspect.pair, c, 0) > 0 || !queries_.touching(suspect.pair, c)) continue;
+    if (suspect.roots > kDeep && queries_.slab(suspect.pair, c, 0) > 0) continue;
+    if (!queries_.touching(suspect.pair, c)) continue;
     suspects_.assign(1, suspect);
     end_ = {MotionVerdict::kContact, s, s, 0};
     return true;
@@ -204,13 +178,13 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pai
 MotionSearch::Look MotionSearch::look(const Task& task) {
   using Outcome = Look::Outcome;
   Pair& pair = suspects_[task.suspect].pair;
-  const double s = middleOf(task.from, task.to);
+  const double s = task.look_at;
   const Configuration& c = at(s);
   const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
   const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
   const double moved = motion.during(half), enough = request_.min_separation + moved;
   const double roots =
-      s == 0.5 ? suspects_[task.suspect].roots : queries_.rootBound(pair, c, enough);
+      s == found_at_ ? suspects_[task.suspect].roots : queries_.rootBound(pair, c, enough);
   const double roots_left = roots - request_.min_separation;
   if (roots_left > moved || (roots_left > 0 && roots_left > kRootsShare * moved)) {
     return proven(task, s, roots, motion);
@@ -222,8 +196,9 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
       before.to - before.from > kSlabShare * (task.to - task.from)) {
     return before;
   }
-  if (roots <= 0 && before.outcome == Outcome::kUndecided && queries_.touching(pair, c)) {
-    return {Outcome::kContact, s, s, s, 0};
+  if (found_at_ == 1 && s == 1 && task.from == 0) {  // a query tells more in the middle
+    if (before.outcome == Outcome::kPart) return before;
+    return {Outcome::kPart, s, s, s, 0};
   }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
@@ -254,7 +229,12 @@ void MotionSearch::anyContact() {
   const auto push = [&](int suspect, double from, double to, const Look& look) {
     if (!(from < to)) return;
     if (end_.suspect >= 0 && to - from < kShort) return;
-    waiting_.push_back({suspect, from, to, look.way - 0.5 * (to - from)});
+    // What is short for the way that was proven nearby is likely to be proven from an end of the
+    // path, where other pairs are looked at too.
+    constexpr double kLikely = 0.7;
+    const bool near = to - from < kLikely * look.way;
+    const double at = near && to == 1 ? 1 : near && from == 0 ? 0 : middleOf(from, to);
+    waiting_.push_back({suspect, from, to, at, look.way - 0.5 * (to - from)});
     std::push_heap(waiting_.begin(), waiting_.end());
   };
   while (!waiting_.empty()) {
@@ -302,7 +282,7 @@ void MotionSearch::firstContactOf(int suspect) {
   const auto limit = [&] {
     return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
   };
-  std::vector<Task> stack = {{suspect, 0, limit()}};
+  std::vector<Task> stack = {{suspect, 0, limit(), 0}};
   while (!stack.empty()) {
     Task task = stack.back();
     stack.pop_back();
@@ -314,23 +294,24 @@ void MotionSearch::firstContactOf(int suspect) {
       end_.from = task.from;
       continue;
     }
+    task.look_at = middleOf(task.from, task.to);
     const Look result = look(task);
     if (result.outcome == Outcome::kContact) {
       const bool starts = task.from == 0 && result.s > 0 && contactAt(0, suspect);
       end_ = {MotionVerdict::kContact, task.from, starts ? 0 : result.s, suspect};
       if (end_.to == 0) return;
-      stack.push_back({suspect, task.from, end_.to});
+      stack.push_back({suspect, task.from, end_.to, 0});
     } else if (result.outcome == Outcome::kPart &&
                task.to - task.from > kApproach * request_.resolution) {
-      if (result.to < task.to) stack.push_back({suspect, result.to, task.to});
-      if (task.from < result.from) stack.push_back({suspect, task.from, result.from});
+      if (result.to < task.to) stack.push_back({suspect, result.to, task.to, 0});
+      if (task.from < result.from) stack.push_back({suspect, task.from, result.from, 0});
     } else if (result.outcome != Outcome::kProven) {
       const double half = 0.25 * request_.resolution;  // so that repeated steps end
       const double from = std::max(task.from, result.s - half),
                    to = std::min(limit(), result.s + half);  // a task may be shorter
       const bool touches = contactAt(to, suspect);
       end_ = {touches ? MotionVerdict::kContact : MotionVerdict::kUnresolved, from, to, suspect};
-      stack.push_back({suspect, task.from, touches ? to : from});
+      stack.push_back({suspect, task.from, touches ? to : from, 0});
     }
   }
 }
@@ -340,6 +321,7 @@ MotionAnswer MotionSearch::run() {
     findSuspects();
     firstContact();
   } else if (request_.min_separation > 0 || !touchingAt(1)) {
+    looked_at_end_ = !(request_.min_separation > 0);
     findSuspects();
     // Where much is left to be proven, a few looks for contacts cost little beside it.
     const bool look = suspects_.size() > kMany && !(request_.min_separation > 0);

@@ -6,14 +6,14 @@
 #include <memory>
 #include <vector>
 
-#include "motion/body_queries.h"
+#include "motion/near_pairs.h"
 
 namespace kios::articulated {
 
 /// A pair that its bounding volumes don't prove for the whole path at once.
 struct Suspect {
   Pair pair;
-  double roots;  ///< rootBound() in the middle of the path
+  double roots;  ///< rootBound() where the suspects were found
 };
 
 /// An interval that is not proven yet for a suspect. The task whose distance falls short of its
@@ -21,6 +21,7 @@ struct Suspect {
 struct Task {
   int suspect;
   double from, to;
+  double look_at;     ///< in the interval
   double margin = 0;  ///< distance less motion, by what is known of a configuration nearby
   bool operator<(const Task& o) const { return margin > o.margin; }
 };
@@ -29,7 +30,9 @@ struct Task {
 struct Scratch {
   std::vector<Configuration> configurations;
   std::vector<Suspect> suspects, near;
+  std::vector<Pair> pairs;
   std::vector<Task> waiting;
+  NearPairs near_pairs;
 };
 
 /// The search for a contact on a path, or for the proof that there is none. A pair of bodies that
@@ -60,8 +63,6 @@ class MotionSearch {
   };
 
   const Configuration& at(double s);
-  template <typename Visit>
-  void forNearPairs(const Configuration& c, double time, const Visit& visit);
   void findSuspects();
   bool touchingAt(double s);
   Look look(const Task& task);
@@ -82,6 +83,8 @@ class MotionSearch {
   std::vector<Configuration>& cache_;
   std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
   std::vector<Suspect>& suspects_;
+  bool looked_at_end_ = false;
+  double found_at_ = 0.5;  ///< the configuration in which suspects_ were found
   std::vector<Task>& waiting_;
   End end_;
 };

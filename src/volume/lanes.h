@@ -41,6 +41,15 @@ inline bool any(Int4 mask) {
 #endif
 }
 
+/// The lanes that a mask sets, the first in bit 0.
+inline unsigned int bits(Int4 mask) {
+#if defined(__SSE2__)
+  return static_cast<unsigned int>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  return (mask[0] & 1U) | (mask[1] & 2U) | (mask[2] & 4U) | (mask[3] & 8U);
+#endif
+}
+
 /// Lane-wise maximum; b where a is NaN.
 inline Float4 max(Float4 a, Float4 b) {
 #if defined(__SSE2__)
