@@ -26,6 +26,35 @@ struct Edges {
   Vector3d along[3], normal;
 };
 
+/// The caps of a volume that is turned by R, its centre at `center`; their radii are returned. Caps
+/// that k doesn't count repeat the central sphere.
+Eigen::Array4d capsOf(const kIOSd& bv, const Eigen::Matrix3d& R, const Vector3d& center,
+                      Eigen::Array4d* caps) {
+  const double unit = scaled(1.0, bv.exponent);
+  const Eigen::Array4d x = Eigen::Map<const Eigen::Array4f>(bv.cap_x).cast<double>() * unit;
+  const Eigen::Array4d y = Eigen::Map<const Eigen::Array4f>(bv.cap_y).cast<double>() * unit;
+  const Eigen::Array4d z = Eigen::Map<const Eigen::Array4f>(bv.cap_z).cast<double>() * unit;
+  for (int c = 0; c < 3; ++c) caps[c] = R(c, 0) * x + R(c, 1) * y + R(c, 2) * z + center[c];
+  return Eigen::Map<const Eigen::Array4f>(bv.cap_r).cast<double>() * unit;
+}
+
+/// True if any pair of spheres with a cap in it is proven apart; a has `k` spheres.
+bool capsApart(int k, const MovingBall& central_a, const FourBalls& caps_a,
+               const MovingBall& central_b, const FourBalls& caps_b, const RelativeVelocities& v,
+               double duration) {
+  if (v.anyApart(central_a, caps_b, duration) || v.anyApart(central_b, caps_a, duration)) {
+    return true;
+  }
+  for (int i = 0; i < k - 1; ++i) {
+    const MovingBall cap = {{caps_a.center[0][i], caps_a.center[1][i], caps_a.center[2][i]},
+                            caps_a.radius[i],
+                            {caps_a.velocity[0][i], caps_a.velocity[1][i], caps_a.velocity[2][i]},
+                            caps_a.acceleration[i]};
+    if (v.anyApart(cap, caps_b, duration)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool MovingMeshes::touching(double t) {
@@ -36,6 +65,8 @@ bool MovingMeshes::touching(double t) {
 
 // By the engine, as soon as it has paid to prepare both models.
 double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
+  time_ = t;
+  chords_.forget();
   const long long tests = counts_.volume_tests + 4 * counts_.leaf_tests;
   const long long more = tests - std::exchange(spent_, tests);
   bool paid = true;
@@ -79,38 +110,110 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
   return 2;
 }
 
+// Where bodies hardly turn, velocities tell as much and round less.
+bool MovingMeshes::useChords(const RelativeVelocities& v, double duration) {
+  constexpr double kTurn = 0x1p-3;
+  if (!(duration * v.turn() > kTurn)) return false;
+  if (chords_.duration() != duration) chords_.set(motion_, time_, duration);
+  return true;
+}
+
+bool MovingMeshes::nodesStayApart(NodePair pair, const RelativeVelocities& v) const {
+  constexpr int kEnds = Chords::kParts + 1;
+  const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
+  const Vector3d center_b = v.pose() * b.center0;
+  Vector3d centers_a[kEnds], centers_b[kEnds];
+  const auto place = [&](int i) {
+    centers_a[i] = chords_.ofA(i).R * a.center0 + chords_.ofA(i).T;
+    centers_b[i] = chords_.ofB(i).R * b.center0 + chords_.ofB(i).T;
+  };
+  place(0);
+  place(kEnds - 1);
+  const double far_a = a.center0.lpNorm<1>() + a.radius0, far_b = b.center0.lpNorm<1>() + b.radius0;
+  const double bulge_a = chords_.bulge(v.a().acceleration(a.center0), far_a),
+               bulge_b = chords_.bulge(v.b().acceleration(center_b), far_b);
+  // By one chord first: it bulges by the square of the number of parts.
+  constexpr double kWhole = Chords::kParts * Chords::kParts;
+  if (v.apart(Chords::alongChord(centers_a[0], centers_a[kEnds - 1], a.radius0, kWhole * bulge_a),
+              Chords::alongChord(centers_b[0], centers_b[kEnds - 1], b.radius0, kWhole * bulge_b),
+              1)) {
+    return true;
+  }
+  for (int i = 1; i < kEnds - 1; ++i) place(i);
+  unsigned int open = 0;
+  for (int i = 0; i < Chords::kParts; ++i) {
+    if (v.apart(Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, bulge_a),
+                Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, bulge_b), 1)) {
+      continue;
+    }
+    open |= 1U << i;
+  }
+  if (open == 0) return true;
+  if (a.k() == 1 && b.k() == 1) return false;
+  const double reach_a = scaled(double{a.reach}, a.exponent),
+               reach_b = scaled(double{b.reach}, b.exponent);
+  const double caps_bulge_a =
+      chords_.bulge(v.a().acceleration(a.center0, reach_a), far_a + 2 * reach_a);
+  const double caps_bulge_b =
+      chords_.bulge(v.b().acceleration(center_b, reach_b), far_b + 2 * reach_b);
+  const auto capsAlong = [](const kIOSd& bv, const Chords::Place& from, const Vector3d& center_from,
+                            const Chords::Place& to, const Vector3d& center_to, double bulge) {
+    FourBalls caps;
+    caps.radius = capsOf(bv, from.R, center_from, caps.center);
+    capsOf(bv, to.R, center_to, caps.velocity);
+    for (int c = 0; c < 3; ++c) caps.velocity[c] -= caps.center[c];
+    caps.acceleration = Eigen::Array4d::Constant(2 * bulge);
+    return caps;
+  };
+  for (int i = 0; i < Chords::kParts; ++i) {
+    if ((open >> i & 1U) == 0) continue;
+    const FourBalls caps_a = capsAlong(a, chords_.ofA(i), centers_a[i], chords_.ofA(i + 1),
+                                       centers_a[i + 1], caps_bulge_a),
+                    caps_b = capsAlong(b, chords_.ofB(i), centers_b[i], chords_.ofB(i + 1),
+                                       centers_b[i + 1], caps_bulge_b);
+    if (!capsApart(a.k(), Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, bulge_a),
+                   caps_a, Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, bulge_b),
+                   caps_b, v, 1)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The nearest points at the ends of a part, and the faces' normals, propose slabs.
+bool MovingMeshes::leavesStayApart(NodePair pair, const RelativeVelocities& v) const {
+  const Chords::Triangles triangles(chords_, cornersOf(a_, a_.getBV(pair.a).primitiveId()),
+                                    cornersOf(b_, b_.getBV(pair.b).primitiveId()));
+  for (int part = 0; part < Chords::kParts; ++part) {
+    const auto stays = [&](const Vector3d& n) {
+      const Vector3d unit = n.stableNormalized();
+      return unit.squaredNorm() > 0 && (chords_.slabStays(v, triangles, part, unit) ||
+                                        chords_.slabStays(v, triangles, part, -unit));
+    };
+    const auto &p = triangles.of_a[part], &q = triangles.of_b[part];
+    const TriangleDistance<double> nearest = triangleDistance(p, q);
+    if (!(nearest.distance > 0)) return false;
+    if (!stays(nearest.point_b - nearest.point_a) && !stays((p[1] - p[0]).cross(p[2] - p[0])) &&
+        !stays((q[1] - q[0]).cross(q[2] - q[0]))) {
+      return false;
+    }
+  }
+  return true;
+}
+
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
+  if (useChords(v, duration)) return nodesStayApart(pair, v);
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
   const double stretch = 1 + v.stretch();
   const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
   const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
   if (v.apart(central_a, central_b, duration)) return true;
-  // All other pairs of spheres; caps that k doesn't count repeat the central sphere.
   if (a.k() == 1 && b.k() == 1) return false;
-  const auto capsOf = [](const kIOSd& bv, const Eigen::Matrix3d& R, const Vector3d& center,
-                         Eigen::Array4d* caps) {
-    const double unit = scaled(1.0, bv.exponent);
-    const Eigen::Array4d x = Eigen::Map<const Eigen::Array4f>(bv.cap_x).cast<double>() * unit;
-    const Eigen::Array4d y = Eigen::Map<const Eigen::Array4f>(bv.cap_y).cast<double>() * unit;
-    const Eigen::Array4d z = Eigen::Map<const Eigen::Array4f>(bv.cap_z).cast<double>() * unit;
-    for (int c = 0; c < 3; ++c) caps[c] = R(c, 0) * x + R(c, 1) * y + R(c, 2) * z + center[c];
-    return Eigen::Array4d(Eigen::Map<const Eigen::Array4f>(bv.cap_r).cast<double>() * unit);
-  };
   Eigen::Array4d centers[3];
   const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
   const FourBalls caps_b = v.ballsOfB(centers, radii_b);
-  if (v.anyApart(central_a, caps_b, duration)) return true;
   const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
-  const FourBalls caps_a = v.ballsOfA(centers, radii_a);
-  if (v.anyApart(central_b, caps_a, duration)) return true;
-  for (int i = 0; i < a.k() - 1; ++i) {
-    const MovingBall cap = {{caps_a.center[0][i], caps_a.center[1][i], caps_a.center[2][i]},
-                            caps_a.radius[i],
-                            {caps_a.velocity[0][i], caps_a.velocity[1][i], caps_a.velocity[2][i]},
-                            caps_a.acceleration[i]};
-    if (v.anyApart(cap, caps_b, duration)) return true;
-  }
-  return false;
+  return capsApart(a.k(), central_a, v.ballsOfA(centers, radii_a), central_b, caps_b, v, duration);
 }
 
 double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
@@ -118,20 +221,21 @@ double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, dou
   const auto q = transformed(cornersOf(b_, b_.getBV(pair.b).primitiveId()), v.pose());
   const TriangleDistance<double> nearest = triangleDistance(p, q);
   if (!(nearest.distance > 0)) return 0;
+  if (useChords(v, enough) && leavesStayApart(pair, v)) return enough;
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
   // The distance is off by 32 u of the pair's extent, which the pad for rounding covers.
   double best =
       v.apartTime(v.ballOfA(a.center0, a.radius0),
                   v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())), nearest.distance);
   const Vector3d witness = (nearest.point_b - nearest.point_a).stableNormalized();
-  if (best < enough) best = std::max(best, v.slabTime(witness, p, q));
+  if (best < enough) best = std::max(best, v.slabTime(witness, p, q, enough));
   // The slab that lasts longest need not be the widest one: a body that slides along a face stays
   // on its side of it, and a body that passes an edge stays on its side of a plane through the edge
   // and the velocity.
   const auto attempt = [&](const Vector3d& normal) {
     if (best >= enough) return;
     const Vector3d n = normal.stableNormalized();
-    best = std::max(best, v.slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), p, q));
+    best = std::max(best, v.slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), p, q, enough));
   };
   const Edges edges_p(p), edges_q(q);
   attempt(edges_p.normal);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/pair_query.h"
+#include "motion/chords.h"
 #include "motion/pair_search.h"
 
 namespace kios::continuous {
@@ -21,9 +22,15 @@ class MovingMeshes final : public PairSearch {
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
   double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
   int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+  /// Sets chords_ if they bound the motion better than velocities do, and returns whether.
+  bool useChords(const RelativeVelocities& v, double duration);
+  bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
+  bool leavesStayApart(NodePair pair, const RelativeVelocities& v) const;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
   const Modeld &a_, &b_;
+  double time_ = 0;                  ///< of the step
+  Chords chords_;                    ///< of the step, until duration() after it
   engine::TrianglePairIds nearest_;  ///< at the last step
   long long spent_ = 0;              ///< tests that the models' trees know of
 };

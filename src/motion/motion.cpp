@@ -214,12 +214,14 @@ bool Motion::still() const {
 // of a step; their velocities have fewer. Rotations: ten roundings an entry, and an angle that is
 // known to u angle; arms are turned likewise.
 double Motion::rounding(double reach) const {
-  if (kind_ == Kind::kSpline) {
-    return 64 * kUlpDouble * (largest(Td_) + (2 + 8 * largest(Rd_)) * reach);
-  }
-  const double angle = std::abs(angle_);
-  return kUlpDouble *
-         (16 * (T0_.norm() + velocity_.norm()) + 64 * ((2 + angle) * reach + angle * arm_.norm()));
+  const double turned = turnRounding() * reach;
+  if (kind_ == Kind::kSpline) return 64 * kUlpDouble * largest(Td_) + turned;
+  return kUlpDouble * (16 * (T0_.norm() + velocity_.norm()) + 64 * std::abs(angle_) * arm_.norm()) +
+         turned;
+}
+
+double Motion::turnRounding() const {
+  return 64 * kUlpDouble * (2 + (kind_ == Kind::kSpline ? 8 * largest(Rd_) : std::abs(angle_)));
 }
 
 void Motion::check() const {

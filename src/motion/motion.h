@@ -46,6 +46,8 @@ class Motion {
   /// Bounds the rounding error of the place of a point within `reach` of the body's origin, at any
   /// time, plus that of its velocity times a time of at most 1.
   double rounding(double reach) const;
+  /// The part of it that a unit of `reach` adds.
+  double turnRounding() const;
 
  private:
   enum class Kind { kTwist, kSpline };

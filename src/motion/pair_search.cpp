@@ -18,8 +18,10 @@ double reachOf(const Modeld& model) {
 // whenever it has cost its budget of tests. What was pruned before stays apart. The budget doubles
 // with each halving, and for the next step: else pairs of which no step is cheap would get ever
 // shorter ones, never reach the end, and count as contact. What the pair as a whole is proven apart
-// for tells how long a step should be looked for: more of it as long as that costs little.
-double PairSearch::apartFor(double t) {
+// for tells how long a step should be looked for: more of it as long as that costs little. Where a
+// search gets no farther than as many of those short steps as it costs, some of them are taken
+// instead, more each time.
+double PairSearch::apartFor(double t, double enough) {
   if (motion_.still()) return 1;
   const double left = 1 - t;
   const double window = motion_.steady() ? left : std::min(left, window_);
@@ -27,6 +29,12 @@ double PairSearch::apartFor(double t) {
 
   const double whole = std::min(window, wholeApart(t, v));
   if (whole >= left) return left;
+  constexpr double kShortest = 0x1p-13;  // so that steps stay few
+  if (spared_ > 0 && whole >= std::max(enough, kShortest)) {
+    --spared_;
+    window_ = std::min(1.0, std::max(window_, 8 * whole));
+    return whole;
+  }
   const double most = whole > 0 ? std::max(slide_, reach_ * whole) : window;
 
   // The pair that ended the last step will probably end this one: it gives a first upper bound.
@@ -65,6 +73,10 @@ double PairSearch::apartFor(double t) {
   if (h >= 0.7 * most && (most == slide_ || cost < kCheap)) {
     (most == slide_ ? slide_ : reach_) *= 2;
   }
+  constexpr double kCostOfWhole = 20;  // in tests
+  constexpr int kLongestPause = 31;
+  const bool paid = !(whole * static_cast<double>(cost) > h * kCostOfWhole);
+  spared_ = pause_ = paid ? 0 : std::min(2 * pause_ + 1, kLongestPause);
   h = std::max(h, whole);
   window_ = std::min(1.0, 8 * h);
   last_step_ = h;

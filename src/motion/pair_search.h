@@ -19,7 +19,7 @@ double reachOf(const Modeld& model);
 /// detection of polygonal models" (2009).
 class PairSearch : public MovingPair {
  public:
-  double apartFor(double t) final;
+  double apartFor(double t, double enough) final;
 
  protected:
   struct NodePair {
@@ -50,7 +50,8 @@ class PairSearch : public MovingPair {
   double window_ = 1, last_step_ = 1;
   // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.
   double reach_ = 1.25, slide_ = 0x1p-6;
-  NodePair last_ = {-1, -1};  ///< leaves that ended the last step
+  int spared_ = 0, pause_ = 0;  ///< searches to be spared after one that didn't pay, and next time
+  NodePair last_ = {-1, -1};    ///< leaves that ended the last step
   std::vector<NodePair> stack_;
 };
 

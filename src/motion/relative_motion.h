@@ -44,10 +44,12 @@ class RelativeVelocities {
   bool anyApart(const MovingBall& ball, const FourBalls& four, double duration) const;
   /// The time for which the contents of two balls are proven apart that are `gap` apart at t.
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
-  /// The time for which no point of A's polygon reaches a point of B's, by the slab between them
-  /// across n (of any length near 1); 0 if none is between them.
+  /// The time for which no point of A's triangle reaches a point of B's, by the slab between them
+  /// across n (of any length near 1); 0 if none is between them. Any time of at least `enough`,
+  /// which is at most the window, will do.
   template <typename VerticesA, typename VerticesB>
-  double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b) const;
+  double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b,
+                  double enough) const;
 
   /// The motion of the points of a ball of B as seen from body A, which may turn, within
   /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
@@ -57,6 +59,8 @@ class RelativeVelocities {
   };
   Drift driftFromA(const Eigen::Vector3d& center, double radius, double duration,
                    const Eigen::Vector3d* n = nullptr) const;
+  const VelocityField& a() const { return a_; }
+  const VelocityField& b() const { return b_; }
   /// Velocity of A's point at x less that of B's.
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const { return a_.at(x) - b_.at(x); }
 
@@ -94,6 +98,8 @@ class RelativeMotion {
   RelativeVelocities at(double t, double window) const { return {a_, b_, t, window, pad_}; }
   const Motion& a() const { return a_; }
   const Motion& b() const { return b_; }
+  /// Of places, for a unit of the distance from the bodies' origins.
+  double turnRounding() const { return a_.turnRounding() + b_.turnRounding(); }
   bool steady() const { return a_.steady() && b_.steady(); }
   bool still() const { return a_.still() && b_.still(); }
 
@@ -102,24 +108,58 @@ class RelativeMotion {
   double pad_;
 };
 
+// Each vertex has its own speed. What is left of the slab after a time is a minimum of lines less a
+// parabola, and so concave: between a time where some is left and one where none is, its chord lies
+// below it, and ends at a time for which the slab lasts.
 template <typename VerticesA, typename VerticesB>
 double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a,
-                                    const VerticesB& b) const {
+                                    const VerticesB& b, double enough) const {
   const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
-  double high_a = -std::numeric_limits<double>::infinity(), speed_a = high_a, acceleration_a = 0;
-  double low_b = -high_a, speed_b = -high_a, acceleration_b = 0;
-  for (const Eigen::Vector3d& x : a) {
-    high_a = std::max(high_a, n.dot(x));
-    speed_a = std::max(speed_a, turn_a.dot(x - a_.origin));  // n . (w x r) = (n x w) . r
-    acceleration_a = std::max(acceleration_a, a_.accelerationAlong(n, x, 0));
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double closing = n.dot(a_.linear - b_.linear);
+  double at_a[3], speed_a[3], at_b[3], speed_b[3], acceleration_a = 0, acceleration_b = 0;
+  double high_a = -kInfinity, low_b = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    at_a[k] = n.dot(a[k]);
+    at_b[k] = n.dot(b[k]);
+    high_a = std::max(high_a, at_a[k]);
+    low_b = std::min(low_b, at_b[k]);
   }
-  for (const Eigen::Vector3d& x : b) {
-    low_b = std::min(low_b, n.dot(x));
-    speed_b = std::min(speed_b, turn_b.dot(x - b_.origin));
-    acceleration_b = std::max(acceleration_b, b_.accelerationAlong(n, x, 0));
+  const double gap = low_b - high_a - pad_;
+  if (!(gap > 0)) return 0;
+  double fastest_a = -kInfinity, slowest_b = kInfinity, sizes = 0, speeds = std::abs(closing);
+  for (int k = 0; k < 3; ++k) {
+    speed_a[k] = turn_a.dot(a[k] - a_.origin);  // n . (w x r) = (n x w) . r
+    speed_b[k] = turn_b.dot(b[k] - b_.origin);
+    fastest_a = std::max(fastest_a, speed_a[k]);
+    slowest_b = std::min(slowest_b, speed_b[k]);
+    acceleration_a = std::max(acceleration_a, a_.accelerationAlong(n, a[k], 0));
+    acceleration_b = std::max(acceleration_b, b_.accelerationAlong(n, b[k], 0));
+    sizes += std::abs(at_a[k]) + std::abs(at_b[k]);
+    speeds += std::abs(speed_a[k]) + std::abs(speed_b[k]);
   }
-  return closingTime(low_b - high_a - pad_, n.dot(a_.linear - b_.linear) + (speed_a - speed_b),
-                     acceleration_a + acceleration_b);
+  const double acceleration = acceleration_a + acceleration_b;
+  const double least = closingTime(gap, closing + (fastest_a - slowest_b), acceleration);
+  if (least >= enough) return least;
+  const auto leftAfter = [&](double s) {
+    const double high =
+        std::max({at_a[0] + s * speed_a[0], at_a[1] + s * speed_a[1], at_a[2] + s * speed_a[2]});
+    const double low =
+        std::min({at_b[0] + s * speed_b[0], at_b[1] + s * speed_b[1], at_b[2] + s * speed_b[2]});
+    return low - high - s * (closing + 0.5 * s * acceleration) - pad_;
+  };
+  double over = enough, left_over = leftAfter(over);
+  const double slack = 0x1p-49 * (sizes + over * (speeds + over * acceleration));  // of leftAfter()
+  if (left_over > slack) return enough;
+  double time = least, left = leftAfter(least);
+  for (int step = 0; step < 4 && left > slack; ++step) {
+    const double next = time + (over - time) * (left - slack) / (left - left_over) * (1 - 0x1p-40);
+    const double left_next = leftAfter(next);
+    if (!(left_next > slack) || !(next > time)) break;
+    time = next;
+    left = left_next;
+  }
+  return time;
 }
 
 template <typename Support, typename Vertices>
