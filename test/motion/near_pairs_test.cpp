@@ -56,7 +56,10 @@ TEST(ObstacleTree, FindsAllThatIsNear) {
       boxes.push_back(box);
     }
     const ObstacleTree tree(boxes);
-    const Vector3d p = point(random, 1.3 * scale);
+    Vector3d p = point(random, 1.3 * scale);
+    if (!boxes.empty() && i % 9 == 0 && boxes[0].high[0] < kInfinity) {  // beside a face
+      p = {boxes[0].low[0] * (1 + 1e-9), boxes[0].low[1], boxes[0].high[2]};
+    }
     double far = scale * std::pow(10, random.uniform(-4, 0.3));
     // Just near enough, where rounding could lose it.
     if (!boxes.empty() && i % 3 == 0) far = static_cast<double>(distanceTo(p, boxes[0]));
