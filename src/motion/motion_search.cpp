@@ -97,7 +97,12 @@ void MotionSearch::findSuspects() {
     gather(1, 1, kFew);
     if (pairs.size() <= kFew) found_at_ = 1;
   }
-  if (found_at_ != 1) gather(0.5, 0.5, kAll);
+  if (found_at_ != 1) {
+    gather(0.5, 0.5, kAll);
+    // Where much is left to be proven, a look for contacts costs little beside it.
+    constexpr std::size_t kMuch = 30;
+    if (looked_at_end_ && pairs.size() > kMuch && touchingAt(0.5)) return;
+  }
   const Configuration& c = at(found_at_);
   const double time = found_at_;
   for (const Pair& pair : pairs) {
@@ -323,9 +328,9 @@ MotionAnswer MotionSearch::run() {
   } else if (request_.min_separation > 0 || !touchingAt(1)) {
     looked_at_end_ = !(request_.min_separation > 0);
     findSuspects();
-    // Where much is left to be proven, a few looks for contacts cost little beside it.
     const bool look = suspects_.size() > kMany && !(request_.min_separation > 0);
-    if (!look || !(touchingAt(0.5) || touchingAt(0.25) || touchingAt(0.75))) anyContact();
+    const bool found = end_.suspect >= 0 || (look && (touchingAt(0.25) || touchingAt(0.75)));
+    if (!found) anyContact();
   }
   MotionAnswer answer;
   answer.verdict = end_.verdict;
