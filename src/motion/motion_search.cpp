@@ -201,7 +201,8 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
       before.to - before.from > kSlabShare * (task.to - task.from)) {
     return before;
   }
-  if (found_at_ == 1 && s == 1 && task.from == 0) {  // a query tells more in the middle
+  const bool splits = task.to - task.from > request_.resolution;
+  if (found_at_ == 1 && s == 1 && task.from == 0 && splits) {  // a query tells more in the middle
     if (before.outcome == Outcome::kPart) return before;
     return {Outcome::kPart, s, s, s, 0};
   }
