@@ -6,6 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "engine/weld.h"
 #include "interior/winding.h"
@@ -125,8 +126,11 @@ void Components<S>::judgeEdges() {
 
 template <typename S>
 void Components<S>::findInsideOut() {
+  std::optional<ShadowGrid> grid;
   for (int c = 0; c < closedness_.components; ++c) {
-    if (!windsInwards(c) || liesWithinOthers(c)) continue;
+    if (!windsInwards(c)) continue;
+    if (!grid) grid.emplace(mesh_);
+    if (liesWithinOthers(c, *grid)) continue;
     if (closedness_.inside_out++ == 0) {
       closedness_.first_inside_out = first_[static_cast<std::size_t>(c)];
     }
@@ -174,23 +178,21 @@ bool Components<S>::windsInwards(int component) const {
 
 /// A vertex that isn't on another component tells; if all are, nothing is proven wrong.
 template <typename S>
-bool Components<S>::liesWithinOthers(int component) const {
-  double largest = 0;
-  for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
-    largest = std::max(largest, double{mesh_.corner(t, 0).cwiseAbs().maxCoeff()});
-  }
+bool Components<S>::liesWithinOthers(int component, const ShadowGrid& grid) const {
   const auto cornersOf = [this](std::size_t t) {
     TriangleVertices<double> corners;
     for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh_.corner(t, k).template cast<double>();
     return corners;
   };
+  std::vector<std::size_t> near;
   for (const int own : trianglesOf(component)) {
     for (const Point<double>& vertex : cornersOf(static_cast<std::size_t>(own))) {
-      const RayCrossing ray(vertex, windingDirection(), largest);
+      const RayCrossing ray(vertex, windingDirection(), grid.largest());
+      grid.find(vertex, near);
       int winding = 0;
       bool on_other = false;
-      for (std::size_t t = 0; t < mesh_.num_triangles && !on_other; ++t) {
-        if (component_[t] == component) continue;
+      for (const std::size_t t : near) {
+        if (component_[t] == component || on_other) continue;
         const Crossing crossing = ray.cross(cornersOf(t));
         winding += crossing == Crossing::kForward ? 1 : 0;
         winding -= crossing == Crossing::kBackward ? 1 : 0;

@@ -7,6 +7,7 @@
 
 #include "engine/mesh.h"
 #include "fcl_kios/interior/closedness.h"
+#include "interior/shadow_grid.h"
 
 namespace kios {
 
@@ -49,7 +50,7 @@ class Components {
   void judgeEdges();
   void findInsideOut();
   bool windsInwards(int component) const;
-  bool liesWithinOthers(int component) const;
+  bool liesWithinOthers(int component, const ShadowGrid& grid) const;
 
   const engine::MeshView<S> mesh_;
   std::vector<std::uint32_t> welded_;

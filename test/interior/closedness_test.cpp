@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "interior/solid_meshes.h"
@@ -94,6 +95,31 @@ TEST(Closedness, ComponentsThatAreInsideOutAreRefused) {
                 .inside_out,
             1);
   EXPECT_TRUE(refusal(scenes::merged({ball, small})).empty());
+}
+
+// Each is asked for its place among the others, in time that hardly grows with their number.
+TEST(Closedness, OfManyCavitiesThoseOutsideAreFound) {
+  scenes::Random random(3);
+  for (const double scale : {1e-9, 1.0, 1e9}) {
+    std::vector<Mesh> parts = {scenes::subdividedBox({2, 2, 2}, 1), scenes::icosphere(1.2, 4)};
+    int outside = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const double size = std::pow(10, random.uniform(-4, -2));
+      const fcl::Vector3d at = 2 * testing::inCube(random);
+      const bool in_box = at.cwiseAbs().maxCoeff() < 1 - size;
+      const bool in_ball = at.norm() < 1.19 - size;
+      const bool out = at.cwiseAbs().maxCoeff() > 1 + size && at.norm() > 1.2 + size;
+      if (!out && !in_box && !in_ball) continue;
+      outside += out ? 1 : 0;
+      parts.push_back(testing::transformed(flipped(scenes::icosphere(1, 0)), size, at));
+    }
+    ASSERT_GT(outside, 100);
+    const Mesh mesh =
+        testing::transformed(scenes::merged(parts), scale, scale * fcl::Vector3d(3, -1, 7));
+    const Closednessd c = inspect(mesh);
+    EXPECT_EQ(c.components, static_cast<int>(parts.size()));
+    EXPECT_EQ(c.inside_out, outside) << scale;
+  }
 }
 
 TEST(Closedness, AllSheetsAtAnEdgeMustPassItBothWays) {
