@@ -3,57 +3,185 @@
 #include "interior/convexity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <utility>
+#include <vector>
 
-#include "interior/extent_along.h"
+#include <Eigen/Geometry>
+#include "engine/weld.h"
+#include "interior/winding.h"
 #include "model/prepared.h"
-#include "query/ray_walk.h"
+#include "triangle/predicates.h"
 
 namespace kios {
+namespace {
+
+using Vec = fcl::Vector3d;
+
+/// A mesh as seen from a point within, its vertices welded. Triangles with two equal corners are
+/// left out: they pass an edge once each way.
+class ConeMesh {
+ public:
+  template <typename S>
+  explicit ConeMesh(const engine::MeshView<S>& mesh) {
+    const std::vector<std::uint32_t> welded = engine::weld(mesh);
+    std::vector<int> number(mesh.num_vertices, -1);
+    faces_.reserve(mesh.num_triangles);
+    for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+      std::array<std::uint32_t, 3> v;
+      for (std::size_t k = 0; k < 3; ++k) v[k] = welded[mesh.index(t, k)];
+      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
+      std::array<int, 3>& face = faces_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        if (number[v[k]] < 0) {
+          number[v[k]] = static_cast<int>(points_.size());
+          points_.push_back(mesh.vertices[v[k]].template cast<double>());
+        }
+        face[k] = number[v[k]];
+      }
+    }
+    center_ = middle();
+    for (const Vec& p : points_) farthest_ = std::max(farthest_, (p - center_).norm());
+    farthest_ *= 1 + 0x1p-40;
+  }
+
+  const Vec& center() const { return center_; }
+  /// No vertex is farther from the centre.
+  double farthest() const { return farthest_; }
+
+  /// Six times the volume of each face's cone, at least. False if one may not be positive.
+  bool measureCones() {
+    cones_.reserve(faces_.size());
+    for (const auto& face : faces_) {
+      const Vec p = point(face[0]) - center_, q = point(face[1]) - center_,
+                r = point(face[2]) - center_;
+      const double volume = p.dot(q.cross(r)) - kError * p.norm() * q.norm() * r.norm();
+      if (!(volume > 0)) return false;
+      cones_.push_back(volume);
+    }
+    return !cones_.empty();
+  }
+
+  /// Sides by the vertex from which they run. False unless all edges have two faces.
+  bool pairSides() {
+    begin_.assign(points_.size() + 1, 0);
+    for (const auto& face : faces_) {
+      for (const int v : face) ++begin_[at(v) + 1];
+    }
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    to_.resize(3 * faces_.size());
+    face_.resize(to_.size());
+    std::vector<int> next(begin_.begin(), begin_.end() - 1);
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = at(next[at(faces_[f][k])]++);
+        to_[i] = faces_[f][(k + 1) % 3];
+        face_[i] = static_cast<int>(f);
+      }
+    }
+    edges_.reserve(to_.size() / 2);
+    for (int v = 0; v < static_cast<int>(points_.size()); ++v) {
+      for (int i = begin_[at(v)]; i < begin_[at(v) + 1]; ++i) {
+        // The other side is looked for at the end that has fewer: in all that takes O(n).
+        const int w = to_[at(i)], fewer = degree(w) - degree(v);
+        if (fewer > 0 || (fewer == 0 && w < v)) continue;
+        int twin = -1;
+        for (int j = begin_[at(w)]; j < begin_[at(w) + 1]; ++j) {
+          if (to_[at(j)] != v) continue;
+          if (twin >= 0) return false;
+          twin = j;
+        }
+        if (twin < 0) return false;
+        edges_.emplace_back(v, i, twin);
+      }
+    }
+    return 2 * edges_.size() == to_.size();
+  }
+
+  /// E. Exact signs spare edges that rounding alone may have bent; they cost more.
+  double reflexSum(bool exact) const {
+    double sum = 0;
+    for (const Edge& e : edges_) {
+      const int v = e.from, w = to_[at(e.side)];
+      const Vec &p = point(v), &q = point(w);
+      const Vec &a = point(opposite(e.side, v, w)), &b = point(opposite(e.twin, v, w));
+      const Vec along = q - p, in_a = a - p, in_b = b - p;
+      const double error =
+          kError * std::sqrt(along.squaredNorm() * in_a.squaredNorm() * in_b.squaredNorm());
+      const double above = along.cross(in_a).dot(in_b);  // six times the volume of (p, q, a, b)
+      if (above <= -error) continue;
+      if (exact && above <= error && !isAbove(p, q, a, b)) continue;
+      const double across = (p - center_).cross(q - center_).norm();
+      sum += 1.01 * (above + error) * (across + kError * farthest_ * farthest_) /
+             cones_[at(face_[at(e.side)])] / cones_[at(face_[at(e.twin)])];
+    }
+    return sum * farthest_;
+  }
+
+  VertexGraph graph() && { return {std::move(points_), std::move(begin_), std::move(to_)}; }
+
+ private:
+  /// Of determinants of differences of coordinates, relative to the product of their lengths.
+  static constexpr double kError = 0x1p-48;
+
+  struct Edge {
+    int from, side, twin;
+    Edge(int from, int side, int twin) : from(from), side(side), twin(twin) {}
+  };
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  const Vec& point(int i) const { return points_[at(i)]; }
+  int degree(int v) const { return begin_[at(v) + 1] - begin_[at(v)]; }
+  int opposite(int side, int v, int w) const {
+    const auto& f = faces_[at(face_[at(side)])];
+    return f[0] != v && f[0] != w ? f[0] : f[1] != v && f[1] != w ? f[1] : f[2];
+  }
+
+  /// Of the surface, so that it lies well within a convex solid.
+  Vec middle() const {
+    Vec sum = Vec::Zero();
+    double weight = 0;
+    for (const auto& f : faces_) {
+      const Vec &p = point(f[0]), &q = point(f[1]), &r = point(f[2]);
+      const double area = (q - p).cross(r - p).norm();
+      sum += area * ((p - point(0)) + (q - point(0)) + (r - point(0))) / 3;
+      weight += area;
+    }
+    return weight > 0 ? Vec(point(0) + sum / weight) : Vec(Vec::Zero());
+  }
+
+  static bool isAbove(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
+    const auto c = [](const Vec& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
+    const PairPredicates::Coordinates points = {c(p), c(q), c(a), c(b), c(b), c(b)};
+    return PairPredicates(points).orient3d(0, 1, 2, 3) < 0;
+  }
+
+  std::vector<Vec> points_;
+  std::vector<std::array<int, 3>> faces_;
+  std::vector<double> cones_;
+  std::vector<int> begin_, to_, face_;  ///< sides, by the vertex from which they run
+  std::vector<Edge> edges_;
+  Vec center_;
+  double farthest_ = 0;
+};
+
+}  // namespace
 
 template <typename S>
 Convexity measureConvexity(const Model<S>& model) {
-  constexpr double kMost = 0x1p-20;
-  // About the root's centre, so that models far from their origin lose no digits.
-  const kIOS<S>& root = model.getBV(0).bv;
-  const fcl::Vector3d center = root.center0.template cast<double>();
-  const double size = 2 * double{root.radius0}, largest = largestOf(model);
-  double above = 0, below = std::numeric_limits<double>::infinity(), farthest = 0;
-  fcl::Vector3d asked = fcl::Vector3d::Zero();
-  for (int t = 0; t < model.num_tris; ++t) {
-    const fcl::Triangle& ids = model.tri_indices[t];
-    if (ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0]) continue;
-    fcl::Vector3d p[3];
-    for (int k = 0; k < 3; ++k) p[k] = model.vertices[ids[k]].template cast<double>();
-    if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) continue;  // passed once each way
-    const fcl::Vector3d u = p[1] - p[0], v = p[2] - p[0], w = p[2] - p[1];
-    const double longest = std::max({u.norm(), v.norm(), w.norm()});
-    const fcl::Vector3d cross = (u / longest).cross(v / longest);
-    const double thin = cross.norm();  // the height over the longest edge, relative to it
-    if (!(thin > 0)) return {};
-    const fcl::Vector3d n = cross / thin;
-    // Edges are right to a rounding, so that the normal is off by less than 2^-48 / thin, and
-    // heights over the centre by that of the size, and by the rounding of coordinates.
-    const double error = 0x1p-48 / thin * size + 0x1p-46 * largest;
-    const double at = n.dot(p[0] - center);
-    // A flat face has many triangles, and along its normal all its vertices are farthest: what was
-    // found for nearly the same normal holds, but for the turn.
-    const double turned = (n - asked).norm() * 0.5 * size;
-    if (!(turned <= error)) {
-      asked = n;
-      farthest = farthestAlong(model, n).height - n.dot(center);
-    }
-    const double found = farthest + (turned <= error ? turned : 0.0);
-    above = std::max(above, found - at + error);
-    below = std::min(below, at - error);  // the root's centre is at height 0
-    if (!(below > 0) || !(above <= kMost * below)) return {};
-  }
-  if (!std::isfinite(below)) return {};  // sheets and needles: no inside
+  constexpr double kMost = 0x1p-20, kNothing = 0x1p-36;
+  ConeMesh mesh(viewOf(model));
+  if (!mesh.measureCones() || !mesh.pairSides()) return {};
+  double reflex = mesh.reflexSum(false);
+  if (!(reflex <= kMost)) return {};
+  if (reflex > kNothing) reflex = std::min(reflex, mesh.reflexSum(true));
+  SearchCounts unused;
+  if (placeOf(mesh.center(), model, unused).winding != 1) return {};
   Convexity result;
   result.convex = true;
-  result.moved = 1.01 * above / (above + below) * size;
-  result.graph = VertexGraph(viewOf(model));
+  result.moved = reflex * mesh.farthest();
+  result.graph = std::move(mesh).graph();
   return result;
 }
 

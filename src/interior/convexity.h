@@ -9,18 +9,22 @@ namespace kios {
 
 /// How nearly a solid is the hull of its vertices.
 ///
-/// A point strictly below the planes of all faces lies in the solid: it sees every face from
-/// within, so that all solid angles are positive, and so is their sum, 4 pi times the winding
-/// number. Let all vertices be at most e above each plane and c at least r below. Then the hull,
-/// drawn towards c by the factor 1 - s, s = e / (r + e), is below all planes: n (c + (1 - s)(v -
-/// c)) is at most s (o - r) + (1 - s)(o + e) = o.
+/// Let a point c see all faces from within, and the mesh wind round it once: then the cones from c
+/// over the faces tile space. On the cone of face i let G be g_i, the linear function of x - c that
+/// is 1 on the face's plane. G is 1 at all vertices. Where one goes from c's cone over face i to
+/// that over j, g_j - g_i grows by k times the distance from the plane through c and their edge; k
+/// < 0 where the edge is reflex. A segment from face 0 to a vertex v passes each such plane at most
+/// once, so that 1 = G(v) >= g_0(v) - E, where E is the sum of all -k > 0, times the largest |v -
+/// c|: no vertex is higher than 1 + E over any face. The hull, drawn towards c by the factor 1 / (1
+/// + E), is below all planes. A point below all planes lies in the solid: it sees each face from
+/// within, too.
 struct Convexity {
-  bool convex = false;  ///< s is at most 2^-20
+  bool convex = false;  ///< E is at most 2^-20
   double moved = 0;     ///< >= the way of any vertex of the hull to its place in the solid
   VertexGraph graph;    ///< empty unless convex
 };
 
-/// The model must be a solid of one component.
+/// The model must be a solid of one component. O(n).
 template <typename S>
 Convexity measureConvexity(const Model<S>& model);
 

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <utility>
 #include <vector>
 
-#include "engine/mesh.h"
+#include <fcl/common/types.h>
 
 namespace kios {
 
@@ -13,8 +14,10 @@ namespace kios {
 class VertexGraph {
  public:
   VertexGraph() = default;
-  template <typename S>
-  explicit VertexGraph(const engine::MeshView<S>& mesh);
+  /// The neighbours of vertex i are those from begin[i] to begin[i + 1].
+  VertexGraph(std::vector<fcl::Vector3d> points, std::vector<int> begin,
+              std::vector<int> neighbours)
+      : points_(std::move(points)), begin_(std::move(begin)), neighbours_(std::move(neighbours)) {}
 
   bool empty() const { return points_.empty(); }
   const fcl::Vector3d& point(int i) const { return points_[static_cast<std::size_t>(i)]; }

@@ -239,6 +239,43 @@ TEST(Penetration, BracketsHoldAtAllScalesAndFarAway) {
   EXPECT_NEAR(p.upper, 0.25, 1e-3);
 }
 
+// The poses are rounded by as much as the way that a gap alone would prove.
+TEST(Penetration, OddShapesAreBracketedFarAway) {
+  Random random(17);
+  const Mesh blob = scenes::bumpyBlob(), torus = scenes::bumpyTorus(400);
+  const auto a = solidOf(blob), b = solidOf(torus);
+  for (const double far : {0.0, 1e6, 1e12}) {
+    for (int i = 0; i < 8; ++i) {
+      fcl::Transform3d X_WA = testing::wholePose(random, 0.3),
+                       X_WB = testing::wholePose(random, 0.7);
+      X_WA.translation().array() += far;
+      X_WB.translation().array() += far;
+      const Penetration p = penetration<double>(*a, X_WA, *b, X_WB);
+      if (p.upper > 0) expectSound(p, blob, X_WA, torus, X_WB);
+    }
+  }
+}
+
+// A box with a dent that rounding could have made, and a spike of another solid in it.
+TEST(Penetration, AFlatDentIsNoPartOfTheSolid) {
+  for (const double dent : {1e-8, 1e-5, 1e-2}) {
+    Mesh box = scenes::subdividedBox({1, 1, 1}, 4);
+    for (fcl::Vector3d& v : box.vertices) {
+      if (v.isApprox(fcl::Vector3d(0, 0, 0.5))) v[2] -= dent;
+    }
+    Mesh spike;
+    spike.vertices = {{0, 0, 0}, {-0.1, -0.1, 1}, {0.1, -0.1, 1}, {0, 0.1, 1}};
+    spike.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
+    const auto a = solidOf(box), b = solidOf(spike);
+    const double in = 0.01 * dent;
+    const Case c = {box, spike, at(0, 0, 0), at(0, 0, 0.5 - dent - in)};
+    const Penetration p = penetration<double>(*a, c.X_WA, *b, c.X_WB);
+    EXPECT_LE(p.lower, in + 1e-13) << dent;
+    EXPECT_GT(p.upper, 0) << dent;
+    expectSound(p, c.a, c.X_WA, c.b, c.X_WB);
+  }
+}
+
 TEST(Penetration, FloatModelsAreBracketed) {
   const auto box = solidOf<float>(scenes::subdividedBox({1, 1, 1}, 2));
   const auto torus = solidOf<float>(scenes::bumpyTorus(400));
