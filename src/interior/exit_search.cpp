@@ -38,11 +38,17 @@ Vec nearestToOrigin(const std::vector<Plane>& planes) {
 template <typename S>
 class ExitSearch {
  public:
-  ExitSearch(SolidPair<S>& pair, const Exit& exit, int tests)
-      : pair_(pair), best_(exit), last_test_(static_cast<long long>(pair.tests()) + tests) {}
+  ExitSearch(SolidPair<S>& pair, const BallPairs& balls, const Exit& exit, long long last_test)
+      : pair_(pair), balls_(balls), best_(exit), last_test_(last_test) {}
 
-  Exit run(const std::vector<Vec>& directions) {
-    descend(tryDirections(directions));
+  Exit nearby(const std::vector<Vec>& directions) {
+    descend(stepOut(directions));
+    shortenToRounding();
+    return best_;
+  }
+
+  Exit anywhere(const std::vector<Vec>& directions, const std::vector<BallPairs::Way>& ways) {
+    descend(tryStarts(directions, ways));
     return best_;
   }
 
@@ -62,47 +68,96 @@ class ExitSearch {
 
   Vec rounded(const Vec& x) const { return x.template cast<S>().template cast<double>(); }
 
-  /// Along each direction a shorter way is looked for until one fails. Returns the shortest, which
-  /// isn't proven.
-  Vec tryDirections(const std::vector<Vec>& directions) {
-    Vec best = best_.translation;
-    // Bodies that only just overlap leave by a small step, though a larger one may meet something
-    // else.
+  bool seemsApart(const Vec& x) {  // balls that meet spare the search
+    return !balls_.meet(pair_.R_WA().transpose() * x) && pair_.seemsApart(x);
+  }
+
+  /// Bodies that only just overlap leave by a small step, though a larger one may meet something
+  /// else.
+  Vec stepOut(const std::vector<Vec>& directions) {
     constexpr std::size_t kFirst = 3;
+    const double length = best_.length;
     for (std::size_t i = 0; i < std::min(kFirst, directions.size()); ++i) {
-      const double length = best.norm();
-      for (double share = 1.0 / 512; share < 0.2 && !exhausted(); share *= 4) {
+      for (double share = 1.0 / 512; share < 0.6 && !exhausted(); share *= 4) {
         const Vec x = rounded(share * length * directions[i]);
-        if (!pair_.seemsApart(x)) continue;
+        if (x.norm() > 16 * pair_.rounding() && seemsApart(x)) return x;
+      }
+    }
+    return best_.translation;
+  }
+
+  /// Bodies that all but touch: the least length that can be proven.
+  void shortenToRounding() {
+    if (!(best_.length < 1e-6 * pair_.size())) return;
+    const Vec n = best_.translation / best_.length;
+    for (double length = 16 * pair_.rounding(); length < 0.5 * best_.length; length *= 4) {
+      const Vec x = rounded(length * n);
+      if (accept(x, pair_.test(x, best_.length))) return;
+    }
+  }
+
+  /// Towards the origin by a little less than the gap: surfaces stay apart as b moves by less than
+  /// their distance. Poses are rounded, so that b's true way is measured.
+  void slide(const Vec& at, const Test& test) {
+    const double length = at.norm(), step = std::min(0.98 * test.gap, length);
+    if (!(step > 1e-3 * length)) return;
+    const Vec x = rounded((1 - step / length) * at);
+    if (pair_.wayBetween(at, x) < 0.99 * test.gap - 16 * pair_.rounding()) accept(x, test);
+  }
+
+  /// test(), unless inner balls meet.
+  Test testOf(const Vec& x) {
+    if (balls_.meet(pair_.R_WA().transpose() * x)) return {};
+    return pair_.test(x, best_.length);
+  }
+
+  /// The shortest translation that seems to part the solids, of those about which their balls part.
+  Vec tryStarts(const std::vector<Vec>& directions, const std::vector<BallPairs::Way>& ways) {
+    Vec best = best_.translation;
+    const auto tryStart = [&](const Vec& start) {
+      for (const double grow : {0.95, 1.15, 1.6}) {
+        const Vec x = rounded(grow * start);
+        if (!(x.norm() < 0.97 * best.norm()) || exhausted()) break;
+        if (!(x.norm() > 16 * pair_.rounding()) || !seemsApart(x)) continue;
         best = x;
         break;
       }
-    }
-    for (const Vec& n : directions) {
-      for (double share = 0.7; !exhausted(); share = 0.5) {
-        const Vec x = rounded(share * best.norm() * n);
-        // Shorter ones can't be proven: bodies that only just touch seem apart at any length.
-        if (!(x.norm() > 16 * pair_.rounding()) || !pair_.seemsApart(x)) break;
-        best = x;
-      }
-    }
-    return relax(best);
+    };
+    for (const Vec& wall : pair_.walls()) tryStart(wall);
+    for (const Vec& start : startsOf(directions, ways)) tryStart(start);
+    return best;
   }
 
-  /// If b's way out is long for the bodies, there may be room among a's parts: b is pushed out of
-  /// what it meets, step by step.
-  Vec relax(const Vec& best) {
-    constexpr double kLong = 0.1;
-    if (!(best.norm() > kLong * pair_.size())) return best;
-    constexpr int kSteps = 6;
-    const double step = 0.6 / kSteps * best.norm();
-    Vec x = Vec::Zero();
-    for (int i = 0; i < kSteps && !exhausted(); ++i) {
-      const Vec n = pair_.pushOut(x);
-      if (n.isZero(0)) break;
-      x = rounded(x + step * n);
+  /// A few, the shortest first.
+  std::vector<Vec> startsOf(const std::vector<Vec>& directions,
+                            const std::vector<BallPairs::Way>& ways) const {
+    std::vector<Vec> starts;
+    const auto add = [&](const Vec& x_A) {
+      const Vec x = pair_.R_WA() * x_A;
+      if (!(x.norm() < best_.length)) return;
+      for (const Vec& other : starts) {
+        if ((x - other).norm() < 0.1 * best_.length) return;
+      }
+      starts.push_back(x);
+    };
+    constexpr std::size_t kStraight = 6, kBent = 3, kByContacts = 1;
+    for (std::size_t i = 0; i < std::min(kStraight, ways.size()); ++i) {
+      const Vec x = ways[i].reach * ways[i].direction;
+      add(x);
+      if (i < kBent) add(balls_.escape(0.5 * x, balls_.gap()));
     }
-    return x.norm() > 0 && x.norm() < best.norm() && pair_.seemsApart(x) ? x : best;
+    for (std::size_t i = 0; i < std::min(kByContacts, directions.size()); ++i) {
+      const Vec n = pair_.R_WA().transpose() * directions[i];
+      add(balls_.reach(n, 0) * n);
+      for (const double grown : {0.0, balls_.gap()}) {
+        add(balls_.escape(1e-3 * pair_.size() * n, grown));
+      }
+    }
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Vec& a, const Vec& b) { return a.norm() < b.norm(); });
+    constexpr std::size_t kMost = 6;
+    if (starts.size() > kMost) starts.resize(kMost);
+    return starts;
   }
 
   // The planes between nearest points bound where b may go without passing a there, as long as it
@@ -118,11 +173,12 @@ class ExitSearch {
     if (!test.apart) {
       at = best_.translation;
       test = pair_.test(at, best_.length);
+      if (test.nearest) best_.on_a = test.on_a;
     }
     accept(at, test);
     constexpr double kEnough = 0.98;
     constexpr std::size_t kPlanes = 6;
-    for (int idle = 0; idle < 2 && !exhausted();) {
+    while (!exhausted()) {
       const double before = best_.length;
       if (test.nearest) {
         best_.on_a = test.on_a;
@@ -139,28 +195,24 @@ class ExitSearch {
         if (!(guess.norm() < kEnough * best_.length)) break;
       }
       guess = rounded(guess);
-      Vec high = guess;
-      bool found = pair_.seemsApart(guess);
-      for (int i = 0; i < 3 && !found && !exhausted(); ++i) {
-        const Vec middle = rounded(0.5 * (at + high));
-        if (pair_.seemsApart(middle)) {
-          found = true;
-          guess = middle;
-        } else {
-          high = middle;
-        }
+      Test next = testOf(guess);
+      for (int i = 0; i < 2 && !next.apart && !exhausted(); ++i) {
+        guess = rounded(0.5 * (at + guess));
+        next = testOf(guess);
       }
-      if (!found) break;
-      const Test next = pair_.test(guess, best_.length);
-      if (!next.apart) break;
+      if (!next.apart) {
+        slide(at, test);
+        break;
+      }
       at = guess;
       test = next;
       accept(at, test);
-      idle = best_.length < kEnough * before ? 0 : idle + 1;
+      if (!(best_.length < kEnough * before)) break;
     }
   }
 
   SolidPair<S>& pair_;
+  const BallPairs& balls_;
   Exit best_;
   const long long last_test_;
 };
@@ -168,30 +220,49 @@ class ExitSearch {
 }  // namespace
 
 template <typename S>
-Exit leaveHull(SolidPair<S>& pair, const Differences<S>& differences, const Vec& direction,
-               double reach) {
-  const Vec n = (pair.R_WA().transpose() * direction).normalized();
-  const double length = differences.height(n);
+Exit goAlong(SolidPair<S>& pair, const Vec& n, double length, double reach) {
   double margin = 8 * pair.rounding();
   constexpr int kTries = 60;
   for (int i = 0; i < kTries; ++i, margin *= 4) {
-    const Vec x = ((std::max(length, 0.0) + margin) * (pair.R_WA() * n))
-                      .template cast<S>()
-                      .template cast<double>();
+    const Vec x = ((std::max(length, 0.0) + margin) * n).template cast<S>().template cast<double>();
     const auto test = pair.test(x, reach);
     if (test.apart) return {x, x.norm(), test.on_a};
   }
   throw std::logic_error("fcl_kios: no translation parts the hulls of two solids.");
 }
 
+// From b's centre c beyond a's, at the origin: |c + length n| = size.
 template <typename S>
-Exit shorten(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>& directions, int tests) {
-  return ExitSearch<S>(pair, exit, tests).run(directions);
+Exit leaveRoots(SolidPair<S>& pair, const Vec& direction) {
+  const PairFrame<S>& frame = pair.frame();
+  const Vec a = frame.rootA().center0.template cast<double>(),
+            b = frame.rootB().center0.template cast<double>();
+  const Vec n = direction.normalized(), c = pair.R_WA() * (pair.R_AB() * b + pair.T_AB() - a);
+  const double middle = n.dot(c);
+  const double square = pair.size() * pair.size() - c.squaredNorm() + middle * middle;
+  return goAlong(pair, n, std::sqrt(std::max(square, 0.0)) - middle + 1e-6 * pair.size(), 0);
 }
 
-#define KIOS_INSTANTIATE(S)                                                          \
-  template Exit leaveHull(SolidPair<S>&, const Differences<S>&, const Vec&, double); \
-  template Exit shorten(SolidPair<S>&, const Exit&, const std::vector<Vec>&, int);
+template <typename S>
+Exit leaveNearby(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>& directions,
+                 const BallPairs& balls, long long last_test) {
+  return ExitSearch<S>(pair, balls, exit, last_test).nearby(directions);
+}
+
+template <typename S>
+Exit leaveAnywhere(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>& directions,
+                   const std::vector<BallPairs::Way>& ways, const BallPairs& balls,
+                   long long last_test) {
+  return ExitSearch<S>(pair, balls, exit, last_test).anywhere(directions, ways);
+}
+
+#define KIOS_INSTANTIATE(S)                                                                        \
+  template Exit goAlong(SolidPair<S>&, const Vec&, double, double);                                \
+  template Exit leaveRoots(SolidPair<S>&, const Vec&);                                             \
+  template Exit leaveNearby(SolidPair<S>&, const Exit&, const std::vector<Vec>&, const BallPairs&, \
+                            long long);                                                            \
+  template Exit leaveAnywhere(SolidPair<S>&, const Exit&, const std::vector<Vec>&,                 \
+                              const std::vector<BallPairs::Way>&, const BallPairs&, long long);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

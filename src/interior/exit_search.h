@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "interior/minkowski_hull.h"
+#include "interior/ball_pairs.h"
 #include "interior/solid_pair.h"
 
 namespace kios {
@@ -16,18 +16,28 @@ struct Exit {
   fcl::Vector3d on_a = fcl::Vector3d::Zero();  ///< a's point nearest to b then, in the world
 };
 
-/// b leaves a's hull along `direction` (in the world, unit): the length that suffices, and a little
-/// more for rounding. Nearest points are looked for up to `reach`. Throws std::logic_error if that
-/// isn't proven, which can't be.
+/// b goes `length` along n (in the world, unit), which suffices to leave a, and a little farther
+/// for rounding. Nearest points are looked for up to `reach`. Throws std::logic_error if that isn't
+/// proven, which can't be.
 template <typename S>
-Exit leaveHull(SolidPair<S>& pair, const Differences<S>& differences,
-               const fcl::Vector3d& direction, double reach);
+Exit goAlong(SolidPair<S>& pair, const fcl::Vector3d& n, double length, double reach);
 
-/// Shortens an exit: along `directions` (in the world, unit), and then by steps into the gap that
-/// is left, towards the origin as far as the planes between nearest points allow that were met on
-/// the way. `tests` bounds its tests.
+/// b's root volume leaves a's: longer than from hull to hull, but found at once.
 template <typename S>
-Exit shorten(SolidPair<S>& pair, const Exit& exit, const std::vector<fcl::Vector3d>& directions,
-             int tests);
+Exit leaveRoots(SolidPair<S>& pair, const fcl::Vector3d& direction);
+
+/// Shortens an exit by small steps along `directions` (in the world, unit), and by steps into the
+/// gap that is left, towards the origin as far as the planes between nearest points allow that were
+/// met on the way. Ends once the pair's tests number `last_test`.
+template <typename S>
+Exit leaveNearby(SolidPair<S>& pair, const Exit& exit, const std::vector<fcl::Vector3d>& directions,
+                 const BallPairs& balls, long long last_test);
+
+/// The same, from where the solids' inner balls part.
+template <typename S>
+Exit leaveAnywhere(SolidPair<S>& pair, const Exit& exit,
+                   const std::vector<fcl::Vector3d>& directions,
+                   const std::vector<BallPairs::Way>& ways, const BallPairs& balls,
+                   long long last_test);
 
 }  // namespace kios

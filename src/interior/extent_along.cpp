@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fcl_kios/volume/rigid.h"
+#include "volume/balls.h"
 
 namespace kios {
 namespace {
@@ -19,11 +20,12 @@ double heightOf(const kIOS<S>& bv, const fcl::Vector3d& n, double length) {
   const fcl::Vector3d center = bv.center0.template cast<double>();
   const double middle = detail::dot(n, center);
   double height = middle + length * double{bv.radius0};
-  const double unit = std::ldexp(1.0, bv.exponent);
-  for (int i = 0; i + 1 < bv.k(); ++i) {
-    const double cap = n[0] * bv.cap_x[i] + n[1] * bv.cap_y[i] + n[2] * bv.cap_z[i];
-    height = std::min(height, middle + unit * (cap + length * bv.cap_r[i]));
-  }
+  // Caps that k doesn't count repeat the first sphere.
+  using Caps = Eigen::Array<float, kIOS<S>::kCaps, 1>;
+  const auto at = [](const float* v) { return Eigen::Map<const Caps>(v).template cast<double>(); };
+  const auto cap = n[0] * at(bv.cap_x) + n[1] * at(bv.cap_y) + n[2] * at(bv.cap_z);
+  const double unit = scaled(1, bv.exponent);
+  height = std::min(height, middle + unit * (cap + length * at(bv.cap_r)).minCoeff());
   return height;
 }
 

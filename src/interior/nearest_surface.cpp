@@ -9,6 +9,7 @@
 
 #include "fcl_kios/triangle/distance.h"
 #include "query/ray_walk.h"
+#include "volume/balls.h"
 #include "volume/error_bounds.h"
 
 namespace kios {
@@ -21,12 +22,14 @@ double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double enough) {
                z = p[2] - double{bv.center0[2]};
   double bound = std::sqrt(x * x + y * y + z * z) - double{bv.radius0};
   if (bound >= enough) return bound;
-  const double unit = std::ldexp(1.0, bv.exponent);
-  for (int i = 0; i + 1 < bv.k(); ++i) {
-    const double u = x - unit * bv.cap_x[i], v = y - unit * bv.cap_y[i], w = z - unit * bv.cap_z[i];
-    bound = std::max(bound, std::sqrt(u * u + v * v + w * w) - unit * bv.cap_r[i]);
-  }
-  return bound;
+  // Caps that k doesn't count repeat the first sphere.
+  using Caps = Eigen::Array<float, kIOS<S>::kCaps, 1>;
+  const double unit = scaled(1, bv.exponent);
+  const auto at = [unit](const float* v) {
+    return unit * Eigen::Map<const Caps>(v).template cast<double>();
+  };
+  const auto u = x - at(bv.cap_x), v = y - at(bv.cap_y), w = z - at(bv.cap_z);
+  return std::max(bound, ((u * u + v * v + w * w).sqrt() - at(bv.cap_r)).maxCoeff());
 }
 
 /// The nearest point of a segment.
@@ -81,7 +84,7 @@ double surfaceError(const Model<S>& model, const fcl::Vector3d& p) {
 
 template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
-                              double enough) {
+                              double enough, double least) {
   NearestSurface best;
   double left_out = std::numeric_limits<double>::infinity(), prune_at = enough;
   struct Waiting {
@@ -121,15 +124,17 @@ NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, dou
     if (!(near.distance < best.upper)) continue;
     best.upper = near.distance;
     best.point = near.at;
+    if (best.upper < least) return best;
     prune_at = std::min(prune_at, best.upper * (1 - rel_err));
   }
   best.lower = std::max(0.0, std::min(left_out, best.upper) - surfaceError(model, p));
   return best;
 }
 
-#define KIOS_INSTANTIATE(S)                                            \
-  template double surfaceError(const Model<S>&, const fcl::Vector3d&); \
-  template NearestSurface nearestSurface(const Model<S>&, const fcl::Vector3d&, double, double);
+#define KIOS_INSTANTIATE(S)                                                                     \
+  template double surfaceError(const Model<S>&, const fcl::Vector3d&);                          \
+  template NearestSurface nearestSurface(const Model<S>&, const fcl::Vector3d&, double, double, \
+                                         double);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

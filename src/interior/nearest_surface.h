@@ -16,10 +16,11 @@ struct NearestSurface {
 };
 
 /// For a point in the model's frame: lower >= upper (1 - rel_err) but for rounding, or lower >=
-/// enough, at which the search ends.
+/// enough, at which the search ends. It also ends once `upper` is below `least`; lower is then 0.
 template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
-                              double enough = std::numeric_limits<double>::infinity());
+                              double enough = std::numeric_limits<double>::infinity(),
+                              double least = 0);
 
 /// What `lower` pays for rounding.
 template <typename S>

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
 
+#include "interior/ball_pairs.h"
 #include "interior/common_center.h"
 #include "interior/containment.h"
 #include "interior/exit_search.h"
@@ -44,28 +46,19 @@ class PenetrationQuery {
     const bool convex = shape_a.convex && shape_b.convex;
     const Differences<S> differences(frame.a, shape_a.graph, frame.b, shape_b.graph, pair_.R_AB(),
                                      pair_.T_AB());
-    double lower = 0;
-    Vec direction = Vec::Zero();
     if (convex) {
       constexpr int kPoints = 128;
       constexpr double kShare = 0.9;
       const HullDepth hull =
           hullDepth(differences, pair_.size(), kShare * options_.rel_gap, kPoints);
-      direction = pair_.R_WA() * hull.normal;
-      lower = hull.lower;
+      lower_ = lowerOfHulls(hull.lower);
+      exit_ = leaveHulls(differences, hull.normal.isZero(0)
+                                          ? pair_.exitDirections()
+                                          : std::vector<Vec>{pair_.R_WA() * hull.normal});
+    } else {
+      search(differences);
     }
-    std::vector<Vec> directions;
-    if (direction.isZero(0)) {
-      directions = pair_.exitDirections();
-      direction = shortest(differences, directions);
-    }
-    exit_ = leaveHull(pair_, differences, direction.normalized(), convex ? pair_.size() : 0);
-    if (convex) lower_ = lowerOfHulls(lower);
-    if (!closed()) {
-      if (!convex) exit_ = shorten(pair_, exit_, directions, options_.max_tests);
-      lower_ = std::max(lower_, inWorld(depthOfBalls(pair_, exit_.on_a, exit_.translation,
-                                                     exit_.length / (1 + options_.rel_gap))));
-    }
+    if (!closed()) raiseLower(true);
     Penetration result;
     if (partedByFace(pair_, exit_.length)) return result;
     result.upper = exit_.length;
@@ -76,19 +69,52 @@ class PenetrationQuery {
   }
 
  private:
-  /// Of the first few directions, that along which b leaves a's hull soonest.
-  Vec shortest(const Differences<S>& differences, const std::vector<Vec>& directions) const {
-    constexpr std::size_t kFew = 2;
+  /// By the one of the first few directions along which b leaves a's hull soonest.
+  Exit leaveHulls(const Differences<S>& differences, const std::vector<Vec>& directions) {
+    constexpr std::size_t kFew = 3;
     Vec best = Vec::UnitX();
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {
-      const double height =
-          differences.height((pair_.R_WA().transpose() * directions[i]).normalized());
+      const Vec n = (pair_.R_WA().transpose() * directions[i]).normalized();
+      const double height = differences.height(n);
       if (!(height < least)) continue;
       least = height;
-      best = directions[i];
+      best = n;
     }
-    return best;
+    return goAlong(pair_, pair_.R_WA() * best, least, pair_.size());
+  }
+
+  /// Of solids that are not both convex. Those that overlap by little may leave as hulls do, or
+  /// nearby; others leave where their inner balls part.
+  void search(const Differences<S>& differences) {
+    const std::vector<Vec> directions = pair_.exitDirections();
+    const BallPairs balls(pair_);
+    common_ = balls.common();
+    const long long last_test = static_cast<long long>(pair_.tests()) + options_.max_tests;
+    const bool deep = balls.meet(Vec::Zero());
+    if (!deep) {
+      exit_ = leaveHulls(differences, directions);
+      raiseLower(false);
+      if (closed()) return;
+      exit_ = leaveNearby(pair_, exit_, directions, balls, last_test);
+      raiseLower(false);
+      if (closed()) return;
+    }
+    std::vector<Vec> in_a;
+    constexpr std::size_t kFew = 3;
+    for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {
+      in_a.push_back(pair_.R_WA().transpose() * directions[i]);
+    }
+    const std::vector<BallPairs::Way> ways = balls.ways(in_a);
+    if (deep) exit_ = leaveRoots(pair_, pair_.R_WA() * ways.front().direction);
+    exit_ = leaveAnywhere(pair_, exit_, directions, ways, balls, last_test);
+  }
+
+  /// By balls: at the exit's ends, or `fully` by a search between them.
+  void raiseLower(bool fully) {
+    lower_ = std::max(lower_,
+                      inWorld(depthOfBalls(pair_, exit_.on_a, exit_.translation,
+                                           exit_.length / (1 + options_.rel_gap), fully, common_)));
   }
 
   bool closed() const { return exit_.length <= (1 + options_.rel_gap) * lower_; }
@@ -111,6 +137,7 @@ class PenetrationQuery {
   const PenetrationOptions& options_;
   Exit exit_;
   double lower_ = 0;
+  std::optional<Vec> common_;  ///< a point in an inner ball of each, in a's frame
 };
 
 }  // namespace

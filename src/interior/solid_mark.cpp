@@ -77,10 +77,16 @@ SolidState<S>::SolidState(const Model<S>& model) {
 
 template <typename S>
 const Convexity& SolidState<S>::convexity(const Model<S>& model) const {
-  std::call_once(once_, [&] {
+  std::call_once(convexity_known_, [&] {
     if (closedness_.components == 1) convexity_ = measureConvexity(model);
   });
   return convexity_;
+}
+
+template <typename S>
+const InnerBalls& SolidState<S>::balls(const Model<S>& model) const {
+  std::call_once(balls_known_, [&] { balls_ = innerBalls(model); });
+  return balls_;
 }
 
 template <typename S>

@@ -12,6 +12,7 @@
 #include "engine/tree_cache.h"
 #include "fcl_kios/interior/closedness.h"
 #include "interior/convexity.h"
+#include "interior/inner_balls.h"
 
 namespace kios {
 
@@ -28,12 +29,14 @@ class SolidState {
   const std::vector<Extremes>& components() const { return components_; }
   /// The model must be in this state.
   const Convexity& convexity(const Model<S>& model) const;
+  const InnerBalls& balls(const Model<S>& model) const;
 
  private:
   Closedness<S> closedness_;
   std::vector<Extremes> components_;
-  mutable std::once_flag once_;
+  mutable std::once_flag convexity_known_, balls_known_;
   mutable Convexity convexity_;
+  mutable InnerBalls balls_;
 };
 
 /// The mark of a model and of its copies. It examines each state of them once: fits and merges

@@ -66,17 +66,10 @@ bool SolidPair<S>::seemsApart(const Vec& translation) {
 }
 
 template <typename S>
-Vec SolidPair<S>::pushOut(const Vec& translation) {
-  ++tests_;
-  const PairFrame<S> frame = moved(translation);
-  std::vector<engine::TrianglePairIds> ids;
-  constexpr std::size_t kContacts = 12;
-  if (!searchContacts(frame, kContacts, ids, counts_)) return Vec::Zero();
-  Vec out = Vec::Zero();
-  for (const auto& pair : ids) {
-    out += normalOf(frame.triangleA(pair.a)) - normalOf(frame.triangleB(pair.b));
-  }
-  return out.norm() > 1e-3 ? Vec((R_WA_ * out).normalized()) : Vec(Vec::Zero());
+double SolidPair<S>::wayBetween(const Vec& from, const Vec& to) const {
+  const fcl::Vector3<S> p = X_WB_.translation() + from.template cast<S>(),
+                        q = X_WB_.translation() + to.template cast<S>();
+  return (q.template cast<double>() - p.template cast<double>()).norm();
 }
 
 template <typename S>
@@ -85,7 +78,7 @@ typename SolidPair<S>::Test SolidPair<S>::test(const Vec& translation, double re
   const PairFrame<S> moved = this->moved(translation);
   Test result;
   engine::PairQuery query;
-  query.rel_err = 0.02;
+  query.rel_err = 0.1;
   query.far_enough = std::max(reach, 8 * rounding_);
   const DistanceAnswer<S> answer = bracketDistance(moved, query);
   counts_ += answer.counts;
@@ -123,7 +116,7 @@ std::vector<Vec> SolidPair<S>::exitDirections() {
     directions.push_back(n);
   };
   std::vector<engine::TrianglePairIds> ids;
-  constexpr std::size_t kContacts = 32;
+  constexpr std::size_t kContacts = 8;
   if (!searchContacts(frame_, kContacts, ids, counts_)) ids.clear();
   Vec out_of_a = Vec::Zero(), out_of_b = Vec::Zero();
   std::vector<Vec> normals;
@@ -133,23 +126,28 @@ std::vector<Vec> SolidPair<S>::exitDirections() {
     normals.push_back(-normalOf(frame_.triangleB(pair.b)));
     out_of_b += normals.back();
     constexpr std::size_t kSeams = 4;
-    if (seams_.size() < kSeams && normals.size() % 8 == 2) {
+    if (seams_.size() < kSeams && normals.size() % 4 == 2) {
       const Vec at = intersectionPoint(frame_.triangleA(pair.a), frame_.triangleB(pair.b))
                          .template cast<double>();
       seams_.push_back({at, normals.back() - normals[normals.size() - 2]});
     }
   }
-  add(out_of_a + out_of_b);
   add(out_of_a);
   add(out_of_b);
+  add(out_of_a + out_of_b);
   const Vec center_a = frame_.rootA().center0.template cast<double>();
   const Vec center_b = frame_.rootB().center0.template cast<double>();
   const Vec b_in_a = R_AB_ * center_b + T_AB_;
   add(b_in_a - center_a);
   if (ids.empty()) {  // one is in the other: by the wall nearest to its centre
     const Vec a_in_b = R_AB_.transpose() * (center_a - T_AB_);
-    add(nearestSurface(a_, b_in_a, 0.05).point - b_in_a);
-    add(R_AB_ * (a_in_b - nearestSurface(b_, a_in_b, 0.05).point));
+    const auto addWall = [&](const Vec& way, double radius) {
+      add(way);
+      if (way.norm() > 0) walls_.push_back(R_WA_ * (way + radius * way.normalized()));
+    };
+    addWall(nearestSurface(a_, b_in_a, 0.05).point - b_in_a, double{frame_.rootB().radius0});
+    addWall(R_AB_ * (a_in_b - nearestSurface(b_, a_in_b, 0.05).point),
+            double{frame_.rootA().radius0});
   }
   constexpr std::size_t kMost = 6;
   for (const Vec& n : normals) {

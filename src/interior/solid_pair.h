@@ -32,10 +32,10 @@ class SolidPair {
   Test test(const fcl::Vector3d& translation, double reach);
   /// True if test() would find no contact, but for distances of rounding; in less time.
   bool seemsApart(const fcl::Vector3d& translation);
-  /// The mean direction, unit and in the world, in which b's triangles would leave those of a that
-  /// they meet after a translation; zero if seemsApart(), or if they tell nothing.
-  fcl::Vector3d pushOut(const fcl::Vector3d& translation);
   int tests() const { return tests_; }
+  /// How far b lies after one translation from where it lies after another: both as S rounds the
+  /// poses. The result is right to 2^-50 of it.
+  double wayBetween(const fcl::Vector3d& from, const fcl::Vector3d& to) const;
 
   /// A direction in the world, unit, along which b's triangles may leave a's, by those that meet:
   /// the most promising first.
@@ -47,6 +47,10 @@ class SolidPair {
     fcl::Vector3d point, inwards;
   };
   const std::vector<Seam>& seams() const { return seams_; }
+
+  /// Translations in the world by which the centre of one passes the nearest wall of the other, and
+  /// its radius too; found by exitDirections() if no surfaces meet.
+  const std::vector<fcl::Vector3d>& walls() const { return walls_; }
 
   const PairFrame<S>& frame() const { return frame_; }
   const SolidState<S>& stateA() const { return *state_a_; }
@@ -75,6 +79,7 @@ class SolidPair {
   fcl::Matrix3d R_AB_;
   fcl::Vector3d T_AB_;
   std::vector<Seam> seams_;
+  std::vector<fcl::Vector3d> walls_;
   double size_, rounding_;
   int tests_ = 0;
 };
