@@ -143,7 +143,7 @@ std::vector<Vec> SolidPair<S>::exitDirections() {
     const Vec a_in_b = R_AB_.transpose() * (center_a - T_AB_);
     const auto addWall = [&](const Vec& way, double radius) {
       add(way);
-      if (way.norm() > 0) walls_.push_back(R_WA_ * (way + radius * way.normalized()));
+      if (way.norm() > 0) walls_.emplace_back(R_WA_ * (way + radius * way.normalized()));
     };
     addWall(nearestSurface(a_, b_in_a, 0.05).point - b_in_a, double{frame_.rootB().radius0});
     addWall(R_AB_ * (a_in_b - nearestSurface(b_, a_in_b, 0.05).point),
