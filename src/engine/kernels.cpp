@@ -74,6 +74,7 @@ class DistanceSearch {
   static constexpr float kWave = 0.5F;
   static constexpr uint32_t kMaxWaiting = 256;
 
+  /// kLarge: the trees are; see Expander::isLarge(). More is then looked at together.
   template <bool kLarge>
   void search() {
     constexpr size_t kBatch = kLarge ? 16 : 4, kLeafPairs = kLarge ? 8 : 1;
