@@ -10,16 +10,28 @@
 
 namespace kios {
 
-/// Returns the model behind a geometry, or nullptr if it is no kIOS model. The C++ type decides,
-/// never the node type: all foreign volumes share BV_UNKNOWN.
+namespace detail {
+
+/// asModel() of what is no Model<S> itself, but may be derived from it.
 template <typename S>
-const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
+[[gnu::noinline]] const Model<S>* asDerivedModel(const fcl::CollisionGeometry<S>* geometry) {
   if (!geometry) throw std::invalid_argument("fcl_kios: a collision geometry is null.");
   if (geometry->getNodeType() != fcl::BV_UNKNOWN || geometry->getObjectType() != fcl::OT_BVH) {
     return nullptr;
   }
-  if (typeid(*geometry) == typeid(Model<S>)) return static_cast<const Model<S>*>(geometry);
   return dynamic_cast<const Model<S>*>(geometry);
+}
+
+}  // namespace detail
+
+/// Returns the model behind a geometry, or nullptr if it is no kIOS model. The C++ type decides,
+/// never the node type: all foreign volumes share BV_UNKNOWN.
+template <typename S>
+const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
+  if (geometry && typeid(*geometry) == typeid(Model<S>)) {
+    return static_cast<const Model<S>*>(geometry);
+  }
+  return detail::asDerivedModel(geometry);
 }
 
 /// Checks that the model is finished and holds triangles, in O(1); every query calls this first.

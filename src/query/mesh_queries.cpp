@@ -12,6 +12,7 @@
 #include "model/prepared.h"
 #include "query/mesh_pair.h"
 #include "query/pair_search.h"
+#include "volume/far_apart.h"
 
 namespace kios {
 namespace {
@@ -56,40 +57,52 @@ bool touchUnprepared(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Mo
   return true;
 }
 
+/// collideMeshes() of models that may touch, for all that farApart() can tell.
+template <typename S>
+[[gnu::noinline]] void collideNear(const PairFrame<S>& frame, const fcl::Transform3<S>& X_WA,
+                                   const fcl::Transform3<S>& X_WB,
+                                   const fcl::CollisionRequest<S>& request,
+                                   fcl::CollisionResult<S>& result, SearchCounts& counts) {
+  if (frame.rootBound(0) > 0) return;
+  const Model<S>&a = frame.a, &b = frame.b;
+  const bool occupied = a.isOccupied() && b.isOccupied();
+  if (occupied && !request.enable_cost) {
+    const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
+    if (verdict && touchUnprepared(a, X_WA, b, X_WB, request, result, counts)) return;
+    const std::size_t room = request.num_max_contacts - result.numContacts();
+    std::vector<engine::TrianglePairIds> found;
+    if (searchContacts(frame, room, found, counts)) {
+      for (const auto& ids : found) {
+        addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA,
+                    request, result);
+      }
+      return;
+    }
+  }
+  ++counts.tree_searches;
+  MeshCollisionTraversalNode<S> node;
+  initialize(node, a, X_WA, b, X_WB, request, result);
+  fcl::detail::collide(&node);
+}
+
 }  // namespace
 
 template <typename S>
 std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                           const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
                           fcl::CollisionResult<S>& result, SearchCounts* counts) {
-  const PairFrame<S> frame(a, X_WA, b, X_WB);
+  requireFinished(a);
+  requireFinished(b);
+  const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   if (request.num_max_contacts == 0) {  // FCL's warning and answer
     std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
     return 0;
   }
-  if (request.isSatisfied(result) || frame.rootBound(0) > 0) return result.numContacts();
-  SearchCounts unused;
-  SearchCounts& count = counts ? *counts : unused;
-  const bool occupied = a.isOccupied() && b.isOccupied();
-  if (occupied && !request.enable_cost) {
-    const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
-    if (verdict && touchUnprepared(a, X_WA, b, X_WB, request, result, count)) {
-      return result.numContacts();
-    }
-    const std::size_t room = request.num_max_contacts - result.numContacts();
-    std::vector<engine::TrianglePairIds> found;
-    if (searchContacts(frame, room, found, count)) {
-      for (const auto& ids : found) {
-        addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA,
-                    request, result);
-      }
-      return result.numContacts();
-    }
+  if (!request.isSatisfied(result) && !farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, 0)) {
+    SearchCounts unused;
+    const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);
+    collideNear(frame, X_WA, X_WB, request, result, counts ? *counts : unused);
   }
-  ++count.tree_searches;
-  MeshCollisionTraversalNode<S> node;
-  initialize(node, a, X_WA, b, X_WB, request, result);
-  fcl::detail::collide(&node);
   return result.numContacts();
 }
 
@@ -98,15 +111,20 @@ S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<
                  const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
                  fcl::DistanceResult<S>& result, SearchCounts* counts) {
   requireErrorBounds(request);
-  const PairFrame<S> frame(a, X_WA, b, X_WB);
+  requireFinished(a);
+  requireFinished(b);
+  const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   if (request.isSatisfied(result)) return result.min_distance;
   engine::PairQuery query;
   query.rel_err = request.rel_err;
   query.abs_err = request.abs_err;
-  if (result.min_distance < std::numeric_limits<S>::max()) {  // as if a pair so far were found
+  const bool bounded = result.min_distance < std::numeric_limits<S>::max();
+  if (bounded) {  // as if a pair so far were found
     query.far_enough = query.pruneAt(result.min_distance);
-    if (frame.rootBound(query.far_enough) >= query.far_enough) return result.min_distance;
+    if (farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, query.far_enough)) return result.min_distance;
   }
+  const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);
+  if (bounded && frame.rootBound(query.far_enough) >= query.far_enough) return result.min_distance;
   SearchCounts unused;
   const engine::PairAnswer<S> answer = searchNearest(frame, query, counts ? *counts : unused);
   const TriangleDistance<S>& nearest = answer.nearest;

@@ -76,6 +76,14 @@ inline Float4 sqrt(Float4 v) {
 #endif
 }
 
+inline Double2 abs(Double2 v) {
+#if defined(__SSE2__)
+  return _mm_andnot_pd(_mm_set1_pd(-0.0), v);
+#else
+  return Double2{std::abs(v[0]), std::abs(v[1])};
+#endif
+}
+
 /// True if a < b and c < d in both lanes.
 inline bool bothLess(Double2 a, Double2 b, Double2 c, Double2 d) {
 #if defined(__SSE2__)

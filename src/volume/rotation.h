@@ -9,7 +9,7 @@ namespace kios {
 /// Square of the Frobenius norm of R^T R - I, R by its entries in any floating type or several in
 /// lanes.
 template <typename Entry>
-auto squaredRotationError(const Entry& r) {
+[[gnu::always_inline]] inline auto squaredRotationError(const Entry& r) {
   const auto dot = [&r](int i, int j) {
     return r(0, i) * r(0, j) + r(1, i) * r(1, j) + r(2, i) * r(2, j);
   };
@@ -20,7 +20,7 @@ auto squaredRotationError(const Entry& r) {
 
 /// Of the same entries. Where the norm above is small, it is near 1, or near -1 for a reflection.
 template <typename Entry>
-auto determinant(const Entry& r) {
+[[gnu::always_inline]] inline auto determinant(const Entry& r) {
   return r(0, 0) * (r(1, 1) * r(2, 2) - r(1, 2) * r(2, 1)) +
          r(0, 1) * (r(1, 2) * r(2, 0) - r(1, 0) * r(2, 2)) +
          r(0, 2) * (r(1, 0) * r(2, 1) - r(1, 1) * r(2, 0));
@@ -29,15 +29,6 @@ auto determinant(const Entry& r) {
 /// The largest norm that is allowed.
 template <typename S>
 inline constexpr double kRotationError = sizeof(S) == sizeof(double) ? 1e-4 : 1e-3;
-
-/// A part of the determinant, for a quick look: entry z of columns 0 x 1, times that of column 2.
-/// If the norm is at most 1e-3, that entry is det R R(2, 2) to 2e-3, so a reflection's value is
-/// at most 1e-6: a rotation's is near R(2, 2)^2, and above kUpright most of the time.
-template <typename Entry>
-auto upright(const Entry& r) {
-  return (r(0, 0) * r(1, 1) - r(1, 0) * r(0, 1)) * r(2, 2);
-}
-inline constexpr double kUpright = 0.01;
 
 /// Throws std::invalid_argument: `what` is not rigid, for the one reason or the other.
 [[noreturn]] void refuseRotation(const char* what, double error, double allowed);

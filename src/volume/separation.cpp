@@ -10,6 +10,7 @@
 
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
+#include "volume/far_apart.h"
 #include "volume/lanes.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
@@ -159,34 +160,6 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   return lower;
 }
 
-/// Throws if either isn't a rotation.
-template <typename S>
-[[gnu::noinline, gnu::cold]] void requireRotations(const fcl::Transform3<S>& X_WA,
-                                                   const fcl::Transform3<S>& X_WB,
-                                                   const lanes::Double2& squares) {
-  const auto determinantOf = [](const fcl::Transform3<S>& X) {
-    return determinant([&X](int i, int j) { return double{X.matrix()(i, j)}; });
-  };
-  requireRotation<S>(squares[0], determinantOf(X_WA), "first object's pose");
-  requireRotation<S>(squares[1], determinantOf(X_WB), "second object's pose");
-}
-
-/// The sum for both poses' rotations, R in lanes; throws if either isn't one.
-template <typename S>
-double squaredRotationErrors(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB) {
-  constexpr double kMost = kRotationError<S> * kRotationError<S>;
-  const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
-  const auto entries = [&](int i, int j) {
-    return lanes::Double2{double{m_a(i, j)}, double{m_b(i, j)}};
-  };
-  const lanes::Double2 squares = squaredRotationError(entries);
-  if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{kUpright, kUpright},
-                       upright(entries))) {
-    requireRotations<S>(X_WA, X_WB, squares);
-  }
-  return squares[0] + squares[1];
-}
-
 template <typename S>
 const RelativePose<S>& identityPose() {
   static const RelativePose<S> identity(fcl::Matrix3<S>::Identity(), fcl::Vector3<S>::Zero());
@@ -204,6 +177,16 @@ void refuseRotation(const char* what, double error, double allowed) {
     message << "|R^T R - I| = " << error << ", at most " << allowed << " is allowed.";
   }
   throw std::invalid_argument(message.str());
+}
+
+template <typename S>
+void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
+                      const lanes::Double2& squares) {
+  const auto determinantOf = [](const fcl::Transform3<S>& X) {
+    return determinant([&X](int i, int j) { return double{X.matrix()(i, j)}; });
+  };
+  requireRotation<S>(squares[0], determinantOf(X_WA), "first object's pose");
+  requireRotation<S>(squares[1], determinantOf(X_WB), "second object's pose");
 }
 
 template <typename S>
@@ -286,6 +269,8 @@ S kIOS<S>::distance(const kIOS& other, fcl::Vector3<S>* P, fcl::Vector3<S>* Q) c
 }
 
 #define KIOS_INSTANTIATE(S)                                                                        \
+  template void requireRotations(const fcl::Transform3<S>&, const fcl::Transform3<S>&,             \
+                                 const lanes::Double2&);                                           \
   template class RelativePose<S>;                                                                  \
   template double separation(const kIOS<S>&, const kIOS<S>&, const RelativePose<S>&, double);      \
   template bool overlap(const fcl::Matrix3<S>&, const fcl::Vector3<S>&, const kIOS<S>&,            \

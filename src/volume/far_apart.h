@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/volume/kios.h"
+#include "volume/lanes.h"
+#include "volume/rotation.h"
+
+// What every query of a pair begins with, for both poses at once. Most pairs of a scene need no
+// more, so it is inlined: both functions read the same entries.
+
+namespace kios {
+
+/// Throws std::invalid_argument if either rotation isn't one: for squaredRotationErrors(), which
+/// has found that something may be wrong.
+template <typename S>
+void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
+                      const lanes::Double2& squares);
+
+/// The sum of the squares of both rotations' errors, |R^T R - I| each (Frobenius). Throws
+/// std::invalid_argument if either is too large, NaN, or a reflection.
+template <typename S>
+[[gnu::always_inline]] inline double squaredRotationErrors(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB) {
+  constexpr double kMost = kRotationError<S> * kRotationError<S>;
+  const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
+  const auto entries = [&](int i, int j) {
+    return lanes::Double2{double{m_a(i, j)}, double{m_b(i, j)}};
+  };
+  const lanes::Double2 squares = squaredRotationError(entries);
+  if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{},
+                       determinant(entries))) {
+    requireRotations<S>(X_WA, X_WB, squares);
+  }
+  return squares[0] + squares[1];
+}
+
+/// True only if the central spheres alone prove the contents of two volumes farther apart than
+/// `margin` >= 0, as separation() would prove it, rounding of the common frame included; false says
+/// nothing. `squared_errors` is what squaredRotationErrors() gave.
+///
+/// In W, w = (t_B - t_A) + (R_B c_b - R_A c_a) joins the centres, and R_A^T w is the same in A but
+/// for |R_A^T R_A - I| |c_a|. With e the root of squared_errors, |R_A^T w| >= (1 - e) |w|, and the
+/// contents are at least |R_A^T w| - e |c_a| - r_a - (1 + e) r_b apart. The lengths that enter add up
+/// to m = |t_B - t_A|_1 + |c_a|_1 + |c_b|_1 + r_a + r_b: the terms with e are below 3 e m, and all
+/// roundings, here and in the common frame (volume/error_bounds.h), below 256 u m. kSlack m is more
+/// than both where e is at most kSlack / 4 and |w| is far above what vanishes. NaN, infinities, and
+/// lengths of 2^40 and more prove nothing: the common frame judges them.
+template <typename S>
+[[gnu::always_inline]] inline bool farApart(const kIOS<S>& a, const fcl::Transform3<S>& X_WA, const kIOS<S>& b,
+              const fcl::Transform3<S>& X_WB, double squared_errors, double margin) {
+  constexpr double kSlack = sizeof(S) == sizeof(double) ? 0x1p-36 : 0x1p-12;
+  constexpr double kFar = 0x1p40, kLeastSquare = 0x1p-200;
+  const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
+  const auto entry = [&](int i, int j) {
+    return lanes::Double2{double{m_a(i, j)}, double{m_b(i, j)}};
+  };
+  const auto center = [&](int j) {
+    return lanes::Double2{double{a.center0[j]}, double{b.center0[j]}};
+  };
+  const lanes::Double2 cx = center(0), cy = center(1), cz = center(2);
+  const lanes::Double2 norms = lanes::abs(cx) + lanes::abs(cy) + lanes::abs(cz);
+  const double spheres = double{a.radius0} + double{b.radius0} + margin;
+  double square = 0, lengths = spheres + (norms[0] + norms[1]);
+  for (int i = 0; i < 3; ++i) {
+    const lanes::Double2 turned = entry(i, 0) * cx + entry(i, 1) * cy + entry(i, 2) * cz;
+    const double between = double{m_b(i, 3)} - double{m_a(i, 3)};
+    const double w = between + (turned[1] - turned[0]);
+    square += w * w;
+    lengths += std::abs(between);
+  }
+  const double least = spheres + kSlack * lengths;
+  return square > least * least && square > kLeastSquare && lengths < kFar &&
+         squared_errors <= (kSlack / 4) * (kSlack / 4);
+}
+
+}  // namespace kios
