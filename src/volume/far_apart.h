@@ -20,7 +20,8 @@ void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& 
 /// The sum of the squares of both rotations' errors, |R^T R - I| each (Frobenius). Throws
 /// std::invalid_argument if either is too large, NaN, or a reflection.
 template <typename S>
-[[gnu::always_inline]] inline double squaredRotationErrors(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB) {
+[[gnu::always_inline]] inline double squaredRotationErrors(const fcl::Transform3<S>& X_WA,
+                                                           const fcl::Transform3<S>& X_WB) {
   constexpr double kMost = kRotationError<S> * kRotationError<S>;
   const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
   const auto entries = [&](int i, int j) {
@@ -40,14 +41,15 @@ template <typename S>
 ///
 /// In W, w = (t_B - t_A) + (R_B c_b - R_A c_a) joins the centres, and R_A^T w is the same in A but
 /// for |R_A^T R_A - I| |c_a|. With e the root of squared_errors, |R_A^T w| >= (1 - e) |w|, and the
-/// contents are at least |R_A^T w| - e |c_a| - r_a - (1 + e) r_b apart. The lengths that enter add up
-/// to m = |t_B - t_A|_1 + |c_a|_1 + |c_b|_1 + r_a + r_b: the terms with e are below 3 e m, and all
-/// roundings, here and in the common frame (volume/error_bounds.h), below 256 u m. kSlack m is more
-/// than both where e is at most kSlack / 4 and |w| is far above what vanishes. NaN, infinities, and
-/// lengths of 2^40 and more prove nothing: the common frame judges them.
+/// contents are at least |R_A^T w| - e |c_a| - r_a - (1 + e) r_b apart. The lengths that enter add
+/// up to m = |t_B - t_A|_1 + |c_a|_1 + |c_b|_1 + r_a + r_b: the terms with e are below 3 e m, and
+/// all roundings, here and in the common frame (volume/error_bounds.h), below 256 u m. kSlack m is
+/// more than both where e is at most kSlack / 4 and |w| is far above what vanishes. NaN,
+/// infinities, and lengths of 2^40 and more prove nothing: the common frame judges them.
 template <typename S>
-[[gnu::always_inline]] inline bool farApart(const kIOS<S>& a, const fcl::Transform3<S>& X_WA, const kIOS<S>& b,
-              const fcl::Transform3<S>& X_WB, double squared_errors, double margin) {
+[[gnu::always_inline]] inline bool farApart(const kIOS<S>& a, const fcl::Transform3<S>& X_WA,
+                                            const kIOS<S>& b, const fcl::Transform3<S>& X_WB,
+                                            double squared_errors, double margin) {
   constexpr double kSlack = sizeof(S) == sizeof(double) ? 0x1p-36 : 0x1p-12;
   constexpr double kFar = 0x1p40, kLeastSquare = 0x1p-200;
   const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
