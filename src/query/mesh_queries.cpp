@@ -94,14 +94,15 @@ std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, con
   requireFinished(a);
   requireFinished(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
-  if (request.num_max_contacts == 0) {  // FCL's warning and answer
-    std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
-    return 0;
-  }
-  if (!request.isSatisfied(result) && !farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, 0)) {
+  const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
+  if (done || !farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, 0)) {
+    const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where farApart() can't
+    if (request.num_max_contacts == 0) {                         // FCL's warning and answer
+      std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
+      return 0;
+    }
     SearchCounts unused;
-    const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);
-    collideNear(frame, X_WA, X_WB, request, result, counts ? *counts : unused);
+    if (!done) collideNear(frame, X_WA, X_WB, request, result, counts ? *counts : unused);
   }
   return result.numContacts();
 }
@@ -114,17 +115,19 @@ S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<
   requireFinished(a);
   requireFinished(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
-  if (request.isSatisfied(result)) return result.min_distance;
   engine::PairQuery query;
   query.rel_err = request.rel_err;
   query.abs_err = request.abs_err;
   const bool bounded = result.min_distance < std::numeric_limits<S>::max();
   if (bounded) {  // as if a pair so far were found
     query.far_enough = query.pruneAt(result.min_distance);
-    if (farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, query.far_enough)) return result.min_distance;
+    if (farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, query.far_enough)) {
+      return result.min_distance;
+    }
   }
   const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);
-  if (bounded && frame.rootBound(query.far_enough) >= query.far_enough) return result.min_distance;
+  const bool far = bounded && frame.rootBound(query.far_enough) >= query.far_enough;
+  if (far || request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
   const engine::PairAnswer<S> answer = searchNearest(frame, query, counts ? *counts : unused);
   const TriangleDistance<S>& nearest = answer.nearest;

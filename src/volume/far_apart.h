@@ -42,10 +42,10 @@ template <typename S>
 /// In W, w = (t_B - t_A) + (R_B c_b - R_A c_a) joins the centres, and R_A^T w is the same in A but
 /// for |R_A^T R_A - I| |c_a|. With e the root of squared_errors, |R_A^T w| >= (1 - e) |w|, and the
 /// contents are at least |R_A^T w| - e |c_a| - r_a - (1 + e) r_b apart. The lengths that enter add
-/// up to m = |t_B - t_A|_1 + |c_a|_1 + |c_b|_1 + r_a + r_b: the terms with e are below 3 e m, and
-/// all roundings, here and in the common frame (volume/error_bounds.h), below 256 u m. kSlack m is
-/// more than both where e is at most kSlack / 4 and |w| is far above what vanishes. NaN,
-/// infinities, and lengths of 2^40 and more prove nothing: the common frame judges them.
+/// up to m = |t_B - t_A|_1 + |c_a|_1 + |c_b|_1 + r_a + r_b + margin: the terms with e are below 3 e
+/// m, and all roundings, here and in the common frame (volume/error_bounds.h), below 256 u m.
+/// kSlack m is more than both where e is at most kSlack / 4 and |w| is far above what vanishes.
+/// NaN, infinities, and lengths of 2^40 and more prove nothing: the common frame judges them.
 template <typename S>
 [[gnu::always_inline]] inline bool farApart(const kIOS<S>& a, const fcl::Transform3<S>& X_WA,
                                             const kIOS<S>& b, const fcl::Transform3<S>& X_WB,
@@ -62,16 +62,17 @@ template <typename S>
   const lanes::Double2 cx = center(0), cy = center(1), cz = center(2);
   const lanes::Double2 norms = lanes::abs(cx) + lanes::abs(cy) + lanes::abs(cz);
   const double spheres = double{a.radius0} + double{b.radius0} + margin;
-  double square = 0, lengths = spheres + (norms[0] + norms[1]);
+  double lengths = spheres + (norms[0] + norms[1]), w[3];
   for (int i = 0; i < 3; ++i) {
     const lanes::Double2 turned = entry(i, 0) * cx + entry(i, 1) * cy + entry(i, 2) * cz;
     const double between = double{m_b(i, 3)} - double{m_a(i, 3)};
-    const double w = between + (turned[1] - turned[0]);
-    square += w * w;
+    w[i] = between + (turned[1] - turned[0]);
     lengths += std::abs(between);
   }
+  if (!(lengths < kFar)) return false;
+  const double square = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
   const double least = spheres + kSlack * lengths;
-  return square > least * least && square > kLeastSquare && lengths < kFar &&
+  return square > least * least && square > kLeastSquare &&
          squared_errors <= (kSlack / 4) * (kSlack / 4);
 }
 

@@ -69,6 +69,40 @@ TEST_F(Refused, PosesWhoseErrorsCancel) {
       "rigid");
 }
 
+// Also where the request is satisfied before anything is looked at.
+TEST_F(Refused, TranslationThatIsNotFinite) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  fcl::CollisionRequestd none, one;
+  none.num_max_contacts = 0;
+  fcl::CollisionResultd touching;
+  ASSERT_GT(fcl::collide(good_.get(), here_, good_.get(), here_, one, touching), 0u);
+  fcl::DistanceResultd near;
+  near.min_distance = 0;
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInfinite, 1e308}) {
+    Transform3d there = here_;
+    there.translation()[1] = bad;
+    for (const auto& [X1, X2] : {std::pair(here_, there), std::pair(there, here_)}) {
+      const Transform3d &Y1 = X1, &Y2 = X2;
+      const auto refusedBy = [&](const auto& request, auto result) {
+        expectRefused(
+            [&] {
+              if constexpr (std::is_same_v<decltype(result), fcl::DistanceResultd>) {
+                fcl::distance(good_.get(), Y1, good_.get(), Y2, request, result);
+              } else {
+                fcl::collide(good_.get(), Y1, good_.get(), Y2, request, result);
+              }
+            },
+            "translation");
+      };
+      refusedBy(one, fcl::CollisionResultd());
+      refusedBy(one, touching);
+      refusedBy(none, fcl::CollisionResultd());
+      refusedBy(fcl::DistanceRequestd(), fcl::DistanceResultd());
+      refusedBy(fcl::DistanceRequestd(), near);
+    }
+  }
+}
+
 // A reflection would turn faces inside out: refused by every query, static or moving. Both poses
 // reflected make a relative pose that is none.
 template <typename S>
