@@ -114,18 +114,18 @@ class DistanceSearch {
   bool boundLeaves(const PairList::Entry& entry) {
     if (entry.bound >= search_.evaluator.prune_at) return false;
     ++search_.counts.leaf_pairs;
-    Slabbed& slabbed = waiting_[num_waiting_];
-    slabbed.nodes = entry.pair;
-    const float by_slab =
-        boundOfLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, slabbed.slab);
-    const float bound = std::max(entry.bound, by_slab);
-    if (bound >= search_.evaluator.prune_at) {
+    Bracketed& pair = waiting_[num_waiting_];
+    pair.nodes = entry.pair;
+    bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, pair);
+    if (!pair.slab.apart) search_.evaluator.offer(pair.upper);
+    const float bound = std::max(entry.bound, pair.lower);
+    if (pair.slab.apart || bound >= search_.evaluator.prune_at) {
       if (search_.audit)
         search_.audit->pruned(entry.pair.a, entry.pair.b, search_.evaluator.prune_at);
       return false;
     }
     // Overlapping pairs are searched at once, and so is a pair that finds no room to wait.
-    if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return evaluateFeatures(slabbed, bound);
+    if (bound <= 0 || num_waiting_ + 1 == kMaxWaiting) return evaluateFeatures(pair, bound);
     frontier_.keep(bound, num_waiting_++);
     return false;
   }
@@ -165,9 +165,8 @@ class DistanceSearch {
   const Leaf& leafB(Pair at) const { return search_.b.leaves[search_.b.nodes[at.b].leaf()]; }
 
   /// True to end the search.
-  bool evaluateFeatures(const Slabbed& slabbed, float bound) {
-    return nearestOfLeaves(search_, leafA(slabbed.nodes), leafB(slabbed.nodes), slabbed.slab,
-                           bound);
+  bool evaluateFeatures(const Bracketed& pair, float bound) {
+    return nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
   }
 
   const Search& search_;
@@ -175,7 +174,7 @@ class DistanceSearch {
   Frontier frontier_;
   LastLeaves last_;
   uint32_t num_waiting_ = 0;
-  Slabbed waiting_[kMaxWaiting];
+  Bracketed waiting_[kMaxWaiting];
 };
 
 void distance(const Search& search) { DistanceSearch(search).run(); }

@@ -107,8 +107,7 @@ class BracketSearch {
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
-    bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), hint_, pair);
-    hint_ = pair.slab.along;
+    bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, pair);
     const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.keep_to;
     if (nearer) {
       search_.evaluator.offer(pair.upper);
@@ -181,9 +180,9 @@ class BracketSearch {
   Frontier frontier_;
   long long budget_;
   float prune_at_ = kInfinity;
-  float in_flight_ = kInfinity;      ///< least bound of what is being expanded
-  float current_ = -kInfinity;       ///< bound of what is at hand
-  Direction hint_ = {{1, 0, 0}, 1};  ///< the last that told leaves apart
+  float in_flight_ = kInfinity;  ///< least bound of what is being expanded
+  float current_ = -kInfinity;   ///< bound of what is at hand
+  LastLeaves last_;
   VertexPair best_;
   bool offered_ = false;  ///< whether they are the upper bound
   uint32_t num_waiting_ = 0;

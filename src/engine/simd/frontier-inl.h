@@ -182,34 +182,40 @@ class Frontier {
 
   /// There is room for a vector of lanes in each list after this.
   void reserve() {
-    inner.reserve(kLanes);
-    leaves.reserve(kLanes);
-    apart_.reserve(kLanes);
+    for (PairList* const list : {&inner, &leaves, &apart_inner_, &apart_leaves_}) {
+      list->reserve(kLanes);
+    }
   }
 
   /// Pushes some lanes, of which some are pairs of leaves. There must be room: see reserve().
   void push(uint32_t lanes, uint32_t are_leaves, V bounds, VU a, VU b) {
     const uint32_t overlapping = lanes & bitsOf(hn::Le(bounds, hn::Zero(d)));
-    leaves.push(overlapping & are_leaves, bounds, a, b);
-    inner.push(overlapping & ~are_leaves, bounds, a, b);
-    const VU tag = hn::IfThenElseZero(maskOf(are_leaves), hn::Set(du, kLeaves));
-    pushApart(lanes & ~overlapping, bounds, hn::Or(a, tag), b);
+    if (overlapping != 0) {  // never where models are apart, but near the roots
+      leaves.push(overlapping & are_leaves, bounds, a, b);
+      inner.push(overlapping & ~are_leaves, bounds, a, b);
+    }
+    const uint32_t apart = lanes & ~overlapping;
+    apart_leaves_.push(apart & are_leaves, bounds, a, b);
+    apart_inner_.push(apart & ~are_leaves, bounds, a, b);
+    note(apart, bounds);
   }
 
   /// A pair whose bound is known, and which waits again.
   void keep(float bound, uint32_t index) {
-    apart_.reserve(1);
-    apart_.push(bound, {index | kBounded, 0});
+    apart_bounded_.reserve(1);
+    apart_bounded_.push(bound, {index, 0});
     hn::Store(hn::Min(hn::Load(d, least_), hn::Set(d, bound)), d, least_);
   }
 
   bool empty() const {
-    return inner.empty() && leaves.empty() && bounded.empty() && apart_.empty();
+    return inner.empty() && leaves.empty() && bounded.empty() && apart_inner_.empty() &&
+           apart_leaves_.empty() && apart_bounded_.empty();
   }
 
   /// The least bound of all; infinity if empty.
   HWY_NOINLINE float least() const {
-    return std::min({inner.least(), leaves.least(), bounded.least(), apart_.least()});
+    return std::min({inner.least(), leaves.least(), bounded.least(), apart_inner_.least(),
+                     apart_leaves_.least(), apart_bounded_.least()});
   }
 
   /// Takes at hand what is nearest of what is apart: a `share` of the way to `prune_at`, all of
@@ -220,39 +226,35 @@ class Frontier {
     const float at_most =
         prune_at < kInfinity ? least + share * (prune_at - least) : (1 + share / 4) * least;
     const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
-    const VU tags = hn::Set(du, kLeaves | kBounded);
     hn::Store(hn::Set(d, kInfinity), d, least_);
-    inner.reserve(apart_.size());
-    leaves.reserve(apart_.size());
-    bounded.reserve(apart_.size());
-    apart_.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
-      const auto having = [&](uint32_t tag) {
-        return bitsOf(hn::RebindMask(d, hn::Eq(hn::And(a, tags), hn::Set(du, tag))));
-      };
-      const uint32_t kept = lanes & bitsOf(hn::Lt(bounds, limit));
-      const uint32_t near = kept & bitsOf(hn::Le(bounds, most));
-      const VU node = hn::AndNot(tags, a);
-      inner.push(near & having(0), bounds, node, b);
-      leaves.push(near & having(kLeaves), bounds, node, b);
-      bounded.push(near & having(kBounded), bounds, node, b);
-      pushApart(kept & ~near, bounds, a, b);
-    });
+    const auto take = [&](PairList& apart, PairList& at_hand) {
+      at_hand.reserve(apart.size());
+      apart.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
+        const uint32_t kept = lanes & bitsOf(hn::Lt(bounds, limit));
+        const uint32_t near = kept & bitsOf(hn::Le(bounds, most));
+        at_hand.push(near, bounds, a, b);
+        apart.push(kept & ~near, bounds, a, b);
+        note(kept & ~near, bounds);
+      });
+    };
+    take(apart_inner_, inner);
+    take(apart_leaves_, leaves);
+    take(apart_bounded_, bounded);
     return least < prune_at;
   }
 
  private:
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  static constexpr uint32_t kLeaves = 1U << 31, kBounded = 1U << 30;  ///< in `a` of apart_
 
-  void pushApart(uint32_t lanes, V bounds, VU a, VU b) {
-    apart_.push(lanes, bounds, a, b);
-    const auto pushed = hn::RebindMask(d, maskOf(lanes));
+  /// That some lanes of what is apart have these bounds.
+  void note(uint32_t lanes, V bounds) {
+    const auto apart = hn::RebindMask(d, maskOf(lanes));
     const V least = hn::Load(d, least_);
-    hn::Store(hn::Min(least, hn::IfThenElse(pushed, bounds, least)), d, least_);
+    hn::Store(hn::Min(least, hn::IfThenElse(apart, bounds, least)), d, least_);
   }
 
-  PairList apart_;
-  alignas(32) float least_[kLanes];  ///< the least bounds of apart_ are among these
+  PairList apart_inner_, apart_leaves_, apart_bounded_;
+  alignas(32) float least_[kLanes];  ///< the least bounds of what is apart are among these
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE

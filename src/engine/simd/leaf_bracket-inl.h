@@ -14,12 +14,12 @@ struct VertexPair {
 /// Two leaves that were looked at.
 struct Bracketed {
   Pair nodes;
-  Slab slab;            ///< the one that proves most; no points are set
+  Slab slab;            ///< the one that proves most
   float lower, upper;   ///< bounds of the distance
   VertexPair vertices;  ///< the nearest so far: the upper bound
 };
 
-/// Slabs between two sets of points, and pairs of the points.
+/// Slabs between two sets of points, and pairs of the points: the best of each are kept.
 template <class HullA, class HullB>
 class Slabs {
  public:
@@ -29,32 +29,10 @@ class Slabs {
     out.upper = std::numeric_limits<float>::infinity();
   }
 
-  /// Tries a direction. True if it proves the sets at least `distance` apart.
-  bool proves(const Direction& along, float top_a, float bottom_b) {
-    const float gap = bottom_b - top_a, lower = gap / along.length;
-    if (lower > out_.lower) {
-      out_.lower = lower;
-      out_.slab.along = along;
-      out_.slab.top_a = top_a;
-      out_.slab.bottom_b = bottom_b;
-    }
-    return gap > 0 && gap >= distance_ * along.length;
-  }
+  /// Tries a direction. True if it proves the sets at least `distance` apart; out.slab is not set
+  /// then.
   bool proves(const Direction& along) {
     return proves(along, a_.top(along.w), -b_.top(-1.0F * along.w));
-  }
-  /// The mean normal of one of the sets, turned to point from a to b.
-  bool provesByNormalOfA(const Across& across, Vec3 between) {
-    if (dot(across.along.w, between) >= 0) {
-      return proves(across.along, across.top, -b_.top(-1.0F * across.along.w));
-    }
-    return proves(-across.along, -across.bottom, -b_.top(across.along.w));
-  }
-  bool provesByNormalOfB(const Across& across, Vec3 between) {
-    if (dot(across.along.w, between) >= 0) {
-      return proves(across.along, a_.top(across.along.w), across.bottom);
-    }
-    return proves(-across.along, a_.top(-1.0F * across.along.w), -across.top);
   }
 
   /// Steps of Frank-Wolfe towards the nearest points of the hulls.
@@ -79,41 +57,47 @@ class Slabs {
   }
 
  private:
+  bool proves(const Direction& along, float top_a, float bottom_b) {
+    const float gap = bottom_b - top_a;
+    if (provesApart(gap, along, distance_)) return true;
+    const float lower = gap / along.length;
+    if (lower > out_.lower) {
+      out_.lower = lower;
+      out_.slab.along = along;
+      out_.slab.top_a = top_a;
+      out_.slab.bottom_b = bottom_b;
+    }
+    return false;
+  }
+
   const HullA& a_;
   const HullB& b_;
   const float distance_;
   Bracketed& out_;
 };
 
-/// Brackets the distance of two leaves, or proves them at least `distance` apart: `hint` is tried
-/// first, then the line of centres, both mean normals, steps of Frank-Wolfe.
+/// What pairs of leaves that follow each other share: often the leaf of b, and often the direction
+/// that proves them apart.
+struct LastLeaves {
+  MovedLeaf b;
+  Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
+};
+
+/// Brackets the distance of two leaves, or proves them at least prune_at apart: by the last
+/// direction, then the line of centres and steps of Frank-Wolfe.
 HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
-                                const Direction& hint, Bracketed& out) {
-  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+                                LastLeaves& last, Bracketed& out) {
+  const LeafView a(search.a, leaf_a);
   const FramePair& frames = search.frames;
-  const FloatPose& X = frames.a_from_b;
   const float distance = search.evaluator.prune_at + frames.pad;
-  VertexRows moved_b;
-  const Points vertices_b = moveVertices(b, X, moved_b);
-  const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
+  if (last.b.leaf != &leaf_b) last.b.move(LeafView(search.b, leaf_b), frames.a_from_b);
+  betweenHulls(a.vertices, last.b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
-    const Vec3 between = moved(X, vec3(leaf_b.centroid)) - vec3(leaf_a.centroid);
-    const Across across_a = acrossA(leaf_a), across_b = acrossB(leaf_b, X);
-    out.slab.apart = slabs.proves(hint) || slabs.provesByNormalOfA(across_a, between) ||
-                     slabs.provesByNormalOfB(across_b, between) ||
-                     slabs.steps(between, kFrankWolfeSteps);
-  };
-  const Lanes *const rows_a = a.vertices.rows, *const rows_b = vertices_b.rows;
-  if (HWY_LIKELY(a.vertices.chunks == 2 && vertices_b.chunks == 2)) {
-    between_hulls(Hull<2>(rows_a), Hull<2>(rows_b));
-  } else if (a.vertices.chunks == 2) {
-    between_hulls(Hull<2>(rows_a), Hull<3>(rows_b));
-  } else if (vertices_b.chunks == 2) {
-    between_hulls(Hull<3>(rows_a), Hull<2>(rows_b));
-  } else {
-    between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));
-  }
+    out.slab.apart = slabs.proves(last.along) ||
+                     slabs.steps(last.b.centroid - vec3(leaf_a.centroid), kFrankWolfeSteps);
+  });
   if (out.slab.apart) return;
+  last.along = out.slab.along;
   out.vertices.nodes = out.nodes;
   out.lower -= frames.pad;
   out.upper = std::sqrt(out.upper) + frames.pad;

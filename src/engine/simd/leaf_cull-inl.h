@@ -127,7 +127,6 @@ struct Slab {
   bool apart;             ///< proven at least the distance apart that was asked for
   Direction along;        ///< from a to b
   float top_a, bottom_b;  ///< max w . a, min w . b
-  Vec3 point_a, point_b;  ///< where they are attained
 };
 
 /// A direction across a leaf, and where its points lie along it.
@@ -136,16 +135,18 @@ struct Across {
   float bottom, top;
 };
 
-/// Looks for a slab that proves the sets at least `distance` apart (pad included): for any w,
-/// (min w . b - max w . a) / |w| bounds the distance. Tries the line of centres, both mean normals
-/// and Frank-Wolfe steps towards the nearest points of the hulls.
-template <class HullA, class HullB>
-HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Across& across_a,
-                         const Across& across_b, float distance, Slab& slab) {
-  // Few branches, and none that can't be predicted.
-  const auto proves = [&](float gap, const Direction& along) {
-    return (gap > 0) & (gap >= distance * along.length);
-  };
+/// Whether a gap along a direction proves two sets at least `distance` apart (pad included): for
+/// any w, (min w . b - max w . a) / |w| bounds the distance.
+HWY_INLINE bool provesApart(float gap, const Direction& along, float distance) {
+  return (gap > 0) & (gap >= distance * along.length);  // no branch that can't be predicted
+}
+
+/// Looks for a slab that proves the sets at least `distance` apart: along the line of centres, then
+/// by by_others(), which is true if that is proof, then by steps of Frank-Wolfe towards the nearest
+/// points of the hulls.
+template <class HullA, class HullB, class Others>
+HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, float distance,
+                         const Others& by_others, Slab& slab) {
   Vec3 v = between;  // a difference of points of the hulls, or of their centres
   slab.apart = true;
   for (int i = 0;; ++i) {
@@ -153,19 +154,10 @@ HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, const Acr
     const Support of_a = a.support(slab.along.w), of_b = b.support(-1.0F * slab.along.w);
     slab.top_a = of_a.value;
     slab.bottom_b = -of_b.value;
-    if (proves(slab.bottom_b - slab.top_a, slab.along)) return;
-    if (i == 0) {
-      const auto turned = [&](const Across& x) {
-        return dot(x.along.w, between) > 0 ? x : Across{-x.along, -x.top, -x.bottom};
-      };
-      const Across of_a = turned(across_a), of_b = turned(across_b);
-      if (proves(-b.top(-1.0F * of_a.along.w) - of_a.top, of_a.along)) return;
-      if (proves(of_b.bottom - a.top(of_b.along.w), of_b.along)) return;
-    }
-    slab.point_a = a.at(of_a.index);
-    slab.point_b = b.at(of_b.index);
+    if (provesApart(slab.bottom_b - slab.top_a, slab.along, distance)) return;
+    if (i == 0 && by_others()) return;
     if (i == kFrankWolfeSteps) break;
-    const Vec3 z = slab.point_b - slab.point_a - v;
+    const Vec3 z = b.at(of_b.index) - a.at(of_a.index) - v;
     const float zz = dot(z, z), vz = dot(v, z);
     if (!(vz < 0 && zz > 0)) break;  // v is as short as it gets
     v = v + std::min(1.0F, -vz / zz) * z;

@@ -212,33 +212,6 @@ class LeafDistances {
   Lanes squares_[kMaxRows];
 };
 
-/// Two leaves that were looked at, and no slab proved to be far enough apart.
-struct Slabbed {
-  Pair nodes;
-  Slab slab;
-};
-
-/// What pairs of leaves that follow each other share: often the leaf of b, and often the direction
-/// that proves them apart.
-struct LastLeaves {
-  MovedLeaf b;
-  Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
-};
-
-/// Lower bound of the distance of two leaves by a slab; tells the evaluator of an upper bound.
-HWY_NOINLINE float boundOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
-                                 LastLeaves& last, Slab& slab) {
-  const LeafView a(search.a, leaf_a);
-  const FramePair& frames = search.frames;
-  if (last.b.leaf != &leaf_b) last.b.move(LeafView(search.b, leaf_b), frames.a_from_b);
-  separateLeaves(a, last.b, &last.along, search.evaluator.prune_at + frames.pad, slab);
-  if (slab.apart) return std::numeric_limits<float>::infinity();
-  last.along = slab.along;
-  const Vec3 vertices = slab.point_b - slab.point_a;
-  search.evaluator.offer(std::sqrt(dot(vertices, vertices)) + frames.pad);
-  return (slab.bottom_b - slab.top_a) / slab.along.length - frames.pad;
-}
-
 /// Evaluates all features of two leaves that may be nearest.
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
                                   const Slab& slab, float bound) {
@@ -261,7 +234,7 @@ HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, cons
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;
-  separateLeaves(a, moved_b, nullptr, frames.pad, slab);
+  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
   return edgesCross(search, a, b, moved_b.vertices, slab);
@@ -298,7 +271,7 @@ HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, con
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;
-  separateLeaves(a, moved_b, nullptr, frames.pad, slab);
+  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab);
   if (slab.apart) return false;
   ++search.counts.leaf_kernels;
   VertexRows moved_a;

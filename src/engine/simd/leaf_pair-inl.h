@@ -120,38 +120,45 @@ struct MovedLeaf {
     leaf = &b.leaf;
     vertices = moveVertices(b, X, rows);
     centroid = moved(X, vec3(b.leaf.centroid));
-    across = acrossB(b.leaf, X);
   }
 
   const Leaf* leaf = nullptr;
   Points vertices;  ///< in `rows`
   Vec3 centroid;
-  Across across;
   VertexRows rows;
 };
 
-/// A slab between two leaves, or `hint`, if there is one and it proves them apart.
-HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const Direction* hint,
-                               float distance, Slab& slab) {
-  const auto between_hulls = [&](const auto& hull_a, const auto& hull_b) {
-    if (hint) {
-      const float gap = -hull_b.top(-1.0F * hint->w) - hull_a.top(hint->w);
-      slab.apart = (gap > 0) & (gap >= distance * hint->length);
-      if (slab.apart) return;
-    }
-    separate(hull_a, hull_b, b.centroid - vec3(a.leaf.centroid), acrossA(a.leaf), b.across,
-             distance, slab);
-  };
-  const Lanes *const rows_a = a.vertices.rows, *const rows_b = b.vertices.rows;
-  if (HWY_LIKELY(a.vertices.chunks == 2 && b.vertices.chunks == 2)) {
-    between_hulls(Hull<2>(rows_a), Hull<2>(rows_b));
-  } else if (a.vertices.chunks == 2) {
-    between_hulls(Hull<2>(rows_a), Hull<3>(rows_b));
-  } else if (b.vertices.chunks == 2) {
-    between_hulls(Hull<3>(rows_a), Hull<2>(rows_b));
+/// Calls look(hull_a, hull_b) with the points of two leaves.
+template <class Look>
+HWY_INLINE void betweenHulls(const Points& a, const Points& b, const Look& look) {
+  if (HWY_LIKELY(a.chunks == 2 && b.chunks == 2)) {
+    look(Hull<2>(a.rows), Hull<2>(b.rows));
+  } else if (a.chunks == 2) {
+    look(Hull<2>(a.rows), Hull<3>(b.rows));
+  } else if (b.chunks == 2) {
+    look(Hull<3>(a.rows), Hull<2>(b.rows));
   } else {
-    between_hulls(Hull<3>(rows_a), Hull<3>(rows_b));
+    look(Hull<3>(a.rows), Hull<3>(b.rows));
   }
+}
+
+/// A slab between two leaves, b moved by X: along the line of centres, the mean normals, and steps
+/// of Frank-Wolfe.
+HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const FloatPose& X,
+                               float distance, Slab& slab) {
+  betweenHulls(a.vertices, b.vertices, [&](const auto& hull_a, const auto& hull_b) {
+    const Vec3 between = b.centroid - vec3(a.leaf.centroid);
+    const auto by_normals = [&] {
+      const auto turned = [&](const Across& x) {
+        return dot(x.along.w, between) > 0 ? x : Across{-x.along, -x.top, -x.bottom};
+      };
+      const Across of_a = turned(acrossA(a.leaf)), of_b = turned(acrossB(*b.leaf, X));
+      const float gap_a = -hull_b.top(-1.0F * of_a.along.w) - of_a.top;
+      if (provesApart(gap_a, of_a.along, distance)) return true;
+      return provesApart(of_b.bottom - hull_a.top(of_b.along.w), of_b.along, distance);
+    };
+    separate(hull_a, hull_b, between, distance, by_normals, slab);
+  });
 }
 
 /// Vertices with w . p >= least, as bits.
