@@ -6,34 +6,10 @@
 #include "volume/lanes.h"
 #include "volume/rotation.h"
 
-// What every query of a pair begins with, for both poses at once. Most pairs of a scene need no
-// more, so it is inlined: both functions read the same entries.
+// What every query of a pair begins with, after the check of its rotations. Most pairs of a scene
+// need no more, so both are inlined: they read the same entries.
 
 namespace kios {
-
-/// Throws std::invalid_argument if either rotation isn't one: for squaredRotationErrors(), which
-/// has found that something may be wrong.
-template <typename S>
-void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
-                      const lanes::Double2& squares);
-
-/// The sum of the squares of both rotations' errors, |R^T R - I| each (Frobenius). Throws
-/// std::invalid_argument if either is too large, NaN, or a reflection.
-template <typename S>
-[[gnu::always_inline]] inline double squaredRotationErrors(const fcl::Transform3<S>& X_WA,
-                                                           const fcl::Transform3<S>& X_WB) {
-  constexpr double kMost = kRotationError<S> * kRotationError<S>;
-  const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
-  const auto entries = [&](int i, int j) {
-    return lanes::Double2{double{m_a(i, j)}, double{m_b(i, j)}};
-  };
-  const lanes::Double2 squares = squaredRotationError(entries);
-  if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{},
-                       determinant(entries))) {
-    requireRotations<S>(X_WA, X_WB, squares);
-  }
-  return squares[0] + squares[1];
-}
 
 /// True only if the central spheres alone prove the contents of two volumes farther apart than
 /// `margin` >= 0, as separation() would prove it, rounding of the common frame included; false says

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include <fcl/common/types.h>
+#include "volume/lanes.h"
+
 namespace kios {
 
 /// Square of the Frobenius norm of R^T R - I, R by its entries in any floating type or several in
@@ -41,6 +44,30 @@ void requireRotation(double squared_error, double determinant, const char* what)
   if (!(squared_error <= kMost * kMost && determinant > 0)) {
     refuseRotation(what, std::sqrt(squared_error), kMost);
   }
+}
+
+/// Throws std::invalid_argument if either rotation isn't one: for squaredRotationErrors(), which
+/// has found that something may be wrong.
+template <typename S>
+void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
+                      const lanes::Double2& squares);
+
+/// The sum of the squares of both rotations' errors, |R^T R - I| each (Frobenius). Throws
+/// std::invalid_argument if either is too large, NaN, or a reflection.
+template <typename S>
+[[gnu::always_inline]] inline double squaredRotationErrors(const fcl::Transform3<S>& X_WA,
+                                                           const fcl::Transform3<S>& X_WB) {
+  constexpr double kMost = kRotationError<S> * kRotationError<S>;
+  const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();
+  const auto entries = [&](int i, int j) {
+    return lanes::Double2{double{m_a(i, j)}, double{m_b(i, j)}};
+  };
+  const lanes::Double2 squares = squaredRotationError(entries);
+  if (!lanes::bothLess(squares, lanes::Double2{kMost, kMost}, lanes::Double2{},
+                       determinant(entries))) {
+    requireRotations<S>(X_WA, X_WB, squares);
+  }
+  return squares[0] + squares[1];
 }
 
 }  // namespace kios
