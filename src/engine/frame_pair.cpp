@@ -25,30 +25,54 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 }  // namespace
 
 template <typename S>
-bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
+bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
-  const Eigen::Matrix3d R = X_AB.R().template cast<double>();
-  const Eigen::Vector3d t =
-      detail::rotate<double>(R, origin_b) + X_AB.T().template cast<double>() - origin_a;
-  const double reach_a = a.reach, reach_b = b.reach, scale = reach_a + reach_b + t.lpNorm<1>();
-  if (!(std::min(reach_a, reach_b) >= kLeastReach && scale <= kLargestReach)) return false;
-  const double points = error_bounds::volumeError<S>(
-      origin_b.lpNorm<1>() + 2 * reach_b, detail::boundsOf(X_AB).T_norm1 + origin_a.lpNorm<1>(),
-      2 * reach_a, 0);
-  const double pad =
-      error_bounds::laneError(scale) + 2 * detail::boundsOf(X_AB).stretch * scale + points;
-  if (!(pad <= 0x1p-4 * std::min(reach_a, reach_b))) return false;
-  const Eigen::Matrix3d inverse = R.inverse();
-  out.a_from_b = toFloat(R, t);
-  out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, t));
-  out.pad = roundUpFloat(pad);
-  out.box_pad =
-      roundUpFloat(pad + (error_bounds::boxError(scale) - error_bounds::laneError(scale)));
-  out.scale = roundUpFloat(scale);
+  const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
+  out.R = X_AB.R().template cast<double>();
+  out.t = detail::rotate<double>(out.R, origin_b) + X_AB.T().template cast<double>() - origin_a;
+  const double reach_a = a.reach, reach_b = b.reach;
+  out.scale = reach_a + reach_b + out.t.template lpNorm<1>();
+  if (!(std::min(reach_a, reach_b) >= kLeastReach && out.scale <= kLargestReach)) return false;
+  const double points =
+      error_bounds::volumeError<S>(origin_b.template lpNorm<1>() + 2 * reach_b,
+                                   bounds.T_norm1 + origin_a.template lpNorm<1>(), 2 * reach_a, 0);
+  out.stretch = bounds.stretch;
+  const double rest = 2 * bounds.stretch * out.scale + points;
+  out.pad = error_bounds::laneError(out.scale) + rest;
+  out.box_pad = error_bounds::boxError(out.scale) + rest;
+  return out.pad <= 0x1p-4 * std::min(reach_a, reach_b);
+}
+
+// The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by
+// 3 stretch S: far below a rounding in float, which the counts have room for, if the stretch is.
+void makeFramePair(const TreePose& X_AB, FramePair& out) {
+  constexpr double kRigid = 0x1p-30;
+  Eigen::Matrix3d inverse;
+  if (X_AB.stretch <= kRigid) {
+    inverse = X_AB.R.transpose();
+  } else {
+    inverse = X_AB.R.inverse();
+  }
+  out.a_from_b = toFloat(X_AB.R, X_AB.t);
+  out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, X_AB.t));
+  out.pad = roundUpFloat(X_AB.pad);
+  out.box_pad = roundUpFloat(X_AB.box_pad);
+  out.scale = roundUpFloat(X_AB.scale);
+}
+
+template <typename S>
+bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
+  TreePose pose;
+  if (!makeTreePose(a, b, X_AB, pose)) return false;
+  makeFramePair(pose, out);
   return true;
 }
 
-template bool makeFramePair(const Tree&, const Tree&, const RelativePose<double>&, FramePair&);
-template bool makeFramePair(const Tree&, const Tree&, const RelativePose<float>&, FramePair&);
+#define KIOS_INSTANTIATE(S)                                                                \
+  template bool makeTreePose(const Tree&, const Tree&, const RelativePose<S>&, TreePose&); \
+  template bool makeFramePair(const Tree&, const Tree&, const RelativePose<S>&, FramePair&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
 
 }  // namespace kios::engine

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+
 #include "engine/tree.h"
 #include "fcl_kios/volume/separation.h"
 
@@ -67,8 +69,20 @@ struct FramePair {
   float scale;  ///< S
 };
 
+/// Where tree b is in tree a's frame, in double, and how far off bounds are in floats.
+struct TreePose {
+  Eigen::Matrix3d R;
+  Eigen::Vector3d t;
+  double stretch, pad, box_pad, scale;
+};
+
 /// False if floats can't serve the pair: lengths out of range, or a pad that is not small against
 /// both models. The exact search of layer 1 then does.
+template <typename S>
+bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out);
+void makeFramePair(const TreePose& X_AB, FramePair& out);
+
+/// Both at once.
 template <typename S>
 bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out);
 

@@ -16,10 +16,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/cell_search.h"
 #include "engine/compress_table.h"
 #include "engine/ray_search.h"
 #include "engine/search.h"
 #include "engine/simd/targets.h"
+#include "engine/solid_search.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "engine/kernels.cpp"
@@ -35,21 +37,31 @@
 //
 #include "engine/simd/frontier-inl.h"
 //
+#include "engine/simd/leaf_cull-inl.h"
+//
+#include "engine/simd/leaf_pair-inl.h"
+//
+#include "engine/simd/triangle_leaf-inl.h"
+//
+#include "engine/simd/triangle_bounds-inl.h"
+//
 #include "engine/simd/traverse-inl.h"
 //
 #include "engine/simd/descent-inl.h"
 //
 #include "engine/simd/ray-inl.h"
 //
-#include "engine/simd/leaf_cull-inl.h"
+#include "engine/simd/solid_bounds-inl.h"
 //
-#include "engine/simd/leaf_pair-inl.h"
+#include "engine/simd/solid-inl.h"
 //
 #include "engine/simd/leaf_distance-inl.h"
 //
 #include "engine/simd/leaf_bracket-inl.h"
 //
 #include "engine/simd/bracket_search-inl.h"
+//
+#include "engine/simd/cells-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -59,7 +71,8 @@ namespace kios::engine::HWY_NAMESPACE {
 /// and waits again; the features of one that waited are evaluated.
 class DistanceSearch {
  public:
-  explicit DistanceSearch(const Search& search) : search_(search), expander_(search) {}
+  explicit DistanceSearch(const Search& search)
+      : search_(search), expander_(search), leaves_a_(search.a), leaves_b_(search.b) {}
 
   void run() {
     if (descend()) return;
@@ -104,19 +117,19 @@ class DistanceSearch {
 
   /// True to end the search. Not inlined: its path is large, and not needed for long.
   HWY_NOINLINE bool descend() {
-    Descent descent(search_, expander_, std::numeric_limits<long long>::max());
+    Descent descent(expander_, std::numeric_limits<long long>::max());
     if (descent.atLeaves() && boundLeaves(descent.end())) return true;
     descent.spread(frontier_);
     return false;
   }
 
   /// True to end the search.
-  bool boundLeaves(const PairList::Entry& entry) {
+  HWY_INLINE bool boundLeaves(const PairList::Entry& entry) {
     if (entry.bound >= search_.evaluator.prune_at) return false;
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
-    bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, pair);
+    bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
     if (!pair.slab.apart) search_.evaluator.offer(pair.upper);
     const float bound = std::max(entry.bound, pair.lower);
     if (pair.slab.apart || bound >= search_.evaluator.prune_at) {
@@ -136,8 +149,8 @@ class DistanceSearch {
     for (size_t i = 0; i < frontier_.inner.size(); ++i) expander_.fetchNodes(frontier_.inner[i]);
     for (size_t i = 0; i < frontier_.bounded.size(); ++i) {
       const Pair at = waiting_[frontier_.bounded[i].a].nodes;
-      fetchFeatures(search_.a, leafA(at));
-      fetchFeatures(search_.b, leafB(at));
+      fetchFeatures(search_.a, leaves_a_.leafOf(at.a));
+      fetchFeatures(search_.b, leaves_b_.leafOf(at.b));
     }
   }
   static HWY_INLINE void fetchFeatures(const Tree& tree, const Leaf& leaf) {
@@ -148,12 +161,12 @@ class DistanceSearch {
 
   HWY_INLINE void fetchLeaves(const PairList::Entry* pairs, size_t count) const {
     for (size_t i = 0; i < count; ++i) {
-      fetch(leafA(pairs[i].pair));
-      fetch(leafB(pairs[i].pair));
+      fetch(leaves_a_.leafOf(pairs[i].pair.a));
+      fetch(leaves_b_.leafOf(pairs[i].pair.b));
     }
     for (size_t i = 0; i < count; ++i) {
-      fetchVertices(search_.a, leafA(pairs[i].pair));
-      fetchVertices(search_.b, leafB(pairs[i].pair));
+      fetchVertices(search_.a, leaves_a_.leafOf(pairs[i].pair.a));
+      fetchVertices(search_.b, leaves_b_.leafOf(pairs[i].pair.b));
     }
   }
   static HWY_INLINE void fetchVertices(const Tree& tree, const Leaf& leaf) {
@@ -161,16 +174,15 @@ class DistanceSearch {
     fetch(view.vertices.rows, 3 * static_cast<size_t>(view.vertices.chunks));
   }
 
-  const Leaf& leafA(Pair at) const { return search_.a.leaves[search_.a.nodes[at.a].leaf()]; }
-  const Leaf& leafB(Pair at) const { return search_.b.leaves[search_.b.nodes[at.b].leaf()]; }
-
   /// True to end the search.
-  bool evaluateFeatures(const Bracketed& pair, float bound) {
-    return nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
+  HWY_NOINLINE bool evaluateFeatures(const Bracketed& pair, float bound) {
+    return nearestOfLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b), pair.slab,
+                           bound);
   }
 
   const Search& search_;
   const Expander expander_;
+  Leaves leaves_a_, leaves_b_;
   Frontier frontier_;
   LastLeaves last_;
   uint32_t num_waiting_ = 0;
@@ -186,7 +198,7 @@ void bracket(const Search& search) { BracketSearch(search).run(); }
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;
-  const Tree &a = search.a, &b = search.b;
+  Leaves leaves_a(search.a), leaves_b(search.b);
   const Expander expander(search);
   const size_t most = expander.hasBoxes() ? 2 : kBatch;
   Frontier frontier;
@@ -195,7 +207,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
     while (!frontier.leaves.empty()) {
       ++search.counts.leaf_pairs;
       const Pair at = frontier.leaves.pop().pair;
-      if (leaf_pair(search, a.leaves[a.nodes[at.a].leaf()], b.leaves[b.nodes[at.b].leaf()])) return;
+      if (leaf_pair(search, leaves_a(at.a), leaves_b(at.b))) return;
     }
     PairList::Entry batch[kBatch];
     const size_t n = frontier.inner.pop(batch, most);
@@ -209,8 +221,14 @@ void contact(const Search& search) { touching(search, contactOfLeaves); }
 void contacts(const Search& search) { touching(search, contactsOfLeaves); }
 
 extern const Kernels kKernels;
-const Kernels kKernels = {
-    &HWY_STR(HWY_NAMESPACE)[2], &distance, &bracket, &contact, &contacts, &ray};  // after N_
+const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2],  // after N_
+                          &distance,
+                          &bracket,
+                          &contact,
+                          &contacts,
+                          &ray,
+                          &cells,
+                          &solid};
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

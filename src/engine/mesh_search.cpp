@@ -35,22 +35,22 @@ bool exists(const TrianglePairIds& ids, const PreparedPair<S>& pair) {
 template <typename S>
 class Corners {
  public:
-  explicit Corners(const PreparedPair<S>& pair) : pair_(pair) {}
+  Corners(const MeshView<S>& a, const MeshView<S>& b, const RelativePose<S>& X_AB)
+      : a_(a), b_(b), X_AB_(X_AB) {}
+  explicit Corners(const PreparedPair<S>& pair) : Corners(pair.a.mesh, pair.b.mesh, pair.X_AB) {}
 
   Eigen::Vector3d ofA(FeatureId id, std::uint32_t step = 0) const {
-    return pair_.a.mesh.corner(id.triangle(), next(id, step)).template cast<double>();
+    return a_.corner(id.triangle(), next(id, step)).template cast<double>();
   }
   Eigen::Vector3d ofB(FeatureId id, std::uint32_t step = 0) const {
-    const fcl::Vector3<S> q = pair_.X_AB * pair_.b.mesh.corner(id.triangle(), next(id, step));
+    const fcl::Vector3<S> q = X_AB_ * b_.corner(id.triangle(), next(id, step));
     return q.template cast<double>();
   }
   TriangleVertices<S> triangleOfA(std::uint32_t t) const {
-    const auto& m = pair_.a.mesh;
-    return {m.corner(t, 0), m.corner(t, 1), m.corner(t, 2)};
+    return {a_.corner(t, 0), a_.corner(t, 1), a_.corner(t, 2)};
   }
   TriangleVertices<S> triangleOfB(std::uint32_t t) const {
-    const auto& m = pair_.b.mesh;
-    return {pair_.X_AB * m.corner(t, 0), pair_.X_AB * m.corner(t, 1), pair_.X_AB * m.corner(t, 2)};
+    return {X_AB_ * b_.corner(t, 0), X_AB_ * b_.corner(t, 1), X_AB_ * b_.corner(t, 2)};
   }
   TriangleDistance<S> distanceOf(const TrianglePairIds& ids) const {
     return triangleDistance(triangleOfA(static_cast<std::uint32_t>(ids.a)),
@@ -65,7 +65,8 @@ class Corners {
     const std::uint32_t k = id.corner() + step;
     return k < 3 ? k : k - 3;
   }
-  const PreparedPair<S>& pair_;
+  const MeshView<S> a_, b_;
+  const RelativePose<S>& X_AB_;
 };
 
 TrianglePairIds idsOf(const Candidate& c) {
@@ -75,11 +76,12 @@ TrianglePairIds idsOf(const Candidate& c) {
 template <typename S>
 class NearestEvaluator final : public ExactEvaluator {
  public:
-  NearestEvaluator(const PreparedPair<S>& pair, const PairQuery& query)
-      : corners_(pair),
+  /// Extents of edges are at most four times the scale.
+  NearestEvaluator(const Corners<S>& corners, double scale, const PairQuery& query)
+      : corners_(corners),
         query_(query),
         by_faces_(query.hasBudget()),
-        least_shared_(leastShared(pair)) {
+        least_shared_(featureError<S>(4 * scale)) {
     prune_at = keep_to = upToFloat(query.far_enough);
   }
 
@@ -136,11 +138,6 @@ class NearestEvaluator final : public ExactEvaluator {
   /// The fourth power of a shorter extent, times what parts of it matter, would not be a normal
   /// number: see feature_distance.cpp.
   static constexpr double kLeastExtent = 0x1p-220;
-
-  /// Extents of edges are at most four times the scale.
-  static double leastShared(const PreparedPair<S>& pair) {
-    return featureError<S>(4 * double{pair.frames.scale});
-  }
 
   FeatureDistance distanceOf(const Candidate& c) {
     if (c.kind == PairKind::kEdgeEdge) {
@@ -203,6 +200,46 @@ class NearestEvaluator final : public ExactEvaluator {
   const double least_shared_;  ///< nearer edges need their own extent; see evaluate()
 };
 
+/// The features of some triangles of a mesh, each by its first triangle, as in Ownership: by
+/// triangle, the corners at which it owns an edge, and those at which it owns a vertex, as bits.
+struct OwnFeatures {
+  unsigned int edges = 7, vertices = 7;
+};
+
+template <typename S>
+std::vector<OwnFeatures> ownFeatures(const MeshView<S>& mesh, const std::vector<int>& triangles) {
+  std::vector<OwnFeatures> own(triangles.size());
+  const auto corner = [&](std::size_t i, int k) -> const fcl::Vector3<S>& {
+    return mesh.corner(static_cast<std::size_t>(triangles[i]), static_cast<std::size_t>(k % 3));
+  };
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {  // the triangles ascend
+      for (int k = 0; k < 3; ++k) {
+        for (int l = 0; l < (i == j ? k : 3); ++l) {
+          const auto &v = corner(i, k), &next_v = corner(i, k + 1);
+          const auto &w = corner(j, l), &next_w = corner(j, l + 1);
+          if (v == w) own[i].vertices &= ~(1U << k);
+          if ((v == w && next_v == next_w) || (v == next_w && next_v == w)) {
+            own[i].edges &= ~(1U << k);
+          }
+        }
+      }
+    }
+  }
+  return own;
+}
+
+/// The triangles of one side of some pairs, ascending.
+std::vector<int> trianglesOf(const std::vector<TrianglePairIds>& pairs,
+                             int TrianglePairIds::*side) {
+  std::vector<int> triangles;
+  triangles.reserve(pairs.size());
+  for (const TrianglePairIds& ids : pairs) triangles.push_back(ids.*side);
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  return triangles;
+}
+
 template <typename S>
 class IntersectionEvaluator final : public ExactEvaluator {
  public:
@@ -228,10 +265,48 @@ class IntersectionEvaluator final : public ExactEvaluator {
 
 }  // namespace
 
+// A feature near enough to matter belongs to a pair near enough to be given, and so does the same
+// feature of its first triangle: ownership among the triangles given is that of the mesh.
+template <typename S>
+TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const MeshView<S>& a,
+                               const MeshView<S>& b, const RelativePose<S>& X_AB) {
+  if (pairs.size() == 1) return pairs[0];
+  const auto triangles_a = trianglesOf(pairs, &TrianglePairIds::a),
+             triangles_b = trianglesOf(pairs, &TrianglePairIds::b);
+  const auto own_a = ownFeatures(a, triangles_a), own_b = ownFeatures(b, triangles_b);
+  const auto ownOf = [](const std::vector<int>& triangles, const std::vector<OwnFeatures>& own,
+                        int id) {
+    const auto at = std::lower_bound(triangles.begin(), triangles.end(), id) - triangles.begin();
+    return own[static_cast<std::size_t>(at)];
+  };
+  const PairQuery query;
+  const double infinity = std::numeric_limits<double>::infinity();  // no two edges share their ends
+  NearestEvaluator<S> evaluator(Corners<S>(a, b, X_AB), infinity, query);
+  for (const TrianglePairIds& ids : pairs) {
+    const OwnFeatures of_a = ownOf(triangles_a, own_a, ids.a),
+                      of_b = ownOf(triangles_b, own_b, ids.b);
+    const std::uint32_t face_a = static_cast<std::uint32_t>(ids.a) << 2,
+                        face_b = static_cast<std::uint32_t>(ids.b) << 2;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      for (std::uint32_t j = 0; j < 3; ++j) {
+        if ((of_a.edges >> i & of_b.edges >> j & 1U) == 0) continue;
+        evaluator.evaluate({PairKind::kEdgeEdge, {face_a | i}, {face_b | j}});
+      }
+      if ((of_a.vertices >> i & 1U) != 0) {
+        evaluator.evaluate({PairKind::kVertexFace, {face_a | i}, {face_b}});
+      }
+      if ((of_b.vertices >> i & 1U) != 0) {
+        evaluator.evaluate({PairKind::kFaceVertex, {face_a}, {face_b | i}});
+      }
+    }
+  }
+  return evaluator.ids();
+}
+
 template <typename S>
 PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
                                SearchCounts& counts) {
-  NearestEvaluator<S> evaluator(pair, query);
+  NearestEvaluator<S> evaluator(Corners<S>(pair), double{pair.frames.scale}, query);
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
@@ -284,6 +359,8 @@ std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, 
 }
 
 #define KIOS_INSTANTIATE(S)                                                                        \
+  template TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>&, const MeshView<S>&, \
+                                          const MeshView<S>&, const RelativePose<S>&);             \
   template PairAnswer<S> nearestTriangles(const PreparedPair<S>&, const PairQuery&,                \
                                           SearchCounts&);                                          \
   template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&, std::size_t, \

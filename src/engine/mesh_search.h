@@ -30,6 +30,12 @@ struct PreparedPair {
   Audit* audit = nullptr;
 };
 
+/// Of these pairs of triangles, the one that nearestTriangles() names, if every pair that rounding
+/// may make the nearest is among them. None of them may touch. Needs no trees.
+template <typename S>
+TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const MeshView<S>& a,
+                               const MeshView<S>& b, const RelativePose<S>& X_AB);
+
 /// The answer in the trees. Exact answers don't depend on where the search began.
 template <typename S>
 PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/node_layout.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,35 @@
 #include "volume/rounding.h"
 
 namespace kios::engine {
+namespace {
+
+float widthOf(const Tree& tree, const Leaf& leaf) {
+  const Eigen::Vector3f centroid(leaf.centroid[0], leaf.centroid[1], leaf.centroid[2]);
+  const auto fromCentroid = [&](int i) -> Eigen::Vector3f {
+    const Lanes* const rows = &tree.lanes[leaf.offset + 3U * static_cast<unsigned>(i / kLanes)];
+    const int l = i % kLanes;
+    return Eigen::Vector3f(rows[0].v[l], rows[1].v[l], rows[2].v[l]) - centroid;
+  };
+  Eigen::Vector3f along = Eigen::Vector3f::Zero();
+  float farthest = 0;
+  for (int i = 0; i < leaf.num_vertices; ++i) {
+    const Eigen::Vector3f v = fromCentroid(i);
+    const float square = v.squaredNorm();
+    if (!(square > farthest)) continue;
+    farthest = square;
+    along = v;
+  }
+  if (!(farthest > 0)) return 0;
+  along /= std::sqrt(farthest);
+  float widest = 0;
+  for (int i = 0; i < leaf.num_vertices; ++i) {
+    const Eigen::Vector3f v = fromCentroid(i);
+    widest = std::max(widest, (v - v.dot(along) * along).squaredNorm());
+  }
+  return std::sqrt(widest);
+}
+
+}  // namespace
 
 void writeSpheres(const kIOS<float>& bv, Node& node) {
   Ball balls[kIOS<float>::kMaxSpheres];
@@ -93,6 +123,18 @@ double searchCost(const Tree& tree) {
     sum += size * std::sqrt(size);
   }
   return sum;
+}
+
+void measureLeaves(Tree& tree) {
+  double sum = 0;
+  tree.widest_leaf = 0;
+  for (Node& node : tree.nodes) {
+    if (!node.isLeaf()) continue;
+    node.width = widthOf(tree, tree.leaves[node.leaf()]);
+    sum += double{node.size};
+    tree.widest_leaf = std::max(tree.widest_leaf, node.width);
+  }
+  tree.mean_leaf = static_cast<float>(sum / static_cast<double>(tree.leaves.size()));
 }
 
 }  // namespace kios::engine

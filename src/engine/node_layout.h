@@ -29,4 +29,11 @@ float reachOf(const Node& node);
 /// of their nodes' sizes to the power of 1.5, where the root's size is 1.
 double searchCost(const Tree& tree);
 
+/// Sets Node::width of the leaves, the largest distance of a vertex from the line through the
+/// leaf's centroid and its farthest vertex, Tree::mean_leaf, and Tree::widest_leaf. A leaf of long
+/// strips side by side is narrow, and one of two large triangles or of needles in any direction is
+/// wide: a node of another tree that is small beside its width may be near to only a few of its
+/// triangles.
+void measureLeaves(Tree& tree);
+
 }  // namespace kios::engine

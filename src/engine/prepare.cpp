@@ -55,6 +55,7 @@ class Preparation {
     fillLeaves();
     placeVolumes();
     tree_->cost = searchCost(*tree_);
+    measureLeaves(*tree_);
     tree_->indices = indexHash(mesh_);
     if (welds_) tree_->corners = std::move(corners_);
     return std::move(tree_);
@@ -191,8 +192,12 @@ class Preparation {
       any_flat |= node.flat != 0;
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
+    tree_->root_box = tree_->boxes[0];
     tree_->box_blocks.resize(any_flat ? tree_->blocks.size() : 0);
-    if (any_flat && fitBoxes(chunks, below, *tree_)) return;
+    if (any_flat && fitBoxes(chunks, below, *tree_)) {
+      tree_->root_box = tree_->boxes[0];
+      return;
+    }
     tree_->boxes = {};
     tree_->box_blocks = {};
   }

@@ -31,7 +31,11 @@ class Refit {
     // Nodes lie before their children.
     tree_.reach = 0;
     for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n);
-    if (!tree_.boxes.empty()) fitBoxes(chunks_, ranges_, tree_);  // none need be flat now
+    if (!tree_.boxes.empty()) {
+      fitBoxes(chunks_, ranges_, tree_);  // none need be flat now
+      tree_.root_box = tree_.boxes[0];
+    }
+    measureLeaves(tree_);
     return searchCost(tree_) <= kPoor * tree_.cost;
   }
 
@@ -104,8 +108,10 @@ class Refit {
         moments.add(moments_[node.first_child + i]);
       }
     }
-    quickFit(&chunks_[range.begin], range.end - range.begin, moments, node,
-             tree_.boxes.empty() ? nullptr : &tree_.boxes[n]);
+    Box* box = tree_.boxes.empty() ? nullptr : &tree_.boxes[n];
+    if (!box && n == 0) box = &tree_.root_box;
+    quickFit(&chunks_[range.begin], range.end - range.begin, moments, node, box);
+    if (tree_.boxes.empty()) node.flat = 0;  // no search has its box
     tree_.reach = std::max(tree_.reach, reachOf(node));
     if (!node.isLeaf()) fillBlock(node);
   }

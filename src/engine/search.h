@@ -46,10 +46,18 @@ class ExactEvaluator {
   ~ExactEvaluator() = default;
 };
 
+/// Where the leaf of one tree is much larger than a node of the other, its triangles take its
+/// place, one by one: they are named like nodes, by this bit, the leaf's index << 3 and the lane.
+constexpr std::uint32_t kTriangleNode = 1U << 31;
+constexpr bool isTriangle(std::uint32_t node) { return (node & kTriangleNode) != 0; }
+constexpr std::uint32_t leafOfTriangle(std::uint32_t node) { return (node & ~kTriangleNode) >> 3; }
+constexpr std::uint32_t laneOfTriangle(std::uint32_t node) { return node & (kLanes - 1U); }
+
 /// Hears of everything that a search leaves out, for tests.
 class Audit {
  public:
-  /// The contents of two nodes were proven at least `bound` apart, and so left out.
+  /// The contents of two nodes were proven at least `bound` apart, and so left out. Either may be a
+  /// triangle of a leaf.
   virtual void pruned(std::uint32_t node_a, std::uint32_t node_b, float bound) = 0;
 
  protected:
@@ -65,7 +73,9 @@ struct Bracket {
   bool out_of_budget = false;
 };
 
+struct CellSearch;
 struct RaySearch;
+struct SolidSearch;
 
 struct Search {
   const Tree& a;
@@ -92,6 +102,10 @@ struct Kernels {
   void (*contacts)(const Search& search);
   /// Every triangle that the ray may meet is evaluated, those ahead first.
   void (*ray)(const RaySearch& search);
+  /// Every cell of an octree and triangle that may touch are evaluated.
+  void (*cells)(const CellSearch& search);
+  /// Every triangle that may be nearer to the solid than evaluator.prune_at is evaluated.
+  void (*solid)(const SolidSearch& search);
 };
 
 /// The best instruction set of this machine, or that which the environment variable

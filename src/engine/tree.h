@@ -37,9 +37,9 @@ struct alignas(32) Node {
   std::uint32_t first_child : 31;  ///< of the block: a node index
   std::uint32_t flat : 1;          ///< a box bounds it better than spheres
 
-  std::uint32_t unused = 0;
+  float width = 0;  ///< of a leaf: see measureLeaves()
 
-  Node() : first_child(0), flat(0) {}
+  constexpr Node() : first_child(0), flat(0) {}
 
   bool isLeaf() const { return child < 0; }
   std::size_t leaf() const { return ~static_cast<std::size_t>(child); }
@@ -110,9 +110,12 @@ using Corners3 = std::array<std::uint32_t, 3>;
 
 struct Tree {
   double origin[3] = {};
-  float reach = 0;  ///< >= |centre| + |radius| of all spheres
-  int depth = 0;    ///< of blocks
+  float reach = 0;        ///< >= |centre| + |radius| of all spheres
+  float mean_leaf = 0;    ///< mean size of the leaves' nodes
+  float widest_leaf = 0;  ///< their largest width
+  int depth = 0;          ///< of blocks
   std::vector<Node> nodes;
+  Box root_box;            ///< of the root, flat or not
   std::vector<Box> boxes;  ///< by node; none if no node is flat
   std::vector<Block> blocks;
   std::vector<BoxBlock> box_blocks;  ///< by block; none if no node is flat

@@ -139,8 +139,16 @@ Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, do
 
 bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
   const BodyData &a = body(pair.a), &b = body(pair.b);
-  if (!a.model || !b.model || min_separation_ > 0) return false;
+  const auto isQuick = [](const BodyData& body) { return body.kind != BodyKind::kOctree; };
+  if (min_separation_ > 0 || !isQuick(a) || !isQuick(b)) return false;
   ++counts_.narrow_queries;
+  if (!a.model && !b.model) {
+    return shapesMeet(a, at.pose(pair.a), b, at.pose(pair.b), min_separation_);
+  }
+  if (!a.model || !b.model) {
+    const int mesh = a.model ? pair.a : pair.b, shape = a.model ? pair.b : pair.a;
+    return touchesOther(mesh, shape, at);
+  }
   const PairFrame<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                                 path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
   SearchCounts counts;
@@ -148,6 +156,12 @@ bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
   searchContacts(frame, 1, found, counts);
   counts_.expansions += counts.expansions;
   return !found.empty();
+}
+
+bool BodyQueries::touchesOther(int mesh, int other, const Configuration& at) const {
+  fcl::CollisionResultd contacts;
+  return collideOther(*body(mesh).model, at.pose(mesh), *body(other).geometry, at.pose(other),
+                      fcl::CollisionRequestd(), contacts) > 0;
 }
 
 Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough,
@@ -216,9 +230,7 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
     return {distance - error, distance <= min_separation_};
   }
   if (distance > error) return {apart, false};
-  fcl::CollisionResultd contacts;
-  return {apart, collideOther(model, at.pose(mesh), geometry, at.pose(other),
-                              fcl::CollisionRequestd(), contacts) > 0};
+  return {apart, touchesOther(mesh, other, at)};
 }
 
 Nearness BodyQueries::askShapes(int a, int b, const Configuration& at) const {

@@ -55,6 +55,8 @@ class BodyQueries {
   Nearness askMeshes(Pair& pair, const Configuration& at, double enough, double roots) const;
   Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                            double enough) const;
+  /// A mesh and a shape or octree, by fcl::collide.
+  bool touchesOther(int mesh, int other, const Configuration& at) const;
   Nearness askShapes(int a, int b, const Configuration& at) const;
 
   const Path& path_;

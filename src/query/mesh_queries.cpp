@@ -5,56 +5,32 @@
 #include <algorithm>
 #include <iostream>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include "fcl_kios/query/mesh_nodes.h"
-#include "model/prepared.h"
+#include "model/kios_model.h"
+#include "query/few_triangles.h"
 #include "query/mesh_pair.h"
 #include "query/pair_search.h"
+#include "query/unprepared.h"
+#include "query/vertices_apart.h"
 #include "volume/far_apart.h"
 
 namespace kios {
 namespace {
 
-/// FCL's trees, searched until a pair is found or so many tests are made.
+/// By FCL's traversal, for cost sources and models that the engine can't serve.
 template <typename S>
-class LimitedNode final : public MeshCollisionTraversalNode<S> {
- public:
-  explicit LimitedNode(long long limit) : limit_(limit) { this->enable_statistics = true; }
-
-  bool canStop() const override {
-    return MeshCollisionTraversalNode<S>::canStop() || tests() >= limit_;
-  }
-  /// Of volumes; a test of triangles takes as long as four.
-  long long tests() const { return this->num_bv_tests + 4LL * this->num_leaf_tests; }
-  bool gaveUp() const { return tests() >= limit_; }
-
- private:
-  const long long limit_;
-};
-
-/// Decides by FCL's trees whether two models touch, as long as it hasn't paid to prepare both of
-/// them. Returns false if the engine is to decide.
-template <typename S>
-bool touchUnprepared(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                     const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
-                     fcl::CollisionResult<S>& result, SearchCounts& counts) {
-  engine::TreeCache *const trees_a = treesOf(a), *const trees_b = treesOf(b);
-  if (!trees_a || !trees_b) return false;
-  const long long limit = std::max(trees_a->testsToSpare(static_cast<std::size_t>(a.num_tris)),
-                                   trees_b->testsToSpare(static_cast<std::size_t>(b.num_tris)));
-  if (limit == 0) return false;
-  LimitedNode<S> node(limit);
-  initialize(node, a, X_WA, b, X_WB, request, result);
-  fcl::detail::collide(&node);
-  trees_a->spend(node.tests());
-  if (trees_b != trees_a) trees_b->spend(node.tests());
-  counts.volume_tests += node.num_bv_tests;
-  counts.leaf_pairs += node.num_leaf_tests;
-  if (node.gaveUp() && !request.isSatisfied(result)) return false;
+[[gnu::noinline]] void collideByFCL(const PairFrame<S>& frame, const fcl::Transform3<S>& X_WA,
+                                    const fcl::Transform3<S>& X_WB,
+                                    const fcl::CollisionRequest<S>& request,
+                                    fcl::CollisionResult<S>& result, SearchCounts& counts) {
   ++counts.tree_searches;
-  return true;
+  MeshCollisionTraversalNode<S> node;
+  initialize(node, frame.a, X_WA, frame.b, X_WB, request, result);
+  fcl::detail::collide(&node);
 }
 
 /// collideMeshes() of models that may touch, for all that farApart() can tell.
@@ -64,25 +40,52 @@ template <typename S>
                                    const fcl::CollisionRequest<S>& request,
                                    fcl::CollisionResult<S>& result, SearchCounts& counts) {
   if (frame.rootBound(0) > 0) return;
+  if (verticesApart(frame, 0)) return;
   const Model<S>&a = frame.a, &b = frame.b;
   const bool occupied = a.isOccupied() && b.isOccupied();
   if (occupied && !request.enable_cost) {
-    const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
-    if (verdict && touchUnprepared(a, X_WA, b, X_WB, request, result, counts)) return;
     const std::size_t room = request.num_max_contacts - result.numContacts();
     std::vector<engine::TrianglePairIds> found;
-    if (searchContacts(frame, room, found, counts)) {
-      for (const auto& ids : found) {
-        addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA,
-                    request, result);
+    if (areFew(a, b)) {
+      found = intersectingOfFew(frame, room, counts);
+    } else {
+      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
+      // the models.
+      const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
+      auto walked = touchUnprepared(frame, room, counts);
+      if (walked && (verdict || walked->size() < room)) {
+        found = std::move(*walked);
+      } else if (!searchContacts(frame, room, found, counts)) {
+        return collideByFCL(frame, X_WA, X_WB, request, result, counts);
       }
-      return;
     }
+    for (const auto& ids : found) {
+      addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA, request,
+                  result);
+    }
+    return;
   }
-  ++counts.tree_searches;
-  MeshCollisionTraversalNode<S> node;
-  initialize(node, a, X_WA, b, X_WB, request, result);
-  fcl::detail::collide(&node);
+  collideByFCL(frame, X_WA, X_WB, request, result, counts);
+}
+
+/// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough.
+template <typename S>
+engine::PairAnswer<S> nearestOf(const PairFrame<S>& frame, const engine::PairQuery& query,
+                                SearchCounts& counts) {
+  if (frame.a.num_tris == 1 && frame.b.num_tris == 1) {
+    engine::PairAnswer<S> answer;
+    answer.ids = {0, 0};
+    answer.nearest = frame.distanceOf(answer.ids);
+    ++counts.leaf_pairs;
+    ++counts.exact;
+    return answer;
+  }
+  if (query.isExact() && engineServes(frame)) {
+    if (areVeryFew(frame.a, frame.b)) return nearestOfFew(frame, query.far_enough, counts);
+    const auto answer = nearestUnprepared(frame, query.far_enough, counts);
+    if (answer) return *answer;
+  }
+  return searchNearest(frame, query, counts);
 }
 
 }  // namespace
@@ -126,10 +129,11 @@ S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<
     }
   }
   const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);
-  const bool far = bounded && frame.rootBound(query.far_enough) >= query.far_enough;
+  const bool far = bounded && (frame.rootBound(query.far_enough) >= query.far_enough ||
+                               verticesApart(frame, query.far_enough));
   if (far || request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
-  const engine::PairAnswer<S> answer = searchNearest(frame, query, counts ? *counts : unused);
+  const engine::PairAnswer<S> answer = nearestOf(frame, query, counts ? *counts : unused);
   const TriangleDistance<S>& nearest = answer.nearest;
   if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
   if (request.enable_nearest_points) {

@@ -10,6 +10,7 @@
 
 #include "query/collide_with.h"
 #include "query/mesh_pair.h"
+#include "query/octree_collision.h"
 #include "query/posed_solid.h"
 #include "solid/triangle_shape.h"
 
@@ -24,14 +25,6 @@ struct Cell {
   const Node* node;
   fcl::AABB<S> box;
 };
-
-template <typename S>
-shape::Solid rootCube(const fcl::OcTree<S>& octree) {
-  shape::Solid cube;
-  cube.kind = shape::Kind::kBox;
-  cube.half = octree.getRootBV().max_.template cast<double>();
-  return cube;
-}
 
 /// An octree and a mesh posed in the octree's frame, with what collide and distance share.
 template <typename S>
@@ -104,92 +97,6 @@ class OctreePair {
   const Model<S>& model_;
   SearchCounts& counts_;
   const PosedSolid<S> posed_;  // its solid is the root's cube
-};
-
-template <typename S>
-class OctreeCollision : OctreePair<S> {
- public:
-  OctreeCollision(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
-                  const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                  const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
-                  SearchCounts& counts)
-      : OctreePair<S>(octree, X_WO, model, X_WM, counts),
-        X_WO_(X_WO),
-        X_WM_(X_WM),
-        request_(request),
-        result_(result) {}
-
-  void run() {
-    if (!this->model_.isFree()) visit(this->root(), 0);
-  }
-
- private:
-  /// True if a cell can matter. A pair that is not occupied on both sides matters for costs only.
-  bool matters(const Cell<S>& cell) const {
-    if (!cell.node) return request_.enable_cost;
-    if (this->octree_.isNodeFree(cell.node)) return false;
-    return request_.enable_cost ||
-           (this->octree_.isNodeOccupied(cell.node) && this->model_.isOccupied());
-  }
-
-  /// Returns true once the request is satisfied.
-  bool visit(const Cell<S>& cell, int id) {
-    if (!matters(cell) || this->bound(cell, id) > 0) return false;
-    const auto& node = this->model_.getBV(id);
-    if (this->isLeaf(cell) && node.isLeaf()) {
-      test(cell, node.primitiveId());
-      return request_.isSatisfied(result_);
-    }
-    if (!this->isLeaf(cell) && this->dividesCell(cell, id)) {
-      for (unsigned int i = 0; i < 8; ++i) {
-        if (visit(this->child(cell, i), id)) return true;
-      }
-      return false;
-    }
-    return visit(cell, node.leftChild()) || visit(cell, node.rightChild());
-  }
-
-  void test(const Cell<S>& cell, int id) {
-    ++this->counts_.leaf_kernels;
-    shape::Vec center;
-    const shape::Solid box = this->boxOf(cell.box, center);
-    const shape::Triangle triangle = this->place(id, center);
-    if (!shape::intersects(box, triangle)) return;
-    const bool occupied =
-        cell.node && this->octree_.isNodeOccupied(cell.node) && this->model_.isOccupied();
-    if (occupied && result_.numContacts() < request_.num_max_contacts) {
-      fcl::Contact<S> contact(&this->octree_, &this->model_, 0, id, fcl::Vector3<S>::Zero(),
-                              fcl::Vector3<S>::Zero(), S(0));
-      contact.b1 = this->idOf(cell);  // FCL's constructor would cut it to an int
-      if (request_.enable_contact) {
-        const shape::TriangleShapeContact c = shape::contact(box, triangle);
-        contact.pos = this->posed_.toWorld(c.position + center);
-        contact.normal = this->posed_.directionToWorld(c.normal);  // from the cell to the mesh
-        contact.penetration_depth = this->posed_.fromUnits(c.depth);
-      }
-      result_.addContact(contact);
-    }
-    if (request_.enable_cost) addCost(cell, id);
-  }
-
-  void addCost(const Cell<S>& cell, int id) {
-    fcl::AABB<S> cell_box, shared;
-    const fcl::Vector3<S> middle = X_WO_ * cell.box.center();
-    const fcl::Vector3<S> half =
-        X_WO_.linear().cwiseAbs() * (S(0.5) * (cell.box.max_ - cell.box.min_));
-    cell_box.min_ = middle - half;
-    cell_box.max_ = middle + half;
-    const auto t = transformed(cornersOf(this->model_, id), X_WM_);
-    cell_box.overlap(fcl::AABB<S>(t[0], t[1], t[2]), shared);
-    const S occupancy =
-        cell.node ? S(cell.node->getOccupancy()) : this->octree_.getOccupancyThres();
-    result_.addCostSource(fcl::CostSource<S>(shared, occupancy * this->model_.cost_density),
-                          request_.num_max_cost_sources);
-  }
-
-  const fcl::Transform3<S>&X_WO_, &X_WM_;
-  const fcl::CollisionRequest<S>& request_;
-  fcl::CollisionResult<S>& result_;
 };
 
 template <typename S>
@@ -292,10 +199,7 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
   const fcl::CollisionGeometry<S>& other = octree;
   return collideWith(model, X_WM, other, X_WO, request, result, [&](const auto& asked) {
     SearchCounts unused;
-    OctreeCollision<S> search(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
-    if (request.isSatisfied(result)) return false;
-    search.run();
-    return true;
+    return addOctreeContacts(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
   });
 }
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "engine/mesh_search.h"
+#include "engine/prepare.h"
+#include "engine/root_bound.h"
 #include "model/prepared.h"
+#include "query/unprepared.h"
 
 namespace kios {
 namespace {
@@ -24,19 +26,27 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 template <typename S>
 class EnginePair {
  public:
-  explicit EnginePair(const PairFrame<S>& frame) : frame_(frame) {
-    if (tooFar()) return;  // before anything is prepared in vain
-    tree_a_.emplace(preparedTree(frame.a));
-    if (!*tree_a_) return;
-    tree_b_.emplace(preparedTree(frame.b));
-    usable_ = *tree_b_ && engine::makeFramePair(**tree_a_, **tree_b_, frame.X_AB, frames_);
+  /// Pairs at least `far_enough` apart don't matter. Nothing is prepared in vain.
+  EnginePair(const PairFrame<S>& frame, double far_enough)
+      : frame_(frame),
+        tree_a_(tooFar() ? engine::TreeCache::Use() : preparedTree(frame.a)),
+        tree_b_(tree_a_ ? preparedTree(frame.b) : engine::TreeCache::Use()) {
+    engine::TreePose pose;
+    usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
+    if (!usable_) return;
+    if (far_enough < kInfinity) apart_ = engine::rootBound(*tree_a_, *tree_b_, pose);
+    if (!isFar(far_enough)) engine::makeFramePair(pose, frames_);
   }
 
   /// False if FCL's tree must do.
   explicit operator bool() const { return usable_; }
 
+  /// Whether the roots alone prove the models so far apart; pair() is not to be asked for then.
+  bool isFar(double far_enough) const { return apart_ > 0 && apart_ >= far_enough; }
+  double apart() const { return apart_; }
+
   engine::PreparedPair<S> pair() const {
-    return {{**tree_a_, viewOf(frame_.a)}, {**tree_b_, viewOf(frame_.b)}, frame_.X_AB, frames_};
+    return {{*tree_a_, viewOf(frame_.a)}, {*tree_b_, viewOf(frame_.b)}, frame_.X_AB, frames_};
   }
 
  private:
@@ -49,9 +59,10 @@ class EnginePair {
   }
 
   const PairFrame<S>& frame_;
-  std::optional<engine::TreeCache::Use> tree_a_, tree_b_;
+  const engine::TreeCache::Use tree_a_, tree_b_;
   engine::FramePair frames_;
   bool usable_ = false;
+  double apart_ = -kInfinity;  ///< lower bound of the distance
 };
 
 /// A search of FCL's trees in double, depth first, the nearer of two children before the other.
@@ -189,24 +200,60 @@ class TreeSearch {
 template <typename S>
 PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
                             SearchCounts& counts) {
-  if (const EnginePair<S> engine(frame); engine) {
-    return engine::nearestTriangles(engine.pair(), query, counts);
+  if (const EnginePair<S> engine(frame, query.far_enough); engine) {
+    if (engine.isFar(query.far_enough)) {
+      PairAnswer<S> far;
+      far.nearest.point_a = far.nearest.point_b = fcl::Vector3<S>::Zero();
+      far.least_other = engine.apart();
+      return far;
+    }
+    PairAnswer<S> answer = engine::nearestTriangles(engine.pair(), query, counts);
+    const bool exact = query.isExact() && !query.endsEarly();
+    if (exact && answer.found() && answer.nearest.distance == 0 && namesFirstTouching(frame)) {
+      answer.ids = firstTouching(frame, counts);
+      answer.nearest = frame.distanceOf(answer.ids);
+    }
+    return answer;
   }
   ++counts.tree_searches;
   return TreeSearch<S>(frame, query, counts).run();
 }
 
+// The tests of preparedTree() and makeFramePair() with room for what a tree's reach may be: at
+// least a quarter of the root volume's radius, as the content reaches farther from any point, and
+// hardly ever above 64 times that, which is for the caps of flat content.
+template <typename S>
+bool engineServes(const PairFrame<S>& frame) {
+  const kIOS<S>&a = frame.rootA(), &b = frame.rootB();
+  if (!treesOf(frame.a) || !treesOf(frame.b) || a.stamp == 0 || b.stamp == 0) return false;
+  const double radius_a = a.radius0, radius_b = b.radius0, least = std::min(radius_a, radius_b) / 4;
+  const double reach = 64 * (radius_a + radius_b);
+  const auto norm1 = [](const kIOS<S>& v) {
+    return v.center0.template cast<double>().template lpNorm<1>();
+  };
+  const auto& bounds = detail::boundsOf(frame.X_AB);
+  const fcl::Vector3<S> apart = frame.X_AB * b.center0 - a.center0;
+  const double scale = reach + apart.template cast<double>().template lpNorm<1>();
+  const double pad =
+      error_bounds::laneError(scale) + 2 * bounds.stretch * scale +
+      error_bounds::volumeError<S>(norm1(b) + 2 * reach, bounds.T_norm1 + norm1(a), 2 * reach, 0);
+  return least >= engine::kLeastReach && 2 * scale <= engine::kLargestReach &&
+         pad <= 0x1p-4 * least;
+}
+
 template <typename S>
 bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
                     std::vector<TrianglePairIds>& found, SearchCounts& counts) {
-  const EnginePair<S> engine(frame);
+  const EnginePair<S> engine(frame, 0);
   if (!engine) return false;
+  if (engine.isFar(0)) return true;
   found = engine::intersectingTriangles(engine.pair(), limit, counts);
   return true;
 }
 
 #define KIOS_INSTANTIATE(S)                                                                     \
   template PairAnswer<S> searchNearest(const PairFrame<S>&, const PairQuery&, SearchCounts&);   \
+  template bool engineServes(const PairFrame<S>&);                                              \
   template bool searchContacts(const PairFrame<S>&, std::size_t, std::vector<TrianglePairIds>&, \
                                SearchCounts&);
 KIOS_INSTANTIATE(double)

@@ -21,6 +21,10 @@ template <typename S>
 engine::PairAnswer<S> searchNearest(const PairFrame<S>& frame, const engine::PairQuery& query,
                                     SearchCounts& counts);
 
+/// True only if the engine serves the pair, told without its trees; false says nothing.
+template <typename S>
+bool engineServes(const PairFrame<S>& frame);
+
 /// Up to `limit` pairs of triangles that intersect, by ids. False if the engine can't serve the
 /// pair; `found` is then as it was.
 template <typename S>

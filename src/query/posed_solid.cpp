@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fcl_kios/volume/separation.h"
+#include "solid/gjk.h"
 #include "volume/error_bounds.h"
 
 namespace kios {
@@ -44,6 +45,12 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
     T_ *= per_unit_;
   }
   offsets_ = T_.lpNorm<1>() + solid_.reach();
+  if (solid_.kind != shape::Kind::kConvex) return;
+  low_ = high_ = solid_.points[0];
+  for (const shape::Vec& p : solid_.points) {
+    low_ = low_.cwiseMin(p);
+    high_ = high_.cwiseMax(p);
+  }
 }
 
 template <typename S>
@@ -85,11 +92,12 @@ Ball PosedSolid<S>::placeCap(const kIOS<S>& bv, int i, const Ball& central, doub
 
 template <typename S>
 double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
+  double lengths;
+  const Ball central = placeCentral(bv, lengths);
+  if (solid_.kind == shape::Kind::kConvex) return convexBound(bv, enough, central, lengths);
   const auto boundOf = [this](const Ball& b) {
     return shape::pointBound(solid_, {b.x, b.y, b.z}) - b.r;
   };
-  double lengths;
-  const Ball central = placeCentral(bv, lengths);
   double best = boundOf(central);
   // A centre in the shape: the content all but surely touches, and caps would only cost time.
   if (best > enough || best <= -central.r) return best;
@@ -97,6 +105,39 @@ double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
     best = std::max(best, boundOf(placeCap(bv, i, central, lengths)));
   }
   return best;
+}
+
+// Of what is far the box of the points says enough. Else a few steps of GJK find a slab for S0,
+// which bounds the caps, too.
+template <typename S>
+double PosedSolid<S>::convexBound(const kIOS<S>& bv, double enough, const Ball& central,
+                                  double lengths) const {
+  constexpr int kSteps = 4;
+  const shape::Vec p(central.x, central.y, central.z);
+  const double by_box = (p - p.cwiseMax(low_).cwiseMin(high_)).norm() - central.r;
+  if (by_box > enough) return by_box;
+  const shape::CoreDistance core =
+      shape::gjkDistance(solid_, &p, 1, std::numeric_limits<double>::infinity(), kSteps);
+  double best = core.lower - central.r;
+  const shape::Vec way = core.point - core.on_core;
+  const double length = way.norm();
+  if (best > enough || best <= -central.r || !(length > 0)) return best;
+  const shape::Vec n = way / length;
+  const double extent = shape::extentAlong(solid_, n);
+  for (int i = 0; i + 1 < bv.k(); ++i) {
+    const Ball cap = placeCap(bv, i, central, lengths);
+    best = std::max(best, n.dot(shape::Vec(cap.x, cap.y, cap.z)) - extent - cap.r);
+  }
+  return best;
+}
+
+// Twice the worst of docs/shapes.md; that of convex shapes without faces is another.
+template <typename S>
+double PosedSolid<S>::kernelError(const kIOS<S>& root) const {
+  const double extent =
+      2 * (double{root.center0.template lpNorm<1>()} + double{root.radius0}) * per_unit_ + offsets_;
+  const bool known = solid_.kind != shape::Kind::kConvex || solid_.num_faces > 0;
+  return (known ? 0x1p-42 : 0x1p-29) * extent;
 }
 
 template <typename S>

@@ -22,6 +22,11 @@ class PosedSolid {
 
   /// The solid, in units.
   const shape::Solid& solid() const { return solid_; }
+  /// The pose x -> R x + T of the mesh in the solid's frame, in units of 1 only if hasUnit1().
+  const Eigen::Matrix3d& R() const { return R_; }
+  const shape::Vec& T() const { return T_; }
+  bool hasUnit1() const { return per_unit_ == 1; }
+  double stretch() const { return stretch_; }
   /// A length in units, and back; the latter not to 0 from above.
   double toUnits(double length) const { return length * per_unit_; }
   S fromUnits(double length) const;
@@ -41,20 +46,26 @@ class PosedSolid {
   /// mesh, whose posed points may be rounded; negative values order overlapping ones. Once the
   /// central sphere's bound exceeds `enough`, that is returned.
   double bound(const kIOS<S>& bv, double enough) const;
+  /// Half of what computed distances and bounds of the mesh's triangles may be off by; `root` is
+  /// its root volume.
+  double kernelError(const kIOS<S>& root) const;
   /// The spheres of a volume of the mesh in the solid's frame and units, grown by all that bound()
   /// subtracts, so that each contains the posed content however that is rounded. Returns k.
   int placeSpheres(const kIOS<S>& bv, Ball* spheres) const;
+  /// The first of these, and the lengths by which the others' rounding is bounded.
+  Ball placeCentral(const kIOS<S>& bv, double& lengths) const;
 
  private:
-  Ball placeCentral(const kIOS<S>& bv, double& lengths) const;
+  double convexBound(const kIOS<S>& bv, double enough, const Ball& central, double lengths) const;
   Ball placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const;
 
   shape::Solid solid_;
   Eigen::Matrix3d R_, R_WS_;
   shape::Vec T_, t_WS_;
   double per_unit_ = 1, unit_ = 1;
-  double stretch_;  ///< |R|_2 - 1 <= stretch
-  double offsets_;  ///< |T|_1 + the solid's reach
+  double stretch_;         ///< |R|_2 - 1 <= stretch
+  double offsets_;         ///< |T|_1 + the solid's reach
+  shape::Vec low_, high_;  ///< convex: the box of its points, in units
 };
 
 }  // namespace kios

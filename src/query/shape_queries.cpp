@@ -2,23 +2,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/query/shape_queries.h"
 
+#include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "engine/search.h"
+#include "model/prepared.h"
 #include "query/collide_with.h"
+#include "query/float_solid.h"
 #include "query/mesh_pair.h"
-#include "query/posed_solid.h"
 #include "query/shape_solid.h"
 #include "solid/triangle_shape.h"
 
 namespace kios {
 namespace {
-
-/// A node of the model's tree that waits.
-struct Waiting {
-  int node;
-  double bound;
-};
 
 /// The box of a bounded shape along the world's axes. Half-spaces and planes, as in FCL, fill the
 /// world but for axes that their normal is parallel to.
@@ -38,7 +36,7 @@ fcl::AABB<S> worldBox(const shape::Solid& solid, const fcl::Transform3<S>& tf) {
 
 /// The triangles of a model that meet a shape, reported as FCL's oriented traversal does.
 template <typename S>
-class ShapeCollision {
+class ShapeCollision final : public engine::SolidEvaluator {
  public:
   ShapeCollision(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                  const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS,
@@ -58,32 +56,113 @@ class ShapeCollision {
   void run() {
     if (!occupied_ && !costs_) return;
     if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
-    std::vector<int> waiting = {0};
-    while (!waiting.empty() && !request_.isSatisfied(result_)) {
-      const auto& node = model_.getBV(waiting.back());
-      waiting.pop_back();
-      ++counts_.volume_tests;
-      if (posed_.bound(node.bv, 0.0) > 0) continue;
-      if (node.isLeaf()) {
-        test(node.primitiveId());
-      } else {
-        waiting.push_back(node.rightChild());
-        waiting.push_back(node.leftChild());
+    ++counts_.volume_tests;
+    if (posed_.bound(model_.getBV(0).bv, 0.0) > 0) return;
+    search();
+    if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
+    for (const int id : found_) report(id);
+  }
+
+  bool evaluate(std::uint32_t triangle, bool meets) override {
+    return test(static_cast<int>(triangle), meets);
+  }
+
+ private:
+  /// Finds as many triangles as there is room for; all that touch if costs are asked for.
+  void search() {
+    faces_.emplace(posed_.solid());
+    engine::TreeCache* const trees = costs_ ? nullptr : treesOf(model_);
+    const long long spare = trees ? trees->testsToSpare(static_cast<std::size_t>(model_.num_tris))
+                                  : std::numeric_limits<long long>::max();
+    if (spare > 0) {
+      const long long tests = walk(spare);
+      if (trees) trees->spend(tests);
+      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
+      // the model.
+      const bool verdict = request_.num_max_contacts == 1 && !request_.enable_contact;
+      if (tests < spare && (verdict || !isSatisfied())) {
+        ++counts_.tree_searches;
+        return;
+      }
+    }
+    const engine::TreeCache::Use tree = preparedTree(model_);
+    engine::FloatSolid solid;
+    found_.clear();
+    std::vector<engine::FloatSlab> planes;
+    if (tree && makeFloatSolid(*tree, posed_, *faces_, planes, solid)) {
+      prune_at = 0;
+      engine::kernels().solid({*tree, solid, *this, counts_});
+    } else {
+      ++counts_.tree_searches;
+      walk(std::numeric_limits<long long>::max());
+    }
+  }
+
+  /// True if no more are asked for.
+  bool test(int id, bool meets) {
+    if (!meets) {
+      ++counts_.leaf_kernels;
+      if (!shape::intersects(posed_.solid(), posed_.place(cornersOf(model_, id)), &*faces_)) {
+        return false;
+      }
+    }
+    found_.push_back(id);
+    return isSatisfied();
+  }
+
+  /// A list of all that touch has one order, whichever tree was searched.
+  void sort(std::size_t num_triangles) {
+    constexpr std::size_t kBits = 64;
+    if (found_.size() < num_triangles / (4 * kBits)) {
+      std::sort(found_.begin(), found_.end());
+      return;
+    }
+    std::vector<std::uint64_t> words(num_triangles / kBits + 1);
+    for (const int id : found_) {
+      words[static_cast<std::size_t>(id) / kBits] |= std::uint64_t{1} << (id % int{kBits});
+    }
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+      for (std::uint64_t left = words[i]; left != 0; left &= left - 1) {
+        found_[n++] = static_cast<int>(i * kBits) + __builtin_ctzll(left);
       }
     }
   }
 
- private:
-  void test(int id) {
-    ++counts_.leaf_kernels;
+  bool isSatisfied() const {
+    return !costs_ && result_.numContacts() + found_.size() >= request_.num_max_contacts;
+  }
+
+  /// In the tree of volumes, until so many tests were made, of which a triangle's counts as four.
+  /// Returns their number.
+  long long walk(long long most) {
+    std::vector<int> waiting = {0};
+    long long tests = 0;
+    while (!waiting.empty() && tests < most) {
+      const auto& node = model_.getBV(waiting.back());
+      waiting.pop_back();
+      ++counts_.volume_tests;
+      ++tests;
+      if (posed_.bound(node.bv, 0.0) > 0) continue;
+      if (!node.isLeaf()) {
+        waiting.push_back(node.rightChild());
+        waiting.push_back(node.leftChild());
+        continue;
+      }
+      tests += 4;
+      if (test(node.primitiveId(), false)) waiting.clear();
+    }
+    return waiting.empty() ? std::min(tests, most - 1) : tests;
+  }
+
+  void report(int id) {
     const TriangleVertices<S> corners = cornersOf(model_, id);
-    const shape::Triangle triangle = posed_.place(corners);
-    if (!shape::intersects(posed_.solid(), triangle)) return;
     if (occupied_ && result_.numContacts() < request_.num_max_contacts) {
       fcl::Contact<S> contact(&model_, &geometry_, id, fcl::Contact<S>::NONE,
                               fcl::Vector3<S>::Zero(), fcl::Vector3<S>::Zero(), S(0));
       if (request_.enable_contact) {
-        const shape::TriangleShapeContact c = shape::contact(posed_.solid(), triangle);
+        const shape::TriangleShapeContact c =
+            shape::contact(posed_.solid(), posed_.place(corners), &*faces_);
         contact.pos = posed_.toWorld(c.position);
         contact.normal = posed_.directionToWorld(-c.normal);  // from the mesh to the shape
         contact.penetration_depth = c.depth > 0 ? posed_.fromUnits(c.depth) : S(0);
@@ -108,7 +187,9 @@ class ShapeCollision {
   SearchCounts& counts_;
   const bool occupied_, costs_;
   const PosedSolid<S> posed_;
+  std::optional<shape::ConvexFaces> faces_;
   fcl::AABB<S> shape_box_;
+  std::vector<int> found_;
 };
 
 }  // namespace
@@ -127,78 +208,11 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
   });
 }
 
-template <typename S>
-S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS,
-                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
-                SearchCounts* counts) {
-  requireErrorBounds(request);
-  requireFinished(model);
-  const PosedSolid<S> posed(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv);
-  if (request.isSatisfied(result)) return result.min_distance;
-  SearchCounts unused;
-  SearchCounts& count = counts ? *counts : unused;
-
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const bool limited = result.min_distance < std::numeric_limits<S>::max();
-  const double abs_err = posed.toUnits(request.abs_err), rel_err = request.rel_err;
-  double best = kInfinity, prune_at = kInfinity;
-  const auto lowerTo = [&](double distance) {
-    best = distance;
-    prune_at = engine::pruneAt(distance, rel_err, abs_err);
-  };
-  if (limited) lowerTo(posed.toUnits(result.min_distance));
-
-  int nearest_id = -1;
-  shape::TriangleShapeDistance nearest;
-  std::vector<Waiting> waiting;
-  waiting.reserve(64);
-  const auto boundOf = [&](int node) {
-    ++count.volume_tests;
-    return posed.bound(model.getBV(node).bv, prune_at);
-  };
-  waiting.push_back({0, boundOf(0)});
-  while (!waiting.empty() && best > 0) {
-    const Waiting next = waiting.back();
-    waiting.pop_back();
-    if (std::max(next.bound, 0.0) >= prune_at) continue;
-    const auto& node = model.getBV(next.node);
-    if (!node.isLeaf()) {
-      Waiting near = {node.leftChild(), boundOf(node.leftChild())};
-      Waiting far = {node.rightChild(), boundOf(node.rightChild())};
-      if (far.bound < near.bound) std::swap(near, far);
-      waiting.push_back(far);
-      waiting.push_back(near);
-      continue;
-    }
-    ++count.leaf_kernels;
-    const int id = node.primitiveId();
-    const auto d = shape::distance(posed.solid(), posed.place(cornersOf(model, id)), prune_at);
-    if (!(d.distance < best)) continue;
-    lowerTo(d.distance);
-    nearest = d;
-    nearest_id = id;
-  }
-  if (nearest_id < 0) return result.min_distance;
-  constexpr int kNone = fcl::DistanceResult<S>::NONE;
-  if (request.enable_nearest_points) {
-    result.update(posed.fromUnits(best), &model, &geometry, nearest_id, kNone,
-                  posed.toWorld(nearest.on_triangle), posed.toWorld(nearest.on_shape));
-  } else {
-    result.update(posed.fromUnits(best), &model, &geometry, nearest_id, kNone);
-  }
-  return result.min_distance;
-}
-
 #define KIOS_INSTANTIATE(S)                                                                      \
   template std::size_t collideShape(const Model<S>&, const fcl::Transform3<S>&,                  \
                                     const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&, \
                                     const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&,   \
-                                    SearchCounts*);                                              \
-  template S distanceShape(const Model<S>&, const fcl::Transform3<S>&,                           \
-                           const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&,          \
-                           const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&,              \
-                           SearchCounts*);
+                                    SearchCounts*);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

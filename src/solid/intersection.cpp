@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solid/convex_faces.h"
+#include "solid/features.h"
 #include "solid/growing_hull.h"
 #include "solid/hull.h"
 #include "solid/polygon.h"
@@ -29,7 +31,8 @@ Vec normalOf(const Vec (&e)[3], bool& accurate) {
   return n;
 }
 
-/// Separating axes: three of the box, the triangle's normal, nine cross products of edges. The zero
+/// A corner in the box decides, or else separating axes: three of the box, the triangle's normal,
+/// nine cross products of edges. The zero
 /// axes of degenerate triangles separate nothing, and the others suffice for those. An axis that
 /// separates proves it. None proves a common point but if the normal has its digits: else what the
 /// box's slabs leave of the triangle decides.
@@ -39,19 +42,27 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
     if (std::min({t[0][c], t[1][c], t[2][c]}) > h[c]) return false;
     if (std::max({t[0][c], t[1][c], t[2][c]}) < -h[c]) return false;
   }
-  const auto separates = [&](const Vec& n) {
-    const double reach = h.dot(n.cwiseAbs());
-    const double a = n.dot(t[0]), b = n.dot(t[1]), c = n.dot(t[2]);
-    return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
+  for (const Vec& p : t) {
+    if (std::abs(p.x()) > h.x() || std::abs(p.y()) > h.y() || std::abs(p.z()) > h.z()) continue;
+    if (common) *common = p;
+    return true;
+  }
+  const auto separates = [](double a, double b, double c, double reach) {
+    return std::max(std::min({a, b, c}), -std::max({a, b, c})) > reach;
   };
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
   bool accurate;
-  if (separates(normalOf(edges, accurate))) return false;
+  const Vec n = normalOf(edges, accurate);
+  if (separates(n.dot(t[0]), n.dot(t[1]), n.dot(t[2]), h.dot(n.cwiseAbs()))) return false;
   for (const Vec& e : edges) {
-    if (separates({0, -e.z(), e.y()}) || separates({e.z(), 0, -e.x()}) ||
-        separates({-e.y(), e.x(), 0})) {
-      return false;
+    bool apart = false;
+    for (int i = 0; i < 3; ++i) {  // unit vector i x edge
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const auto along = [&](const Vec& p) { return e[j] * p[k] - e[k] * p[j]; };
+      apart |= separates(along(t[0]), along(t[1]), along(t[2]),
+                         h[j] * std::abs(e[k]) + h[k] * std::abs(e[j]));
     }
+    if (apart) return false;
   }
   if (accurate && !common) return true;
   Polygon polygon(t);
@@ -187,15 +198,24 @@ bool meetsAt(const Solid& s, const Triangle& t, const CoreDistance& core, Vec* c
   return meets(s, t, core.inside ? nullptr : common);
 }
 
-bool intersects(const Solid& s, const Triangle& t) {
+bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
   if (!s.bounded()) {
     const double a = s.normal.dot(t[0]), b = s.normal.dot(t[1]), c = s.normal.dot(t[2]);
     if (std::min({a, b, c}) > s.offset) return false;
     return s.kind == Kind::kHalfspace || std::max({a, b, c}) >= s.offset;
   }
   if (s.kind != Kind::kConvex && s.kind != Kind::kCapsule) return meets(s, t, nullptr);
-  const CoreDistance core = gjkDistance(s, t.data(), 3, s.margin() + 0x1p-40 * sizeOf(t));
-  if (s.margin() > 0) return closedBracket(s, t, s.margin(), core).upper <= s.margin();
+  if (faces && faces->known()) {
+    const ConvexFaces::Verdict verdict = faces->judge(t);
+    if (verdict != ConvexFaces::Verdict::kOpen) return verdict == ConvexFaces::Verdict::kMeets;
+  }
+  const double margin = s.margin(), beyond = margin + 0x1p-40 * sizeOf(t);
+  CoreDistance core = {};
+  if (s.kind == Kind::kCapsule && distanceByCertificate(s, t, beyond, core)) {
+    return core.upper <= margin;
+  }
+  core = gjkDistance(s, t.data(), 3, beyond);
+  if (margin > 0) return closedBracket(s, t, margin, core).upper <= margin;
   return core.lower <= clearOf(t, core) && meetsAt(s, t, core, nullptr);
 }
 

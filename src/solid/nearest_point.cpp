@@ -149,8 +149,27 @@ Vec faceNormal(const Triangle& t) {
   return n;
 }
 
+// The differences from a box are exact but for one rounding each, and so is their direction.
 NearestPoint nearestPoint(const Solid& s, const Vec& p) {
-  return s.kind == Kind::kEllipsoid ? onEllipsoid(s, p) : turned(s, p);
+  Vec q;
+  switch (s.kind) {
+    case Kind::kEllipsoid:
+      return onEllipsoid(s, p);
+    case Kind::kCylinder:
+    case Kind::kCone:
+      return turned(s, p);
+    case Kind::kBox:
+      q = p.cwiseMax(-s.half).cwiseMin(s.half);
+      break;
+    case Kind::kCapsule:
+      q = {0, 0, std::clamp(p.z(), -s.half_length, s.half_length)};
+      break;
+    default:
+      q.setZero();
+  }
+  const Vec way = p - q;
+  const double distance = way.norm();
+  return {distance, q, distance > 0 ? Vec(way / distance) : Vec::UnitZ()};
 }
 
 TriangleShapeDistance distanceByFeatures(const Solid& s, const Triangle& t) {

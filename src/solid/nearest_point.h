@@ -5,8 +5,8 @@
 #include "solid/solid.h"
 #include "solid/triangle_shape.h"
 
-// Cylinder, cone and ellipsoid: what GJK, which sees chords of them, can't resolve where they
-// nearly touch. All in the solid's frame.
+// Nearest points by closed forms; and for cylinder, cone and ellipsoid what GJK, which sees chords
+// of them, can't resolve where they nearly touch. All in the solid's frame.
 
 namespace kios::shape {
 
@@ -20,7 +20,8 @@ struct NearestPoint {
 /// triangle is.
 Vec faceNormal(const Triangle& triangle);
 
-/// The point of a cylinder, cone or ellipsoid nearest to p.
+/// The point of the core of a bounded solid, other than a convex one, nearest to p. For boxes,
+/// capsules and spheres the normal of a point of the core means nothing.
 NearestPoint nearestPoint(const Solid& solid, const Vec& p);
 
 /// Distance of a triangle and a cylinder, cone or ellipsoid that don't intersect, by the triangle's

@@ -123,7 +123,24 @@ Vec coreSupport(const Solid& s, const Vec& n) {
 }
 
 double extentAlong(const Solid& s, const Vec& n) {
-  if (s.bounded()) return n.dot(coreSupport(s, n)) + s.margin();
+  switch (s.kind) {
+    case Kind::kSphere:
+      return s.radius;
+    case Kind::kCapsule:
+      return s.half_length * std::abs(n.z()) + s.radius;
+    case Kind::kBox:
+      return s.half.dot(n.cwiseAbs());
+    case Kind::kEllipsoid:
+      return s.half.cwiseProduct(n).norm();
+    case Kind::kCylinder:
+      return s.radius * radial(n) + s.half_length * std::abs(n.z());
+    case Kind::kCone:
+      return std::max(s.half_length * n.z(), s.radius * radial(n) - s.half_length * n.z());
+    case Kind::kConvex:
+      return n.dot(coreSupport(s, n));
+    default:
+      break;
+  }
   const bool along = (n - s.normal).isZero(0), against = (n + s.normal).isZero(0);
   if (along) return s.offset;
   return against && s.kind == Kind::kPlane ? -s.offset : kInfinity;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solid/features.h"
 #include "solid/hull.h"
 #include "solid/intersection.h"
 #include "solid/nearest_point.h"
@@ -63,14 +64,17 @@ TriangleShapeDistance distance(const Solid& s, const Triangle& t, double enough)
   if (!s.bounded()) return planeDistance(s, t);
   const double margin = s.margin();
   const double beyond = margin + std::max(enough, 0x1p-40 * sizeOf(t));
-  CoreDistance core = gjkDistance(s, t.data(), 3, beyond);
+  CoreDistance core = {};
   TriangleShapeDistance answer;
-  if (margin == 0 && core.lower <= clearOf(t, core) && meetsAt(s, t, core, &answer.on_triangle)) {
-    answer.distance = answer.lower = 0;
-    answer.on_shape = answer.on_triangle;
-    return answer;
+  if (s.kind == Kind::kConvex || !distanceByCertificate(s, t, beyond, core)) {
+    core = gjkDistance(s, t.data(), 3, beyond);
+    if (margin == 0 && core.lower <= clearOf(t, core) && meetsAt(s, t, core, &answer.on_triangle)) {
+      answer.distance = answer.lower = 0;
+      answer.on_shape = answer.on_triangle;
+      return answer;
+    }
+    if (!(core.upper <= margin)) core = closedBracket(s, t, beyond, core);
   }
-  if (!(core.upper <= margin)) core = closedBracket(s, t, beyond, core);
   answer.lower = core.lower - margin;
   answer.distance = core.upper - margin;
   answer.on_triangle = core.point;

@@ -14,11 +14,12 @@
 namespace kios::shape {
 
 using Triangle = TriangleVertices<double>;
+class ConvexFaces;
 
 /// True if the closed triangle and the closed, full solid have a point in common. By direct tests,
 /// right but for rounding: a pair whose overlap or gap is below 2^-46 L may be judged either way
-/// (a convex shape without faces: 2^-36 L).
-bool intersects(const Solid& solid, const Triangle& triangle);
+/// (a convex shape without faces: 2^-36 L). `faces`, unless null, are those of a convex shape.
+bool intersects(const Solid& solid, const Triangle& triangle, const ConvexFaces* faces = nullptr);
 
 /// Largest |x|_1 of the corners: the size that tolerances of contact are measured by.
 inline double sizeOf(const Triangle& t) {
@@ -47,6 +48,7 @@ struct TriangleShapeContact {
 /// the least such move for spheres, capsules, boxes, half-spaces and planes (for the plane FCL's:
 /// to the side that has more of the triangle); the least along the normals of the faces and of the
 /// triangle for convex shapes; a local minimum to 2^-7 rad for the others.
-TriangleShapeContact contact(const Solid& solid, const Triangle& triangle);
+TriangleShapeContact contact(const Solid& solid, const Triangle& triangle,
+                             const ConvexFaces* faces = nullptr);
 
 }  // namespace kios::shape

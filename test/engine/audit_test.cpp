@@ -85,7 +85,9 @@ class Auditor final : public engine::Audit {
   void expectRight(int least_pruned) const {
     EXPECT_EQ(wrong_, 0) << "of " << pruned_;
     EXPECT_GE(pruned_, least_pruned);  // or the test shows nothing
+    EXPECT_GE(triangles_, least_triangles);
   }
+  long least_triangles = 0;  ///< pairs with a triangle of a leaf that is split
 
  private:
   /// All pairs of triangles in the common frame.
@@ -108,11 +110,23 @@ class Auditor final : public engine::Audit {
     }
   }
 
-  double least(std::uint32_t node_a, std::uint32_t node_b) const {
+  /// The triangles of a node, or one of a leaf that stands for it.
+  static std::vector<std::uint32_t> contentOf(
+      std::uint32_t node, const engine::Tree& tree,
+      const std::vector<std::vector<std::uint32_t>>& below) {
+    if (!engine::isTriangle(node)) return below[node];
+    const engine::Leaf& leaf = tree.leaves[engine::leafOfTriangle(node)];
+    return {tree.features[leaf.feature_offset + engine::laneOfTriangle(node)].triangle()};
+  }
+
+  double least(std::uint32_t node_a, std::uint32_t node_b) {
+    triangles_ += engine::isTriangle(node_a) || engine::isTriangle(node_b);
     double result = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t i : below_a_[node_a]) {
+    for (const std::uint32_t i : contentOf(node_a, *posed_.tree_a, below_a_)) {
       const double* const row = distances_.data() + i * posed_.b.triangles.size();
-      for (const std::uint32_t j : below_b_[node_b]) result = std::min(result, row[j]);
+      for (const std::uint32_t j : contentOf(node_b, *posed_.tree_b, below_b_)) {
+        result = std::min(result, row[j]);
+      }
     }
     return result;
   }
@@ -122,7 +136,7 @@ class Auditor final : public engine::Audit {
   std::vector<double> distances_;
   double nearest_ = 0, size_ = 0;
   fcl::Vector3d gap_;
-  long pruned_ = 0, wrong_ = 0;
+  long pruned_ = 0, wrong_ = 0, triangles_ = 0;
 };
 
 /// An entry each is off by up to `error`: as poses read from files of six digits are.
@@ -136,7 +150,8 @@ class AuditOf : public ::testing::Test {
  protected:
   /// Random, close and touching poses; `scale` and `offset` apply to the world.
   static void audit(const Mesh& a, const Mesh& b, double spread, int poses, double scale = 1,
-                    double offset = 0, double skew = 0, bool refitted = false) {
+                    double offset = 0, double skew = 0, bool refitted = false,
+                    long least_triangles = 0) {
     Auditor<S> auditor(transformed(a, scale, fcl::Vector3d::Zero()),
                        transformed(b, scale, fcl::Vector3d::Zero()), refitted);
     Random random(17);
@@ -152,6 +167,7 @@ class AuditOf : public ::testing::Test {
         EXPECT_TRUE(auditor.search(X_A, auditor.closer(X_A, X_B, left)));
       }
     }
+    auditor.least_triangles = least_triangles;
     auditor.expectRight(poses * 20);
   }
 
@@ -208,13 +224,15 @@ TYPED_TEST(AuditOf, FlatSheets) {
 
 // Boxes around parallel sheets leave no slack: only the pad covers what rounds.
 template <typename S>
-void auditSheets(const fcl::Vector3d& origin, double stretch) {
+void auditSheets(const fcl::Vector3d& origin, double stretch, bool unlike = false) {
   // Tilted, so that every coordinate rounds.
   const fcl::Matrix3d tilt =
       Eigen::AngleAxisd(1, fcl::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   const fcl::Transform3d to_origin = Eigen::Translation3d(origin) * fcl::Transform3d(tilt);
-  Auditor<S> auditor(scenes::moved(to_origin, scenes::sheet(2, 2, 8, 8, 0)),
-                     scenes::moved(to_origin, scenes::sheet(2, 2, 6, 6, 0)));
+  Auditor<S> auditor(scenes::moved(to_origin, unlike ? scenes::sheet(2, 2, 4, 4, 0)
+                                                     : scenes::sheet(2, 2, 8, 8, 0)),
+                     scenes::moved(to_origin, unlike ? scenes::sheet(0.15, 0.15, 6, 6, 0)
+                                                     : scenes::sheet(2, 2, 6, 6, 0)));
   Random random(3);
   for (const fcl::Transform3d& X_A : scenes::randomPoses(30, 2, 11)) {
     const double angle = random.uniform(0, 6), x = random.uniform(0, 3);
@@ -226,7 +244,31 @@ void auditSheets(const fcl::Vector3d& origin, double stretch) {
     EXPECT_TRUE(auditor.search(fcl::Transform3d::Identity(), X_AB));
     EXPECT_TRUE(!origin.isZero() || auditor.search(X_A, X_A * X_AB));
   }
+  auditor.least_triangles = unlike ? 100 : 0;
   auditor.expectRight(1000);
+}
+
+// Leaves that are split into their triangles.
+TYPED_TEST(AuditOf, UnlikeMeshes) {
+  const Mesh fine = transformed(torus(), 0.04, fcl::Vector3d::Zero());
+  for (const double scale : {1e-9, 1.0, 1e9}) {
+    const int poses = scale == 1 ? 8 : 3;
+    this->audit(scenes::icosphere(0.7, 0), fine, 1, poses, scale, 0, 0, false, 20);
+    this->audit(fine, scenes::randomSoup(40, 1, 1, 1, 3), 1, poses, scale, 0, 0, false, 20);
+    this->audit(degenerateMesh(60, 3, 5), fine, 1, poses, scale, 0, 0, false, 1);
+    this->audit(fine, strips(), 1, poses, scale, 0, 0, true);  // narrow: not split
+  }
+  this->audit(scenes::sheet(2, 2, 3, 3, 0), scenes::sheet(0.1, 0.1, 7, 9, 1e-3), 1, 10, 1, 0, 0,
+              false, 20);
+  this->audit(scenes::sheet(2, 2, 3, 3, 0), fine, 1, 10, 1, 30, 0, false, 20);
+}
+
+TYPED_TEST(AuditOf, UnlikeParallelSheets) {
+  auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1, true);
+  for (const double e : {-2.8e-5, 2.8e-5})
+    auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1 + e, true);
+  const double far = this->kDouble ? 0x1p37 : 0x1p8;
+  auditSheets<TypeParam>(far * fcl::Vector3d(1, -0.7, 0.9), 1, true);
 }
 
 TYPED_TEST(AuditOf, ParallelSheets) { auditSheets<TypeParam>(fcl::Vector3d::Zero(), 1); }

@@ -41,6 +41,8 @@ TEST(EngineCost, PairsDecidedAtTheRootsPrepareNothing) {
 // shows here before it shows in times. The limits are a fifth above what was measured.
 TEST(EngineCost, WorkAQuery) {
   const auto a = kiosModel(scenes::bentTorus()), b = kiosModel(scenes::knobbyTorus());
+  prepare(*a);
+  prepare(*b);
   const std::vector<Frame> frames = scenes::fallingMotion(100);
   SearchCounts distance, contact;
   for (const Frame& frame : frames) {

@@ -9,10 +9,13 @@
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "engine/prepared_pair.h"
 #include "fcl_kios/fcl_kios.h"
+#include "fcl_kios/query/shape_queries.h"
 #include "fcl_kios/volume/rigid.h"
 
 namespace kios::testing {
@@ -31,6 +34,8 @@ void print(const fcl::Vector3<S>& p) {
 template <typename S>
 void ask(const Model<S>& a, const fcl::Transform3<S>& X_A, const Model<S>& b,
          const fcl::Transform3<S>& X_B) {
+  prepare(a);
+  prepare(b);
   for (const S rel_err : {S(0), S(0.1)}) {
     fcl::DistanceResult<S> result;
     SearchCounts counts;
@@ -88,6 +93,63 @@ void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed
   }
 }
 
+/// FCL's shapes, of sizes about those of the mesh, and a floor.
+template <typename S>
+std::vector<std::shared_ptr<fcl::CollisionGeometry<S>>> shapes() {
+  const auto points = std::make_shared<std::vector<fcl::Vector3<S>>>();
+  const auto faces = std::make_shared<std::vector<int>>();
+  for (const fcl::Vector3d& p : rounded(scenes::icosphere(0.6, 0), 0x1p-20).vertices) {
+    points->push_back(p.template cast<S>());
+  }
+  for (const fcl::Triangle& t : scenes::icosphere(0.6, 0).triangles) {
+    faces->push_back(3);
+    for (int c = 0; c < 3; ++c) faces->push_back(static_cast<int>(t[c]));
+  }
+  const fcl::Vector3<S> n(S(0.6), 0, S(0.8));
+  return {std::make_shared<fcl::Box<S>>(S(0.5), S(0.75), S(0.25)),
+          std::make_shared<fcl::Box<S>>(S(100), S(100), S(0.5)),
+          std::make_shared<fcl::Sphere<S>>(S(0.5)),
+          std::make_shared<fcl::Ellipsoid<S>>(S(0.5), S(0.25), S(0.75)),
+          std::make_shared<fcl::Capsule<S>>(S(0.25), S(0.5)),
+          std::make_shared<fcl::Cone<S>>(S(0.5), S(0.75)),
+          std::make_shared<fcl::Cylinder<S>>(S(0.5), S(0.25)),
+          std::make_shared<fcl::Convex<S>>(points, static_cast<int>(faces->size() / 4), faces),
+          std::make_shared<fcl::Halfspace<S>>(n, S(-0.5)),
+          std::make_shared<fcl::Plane<S>>(n, S(0.5))};
+}
+
+template <typename S>
+void askShapes(const Model<S>& model, const fcl::Transform3<S>& X_M,
+               const fcl::Transform3<S>& X_S) {
+  prepare(model);
+  for (const auto& shape : shapes<S>()) {
+    for (const S rel_err : {S(0), S(0.1)}) {
+      fcl::DistanceResult<S> result;
+      SearchCounts counts;
+      const fcl::DistanceRequest<S> request(true, false, rel_err);
+      const S d = distanceShape(model, X_M, *shape, X_S, request, result, &counts);
+      std::printf("%a %" PRIdPTR, double{d}, result.b1);
+      print<S>(result.nearest_points[0]);
+      print<S>(result.nearest_points[1]);
+      print(counts);
+      std::printf("\n");
+    }
+    for (const std::size_t most : {1, 4, 100000}) {
+      fcl::CollisionResult<S> result;
+      SearchCounts counts;
+      collideShape(model, X_M, *shape, X_S, fcl::CollisionRequest<S>(most, true), result, &counts);
+      std::printf("%zu", result.numContacts());
+      for (std::size_t i = 0; i < result.numContacts(); ++i) {
+        const fcl::Contact<S>& contact = result.getContact(i);
+        std::printf(" %" PRIdPTR, contact.b1);
+        print<S>(contact.pos);
+      }
+      print(counts);
+      std::printf("\n");
+    }
+  }
+}
+
 template <typename S>
 void askAll() {
   constexpr double kGrid = 0x1p-30;
@@ -102,6 +164,7 @@ void askAll() {
       ask<S>(*a, X1, *b, X2);
       ask<S>(*b, X1, *a, X2);
       cast<S>(*a, X1, i);
+      if (i < 3) askShapes<S>(*a, X1, X2);
     }
   }
   // Ties, at a pose that rounds nothing.

@@ -128,13 +128,16 @@ Numbers everything(const Shared& shared, const Frame& frame) {
       numbers.push_back(nearest.nearest_points[1][1]);
     }
   }
+  // Where nobody has prepared the models, the steps of an advance depend on who asked before.
+  const auto& mesh = static_cast<const Modeld&>(*shared.others.at("mesh"));
+  prepare(*shared.model);
+  prepare(mesh);
   fcl::ContinuousCollisionResultd moving;
   fcl::ContinuousCollisionRequestd request;
   request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
   request.ccd_motion_type = fcl::CCDM_SCREW;
-  numbers.push_back(fcl::continuousCollide(model, frame.X_WA, frame.X_WB,
-                                           shared.others.at("mesh").get(), frame.X_WB, frame.X_WA,
-                                           request, moving));
+  numbers.push_back(fcl::continuousCollide(model, frame.X_WA, frame.X_WB, &mesh, frame.X_WB,
+                                           frame.X_WA, request, moving));
   numbers.push_back(moving.is_collide);
   const Modeld& m = *shared.model;
   MeshCollisionTraversalNode<double> node;

@@ -20,11 +20,14 @@ class BracketSearch {
       : search_(search),
         bracket_(*search.bracket),
         expander_(search),
+        leaves_a_(search.a),
+        leaves_b_(search.b),
         budget_(search.bracket->max_expansions) {}
 
   void run() {
     // Any triangles, so that even the smallest budget has an upper bound.
-    bool done = budgeted() && evaluateFaces(search_.a.leaves[0], 0, search_.b.leaves[0], 0);
+    bool done = budgeted() && evaluateFaces(LeafView(search_.a, search_.a.leaves[0]), 0,
+                                            LeafView(search_.b, search_.b.leaves[0]), 0);
     lowerTo(search_.evaluator.prune_at);
     done = done || descend();
     while (!done && !frontier_.empty()) {
@@ -44,9 +47,6 @@ class BracketSearch {
   static constexpr float kWave = 0.125F;
   static constexpr uint32_t kMaxWaiting = 256;
 
-  const Node& nodeA(Pair at) const { return search_.a.nodes[at.a]; }
-  const Node& nodeB(Pair at) const { return search_.b.nodes[at.b]; }
-
   void prove() {
     const float least = std::min({in_flight_, current_, frontier_.least()});
     bracket_.proven = std::max(bracket_.proven, std::min(prune_at_, least));
@@ -60,7 +60,7 @@ class BracketSearch {
 
   /// True to end the search.
   bool descend() {
-    Descent descent(search_, expander_, budget_);
+    Descent descent(expander_, budget_);
     budget_ -= static_cast<long long>(descent.steps());
     in_flight_ = descent.leastPassed();
     current_ = descent.lost() ? kInfinity : descent.end().bound;
@@ -107,7 +107,7 @@ class BracketSearch {
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
-    bracketLeaves(search_, leafA(entry.pair), leafB(entry.pair), last_, pair);
+    bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
     const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.keep_to;
     if (nearer) {
       search_.evaluator.offer(pair.upper);
@@ -139,14 +139,11 @@ class BracketSearch {
 
   bool budgeted() const { return bracket_.max_expansions != std::numeric_limits<long long>::max(); }
 
-  const Leaf& leafA(Pair at) const { return search_.a.leaves[nodeA(at).leaf()]; }
-  const Leaf& leafB(Pair at) const { return search_.b.leaves[nodeB(at).leaf()]; }
-
   /// True to end the search.
   bool evaluateFeatures(const Bracketed& pair, float bound) {
     const float known = search_.evaluator.keep_to;
-    const bool done =
-        nearestOfLeaves(search_, leafA(pair.nodes), leafB(pair.nodes), pair.slab, bound);
+    const bool done = nearestOfLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b),
+                                      pair.slab, bound);
     if (search_.evaluator.keep_to < known) offered_ = false;
     // Features of them that were not evaluated are not nearer than either.
     if (!done) current_ = std::max(bound, search_.evaluator.prune_at);
@@ -158,14 +155,13 @@ class BracketSearch {
   /// may belong to other leaves, and be left out. True to end the search.
   bool evaluateVertices() {
     offered_ = false;
-    const Leaf &a = leafA(best_.nodes), &b = leafB(best_.nodes);
-    return evaluateFaces(a, faceAt(a, best_.a), b, faceAt(b, best_.b));
+    const LeafView a = leaves_a_(best_.nodes.a), b = leaves_b_(best_.nodes.b);
+    return evaluateFaces(a, faceAt(a.leaf, best_.a), b, faceAt(b.leaf, best_.b));
   }
 
-  bool evaluateFaces(const Leaf& a, uint32_t face_a, const Leaf& b, uint32_t face_b) {
+  bool evaluateFaces(const LeafView& a, uint32_t face_a, const LeafView& b, uint32_t face_b) {
     ++search_.counts.exact;
-    return search_.evaluator.evaluate({PairKind::kFaces, LeafView(search_.a, a).face(face_a),
-                                       LeafView(search_.b, b).face(face_b)});
+    return search_.evaluator.evaluate({PairKind::kFaces, a.face(face_a), b.face(face_b)});
   }
 
   static uint32_t faceAt(const Leaf& leaf, uint32_t vertex) {
@@ -177,6 +173,7 @@ class BracketSearch {
   const Search& search_;
   Bracket& bracket_;
   const Expander expander_;
+  Leaves leaves_a_, leaves_b_;
   Frontier frontier_;
   long long budget_;
   float prune_at_ = kInfinity;

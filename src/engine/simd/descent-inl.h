@@ -10,14 +10,12 @@ namespace kios::engine::HWY_NAMESPACE {
 class Descent {
  public:
   /// Takes at most so many expansions.
-  Descent(const Search& search, const Expander& expander, long long most) : expander_(expander) {
-    const auto isInner = [&](Pair at) {
-      return !(search.a.nodes[at.a].isLeaf() && search.b.nodes[at.b].isLeaf());
-    };
-    while (isInner(end_.pair) && steps_ < kMaxSteps && static_cast<long long>(steps_) < most) {
+  Descent(const Expander& expander, long long most) : expander_(expander) {
+    const auto isInner = [&] { return !expander.areLeaves(end_.pair); };
+    while (isInner() && steps_ < kMaxSteps && static_cast<long long>(steps_) < most) {
       if (!step()) return;
     }
-    at_leaves_ = !isInner(end_.pair);
+    at_leaves_ = !isInner();
   }
 
   size_t steps() const { return steps_; }
@@ -43,12 +41,12 @@ class Descent {
   /// False if no child is near enough.
   bool step() {
     Expansion& e = path_[steps_];
+    e.bound = end_.bound;
     expander_.start(end_.pair, e);
     if (expander_.isLarge()) expander_.fetchBoxes(e);
     expander_.test(e);
     // Where few are flat it costs less to wait for the bound that excludes most.
     if (2 * hwy::PopCount(expander_.flatOf(e)) >= hwy::PopCount(e.near)) expander_.tighten(e);
-    e.bound = end_.bound;
     taken_[steps_++] = 0;
     if (e.near == 0) return false;
     uint32_t nearest = firstOf(e.near);

@@ -19,6 +19,44 @@ struct Bracketed {
   VertexPair vertices;  ///< the nearest so far: the upper bound
 };
 
+/// The corners of a triangle.
+struct Corners {
+  explicit Corners(const Points& points) : v{points.at(0), points.at(1), points.at(2)} {}
+
+  /// Returns the way from p to the nearest point of the triangle, or to the nearest of its edges
+  /// where the triangle is too thin to tell.
+  ///
+  /// It leads to a combination of the corners with weights that add up to 1 but for 2 u, so its
+  /// length is an upper bound to the pad: with edges up to 2 S long, weights, products and sums
+  /// cost 12 u S, the points 9 u S, square and root 3 u S (u and S as in frame_pair.h).
+  HWY_NOINLINE Vec3 from(Vec3 p) const {
+    const Vec3 e[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
+    Vec3 best = {};
+    float least = std::numeric_limits<float>::infinity();
+    const auto offer = [&](Vec3 way) {
+      const float square = dot(way, way);
+      best = square < least ? way : best;
+      least = std::min(square, least);
+    };
+    float squares[3];
+    for (int k = 0; k < 3; ++k) {
+      squares[k] = std::max(dot(e[k], e[k]), std::numeric_limits<float>::min());
+      const Vec3 q = v[k] - p;
+      offer(q + std::min(std::max(-dot(q, e[k]) / squares[k], 0.0F), 1.0F) * e[k]);
+    }
+    const Vec3 w = p - v[0], f = -1.0F * e[2];
+    const float along = dot(f, e[0]) / squares[0];
+    const Vec3 h = f - along * e[0];
+    const float height = dot(h, h);
+    if (!(height > 0x1p-20F * squares[2])) return best;
+    const float t = dot(w, h) / height, s = dot(w, e[0]) / squares[0] - t * along;
+    if (s >= 0 && t >= 0 && s + t <= 1) offer(s * e[0] + t * f - w);
+    return best;
+  }
+
+  Vec3 v[3];
+};
+
 /// Slabs between two sets of points, and pairs of the points: the best of each are kept.
 template <class HullA, class HullB>
 class Slabs {
@@ -31,12 +69,12 @@ class Slabs {
 
   /// Tries a direction. True if it proves the sets at least `distance` apart; out.slab is not set
   /// then.
-  bool proves(const Direction& along) {
+  HWY_INLINE bool proves(const Direction& along) {
     return proves(along, a_.top(along.w), -b_.top(-1.0F * along.w));
   }
 
   /// Steps of Frank-Wolfe towards the nearest points of the hulls.
-  bool steps(Vec3 v, int count) {
+  HWY_INLINE bool steps(Vec3 v, int count) {
     for (int i = 0;; ++i) {
       const Direction along = directionOf(v);
       const Support of_a = a_.support(along.w), of_b = b_.support(-1.0F * along.w);
@@ -56,8 +94,27 @@ class Slabs {
     }
   }
 
+  /// In place of steps(), where one of the sets is a triangle that may be much larger than the
+  /// other, and the line of centres tells little: from the other's centre, and then from its vertex
+  /// that is nearest along that, to the triangle's nearest point.
+  template <bool kTriangleOfA>
+  bool stepsAt(const Corners& triangle, Vec3 center) {
+    const auto between = [&](Vec3 p) {
+      const Vec3 v = triangle.from(p);
+      return kTriangleOfA ? -1.0F * v : v;
+    };
+    const Direction along = directionOf(between(center));
+    const Support of_a = a_.support(along.w), of_b = b_.support(-1.0F * along.w);
+    if (proves(along, of_a.value, -of_b.value)) return true;
+    const Vec3 v = between(kTriangleOfA ? b_.at(of_b.index) : a_.at(of_a.index));
+    out_.upper = dot(v, v);
+    out_.vertices.a = kTriangleOfA ? 0 : of_a.index;
+    out_.vertices.b = kTriangleOfA ? of_b.index : 0;
+    return proves(directionOf(v));
+  }
+
  private:
-  bool proves(const Direction& along, float top_a, float bottom_b) {
+  HWY_INLINE bool proves(const Direction& along, float top_a, float bottom_b) {
     const float gap = bottom_b - top_a;
     if (provesApart(gap, along, distance_)) return true;
     const float lower = gap / along.length;
@@ -80,8 +137,17 @@ class Slabs {
 /// that proves them apart.
 struct LastLeaves {
   MovedLeaf b;
+  uint32_t triangle = 0;             ///< the node if b is a triangle's leaf, else 0
   Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
 };
+
+HWY_INLINE void finishBracket(const FramePair& frames, LastLeaves& last, Bracketed& out) {
+  if (out.slab.apart) return;
+  last.along = out.slab.along;
+  out.vertices.nodes = out.nodes;
+  out.lower -= frames.pad;
+  out.upper = std::sqrt(out.upper) + frames.pad;
+}
 
 /// Brackets the distance of two leaves, or proves them at least prune_at apart: by the last
 /// direction, then the line of centres and steps of Frank-Wolfe.
@@ -94,13 +160,47 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
   betweenHulls(a.vertices, last.b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
     out.slab.apart = slabs.proves(last.along) ||
-                     slabs.steps(last.b.centroid - vec3(leaf_a.centroid), kFrankWolfeSteps);
+                     slabs.steps(last.b.centroid - vec3(a.leaf.centroid), kFrankWolfeSteps);
   });
-  if (out.slab.apart) return;
-  last.along = out.slab.along;
-  out.vertices.nodes = out.nodes;
-  out.lower -= frames.pad;
-  out.upper = std::sqrt(out.upper) + frames.pad;
+  finishBracket(frames, last, out);
+}
+
+/// Brackets the distance of two leaves of which one is a triangle's: that of a if kTriangleOfA.
+template <bool kTriangleOfA>
+HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a, const LeafView& b,
+                                  LastLeaves& last, Bracketed& out) {
+  const FramePair& frames = search.frames;
+  const float distance = search.evaluator.prune_at + frames.pad;
+  const uint32_t node = isTriangle(out.nodes.b) ? out.nodes.b : 0;  // all share one leaf
+  if (last.b.leaf != &b.leaf || last.triangle != node) last.b.move(b, frames.a_from_b);
+  last.triangle = node;
+  const Points &of_a = a.vertices, &of_b = last.b.vertices;
+  const Corners triangle(kTriangleOfA ? of_a : of_b);
+  const Vec3 center = kTriangleOfA ? last.b.centroid : vec3(a.leaf.centroid);
+  const auto look = [&](const auto& hull_a, const auto& hull_b) {
+    Slabs slabs(hull_a, hull_b, distance, out);
+    out.slab.apart =
+        slabs.proves(last.along) || slabs.template stepsAt<kTriangleOfA>(triangle, center);
+  };
+  if constexpr (kTriangleOfA) {
+    const Hull<1> hull_a(of_a.rows);
+    of_b.chunks == 2 ? look(hull_a, Hull<2>(of_b.rows)) : look(hull_a, Hull<3>(of_b.rows));
+  } else {
+    const Hull<1> hull_b(of_b.rows);
+    of_a.chunks == 2 ? look(Hull<2>(of_a.rows), hull_b) : look(Hull<3>(of_a.rows), hull_b);
+  }
+  finishBracket(frames, last, out);
+}
+
+/// Brackets the distance of two leaves, either of which may be a triangle's.
+HWY_INLINE void bracketPair(const Search& search, Leaves& leaves_a, Leaves& leaves_b,
+                            LastLeaves& last, Bracketed& out) {
+  if (HWY_UNLIKELY(isTriangle(out.nodes.a | out.nodes.b))) {
+    const LeafView a = leaves_a(out.nodes.a), b = leaves_b(out.nodes.b);
+    return isTriangle(out.nodes.a) ? bracketTriangle<true>(search, a, b, last, out)
+                                   : bracketTriangle<false>(search, a, b, last, out);
+  }
+  bracketLeaves(search, leaves_a.leafOf(out.nodes.a), leaves_b.leafOf(out.nodes.b), last, out);
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE

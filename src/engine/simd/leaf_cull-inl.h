@@ -53,7 +53,7 @@ struct Support {
 template <int kChunks>
 class Hull {
  public:
-  explicit Hull(const Lanes* rows) : rows_(rows) {
+  HWY_INLINE explicit Hull(const Lanes* rows) : rows_(rows) {
     for (int i = 0; i < kVectors; ++i) {
       const Lanes* const chunk = rows + 3 * (i * kStep / kLanes);
       const size_t l = static_cast<size_t>(i * kStep % kLanes);
@@ -63,12 +63,12 @@ class Hull {
     }
   }
 
-  float top(Vec3 w) const {
+  HWY_INLINE float top(Vec3 w) const {
     V dots[kVectors];
     return hn::GetLane(topOf(w, dots));
   }
 
-  Support support(Vec3 w) const {
+  HWY_INLINE Support support(Vec3 w) const {
     V dots[kVectors];
     const V best = topOf(w, dots);
     uint32_t at = 1U << (kVectors * kStep - 1);  // for NaN

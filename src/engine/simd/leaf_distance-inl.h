@@ -213,9 +213,8 @@ class LeafDistances {
 };
 
 /// Evaluates all features of two leaves that may be nearest.
-HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
+HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const LeafView& b,
                                   const Slab& slab, float bound) {
-  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
   const FramePair& frames = search.frames;
   ExactEvaluator& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
@@ -228,8 +227,7 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const Leaf& leaf_a, cons
   return distances.evaluateNear(least, frames.pad, evaluator, search.counts.exact);
 }
 
-HWY_NOINLINE bool contactOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
-  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
   const FramePair& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
@@ -265,8 +263,7 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
   return result & ((1U << on.leaf.num_faces) - 1);
 }
 
-HWY_NOINLINE bool contactsOfLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b) {
-  const LeafView a(search.a, leaf_a), b(search.b, leaf_b);
+HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
   const FramePair& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);

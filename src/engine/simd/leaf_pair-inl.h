@@ -13,6 +13,12 @@ struct LeafView {
         faces(vertices.rows + 3 * vertices.chunks),
         ids(tree.features.data() + l.feature_offset) {}
 
+  LeafView(const Leaf& l, const Lanes* rows, const FeatureId* features)
+      : leaf(l),
+        vertices{rows, l.vertexChunks()},
+        faces(rows + 3 * vertices.chunks),
+        ids(features) {}
+
   FeatureId face(uint32_t i) const { return ids[i]; }
   FeatureId edge(uint32_t i) const { return ids[leaf.num_faces + i]; }
   FeatureId vertex(uint32_t i) const { return ids[leaf.num_faces + leaf.num_edges + i]; }

@@ -5,19 +5,49 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// An inner pair of nodes under test: the children of the larger node (a leaf is not expanded)
-/// against the other.
+/// Which tests a pair takes.
+enum class Expanded : uint32_t {
+  kNode,          ///< children of a node against a node
+  kNodeTriangle,  ///< children of a node against a triangle of a leaf
+  kLeaf           ///< triangles of a leaf against a node
+};
+
+/// A pair of nodes under test: the children of one against the other.
 struct Expansion {
   Pair at;
   uint32_t side;  ///< whose node is expanded: 0 of a, 1 of b
-  const Node* parent;
-  const Node* other;
+  Expanded kind;
+  const Node* parent;    ///< of the children
+  const Node* other;     ///< of a triangle: a stand-in
+  uint32_t first_child;  ///< the node that lane 0 is
+  Children children;
   uint32_t near;  ///< children that matter, as bits
   bool tight;     ///< whether boxes were tested
-  float bound;    ///< of the pair; not used by all searches
+  float bound;    ///< of the pair
   alignas(32) float bounds[kLanes];
 };
 
+/// A triangle that stands for a node: a leaf that spheres bound badly.
+inline constexpr Node kTriangleStandIn = [] {
+  Node node;
+  node.child = -1;
+  node.flat = 1;
+  return node;
+}();
+
+/// Leaves are split into their triangles in searches where a leaf of one tree is so many times as
+/// wide as the mean leaf of the other is large; elsewhere it would cost more than it saves. Found
+/// by trying.
+HWY_INLINE bool splitsLeaves(const Search& search) {
+  constexpr float kTimes = 8;
+  return search.a.widest_leaf > kTimes * search.b.mean_leaf ||
+         search.b.widest_leaf > kTimes * search.a.mean_leaf;
+}
+
+/// Expands pairs of nodes. The larger node is expanded, and a leaf is not, unless it is the larger
+/// by far and splitsLeaves(): its triangles, which may lie anywhere in it, are then its children.
+/// They stand for nodes until they meet a leaf.
+///
 /// Expansions come in batches: what one waits for overlaps with the work of another.
 class Expander {
  public:
@@ -25,45 +55,49 @@ class Expander {
       : search_(search),
         trees_{&search.a, &search.b},
         to_{&search.frames.a_from_b, &search.frames.b_from_a},
-        boxes_(!search.a.boxes.empty() && !search.b.boxes.empty()),
+        has_boxes_{!search.a.boxes.empty(), !search.b.boxes.empty()},
+        splits_(splitsLeaves(search)),
         large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
 
+  /// e.bound is that of the pair.
   void start(Pair at, Expansion& e) const {
+    e.at = at;
+    if (HWY_UNLIKELY(isTriangle(at.a | at.b))) return startAgainstTriangle(e);
     const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
     const auto rank = [](const Node& n) {  // sizes order like their bits; a leaf comes below all
       int32_t bits;
       std::memcpy(&bits, &n.size, sizeof(bits));
       return bits | (n.child >> 31);
     };
-    e.at = at;
     e.side = rank(*nodes[0]) > rank(*nodes[1]) ? 0 : 1;
     e.parent = nodes[e.side];
     e.other = nodes[1 - e.side];
-    fetch(blockOf(e));
+    if (HWY_UNLIKELY(splits(e))) return startLeaf(e);
+    startNode(e, Expanded::kNode);
   }
 
   void test(Expansion& e) const {
+    if (HWY_UNLIKELY(e.kind != Expanded::kNode)) {
+      testTriangles(e);
+      if (e.kind != Expanded::kNode) {
+        ++search_.counts.expansions;
+        return;
+      }
+    }
     MovedNode moved;
     move(*e.other, *to_[e.side], search_.frames.pad, moved);
     const Block& block = blockOf(e);
-    const V limit = hn::Set(d, search_.evaluator.prune_at);
     e.near = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const V lower = lowerBounds(block, l, moved);
-      hn::Store(lower, d, e.bounds + l);
-      e.near |= bitsOf(hn::Lt(lower, limit)) << l;
-    }
-    e.near &= childrenOf(e).all();
-    e.tight = false;
+    for (size_t l = 0; l < kLanes; l += step()) keep(e, l, lowerBounds(block, l, moved));
+    endTest(e);
     ++search_.counts.expansions;
-    search_.counts.volume_tests += childrenOf(e).count;
   }
 
   /// The children that matter and that spheres bound badly: flat ones, and in contact those that
   /// overlap by little.
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
-    uint32_t flat = childrenOf(e).flat;
+    uint32_t flat = e.children.flat;
     if (search_.evaluator.prune_at == 0) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
       const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
@@ -75,24 +109,24 @@ class Expander {
   }
   /// Tests boxes too, once, if that helps any child.
   void tighten(Expansion& e) const {
-    if (flatOf(e) == 0 || !boxes_ || e.tight) return;
+    if (flatOf(e) == 0 || !hasBoxes(e) || e.tight) return;
     e.tight = true;
     testBoxes(e);
   }
 
   /// Whether both trees have boxes: those of CAD meshes.
-  bool hasBoxes() const { return boxes_; }
+  bool hasBoxes() const { return has_boxes_[0] && has_boxes_[1]; }
   /// Whether the trees are more than a core's caches hold, so that it pays to fetch what is needed
   /// next, as much of it at once as there is; a limit found by trying.
   bool isLarge() const { return large_; }
 
   HWY_INLINE void fetchNodes(Pair at) const {
-    fetch(search_.a.nodes[at.a]);
-    fetch(search_.b.nodes[at.b]);
+    if (!isTriangle(at.a)) fetch(search_.a.nodes[at.a]);
+    if (!isTriangle(at.b)) fetch(search_.b.nodes[at.b]);
   }
   /// The boxes that may be tested.
   HWY_INLINE void fetchBoxes(const Expansion& e) const {
-    if (!boxes_ || (childrenOf(e).flat | e.other->flat) == 0) return;
+    if (e.kind != Expanded::kNode || !hasBoxes() || (e.children.flat | e.other->flat) == 0) return;
     fetch(boxBlockOf(e));
     fetch(otherBox(e));
   }
@@ -120,8 +154,15 @@ class Expander {
         .push(-std::numeric_limits<float>::infinity(), {0, 0});
   }
 
+  bool areLeaves(Pair at) const {
+    const auto isLeaf = [](const Tree& tree, uint32_t node) {
+      return isTriangle(node) || tree.nodes[node].isLeaf();
+    };
+    return isLeaf(search_.a, at.a) && isLeaf(search_.b, at.b);
+  }
+
   Pair childPair(const Expansion& e, uint32_t lane) const {
-    const uint32_t child = e.parent->first_child + lane;
+    const uint32_t child = e.first_child + lane;
     return e.side == 0 ? Pair{child, e.at.b} : Pair{e.at.a, child};
   }
 
@@ -141,9 +182,8 @@ class Expander {
     }
     tighten(e);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
-    const uint32_t leaves = childrenOf(e).leaves & (e.other->isLeaf() ? ~0U : 0U);
-    const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U),
-             first = hn::Set(du, e.parent->first_child);
+    const uint32_t leaves = e.children.leaves & (e.other->isLeaf() ? ~0U : 0U);
+    const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U), first = hn::Set(du, e.first_child);
     const VU a = hn::Set(du, e.at.a), b = hn::Set(du, e.at.b);
     frontier.reserve();
     const size_t deepest = frontier.inner.size() + deepestOf(e, leaves);
@@ -158,6 +198,103 @@ class Expander {
   }
 
  private:
+  void startNode(Expansion& e, Expanded kind) const {
+    e.kind = kind;
+    e.children = trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
+    e.first_child = e.parent->first_child;
+    fetch(blockOf(e));
+  }
+  HWY_NOINLINE void startAgainstTriangle(Expansion& e) const {
+    e.side = isTriangle(e.at.a) ? 1 : 0;
+    e.parent = &trees_[e.side]->nodes[e.side == 0 ? e.at.a : e.at.b];
+    e.other = &kTriangleStandIn;
+    startNode(e, Expanded::kNodeTriangle);
+  }
+
+  /// Whether to split the leaf that e.other may be: where the pair is nearer than the leaf is wide,
+  /// and the node several times smaller; from farther, all its triangles look alike.
+  bool splits(const Expansion& e) const {
+    constexpr float kTimes = 4;  // found by trying
+    return splits_ & e.other->isLeaf() & (e.bound + kTimes * e.parent->size < e.other->width);
+  }
+  HWY_NOINLINE void startLeaf(Expansion& e) const {
+    std::swap(e.parent, e.other);
+    e.side = 1 - e.side;
+    e.kind = Expanded::kLeaf;
+    const size_t leaf = e.parent->leaf();
+    e.children.count = trees_[e.side]->leaves[leaf].num_faces;
+    e.children.flat = e.children.leaves = 0xFF;
+    e.first_child = kTriangleNode | static_cast<uint32_t>(leaf) << 3;
+  }
+
+  /// Notes the bounds of some lanes.
+  HWY_INLINE void keep(Expansion& e, size_t l, V bounds) const {
+    hn::Store(bounds, d, e.bounds + l);
+    e.near |= bitsOf(hn::Lt(bounds, hn::Set(d, search_.evaluator.prune_at))) << l;
+  }
+  HWY_INLINE void endTest(Expansion& e) const {
+    e.near &= e.children.all();
+    e.tight = false;
+    search_.counts.volume_tests += e.children.count;
+  }
+
+  /// Spheres against prisms. Where most triangles of a leaf matter, it isn't split after all: the
+  /// node is to be expanded, and tested, in its place.
+  HWY_NOINLINE void testTriangles(Expansion& e) const {
+    e.near = 0;
+    if (e.kind == Expanded::kNodeTriangle) {
+      testAgainstTriangle(e);
+      return endTest(e);
+    }
+    testLeaf(e);
+    endTest(e);
+    if (!(search_.evaluator.prune_at < std::numeric_limits<float>::infinity())) return;
+    tighten(e);
+    if (2 * hwy::PopCount(e.near) <= e.children.count) return;
+    std::swap(e.parent, e.other);
+    e.side = 1 - e.side;
+    startNode(e, Expanded::kNode);
+  }
+  void testLeaf(Expansion& e) const {
+    const Node& other = *e.other;
+    const Vec3 c = moved(*to_[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
+    const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
+    const V reach = hn::Set(d, other.r[kCentral] + prismPad(search_.frames));
+    const LeafView leaf(*trees_[e.side], trees_[e.side]->leaves[e.parent->leaf()]);
+    for (size_t l = 0; l < kLanes; l += step()) {
+      keep(e, l, hn::Sub(prismsOf(leaf, l).distances(center), reach));
+    }
+  }
+  void testAgainstTriangle(Expansion& e) const {
+    const Tree& tree = *trees_[1 - e.side];
+    const uint32_t triangle = otherId(e);
+    const LeafView leaf(tree, tree.leaves[leafOfTriangle(triangle)]);
+    const Prisms prism = movedPrism(leaf, laneOfTriangle(triangle), *to_[e.side]);
+    const Block& block = blockOf(e);
+    const V pad = hn::Set(d, prismPad(search_.frames));
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
+                    load(block.z[kCentral], l)};
+      V lower = hn::Sub(prism.distances(c), load(block.r[kCentral], l));
+      if (!has_boxes_[e.side]) lower = hn::Max(lower, byCaps(block, l, prism, c));
+      keep(e, l, hn::Sub(lower, pad));
+    }
+  }
+  /// Bounds by the caps whose centres lie on the far sides of the triangle's plane from c.
+  static V byCaps(const Block& block, size_t l, const Prisms& prism, const V3& c) {
+    const V height = hn::Add(dot(prism.normal[0], c), prism.offset[0]);
+    const auto byCap = [&](int middle, int half) {
+      const V3 h = {load(block.x[half], l), load(block.y[half], l), load(block.z[half], l)};
+      const V s = hn::And(hn::Xor(dot(prism.normal[0], h), height), hn::SignBit(d));
+      const V3 cap = {hn::Add(load(block.x[middle], l), hn::Xor(h.x, s)),
+                      hn::Add(load(block.y[middle], l), hn::Xor(h.y, s)),
+                      hn::Add(load(block.z[middle], l), hn::Xor(h.z, s))};
+      const V r = hn::Add(load(block.r[middle], l), hn::Xor(load(block.r[half], l), s));
+      return hn::Sub(prism.distances(cap), r);
+    };
+    return hn::Max(byCap(kMiddle2, kHalf2), byCap(kMiddle1, kHalf1));
+  }
+
   /// Of the children that overlap and are not pairs of leaves, returns how many precede the
   /// deepest.
   static uint32_t deepestOf(const Expansion& e, uint32_t leaves) {
@@ -183,50 +320,65 @@ class Expander {
   const Block& blockOf(const Expansion& e) const {
     return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
   }
-  const Children& childrenOf(const Expansion& e) const {
-    return trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
-  }
-
   const BoxBlock& boxBlockOf(const Expansion& e) const {
     return trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
   }
-  const Box& otherBox(const Expansion& e) const {
-    return trees_[1 - e.side]->boxes[e.side == 0 ? e.at.b : e.at.a];
+  uint32_t otherId(const Expansion& e) const { return e.side == 0 ? e.at.b : e.at.a; }
+  const Box& otherBox(const Expansion& e) const { return trees_[1 - e.side]->boxes[otherId(e)]; }
+
+  /// Triangles have boxes wherever the other tree has.
+  bool hasBoxes(const Expansion& e) const {
+    if (e.kind == Expanded::kNode) return hasBoxes();
+    return has_boxes_[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side];
   }
 
+  /// Raises bounds by boxes.
   HWY_NOINLINE void testBoxes(Expansion& e) const {
     Box moved;
-    move(otherBox(e), *to_[e.side], moved);
+    const bool nodes = HWY_LIKELY(e.kind == Expanded::kNode);
+    const BoxBlock& block = nodes ? boxBlockOf(e) : boxesOfTriangles(e, moved);
+    if (nodes) move(otherBox(e), *to_[e.side], moved);
+    const float pad = nodes ? search_.frames.box_pad : trianglePad(search_.frames);
     const BoxLanes other(moved);
-    const BoxBlock& block = boxBlockOf(e);
     const bool contact = search_.evaluator.prune_at == 0;
-    const V limit = hn::Set(d, search_.evaluator.prune_at);
-    uint32_t near = 0;
+    const uint32_t near = e.near;
+    e.near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
       const BoxLanes boxes(block, l);
-      const V lower = contact ? contactBounds(boxes, other, search_.frames.box_pad)
-                              : distanceBounds(boxes, other, search_.frames.box_pad);
+      const V lower =
+          contact ? contactBounds(boxes, other, pad) : distanceBounds(boxes, other, pad);
       const V bounds = hn::Load(d, e.bounds + l);
-      const V least = hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds);
-      hn::Store(least, d, e.bounds + l);
-      near |= bitsOf(hn::Lt(least, limit)) << l;
+      keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
     }
     e.near &= near;
   }
+  /// The boxes of the children, and the other's in their frame.
+  HWY_NOINLINE const BoxBlock& boxesOfTriangles(const Expansion& e, Box& moved) const {
+    if (e.kind == Expanded::kLeaf) {
+      move(otherBox(e), *to_[e.side], moved);
+      return boxed_[e.side].of(*trees_[e.side], static_cast<uint32_t>(e.parent->leaf()));
+    }
+    Box box;
+    const uint32_t triangle = otherId(e), other = 1 - e.side;
+    boxed_[other].of(*trees_[other], leafOfTriangle(triangle), laneOfTriangle(triangle), box);
+    move(box, *to_[e.side], moved);
+    return boxBlockOf(e);
+  }
 
   HWY_NOINLINE void reportPruned(const Expansion& e, uint32_t taken) const {
-    for (uint32_t left = childrenOf(e).all() & ~e.near & ~taken; left != 0; left &= left - 1) {
-      const uint32_t lane = firstOf(left), child = e.parent->first_child + lane;
-      search_.audit->pruned(e.side == 0 ? child : e.at.a, e.side == 0 ? e.at.b : child,
-                            e.bounds[lane]);
+    for (uint32_t left = e.children.all() & ~e.near & ~taken; left != 0; left &= left - 1) {
+      const uint32_t lane = firstOf(left);
+      const Pair child = childPair(e, lane);
+      search_.audit->pruned(child.a, child.b, e.bounds[lane]);
     }
   }
 
   const Search& search_;
   const Tree* trees_[2];
-  const FloatPose* to_[2];  ///< the frame of a side from the other's
-  const bool boxes_;        ///< both trees have them
-  const bool large_;
+  const FloatPose* to_[2];   ///< the frame of a side from the other's
+  const bool has_boxes_[2];  ///< which trees have them
+  const bool splits_, large_;
+  mutable BoxedTriangles boxed_[2];
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE

@@ -4,20 +4,20 @@
 // Takes the place of src/engine/frame_pair.cpp in mesh_fuzz_unpadded: float bounds pay nothing for
 // their rounding, which the fuzzer must notice.
 
-#define makeFramePair makePaddedFramePair
+#define makeTreePose makePaddedTreePose
 #include "engine/frame_pair.cpp"
-#undef makeFramePair
+#undef makeTreePose
 
 namespace kios::engine {
 
 template <typename S>
-bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
-  if (!makePaddedFramePair(a, b, X_AB, out)) return false;
+bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out) {
+  if (!makePaddedTreePose(a, b, X_AB, out)) return false;
   out.pad = out.box_pad = 0;
   return true;
 }
 
-template bool makeFramePair(const Tree&, const Tree&, const RelativePose<double>&, FramePair&);
-template bool makeFramePair(const Tree&, const Tree&, const RelativePose<float>&, FramePair&);
+template bool makeTreePose(const Tree&, const Tree&, const RelativePose<double>&, TreePose&);
+template bool makeTreePose(const Tree&, const Tree&, const RelativePose<float>&, TreePose&);
 
 }  // namespace kios::engine

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/few_triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl_kios/triangle/intersection.h"
+#include "query/near_pairs.h"
+#include "query/unprepared.h"
+#include "volume/lanes.h"
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace kios {
+namespace {
+
+constexpr int kMost = 32, kVeryFewPairs = 64;  // of areFew() and areVeryFew()
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// By axis: where a box begins, and where it ends, negated; or the other way round.
+struct Sides {
+  lanes::Double2 x, y, z;
+};
+
+/// A box in the common frame, as both sides of a test; empty at first.
+struct Box {
+  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+
+  template <typename S>
+  static Box of(const TriangleVertices<S>& t) {
+    Box box;
+    for (int c = 0; c < 3; ++c) {
+      const double x = t[0][c], y = t[1][c], z = t[2][c];
+      box.low[c] = std::min(std::min(x, y), z);
+      box.high[c] = std::max(std::max(x, y), z);
+    }
+    return box;
+  }
+  void add(const Box& o) {
+    for (int c = 0; c < 3; ++c) {
+      low[c] = std::min(low[c], o.low[c]);
+      high[c] = std::max(high[c], o.high[c]);
+    }
+  }
+  Sides lower() const { return sides(low, high); }
+  Sides upper() const { return sides(high, low); }
+
+ private:
+  static Sides sides(const double* p, const double* q) {
+    using lanes::Double2;
+    return {Double2{p[0], -q[0]}, Double2{p[1], -q[1]}, Double2{p[2], -q[2]}};
+  }
+};
+
+/// The distance of two boxes, right to 4 u; lower() of one, upper() of the other.
+double distance(const Sides& lower, const Sides& upper) {
+  const auto along = [](lanes::Double2 gap) { return std::max(std::max(gap[0], gap[1]), 0.0); };
+  const double x = along(lower.x - upper.x), y = along(lower.y - upper.y),
+               z = along(lower.z - upper.z);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+/// Whether two boxes have no point in common; lower() of one, upper() of the other.
+bool apart(const Sides& lower, const Sides& upper) {
+  const auto gap = (lower.x > upper.x) | (lower.y > upper.y) | (lower.z > upper.z);
+#if defined(__SSE2__)
+  return _mm_movemask_pd(reinterpret_cast<__m128d>(gap)) != 0;
+#else
+  return (gap[0] | gap[1]) != 0;
+#endif
+}
+
+}  // namespace
+
+// Coordinates are those that the triangles' own test sees, so boxes need no pad.
+template <typename S>
+std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<S>& frame, std::size_t limit,
+                                                       SearchCounts& counts) {
+  std::vector<engine::TrianglePairIds> found;
+  Box boxes_a[kMost], all_a;
+  const int num_a = frame.a.num_tris, num_b = frame.b.num_tris;
+  for (int i = 0; i < num_a; ++i) all_a.add(boxes_a[i] = Box::of(frame.triangleA(i)));
+
+  struct Placed {
+    TriangleVertices<S> triangle;
+    Sides upper;
+    int id;
+  } near_b[kMost];
+  const Sides lower = all_a.lower();
+  Box all_b;
+  int num_near = 0;
+  for (int j = 0; j < num_b; ++j) {
+    Placed& placed = near_b[num_near];
+    placed.triangle = frame.triangleB(j);
+    const Box box = Box::of(placed.triangle);
+    placed.upper = box.upper();
+    placed.id = j;
+    if (apart(lower, placed.upper)) continue;
+    ++num_near;
+    all_b.add(box);
+  }
+  if (num_near == 0) return found;
+  const Sides upper = all_b.upper();
+  for (int i = 0; i < num_a; ++i) {
+    const Sides lower_i = boxes_a[i].lower();
+    if (apart(lower_i, upper)) continue;
+    const TriangleVertices<S> p = frame.triangleA(i);
+    for (int j = 0; j < num_near; ++j) {
+      if (apart(lower_i, near_b[j].upper)) continue;
+      ++counts.exact;
+      if (!trianglesIntersect(p, near_b[j].triangle)) continue;
+      found.push_back({i, near_b[j].id});
+      if (found.size() >= limit) return found;
+    }
+  }
+  return found;
+}
+
+// All boxes are tested, then triangles by the distance of their boxes. What is left out is farther
+// than NearPairs' allowance for rounding, which is far more than that of boxes.
+template <typename S>
+engine::PairAnswer<S> nearestOfFew(const PairFrame<S>& frame, double far_enough,
+                                   SearchCounts& counts) {
+  struct Bounded {
+    double bound;
+    engine::TrianglePairIds ids;
+    bool operator<(const Bounded& o) const {
+      return bound != o.bound ? bound < o.bound : ids < o.ids;
+    }
+  } bounded[kVeryFewPairs];
+  Sides upper_b[kMost];
+  const int num_a = frame.a.num_tris, num_b = frame.b.num_tris;
+  for (int j = 0; j < num_b; ++j) upper_b[j] = Box::of(frame.triangleB(j)).upper();
+  int n = 0, least = 0;
+  for (int i = 0; i < num_a; ++i) {
+    const Sides lower = Box::of(frame.triangleA(i)).lower();
+    for (int j = 0; j < num_b; ++j, ++n) {
+      bounded[n] = {distance(lower, upper_b[j]), {i, j}};
+      if (bounded[n].bound < bounded[least].bound) least = n;
+    }
+  }
+  NearPairs<S> pairs(frame, far_enough);
+  pairs.test(bounded[least].ids);
+  bounded[least] = bounded[--n];
+  const double most = pairs.pruneAt();
+  const auto end = std::partition(bounded, bounded + n,
+                                  [most](const Bounded& pair) { return pair.bound <= most; });
+  std::sort(bounded, end);
+  counts.leaf_pairs += num_a * num_b;
+  ++counts.exact;
+  for (const Bounded* pair = bounded; pair != end && !pairs.touching(); ++pair) {
+    if (pair->bound > pairs.pruneAt()) break;
+    pairs.test(pair->ids);
+    ++counts.exact;
+  }
+  engine::PairAnswer<S> answer = pairs.answer();
+  if (pairs.touching()) {
+    answer.ids = firstTouching(frame, counts);
+    answer.nearest = frame.distanceOf(answer.ids);
+  }
+  return answer;
+}
+
+template engine::PairAnswer<double> nearestOfFew(const PairFrame<double>&, double, SearchCounts&);
+template engine::PairAnswer<float> nearestOfFew(const PairFrame<float>&, double, SearchCounts&);
+template std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<double>&,
+                                                                std::size_t, SearchCounts&);
+template std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<float>&,
+                                                                std::size_t, SearchCounts&);
+
+}  // namespace kios

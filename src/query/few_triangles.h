@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "engine/pair_query.h"
+#include "fcl_kios/engine/counts.h"
+#include "query/pair_frame.h"
+
+namespace kios {
+
+/// True for models of so few triangles that all pairs are looked at for contacts faster than any
+/// tree is walked: boxes against spheres of 40 triangles. Found by trying.
+template <typename S>
+bool areFew(const Model<S>& a, const Model<S>& b) {
+  constexpr int kMost = 32, kMostPairs = 512;
+  return a.num_tris <= kMost && b.num_tris <= kMost && a.num_tris * b.num_tris <= kMostPairs;
+}
+
+/// The same for distances, which take more of each pair: of two boxes they take ten times as long
+/// as the engine's.
+template <typename S>
+bool areVeryFew(const Model<S>& a, const Model<S>& b) {
+  return areFew(a, b) && a.num_tris * b.num_tris <= 64;
+}
+
+/// Of few triangles, up to `limit` pairs that intersect, all of them if there are no more; by ids.
+template <typename S>
+std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<S>& frame, std::size_t limit,
+                                                       SearchCounts& counts);
+
+/// Of very few triangles that the engine serves, the nearest of those nearer than `far_enough`, as
+/// searchNearest() names them for exact queries; not found if there are none.
+template <typename S>
+engine::PairAnswer<S> nearestOfFew(const PairFrame<S>& frame, double far_enough,
+                                   SearchCounts& counts);
+
+}  // namespace kios

@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/float_solid.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "engine/prepare.h"
+#include "volume/error_bounds.h"
+#include "volume/rounding.h"
+
+namespace kios {
+namespace {
+
+using engine::FloatSolid;
+using Form = FloatSolid::Form;
+using shape::Kind;
+using shape::Vec;
+
+/// A box in the solid's frame.
+struct Range {
+  Vec low, high;
+};
+
+/// The box of the core, and the form that bounds it.
+Form formOf(const shape::Solid& s, Range& range) {
+  Vec half = s.half;
+  Form form = Form::kBox;
+  switch (s.kind) {
+    case Kind::kSphere:
+      half.setZero();
+      break;
+    case Kind::kCapsule:
+      half = {0, 0, s.half_length};
+      break;
+    case Kind::kEllipsoid:
+      form = Form::kEllipsoid;
+      break;
+    case Kind::kCylinder:
+    case Kind::kCone:
+      half = {s.radius, s.radius, s.half_length};
+      form = s.kind == Kind::kCone ? Form::kCone : Form::kCylinder;
+      break;
+    case Kind::kConvex:
+      range.low = range.high = s.points[0];
+      for (const Vec& p : s.points) {
+        range.low = range.low.cwiseMin(p);
+        range.high = range.high.cwiseMax(p);
+      }
+      return Form::kContained;
+    default:
+      break;
+  }
+  range = {-half, half};
+  return form;
+}
+
+/// What of the box is nearest to anything in a ball: each coordinate of the nearest point depends
+/// on that of the other alone. A floor is then as large as the mesh on it, and so are the pads.
+void crop(const Vec& center, double radius, Range& range) {
+  const Vec low = center.array() - radius, high = center.array() + radius;
+  const Vec from = range.low, to = range.high;
+  range.low = low.cwiseMax(from).cwiseMin(to);
+  range.high = high.cwiseMin(to).cwiseMax(from);
+}
+
+void setRows(const Eigen::Matrix3d& R, const Vec& center, const Vec& half, engine::Box& box) {
+  for (int i = 0; i < 3; ++i) {
+    box.x[i] = static_cast<float>(R(i, 0));
+    box.y[i] = static_cast<float>(R(i, 1));
+    box.z[i] = static_cast<float>(R(i, 2));
+    box.half[i] = roundUpFloat(half[i]);
+  }
+  box.half[3] = 0;
+  box.x[engine::kCenter] = static_cast<float>(center.x());
+  box.y[engine::kCenter] = static_cast<float>(center.y());
+  box.z[engine::kCenter] = static_cast<float>(center.z());
+}
+
+void setCone(const shape::Solid& s, FloatSolid& out) {
+  const double slant = std::hypot(2 * s.half_length, s.radius);
+  out.slant_radial = slant > 0 ? static_cast<float>(2 * s.half_length / slant) : 1.0F;
+  out.slant_axial = slant > 0 ? static_cast<float>(s.radius / slant) : 0.0F;
+  out.slant_length = static_cast<float>(slant);
+}
+
+// n y <= offset is n' x <= offset - n T - n' origin for y = R x + T and n' = R^T n.
+template <typename S>
+engine::FloatSlab toTree(const engine::Tree& tree, const PosedSolid<S>& posed, const Vec& n,
+                         double offset) {
+  engine::FloatSlab slab;
+  const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
+  const Vec across = posed.R().transpose() * n;
+  for (int c = 0; c < 3; ++c) slab.n[c] = static_cast<float>(across[c]);
+  slab.offset = static_cast<float>(offset - n.dot(posed.T()) - across.dot(origin));
+  return slab;
+}
+
+}  // namespace
+
+template <typename S>
+bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
+                    const shape::ConvexFaces& faces, std::vector<engine::FloatSlab>& planes,
+                    FloatSolid& out) {
+  const double reach = tree.reach;
+  if (!posed.hasUnit1() || !(reach >= engine::kLeastReach)) return false;
+  const shape::Solid& solid = posed.solid();
+  const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
+  // In double: the mesh's points as posed, as PosedSolid bounds them.
+  const double points = error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * reach) +
+                                                 posed.T().template lpNorm<1>() + solid.reach());
+  double scale = reach;
+  out.margin = roundUpFloat(solid.margin());
+  out.tells_inside = solid.kind != Kind::kConvex;
+  out.radius = 0;
+  out.planes = nullptr;
+  out.num_planes = 0;
+  if (solid.bounded()) {
+    const Eigen::Matrix3d inverse = posed.R().inverse();
+    Range range;
+    out.form = formOf(solid, range);
+    if (out.form == Form::kBox || out.form == Form::kContained) {
+      const double radius = reach * (1 + posed.stretch()) * (1 + 0x1p-20) + points;
+      crop(posed.R() * origin + posed.T(), radius, range);
+    } else {
+      out.radius = roundUpFloat(solid.radius);
+      scale += solid.reach();
+    }
+    if (out.form == Form::kCone) setCone(solid, out);
+    if (out.form == Form::kEllipsoid) {
+      out.tells_inside = solid.half.minCoeff() > 0x1p-20 * solid.half.maxCoeff();
+    }
+    const Vec middle = 0.5 * (range.low + range.high), half = 0.5 * (range.high - range.low);
+    const Vec center = inverse * (middle - posed.T()) - origin;
+    setRows(posed.R(), center, half, out.box);
+    scale += solid.margin() + half.norm() + center.template lpNorm<1>();
+    constexpr double kMostReach = 64;  // that lets planes tell something
+    if (out.form == Form::kContained && solid.reach() <= kMostReach * reach) {
+      scale += solid.reach();
+      for (std::size_t i = 0; i < faces.size(); ++i) {
+        planes.push_back(toTree(tree, posed, faces.normal(i), faces.offset(i)));
+      }
+      out.planes = planes.data();
+      out.num_planes = static_cast<int>(planes.size());
+    }
+  } else {
+    out.form = solid.kind == Kind::kPlane ? Form::kPlane : Form::kHalfspace;
+    const Vec n = posed.R().transpose() * solid.normal;
+    const double offset = solid.offset - solid.normal.dot(posed.T()) - n.dot(origin);
+    for (int c = 0; c < 3; ++c) out.normal[c] = static_cast<float>(n[c]);
+    out.offset = static_cast<float>(offset);
+    out.box = {};
+    scale += std::abs(offset);
+  }
+  if (!(scale <= engine::kLargestReach)) return false;
+  const double more = 2 * posed.stretch() * scale + points;
+  const double pad = 2 * error_bounds::laneError(scale) + more;
+  if (!(pad <= 0x1p-4 * reach)) return false;
+  out.pad = roundUpFloat(pad);
+  out.box_pad = roundUpFloat(error_bounds::boxError(scale) + more);
+  return true;
+}
+
+template <typename S>
+engine::FloatSlab slabAcross(const engine::Tree& tree, const PosedSolid<S>& posed, const Vec& n) {
+  return toTree(tree, posed, n, shape::extentAlong(posed.solid(), n));
+}
+
+#define KIOS_INSTANTIATE(S)                                                                \
+  template bool makeFloatSolid(const engine::Tree&, const PosedSolid<S>&,                  \
+                               const shape::ConvexFaces&, std::vector<engine::FloatSlab>&, \
+                               engine::FloatSolid&);                                       \
+  template engine::FloatSlab slabAcross(const engine::Tree&, const PosedSolid<S>&,         \
+                                        const shape::Vec&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "engine/mesh_search.h"
+#include "model/prepared.h"
+#include "query/pair_frame.h"
+
+namespace kios {
+
+/// Looks for the nearest triangles of two models without the engine, which would name the same:
+/// keeps every pair that rounding may make the nearest, and lets the engine's evaluation of their
+/// features decide.
+template <typename S>
+class NearPairs {
+ public:
+  /// Pairs as far as `far_enough` don't matter.
+  NearPairs(const PairFrame<S>& frame, double far_enough)
+      : frame_(frame), prune_at_(withRounding(far_enough)) {}
+
+  /// Pairs farther than this don't matter.
+  double pruneAt() const { return prune_at_; }
+  bool touching() const { return best_ == 0; }
+
+  /// True if the triangles touch, which ends a search.
+  bool test(const engine::TrianglePairIds& ids) {
+    const double distance = double{frame_.distanceOf(ids).distance};
+    if (!(distance <= prune_at_)) return false;
+    near_.push_back({ids, distance});
+    if (distance < best_) {
+      best_ = distance;
+      prune_at_ = std::min(prune_at_, withRounding(distance));
+    }
+    return distance == 0;
+  }
+
+  /// Of triangles that touch, the first that were tested.
+  engine::PairAnswer<S> answer() const {
+    engine::PairAnswer<S> answer;
+    if (near_.empty()) return answer;
+    std::vector<engine::TrianglePairIds> nearest;
+    if (touching()) nearest.push_back(near_.back().ids);
+    for (const Found& found : near_) {
+      if (!touching() && found.distance <= prune_at_) nearest.push_back(found.ids);
+    }
+    answer.ids = engine::nearestOfThese(nearest, viewOf(frame_.a), viewOf(frame_.b), frame_.X_AB);
+    answer.nearest = frame_.distanceOf(answer.ids);
+    return answer;
+  }
+
+ private:
+  struct Found {
+    engine::TrianglePairIds ids;
+    double distance;
+  };
+
+  /// Both this distance and that of other triangles or of their features, which decide between
+  /// equals, may be off by 32 u and 64 u of the extents (error_bounds.h): kernelError() is 32 u.
+  double withRounding(double distance) const {
+    return distance < kInfinity ? distance + 8 * frame_.kernelError(distance) : kInfinity;
+  }
+
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const PairFrame<S>& frame_;
+  std::vector<Found> near_;
+  double best_ = kInfinity, prune_at_;
+};
+
+}  // namespace kios

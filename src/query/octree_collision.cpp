@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/octree_collision.h"
+
+#if FCL_HAVE_OCTOMAP
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "engine/cell_search.h"
+#include "engine/search.h"
+#include "model/prepared.h"
+#include "query/cell_tree.h"
+#include "query/cell_walk.h"
+#include "query/mesh_pair.h"
+#include "query/posed_solid.h"
+#include "solid/triangle_shape.h"
+#include "volume/error_bounds.h"
+#include "volume/rounding.h"
+
+namespace kios {
+namespace {
+
+using engine::Cell;
+using Node = octomap::OcTreeNode;
+
+/// The cells and triangles of an octree and a mesh that meet. Everything is posed in the octree's
+/// frame.
+template <typename S>
+class OctreeCollision final : engine::CellSide {
+ public:
+  OctreeCollision(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                  const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                  const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
+                  SearchCounts& counts)
+      : octree_(octree),
+        model_(model),
+        X_WO_(X_WO),
+        X_WM_(X_WM),
+        request_(request),
+        result_(result),
+        counts_(counts),
+        posed_(rootCube(octree), X_WM, X_WO, model.getBV(0).bv),
+        error_(cellError()),
+        occupied_(model.isOccupied()),
+        cells_(octree, posed_.solid().half.x(), request.enable_cost, occupied_),
+        room_(request.enable_cost ? std::numeric_limits<std::size_t>::max()
+                                  : request.num_max_contacts - result.numContacts()) {
+    box_.kind = shape::Kind::kBox;
+  }
+
+  void run() {
+    if (model_.isFree() || !(request_.enable_cost || occupied_)) return;
+    Ball spheres[kIOS<S>::kMaxSpheres];
+    const int count = posed_.placeSpheres(model_.getBV(0).bv, spheres);
+    ++counts_.volume_tests;
+    start_ = cells_.cellsNear(spheres, count, error_);
+    if (start_.empty()) return;
+    engine::TreeCache* const trees = treesOf(model_);
+    const long long spare =
+        trees ? trees->testsToSpare(static_cast<std::size_t>(model_.num_tris)) : 0;
+    if (spare > 0) {
+      const long long left = walk(2 * spare);  // in four lanes, they take half of the time
+      trees->spend(spare - left / 2);
+      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
+      // the model.
+      const bool verdict = request_.num_max_contacts == 1 && !request_.enable_contact;
+      if (found_.size() >= room_ ? verdict : left >= 0) return report();
+      found_.clear();
+    }
+    if (!searchPrepared()) walk(std::numeric_limits<long long>::max());
+    report();
+  }
+
+ private:
+  struct Found {
+    Cell cell;
+    int triangle;
+  };
+
+  /// How far the faces of cells near the mesh may lie from multiples of the unit. FCL's halve
+  /// intervals: exactly, as long as these have an end at 0, and from then on at most 20 times at
+  /// coordinates of at most twice the cell's. The root's size is rounded once.
+  double cellError() const {
+    const kIOS<S>& root = model_.getBV(0).bv;
+    const double reach =
+        posed_.toUnits(double{root.center0.template lpNorm<1>()} + 2 * double{root.radius0});
+    const double largest = std::min(1.01 * reach + posed_.T().template lpNorm<Eigen::Infinity>(),
+                                    posed_.solid().half.x());
+    return 128 * error_bounds::kUlp<S> * largest;  // as a vector
+  }
+
+  // Pairs.
+
+  std::uint32_t open(const void* node, std::uint32_t wanted, const void* (&children)[8],
+                     std::uint32_t& leaves) override {
+    return cells_.open(node, wanted, children, leaves);
+  }
+
+  bool evaluate(const Cell& cell, std::uint32_t triangle, bool sure) override {
+    ++counts_.leaf_kernels;
+    const int id = static_cast<int>(triangle);
+    if (!sure) {
+      setCell(cell);
+      if (!shape::intersects(box_, place(id))) return false;
+    }
+    found_.push_back({cell, id});
+    return found_.size() >= room_;
+  }
+
+  void setCell(const Cell& cell) {
+    if (cell.half == box_cell_.half && cell.x == box_cell_.x && cell.y == box_cell_.y &&
+        cell.z == box_cell_.z) {
+      return;
+    }
+    box_cell_ = cell;
+    aabb_ = cells_.boxAt(cell);
+    const shape::Vec low = aabb_.min_.template cast<double>(),
+                     high = aabb_.max_.template cast<double>();
+    center_ = (0.5 * (low + high)) * posed_.toUnits(1);
+    box_.half = (0.5 * (high - low)) * posed_.toUnits(1);
+  }
+
+  /// A triangle of the mesh relative to the centre of the cell that was set.
+  shape::Triangle place(int id) const {
+    const shape::Triangle t = posed_.place(cornersOf(model_, id));
+    return {t[0] - center_, t[1] - center_, t[2] - center_};
+  }
+
+  /// True if floats served.
+  bool searchPrepared() {
+    const engine::TreeCache::Use tree = preparedTree(model_);
+    engine::CellFrame frame;
+    if (!tree || !makeFrame(*tree, frame)) return false;
+    engine::kernels().cells({*tree, frame, *this, counts_, start_.data(), start_.size()});
+    return true;
+  }
+
+  /// `scale` is S of engine/cell_search.h, `reach` the mesh's part.
+  bool floatsServe(double reach, double scale) const {
+    using Frame = engine::CellFrame;
+    return posed_.hasUnit1() && reach >= Frame::kLeastReach && scale <= Frame::kLargestReach &&
+           posed_.solid().half.x() <= Frame::kLargestRoot;
+  }
+
+  bool makeFrame(const engine::Tree& tree, engine::CellFrame& frame) const {
+    const Eigen::Map<const Eigen::Vector3d> origin_M(tree.origin);
+    const shape::Vec origin = cells_.origin();
+    const shape::Vec t = posed_.R() * origin_M + (posed_.T() - origin);
+    const double reach = tree.reach, scale = reach + t.template lpNorm<1>();
+    if (!floatsServe(reach, scale)) return false;
+    // The exact stage's points and boxes, and its tests.
+    const double points = error_bounds::solidError(
+        2 * (origin_M.template lpNorm<1>() + 2 * reach) + posed_.T().template lpNorm<1>() +
+        std::min(posed_.solid().half.x(), 4 * (scale + origin.template lpNorm<1>())));
+    const double more = posed_.stretch() * scale + points + error_;
+    const double pad = 0x1p-18 * scale + more;
+    if (!(pad <= 0x1p-4 * reach)) return false;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) frame.from_mesh.R[i][j] = static_cast<float>(posed_.R()(i, j));
+      frame.from_mesh.t[i] = static_cast<float>(t[i]);
+    }
+    frame.unit = static_cast<float>(cells_.unit());
+    frame.pad = roundUpFloat(pad);
+    frame.box_pad = roundUpFloat(0x1p-17 * scale + more);
+    return true;
+  }
+
+  /// Returns what is left of the tests; negative if they didn't suffice.
+  long long walk(long long most_tests) {
+    const kIOS<S>& root = model_.getBV(0).bv;
+    const double reach = scaled(double{root.reach}, root.exponent);
+    const double scale = reach + 4 * double{root.radius0};  // the origin is within the mesh's box
+    return floatsServe(reach, scale) && posed_.solid().half.x() >= engine::CellFrame::kLeastReach
+               ? walkBy<float>(most_tests)
+               : walkBy<double>(most_tests);
+  }
+
+  template <typename Real>
+  long long walkBy(long long most_tests) {
+    CellWalk<S, Real> walk(model_, posed_, cells_.origin(), cells_.unit(), error_, *this, counts_,
+                           most_tests);
+    walk.run(start_);
+    return walk.testsLeft();
+  }
+
+  // Results.
+
+  /// A list of all that touch has one order, whichever tree was searched: by triangles, then cells.
+  void sort() {
+    const auto num_triangles = static_cast<std::size_t>(model_.num_tris);
+    const auto less = [](const Found& a, const Found& b) {
+      if (a.triangle != b.triangle) return a.triangle < b.triangle;
+      if (a.cell.x != b.cell.x) return a.cell.x < b.cell.x;
+      return a.cell.y != b.cell.y ? a.cell.y < b.cell.y : a.cell.z < b.cell.z;
+    };
+    if (found_.size() < num_triangles / 16) {
+      std::sort(found_.begin(), found_.end(), less);
+      return;
+    }
+    std::vector<std::size_t> begin(num_triangles + 1);
+    for (const Found& found : found_) ++begin[static_cast<std::size_t>(found.triangle) + 1];
+    for (std::size_t i = 0; i < num_triangles; ++i) begin[i + 1] += begin[i];
+    std::vector<Found> sorted(found_.size());
+    for (const Found& found : found_) {
+      sorted[begin[static_cast<std::size_t>(found.triangle)]++] = found;
+    }
+    found_.swap(sorted);
+    for (std::size_t i = 0, first = 0; i < num_triangles; first = begin[i++]) {
+      const auto at = [&](std::size_t k) {
+        return found_.begin() + static_cast<std::ptrdiff_t>(k);
+      };
+      std::sort(at(first), at(begin[i]), less);
+    }
+  }
+
+  void report() {
+    if (found_.size() < room_) sort();
+    for (const Found& found : found_) {
+      if (request_.enable_contact || request_.enable_cost) setCell(found.cell);
+      const auto* const node = static_cast<const Node*>(found.cell.node);
+      const bool occupied = node && octree_.isNodeOccupied(node) && occupied_;
+      if (occupied && result_.numContacts() < request_.num_max_contacts) {
+        addContact(node, found.triangle);
+      }
+      if (request_.enable_cost) addCost(node, found.triangle);
+    }
+  }
+
+  void addContact(const Node* node, int id) {
+    fcl::Contact<S> contact(&octree_, &model_, 0, id, fcl::Vector3<S>::Zero(),
+                            fcl::Vector3<S>::Zero(), S(0));
+    // FCL's query cell id, from which OcTree::getNodeByQueryCellId() finds the node; the
+    // constructor would cut it to an int.
+    contact.b1 = node - octree_.getRoot();
+    if (request_.enable_contact) {
+      const shape::TriangleShapeContact c = shape::contact(box_, place(id));
+      contact.pos = posed_.toWorld(c.position + center_);
+      contact.normal = posed_.directionToWorld(c.normal);  // from the cell to the mesh
+      contact.penetration_depth = posed_.fromUnits(c.depth);
+    }
+    result_.addContact(contact);
+  }
+
+  void addCost(const Node* node, int id) {
+    fcl::AABB<S> cell_box, shared;
+    const fcl::Vector3<S> middle = X_WO_ * aabb_.center();
+    const fcl::Vector3<S> half = X_WO_.linear().cwiseAbs() * (S(0.5) * (aabb_.max_ - aabb_.min_));
+    cell_box.min_ = middle - half;
+    cell_box.max_ = middle + half;
+    const auto t = transformed(cornersOf(model_, id), X_WM_);
+    cell_box.overlap(fcl::AABB<S>(t[0], t[1], t[2]), shared);
+    const S occupancy = node ? S(node->getOccupancy()) : octree_.getOccupancyThres();
+    result_.addCostSource(fcl::CostSource<S>(shared, occupancy * model_.cost_density),
+                          request_.num_max_cost_sources);
+  }
+
+  const fcl::OcTree<S>& octree_;
+  const Model<S>& model_;
+  const fcl::Transform3<S>&X_WO_, &X_WM_;
+  const fcl::CollisionRequest<S>& request_;
+  fcl::CollisionResult<S>& result_;
+  SearchCounts& counts_;
+  const PosedSolid<S> posed_;  // its solid is the root's cube
+  const double error_;
+  const bool occupied_;
+  CellTree<S> cells_;
+  const std::size_t room_;  // for pairs
+  std::vector<Cell> start_;
+  std::vector<Found> found_;
+
+  Cell box_cell_ = {nullptr, 0, 0, 0, 0, 0};
+  fcl::AABB<S> aabb_;
+  shape::Solid box_;
+  shape::Vec center_;
+};
+
+}  // namespace
+
+template <typename S>
+bool addOctreeContacts(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                       const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                       const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
+                       SearchCounts& counts) {
+  OctreeCollision<S> search(octree, X_WO, model, X_WM, request, result, counts);  // or it throws
+  if (request.isSatisfied(result)) return false;
+  search.run();
+  return true;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                  \
+  template bool addOctreeContacts(const fcl::OcTree<S>&, const fcl::Transform3<S>&,          \
+                                  const Model<S>&, const fcl::Transform3<S>&,                \
+                                  const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&, \
+                                  SearchCounts&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios
+#endif  // FCL_HAVE_OCTOMAP

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "engine/pair_query.h"
+#include "engine/search.h"
+#include "fcl_kios/query/shape_queries.h"
+#include "model/prepared.h"
+#include "query/float_solid.h"
+#include "query/mesh_pair.h"
+#include "query/shape_solid.h"
+#include "solid/triangle_shape.h"
+#include "volume/rounding.h"
+
+namespace kios {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Search for the triangle nearest to a solid: the least id of those whose computed distance is
+/// bitwise the least. That does not depend on which are evaluated, and in which order, as long as
+/// all are that may be as near: distances of single triangles are kept apart from the bounds that
+/// leave others out by more than both are off.
+template <typename S>
+class NearestTriangle final : public engine::SolidEvaluator {
+ public:
+  NearestTriangle(const Model<S>& model, const PosedSolid<S>& posed, double rel_err, double abs_err,
+                  double far_enough, SearchCounts& counts)
+      : model_(model),
+        posed_(posed),
+        rel_err_(rel_err),
+        abs_err_(abs_err),
+        far_enough_(far_enough),
+        counts_(counts),
+        slack_(rel_err == 0 && abs_err == 0 ? posed.kernelError(model.getBV(0).bv) : 0) {
+    lowerTo(far_enough);
+  }
+
+  void run() {
+    const double root = boundOf(0);
+    if (leftOut(root)) return;
+    engine::TreeCache* const trees = treesOf(model_);
+    const long long spare = trees ? trees->testsToSpare(static_cast<std::size_t>(model_.num_tris))
+                                  : std::numeric_limits<long long>::max();
+    if (spare > 0) {
+      const long long tests = walk(root, spare);
+      if (trees) trees->spend(tests);
+      if (tests < spare && best_ > 0) {
+        ++counts_.tree_searches;
+        return;
+      }
+      if (best_ <= 0) {  // which triangle touches mustn't depend on who prepared the model
+        id_ = -1;
+        lowerTo(far_enough_);
+      }
+    }
+    const engine::TreeCache::Use tree = preparedTree(model_);
+    engine::FloatSolid solid;
+    const shape::ConvexFaces faces(posed_.solid());
+    std::vector<engine::FloatSlab> planes;
+    if (tree && makeFloatSolid(*tree, posed_, faces, planes, solid)) {
+      tree_ = &*tree;
+      engine::kernels().solid({*tree, solid, *this, counts_});
+    } else {
+      ++counts_.tree_searches;
+      walk(root, std::numeric_limits<long long>::max());
+    }
+  }
+
+  bool evaluate(std::uint32_t triangle, bool /*meets*/) override {
+    return test(static_cast<int>(triangle));
+  }
+
+  double best() const { return best_; }
+  int id() const { return id_; }  ///< -1 if none is nearer than far_enough
+  const shape::TriangleShapeDistance& nearest() const { return nearest_; }
+
+ private:
+  /// A node of the model's tree that waits.
+  struct Waiting {
+    int node;
+    double bound;
+  };
+
+  bool leftOut(double bound) const { return std::max(bound, 0.0) >= limit_ + slack_; }
+
+  double boundOf(int node) {
+    ++counts_.volume_tests;
+    return posed_.bound(model_.getBV(node).bv, limit_ + slack_);
+  }
+
+  /// True if nothing can be nearer.
+  bool test(int id) {
+    const auto d =
+        shape::distance(posed_.solid(), posed_.place(cornersOf(model_, id)), limit_ + slack_);
+    if (!(d.distance < best_ || (d.distance == best_ && id < id_))) return best_ <= 0;
+    nearest_ = d;
+    id_ = id;
+    lowerTo(d.distance);
+    if (tree_ && posed_.solid().bounded() && d.distance > 0) {
+      const shape::Vec way = d.on_triangle - d.on_shape;
+      const double length = way.norm();
+      if (length > 0) slab = slabAcross(*tree_, posed_, way / length);
+    }
+    return best_ <= 0;
+  }
+
+  void lowerTo(double distance) {
+    best_ = distance;
+    limit_ = engine::pruneAt(distance, rel_err_, abs_err_);
+    prune_at = limit_ < 0x1p127 ? roundUpFloat(limit_) : std::numeric_limits<float>::infinity();
+  }
+
+  /// In the tree of volumes, the nearer child first, until so many tests were made, of which a
+  /// triangle's counts as four. Returns their number.
+  long long walk(double root, long long most) {
+    std::vector<Waiting> waiting;
+    waiting.reserve(64);
+    waiting.push_back({0, root});
+    long long tests = 1;
+    while (!waiting.empty() && best_ > 0 && tests < most) {
+      const Waiting next = waiting.back();
+      waiting.pop_back();
+      if (leftOut(next.bound)) continue;
+      const auto& node = model_.getBV(next.node);
+      if (node.isLeaf()) {
+        ++counts_.leaf_kernels;
+        tests += 4;
+        test(node.primitiveId());
+        continue;
+      }
+      tests += 2;
+      Waiting near = {node.leftChild(), boundOf(node.leftChild())};
+      Waiting far = {node.rightChild(), boundOf(node.rightChild())};
+      if (far.bound < near.bound) std::swap(near, far);
+      waiting.push_back(far);
+      waiting.push_back(near);
+    }
+    return waiting.empty() || best_ <= 0 ? std::min(tests, most - 1) : tests;
+  }
+
+  const Model<S>& model_;
+  const PosedSolid<S>& posed_;
+  const double rel_err_, abs_err_, far_enough_;
+  SearchCounts& counts_;
+  const double slack_;
+  const engine::Tree* tree_ = nullptr;
+  double best_, limit_;
+  int id_ = -1;
+  shape::TriangleShapeDistance nearest_;
+};
+
+}  // namespace
+
+template <typename S>
+S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
+                SearchCounts* counts) {
+  requireErrorBounds(request);
+  requireFinished(model);
+  const PosedSolid<S> posed(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv);
+  if (request.isSatisfied(result)) return result.min_distance;
+  SearchCounts unused;
+  const bool limited = result.min_distance < std::numeric_limits<S>::max();
+  NearestTriangle<S> search(model, posed, request.rel_err, posed.toUnits(request.abs_err),
+                            limited ? posed.toUnits(result.min_distance) : kInfinity,
+                            counts ? *counts : unused);
+  search.run();
+  if (search.id() < 0) return result.min_distance;
+  constexpr int kNone = fcl::DistanceResult<S>::NONE;
+  if (request.enable_nearest_points) {
+    result.update(posed.fromUnits(search.best()), &model, &geometry, search.id(), kNone,
+                  posed.toWorld(search.nearest().on_triangle),
+                  posed.toWorld(search.nearest().on_shape));
+  } else {
+    result.update(posed.fromUnits(search.best()), &model, &geometry, search.id(), kNone);
+  }
+  return result.min_distance;
+}
+
+#define KIOS_INSTANTIATE(S)                                                             \
+  template S distanceShape(const Model<S>&, const fcl::Transform3<S>&,                  \
+                           const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&, \
+                           const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&,     \
+                           SearchCounts*);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "query/unprepared.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "fcl_kios/triangle/intersection.h"
+#include "model/prepared.h"
+#include "query/near_pairs.h"
+
+namespace kios {
+namespace {
+
+using engine::PairAnswer;
+using engine::TrianglePairIds;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// What the trees of two models let a walk spend.
+template <typename S>
+class Allowance {
+ public:
+  explicit Allowance(const PairFrame<S>& frame)
+      : trees_a_(treesOf(frame.a)), trees_b_(treesOf(frame.b)) {
+    if (!trees_a_ || !trees_b_) return;
+    tests_ = std::max(trees_a_->testsToSpare(static_cast<std::size_t>(frame.a.num_tris)),
+                      trees_b_->testsToSpare(static_cast<std::size_t>(frame.b.num_tris)));
+  }
+
+  long long tests() const { return tests_; }
+  void spend(long long tests) const {
+    trees_a_->spend(tests);
+    if (trees_b_ != trees_a_) trees_b_->spend(tests);
+  }
+
+ private:
+  engine::TreeCache *const trees_a_, *const trees_b_;
+  long long tests_ = 0;
+};
+
+/// A walk of two of FCL's trees, depth first, the nearer of two children first.
+template <typename S, class Walk>
+class TreeWalk {
+ public:
+  TreeWalk(const PairFrame<S>& frame, long long limit) : frame_(frame), limit_(limit) {}
+
+  /// A test of triangles takes as long as four of volumes.
+  long long tests() const { return volume_tests_ + 4 * leaf_tests_; }
+  bool gaveUp() const { return tests() >= limit_; }
+  void countIn(SearchCounts& counts) const {
+    counts.volume_tests += volume_tests_;
+    counts.leaf_pairs += leaf_tests_;
+    counts.exact += leaf_tests_;
+  }
+
+ protected:
+  /// True to end the walk. The contents of the two nodes are at least `bound` apart.
+  bool visit(int at_a, int at_b, double bound) {
+    Walk& walk = static_cast<Walk&>(*this);
+    const auto &node_a = frame_.a.getBV(at_a), &node_b = frame_.b.getBV(at_b);
+    if (node_a.isLeaf() && node_b.isLeaf()) {
+      ++leaf_tests_;
+      return walk.test({node_a.primitiveId(), node_b.primitiveId()}) || gaveUp();
+    }
+    const bool split_a =
+        node_b.isLeaf() || (!node_a.isLeaf() && node_a.bv.radius0 > node_b.bv.radius0);
+    int a[2] = {at_a, at_a}, b[2] = {at_b, at_b};
+    (split_a ? a : b)[0] = split_a ? node_a.leftChild() : node_b.leftChild();
+    (split_a ? a : b)[1] = split_a ? node_a.rightChild() : node_b.rightChild();
+    double bounds[2];
+    for (int i = 0; i < 2; ++i) {
+      bounds[i] = std::max(bound, separation(frame_.a.getBV(a[i]).bv, frame_.b.getBV(b[i]).bv,
+                                             frame_.X_AB, walk.pruneAt()));
+    }
+    volume_tests_ += 2;
+    const int first = bounds[1] < bounds[0] ? 1 : 0;
+    for (const int i : {first, 1 - first}) {
+      if (walk.isFar(bounds[i])) continue;
+      if (visit(a[i], b[i], bounds[i])) return true;
+    }
+    return gaveUp();
+  }
+
+  const PairFrame<S>& frame_;
+
+ private:
+  const long long limit_;
+  long long volume_tests_ = 0, leaf_tests_ = 0;
+};
+
+template <typename S>
+class TouchWalk : public TreeWalk<S, TouchWalk<S>> {
+  using Base = TreeWalk<S, TouchWalk<S>>;
+
+ public:
+  TouchWalk(const PairFrame<S>& frame, std::size_t most, long long limit)
+      : Base(frame, limit), most_(most) {}
+
+  void run() { this->visit(0, 0, -kInfinity); }
+  std::vector<TrianglePairIds> found;
+
+  double pruneAt() const { return 0; }
+  bool isFar(double bound) const { return bound > 0; }
+  bool test(const TrianglePairIds& ids) {
+    if (!trianglesIntersect(this->frame_.triangleA(ids.a), this->frame_.triangleB(ids.b))) {
+      return false;
+    }
+    found.push_back(ids);
+    return found.size() >= most_;
+  }
+
+ private:
+  const std::size_t most_;
+};
+
+template <typename S>
+class NearWalk : public TreeWalk<S, NearWalk<S>> {
+  using Base = TreeWalk<S, NearWalk<S>>;
+
+ public:
+  NearWalk(const PairFrame<S>& frame, double far_enough, long long limit)
+      : Base(frame, limit), pairs_(frame, far_enough) {}
+
+  /// Where triangles touch, the walk ends with TouchWalk's first: bounds that exceed 0 differ, but
+  /// nodes as far apart as that hold no such triangles.
+  void run() { this->visit(0, 0, -kInfinity); }
+  const NearPairs<S>& pairs() const { return pairs_; }
+
+  double pruneAt() const { return pairs_.pruneAt(); }
+  bool isFar(double bound) const { return bound > pairs_.pruneAt(); }
+  bool test(const TrianglePairIds& ids) { return pairs_.test(ids); }
+
+ private:
+  NearPairs<S> pairs_;
+};
+
+}  // namespace
+
+template <typename S>
+std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<S>& frame,
+                                                            std::size_t limit,
+                                                            SearchCounts& counts) {
+  const Allowance<S> allowance(frame);
+  if (allowance.tests() == 0) return std::nullopt;
+  TouchWalk<S> walk(frame, limit, allowance.tests());
+  walk.run();
+  allowance.spend(walk.tests());
+  walk.countIn(counts);
+  if (walk.found.size() < limit && walk.gaveUp()) return std::nullopt;
+  ++counts.tree_searches;
+  std::sort(walk.found.begin(), walk.found.end());
+  return std::move(walk.found);
+}
+
+template <typename S>
+std::optional<PairAnswer<S>> nearestUnprepared(const PairFrame<S>& frame, double far_enough,
+                                               SearchCounts& counts) {
+  const Allowance<S> allowance(frame);
+  if (allowance.tests() == 0) return std::nullopt;
+  NearWalk<S> walk(frame, far_enough, allowance.tests());
+  walk.run();
+  allowance.spend(walk.tests());
+  walk.countIn(counts);
+  const bool done = walk.pairs().touching() ? namesFirstTouching(frame) : !walk.gaveUp();
+  if (!done) return std::nullopt;
+  return walk.pairs().answer();
+}
+
+template <typename S>
+TrianglePairIds firstTouching(const PairFrame<S>& frame, SearchCounts& counts) {
+  TouchWalk<S> walk(frame, 1, std::numeric_limits<long long>::max());
+  walk.run();
+  walk.countIn(counts);
+  return walk.found.at(0);
+}
+
+template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<double>&,
+                                                                     std::size_t, SearchCounts&);
+template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<float>&,
+                                                                     std::size_t, SearchCounts&);
+template std::optional<PairAnswer<double>> nearestUnprepared(const PairFrame<double>&, double,
+                                                             SearchCounts&);
+template std::optional<PairAnswer<float>> nearestUnprepared(const PairFrame<float>&, double,
+                                                            SearchCounts&);
+template TrianglePairIds firstTouching(const PairFrame<double>&, SearchCounts&);
+template TrianglePairIds firstTouching(const PairFrame<float>&, SearchCounts&);
+
+}  // namespace kios

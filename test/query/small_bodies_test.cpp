@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Bodies of few triangles, for which queries have ways of their own: planes between vertices, all
+// pairs at once, and walks of FCL's trees as long as nobody has prepared the models. Against all
+// pairs, and the engine.
+
+#include <gtest/gtest.h>
+
+#include "query/query_cases.h"
+
+namespace kios::testing {
+namespace {
+
+using scenes::Random;
+
+Mesh box(const fcl::Vector3d& size) { return scenes::subdividedBox(size, 1); }
+
+/// Soups with needles, segments, points and repeated triangles among their triangles.
+Mesh nastySoup(int count, Random& random) {
+  Mesh mesh =
+      scenes::randomSoup(count, 0.5, 0.05, 1.5, static_cast<std::uint64_t>(random.uniform(0, 1e9)));
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const double kind = random.uniform(0, 1);
+    fcl::Vector3d* const v = &mesh.vertices[3 * t];
+    if (kind < 0.1) v[2] = v[1];
+    if (kind < 0.03) v[1] = v[2] = v[0];
+    if (kind > 0.9) v[2] = (v[0] + v[1]) / 2;
+    if (kind > 0.8 && t > 0) std::copy_n(&mesh.vertices[3 * t - 3], 2, v);
+  }
+  return mesh;
+}
+
+/// Corners on a coarse grid, so that faces, edges and vertices meet exactly.
+Mesh gridSoup(int count, Random& random) {
+  Mesh mesh;
+  for (int i = 0; i < 3 * count; ++i) {
+    fcl::Vector3d p;
+    for (int c = 0; c < 3; ++c) p[c] = 0.25 * std::floor(random.uniform(0, 5));
+    mesh.vertices.push_back(p);
+  }
+  for (int i = 0; i < count; ++i) mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
+  return mesh;
+}
+
+Mesh smallMesh(int kind, Random& random) {
+  const auto size = [&] { return random.uniform(0.1, 1); };
+  switch (kind % 8) {
+    case 0:
+      return box({size(), size(), size()});
+    case 1:
+      return nastySoup(1 + static_cast<int>(random.uniform(0, 32)), random);
+    case 2:
+      return gridSoup(1 + static_cast<int>(random.uniform(0, 20)), random);
+    case 3:
+      return scenes::icosphere(size(), static_cast<int>(random.uniform(0, 2)));
+    case 4:
+      return box({1, 0.5, 0.25});
+    case 5:
+      return nastySoup(1, random);
+    case 6:
+      return scenes::sheet(1, 1, 3, 4, 0);
+    default:
+      return scenes::uvSphere(size(), 6, 10);
+  }
+}
+
+/// Poses in general position, on a grid (faces and edges parallel, or in one plane), and so that
+/// the bodies nearly touch; the two together far from the origin, or not.
+template <typename S>
+Poses<S> poseAt(int kind, double apart, Random& random) {
+  const auto seed = static_cast<std::uint64_t>(random.uniform(0, 1e9));
+  auto poses = scenes::randomPoses(2, 1, seed);
+  if (kind % 3 == 0) {
+    for (auto& X : poses) {
+      X.linear().setIdentity();
+      for (int c = 0; c < 3; ++c) X.translation()[c] = 0.25 * std::floor(random.uniform(-4, 5));
+    }
+  } else {
+    poses[1].translation() = poses[0].translation() + apart * poses[1].translation().normalized();
+  }
+  if (kind % 5 == 0) {
+    const double far = sizeof(S) == sizeof(double) ? 0x1p30 : 0x1p10;
+    for (auto& X : poses) X.translation() += fcl::Vector3d(far, -far, far / 2);
+  }
+  return {poses[0].cast<S>(), poses[1].cast<S>()};
+}
+
+template <typename S>
+TriangleVertices<S> corners(const Model<S>& m, int t) {
+  const fcl::Triangle& ids = m.tri_indices[t];
+  return {m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]};
+}
+
+/// All pairs by the kernels alone.
+template <typename S>
+struct BruteForce {
+  BruteForce(const Model<S>& a, const Model<S>& b, const Poses<S>& X) {
+    const RelativePose<S> X_AB(X.X_WA, X.X_WB);
+    for (int i = 0; i < a.num_tris; ++i) {
+      for (int j = 0; j < b.num_tris; ++j) {
+        auto q = corners(b, j);
+        for (auto& v : q) v = X_AB * v;
+        least = std::min(least, triangleDistance(corners(a, i), q).distance);
+        if (trianglesIntersect(corners(a, i), q)) pairs.emplace_back(i, j);
+      }
+    }
+  }
+  S least = std::numeric_limits<S>::infinity();
+  std::vector<std::pair<int, int>> pairs;
+};
+
+/// A model that shares no tree with one of the same mesh.
+template <typename S>
+std::shared_ptr<Model<S>> another(Mesh mesh) {
+  mesh.vertices.push_back(mesh.vertices.at(0));
+  const auto model = modelOf<S>(mesh);
+  prepare(*model);
+  return model;
+}
+
+template <typename S>
+std::vector<std::pair<int, int>> contactsOf(const Model<S>& a, const Model<S>& b, const Poses<S>& X,
+                                            std::size_t limit) {
+  fcl::CollisionResult<S> result;
+  collideMeshes(a, X.X_WA, b, X.X_WB, fcl::CollisionRequest<S>(limit), result);
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    const auto& contact = result.getContact(i);
+    pairs.emplace_back(static_cast<int>(contact.b1), static_cast<int>(contact.b2));
+  }
+  return pairs;
+}
+
+template <typename S>
+class SmallBodies : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(SmallBodies, Scalars);
+
+TYPED_TEST(SmallBodies, ContactsAreThoseOfAllPairs) {
+  using S = TypeParam;
+  Random random(11);
+  int touching = 0, apart = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Mesh mesh_a = smallMesh(i, random), mesh_b = smallMesh(i / 8, random);
+    const auto a = modelOf<S>(mesh_a), b = modelOf<S>(mesh_b);
+    const auto X = poseAt<S>(i, random.uniform(0, 1.5), random);
+    const BruteForce<S> all(*a, *b, X);
+    const auto one = contactsOf(*a, *b, X, 1);
+    ASSERT_EQ(one.empty(), all.pairs.empty()) << i;
+    if (!one.empty()) {
+      ASSERT_TRUE(std::find(all.pairs.begin(), all.pairs.end(), one[0]) != all.pairs.end()) << i;
+    }
+    ASSERT_EQ(contactsOf(*a, *b, X, 100000), all.pairs) << i;
+    ASSERT_EQ(contactsOf(*a, *b, X, 2).size(), std::min<std::size_t>(2, all.pairs.size())) << i;
+    (all.pairs.empty() ? apart : touching) += 1;
+  }
+  EXPECT_GT(touching, 300);
+  EXPECT_GT(apart, 300);
+}
+
+// What a fresh model answers is what the prepared one does: bit for bit where the pair is apart.
+TYPED_TEST(SmallBodies, FreshModelsAnswerAsPreparedOnes) {
+  using S = TypeParam;
+  Random random(12);
+  int walks = 0, apart = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Mesh mesh_a = smallMesh(i, random), mesh_b = smallMesh(i / 8, random);
+    const auto a = modelOf<S>(mesh_a), b = modelOf<S>(mesh_b);
+    const auto ready_a = another<S>(mesh_a), ready_b = another<S>(mesh_b);
+    const auto X = poseAt<S>(i, random.uniform(0, 3), random);
+    const fcl::DistanceRequest<S> request(true);
+    SearchCounts by_walk, by_engine;
+    fcl::DistanceResult<S> fresh, ready;
+    const S d = distanceMeshes(*a, X.X_WA, *b, X.X_WB, request, fresh, &by_walk);
+    ASSERT_EQ(d, distanceMeshes(*ready_a, X.X_WA, *ready_b, X.X_WB, request, ready, &by_engine))
+        << i << ' ' << fresh.b1 << ' ' << fresh.b2 << ' ' << ready.b1 << ' ' << ready.b2;
+    const BruteForce<S> all(*a, *b, X);
+    ASSERT_EQ(d == 0, !all.pairs.empty()) << i;
+    ASSERT_LE(std::abs(d - all.least), 1e-5 * (d + 4)) << i;
+    walks += by_walk.expansions == 0 && by_walk.leaf_pairs > 0;
+    if (d == 0 && a->num_tris * b->num_tris > 1) {  // the engine answered both
+      ASSERT_EQ(std::make_pair(fresh.b1, fresh.b2), std::make_pair(ready.b1, ready.b2)) << i;
+    }
+    if (d == 0) continue;
+    ++apart;
+    ASSERT_EQ(std::make_pair(fresh.b1, fresh.b2), std::make_pair(ready.b1, ready.b2)) << i;
+    ASSERT_EQ(fresh.nearest_points[0], ready.nearest_points[0]) << i;
+    ASSERT_EQ(fresh.nearest_points[1], ready.nearest_points[1]) << i;
+    // Bounds on either side of the distance, as FCL's managers give them.
+    for (const double factor : {0.5, 0.999, 1.0, 1.001, 2.0}) {
+      const auto c = modelOf<S>(mesh_a), e = modelOf<S>(mesh_b);
+      fcl::DistanceResult<S> bounded, bounded_ready;
+      bounded.min_distance = bounded_ready.min_distance = static_cast<S>(factor * double{d});
+      distanceMeshes(*c, X.X_WA, *e, X.X_WB, request, bounded);
+      distanceMeshes(*ready_a, X.X_WA, *ready_b, X.X_WB, request, bounded_ready);
+      ASSERT_EQ(bounded.min_distance, std::min(d, static_cast<S>(factor * double{d}))) << i;
+      ASSERT_EQ(bounded_ready.min_distance, bounded.min_distance) << i;
+      ASSERT_EQ(bounded.b1, bounded_ready.b1) << i;
+      ASSERT_EQ(bounded.b2, bounded_ready.b2) << i;
+    }
+  }
+  EXPECT_GT(walks, 500);
+  EXPECT_GT(apart, 500);
+}
+
+// Bodies moved along a direction to where they just touch, and a few last bits either way: planes
+// between vertices must not tell what rounding hides.
+TYPED_TEST(SmallBodies, PlanesBetweenVerticesTellNothingThatRoundingHides) {
+  using S = TypeParam;
+  Random random(13);
+  int touching = 0, apart = 0;
+  for (int i = 0; i < 300; ++i) {
+    const auto a = modelOf<S>(smallMesh(i, random)), b = modelOf<S>(smallMesh(i / 8, random));
+    Poses<S> X = poseAt<S>(i, 3, random);
+    fcl::Vector3<S> along = X.X_WA.translation() - X.X_WB.translation();
+    const fcl::Vector3<S> start = X.X_WB.translation();
+    double low = 0, high = 1;  // touching at high, if ever
+    for (int step = 0; step < 70; ++step) {
+      const double middle = (low + high) / 2;
+      X.X_WB.translation() = start + static_cast<S>(middle) * along;
+      const BruteForce<S> all(*a, *b, X);
+      (all.pairs.empty() ? low : high) = middle;
+      const bool touch = !all.pairs.empty();
+      ASSERT_EQ(!contactsOf(*a, *b, X, 1).empty(), touch) << i << ' ' << step;
+      fcl::DistanceResult<S> result;
+      // Both distances are right to 16 eps of the triangles' extent.
+      const S bound = all.least + 64 * std::numeric_limits<S>::epsilon() * 4;
+      result.min_distance = bound;
+      distanceMeshes(*a, X.X_WA, *b, X.X_WB, fcl::DistanceRequest<S>(), result);
+      ASSERT_LT(result.min_distance, bound) << i << ' ' << step;
+      (touch ? touching : apart) += 1;
+    }
+  }
+  EXPECT_GT(touching, 500);
+  EXPECT_GT(apart, 500);
+}
+
+// Convex bodies that have one vertex in common, and a plane through it between them: heights above
+// it are 0 but for rounding.
+TYPED_TEST(SmallBodies, OneCommonVertexIsFound) {
+  using S = TypeParam;
+  using Vec = fcl::Vector3<S>;
+  Random random(14);
+  for (int i = 0; i < 3000; ++i) {
+    const auto size = [&] { return random.uniform(0.1, 1); };
+    Mesh a = i % 2 == 0 ? box({size(), size(), size()}) : scenes::icosphere(size(), 0);
+    Mesh b = i % 3 == 0 ? box({size(), size(), size()}) : scenes::icosphere(size(), 0);
+    const fcl::Vector3d own(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    for (auto& p : a.vertices) p += (i % 5) * own;
+    for (auto& p : b.vertices) p += (i % 7) * own;
+    a = rounded<S>(a);
+    b = rounded<S>(b);
+    Poses<S> X = poseAt<S>(1 + 3 * (i % 10), 1, random);
+    const fcl::Vector3d along = X.X_WA.linear().col(0).template cast<double>();
+    const auto farthest = [](const Mesh& mesh, const fcl::Vector3d& direction) {
+      return std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                              [&](const auto& p, const auto& q) {
+                                return p.dot(direction) < q.dot(direction);
+                              }) -
+             mesh.vertices.begin();
+    };
+    const fcl::Transform3d X_WA = X.X_WA.template cast<double>(),
+                           X_WB = X.X_WB.template cast<double>();
+    const auto at_a = static_cast<std::size_t>(farthest(a, X_WA.linear().transpose() * along));
+    const auto at_b = static_cast<std::size_t>(farthest(b, X_WB.linear().transpose() * -along));
+    X.X_WB.translation() += (X_WA * a.vertices[at_a] - X_WB * b.vertices[at_b]).template cast<S>();
+    const Vec common = RelativePose<S>(X.X_WA, X.X_WB) * Vec(b.vertices[at_b].template cast<S>());
+    a.vertices[at_a] = common.template cast<double>();
+    const auto model_a = modelOf<S>(a), model_b = modelOf<S>(b);
+    ASSERT_FALSE(contactsOf(*model_a, *model_b, X, 1).empty()) << i;
+    fcl::DistanceResult<S> result;
+    result.min_distance = std::numeric_limits<S>::min();
+    distanceMeshes(*model_a, X.X_WA, *model_b, X.X_WB, fcl::DistanceRequest<S>(), result);
+    ASSERT_EQ(result.min_distance, 0) << i;
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
