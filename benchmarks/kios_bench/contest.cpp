@@ -37,6 +37,14 @@ void workElsewhere() {
   for (const auto& [key, word] : words) state += key ^ static_cast<unsigned>(word.size());
 }
 
+/// Leaves nothing else in the caches.
+void stream(std::size_t bytes) {
+  constexpr std::size_t kLine = 64;
+  static std::vector<unsigned char> data;
+  data.resize(std::max(data.size(), bytes));
+  for (std::size_t i = 0; i < bytes; i += kLine) ++data[i];
+}
+
 void askOne(MeshSet& set, const Question& question) {
   std::vector<double> answer(1);
   set.answer(Query::kDistance, {question}, 0, 1, answer);
@@ -72,8 +80,8 @@ Task pairTask(const std::string& scenario, Query query, const std::vector<scenes
   return task;
 }
 
-Contest::Contest(std::vector<scenes::Mesh> meshes, const Options& options)
-    : options_(options), meshes_(std::move(meshes)) {
+Contest::Contest(std::vector<scenes::Mesh> meshes, const Options& options, Geometries others)
+    : options_(options), meshes_(std::move(meshes)), others_(std::move(others)) {
   for (const scenes::Mesh& mesh : meshes_) {
     extent_ = std::max(extent_, scenes::extent(mesh));
     triangles_ += mesh.triangles.size();
@@ -83,7 +91,10 @@ Contest::Contest(std::vector<scenes::Mesh> meshes, const Options& options)
     return Competitor{bv, [this, &set](std::size_t, std::size_t) { set.build(meshes_); }};
   });
   Race{1, options_.repeats}.run(builds_);
-  for (auto& [bv, set] : sets_) set->load(meshes_);
+  for (auto& [bv, set] : sets_) {
+    set->load(meshes_);
+    for (const auto& geometry : others_) set->add(geometry);
+  }
 }
 
 template <typename Make>
@@ -98,6 +109,30 @@ std::vector<Competitor> Contest::serving(Query query, Make make) const {
 
 const scenes::MeshOracle& Contest::oracle(std::size_t a, std::size_t b) {
   return oracles_.try_emplace({a, b}, meshes_[a], meshes_[b]).first->second;
+}
+
+double Contest::truthOf(Query query, const Question& question) {
+  // All queries about distances have the same truth, hot and cold.
+  const bool contacts = query == Query::kCollide || query == Query::kContacts;
+  std::vector<double> key = {contacts ? 1.0 + static_cast<double>(query) : 0,
+                             static_cast<double>(question.max_contacts),
+                             static_cast<double>(question.a), static_cast<double>(question.b)};
+  for (const fcl::Transform3d* X : {&question.poses.X_WA, &question.poses.X_WB}) {
+    key.insert(key.end(), X->data(), X->data() + 16);
+  }
+  const auto [known, is_new] = truths_.try_emplace(std::move(key), 0);
+  if (is_new) known->second = findTruth(query, question);
+  return known->second;
+}
+
+double Contest::findTruth(Query query, const Question& question) {
+  if (question.b < meshes_.size()) return truth(oracle(question.a, question.b), query, question);
+  const auto oracle = shape_oracles_.try_emplace({question.a, question.b}, meshes_[question.a],
+                                                 *others_[question.b - meshes_.size()]);
+  if (query == Query::kDistance || query == Query::kThreshold)
+    return oracle.first->second.distance(question.poses);
+  const std::size_t most = query == Query::kCollide ? 1 : question.max_contacts;
+  return oracle.first->second.contacts(question.poses, static_cast<double>(most));
 }
 
 std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::size_t frames,
@@ -182,27 +217,38 @@ std::vector<Row> Contest::queryRows(const Task& task) {
         Competitor competitor{bv, [&](std::size_t begin, std::size_t end) {
                                 set.answer(task.query, task.questions, begin, end, of_set);
                               }};
-        if (task.cold) competitor.before = [](std::size_t, std::size_t) { workElsewhere(); };
+        if (task.cold) {
+          competitor.before = [&task](std::size_t, std::size_t) {
+            task.streamed_bytes > 0 ? stream(task.streamed_bytes) : workElsewhere();
+          };
+        }
         return competitor;
       });
+  if (task.ours_alone) {
+    competitors.erase(std::remove_if(competitors.begin(), competitors.end(),
+                                     [](const Competitor& c) { return c.name != "kios"; }),
+                      competitors.end());
+  }
   const std::size_t of_frame = size / task.frames;
   const std::size_t block = task.cold ? of_frame : std::max(kBlock, kBlockFrames * of_frame);
   Race{size, options_.repeats, block, Race::kAll, true}.run(competitors);
 
-  const Verdicts verdicts = judge(
-      [this](std::size_t a, std::size_t b) -> const scenes::MeshOracle& { return oracle(a, b); },
-      task.query, task.questions, options_.oracle_frames);
+  const Verdicts verdicts =
+      judge([this](Query query, const Question& question) { return truthOf(query, question); },
+            task.query, task.questions, options_.oracle_frames);
   std::vector<Row> rows =
       rowsOf(task.scenario, task.query, task.frames, competitors, named(kReference, competitors));
   for (Row& row : rows) {
     row.asked.threshold = task.threshold;
-    if (task.query != Query::kCollide) row.asked.rel_err = row.asked.abs_err = 0;
+    if (task.query != Query::kCollide && task.query != Query::kContacts)
+      row.asked.rel_err = row.asked.abs_err = 0;
     if (size > task.frames) {
       row.pairs.skipped = 0;
       row.pairs.total = size;
     }
     row.errors = compare(answers[row.bv], verdicts, task.query, task.questions, extent_);
-    row.tests = sets_[row.bv]->count(task.query, task.questions, task.frames);
+    if (others_.empty() && task.query != Query::kCloserThan)
+      row.tests = sets_[row.bv]->count(task.query, task.questions, task.frames);
   }
   return rows;
 }

@@ -13,6 +13,7 @@
 #include "options.h"
 #include "scenes/oracle.h"
 #include "scenes/pqp_data.h"
+#include "shape_oracle.h"
 
 namespace kios::bench {
 
@@ -24,17 +25,23 @@ struct Task {
   std::size_t frames = 0;
   Maybe threshold;    // as the rows state it
   bool cold = false;  // before every frame the processor has done something else
+  /// Before every frame, where cold, this many bytes are written; 0: other code runs, over 4 MB.
+  std::size_t streamed_bytes = 0;
+  bool ours_alone = false;  // FCL crashes
 };
 
 /// The task of a scene with the meshes 0 and 1.
 Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames);
+
+using Geometries = std::vector<std::shared_ptr<fcl::CollisionGeometryd>>;
 
 /// Measures the volumes of options.bvs on the meshes of a scene. Time is this thread's CPU time
 /// where the system has it, so that other programs disturb it least.
 class Contest {
  public:
   /// Builds the models: options.repeats times interleaved for the build rows, once to keep.
-  Contest(std::vector<scenes::Mesh> meshes, const Options& options);
+  /// Geometries that are no meshes are the bodies after these, and second in every question.
+  Contest(std::vector<scenes::Mesh> meshes, const Options& options, Geometries others = {});
 
   /// Times the build of all models.
   std::vector<Row> buildRows(const std::string& scenario) const;
@@ -64,6 +71,9 @@ class Contest {
   /// A competitor for each volume that serves the query: make(its name, its set).
   template <typename Make>
   std::vector<Competitor> serving(Query query, Make make) const;
+  /// The oracles' answers, each found once.
+  double truthOf(Query query, const Question& question);
+  double findTruth(Query query, const Question& question);
   /// The competitors' rows, with what is known of all models and no answers.
   std::vector<Row> rowsOf(const std::string& scenario, Query query, std::size_t frames,
                           const std::vector<Competitor>& competitors,
@@ -73,7 +83,10 @@ class Contest {
   std::vector<scenes::Mesh> meshes_;
   double extent_ = 0;
   std::size_t triangles_ = 0;
+  Geometries others_;
   std::map<std::pair<std::size_t, std::size_t>, scenes::MeshOracle> oracles_;
+  std::map<std::pair<std::size_t, std::size_t>, ShapeOracle> shape_oracles_;
+  std::map<std::vector<double>, double> truths_;
   std::map<std::string, std::unique_ptr<MeshSet>> sets_;
   std::vector<Competitor> builds_;
 };

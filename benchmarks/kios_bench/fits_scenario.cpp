@@ -205,7 +205,7 @@ void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
     const Query query = collide ? Query::kCollide : Query::kDistance;
     const std::vector<Question> questions = pairTask("", query, frames).questions;
     const Verdicts verdicts =
-        judge([&oracle](std::size_t, std::size_t) -> const scenes::MeshOracle& { return oracle; },
+        judge([&oracle](Query q, const Question& question) { return truth(oracle, q, question); },
               query, questions, options.oracle_frames);
     rows_of[collide] = ask(base, collide, poses, options.repeats, questions, verdicts, lanes);
   }

@@ -17,9 +17,20 @@
 namespace kios::bench {
 
 /// kThreshold: a distance query with a bound on entry, as FCL's broadphase asks: is anything
-/// nearer? kContacts: how many contacts there are. kPrepare: the build and the first query, with
-/// whatever a model leaves to that. kRefit: the same for a model whose vertices moved.
-enum class Query { kDistance, kCollide, kContacts, kThreshold, kBuild, kPrepare, kRefit };
+/// nearer? kCloserThan: whether two meshes are at most that far apart, by kios::closerThan, or for
+/// FCL by such a query, or by collide where the bound is 0. kContacts: how many contacts there are.
+/// kPrepare: the build and the first query, with whatever a model leaves to that. kRefit: the same
+/// for a model whose vertices moved.
+enum class Query {
+  kDistance,
+  kCollide,
+  kContacts,
+  kThreshold,
+  kCloserThan,
+  kBuild,
+  kPrepare,
+  kRefit
+};
 
 /// The name of the query in tables and JSON.
 const char* name(Query query);
@@ -32,8 +43,10 @@ struct Question {
   std::size_t a = 0;
   std::size_t b = 1;
   scenes::Frame poses;
-  /// For kThreshold: DistanceResult::min_distance on entry.
+  /// For kThreshold: DistanceResult::min_distance on entry. For kCloserThan: at most that far?
   double threshold = std::numeric_limits<double>::infinity();
+  /// For kContacts.
+  std::size_t max_contacts = 1000000;
 };
 
 /// Meshes over one bounding volume, queried as a user would: through fcl::distance and
@@ -59,12 +72,12 @@ class MeshSet {
 
   /// Answers questions[begin, end) into answers[begin, end) with a fresh request and result each:
   /// the distance, never above the threshold of a kThreshold query, or the number of contacts, at
-  /// most 1 for kCollide.
+  /// most 1 for kCollide, or 1 for yes.
   virtual void answer(Query query, const std::vector<Question>& questions, std::size_t begin,
                       std::size_t end, std::vector<double>& answers) = 0;
 
   /// Counts of FCL's recursion over the volume's own traversal node, cold at each question, by the
-  /// number of frames.
+  /// number of frames. All bodies are meshes.
   virtual Tests count(Query query, const std::vector<Question>& questions,
                       std::size_t frames) const = 0;
 
@@ -77,6 +90,10 @@ class MeshSet {
 
 /// Every bounding volume under its name of the JSON rows; throws std::invalid_argument for others.
 std::unique_ptr<MeshSet> makeMeshSet(const std::string& name);
+
+/// Coal's OBBRSS, by coal_set.cpp; makeMeshSet knows it where Coal was found.
+inline constexpr char kCoal[] = "coal_obbrss";
+std::unique_ptr<MeshSet> makeCoalSet();
 
 /// Names that makeMeshSet knows, ours first.
 std::vector<std::string> volumeNames();

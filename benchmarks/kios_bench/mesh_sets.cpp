@@ -13,6 +13,7 @@
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 
 #include "fcl_kios/model/prepare.h"
+#include "fcl_kios/query/distance.h"
 #include "fcl_kios/query/mesh_nodes.h"
 #include "fcl_kios/query/mesh_queries.h"
 #include "fcl_models.h"
@@ -100,7 +101,10 @@ class MeshSetOf final : public MeshSet {
           answers[i] = collide(a, b);
           break;
         case Query::kContacts:
-          answers[i] = contacts(a, b);
+          answers[i] = contacts(a, b, question.max_contacts);
+          break;
+        case Query::kCloserThan:
+          answers[i] = closer(a, b, question) ? 1 : 0;
           break;
         case Query::kThreshold:
           answers[i] = distanceBelow(a, b, question.threshold);
@@ -115,11 +119,12 @@ class MeshSetOf final : public MeshSet {
               std::size_t frames) const override {
     long long bvs = 0, leaves = 0;
     for (const Question& question : questions) {
-      if (query == Query::kCollide) {
+      if (query == Query::kCollide || query == Query::kContacts) {
+        fcl::CollisionRequestd request;
+        if (query == Query::kContacts) request.num_max_contacts = question.max_contacts;
         fcl::CollisionResultd result;
         if constexpr (Kind::kCollision) {
-          count<typename Kind::CollisionNode>(question, fcl::CollisionRequestd(), result, bvs,
-                                              leaves);
+          count<typename Kind::CollisionNode>(question, request, result, bvs, leaves);
         }
       } else {
         fcl::DistanceResultd result;
@@ -176,12 +181,25 @@ class MeshSetOf final : public MeshSet {
     return result.isCollision() ? 1 : 0;
   }
 
-  static double contacts(const Object& a, const Object& b) {
+  static double contacts(const Object& a, const Object& b, std::size_t most) {
     fcl::CollisionRequestd request;
-    request.num_max_contacts = 1000000;
+    request.num_max_contacts = most;
     fcl::CollisionResultd result;
     if constexpr (Kind::kCollision) Kind::Calls::collide(&a, &b, request, result);
     return static_cast<double>(result.numContacts());
+  }
+
+  // FCL's way: a bound on entry, the least positive number in place of 0.
+  bool closer(const Object& a, const Object& b, const Question& question) const {
+    if constexpr (Kind::kPrepared) {
+      return closerThan<double>(*bodies_[question.a].model, question.poses.X_WA,
+                                *bodies_[question.b].model, question.poses.X_WB,
+                                question.threshold);
+    } else {
+      if (question.threshold == 0 && Kind::kCollision) return collide(a, b) == 1;
+      const double bound = std::max(question.threshold, std::numeric_limits<double>::min());
+      return distanceBelow(a, b, bound) < bound;
+    }
   }
 
   template <typename Node, typename Request, typename Result>
@@ -273,13 +291,16 @@ constexpr Entry kVolumes[] = {
                    RssCollision>();
      },
      false},
+#ifdef KIOS_HAVE_COAL
+    {kCoal, makeCoalSet, false},
+#endif
 };
 
 }  // namespace
 
 const char* name(Query query) {
-  constexpr const char* kNames[] = {"distance", "collide", "contacts", "threshold",
-                                    "build",    "prepare", "refit"};
+  constexpr const char* kNames[] = {"distance",    "collide", "contacts", "threshold",
+                                    "closer_than", "build",   "prepare",  "refit"};
   return kNames[static_cast<int>(query)];
 }
 

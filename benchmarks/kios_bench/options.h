@@ -16,6 +16,7 @@ namespace kios::bench {
 /// The options of the command line.
 struct Options {
   std::string scenario;
+  std::string part;                           // of a scenario whose scenes run one by one
   std::optional<std::filesystem::path> data;  // folder of the benchmark data
   std::vector<std::string> bvs;               // competitors, in the order of rows
   int frames = 0;                             // per scene; 0 = the scenario's own number

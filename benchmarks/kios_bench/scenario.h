@@ -24,6 +24,9 @@ struct Scenario {
   const char* name;
   const char* description;
   void (*run)(const Options& options, Report& report);
+  /// Of each scene for `--least`; 0 where nothing of FCL's stands beside ours, or where another
+  /// scenario runs this one.
+  int least_frames;
 };
 
 /// All scenarios. To add one: a file with its run function, declared below, and a line in
@@ -38,10 +41,12 @@ void runGenerated(const Options& options, Report& report);
 void runSoup(const Options& options, Report& report);
 void runThreshold(const Options& options, Report& report);
 void runRootReject(const Options& options, Report& report);
+void runWorld(const Options& options, Report& report);
 void runStrips(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);
 void runRobotScenes(const Options& options, Report& report);
 void runScene(const Options& options, Report& report);
+void runCrowds(const Options& options, Report& report);
 void runPaper(const Options& options, Report& report);
 void runFits(const Options& options, Report& report);
 void runPacking(const Options& options, Report& report);

@@ -7,77 +7,86 @@ namespace kios::bench {
 
 const std::vector<Scenario>& scenarios() {
   static const std::vector<Scenario> all = {
-      {"falling", "the k-IOS paper's falling tori, from the PQP data", runFalling},
-      {"spinning", "the k-IOS paper's spinning bunny and torus, from the PQP data", runSpinning},
+      {"falling", "the k-IOS paper's falling tori, from the PQP data", runFalling, 240},
+      {"spinning", "the k-IOS paper's spinning bunny and torus, from the PQP data", runSpinning,
+       240},
       {"falling_shuffled", "distances of 'falling' in a random order of its frames",
-       runFallingShuffled},
-      {"spinning_shuffled", "the same of 'spinning'", runSpinningShuffled},
-      {"generated", "the same kind of scenes, made by the program", runGenerated},
-      {"soup", "the generated falling tori, their triangles shrunk apart", runSoup},
+       runFallingShuffled, 240},
+      {"spinning_shuffled", "the same of 'spinning'", runSpinningShuffled, 240},
+      {"generated", "the same kind of scenes, made by the program", runGenerated, 100},
+      {"soup", "the generated falling tori, their triangles shrunk apart", runSoup, 100},
       {"threshold", "distances with a bound on entry, from far to touching, of falling tori",
-       runThreshold},
+       runThreshold, 60},
       {"rootreject", "pairs that the roots decide: collide, and distance with a bound on entry",
-       runRootReject},
-      {"strips", "two chains of cylinders made of 100 to 400 long thin strips", runStrips},
+       runRootReject, 500},
+      {"strips", "two chains of cylinders made of 100 to 400 long thin strips", runStrips, 5},
       {"robots", "two arms side by side, all pairs of links: UR5 (data) and generated 7-link arms",
-       runRobots},
+       runRobots, 10},
+      {"world",
+       "a UR5's links (data) and parts of machines about tables, shelves, rooms, terrain, a "
+       "building, as meshes, shapes and octrees; hot and cold; world/SCENE for one of them",
+       runWorld, 14},
       {"robot_scenes",
        "scene queries of two arms, UR5s (data) or humanoids, self-distance too: closest pair, "
        "pairs "
        "within 0.1, clearances; smooth and random motion",
-       runRobotScenes},
+       runRobotScenes, 0},
       {"scene", "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles",
-       runScene},
+       runScene, 20},
+      {"crowds",
+       "2,000 different small bodies in FCL's manager, the first time and again; one triangle "
+       "against one",
+       runCrowds, 1},
       {"paper",
        "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "
        "engine, FCL's RSS",
-       runPaper},
+       runPaper, 0},
       {"fits",
        "every construction of k-IOS, choice of k and angle, and spheres, boxes, RSS and k-DOPs "
        "over "
        "one tree and traversal",
-       runFits},
+       runFits, 0},
       {"packing",
        "tests of two k-IOS in SIMD: four sphere pairs at a time as the paper, eight nodes at a "
        "time",
-       runPacking},
-      {"exact", "exact distance of two k-IOS beside its bound and FCL's RSS", runExact},
-      {"shapes", "a mesh of 20k triangles against seven of FCL's shapes", runShapes},
-      {"octrees", "the same mesh against an octree", runOctrees},
+       runPacking, 0},
+      {"exact", "exact distance of two k-IOS beside its bound and FCL's RSS", runExact, 0},
+      {"shapes", "a mesh of 20k triangles against seven of FCL's shapes", runShapes, 20},
+      {"octrees", "the same mesh against an octree", runOctrees, 20},
       {"continuous", "first contact in time of two tori on random motions, and FCL's",
-       runContinuous},
+       runContinuous, 10},
       {"motions",
        "straight paths in joint space, UR5 (data) or a generated arm amid obstacles, and two arms: "
        "proven, and sampled 0.01 rad apart",
-       runMotions},
+       runMotions, 20},
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",
-       runScaling},
+       runScaling, 8},
       {"build",
        "endModel, preparation, first query, the same mesh again, memory, for every volume of FCL: "
        "tori of 1k to 80k triangles (1M by --max-triangles), welded and not, and the UR5 (data)",
-       runBuild},
+       runBuild, 1},
       {"solids",
        "points in solids; penetration of boxes, balls, tori, a bunny in a torus, links in a table",
-       runSolids},
+       runSolids, 0},
       {"refit", "tori that sway by a tenth of their size: rebuild, refits, and queries after each",
-       runRefit},
+       runRefit, 10},
       {"rays",
        "first, any and all hits of camera rays, random rays and rays at edges, bumpy tori and "
        "strips; "
        "FCL has no rays",
-       runRays},
+       runRays, 1024},
 #ifdef KIOS_HAVE_PRELOAD
       {"preload", "a program that knows FCL alone, with and without the preloaded library; DART",
-       runPreload},
+       runPreload, 0},
 #endif
       {"error",
        "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
        "with their error members set",
-       runError},
+       runError, 20},
       {"stability", "triangle distance and intersection over hard classes of pairs, and FCL's",
-       runStability},
+       runStability, 0},
   };
   return all;
 }

@@ -29,30 +29,30 @@ double absoluteError(double answer, double exact) {
   return std::isfinite(answer) ? std::abs(answer - exact) : std::numeric_limits<double>::infinity();
 }
 
-bool wrongSide(double answer, double distance, double threshold, double extent) {
+bool undecided(double distance, double threshold, double extent) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
   const double tolerance = 16 * kEps * (2 * extent + distance);
-  if (std::abs(distance - threshold) <= tolerance) return false;
-  return (answer < threshold) != (distance < threshold);
+  return threshold > 0 && std::abs(distance - threshold) <= tolerance;
 }
 
 }  // namespace
 
-Verdicts judge(const OracleOf& oracle, Query query, const std::vector<Question>& questions,
+double truth(const scenes::MeshOracle& oracle, Query query, const Question& question) {
+  const auto& [X_WA, X_WB] = question.poses;
+  if (query == Query::kCollide) return oracle.collide(X_WA, X_WB) ? 1 : 0;
+  if (query != Query::kContacts) return oracle.distance(X_WA, X_WB);
+  const std::size_t count = oracle.collidingPairs(X_WA, X_WB).size();
+  return static_cast<double>(std::min(count, question.max_contacts));
+}
+
+Verdicts judge(const TruthOf& truth, Query query, const std::vector<Question>& questions,
                int wanted) {
   const std::size_t count =
       wanted == 0 ? questions.size() : std::min(questions.size(), static_cast<std::size_t>(wanted));
   Verdicts verdicts;
   verdicts.questions = spread(count, questions.size());
   for (const std::size_t i : verdicts.questions) {
-    const Question& question = questions[i];
-    const auto& [X_WA, X_WB] = question.poses;
-    const scenes::MeshOracle& pair = oracle(question.a, question.b);
-    if (query == Query::kCollide) {
-      verdicts.answers.push_back(pair.collide(X_WA, X_WB) ? 1 : 0);
-    } else {
-      verdicts.answers.push_back(pair.distance(X_WA, X_WB));
-    }
+    verdicts.answers.push_back(truth(query, questions[i]));
   }
   return verdicts;
 }
@@ -64,9 +64,19 @@ Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Que
   for (std::size_t i = 0; i < verdicts.questions.size(); ++i) {
     const double answer = answers[verdicts.questions[i]];
     double exact = verdicts.answers[i];
+    const double threshold = questions[verdicts.questions[i]].threshold;
+    if (query == Query::kContacts) {
+      if (answer != exact) ++*errors.wrong;
+      continue;
+    }
+    if (query == Query::kCloserThan) {
+      const bool wrong = (answer == 1) != (exact <= threshold);
+      if (wrong && !undecided(exact, threshold, extent)) ++*errors.wrong;
+      continue;
+    }
     if (query == Query::kThreshold) {
-      const double threshold = questions[verdicts.questions[i]].threshold;
-      if (wrongSide(answer, exact, threshold, extent)) ++*errors.wrong;
+      const bool wrong = (answer < threshold) != (exact < threshold);
+      if (wrong && !undecided(exact, threshold, extent)) ++*errors.wrong;
       exact = std::min(exact, threshold);
     } else if ((answer == 0) != (exact == 0)) {
       ++*errors.wrong;

@@ -14,20 +14,25 @@ namespace kios::bench {
 /// The oracle's answers to some of the questions.
 struct Verdicts {
   std::vector<std::size_t> questions;
-  std::vector<double> answers;  // exact distance, or 1 for contact
+  std::vector<double> answers;  // exact distance, or the number of contacts
 };
 
-/// The oracle of two meshes of a scene.
-using OracleOf = std::function<const scenes::MeshOracle&(std::size_t a, std::size_t b)>;
+/// The true answer of a question: the distance, also where a threshold is asked about, or the
+/// number of contacts, at most 1 for kCollide.
+using TruthOf = std::function<double(Query query, const Question& question)>;
+
+/// The truth of two meshes.
+double truth(const scenes::MeshOracle& oracle, Query query, const Question& question);
 
 /// Judges `wanted` of the questions, spread evenly with a step that varies, so that it falls on
 /// every pair of meshes where each frame asks the same pairs in turn; all of them for 0.
-Verdicts judge(const OracleOf& oracle, Query query, const std::vector<Question>& questions,
+Verdicts judge(const TruthOf& truth, Query query, const std::vector<Question>& questions,
                int wanted);
 
 /// Errors and wrong verdicts of the answers. For kThreshold the exact answer is the distance, but
-/// at most the threshold, and the verdict whether something is nearer than that; no verdict is
-/// wrong where distance and threshold agree within 16 eps of the scale that `extent` and they set.
+/// at most the threshold, and the verdict whether something is nearer than that; for kCloserThan
+/// whether it is at most as far. A threshold of 0 asks for contact. No other verdict is wrong where
+/// distance and threshold agree within 16 eps of the scale that `extent` and they set.
 Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
                const std::vector<Question>& questions, double extent);
 

@@ -87,6 +87,35 @@ BodyScene driftingCrowd(int count, int frames, std::uint64_t seed) {
   return scene;
 }
 
+BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t seed) {
+  const int segments = triangles < 400 ? 10 : 30;
+  Random random(seed);
+  BodyScene scene;
+  scene.obstacle.assign(count, false);
+  scene.frames.push_back(randomPoses(count, 1, seed + 1));
+  const int side = static_cast<int>(std::ceil(std::cbrt(count)));
+  for (int i = 0; i < count; ++i) {
+    const auto draw = [&random](double least, double most) {
+      const double x = random.uniform(least, most), y = random.uniform(least, most);
+      return Vector3d(x, y, random.uniform(least, most));
+    };
+    const Vector3d size = draw(0.2, 0.4), phase = draw(0, 3);
+    Mesh mesh = triangles == 12 ? subdividedBox(size, 1)
+                                : uvSphere(0.5, triangles / (2 * segments) + 1, segments);
+    if (triangles != 12) {
+      for (Vector3d& p : mesh.vertices) {
+        const double bump = std::sin(9 * p.x() + phase.x()) * std::sin(9 * p.y() + phase.y());
+        p = (1 + 0.1 * bump) * p.cwiseProduct(size);
+      }
+    }
+    scene.meshes.push_back(std::move(mesh));
+    scene.mesh_of.push_back(i);
+    const Vector3d cell(i % side, i / side % side, i / side / side);
+    scene.frames[0][i].translation() = spacing * (cell + draw(-0.1, 0.1));
+  }
+  return scene;
+}
+
 BodyScene roadmap(const Robot& robot, int count, int configurations, std::uint64_t seed) {
   constexpr double kHalfWidth = 6, kClearOfBase = 0.45;
   const int links = static_cast<int>(robot.links.size());

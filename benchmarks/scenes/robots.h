@@ -61,6 +61,10 @@ BodyScene twoRobots(const Robot& robot, const fcl::Transform3d& X_W1, const fcl:
 /// so that few are near each other in a frame.
 BodyScene driftingCrowd(int count, int frames, std::uint64_t seed);
 
+/// `count` bodies 0.2 to 0.4 across that stand still in a jittered grid of this spacing, each a
+/// mesh of its own: a box for 12 `triangles`, else a bumpy ball of as many, a multiple of 20.
+BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t seed);
+
 /// A robot's configurations, all at random, amid `count` obstacles that stand still and keep clear
 /// of its base: what a roadmap planner asks.
 BodyScene roadmap(const Robot& robot, int count, int configurations, std::uint64_t seed);

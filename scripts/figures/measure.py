@@ -19,6 +19,8 @@ RUNS = {  # scenario: options
     "rootreject": f"--frames 2000 --repeats 5 {PAIR}",
     "strips": f"--frames 20 --repeats 5 {PAIR}",
     "robots": f"--frames 60 --repeats 3 --oracle 100 {PAIR}",
+    "world": "--repeats 3 --oracle 20 --bv kios,fcl_rss,fcl_obbrss,coal_obbrss",
+    "crowds": "--repeats 3 --oracle 100",
     "scaling": f"--frames 32 --repeats 5 {PAIR}",
     "build": "--repeats 5",
     "refit": f"--repeats 3 --max-triangles 5000 {PAIR}",
@@ -38,6 +40,10 @@ RUNS = {  # scenario: options
     "preload": "--repeats 3",
 }
 
+# Runs of a thousand rows are kept without what no page has.
+UNKEPT = {"world": ("min_us", "rel_err", "abs_err", "bv_tests", "leaf_tests", "bytes_per_triangle",
+                    "build_us_per_triangle", "simd_target", "seed")}
+
 
 def header(root, scenario, command):
     def output(*words):
@@ -51,10 +57,10 @@ def header(root, scenario, command):
             "commit": commit + (" and changes" if changed else "")}
 
 
-def slim(row):
+def slim(row, unkept=()):
     """The row without what is unknown, to five digits."""
     return {key: float(f"{value:.5g}") if isinstance(value, float) else value
-            for key, value in row.items() if value is not None}
+            for key, value in row.items() if value is not None and key not in unkept}
 
 
 def measure(root, folder, scenarios):
@@ -69,7 +75,8 @@ def measure(root, folder, scenarios):
         head, rows = header(root, scenario, command), logs / f"{scenario}.jsonl"
         with open(logs / f"{scenario}.log", "w", encoding="utf-8") as log:
             subprocess.run([program, *command.split()[1:], "--json", rows], check=True, stdout=log)
-        lines = [slim(json.loads(line)) for line in rows.read_text().splitlines()]
+        lines = [slim(json.loads(line), UNKEPT.get(scenario, ()))
+                 for line in rows.read_text().splitlines()]
         if not lines:
             raise LookupError(f"{scenario} gave no row; {logs / scenario}.log says why")
         lines = [json.dumps(line) + "\n" for line in [head, *lines]]

@@ -9,6 +9,7 @@ from figures.motions import missed, motions  # noqa: F401
 from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
 from figures.robots import arms, links  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
+from figures.world import coal, crowd_of_small, world, world_shapes  # noqa: F401
 
 
 # Phrases.
@@ -58,6 +59,9 @@ distance, strips 600 times as long as wide       | strips distance fcl_obbrss
 first contact, falling tori                      | falling collide fcl_obbrss
 first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
 first contact, strips                            | strips collide fcl_obbrss
+distance, UR5's links and a room                 | world/room/ur5 distance fcl_obbrss
+first contact, UR5's links and a shelf           | world/shelf/ur5 collide fcl_obbrss
+first contact, links off a floor                 | world/floor/ur5/apart collide fcl_obbrss
 nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_obbrss threshold=1.1
 closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
 all contacts of a mesh and a convex shape        | shapes/convex contacts fcl_obbrss

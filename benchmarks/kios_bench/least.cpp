@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "least.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <tuple>
+
+namespace kios::bench {
+namespace {
+
+/// Scenarios by the beginnings of their names.
+constexpr struct {
+  const char* scenario;
+  const char* why;
+} kMaySlower[] = {
+    {"rays/", "Embree serves nothing but rays, in single precision; FCL serves none"},
+};
+
+/// What rows have in common that answer the same.
+using Setting = std::tuple<std::string, std::string, Maybe, Maybe, Maybe, Maybe>;
+
+Setting settingOf(const Row& row) {
+  return {row.scenario,      row.query,           row.asked.rel_err,
+          row.asked.abs_err, row.asked.threshold, row.asked.budget};
+}
+
+bool isRival(const std::string& bv) { return bv.rfind("fcl_", 0) == 0 || bv == "embree"; }
+
+bool isTimed(const Row& row) {
+  return std::isfinite(row.times.median_us) && row.times.median_us > 0;
+}
+
+std::string text(const Asked& asked) {
+  std::string words;
+  const auto add = [&words](const char* name, const Maybe& value) {
+    if (!value || (*value == 0 && std::string(name) != "threshold")) return;
+    char digits[32];
+    std::snprintf(digits, sizeof digits, " %s %g", name, *value);
+    words += digits;
+  };
+  add("threshold", asked.threshold);
+  add("rel_err", asked.rel_err);
+  add("abs_err", asked.abs_err);
+  add("budget", asked.budget);
+  return words;
+}
+
+}  // namespace
+
+const char* whySlower(const std::string& scenario) {
+  for (const auto& [beginning, why] : kMaySlower) {
+    if (scenario.rfind(beginning, 0) == 0) return why;
+  }
+  return nullptr;
+}
+
+std::vector<Standing> byRatio(const std::vector<Row>& rows) {
+  std::map<Setting, const Row*> best;
+  for (const Row& row : rows) {
+    if (!isRival(row.bv) || !isTimed(row)) continue;
+    const Row*& fastest = best[settingOf(row)];
+    if (!fastest || row.times.median_us < fastest->times.median_us) fastest = &row;
+  }
+  std::vector<Standing> standings;
+  for (const Row& row : rows) {
+    if (row.bv != "kios" || !isTimed(row)) continue;
+    const auto found = best.find(settingOf(row));
+    if (found == best.end()) continue;
+    standings.push_back({row, found->second->bv,
+                         found->second->times.median_us / row.times.median_us,
+                         whySlower(row.scenario)});
+  }
+  std::stable_sort(standings.begin(), standings.end(),
+                   [](const Standing& a, const Standing& b) { return a.ratio < b.ratio; });
+  return standings;
+}
+
+int countSlower(const std::vector<Standing>& standings) {
+  return static_cast<int>(
+      std::count_if(standings.begin(), standings.end(),
+                    [](const Standing& standing) { return standing.ratio < 1 && !standing.why; }));
+}
+
+void printLeast(const std::vector<Standing>& standings, std::size_t count) {
+  count = std::min(count, standings.size());
+  std::printf("the %zu least of %zu ratios of the fastest other's time to ours:\n", count,
+              standings.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const Standing& standing = standings[i];
+    const Row& ours = standing.ours;
+    std::printf("%8.3f  %s %s%s: %.3f us, %s %.3f us%s%s\n", standing.ratio, ours.scenario.c_str(),
+                ours.query.c_str(), text(ours.asked).c_str(), ours.times.median_us,
+                standing.best.c_str(), standing.ratio * ours.times.median_us,
+                standing.why ? "; " : "", standing.why ? standing.why : "");
+  }
+}
+
+}  // namespace kios::bench

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "report.h"
+
+namespace kios::bench {
+
+/// A row of ours beside the fastest other library's of the same scenario, query and setting.
+struct Standing {
+  Row ours;
+  std::string best;           ///< `bv` of the fastest other
+  double ratio = 0;           ///< its median time by ours: below 1, ours is slower
+  const char* why = nullptr;  ///< why ours may be slower there, nullptr if it may not
+};
+
+/// All rows called `kios` that have a row of FCL's volumes, or of Embree, beside them, by their
+/// ratios, least first.
+std::vector<Standing> byRatio(const std::vector<Row>& rows);
+
+/// Why ours may be slower than others in rows of this scenario; nullptr if it may not.
+const char* whySlower(const std::string& scenario);
+
+/// How many are below 1 without a reason.
+int countSlower(const std::vector<Standing>& standings);
+
+/// Prints a line for each of the first `count`.
+void printLeast(const std::vector<Standing>& standings, std::size_t count);
+
+}  // namespace kios::bench
