@@ -5,6 +5,8 @@
 // frame, none skipped.
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "contest.h"
@@ -117,19 +119,34 @@ void runRobots(const Options& options, Report& report) {
                facing(0.45 * scenes::chainLength(chain)), kFrames, options, report, true);
     return;
   }
-  reportArms("robots/generated", scenes::cadArm(), facing(0.7), kFrames, options, report, true);
-  const scenes::Arm parts = scenes::chainOf(scenes::cadParts());
-  reportArms("robots/parts", parts, facing(0.45 * scenes::chainLength(parts)), kFrames, options,
-             report, true);
-
-  const auto data = findData(options);
-  if (data && scenes::holdsUr5(*data)) {
-    const fcl::Transform3d X_W2(Eigen::Translation3d(0, 0.5, 0));
-    reportArms("robots/ur5", scenes::loadUr5(*data), X_W2, kFrames, options, report, true);
-  } else {
-    std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
+  const auto wanted = [&options](const char* robot) {
+    return options.part.empty() || options.part == robot;
+  };
+  const auto before = report.rows().size();
+  if (wanted("generated")) {
+    reportArms("robots/generated", scenes::cadArm(), facing(0.7), kFrames, options, report, true);
   }
-  runRobotScenes(options, report);
+  if (wanted("parts")) {
+    const scenes::Arm parts = scenes::chainOf(scenes::cadParts());
+    reportArms("robots/parts", parts, facing(0.45 * scenes::chainLength(parts)), kFrames, options,
+               report, true);
+  }
+  if (wanted("ur5")) {
+    const auto data = findData(options);
+    if (data && scenes::holdsUr5(*data)) {
+      const fcl::Transform3d X_W2(Eigen::Translation3d(0, 0.5, 0));
+      reportArms("robots/ur5", scenes::loadUr5(*data), X_W2, kFrames, options, report, true);
+    } else if (!options.part.empty()) {
+      throw Skipped("its data are absent: name their folder by --data or KIOS_DATA");
+    } else {
+      std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
+    }
+  }
+  if (options.part.empty()) {
+    runRobotScenes(options, report);
+  } else if (report.rows().size() == before) {
+    throw std::invalid_argument("'robots' has no robot called '" + options.part + "'");
+  }
 }
 
 }  // namespace kios::bench

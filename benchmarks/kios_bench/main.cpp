@@ -15,9 +15,19 @@
 #include "options.h"
 #include "report.h"
 #include "scenario.h"
+#include "summary.h"
 
 namespace kios::bench {
 namespace {
+
+constexpr char kColumns[] =
+    "Columns: median_us and min_us are the time of a frame, us/pair of one of its queries; x "
+    "OBBRSS "
+    "is\nOBBRSS's time by this one, so that above 1 is faster; BV tests and leaves (pairs of "
+    "triangles) are\ncounted a frame; err/extent is the largest error by the mesh's size, and "
+    "wrong "
+    "counts verdicts, both\nby an oracle; B/tri and peak/tri are bytes a triangle of a model and "
+    "while it is built, build/tri us;\n- is not measured.\n";
 
 void printList() {
   std::printf("scenarios:\n");
@@ -104,6 +114,7 @@ int runLeast(std::vector<std::string> wanted, const Options& options, bool own_r
 
 int run(int argc, char** argv) {
   CLI::App app{"Compares kios with FCL's bounding volumes on whole scenarios, against an oracle."};
+  app.footer(kColumns);
   std::vector<std::string> names;
   for (const Scenario& scenario : scenarios()) names.emplace_back(scenario.name);
   std::vector<std::string> volumes = volumeNames();
@@ -117,13 +128,18 @@ int run(int argc, char** argv) {
   std::string json;
   std::string markdown;
   std::string robot;
+  std::string page;
+  bool words = false;
   bool least = false;
   bool list = false;
   bool check_rows = false;
   app.add_option("scenario", wanted,
-                 "what to run: a name of --list, or world/SCENE; 'generated' if none is named")
+                 "what to run: names of --list, world/SCENE, robots/ROBOT; 'generated' if none is "
+                 "named")
       ->check([&names](const std::string& name) {
-        return CLI::IsMember(names)(name.rfind("world/", 0) == 0 ? "world" : name);
+        const std::string scenario = name.substr(0, name.find('/'));
+        const bool has_parts = scenario == "world" || scenario == "robots";
+        return CLI::IsMember(names)(has_parts ? scenario : name);
       });
   app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);
   app.add_option("--bv", options.bvs, "bounding volumes, separated by commas")
@@ -147,6 +163,8 @@ int run(int argc, char** argv) {
   app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
   app.add_option("--json", json, "file for one JSON object a row");
   app.add_option("--markdown", markdown, "file for the table of 'stability'");
+  app.add_flag("--words", words, "say at the end in words what was measured");
+  app.add_option("--page", page, "file for a page of what was measured; says it in words, too");
   app.add_flag("--quick", options.quick, "few frames and repeats: a smoke test");
   app.add_flag(
       "--least", least,
@@ -171,9 +189,6 @@ int run(int argc, char** argv) {
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
   if (!markdown.empty()) options.markdown = markdown;
-  if (wanted.size() > 1 && !least) {
-    throw std::invalid_argument("one scenario at a time, or several with --least");
-  }
   if (wanted.empty() && !least) wanted = {"generated"};
   if (!robot.empty() && wanted != std::vector<std::string>{"robots"}) {
     throw std::invalid_argument("--robot is an option of the scenario 'robots'");
@@ -183,9 +198,18 @@ int run(int argc, char** argv) {
   int slower = 0;
   if (least) {
     slower = runLeast(wanted, options, app.count("--repeats") > 0, report);
-  } else if (!runOne(wanted[0], options, report)) {
-    return 0;
+  } else {
+    for (const std::string& name : wanted) runOne(name, options, report);
+    if (report.rows().empty()) return 0;
+    std::printf("%s", kColumns);
   }
+  if (words || !page.empty()) {
+    std::printf("\n");
+    for (const std::string& sentence : inWords(report.rows())) {
+      std::printf("%s.\n", sentence.c_str());
+    }
+  }
+  if (!page.empty()) writePage(report.rows(), page);
   if (!check_rows) return 0;
   if (slower > 0) std::fprintf(stderr, "kios_bench: %d rows are slower than FCL's\n", slower);
   return std::max(check(report.rows()), slower > 0 ? 1 : 0);

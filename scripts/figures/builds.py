@@ -40,8 +40,8 @@ UR5, 7 links        | ur5
 """)
 
     def cell(line, column, _):
-        row = rows.find(f"build/{column[0]}", *line)
-        return f"{time(row['median_us'])} ({number(1 / row['ratio_to_fcl_obbrss'])})"
+        us = rows.us(f"build/{column[0]}", *line)
+        return f"{time(us)} ({number(us / rows.us(f'build/{column[0]}', 'build', OBBRSS))})"
     return grid("time (by OBBRSS's `endModel`)", lines, columns, cell)
 
 

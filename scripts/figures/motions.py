@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The blocks of docs/motions.md."""
-from figures.rows import grid, number, spec, time
+from figures.rows import OBBRSS, grid, number, spec, time
 
 
 def motions(rows):
@@ -18,9 +18,9 @@ queries                 | narrow_queries fcl_obbrss
         row = rows.find(line[0], "motion", column[1])
         if column[0] == "narrow_queries":
             return number(row["narrow_queries"])
-        text = time(row["median_us"])
-        return text if column[0] == "median_us" else (
-            f"{text} ({number(row['ratio_to_fcl_obbrss'])})")
+        us = row["median_us"]
+        return time(us) if column[0] == "median_us" else (
+            f"{time(us)} ({number(rows.us(line[0], 'motion', OBBRSS) / us)})")
     lines = [f"{place}, {length} rad, {kind} | motions/ur5_{scene}/{of}/{length}"
              for scene, place in (("cell", "in the cell"), ("pair", "two arms"))
              for kind, of in (("free", "valid"), ("not free", "invalid"))

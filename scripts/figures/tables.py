@@ -82,9 +82,9 @@ def readme(rows):
     for label, ((scenario, query, bv), settings) in README:
         # FCL has nothing to prepare, nor to share.
         theirs = "build" if query in ("prepared", "again") else query
+        ours = rows.us(scenario, query, **settings)
         other = rows.us(scenario, theirs, bv, **settings)
-        out.append([label, time(rows.us(scenario, query, **settings)), time(other), OTHERS[bv],
-                    number(rows.ratio(scenario, query, bv, **settings))])
+        out.append([label, time(ours), time(other), OTHERS[bv], number(other / ours)])
     return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
 
 
@@ -102,10 +102,11 @@ def errors(rows):
                               *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))]))
 
     def cell(line, _, settings):
-        us = number(rows.us(line[0], "distance", line[1], **settings))
+        us = rows.us(line[0], "distance", line[1], **settings)
         if line[1] == OBBRSS:
-            return us
-        return f"{us} ({number(rows.find(line[0], 'distance', **settings)['ratio_to_fcl_obbrss'])})"
+            return number(us)
+        exact = rows.us(line[0], "distance", OBBRSS, rel_err=0, abs_err=0)
+        return f"{number(us)} ({number(exact / us)})"
     return grid("us (times exact OBBRSS)", lines, columns, cell)
 
 
@@ -370,7 +371,7 @@ def preload(rows):
 
     def cell(line, column, _):
         key = f"preload/{line[0]}", line[1], column[0]
-        us = time(rows.us(*key))
-        return us if column[0] == OBBRSS else (
-            f"{us} ({number(rows.find(*key)['ratio_to_fcl_obbrss'])})")
+        us = rows.us(*key)
+        return time(us) if column[0] == OBBRSS else (
+            f"{time(us)} ({number(rows.us(*key[:2], OBBRSS) / us)})")
     return grid("time (FCL's / preloaded)", PRELOADED, columns, cell)
