@@ -80,7 +80,7 @@ paper: PQP      | paper 1
     def cell(line, column, _):
         scene, query, key = line
         if column[0] == "paper":
-            return PAPER.get((scene, query, key), ("", ""))[int(column[1])]
+            return PAPER.get((scene, query, key), ("", ""))[int(column[1])] or "not in the paper"
         value = rows.find(scene, query, column[0])[key]
         if key == "median_us":
             return f"{value / 1000:.3g}"

@@ -127,7 +127,7 @@ TEST_F(Cost, OccupancyDecidesBetweenContactsAndSources) {
   }
 }
 
-// FCL.md, defects 3, 10 and 23: contacts need that both are occupied, sources that neither is free;
+// Defects 3, 10 and 23 of docs/fcl-coverage.md: contacts need that both are occupied, sources that neither is free;
 // and sources lie where mesh and shape do, in the world.
 TEST(ShapeCosts, OccupancyDecidesBetweenContactsAndSources) {
   const auto model = kiosModel(scenes::icosphere(0.5, 1));

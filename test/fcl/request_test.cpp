@@ -206,7 +206,7 @@ TEST_F(Request, MinDistanceOnEntrySavesWork) {
   EXPECT_EQ(node.num_leaf_tests, 0);
 }
 
-// FCL.md, defect 14: FCL transforms the points of an earlier pair again.
+// Defect 14 of docs/fcl-coverage.md: FCL transforms the points of an earlier pair again.
 TEST_F(Request, ResultReusedOverPairsKeepsTheNearest) {
   const auto shared = kiosModel(scenes::icosphere(0.5, 1));
   std::vector<fcl::CollisionObjectd> objects;

@@ -97,7 +97,7 @@ TEST_F(Refit, TopDownIsAsTightAsABuild) {
   EXPECT_LE(built, 1.02 * refitted);
 }
 
-// Merging upwards must not let volumes grow with every level (FCL.md, defect 1).
+// Merging upwards must not let volumes grow with every level (defect 1 of docs/fcl-coverage.md).
 TEST_F(Refit, BottomUpStaysTight) {
   const auto model = kiosModel(mesh_);
   const double fitted = model->getBV(0).bv.radius0;

@@ -4,7 +4,7 @@
 #
 # usage: coverage.sh SOURCE_DIR
 # Every test that docs/fcl-coverage.md names as `folder/file_test.cpp: Suite.Name, ...` exists, and
-# each of its rows names one or says why there is none. Every path that any page names exists, but
+# each of its rows names one or says why there is none. Every path and header that any page names exists, but
 # for placeholders (FOLDER/NAME) and other projects' files (swapping.md).
 set -euo pipefail
 
@@ -41,6 +41,12 @@ while IFS=: read -r page path; do
   compgen -G "${path#\`}*" >/dev/null || { echo "$page: no ${path#\`}" && status=1; }
 done < <(grep -HoE '`(src|include|test|benchmarks|scripts|cmake|examples)/[A-Za-z0-9_./-]+' \
   README.md CONTRIBUTING.md docs/*.md | grep -vE '^docs/swapping|NAME')
+
+# So do the headers, wherever a page names them; version.h is made by CMake.
+while IFS=: read -r page header; do
+  [[ -f include/$header ]] || { echo "$page: no header $header" && status=1; }
+done < <(grep -HoE 'fcl_kios/[a-z_/]+\.h' README.md CONTRIBUTING.md docs/*.md |
+  grep -vE 'fcl_kios/(version|robot/.*)\.h')
 
 if ((count < 30)); then fail "only $count tests are named"; fi
 ((status == 0)) && echo "$doc: $count named tests exist"
