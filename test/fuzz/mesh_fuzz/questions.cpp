@@ -16,6 +16,7 @@ const std::vector<Question>& questions() {
                                             {"refit", 2, 2, 1, 2, 1, true, askRefit},
                                             {"shape", 1, 1, 1, 1, 1, false, askShape},
                                             {"continuous", 0.3, 2, 2, 2, 2, false, askContinuous},
+                                            {"linkage", 0.5, 3, 1, 2, 1, false, askLinkage},
                                             {"manager", 0.5, 4, 3, 2, 1, false, askManager}};
   return all;
 }

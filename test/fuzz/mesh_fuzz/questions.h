@@ -19,5 +19,6 @@ Verdict askScene(const Case& c);       ///< SceneDistance over frames
 Verdict askManager(const Case& c);     ///< ManagerQuery with an FCL manager
 Verdict askRefit(const Case& c);       ///< models that were replaced, updated or copied
 Verdict askContinuous(const Case& c);  ///< kios::firstContact
+Verdict askLinkage(const Case& c);     ///< kios::checkMotion
 
 }  // namespace kios::fuzz
