@@ -105,7 +105,7 @@ inline Mesh degenerateMesh(int count, int kind, std::uint64_t seed) {
   return scenes::merged(parts);
 }
 
-/// The same triangle `count` times, over the same three vertices.
+/// Repeats a triangle `count` times, over the same three vertices.
 inline Mesh repeated(int count) {
   Mesh mesh = scenes::singleTriangle({0.3, 0.1, -0.2}, {-0.4, 0.7, 0.1}, {0.2, -0.5, 0.6});
   mesh.triangles.resize(count, mesh.triangles[0]);

@@ -163,7 +163,7 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
     // Contacts that were missed, and contacts that no sample of the oracle confirms.
     row.errors.wrong = std::count(verdicts[i].begin(), verdicts[i].end(), free ? 0 : 1);
     row.pairs.narrow_queries = static_cast<double>(sets[i]->takeQueried()) / asked;
-    // Of all pairs in all samples.
+    // They count all pairs in all samples.
     row.pairs.total = static_cast<std::size_t>(steps * edges.size() * admissiblePairs(cell));
     row.pairs.skipped =
         *row.pairs.total -

@@ -27,7 +27,7 @@ using namespace paper;
 
 using Nodes = std::vector<kIOSf>;
 
-/// The same pairs as the library's own test of two volumes takes them.
+/// Takes the pairs as the library's own test of two volumes does.
 struct LibraryPairs {
   std::vector<RelativePose<float>> X_AB;
   Nodes b, a;

@@ -67,8 +67,8 @@ struct Row {
   std::size_t triangles = 0;  ///< of all meshes
   std::size_t frames = 0;
   std::uint64_t seed = 0;
-  /// Of the larger mesh, the scale of its errors; in the table only. 1 for pairs of triangles,
-  /// whose errors are relative to the extent of each pair.
+  /// Is that of the larger mesh, the scale of its errors; in the table only. 1 for pairs of
+  /// triangles, whose errors are relative to the extent of each pair.
   double extent = 0;
   Times times;  ///< of a frame, over all of its pairs; of all models for builds
   Asked asked;
@@ -102,7 +102,7 @@ class Report {
   /// Adds the rows of one scene, with the table's heading above them.
   void add(const std::vector<Row>& rows);
 
-  /// The same for a scenario that prints a table of its own.
+  /// Adds rows of a scenario that prints a table of its own.
   void addUnprinted(const std::vector<Row>& rows);
 
   const std::vector<Row>& rows() const { return rows_; }

@@ -24,8 +24,8 @@ struct Scenario {
   const char* name;
   const char* description;
   void (*run)(const Options& options, Report& report);
-  /// Of each scene for `--least`; 0 where nothing of FCL's stands beside ours, or where another
-  /// scenario runs this one.
+  /// Says how many of each scene `--least` takes; 0 where nothing of FCL's stands beside ours, or
+  /// where another scenario runs this one.
   int least_frames;
 };
 

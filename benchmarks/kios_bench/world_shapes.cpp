@@ -117,7 +117,7 @@ ShapeWorld single(const std::string& name, const std::shared_ptr<fcl::CollisionG
   return of;
 }
 
-/// Of revolution about z, from its radii at `steps` + 1 places from -half to half.
+/// Makes a mesh of revolution about z, from its radii at `steps` + 1 places from -half to half.
 scenes::Mesh turned(double half, int steps, const std::function<double(double z)>& radius) {
   std::vector<scenes::ProfilePoint> profile = {{0, -half}};
   for (int i = 0; i <= steps; ++i) {

@@ -131,8 +131,8 @@ class FixedDirectionKios : public PackedPolicy {
   /// The principal axes of each model's vertices.
   explicit FixedDirectionKios(const FitOptions& options = {})
       : PackedPolicy(Axes::kOfTheModel, 7, options) {}
-  /// The same 1 to 6 directions for every model, each in the model's frame, of any finite length
-  /// above 0; otherwise throws std::invalid_argument.
+  /// Sets 1 to 6 directions, the same for every model, each in the model's frame, of any finite
+  /// length above 0; otherwise throws std::invalid_argument.
   explicit FixedDirectionKios(const std::vector<fcl::Vector3d>& directions,
                               const FitOptions& options = {});
 };

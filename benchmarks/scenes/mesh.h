@@ -32,7 +32,7 @@ inline double extent(const Mesh& mesh) {
   return (upper - lower).norm();
 }
 
-/// The same triangles in the same order, each with three vertices of its own (as PQP stores them).
+/// Returns the triangles in their order, each with three vertices of its own (as PQP stores them).
 inline Mesh soup(const Mesh& mesh) {
   Mesh result;
   result.vertices.reserve(3 * mesh.triangles.size());

@@ -32,7 +32,7 @@ class MeshOracle {
   /// All pairs that meet, in ascending order.
   Pairs collidingPairs(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
-  // The same over all pairs of triangles, without a tree. Results are equal, bit by bit.
+  // Searches all pairs of triangles, without a tree. Results are equal, bit by bit.
   double distanceBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
   bool collideBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
   Pairs collidingPairsBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;

@@ -25,7 +25,7 @@ struct RationalDistance {
 /// that pierce a face. About 5 us times the pair's range of exponents in units of 100 bits.
 RationalDistance rationalDistance(const TrianglePair& pair);
 
-/// The same for a point and a triangle.
+/// Returns that of a point and a triangle.
 long double rationalDistance(const Eigen::Vector3d& point,
                              const std::array<Eigen::Vector3d, 3>& triangle);
 

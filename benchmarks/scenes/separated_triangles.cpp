@@ -91,7 +91,7 @@ TrianglePair beyondSliver(Random& random) {
   return besideSliver(random, {d.x(), d.y(), 0}, random.uniform(-2, 3));
 }
 
-// The same with feet exactly on the line.
+// Places feet exactly on the line.
 TrianglePair beyondLatticeSliver(Random& random) {
   const double x = integer(random, 1, 4), y = integer(random, -4, 4);
   return besideSliver(random, {x, y, 0}, integer(random, -12, 16) / 4.0);

@@ -77,8 +77,8 @@ struct CellFrame {
 /// The exact side of a search.
 class CellSide {
  public:
-  /// Of the children `wanted`, as bits, of an inner cell: returns those that matter, sets their
-  /// nodes, and in `leaves` the bits of those that have no children.
+  /// Returns which of the children `wanted`, as bits, of an inner cell matter, sets their nodes,
+  /// and in `leaves` the bits of those that have no children.
   virtual std::uint32_t open(const void* node, std::uint32_t wanted, const void* (&children)[8],
                              std::uint32_t& leaves) = 0;
   /// Tests a leaf and a triangle; `sure` if a point of the triangle lies in the cell by more than

@@ -25,7 +25,7 @@ struct ContentHash {
 template <typename S>
 ContentHash contentHash(const MeshView<S>& mesh);
 
-/// Of the triangles' indices alone.
+/// Hashes the triangles' indices alone.
 template <typename S>
 ContentHash indexHash(const MeshView<S>& mesh) {
   return contentHash(MeshView<S>{nullptr, 0, mesh.triangles, mesh.num_triangles});

@@ -45,7 +45,7 @@ FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const 
   const Vec y = v < 0.5 ? Vec(t + v * b) : Vec((q1 - p0) - (1 - v) * b);
   s = clamp01(y.dot(a) / aa);
   const double extent = std::sqrt(aa) + std::sqrt(bb) + t.lpNorm<Eigen::Infinity>();
-  // Of nearly parallel edges s and v may be anything: all ends are tried.
+  // Nearly parallel edges may give any s and v: all ends are tried.
   const bool parallel = !(n.squaredNorm() > 0x1p-20 * aa * bb);
   for (int i = 0; i < 4; ++i) {
     const bool s_low = (i & 1) == 0, v_low = (i & 2) == 0;

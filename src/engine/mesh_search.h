@@ -30,8 +30,8 @@ struct PreparedPair {
   Audit* audit = nullptr;
 };
 
-/// Of these pairs of triangles, the one that nearestTriangles() names, if every pair that rounding
-/// may make the nearest is among them. None of them may touch. Needs no trees.
+/// Returns that of these pairs of triangles which nearestTriangles() names, if every pair that
+/// rounding may make the nearest is among them. None of them may touch. Needs no trees.
 template <typename S>
 TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const MeshView<S>& a,
                                const MeshView<S>& b, const RelativePose<S>& X_AB);

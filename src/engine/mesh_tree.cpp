@@ -329,7 +329,7 @@ class MeshTree {
   BlockPartition partition_;
   std::vector<Corners> corners_;  ///< of the sample, or the block
 
-  // Of a block, by triangle in the order of the leaves, or by node.
+  // These are of a block, by triangle in the order of the leaves, or by node.
   std::vector<Part> stack_;
   std::vector<PointQuad> quads_;    ///< three corners, and the first again
   std::vector<int> cluster_sizes_;  ///< at the first triangle of a leaf of the prepared tree

@@ -21,7 +21,7 @@ constexpr double kLeastReach = 0x1p-36, kLargestReach = 0x1p40;
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volumes);
 
-/// The same for a mesh whose binary tree isn't ours: makes one for the time being. nullptr if
+/// Prepares a mesh whose binary tree isn't ours: makes one for the time being. nullptr if
 /// buildVolumes() takes no such mesh, which lies too far from its origin.
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh);

@@ -83,7 +83,7 @@ S distance(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
   return fcl_own::distance(a, X_WA, b, X_WB, request, result);
 }
 
-/// The same for two objects; throws std::invalid_argument if either is null.
+/// Asks it of two objects; throws std::invalid_argument if either is null.
 template <typename S>
 std::size_t collide(const fcl::CollisionObject<S>* a, const fcl::CollisionObject<S>* b,
                     const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {

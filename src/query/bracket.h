@@ -12,7 +12,7 @@ namespace kios {
 template <typename S>
 DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query);
 
-/// The same for root volumes that were tested: they prove `roots`, which is below far_enough > 0.
+/// Answers for root volumes that were tested: they prove `roots`, which is below far_enough > 0.
 template <typename S>
 DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query,
                                   double roots);

@@ -56,7 +56,7 @@ class CellWalk {
   using Four = Eigen::Array<Real, 4, 1>;
   static constexpr Real kMore = 1 + 0x1p-20F;
 
-  /// Of a node: S0 and four caps. All radii contain the pad.
+  /// Holds S0 and four caps of a node. All radii contain the pad.
   struct Spheres {
     Real x, y, z, r;
     Four cap_x, cap_y, cap_z, cap_r2;
@@ -113,7 +113,7 @@ class CellWalk {
     return true;
   }
 
-  /// Of S0, and of caps.
+  /// Tells whether S0 alone proves the cube apart, and the next whether one of the caps does.
   static bool misses(const Cube& cube, const Spheres& s) {
     return square(s.x - cube.x, cube.half) + square(s.y - cube.y, cube.half) +
                square(s.z - cube.z, cube.half) >

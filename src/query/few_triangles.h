@@ -19,20 +19,21 @@ bool areFew(const Model<S>& a, const Model<S>& b) {
   return a.num_tris <= kMost && b.num_tris <= kMost && a.num_tris * b.num_tris <= kMostPairs;
 }
 
-/// The same for distances, which take more of each pair: of two boxes they take ten times as long
+/// Tells it for distances, which take more of each pair: of two boxes they take ten times as long
 /// as the engine's.
 template <typename S>
 bool areVeryFew(const Model<S>& a, const Model<S>& b) {
   return areFew(a, b) && a.num_tris * b.num_tris <= 64;
 }
 
-/// Of few triangles, up to `limit` pairs that intersect, all of them if there are no more; by ids.
+/// Returns up to `limit` pairs of few triangles that intersect, all of them if there are no more,
+/// by ids.
 template <typename S>
 std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<S>& frame, std::size_t limit,
                                                        SearchCounts& counts);
 
-/// Of very few triangles that the engine serves, the nearest of those nearer than `far_enough`, as
-/// searchNearest() names them for exact queries; not found if there are none.
+/// Returns the nearest of very few triangles that the engine serves, of those nearer than
+/// `far_enough`, as searchNearest() names them for exact queries; not found if there are none.
 template <typename S>
 engine::PairAnswer<S> nearestOfFew(const PairFrame<S>& frame, double far_enough,
                                    SearchCounts& counts);

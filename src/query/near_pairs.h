@@ -38,7 +38,7 @@ class NearPairs {
     return distance == 0;
   }
 
-  /// Of triangles that touch, the first that were tested.
+  /// Names the first that were tested, where triangles touch.
   engine::PairAnswer<S> answer() const {
     engine::PairAnswer<S> answer;
     if (near_.empty()) return answer;

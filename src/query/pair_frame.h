@@ -65,12 +65,12 @@ class PairFrame {
                error_bounds::extentOf(d, rootA().radius0, rootB().radius0)) +
            kLeast;
   }
-  /// The same against the exact common frame.
+  /// Bounds the error against the distance in the exact common frame.
   double distanceError(double d) const {
     const kIOS<S>& root = rootB();
     return kernelError(d) + frameError(norm1(root.center0) + 1.8 * double{root.radius0});
   }
-  /// The same for these two triangles, which are smaller than the models.
+  /// Bounds it for these two triangles, which are smaller than the models.
   double distanceErrorOf(const engine::TrianglePairIds& ids) const {
     const auto p = triangleA(ids.a), local = cornersOf(b, ids.b), q = triangleB(ids.b);
     double largest = 0;

@@ -107,7 +107,7 @@ double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
   return best;
 }
 
-// Of what is far the box of the points says enough. Else a few steps of GJK find a slab for S0,
+// The box of the points says enough of what is far. Else a few steps of GJK find a slab for S0,
 // which bounds the caps, too.
 template <typename S>
 double PosedSolid<S>::convexBound(const kIOS<S>& bv, double enough, const Ball& central,

@@ -29,7 +29,7 @@ class Exit {
   const Vec& normal() const { return normal_; }
   double depth() const { return depth_; }
 
-  /// Of length 1.
+  /// Takes a direction of length 1.
   bool offerUnit(const Vec& n) { return offerSlab(n, extent(n)); }
   bool offerSlab(const Vec& n, double extent) {
     const double depth = extent - std::min({n.dot(t_[0]), n.dot(t_[1]), n.dot(t_[2])});

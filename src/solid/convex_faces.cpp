@@ -64,8 +64,8 @@ bool ConvexFaces::inTetrahedra(std::size_t face, const Vec& p) const {
   return false;
 }
 
-// Of the faces, that which a ray from the middle through p leaves by: its tetrahedra hold p. Those
-// of a flat shape hold nothing.
+// Finds the face by which a ray from the middle through p leaves: its tetrahedra hold p. Those of a
+// flat shape hold nothing.
 bool ConvexFaces::contains(const Vec& p) const {
   if (!known()) return false;
   if (inTetrahedra(last_, p)) return true;

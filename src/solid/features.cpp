@@ -115,7 +115,7 @@ class Features {
     if (!(s >= 0 && t >= 0 && s + t <= 1)) return false;
     const Vec x = t_[0] + s * u + t * v;
     q.distance = (x - q.on_shape).norm();
-    // Of a thin face s and t, and x with them, have few digits.
+    // A thin face leaves s and t, and x with them, few digits.
     return q.distance - n.dot(x - q.on_shape) <= 0.5 * tolerance() && decides(x, q);
   }
 

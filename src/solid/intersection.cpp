@@ -148,7 +148,7 @@ bool meetsEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
   return nearest.squaredNorm() <= 1;
 }
 
-/// The same of an ellipse, segment or point: of what lies in its plane or line of the triangle.
+/// Decides it for an ellipse, segment or point, by what lies in its plane or line of the triangle.
 bool meetsFlatEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
   Polygon polygon(t);
   Vec radii = e;

@@ -16,7 +16,7 @@ inline double clearOf(const Triangle& t, const CoreDistance& core) {
   return 0x1p-40 * (sizeOf(t) + core.on_core.lpNorm<1>());
 }
 
-/// The same where GJK, that found no clear slab, may have found a common point.
+/// Decides it where GJK, that found no clear slab, may have found a common point.
 bool meetsAt(const Solid& solid, const Triangle& triangle, const CoreDistance& core, Vec* common);
 
 }  // namespace kios::shape

@@ -86,7 +86,7 @@ int normalize(TrianglePair& pair) {
   return e;
 }
 
-/// Of triangles that are disjoint: not 0 even where all digits have cancelled.
+/// Returns the distance of triangles that are disjoint: not 0 even where all digits have cancelled.
 template <typename S>
 S positive(double distance) {
   return std::max(static_cast<S>(distance), std::numeric_limits<S>::denorm_min());

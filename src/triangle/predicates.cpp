@@ -183,7 +183,7 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
 PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis,
                                                      double margin) const {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  // The same stages: the first is off by at most 15 u^2 (|left| + |right|).
+  // The stages are those above: the first is off by at most 15 u^2 (|left| + |right|).
   const auto twofold = [this](int to, int from, int c) {
     return twofoldDifference(scaled_[to][c], scaled_[from][c]);
   };

@@ -25,7 +25,7 @@ class PairPredicates {
   /// Returns the parameter from p_i at which p_i p_j crosses the plane of (k, l, m), on whose two
   /// sides they lie, to about 8 eps of the segment however small the angle is.
   double crossing3d(int i, int j, int k, int l, int m) const;
-  /// The same for the line p_k p_l in the projection along `axis`.
+  /// Returns it for the line p_k p_l in the projection along `axis`.
   double crossing2d(int i, int j, int k, int l, int axis) const;
   /// Coordinate `axis` of p_i <= that of p_j.
   bool notAbove(int i, int j, int axis) const { return given_[i][axis] <= given_[j][axis]; }
@@ -39,7 +39,7 @@ class PairPredicates {
   Filtered filteredOrient3d(int i, int j, int k, int l) const;
   Filtered filteredCross2d(int i, int j, int k, int l, int axis) const;
 
-  /// The same with the right sign, and nearly all digits: mantissa 2^exponent.
+  /// Holds the value with the right sign, and nearly all digits: mantissa 2^exponent.
   struct Rounded {
     double mantissa;
     long exponent;

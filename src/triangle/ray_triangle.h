@@ -39,11 +39,11 @@ class ExactRay {
   struct Scaled;
 
   enum Sign { kMinus = -1, kZero = 0, kPlus = 1, kUnknown = 2 };
-  /// Of direction . ((corner i - origin) x (corner j - corner i)): the side on which the ray passes
-  /// the edge.
+  /// Returns the sign of direction . ((corner i - origin) x (corner j - corner i)): the side on
+  /// which the ray passes the edge.
   Sign filteredSide(const Scaled& t, int i, int j) const;
   Sign exactSide(const Scaled& t, int i, int j) const;
-  /// Of a face that the ray's line crosses. False if rounding leaves something open.
+  /// Sets the hit of a face that the ray's line crosses. False if rounding leaves something open.
   bool cross(const Scaled& t, TriangleHit& hit, bool& in_range) const;
 
   const GivenRay given_;
@@ -54,7 +54,7 @@ class ExactRay {
   double least_, largest_;           ///< of the scaled ray's coordinates that aren't 0
 };
 
-/// The same in integers of any size.
+/// Decides it in integers of any size.
 bool hitInIntegers(const GivenRay& ray, const TriangleVertices<double>& corners, TriangleHit& hit);
 
 }  // namespace kios

@@ -28,8 +28,8 @@ SegmentPoint pointAt(const Vec& a, const Vec& b, double t) {
   return {t < 0.5 ? Vec(a + t * (b - a)) : Vec(b + (1 - t) * (a - b)), t};
 }
 
-/// Of the segment from a along ab, whose square and products with the ways from a and to b are
-/// given.
+/// Finds the nearest point of the segment from a along ab, whose square and products with the ways
+/// from a and to b are given.
 SegmentPoint nearestOnSegment(const Vec& a, const Vec& b, const Vec& ab, double square,
                               double from_a, double from_b) {
   if (!(square > 0) || !(from_a > 0)) return {a, 0};

@@ -21,7 +21,8 @@ template <typename Entry>
   return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
 }
 
-/// Of the same entries. Where the norm above is small, it is near 1, or near -1 for a reflection.
+/// Returns the determinant. Where the norm above is small, it is near 1, or near -1 for a
+/// reflection.
 template <typename Entry>
 [[gnu::always_inline]] inline auto determinant(const Entry& r) {
   return r(0, 0) * (r(1, 1) * r(2, 2) - r(1, 2) * r(2, 1)) +

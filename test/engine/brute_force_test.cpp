@@ -295,7 +295,7 @@ TYPED_TEST(BruteForce, DegenerateTrianglesOnASheet) {
   EXPECT_GT(seen.touching, 20);
 }
 
-// Of pairs that are exactly equally near, that of the least ids: first of A, then of B.
+// The least ids, first of A, then of B, win among pairs that are exactly equally near.
 TYPED_TEST(BruteForce, TiesGoToTheLeastIds) {
   Random random(9);
   for (const int shape : {0, 1, 2}) {

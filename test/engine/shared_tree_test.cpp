@@ -60,7 +60,7 @@ TEST(ContentHash, CountsAndScalarsCount) {
   Mesh more = mesh;
   more.vertices.emplace_back(0, 0, 0);  // used by no triangle
   EXPECT_FALSE(hashOf(more) == hashOf(mesh));
-  // The same bytes, as doubles and as floats.
+  // Doubles and floats have the same bytes here.
   const std::vector<Vector3d> zeros(2, Vector3d::Zero());
   const std::vector<fcl::Vector3f> float_zeros(4, fcl::Vector3f::Zero());
   EXPECT_FALSE(hashOf<double>(zeros, mesh.triangles) == hashOf<float>(float_zeros, mesh.triangles));

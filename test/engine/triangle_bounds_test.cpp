@@ -57,7 +57,7 @@ void pointMoved(const Tree& tree, const FramePair& frames, const float* point, f
   }
 }
 
-/// The same where the triangles are moved.
+/// Bounds them where the triangles are moved.
 void trianglesMoved(const Tree& tree, const FramePair& frames, const float* point, float* out) {
   const V3 at = {hn::Set(d, point[0]), hn::Set(d, point[1]), hn::Set(d, point[2])};
   const LeafView leaf(tree, tree.leaves[0]);

@@ -157,7 +157,7 @@ TEST_F(Request, ArgumentsInTheWrongPlaceAreRefused) {
     EXPECT_NEAR(fcl::distance(sphere.get(), here, sphere.get(), there, request, of_spheres), 7,
                 1e-5);
   }
-  // The same error is welcome where it is asked for by name.
+  // That error is welcome where it is asked for by name.
   DistanceOptions<double> options;
   options.rel_err = 3;
   EXPECT_NO_THROW(kios::distance(*a_, here, *b_, there, options));

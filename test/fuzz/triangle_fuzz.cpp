@@ -93,7 +93,7 @@ class Decoder {
 
   double small() { return static_cast<std::int8_t>(bytes_.byte()); }
 
-  /// The same coordinate of an earlier vertex.
+  /// Returns that coordinate of an earlier vertex.
   double earlier(int choice) const {
     return count_ < 3 ? 0 : v_[count_ % 3 + 3 * (choice % (count_ / 3))];
   }

@@ -64,7 +64,7 @@ double distanceTo(const kios::Modeld& a, const kios::Modeld& b) {
   return d;
 }
 
-/// The same distances, in whatever way a model came to its shape.
+/// Checks that distances are equal, in whatever way a model came to its shape.
 void useAll(int n) {
   const Triangles triangles = sheetTriangles(n);
   const Vertices flat = sheet(n, 0), bent = sheet(n, 0.7);

@@ -125,7 +125,7 @@ TEST_F(Memory, MakeModelThrows) {
   EXPECT_GT(exhaust([&] { return toKIOS(*foreign) != nullptr; }, [] {}), 10);
 }
 
-/// The same model again, until it is built: FCL's calls may be repeated where one of them failed.
+/// Builds a model again until it is built: FCL's calls may be repeated where one of them failed.
 TEST_F(Memory, BuildIsRepeated) {
   for (const bool one_by_one : {false, true}) {
     for (const int hint : {0, 1000}) {
@@ -371,7 +371,7 @@ TEST_F(Memory, ScenesGoOn) {
   }
 }
 
-// Of a thread that builds, refits and asks nothing is left when it ends.
+// Nothing is left of a thread that built, refitted and asked when it ends.
 TEST_F(Memory, ThreadsLeaveNothing) {
   const auto work = [this] {
     const auto model = kiosModel(mesh_);

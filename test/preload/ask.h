@@ -46,7 +46,7 @@ inline void askDistance(const std::string& name, const std::shared_ptr<fcl::Coll
   }
 }
 
-/// The same of fcl::collide.
+/// Asks fcl::collide.
 inline void askCollide(const std::string& name, const std::shared_ptr<fcl::CollisionGeometryd>& a,
                        const fcl::Transform3d& X_WA,
                        const std::shared_ptr<fcl::CollisionGeometryd>& b,

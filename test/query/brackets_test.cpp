@@ -78,7 +78,7 @@ TYPED_TEST(Brackets, Scales) {
     const double scale = std::ldexp(1, e);
     const fcl::Vector3d zero = fcl::Vector3d::Zero();
     this->check(transformed(torus, scale, zero), transformed(soup, scale, zero), true, 6, 0.5, 7);
-    // Of very different size.
+    // They are of very different size.
     this->check(transformed(torus, scale, zero), transformed(soup, 1e-3 * scale, zero), true, 4,
                 0.3, 8);
   }

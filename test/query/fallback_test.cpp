@@ -147,7 +147,7 @@ TEST(FallbackWork, ScenesOfVanishingBodies) {
     ASSERT_TRUE(closest) << i << " " << d;
     ASSERT_EQ(closest->distance, d) << i;
     ASSERT_EQ(scene.pairsWithin(d).size(), 1u) << i;
-    // The same after a move that stays near.
+    // It holds after a move that stays near.
     poses[1].translation().x() += static_cast<float>(1e-3 * size);
     scene.move(1, poses[1]);
     fcl::DistanceResultf moved;

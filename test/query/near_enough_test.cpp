@@ -110,8 +110,8 @@ TYPED_TEST(NearEnough, FarEnoughWithinRounding) {
   }
 }
 
-// The same with a budget, which holds for the whole query: more of it never gives a larger distance
-// or a smaller lower bound.
+// A budget may end it, too, and holds for the whole query: more of it never gives a larger
+// distance or a smaller lower bound.
 TYPED_TEST(NearEnough, FarEnoughWithinRoundingAndABudget) {
   using S = TypeParam;
   for (const auto& [a, b] : this->pairs) {

@@ -37,7 +37,7 @@ class Bodies {
     fcl::DistanceResultd result;
     return fcl::distance(a, b, fcl::DistanceRequestd(), result);
   }
-  /// Of all pairs, least first.
+  /// Returns those of all pairs, least first.
   std::vector<double> distances() const {
     std::vector<double> all;
     for (std::size_t i = 0; i < objects.size(); ++i) {

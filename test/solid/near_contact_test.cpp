@@ -91,7 +91,7 @@ TEST_P(NearContact, PromisesAreKept) {
       below = std::max(below, (pair.distance - d.distance) / L);
       above = std::max(above, (d.lower - pair.distance) / L);
       split = std::max(split, std::abs((d.on_triangle - d.on_shape).norm() - d.distance) / L);
-      // The same question asked as "nearer than this?"
+      // It is also asked as "nearer than this?"
       const double exact_distance = static_cast<double>(pair.distance);
       const double enough = exact_distance * (1 + (cases.pick(2) ? 1 : -1) * cases.power(-12, -1));
       const auto ended = shape::distance(pair.solid, pair.triangle, enough);

@@ -272,7 +272,7 @@ class FaceLevel {
     }
     thickness_ = planes_.size() < 4 ? 0 : std::max(Real(0), -(*this)(middle)) / s.reach();
   }
-  /// Of the solid, as a part of its reach. Where faces are thin, their normals, and levels, are
+  /// Is the solid's, as a part of its reach. Where faces are thin, their normals, and levels, are
   /// uncertain by 1e-19 over that.
   Real thickness() const { return thickness_; }
 

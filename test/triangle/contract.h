@@ -191,7 +191,7 @@ bool sameForOrder(const RoundedPair<S>& pair, const std::array<int, 3>& p,
          trianglesIntersect(a, b) == intersect && trianglesIntersect(b, a) == intersect;
 }
 
-/// The same for all 72 ways to pass the pair.
+/// Checks it for all 72 ways to pass the pair.
 template <typename S>
 bool sameForAllOrders(const RoundedPair<S>& pair) {
   for (const auto& p : kVertexOrders) {

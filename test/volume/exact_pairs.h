@@ -32,7 +32,7 @@ class HardPair {
     });
   }
 
-  /// The same for b's points as a leaf computes them in S, in two orders of summation.
+  /// Tells it for b's points as a leaf computes them in S, in two orders of summation.
   bool roundedDistanceIsAtLeast(double bound) const {
     return allPairs([&](const auto& p, const auto& q) {
       const fcl::Vector3<S> moved[2] = {R * q + T, T + R * q};

@@ -118,7 +118,7 @@ std::string violation(const kIOS<S>& v, const Points<S>& points,
   return {};
 }
 
-/// The same for what v computes from its spheres; the points as they are.
+/// Checks it for what v computes from its spheres; the points as they are.
 template <typename S>
 std::string measureViolation(const kIOS<S>& v, const Points<S>& points) {
   constexpr long double kLeast = std::numeric_limits<S>::min();

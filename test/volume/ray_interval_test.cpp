@@ -102,7 +102,7 @@ TYPED_TEST(RayIntervalTest, TangentAtContent) {
   }
 }
 
-// The same from afar, on grids where that is exact: most digits of the origin cancel.
+// It holds from afar, on grids where that is exact: most digits of the origin cancel.
 TYPED_TEST(RayIntervalTest, TangentFromAfar) {
   using S = TypeParam;
   Random random(18);

@@ -30,7 +30,7 @@ template <typename S>
 void refreshBounds(fcl::CollisionGeometry<S>& geometry,
                    const std::vector<fcl::CollisionObject<S>*>& objects);
 
-/// The same for all objects of a manager, which is updated, too (SaP: filled anew). For a geometry
+/// Refreshes all objects of a manager, which is updated, too (SaP: filled anew). For a geometry
 /// whose objects are in several managers, call it once for each.
 template <typename S>
 void refreshBounds(fcl::CollisionGeometry<S>& geometry,

@@ -52,7 +52,7 @@ std::optional<RayInterval<S>> rayInterval(const kIOS<S>& bv, const Ray<S>& ray);
 template <typename S>
 bool overlap(const Ray<S>& ray, const kIOS<S>& bv);
 
-/// Of the triangle that a ray hits, normal (p1 - p0) x (p2 - p0).
+/// Names the side of the triangle that a ray hits; its normal is (p1 - p0) x (p2 - p0).
 enum class RaySide {
   kFront,  ///< the ray goes against the normal
   kBack,   ///< the ray goes with the normal

@@ -35,7 +35,7 @@ class RelativePose {
   /// 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T |t_WB - t_WA|), absolute values by entry, so
   /// by 4 eps (|x|_1 + |t_WB - t_WA|) with room for rotations that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB);
-  /// The same for rotations that were checked: `squared_errors` is at least the sum of the squares
+  /// Takes rotations that were checked: `squared_errors` is at least the sum of the squares
   /// of their errors, |R^T R - I| each (Frobenius).
   RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
                double squared_errors);

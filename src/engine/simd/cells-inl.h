@@ -169,7 +169,7 @@ class CellTraversal {
       : search_(search), tree_(search.tree), frame_(search.frame), X_(search.frame.from_mesh) {}
 
   void run() {
-    // Of each level that was opened at most seven wait.
+    // At most seven of each level that was opened wait.
     const size_t room =
         search_.num_start + (static_cast<size_t>(tree_.depth) + kCellLevels + 1) * kLanes;
     Entry usual[kUsual];

@@ -12,7 +12,7 @@ class RayTraversal {
       : search_(search), tree_(search.tree), ray_(search.ray) {}
 
   void run() {
-    // Of each level that was opened at most seven children wait.
+    // At most seven children of each level that was opened wait.
     const size_t room = static_cast<size_t>(tree_.depth) * (kLanes - 1) + kLanes;
     std::vector<Entry> more;
     Entry usual[kUsual];

@@ -131,8 +131,8 @@ class SolidTraversal {
     }
   }
 
-  // Of each vertex of a leaf, in chunks as Points: its bound (heights of either sign for a plane),
-  // and its height over the best slab.
+  // These hold for each vertex of a leaf, in chunks as Points: its bound (heights of either sign
+  // for a plane), and its height over the best slab.
   enum { kBound = 0, kOverSlab = 1, kRows = 3 };
 
   /// Writes these rows, and offers the nearest vertex.

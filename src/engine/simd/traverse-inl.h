@@ -295,8 +295,7 @@ class Expander {
     return hn::Max(byCap(kMiddle2, kHalf2), byCap(kMiddle1, kHalf1));
   }
 
-  /// Of the children that overlap and are not pairs of leaves, returns how many precede the
-  /// deepest.
+  /// Returns how many of the children that overlap and are not pairs of leaves precede the deepest.
   static uint32_t deepestOf(const Expansion& e, uint32_t leaves) {
     const uint32_t children = e.near & ~leaves;
     V least = hn::Zero(d);

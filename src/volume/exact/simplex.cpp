@@ -20,8 +20,8 @@ void Simplex::add(const Vector3d& x, const Vector3d& y) {
   findNearest();
 }
 
-// Of the 15 faces the nearest whose weights are >= 0: every such combination is a point of the
-// hull, so that rounding costs iterations, but never the truth of p and q.
+// Takes the nearest of the 15 faces whose weights are >= 0: every such combination is a point of
+// the hull, so that rounding costs iterations, but never the truth of p and q.
 void Simplex::findNearest() {
   double least = std::numeric_limits<double>::infinity();
   std::array<double, 4> best = {};

@@ -15,7 +15,7 @@ namespace {
 constexpr double kOn = 8 * kUlpDouble;
 /// Vertices found to lie farther outside belong to no corner of the body.
 constexpr double kNotOn = 1e-9;
-/// The same before a vertex is refined: 2^-53 / 1e-12, the least sine allowed, is far below.
+/// Bounds it before a vertex is refined: 2^-53 / 1e-12, the least sine allowed, is far below.
 constexpr double kNowhereNear = 1e-2;
 /// A lens that is thinner than its radii are exact is taken as a disc of this radius, which passes
 /// for a part of the spheres: it lies 2^-49 outside. Normals at the rim of a point couldn't add up;
@@ -125,7 +125,7 @@ void SphereIntersection::addVertex(int i, int j, int k, Vector3d x) {
   if (violation(x) <= kNotOn) ++vertices_;
 }
 
-// Of the features whose normals add up to v with factors >= 0 the body's is the one whose point
+// The body's is, of the features whose normals add up to v with factors >= 0, the one whose point
 // lies inside all spheres (Karush, Kuhn, Tucker); by rounding there may be none, or several that
 // differ by as little: the least violated is taken.
 SphereIntersection::Extreme SphereIntersection::support(const Vector3d& v) const {

@@ -23,7 +23,7 @@ struct FourAxes {
 /// zero or not finite.
 FourAxes principalAxes(const FourScatter& scatter);
 
-/// The same for one matrix.
+/// Holds one matrix.
 struct Scatter {
   float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 };

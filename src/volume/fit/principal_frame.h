@@ -20,7 +20,7 @@ struct PrincipalFrame {
 /// III-B.2), and the points in that frame relative to the box centre.
 PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame);
 
-/// The same by floats alone, in less time.
+/// Finds it by floats alone, in less time.
 PrincipalFrame quickPrincipalFrame(const PointLanes& points, PointLanes& in_frame);
 
 /// Orthonormal axes: the first along a, the second towards b; either may be zero, parallel to the

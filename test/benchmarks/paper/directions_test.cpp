@@ -103,7 +103,7 @@ TEST(FixedDirections, FitIsThatOfTheTurnedContent) {
       const FixedDirectionKios turned_policy(turned_axes, options(SphereCount::kAll, shared));
       PackedPolicy::Shared model = policy.share(points.data(), 20);
       PackedPolicy::Shared turned_model = turned_policy.share(turned.data(), 20);
-      // The same units: those depend on the box along the coordinates.
+      // Units are set alike: they depend on the box along the coordinates.
       model.exponent = turned_model.exponent = 2;
       model.origin.setZero();
       turned_model.origin.setZero();

@@ -46,8 +46,8 @@ struct Current {
 thread_local Current* current = nullptr;
 std::uint64_t running_seed = 0;
 
-/// Of processor time, of all threads: what a busy or paused machine does to the clock on the wall
-/// is no failure.
+/// Returns the processor time of all threads: what a busy or paused machine does to the clock on
+/// the wall is no failure.
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 long long milliseconds() { return 1 + static_cast<long long>(1000 * processorSeconds()); }
 
