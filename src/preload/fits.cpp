@@ -9,6 +9,7 @@
 
 #include "preload/names.h"
 #include "preload/reach.h"
+#include "preload/sites.h"
 
 namespace kios::preload {
 namespace {
@@ -40,13 +41,20 @@ void count() {
   }
 }
 
-/// FCL's function of that name, found at its first call.
+Sites sites;
+
+/// FCL's function of that name for calls from there: one for all if it is in the global scope.
 template <typename Function>
-Function* next(std::atomic<Function*>& found, const char* name, const void* caller) {
-  Function* function = found.load(std::memory_order_acquire);
-  if (!function) {
-    function = reinterpret_cast<Function*>(nextDefinition(name, caller));
-    found.store(function, std::memory_order_release);
+Function* next(std::atomic<Function*>& of_all, const char* name, const void* caller) {
+  if (Function* const function = of_all.load(std::memory_order_acquire)) return function;
+  const void* const known = sites.find(caller, name);
+  void* const found = known ? const_cast<void*>(known) : nextDefinition(name, caller);
+  auto* const function = reinterpret_cast<Function*>(found);
+  if (known) return function;
+  if (isGlobal(name)) {
+    of_all.store(function, std::memory_order_release);
+  } else {
+    sites.keep(caller, name, found);
   }
   return function;
 }
@@ -65,9 +73,10 @@ void countFits() { counting.store(true, std::memory_order_relaxed); }
 
 #define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
 // NOLINTBEGIN(bugprone-macro-parentheses): types and names of functions stand in none.
-#define KIOS_NEXT(Function, name)        \
-  static std::atomic<Function*> found{}; \
-  Function* const fcl = next(found, name, __builtin_return_address(0))
+#define KIOS_NEXT(Function, name)               \
+  static constexpr const char* fcl_name = name; \
+  static std::atomic<Function*> of_all{};       \
+  Function* const fcl = next(of_all, fcl_name, __builtin_return_address(0))
 
 void getCovariance(const void* vertices, const void* previous, void* triangles,
                    unsigned int* primitives, int n, void* covariance)

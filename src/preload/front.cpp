@@ -4,6 +4,7 @@
 // The four functions that stand in for libfcl's.
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 
 #include <pthread.h>
 
@@ -11,6 +12,7 @@
 #include "preload/fits.h"
 #include "preload/names.h"
 #include "preload/reach.h"
+#include "preload/sites.h"
 
 namespace kios::preload {
 namespace {
@@ -58,29 +60,33 @@ void find(Call& call, const char* name, const void* caller) {
   call = reinterpret_cast<Call>(found ? found : reinterpret_cast<void*>(&undefined));
 }
 
-/// The calls of a place in the code, by its return address, where no FCL is in the global scope:
-/// plug-ins may each have one of their own. Their files stay loaded, as findDefinition() opens
-/// them.
-struct Site {
-  const void* caller;
-  Calls fcl;
-  const Calls* calls;
-};
-constexpr std::size_t kSites = 1 << 10, kTried = 8;
-std::atomic<Site*> sites[kSites];
-
-std::atomic<Site*>& siteAt(const void* caller, std::size_t i) {
-  const auto address = reinterpret_cast<std::uintptr_t>(caller);
-  return sites[((address * 0x9E3779B97F4A7C15U >> 40) + i) % kSites];
-}
+Sites sites;
+constexpr const char* kCalls = KIOS_COLLIDE;
 
 const Calls* callsOf(const void* caller) {
-  for (std::size_t i = 0; i < kTried; ++i) {
-    const Site* const site = siteAt(caller, i).load(std::memory_order_acquire);
-    if (!site) break;
-    if (site->caller == caller) return site->calls;
+  return static_cast<const Calls*>(sites.find(caller, kCalls));
+}
+
+/// The calls of the FCL that a caller has; `choosing` is locked. There are as many as FCLs.
+const Calls& fclOf(const void* caller) {
+  struct Known {
+    Calls calls;
+    Known* next;
+  };
+  static Known* first = nullptr;
+  Calls found;
+  find(found.collide_objects, KIOS_COLLIDE_OBJECTS, caller);
+  find(found.collide, KIOS_COLLIDE, caller);
+  find(found.distance_objects, KIOS_DISTANCE_OBJECTS, caller);
+  find(found.distance, KIOS_DISTANCE, caller);
+  for (const Known* known = first; known; known = known->next) {
+    if (std::memcmp(&known->calls, &found, sizeof(Calls)) == 0) return known->calls;
   }
-  return nullptr;
+  auto* const known = static_cast<Known*>(std::malloc(sizeof(Known)));
+  if (!known) std::abort();
+  *known = {found, first};
+  first = known;
+  return known->calls;
 }
 
 /// The back's calls, opened at most once, if these are libfcl's and the mode isn't kOff.
@@ -115,29 +121,14 @@ const Calls* choose(const void* caller) {
   const Calls* chosen = calls.load(std::memory_order_relaxed);
   if (!chosen) chosen = callsOf(caller);
   if (!chosen) {
-    auto* const site = static_cast<Site*>(std::malloc(sizeof(Site)));
-    if (!site) std::abort();
-    site->caller = caller;
-    find(site->fcl.collide_objects, KIOS_COLLIDE_OBJECTS, caller);
-    find(site->fcl.collide, KIOS_COLLIDE, caller);
-    find(site->fcl.distance_objects, KIOS_DISTANCE_OBJECTS, caller);
-    find(site->fcl.distance, KIOS_DISTANCE, caller);
-    chosen = backOf(site->fcl);
-    if (!chosen) chosen = &site->fcl;
-    site->calls = chosen;
-    bool kept = chosen == &site->fcl;
+    const Calls& fcl = fclOf(caller);
+    chosen = backOf(fcl);
+    if (!chosen) chosen = &fcl;
     if (isGlobal(KIOS_COLLIDE)) {
       calls.store(chosen, std::memory_order_release);
     } else {
-      for (std::size_t i = 0; i < kTried; ++i) {
-        std::atomic<Site*>& place = siteAt(caller, i);
-        if (place.load(std::memory_order_relaxed)) continue;
-        place.store(site, std::memory_order_release);
-        kept = true;
-        break;
-      }
+      sites.keep(caller, kCalls, chosen);
     }
-    if (!kept) std::free(site);
   }
   pthread_mutex_unlock(&choosing);
   return chosen;

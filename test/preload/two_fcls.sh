@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: two_fcls.sh FRONT PROGRAM PLUGIN OTHER_PLUGIN
-# Each plug-in gets its own FCL's answers, whichever asks first; libfcl's are ours.
+# Each plug-in's calls go to its own FCL, all 20 functions, whichever asks first; libfcl's queries
+# are answered by k-IOS.
 set -euo pipefail
 
 front=$1 program=$2 one=$3 other=$4
