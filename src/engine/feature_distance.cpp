@@ -12,11 +12,14 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-double clamp01(double t) { return t > 0 ? std::min(t, 1.0) : 0.0; }  // 0 for NaN
+double clamp01(double t) { return t > 0 ? std::min(t, 1.0) : 0.0; }
+
+/// a / b, and a for b = 0, which a is then: nothing is to be trapped.
+double quotient(double a, double b) { return a / (b > 0 ? b : 1.0); }
 
 /// Removes from v its part along a direction, returns that part in directions.
 double removePart(const Vec& direction, double square, Vec& v) {
-  const double t = v.dot(direction) / square;
+  const double t = quotient(v.dot(direction), square);
   v -= t * direction;
   return t;
 }
@@ -39,11 +42,11 @@ FeatureDistance edgeDistance(const Vec& p0, const Vec& p1, const Vec& q0, const 
   const Vec a = p1 - p0, b = q1 - q0, t = q0 - p0;
   const double aa = a.squaredNorm(), bb = b.squaredNorm();
   const Vec n = a.cross(b);
-  double s = clamp01(t.cross(b).dot(n) / n.squaredNorm());
-  const double v = clamp01((s * a - t).dot(b) / bb);
+  double s = clamp01(quotient(t.cross(b).dot(n), n.squaredNorm()));
+  const double v = clamp01(quotient((s * a - t).dot(b), bb));
   // The point of q from its nearer end.
   const Vec y = v < 0.5 ? Vec(t + v * b) : Vec((q1 - p0) - (1 - v) * b);
-  s = clamp01(y.dot(a) / aa);
+  s = clamp01(quotient(y.dot(a), aa));
   const double extent = std::sqrt(aa) + std::sqrt(bb) + t.lpNorm<Eigen::Infinity>();
   // Nearly parallel edges may give any s and v: all ends are tried.
   const bool parallel = !(n.squaredNorm() > 0x1p-20 * aa * bb);
@@ -92,7 +95,7 @@ FeatureDistance faceDistance(const Vec& point, const Vec (&face)[3]) {
   c += removePart(height, height2, residual);
   s += removePart(edge, square, residual);
   const double side = s - c * foot;
-  const bool inside = c >= 0 && side >= 0 && side + c <= 1;  // false for NaN
+  const bool inside = height2 > 0 && c >= 0 && side >= 0 && side + c <= 1;
   return {inside ? residual.norm() : std::numeric_limits<double>::infinity(), extent};
 }
 

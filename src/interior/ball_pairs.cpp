@@ -5,6 +5,12 @@
 #include <algorithm>
 
 namespace kios {
+namespace {
+
+/// Eigen's root of 0 multiplies it by infinity, which some programs trap: what is less counts as 0.
+constexpr float kLeastSquare = 0x1p-126F, kLeastRoot = 0x1p-62F;
+
+}  // namespace
 
 template <typename S>
 BallPairs::BallPairs(const SolidPair<S>& pair)
@@ -37,10 +43,10 @@ double BallPairs::reach(const fcl::Vector3d& n, double grown) const {
   const Eigen::Vector3f d = n.cast<float>();
   middle_ = d[0] * x_ + d[1] * y_ + d[2] * z_;
   const auto more = static_cast<float>(grown / unit_);
-  half_ = (middle_ * middle_ - square_ + (radius_ + more).square()).max(0.0F).sqrt();
+  half_ = (middle_ * middle_ - square_ + (radius_ + more).square()).max(kLeastSquare).sqrt();
   chords_.clear();
   for (Eigen::Index i = 0; i < half_.size(); ++i) {
-    if (half_[i] > 0 && middle_[i] + half_[i] > 0) {
+    if (half_[i] > kLeastRoot && middle_[i] + half_[i] > 0) {
       chords_.emplace_back(middle_[i] - half_[i], middle_[i] + half_[i]);
     }
   }
@@ -106,14 +112,16 @@ fcl::Vector3d BallPairs::escape(const fcl::Vector3d& from, double grown) const {
   constexpr int kSteps = 12;
   constexpr float kBeyond = 1.02F;
   for (int i = 0; i < kSteps; ++i) {
-    middle_ = ((x_ - t[0]).square() + (y_ - t[1]).square() + (z_ - t[2]).square()).sqrt();
+    middle_ = ((x_ - t[0]).square() + (y_ - t[1]).square() + (z_ - t[2]).square())
+                  .max(kLeastSquare)
+                  .sqrt();
     half_ = radius_ + more - middle_;
     const float depth = half_.maxCoeff();
     if (!(depth > 0)) break;
     Eigen::Index deepest = 0;
     while (half_[deepest] != depth) ++deepest;
     const float apart = middle_[deepest];
-    if (!(apart > 0)) break;
+    if (!(apart > kLeastRoot)) break;
     const Eigen::Vector3f center(x_[deepest], y_[deepest], z_[deepest]);
     t = center + (kBeyond * (radius_[deepest] + more) / apart) * (t - center);
   }

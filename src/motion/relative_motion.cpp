@@ -31,10 +31,11 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
 }
 
 // The centres' difference moves on a line, but for the accelerations; the nearest point of that
-// line is found up to a few u of the lengths. A ball that turns stays where it is.
+// line is found up to a few u of the lengths. A ball that turns stays where it is. The least double
+// > 0 keeps divisions by 0 out: it matters for speeds only that are below 2^-490, less than the pad.
 bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double duration) const {
   const Vector3d between = b.center - a.center, velocity = b.velocity - a.velocity;
-  const double approach = -between.dot(velocity), square = velocity.squaredNorm();
+  const double approach = -between.dot(velocity), square = velocity.squaredNorm() + 0x1p-1022;
   const double s = approach > 0 ? std::min(duration, approach / square) : 0;
   const double length = between.lpNorm<1>() + duration * velocity.lpNorm<1>();
   const double reach =
@@ -43,8 +44,7 @@ bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double 
   return (between + s * velocity).squaredNorm() > least * least;
 }
 
-// As apart(), without branches. The least double > 0 keeps 0 / 0 out: it matters for speeds only
-// that are below 2^-490, less than the pad.
+// As apart(), without branches.
 bool RelativeVelocities::anyApart(const MovingBall& ball, const FourBalls& four,
                                   double duration) const {
   using Eigen::Array4d;

@@ -70,6 +70,7 @@ NearestPoint onEllipsoid(const Solid& s, const Vec& p) {
   for (int step = 0; step < 100; ++step) {
     const Vec w = over(ep, t);
     const double slope = -2 * w.dot(over(w, t));
+    if (!(slope < 0)) break;  // at the centre
     const double next = t - (w.squaredNorm() - 1) / slope;
     if (!(next > t)) break;
     t = next;

@@ -43,6 +43,7 @@ double ellipsoidBound(const Solid& s, const Vec& p) {
   double best = p.norm() - e_max;
   const Vec e2 = e.cwiseProduct(e), ep = e.cwiseProduct(p);
   double t = std::max(0.0, ep.norm() - e_max * e_max);
+  if (!(e2.minCoeff() + t > 0)) return best;  // flat, and p not clearly outside
   for (int step = 0; step < 3; ++step) {
     const Vec n = p.array() / (e2.array() + t);
     const double length = n.norm();
@@ -51,6 +52,7 @@ double ellipsoidBound(const Solid& s, const Vec& p) {
     if (bound > best) best = bound;
     const Vec x = e.cwiseProduct(n);  // F(t) = |x|^2 - 1 falls and is convex
     const double slope = -2 * (x.array().square() / (e2.array() + t)).sum();
+    if (!(slope < 0)) break;
     const double next = t - (x.squaredNorm() - 1) / slope;
     if (!(next > t)) break;
     t = next;

@@ -45,8 +45,8 @@ CertifiedDistance::CertifiedDistance(const TrianglePair& pair)
     f_[i] = pair_.q[nextVertex(i)] - pair_.q[i];
     ee_[i] = e_[i].squaredNorm();
     ff_[i] = f_[i].squaredNorm();
-    per_ee_[i] = 1 / ee_[i];
-    per_ff_[i] = 1 / ff_[i];
+    per_ee_[i] = 1 / (ee_[i] > 0 ? ee_[i] : 1);  // edges of length 0 are left out
+    per_ff_[i] = 1 / (ff_[i] > 0 ? ff_[i] : 1);
   }
   // Most nearest pairs lie at the vertices that face the other triangle.
   const Vec across =

@@ -164,11 +164,11 @@ HWY_INLINE V distanceBounds(const BoxLanes& a, const BoxLanes& b, float pad) {
   const V3 to_a = a.towards(pairs.a_between) - pairs.between;  // from b's centre
   const V3 w = b.towards(b.along(to_a)) - to_a;
   const V reach = hn::Add(dot(abs(a.along(w)), a.half), dot(abs(b.along(w)), b.half));
-  const V length2 = dot(w, w);
-  const V along_w =
-      hn::Sub(hn::Div(hn::Sub(dot(w, pairs.between), reach), hn::Sqrt(length2)), pairs.padding);
+  const V length2 = dot(w, w), least2 = hn::Set(d, 0x1p-100F);
+  const V length = hn::Sqrt(hn::Max(length2, least2));
+  const V along_w = hn::Sub(hn::Div(hn::Sub(dot(w, pairs.between), reach), length), pairs.padding);
   // A shorter w joins boxes that are nearer than the pad, and its square may vanish.
-  const auto usable = hn::Ge(length2, hn::Set(d, 0x1p-100F));
+  const auto usable = hn::Ge(length2, least2);
   return hn::Max(by_axes, hn::IfThenElseZero(usable, along_w));
 }
 

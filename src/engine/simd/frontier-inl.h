@@ -69,6 +69,7 @@ class PairList {
   };
 
   bool empty() const { return size_ == 0; }
+  void clear() { size_ = 0; }
   size_t size() const { return size_; }
   Pair operator[](size_t i) const { return {a_[i], b_[i]}; }
 
@@ -122,29 +123,34 @@ class PairList {
 
   /// The least bound of all; infinity if empty.
   float least() const {
-    const V infinity = hn::Set(d, std::numeric_limits<float>::infinity());
-    V least = infinity;
+    V least = hn::Set(d, std::numeric_limits<float>::infinity());
     for (size_t i = 0; i < size_; i += step()) {
-      const uint32_t used = (1U << std::min(size_ - i, step())) - 1;
-      const V bounds = hn::LoadU(d, bounds_ + i);
-      least = hn::Min(least, hn::IfThenElse(hn::RebindMask(d, maskOf(used)), bounds, infinity));
+      least = hn::Min(least, boundsAt(i, (1U << std::min(size_ - i, step())) - 1));
     }
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
   /// Takes everything out, lanes by lanes: take(lanes, bounds, a, b) may push up to as many again.
+  /// Bounds of lanes beyond the end are infinity.
   template <class Take>
   void takeAll(const Take& take) {
     const size_t size = size_;
     size_ = 0;
     for (size_t i = 0; i < size; i += step()) {
-      const V bounds = hn::LoadU(d, bounds_ + i);
+      const uint32_t used = (1U << std::min(size - i, step())) - 1;
+      const V bounds = boundsAt(i, used);
       const VU a = hn::LoadU(du, a_ + i), b = hn::LoadU(du, b_ + i);
-      take((1U << std::min(size - i, step())) - 1, bounds, a, b);
+      take(used, bounds, a, b);
     }
   }
 
  private:
+  /// Of these lanes; infinity elsewhere, where memory may hold anything, also what traps.
+  V boundsAt(size_t i, uint32_t used) const {
+    return hn::IfThenElse(hn::RebindMask(d, maskOf(used)), hn::LoadU(d, bounds_ + i),
+                          hn::Set(d, std::numeric_limits<float>::infinity()));
+  }
+
   HWY_NOINLINE void grow(size_t capacity) {
     std::unique_ptr<float[]> bounds(new float[capacity]);  // not zeroed, as a vector would be
     std::unique_ptr<uint32_t[]> pairs(new uint32_t[2 * capacity]);
@@ -223,10 +229,14 @@ class Frontier {
   /// dropped. False if that is all.
   bool nextWave(float prune_at, float share) {
     const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
+    hn::Store(hn::Set(d, kInfinity), d, least_);
+    if (!(least < prune_at)) {  // also where nothing is left: infinities aren't subtracted
+      for (PairList* const list : {&apart_inner_, &apart_leaves_, &apart_bounded_}) list->clear();
+      return false;
+    }
     const float at_most =
         prune_at < kInfinity ? least + share * (prune_at - least) : (1 + share / 4) * least;
     const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
-    hn::Store(hn::Set(d, kInfinity), d, least_);
     const auto take = [&](PairList& apart, PairList& at_hand) {
       at_hand.reserve(apart.size());
       apart.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
@@ -240,7 +250,7 @@ class Frontier {
     take(apart_inner_, inner);
     take(apart_leaves_, leaves);
     take(apart_bounded_, bounded);
-    return least < prune_at;
+    return true;
   }
 
  private:

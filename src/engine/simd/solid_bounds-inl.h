@@ -158,9 +158,10 @@ class SolidBounds {
     const V3 n = {hn::Div(at.x, hn::Add(e2.x, t)), hn::Div(at.y, hn::Add(e2.y, t)),
                   hn::Div(at.z, hn::Add(e2.z, t))};
     const V3 en = {hn::Mul(e.x, n.x), hn::Mul(e.y, n.y), hn::Mul(e.z, n.z)};
-    const V length2 = dot(n, n);
-    const auto usable = hn::And(hn::Ge(length2, set(0x1p-100F)), hn::Le(length2, set(0x1p100F)));
-    const V slab = hn::Div(hn::Sub(dot(n, at), hn::Sqrt(dot(en, en))), hn::Sqrt(length2));
+    const V length2 = dot(n, n), least2 = set(0x1p-100F);
+    const auto usable = hn::And(hn::Ge(length2, least2), hn::Le(length2, set(0x1p100F)));
+    const V slab =
+        hn::Div(hn::Sub(dot(n, at), hn::Sqrt(dot(en, en))), hn::Sqrt(hn::Max(length2, least2)));
     V best = hn::Max(box(at), hn::IfThenElse(usable, slab, hn::Neg(largest)));
     if (solid_.tells_inside) {
       const V3 unit = {hn::Div(at.x, e.x), hn::Div(at.y, e.y), hn::Div(at.z, e.z)};

@@ -31,6 +31,7 @@ class CoreSet {
     for (int i = 0; i < size; ++i) {
       const Weighted& p = support[i];
       const double du = n.u - p.u, dv = n.v - p.v, length2 = du * du + dv * dv;
+      if (!(length2 > 0)) continue;
       const double s = 0.5 * (length2 + n.w - p.w) / length2;
       if (s >= 0 && s <= 1 && accept(n, p.u + s * du, p.v + s * dv, i, -1)) return true;
     }
@@ -38,7 +39,9 @@ class CoreSet {
       for (int j = i + 1; j < size; ++j) {
         const Weighted &p = support[i], &q = support[j];
         const double du = n.u - p.u, dv = n.v - p.v, eu = n.u - q.u, ev = n.v - q.v;
-        const double scale = -0.5 / (du * ev - dv * eu);
+        const double det = du * ev - dv * eu;
+        if (det == 0) continue;
+        const double scale = -0.5 / det;
         // Equal values at n, p and q, in coordinates relative to n.
         const double cp = du * du + dv * dv + p.w - n.w, cq = eu * eu + ev * ev + q.w - n.w;
         if (accept(n, n.u + scale * (cp * ev - cq * dv), n.v + scale * (cq * du - cp * eu), i, j)) {

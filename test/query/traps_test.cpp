@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Queries of meshes, and rays, raise no floating-point flags.
+#include "floating_point_flags.h"
+#include "query/query_cases.h"
+#include "query/ray_cases.h"
+
+namespace kios::testing {
+namespace {
+
+/// Poses of a second mesh whose centre lies at the first one's: inside, across, touching along an
+/// axis in parallel, near and far.
+template <typename S>
+std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::uint64_t seed) {
+  const double size = std::max(std::max(extent(a), extent(b)), 1e-6);
+  std::vector<fcl::Transform3d> poses(2, fcl::Transform3d::Identity());
+  poses[1].translation() = fcl::Vector3d(size, 0, 0);
+  Random random(seed);
+  for (const double far : {0.2, 0.6, 1.0, 1.5, 30.0}) {
+    const auto some = scenes::randomPoses(3, far * size, seed + poses.size());
+    poses.insert(poses.end(), some.begin(), some.end());
+  }
+  std::vector<fcl::Transform3<S>> result;
+  for (fcl::Transform3d& X : poses) {
+    X.translation() += centreOf(a) - X.linear() * centreOf(b);
+    result.push_back(X.cast<S>());
+  }
+  return result;
+}
+
+template <typename S>
+class QueryTraps : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(QueryTraps, Scalars);
+
+TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
+  using S = TypeParam;
+  Flags flags;
+  const fcl::Transform3<S> here = fcl::Transform3<S>::Identity();
+  const auto meshes = allMeshes<S>();
+  const std::size_t count = meshes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const std::size_t j : {i, (i + 1) % count, (i + 7) % count}) {
+      const Mesh &mesh_a = meshes[i].mesh, &mesh_b = meshes[j].mesh;
+      const std::string names = meshes[i].name + ", " + meshes[j].name + ": ";
+      for (const bool prepared : {false, true}) {
+        std::shared_ptr<Model<S>> a, b;
+        flags.during(names + "endModel", [&] {
+          a = modelOf<S>(mesh_a);
+          b = modelOf<S>(mesh_b);
+        });
+        if (prepared) {
+          flags.during(names + "prepare", [&] {
+            prepare(*a);
+            prepare(*b);
+          });
+        }
+        for (const auto& X : posesAbout<S>(mesh_a, mesh_b, i)) {
+          S d = 0;
+          for (const S rel_err : {S(0), S(0.1)}) {
+            flags.during(names + "fcl::distance", [&] {
+              fcl::DistanceResult<S> result;
+              d = fcl::distance(a.get(), here, b.get(), X,
+                                fcl::DistanceRequest<S>(true, false, rel_err), result);
+            });
+          }
+          for (const std::size_t most : {std::size_t{1}, std::size_t{5}, std::size_t{100000}}) {
+            flags.during(names + "fcl::collide", [&] {
+              fcl::CollisionResult<S> result;
+              fcl::collide(a.get(), here, b.get(), X, fcl::CollisionRequest<S>(most, false),
+                           result);
+            });
+          }
+          for (const S t : {S(0), S(0.5) * d, d, S(2) * d}) {
+            flags.during(names + "closerThan",
+                         [&] { closerThan<S>(*a, here, *b, X, t, nullptr, nullptr); });
+          }
+          for (int k = 0; k < 4; ++k) {
+            DistanceOptions<S> options;
+            if (k == 1) options.max_expansions = 3;
+            if (k == 2) options.far_enough = S(0.9) * d;
+            if (k == 3) options.near_enough = S(1.5) * d;
+            flags.during(names + "kios::distance",
+                         [&] { kios::distance<S>(*a, here, *b, X, options); });
+          }
+        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(QueryTraps, Rays) {
+  using S = TypeParam;
+  Flags flags;
+  for (const auto& [name, mesh] : allMeshes<S>()) {
+    const auto model = modelOf<S>(mesh);
+    for (const bool prepared : {false, true}) {
+      if (prepared) prepare(*model);
+      HardRays<S> rays(*model, 5);
+      for (int i = 0; i < 80; ++i) {
+        const Ray<S> ray = rays.next();
+        const auto X = fcl::Transform3<S>::Identity();
+        flags.during(name + ": firstHit", [&] { firstHit<S>(*model, X, ray); });
+        flags.during(name + ": anyHit", [&] { anyHit<S>(*model, X, ray); });
+        flags.during(name + ": allHits", [&] { allHits<S>(*model, X, ray, 100); });
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
