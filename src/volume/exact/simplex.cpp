@@ -39,8 +39,9 @@ void Simplex::findNearest() {
       for (int i = 1; i < corners; ++i) {
         edges.col(i - 1) = (point_[corner[i]].y - point_[corner[i]].x) - first;
       }
-      const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along =
-          edges.colPivHouseholderQr().solve(-first);
+      const Eigen::ColPivHouseholderQR<decltype(edges)> factors(edges);
+      if (!(factors.maxPivot() > 0)) continue;  // one point, which is a face of its own
+      const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along = factors.solve(-first);
       if (!along.allFinite()) continue;
       nearest += edges * along;
       for (int i = 1; i < corners; ++i) {

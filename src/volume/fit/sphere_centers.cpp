@@ -104,6 +104,7 @@ SphereCenters ellipsoidCenters(const PrincipalFrame& frame, const FitOptions& op
   const int* order = frame.order;
   const double a = frame.half[order[0]], b = frame.half[order[1]], c = frame.half[order[2]];
   centers.k = sphereCount(a, b, c, kPublishedRatio, options.count, 5);
+  if (!(a > 0)) return centers;  // of a point
   const double least =
       a * (options.method == FitMethod::kMethodI ? 1.0 / 256 : Opening(options.angle).sine);
   const double r1 = a * a / std::max(c, least);
