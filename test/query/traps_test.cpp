@@ -18,7 +18,7 @@ std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::ui
   poses[1].translation() = fcl::Vector3d(size, 0, 0);
   Random random(seed);
   for (const double far : {0.2, 0.6, 1.0, 1.5, 30.0}) {
-    const auto some = scenes::randomPoses(3, far * size, seed + poses.size());
+    const auto some = scenes::randomPoses(1, far * size, seed + poses.size());
     poses.insert(poses.end(), some.begin(), some.end());
   }
   std::vector<fcl::Transform3<S>> result;
@@ -41,7 +41,7 @@ TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
   const auto meshes = allMeshes<S>();
   const std::size_t count = meshes.size();
   for (std::size_t i = 0; i < count; ++i) {
-    for (const std::size_t j : {i, (i + 1) % count, (i + 7) % count}) {
+    for (const std::size_t j : {i, (i + 7) % count}) {
       const Mesh &mesh_a = meshes[i].mesh, &mesh_b = meshes[j].mesh;
       const std::string names = meshes[i].name + ", " + meshes[j].name + ": ";
       for (const bool prepared : {false, true}) {

@@ -76,16 +76,30 @@ HWY_INLINE V lookUp(const Points& points, int i, hn::Vec<DU> at) {
   }
 }
 
+/// The bits shifted right by a number < 32 in each lane.
+HWY_INLINE hn::Vec<DU> shiftedRight(uint32_t bits, hn::Vec<DU> by) {
+#if HWY_TARGET == HWY_SSE4
+  // Highway's way there is by floats, of which 2^31 is no int32_t: an invalid operation, which some
+  // programs trap.
+  HWY_ALIGN uint32_t lanes[hn::MaxLanes(du)];
+  hn::Store(by, du, lanes);
+  for (uint32_t& lane : lanes) lane = bits >> (lane & 31);
+  return hn::Load(du, lanes);
+#else
+  return hn::Shr(hn::Set(du, bits), by);
+#endif
+}
+
 /// The edges that have an end in `vertices_wanted` (bits), between vertices in some frame.
 HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, uint32_t vertices_wanted,
                             EdgeRows& out) {
-  const auto wanted = hn::Set(du, vertices_wanted), byte = hn::Set(du, 0xFF), one = hn::Set(du, 1);
+  const auto byte = hn::Set(du, 0xFF), one = hn::Set(du, 1);
   out.count = 0;
   for (size_t i = 0; i < leaf.leaf.num_edges; i += step()) {
     const auto ends = hn::PromoteTo(du, hn::LoadU(du16, leaf.leaf.ends + i));
     const auto index = hn::Iota(du, static_cast<uint32_t>(i));
-    const auto either =
-        hn::Or(hn::Shr(wanted, hn::And(ends, byte)), hn::Shr(wanted, hn::ShiftRight<8>(ends)));
+    const auto either = hn::Or(shiftedRight(vertices_wanted, hn::And(ends, byte)),
+                               shiftedRight(vertices_wanted, hn::ShiftRight<8>(ends)));
     const auto taken = hn::And(hn::Ne(hn::And(either, one), hn::Zero(du)),
                                hn::Lt(index, hn::Set(du, uint32_t{leaf.leaf.num_edges})));
     const uint32_t bits = bitsOf(hn::RebindMask(d, taken));
