@@ -41,7 +41,7 @@ void afterForkInChild() {
 void readEnvironment() {
   pthread_atfork(&beforeFork, &afterForkInParent, &afterForkInChild);
   mode = modeOfEnvironment();
-  if (mode != Mode::kOff) reportReach();
+  if (mode != Mode::kOff) reportReach(mode);
   if (mode == Mode::kTrust) countFits();
 }
 
@@ -113,7 +113,14 @@ const Calls* backOf(const Calls& fcl) {
   return of_back;
 }
 
-/// At the first query of a process, or of a place in it: FCL's own functions, and the back's if
+/// Whether the back is to be opened by now: for a few queries it doesn't pay.
+bool isWorthOpening() {
+  constexpr int kFirst = 32;
+  static int queries = 0;
+  return (mode != Mode::kOn && mode != Mode::kTrust) || queries++ >= kFirst;
+}
+
+/// At the first queries of a process, or of a place in it: FCL's own functions, and the back's if
 /// they are libfcl's.
 const Calls* choose(const void* caller) {
   start();
@@ -121,9 +128,18 @@ const Calls* choose(const void* caller) {
   const Calls* chosen = calls.load(std::memory_order_relaxed);
   if (!chosen) chosen = callsOf(caller);
   if (!chosen) {
-    const Calls& fcl = fclOf(caller);
-    chosen = backOf(fcl);
-    if (!chosen) chosen = &fcl;
+    static Sites known;
+    auto* fcl = static_cast<const Calls*>(known.find(caller, kCalls));
+    if (!fcl) {
+      fcl = &fclOf(caller);
+      known.keep(caller, kCalls, fcl);
+    }
+    if (!isWorthOpening()) {
+      pthread_mutex_unlock(&choosing);
+      return fcl;
+    }
+    chosen = backOf(*fcl);
+    if (!chosen) chosen = fcl;
     if (isGlobal(KIOS_COLLIDE)) {
       calls.store(chosen, std::memory_order_release);
     } else {

@@ -38,16 +38,15 @@ struct Asked {
   bool have_twins = false;
 };
 
-/// FCL was asked for want of twins: each model that has none pays.
+/// FCL was asked for want of twins: models that have none share the price.
 void pay(Back& back, const Mesh& a, const Mesh& b, double nanoseconds) {
-  for (const Mesh* const mesh : {&a, &b}) {
-    bool lacks;
-    {
-      const Twins::Hold hold = back.twins.hold(*mesh);
-      lacks = hold && !hold.hasTwin();
-    }
-    if (lacks) back.twins.pay(*mesh, nanoseconds);
-  }
+  const auto lacks = [&back](const Mesh& mesh) {
+    const Twins::Hold hold = back.twins.hold(mesh);
+    return hold && !hold.hasTwin();
+  };
+  const bool of_a = lacks(a), of_b = a.model != b.model && lacks(b);
+  if (of_a) back.twins.pay(a, of_b ? 0.5 * nanoseconds : nanoseconds);
+  if (of_b) back.twins.pay(b, of_a ? 0.5 * nanoseconds : nanoseconds);
 }
 
 /// Whether the twins touch, and by which triangles. Throws as k-IOS's queries.

@@ -18,8 +18,9 @@ bool isGlobal(const char* name);
 /// Whether a definition of nextDefinition() is libfcl.so.0.7's.
 bool isOfLibfcl(const void* definition);
 
-/// Says in one line on stderr if the queries of this program can't be answered, or not yet.
-void reportReach();
+/// Says in one line on stderr if the queries of this program can't be answered; where the mode asks
+/// for reports, also if they can't be yet.
+void reportReach(Mode mode);
 
 /// "fcl_kios_preload: " and the words on a line of stderr.
 void say(const char* words, const char* more = "", const char* end = "");

@@ -41,6 +41,10 @@ Fingerprint fingerprintOf(const Mesh& mesh) {
 /// What a twin costs to make, in nanoseconds.
 double priceOf(const Mesh& mesh) { return 5e3 + 950.0 * static_cast<double>(mesh.num_triangles); }
 
+/// Of FCL's time, by the prices of its tests, so much may be spent on twins. They cost 0.3 of it at
+/// most: the prices are a slow machine's, on others FCL takes less.
+constexpr double kShare = 0.22;
+
 /// A twin and what it was made of. Constant, but for the count of fits.
 struct Content {
   Mesh mesh;
@@ -301,7 +305,8 @@ void Twins::pay(const Mesh& mesh, double nanoseconds) {
   if (!cell) return;
   const double paid = cell->paid.load(std::memory_order_relaxed) + nanoseconds;
   cell->paid.store(paid, std::memory_order_relaxed);  // one of two at once may be lost
-  if (paid >= priceOf(mesh) * cell->price.load(std::memory_order_relaxed)) make(mesh);
+  const double price = priceOf(mesh) * cell->price.load(std::memory_order_relaxed);
+  if (kShare * paid >= price) make(mesh);
 }
 
 void Twins::make(const Mesh& mesh) {

@@ -52,9 +52,9 @@ class Twins {
   /// The model's place; it gets one if there is none. Empty if all places are taken.
   Hold hold(const Mesh& mesh);
 
-  /// Notes that FCL was asked about the model for so long, in nanoseconds, as there was no twin.
-  /// Once that has cost as much as a twin, it is made: at most twice the time is spent that was
-  /// needed. No Hold may be kept meanwhile.
+  /// Notes that FCL was asked about the model for so long, in nanoseconds, as there was no twin. Of
+  /// a query that two models share each pays its part. Once a twin costs a small part of that, it is
+  /// made: about 1.3 times the time is spent that was needed. No Hold may be kept meanwhile.
   void pay(const Mesh& mesh, double nanoseconds);
 
   /// Makes the model's twin now, unless it has a current one.

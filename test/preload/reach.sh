@@ -23,7 +23,8 @@ says() {
   fi
 }
 
-says on 'nothing is done, unless a plug-in loads libfcl.so.0.7' /bin/true
+says on '' /bin/true
+says stats "libfcl.so.0.7 isn't loaded yet" /bin/true
 says off '' /bin/true
 says sometimes '"sometimes", but must be off, on, trust, verify or stats: nothing is done.' /bin/true
 says on 'before this library (FCL is linked statically?)' "$static"
