@@ -4,6 +4,8 @@
 
 // k-IOS for FCL: fcl::BVHModel<kios::kIOSd> and all that makes FCL's own calls serve it.
 
+#include "fcl_kios/compiler.h"  // first, as it says what flags are wrong
+
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/broadphase/default_broadphase_callbacks.h>
 #include <fcl/narrowphase/collision.h>

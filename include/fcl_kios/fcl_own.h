@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "fcl_kios/compiler.h"  // first, as it says what flags are wrong
+
 #include <cstddef>
 
 #include <fcl/common/types.h>

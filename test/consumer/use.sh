@@ -52,3 +52,7 @@ fi
 "$cxx" "${package[@]}" "$here/main.cpp" "$work/plain/generic.o" "${package_cflags[@]}" \
   "${package_libs[@]}" -o "$work/plain/consumer"
 "$work/plain/consumer"
+
+if [[ $library == *.so && ! ${flags[*]} =~ -fsanitize|-march|-mavx ]]; then
+  "$here/flags.sh" "$source_dir" "$prefix" "$work/plain" "$cxx" "${flags[*]}"
+fi

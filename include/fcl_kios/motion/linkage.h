@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <memory>
 
 #include <fcl/common/types.h>
@@ -13,6 +14,10 @@
 
 namespace kios {
 
+/// A pose that lies in memory alike whatever a program's flags are, as fcl::Transform3d doesn't;
+/// each converts to the other.
+using UnalignedPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
+
 enum class JointType { kFixed, kRevolute, kPrismatic };
 
 /// The joint that carries a link.
@@ -20,7 +25,7 @@ struct Joint {
   JointType type = JointType::kFixed;
   /// The joint in its parent link's frame: the link's frame where the coordinate is 0. Rigid; a
   /// rotation that is off by more than rounding is replaced by its nearest quaternion's.
-  fcl::Transform3d X_PJ = fcl::Transform3d::Identity();
+  UnalignedPose X_PJ = UnalignedPose::Identity();
   /// In the joint's frame, of any length but 0, which is the radians or the models' units of length
   /// that a unit of the coordinate means. Fixed joints don't read it.
   fcl::Vector3d axis = fcl::Vector3d::UnitZ();

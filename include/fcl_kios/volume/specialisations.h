@@ -64,6 +64,8 @@ int BVHModel<kios::kIOS<double>>::refitTree(bool bottomup);
 template <>
 int BVHModel<kios::kIOS<double>>::refitTree_topdown();
 template <>
+OBJECT_TYPE BVHModel<kios::kIOS<double>>::getObjectType() const;
+template <>
 BVHModel<kios::kIOS<float>>::BVHModel();
 template <>
 BVHModel<kios::kIOS<float>>::BVHModel(const BVHModel& other);
@@ -81,6 +83,8 @@ template <>
 int BVHModel<kios::kIOS<float>>::refitTree(bool bottomup);
 template <>
 int BVHModel<kios::kIOS<float>>::refitTree_topdown();
+template <>
+OBJECT_TYPE BVHModel<kios::kIOS<float>>::getObjectType() const;
 
 extern template class BVHModel<kios::kIOS<double>>;
 extern template class BVHModel<kios::kIOS<float>>;
