@@ -14,8 +14,8 @@
 //
 // A translation unit that sees objects only through FCL's headers needs this (light) header too:
 // link the CMake target fcl_kios::force_include. Before C++20, explicit template arguments, and
-// solver types that aren't templates of the scalar, reach FCL's templates, which know no kIOS (a
-// warning, no contact): write fcl::collide(...). In C++20 these forms come here too.
+// solver types that aren't templates of the scalar, reach FCL's templates, which know no kIOS (the
+// model throws): write fcl::collide(...). In C++20 these forms come here too.
 //
 // A finished mesh over k-IOS is served against another, FCL's nine shapes and octrees; any other
 // pair with a kIOS model throws std::invalid_argument and names both types. So does an unfinished
