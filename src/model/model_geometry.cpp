@@ -83,9 +83,13 @@ int add(Members<S> m, const char* call, Span<fcl::Vector3<S>> vertices,
     std::copy_n(vertices.first, vertices.count, model.prev_vertices + offset);
   }
   model.num_vertices += static_cast<int>(vertices.count);
+  // An index that no array has stays so, and the build refuses it.
+  const auto shifted = [offset](std::size_t i) {
+    return i > ~offset ? ~std::size_t{0} : i + offset;
+  };
   for (std::size_t i = 0; i < triangles.count; ++i) {
     const fcl::Triangle& t = triangles.first[i];
-    model.tri_indices[model.num_tris++].set(t[0] + offset, t[1] + offset, t[2] + offset);
+    model.tri_indices[model.num_tris++].set(shifted(t[0]), shifted(t[1]), shifted(t[2]));
   }
   return fcl::BVH_OK;
 }

@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "interior/solid_meshes.h"
 
@@ -15,7 +18,7 @@ namespace {
 
 const fcl::Transform3d kHere = fcl::Transform3d::Identity();
 
-fcl::Transform3d turned(double angle, const Vector3d& axis, const Vector3d& translation) {
+fcl::Transform3d turned(double angle, const fcl::Vector3d& axis, const fcl::Vector3d& translation) {
   fcl::Transform3d X = fcl::Transform3d::Identity();
   X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
   X.translation() = translation;
@@ -23,7 +26,7 @@ fcl::Transform3d turned(double angle, const Vector3d& axis, const Vector3d& tran
 }
 
 Mesh baked(Mesh mesh, const fcl::Transform3d& X) {
-  for (Vector3d& p : mesh.vertices) p = X * p;
+  for (fcl::Vector3d& p : mesh.vertices) p = X * p;
   return mesh;
 }
 
@@ -39,9 +42,10 @@ TEST(ThinSolids, BracketsClose) {
     const Mesh needle = scenes::subdividedBox({1, thin, thin}, 1),
                sheet = scenes::subdividedBox({1, 0.7, thin}, 1),
                fine = scenes::subdividedBox({1, 0.7, thin}, 3);
-    for (const auto& [name, mesh] :
-         {std::pair("needle", needle), {"sheet", sheet}, {"fine", fine}}) {
-      const std::string what = name + std::string(" of thickness ") + std::to_string(thin * 1e7);
+    const std::vector<std::pair<std::string, Mesh>> meshes = {
+        {"needle", needle}, {"sheet", sheet}, {"fine", fine}};
+    for (const auto& [name, mesh] : meshes) {
+      const std::string what = name + " of 1e-7 times " + std::to_string(thin * 1e7);
       expectClosed(penetration(*cube, kHere, *solidOf(mesh), X), what);
       // Faces of coordinates that are rounded bulge by 1e-16, against which thinner ones are thick.
       if (thin >= 1e-6) {
@@ -77,7 +81,7 @@ TEST(ThinSolids, DentsAreSeen) {
     const Penetration depth =
         penetration(*solidOf(step), kHere, *box, at(0.75, 0.5, thin * (0.5 + 0.125 - 0.01)));
     EXPECT_LE(depth.lower, 0.0101 * thin) << thin;
-    EXPECT_LE(depth.upper, 0.011 * thin) << thin;
+    EXPECT_GE(depth.upper, 0.01 * thin * (1 - 1e-9)) << thin;
   }
 }
 
