@@ -124,7 +124,8 @@ int FaceSet::dropDoubles() {
     paired[f] = paired[at(front[f])] = true;
   }
   const std::vector<Side> all = sides();
-  const auto [part, count] = parts(all, true);
+  const auto [part_of, count] = parts(all, true);
+  const std::vector<int>& part = part_of;
   std::vector<bool> only_pairs(at(count), true);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (!paired[f]) only_pairs[at(part[f])] = false;
@@ -229,7 +230,8 @@ std::vector<std::vector<int>> FaceSet::holes() const {
 
 std::vector<FaceSet::Part> FaceSet::closedParts(bool across_branches) const {
   const std::vector<Side> all = sides();
-  const auto [part, count] = parts(all, across_branches);
+  const auto [part_of, count] = parts(all, across_branches);
+  const std::vector<int>& part = part_of;
   std::vector<bool> closed(at(count), true);
   forEdges(all, [&](std::size_t begin, std::size_t end) {
     std::map<int, int> sums;  // of each part at the edge by itself

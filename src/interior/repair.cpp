@@ -94,9 +94,14 @@ class Repair {
  private:
   fcl::Vector3d point(int vertex) const { return vertices_[at(vertex)].template cast<double>(); }
 
+  std::vector<fcl::Vector3d> pointsOf(const std::vector<int>& way) const {
+    std::vector<fcl::Vector3d> points(way.size());
+    std::transform(way.begin(), way.end(), points.begin(), [this](int v) { return point(v); });
+    return points;
+  }
+
   Hole holeOf(std::vector<int> way) const {
-    std::vector<fcl::Vector3d> corners;
-    for (const int v : way) corners.push_back(point(v));
+    const std::vector<fcl::Vector3d> corners = pointsOf(way);
     return {std::move(way), perimeterOf(corners)};
   }
 
@@ -121,12 +126,10 @@ class Repair {
       if (edges.empty()) {
         for (const FaceSet::Face& face : faces_.faces()) note(face.corners);
       }
-      std::vector<fcl::Vector3d> corners;
-      for (const int v : hole.vertices) corners.push_back(point(v));
       const auto avoid = [&](int i, int j) {
         return edges.count(edge(hole.vertices[at(i)], hole.vertices[at(j)])) != 0;
       };
-      for (const auto& t : fillHole(corners, avoid)) {
+      for (const auto& t : fillHole(pointsOf(hole.vertices), avoid)) {
         const std::array<int, 3> face = {hole.vertices[at(t[0])], hole.vertices[at(t[1])],
                                          hole.vertices[at(t[2])]};
         faces_.fill(face);
@@ -276,10 +279,12 @@ std::string summaryOf(const Repaired<S>& r) {
   return text.str();
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
 #define KIOS_INSTANTIATE(S)                                                             \
   template Repaired<S> repair(const std::vector<fcl::Vector3<S>>&,                      \
                               const std::vector<fcl::Triangle>&, const RepairOptions&); \
   template std::string summaryOf(const Repaired<S>&);
+// NOLINTEND(bugprone-macro-parentheses)
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -9,9 +9,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <set>
 
 #include "interior/solid_meshes.h"
+#include "scenes/mesh_folder.h"
 #include "scenes/random.h"
 
 namespace kios::testing {
@@ -399,6 +402,31 @@ TEST(Repair, OfFloats) {
   const auto r = repair(vertices, soup.triangles);
   EXPECT_TRUE(r.closedness.isSolid());
   markSolid(*makeModel(r.vertices, r.triangles));
+}
+
+// Real ones: what docs/solids.md says of them.
+TEST(Repair, OfRobotsLinks) {
+  namespace fs = std::filesystem;
+  const char* const data = std::getenv("KIOS_DATA");
+  const fs::path root = data ? data : "../shared/data";
+  int count = 0, solid = 0, welded = 0, filled = 0;
+  for (const char* folder : {"ur5", "mbm/ur5/meshes", "mbm/ur5/meshes/ur5/collision",
+                             "mbm/ur5/meshes/robotiq", "mbm/panda/meshes/collision", "fcl"}) {
+    if (!fs::exists(root / folder)) GTEST_SKIP() << "no " << (root / folder);
+    for (const Mesh& mesh : scenes::loadMeshes(root / folder)) {
+      ++count;
+      solid += inspectClosedness(mesh.vertices, mesh.triangles).isSolid() ? 1 : 0;
+      const auto weld = repaired(mesh), fill = repaired(mesh, filling(64));
+      expectHonest(mesh, weld);
+      expectHonest(mesh, fill);
+      welded += weld.closedness.isSolid() ? 1 : 0;
+      filled += fill.closedness.isSolid() ? 1 : 0;
+    }
+  }
+  EXPECT_EQ(count, 37);
+  EXPECT_EQ(solid, 30);
+  EXPECT_EQ(welded, 32);
+  EXPECT_EQ(filled, 37);
 }
 
 }  // namespace
