@@ -64,12 +64,12 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--level", options.level,
                  "level of the tree that --html shows first, 0 is the root")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1000000));
   app.add_option("--html", options.html,
                  "write one self-contained page that shows meshes and volumes, to turn");
   app.add_option("--html-limit", options.html_limit,
                  "size of the page in MB; the page says what it leaves out")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1e-6, 1e6))
       ->capture_default_str();
   app.add_flag("--repair", options.repair,
                "look at the repaired mesh, and tell what was changed: near vertices are welded, "
