@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/shape_values.h"
 
+#include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <typeinfo>
 
 #include <fcl/geometry/shape/box.h>
@@ -27,8 +27,7 @@ class Comparison {
   explicit Comparison(std::vector<S>& values) : values_(values) {}
 
   void take(S value) {
-    // Bits, so that a NaN equals itself, and -0 is not 0.
-    if (next_ < values_.size() && std::memcmp(&values_[next_], &value, sizeof(S)) == 0) {
+    if (next_ < values_.size() && (values_[next_] == value || bothNaN(values_[next_], value))) {
       ++next_;
       return;
     }
@@ -50,6 +49,8 @@ class Comparison {
   }
 
  private:
+  static bool bothNaN(S a, S b) { return std::isnan(a) && std::isnan(b); }
+
   std::vector<S>& values_;
   std::size_t next_ = 0;
   bool same_ = true;

@@ -11,7 +11,7 @@ namespace kios {
 /// All that the distances to one of FCL's shapes depend on but its pose: its sizes, or the vertices
 /// and faces of a convex. A caller may change them in place at any time, and nothing tells so.
 ///
-/// Returns true if `values` are still the shape's, bit for bit; else writes them. Of a class that
+/// Returns true if `values` are still the shape's; else writes them. Of a class that
 /// isn't one of FCL's own nothing is known, nor of octrees, which take up measurements, and meshes
 /// over other volumes: false, and no values.
 template <typename S>
