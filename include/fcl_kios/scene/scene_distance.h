@@ -25,7 +25,8 @@ namespace kios {
 /// distance minus a bound on their motion since then exceeds what is asked. Models may be replaced,
 /// updated and refitted between queries; that is noticed by their root volumes. So may the sizes of
 /// FCL's shapes. What is no mesh over k-IOS and no shape of FCL's, octrees above all, is asked at
-/// each query that comes near. Models that nobody came near are never prepared. Docs: docs/scene.md.
+/// each query that comes near. Models that nobody came near are never prepared. Docs:
+/// docs/scene.md.
 ///
 /// Not to be used from two threads at once; several scenes may share models.
 template <typename S>
