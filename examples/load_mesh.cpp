@@ -22,12 +22,17 @@ namespace {
 /// file's units and the frame of its root; degenerate triangles stay.
 shapes::Mesh<double> load(const std::string& file) {
   Assimp::Importer importer;
-  // Points and lines are dropped; polygons are cut into triangles.
+  // Points and lines are dropped; polygons are cut into triangles. Vertices are one if they have
+  // the same place, whatever normal or texture they have in each triangle.
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
+                                  aiComponent_COLORS | aiComponent_TEXCOORDS |
+                                  aiComponent_BONEWEIGHTS);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene =
-      importer.ReadFile(file, aiProcess_Triangulate | aiProcess_SortByPType |
-                                  aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
+  const aiScene* scene = importer.ReadFile(
+      file, aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType |
+                aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices);
   if (scene == nullptr) throw std::runtime_error(importer.GetErrorString());
 
   shapes::Mesh<double> mesh;

@@ -33,23 +33,28 @@ void addGrid(Mesh<S>& mesh, int rows, int columns, const Index& at) {
   }
 }
 
-/// Adds a box around `centre`, with n x n squares of two triangles on each face.
+/// Adds a box around `centre`, with n x n squares of two triangles on each face. It is closed, as
+/// faces have equal vertices where they meet, and its normals point outwards: a solid.
 template <typename S>
 void addBox(Mesh<S>& mesh, const fcl::Vector3<S>& size, const fcl::Vector3<S>& centre, int n) {
   for (int axis = 0; axis < 3; ++axis) {
-    for (const S side : {S(-0.5), S(0.5)}) {
+    for (const bool upper : {false, true}) {
       const std::size_t first = mesh.vertices.size();
       for (int i = 0; i <= n; ++i) {
         for (int j = 0; j <= n; ++j) {
+          // From side to side the same numbers, whichever face they are of.
+          const auto along = [n](int k) {
+            return static_cast<S>(2 * k - n) / static_cast<S>(2 * n);
+          };
           fcl::Vector3<S> p;
-          p[axis] = side;
-          p[(axis + 1) % 3] = static_cast<S>(i) / static_cast<S>(n) - S(0.5);
-          p[(axis + 2) % 3] = static_cast<S>(j) / static_cast<S>(n) - S(0.5);
+          p[axis] = upper ? S(0.5) : S(-0.5);
+          p[(axis + 1) % 3] = along(i);
+          p[(axis + 2) % 3] = along(j);
           mesh.vertices.push_back(p.cwiseProduct(size) + centre);
         }
       }
-      addGrid(mesh, n, n, [first, n](int i, int j) {
-        return first + static_cast<std::size_t>(i * (n + 1) + j);
+      addGrid(mesh, n, n, [first, n, upper](int i, int j) {
+        return first + static_cast<std::size_t>(upper ? i * (n + 1) + j : j * (n + 1) + i);
       });
     }
   }

@@ -146,16 +146,16 @@ int run(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::IsMember(volumes));
   app.add_option("--frames", options.frames, "frames of each scene, evenly chosen")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000000));
   app.add_option("--repeats", options.repeats, "repeats of each measurement")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1000000000))
       ->capture_default_str();
   app.add_option("--oracle", oracle, "number of frames judged by the oracle, or 'all'")
-      ->check(CLI::PositiveNumber | CLI::IsMember({"all"}))
+      ->check(CLI::Range(1, 1000000000) | CLI::IsMember({"all"}))
       ->capture_default_str();
   app.add_option("--max-triangles", options.max_triangles,
                  "largest meshes of 'scaling', to 1000000")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 1000000000))
       ->capture_default_str();
   app.add_option("--robot", robot,
                  "folder of binary STL and OBJ files, by name the links of a robot for 'robots'")

@@ -13,6 +13,7 @@
 #include <fcl/narrowphase/distance.h>
 #include "fcl_kios/interior/closedness.h"
 #include "fcl_kios/interior/penetration.h"
+#include "fcl_kios/interior/repair.h"
 #include "fcl_kios/interior/solids.h"
 #include "fcl_kios/model/bounds.h"
 #include "fcl_kios/model/bv_traits.h"

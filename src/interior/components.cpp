@@ -9,9 +9,8 @@
 #include <optional>
 
 #include "engine/weld.h"
-#include "interior/winding.h"
+#include "interior/nesting.h"
 #include "triangle/integer.h"
-#include "triangle/ray_crossing.h"
 
 namespace kios {
 namespace {
@@ -126,16 +125,15 @@ void Components<S>::judgeEdges() {
 
 template <typename S>
 void Components<S>::findInsideOut() {
-  std::optional<ShadowGrid> grid;
+  std::optional<Nesting<S>> nesting;
   for (int c = 0; c < closedness_.components; ++c) {
     if (!windsInwards(c)) continue;
-    if (!grid) grid.emplace(mesh_);
-    if (liesWithinOthers(c, *grid)) continue;
-    if (closedness_.inside_out++ == 0) {
-      closedness_.first_inside_out = first_[static_cast<std::size_t>(c)];
-    }
+    if (!nesting) nesting.emplace(mesh_, *this);
+    if (!nesting->liesWithinOthers(c)) inside_out_.push_back(first_[static_cast<std::size_t>(c)]);
   }
-  closedness_.oriented = closedness_.inside_out == 0;
+  closedness_.inside_out = static_cast<int>(inside_out_.size());
+  if (!inside_out_.empty()) closedness_.first_inside_out = inside_out_.front();
+  closedness_.oriented = inside_out_.empty();
 }
 
 // The sign of the volume, summed relative to a vertex of the component. Each term takes 8 roundings
@@ -174,34 +172,6 @@ bool Components<S>::windsInwards(int component) const {
              p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
   });
   return exact < 0;
-}
-
-/// A vertex that isn't on another component tells; if all are, nothing is proven wrong.
-template <typename S>
-bool Components<S>::liesWithinOthers(int component, const ShadowGrid& grid) const {
-  const auto cornersOf = [this](std::size_t t) {
-    TriangleVertices<double> corners;
-    for (std::size_t k = 0; k < 3; ++k) corners[k] = mesh_.corner(t, k).template cast<double>();
-    return corners;
-  };
-  std::vector<std::size_t> near;
-  for (const int own : trianglesOf(component)) {
-    for (const Point<double>& vertex : cornersOf(static_cast<std::size_t>(own))) {
-      const RayCrossing ray(vertex, windingDirection(), grid.largest());
-      grid.find(vertex, near);
-      int winding = 0;
-      bool on_other = false;
-      for (const std::size_t t : near) {
-        if (component_[t] == component || on_other) continue;
-        const Crossing crossing = ray.cross(cornersOf(t));
-        winding += crossing == Crossing::kForward ? 1 : 0;
-        winding -= crossing == Crossing::kBackward ? 1 : 0;
-        on_other = crossing == Crossing::kOrigin;
-      }
-      if (!on_other) return winding > 0;
-    }
-  }
-  return true;
 }
 
 template class Components<double>;

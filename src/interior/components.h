@@ -7,7 +7,6 @@
 
 #include "engine/mesh.h"
 #include "fcl_kios/interior/closedness.h"
-#include "interior/shadow_grid.h"
 
 namespace kios {
 
@@ -19,6 +18,8 @@ class Components {
 
   /// Sets `inside_out` and `oriented` too.
   const Closedness<S>& closedness() const { return closedness_; }
+  /// The first triangle of each component that is inside out.
+  const std::vector<int>& insideOut() const { return inside_out_; }
   /// Of a component, in ascending order.
   struct Triangles {
     const int *first, *last;
@@ -50,7 +51,6 @@ class Components {
   void judgeEdges();
   void findInsideOut();
   bool windsInwards(int component) const;
-  bool liesWithinOthers(int component, const ShadowGrid& grid) const;
 
   const engine::MeshView<S> mesh_;
   std::vector<std::uint32_t> welded_;
@@ -59,6 +59,7 @@ class Components {
   std::vector<int> first_;      ///< triangle of each component
   std::vector<int> triangles_;  ///< component by component
   std::vector<int> begin_;      ///< of each component in triangles_
+  std::vector<int> inside_out_;
   Closedness<S> closedness_;
 };
 

@@ -9,15 +9,16 @@
 #include <vector>
 
 #include <Eigen/Geometry>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include "engine/weld.h"
 #include "interior/winding.h"
 #include "model/prepared.h"
-#include "triangle/predicates.h"
 
 namespace kios {
 namespace {
 
 using Vec = fcl::Vector3d;
+using Fine = boost::multiprecision::cpp_bin_float_quad;
 
 /// A mesh as seen from a point within, its vertices welded. Triangles with two equal corners are
 /// left out: they pass an edge once each way.
@@ -44,6 +45,7 @@ class ConeMesh {
     center_ = middle();
     for (const Vec& p : points_) farthest_ = std::max(farthest_, (p - center_).norm());
     farthest_ *= 1 + 0x1p-40;
+    fitBox();
   }
 
   const Vec& center() const { return center_; }
@@ -56,7 +58,12 @@ class ConeMesh {
     for (const auto& face : faces_) {
       const Vec p = point(face[0]) - center_, q = point(face[1]) - center_,
                 r = point(face[2]) - center_;
-      const double volume = p.dot(q.cross(r)) - kError * p.norm() * q.norm() * r.norm();
+      const double lengths = p.norm() * q.norm() * r.norm();
+      double volume = p.dot(q.cross(r)) - kError * lengths;
+      if (!(volume > 0)) {
+        volume = fineVolume(center_, point(face[0]), point(face[1]), point(face[2])) -
+                 kFineError * lengths;
+      }
       if (!(volume > 0)) return false;
       cones_.push_back(volume);
     }
@@ -99,24 +106,38 @@ class ConeMesh {
     return 2 * edges_.size() == to_.size();
   }
 
-  /// E. Exact signs spare edges that rounding alone may have bent; they cost more.
-  double reflexSum(bool exact) const {
-    double sum = 0;
+  /// E, and its share of edges that are reflex beyond the rounding of doubles.
+  struct Reflex {
+    double sum = 0, certain = 0;
+  };
+  /// Where `fine`, edges that rounding alone may have bent are measured in 113 bits, which costs
+  /// more; else they count as if they were as reflex as they may be. Ends where it exceeds `most`.
+  Reflex measureReflex(bool fine, double most) const {
+    Reflex reflex;
     for (const Edge& e : edges_) {
       const int v = e.from, w = to_[at(e.side)];
       const Vec &p = point(v), &q = point(w);
       const Vec &a = point(opposite(e.side, v, w)), &b = point(opposite(e.twin, v, w));
       const Vec along = q - p, in_a = a - p, in_b = b - p;
-      const double error =
-          kError * std::sqrt(along.squaredNorm() * in_a.squaredNorm() * in_b.squaredNorm());
-      const double above = along.cross(in_a).dot(in_b);  // six times the volume of (p, q, a, b)
+      const double lengths =
+          std::sqrt(along.squaredNorm() * in_a.squaredNorm() * in_b.squaredNorm());
+      double error = kError * lengths;
+      double above = along.cross(in_a).dot(in_b);  // six times the volume of (p, q, a, b)
       if (above <= -error) continue;
-      if (exact && above <= error && !isAbove(p, q, a, b)) continue;
-      const double across = (p - center_).cross(q - center_).norm();
-      sum += 1.01 * (above + error) * (across + kError * farthest_ * farthest_) /
-             cones_[at(face_[at(e.side)])] / cones_[at(face_[at(e.twin)])];
+      const bool certain = above > error;
+      if (fine && !certain) {
+        error = kFineError * lengths;
+        above = fineVolume(p, q, a, b);
+        if (above <= -error) continue;
+      }
+      const double term =
+          1.01 * (above + error) / cones_[at(face_[at(e.side)])] *
+          (farthestFromPlane(p - center_, q - center_) / cones_[at(face_[at(e.twin)])]);
+      reflex.sum += term;
+      if (certain) reflex.certain += term;
+      if (!((fine ? reflex.sum : reflex.certain) <= most)) break;
     }
-    return sum * farthest_;
+    return reflex;
   }
 
   VertexGraph graph() && { return {std::move(points_), std::move(begin_), std::move(to_)}; }
@@ -124,6 +145,7 @@ class ConeMesh {
  private:
   /// Of determinants of differences of coordinates, relative to the product of their lengths.
   static constexpr double kError = 0x1p-48;
+  static constexpr double kFineError = 0x1p-100;
 
   struct Edge {
     int from, side, twin;
@@ -151,10 +173,61 @@ class ConeMesh {
     return weight > 0 ? Vec(point(0) + sum / weight) : Vec(Vec::Zero());
   }
 
-  static bool isAbove(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
-    const auto c = [](const Vec& v) { return std::array<double, 3>{v[0], v[1], v[2]}; };
-    const PairPredicates::Coordinates points = {c(p), c(q), c(a), c(b), c(b), c(b)};
-    return PairPredicates(points).orient3d(0, 1, 2, 3) < 0;
+  /// |p x q| times the largest distance of a vertex from the plane through the centre, p and q, all
+  /// relative to it: at most that of a corner of the box.
+  double farthestFromPlane(const Vec& p, const Vec& q) const {
+    const Vec normal = p.cross(q);
+    const double error = kError * p.norm() * q.norm();
+    double sum = 0;
+    for (int i = 0; i < 3; ++i) sum += (std::abs(normal.dot(axes_.col(i))) + error) * half_[i];
+    return sum;
+  }
+
+  /// (q - p) x (a - p) . (b - p), where doubles can't tell.
+  static double fineVolume(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
+    Fine d[3][3];
+    const Vec* const ends[3] = {&q, &a, &b};
+    for (int i = 0; i < 3; ++i) {
+      for (int c = 0; c < 3; ++c) d[i][c] = Fine((*ends[i])[c]) - Fine(p[c]);
+    }
+    const Fine volume = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +
+                        d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
+                        d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
+    return static_cast<double>(volume);
+  }
+
+  /// A box around all vertices: along the way to the farthest, and to the farthest from that line.
+  /// Thin solids fill it, however they are turned, so that E tells how thick a dent is relative to
+  /// them.
+  void fitBox() {
+    const auto farthestFrom = [this](const auto& squared) {
+      Vec found = Vec::Zero();
+      double most = 0;
+      for (const Vec& point : points_) {
+        const Vec v = point - center_;
+        const double square = squared(v);
+        if (!(square > most)) continue;
+        most = square;
+        found = v;
+      }
+      return found;
+    };
+    const Vec longest = farthestFrom([](const Vec& v) { return v.squaredNorm(); });
+    if (!(longest.squaredNorm() > 0)) return;
+    axes_.col(0) = longest.normalized();
+    const Vec wide = farthestFrom(
+        [this](const Vec& v) { return (v - v.dot(axes_.col(0)) * axes_.col(0)).squaredNorm(); });
+    const Vec across = wide - wide.dot(axes_.col(0)) * axes_.col(0);
+    axes_.col(1) =
+        across.squaredNorm() > 0 ? Vec(across.normalized()) : axes_.col(0).unitOrthogonal();
+    axes_.col(1) -= axes_.col(1).dot(axes_.col(0)) * axes_.col(0);
+    axes_.col(1).normalize();
+    axes_.col(2) = axes_.col(0).cross(axes_.col(1));
+    for (const Vec& point : points_) {
+      half_ = half_.cwiseMax((axes_.transpose() * (point - center_)).cwiseAbs());
+    }
+    // Axes that are orthonormal to rounding, and rounded products.
+    half_.array() += kError * farthest_;
   }
 
   std::vector<Vec> points_;
@@ -164,6 +237,8 @@ class ConeMesh {
   std::vector<Edge> edges_;
   Vec center_;
   double farthest_ = 0;
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();
+  Vec half_ = Vec::Zero();  ///< extents of the box about the centre, along the axes
 };
 
 }  // namespace
@@ -173,14 +248,15 @@ Convexity measureConvexity(const Model<S>& model) {
   constexpr double kMost = 0x1p-20, kNothing = 0x1p-36;
   ConeMesh mesh(viewOf(model));
   if (!mesh.measureCones() || !mesh.pairSides()) return {};
-  double reflex = mesh.reflexSum(false);
-  if (!(reflex <= kMost)) return {};
-  if (reflex > kNothing) reflex = std::min(reflex, mesh.reflexSum(true));
+  auto reflex = mesh.measureReflex(false, kMost);
+  if (!(reflex.certain <= kMost)) return {};
+  if (reflex.sum > kNothing) reflex = mesh.measureReflex(true, kMost);
+  if (!(reflex.sum <= kMost)) return {};
   SearchCounts unused;
   if (placeOf(mesh.center(), model, unused).winding != 1) return {};
   Convexity result;
   result.convex = true;
-  result.moved = reflex * mesh.farthest();
+  result.moved = reflex.sum * mesh.farthest();
   result.graph = std::move(mesh).graph();
   return result;
 }

@@ -14,8 +14,9 @@ namespace kios {
 /// is 1 on the face's plane. G is 1 at all vertices. Where one goes from c's cone over face i to
 /// that over j, g_j - g_i grows by k times the distance from the plane through c and their edge; k
 /// < 0 where the edge is reflex. A segment from face 0 to a vertex v passes each such plane at most
-/// once, so that 1 = G(v) >= g_0(v) - E, where E is the sum of all -k > 0, times the largest |v -
-/// c|: no vertex is higher than 1 + E over any face. The hull, drawn towards c by the factor 1 / (1
+/// once, so that 1 = G(v) >= g_0(v) - E, where E is the sum of all -k > 0, each times the largest
+/// distance of a vertex from that plane: no vertex is higher than 1 + E over any face. The hull,
+/// drawn towards c by the factor 1 / (1
 /// + E), is below all planes. A point below all planes lies in the solid: it sees each face from
 /// within, too.
 struct Convexity {

@@ -3,7 +3,7 @@
 #include "interior/shadow_grid.h"
 
 #include <algorithm>
-#include <limits>
+#include <utility>
 
 #include "interior/winding.h"
 
@@ -11,13 +11,14 @@ namespace kios {
 namespace {
 
 constexpr int kLevels = 24;
+constexpr double kPad = 0x1p-46;
 
 }  // namespace
 
 // Coordinates are scaled by the largest, so that nothing overflows: shadows lie within 2, and are
 // right to 2^-50.
-ShadowGrid::Shadow ShadowGrid::shadowOf(const fcl::Vector3d& p) const {
-  const fcl::Vector3d d = windingDirection(), q = p / largest_;
+ShadowGrid::Shadow ShadowGrid::shadowOf(const Point<double>& p, double largest) {
+  const Point<double> d = windingDirection(), q = p / largest;
   return {q[0] - d[0] / d[2] * q[2], q[1] - d[1] / d[2] * q[2]};
 }
 
@@ -29,40 +30,31 @@ ShadowGrid::Square ShadowGrid::squareOf(const Shadow& p, int level) const {
   return {level, index(0), index(1)};
 }
 
-template <typename S>
-ShadowGrid::ShadowGrid(const engine::MeshView<S>& mesh) {
-  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      largest_ = std::max(largest_, double{mesh.corner(t, k).cwiseAbs().maxCoeff()});
-    }
+ShadowGrid::Box ShadowGrid::boxOf(const TriangleVertices<double>& corners, double largest) {
+  Box box;
+  for (const Point<double>& corner : corners) {
+    const Shadow p = shadowOf(corner, largest);
+    box.extend({p, p});
   }
-  largest_ = std::max(largest_, std::numeric_limits<double>::min());
-  boxes_.resize(mesh.num_triangles);
-  constexpr double kPad = 0x1p-46;
-  Shadow high = Shadow::Constant(-4);
-  low_ = -high;
-  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-    Box& box = boxes_[t];
-    box = {Shadow::Constant(4), Shadow::Constant(-4)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Shadow p = shadowOf(mesh.corner(t, k).template cast<double>());
-      box.low = box.low.cwiseMin(p);
-      box.high = box.high.cwiseMax(p);
-    }
-    box.low.array() -= kPad;
-    box.high.array() += kPad;
-    low_ = low_.cwiseMin(box.low);
-    high = high.cwiseMax(box.high);
-  }
-  size_ = std::max((high - low_).maxCoeff(), kPad);
-  entries_.reserve(4 * mesh.num_triangles);
-  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-    const double extent = (boxes_[t].high - boxes_[t].low).maxCoeff();
+  box.low.array() -= kPad;
+  box.high.array() += kPad;
+  return box;
+}
+
+ShadowGrid::ShadowGrid(std::vector<Box> boxes, double largest)
+    : boxes_(std::move(boxes)), largest_(largest) {
+  Box all;
+  for (const Box& box : boxes_) all.extend(box);
+  low_ = all.low;
+  size_ = std::max((all.high - all.low).maxCoeff(), kPad);
+  entries_.reserve(4 * boxes_.size());
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const double extent = (boxes_[i].high - boxes_[i].low).maxCoeff();
     int level = 0;
     while (level + 1 < kLevels && 2 * extent * static_cast<double>(1U << level) <= size_) ++level;
-    const Square from = squareOf(boxes_[t].low, level), to = squareOf(boxes_[t].high, level);
-    for (std::uint32_t i = from.i; i <= to.i; ++i) {
-      for (std::uint32_t j = from.j; j <= to.j; ++j) entries_.push_back({{level, i, j}, t});
+    const Square from = squareOf(boxes_[i].low, level), to = squareOf(boxes_[i].high, level);
+    for (std::uint32_t x = from.i; x <= to.i; ++x) {
+      for (std::uint32_t y = from.j; y <= to.j; ++y) entries_.push_back({{level, x, y}, i});
     }
   }
   std::sort(entries_.begin(), entries_.end());
@@ -73,22 +65,19 @@ ShadowGrid::ShadowGrid(const engine::MeshView<S>& mesh) {
 
 // squareOf() never falls as a coordinate grows, so that a point within a box is in one of the
 // squares from that of its low corner to that of its high one.
-void ShadowGrid::find(const fcl::Vector3d& p, std::vector<std::size_t>& triangles) const {
-  triangles.clear();
-  const Shadow shadow = shadowOf(p);
+void ShadowGrid::find(const Point<double>& p, std::vector<std::size_t>& things) const {
+  things.clear();
+  const Shadow shadow = shadowOf(p, largest_);
   for (const int level : levels_) {
     const auto range =
         std::equal_range(entries_.begin(), entries_.end(), Entry{squareOf(shadow, level), 0});
     for (auto e = range.first; e != range.second; ++e) {
-      const Box& box = boxes_[e->triangle];
+      const Box& box = boxes_[e->thing];
       if ((shadow.array() >= box.low.array()).all() && (shadow.array() <= box.high.array()).all()) {
-        triangles.push_back(e->triangle);
+        things.push_back(e->thing);
       }
     }
   }
 }
-
-template ShadowGrid::ShadowGrid(const engine::MeshView<double>&);
-template ShadowGrid::ShadowGrid(const engine::MeshView<float>&);
 
 }  // namespace kios

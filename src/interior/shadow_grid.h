@@ -5,22 +5,30 @@
 #include <cstdint>
 #include <vector>
 
-#include <fcl/common/types.h>
-#include "engine/mesh.h"
+#include "fcl_kios/triangle/triangle.h"
 
 namespace kios {
 
-/// Finds the triangles that a ray along windingDirection() may meet: by squares that their shadows
-/// along it cover, each in squares of about its size. O(n log n).
+/// Finds the things that a ray along windingDirection() may meet, such as triangles: by squares
+/// that their shadows along it cover, each in squares of about its size. O(n log n).
 class ShadowGrid {
  public:
-  template <typename S>
-  explicit ShadowGrid(const engine::MeshView<S>& mesh);
+  using Shadow = Eigen::Vector2d;
+  /// Around the shadow of a thing.
+  struct Box {
+    Shadow low = Shadow::Constant(4), high = Shadow::Constant(-4);
+    void extend(const Box& o) {
+      low = low.cwiseMin(o.low);
+      high = high.cwiseMax(o.high);
+    }
+  };
+  /// No coordinate is larger than `largest`, by which all are scaled.
+  static Box boxOf(const TriangleVertices<double>& corners, double largest);
 
-  /// About the largest coordinate of the mesh.
-  double largest() const { return largest_; }
-  /// Every triangle that the ray from the vertex p meets, and others; none twice.
-  void find(const fcl::Vector3d& p, std::vector<std::size_t>& triangles) const;
+  ShadowGrid(std::vector<Box> boxes, double largest);
+
+  /// Every thing that the ray from the point p may meet, by its number; none twice.
+  void find(const Point<double>& p, std::vector<std::size_t>& things) const;
 
  private:
   struct Square {
@@ -32,20 +40,16 @@ class ShadowGrid {
   };
   struct Entry {
     Square square;
-    std::size_t triangle;
+    std::size_t thing;
     bool operator<(const Entry& o) const { return square < o.square; }
   };
-  using Shadow = Eigen::Vector2d;
-  struct Box {
-    Shadow low, high;
-  };
-
-  Shadow shadowOf(const fcl::Vector3d& p) const;
+  static Shadow shadowOf(const Point<double>& p, double largest);
   Square squareOf(const Shadow& p, int level) const;
 
-  double largest_ = 0, size_ = 0;
+  const std::vector<Box> boxes_;
+  const double largest_;
+  double size_ = 0;
   Shadow low_ = Shadow::Zero();
-  std::vector<Box> boxes_;  ///< of shadows, by triangle
   std::vector<int> levels_;
   std::vector<Entry> entries_;
 };

@@ -67,7 +67,8 @@ bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
 
 // `what` ends before "it is ...".
 [[noreturn]] void refuseUnfinished(const char* what, fcl::BVHBuildState state,
-                                   fcl::BVHModelType type, int num_tris, int num_bvs) {
+                                   fcl::BVHModelType type, int num_tris, int num_bvs,
+                                   const char* remedy) {
   const bool processed =
       state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
   std::ostringstream message;
@@ -78,7 +79,7 @@ bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
     message << "it is a point cloud, and triangles are needed.";
   } else {
     message << "it has " << num_tris << " triangles but a tree of " << num_bvs
-            << " nodes; geometry was added after it was built: build or refit it.";
+            << " nodes; geometry was added after it was built: " << remedy << ".";
   }
   refuse(message.str());
 }
@@ -110,13 +111,16 @@ template <typename S>
 void requireFinished(const Model<S>& model) {
   if (isFinished(model.build_state, model.num_tris, model.getNumBVs())) return;
   refuseUnfinished("the BVHModel<kios::kIOS> can't be queried", model.build_state,
-                   model.getModelType(), model.num_tris, model.getNumBVs());
+                   model.getModelType(), model.num_tris, model.getNumBVs(),
+                   "build it anew, or refit it by beginUpdateModel(), updateSubModel() with all of "
+                   "its vertices and endUpdateModel()");
 }
 
 void detail::requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int num_tris,
                                 int num_bvs) {
   if (isFinished(state, num_tris, num_bvs)) return;
-  refuseUnfinished("the model can't be converted to k-IOS", state, type, num_tris, num_bvs);
+  refuseUnfinished("the model can't be converted to k-IOS", state, type, num_tris, num_bvs,
+                   "build it anew from beginModel(), as FCL's refits write past their arrays");
 }
 
 template <typename S>

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The members of fcl::BVHModel that build and refit trees over k-IOS.
+#include <sstream>
+#include <stdexcept>
 #include <typeinfo>
 #include <utility>
 
 #include "engine/mesh_tree.h"
 #include "engine/tree_cache.h"
-#include "fcl_kios/model/model.h"
 #include "model/lent_volumes.h"
+#include "model/members.h"
 #include "model/prepared.h"
 #include "model/tree_build.h"
 #include "volume/stamp.h"
@@ -98,9 +100,11 @@ class Division {
  public:
   Division(const Arrays<S>& model, Steps& steps) : model_(model), steps_(steps) {}
 
-  /// Returns the number of nodes.
+  /// Returns the number of nodes. A user's fitter may return a volume that it keeps, with its
+  /// stamp, so that the root is stamped anew.
   int run(int num_primitives) {
     divide(0, 0, num_primitives);
+    model_.nodes[0].bv.stamp = nextStamp();
     return num_nodes_;
   }
 
@@ -168,10 +172,38 @@ bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& t
   return true;
 }
 
+/// FCL's calls take any index, and its build reads what that refers to.
+template <typename S>
+void requireIndices(const Model<S>& model) {
+  const auto end = static_cast<std::size_t>(model.num_vertices);
+  for (int i = 0; i < model.num_tris; ++i) {
+    const fcl::Triangle& t = model.tri_indices[i];
+    const std::size_t largest = std::max({t[0], t[1], t[2]});
+    if (largest < end) continue;
+    std::ostringstream message;
+    message << "fcl_kios: triangle " << i << " refers to vertex " << largest << ", but there are "
+            << end << "; build the model anew from beginModel().";
+    throw std::invalid_argument(message.str());
+  }
+}
+
+/// Makes room for a tree over all primitives, where geometry was added since there was one.
+template <typename S>
+void makeRoom(const Members<S>& m) {
+  withdrawVolumes(m.nodes);
+  m.num_nodes = 0;
+  const int n = m.numNodes();
+  if (n == 0) throw std::bad_alloc();
+  if (n <= m.num_nodes_allocated) return;
+  auto nodes = makeArray<fcl::BVNode<kIOS<S>>>(n);
+  replace(m.primitives, makeArray<unsigned int>(m.numPrimitives()));
+  replace(m.nodes, std::move(nodes));
+  m.num_nodes_allocated = n;
+}
+
 template <typename S>
 int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
           SplitterBase<S>& splitter, engine::TreeCache* trees) {
-  withdrawVolumes(model.nodes);
   for (int i = 0; i < num_primitives; ++i) model.primitives[i] = static_cast<unsigned int>(i);
   const auto* const own_fitter = exactly<Fitter<S>>(fitter);
   const auto* const own_splitter = exactly<Splitter<S>>(splitter);
@@ -218,7 +250,8 @@ namespace fcl {
   int BVHModel<kios::kIOS<S>>::buildTree() {                                                   \
     const BVHModelType type = getModelType();                                                  \
     if (type == BVH_MODEL_UNKNOWN) return BVH_ERR_UNSUPPORTED_FUNCTION;                        \
-    num_bvs = 0;                                                                               \
+    kios::requireIndices<S>(*this);                                                            \
+    kios::makeRoom(KIOS_MEMBERS(S));                                                           \
     num_bvs = kios::build<S>(                                                                  \
         {vertices, nullptr, tri_indices, type, num_vertices, primitive_indices, bvs},          \
         type == BVH_MODEL_TRIANGLES ? num_tris : num_vertices, *bv_fitter, *bv_splitter,       \
@@ -227,8 +260,14 @@ namespace fcl {
   }                                                                                            \
   template <>                                                                                  \
   int BVHModel<kios::kIOS<S>>::refitTree(bool bottomup) {                                      \
+    if (num_bvs != KIOS_MEMBERS(S).numNodes()) {                                               \
+      const int failed = buildTree();                                                          \
+      if (failed || !prev_vertices) return failed;                                             \
+    }                                                                                          \
     kios::withdrawVolumes(bvs);                                                                \
-    return bottomup ? refitTree_bottomup() : refitTree_topdown();                              \
+    const int failed = bottomup ? refitTree_bottomup() : refitTree_topdown();                  \
+    bvs[0].bv.stamp = kios::nextStamp();                                                       \
+    return failed;                                                                             \
   }                                                                                            \
   template <>                                                                                  \
   int BVHModel<kios::kIOS<S>>::refitTree_topdown() {                                           \

@@ -1,54 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// The members of fcl::BVHModel that get memory, for models over k-IOS. FCL's own, called again
-// after memory ran out or a model was reset, lose arrays, and the destructor frees one twice.
-#include <algorithm>
+// The members of fcl::BVHModel that make and free arrays, for models over k-IOS. FCL's own, called
+// again after memory ran out or a model was reset, lose arrays, and the destructor frees one twice.
 #include <iostream>
-#include <memory>
 #include <new>
-#include <utility>
 
-#include "fcl_kios/model/model.h"
 #include "model/lent_volumes.h"
+#include "model/members.h"
 
 namespace kios {
+
+int outOfMemory(const char* call) {
+  std::cerr << "BVH Error! Out of memory on " << call << " call!\n";
+  return fcl::BVH_ERR_MODEL_OUT_OF_MEMORY;
+}
+
 namespace {
-
-/// A model, and its members that FCL keeps private.
-template <typename S>
-struct Members {
-  Model<S>& model;
-  int &num_tris_allocated, &num_vertices_allocated, &num_nodes_allocated;
-  unsigned int*& primitives;
-  fcl::BVNode<kIOS<S>>*& nodes;
-  int& num_nodes;
-
-  int numPrimitives() const { return model.num_tris > 0 ? model.num_tris : model.num_vertices; }
-};
-
-template <typename T>
-std::unique_ptr<T[]> makeArray(int n) {
-  return std::unique_ptr<T[]>(new T[static_cast<std::size_t>(n)]);
-}
-
-template <typename T>
-std::unique_ptr<T[]> copyOf(const T* array, int n, int room) {
-  if (!array) return nullptr;
-  auto copy = makeArray<T>(room);
-  std::copy_n(array, n, copy.get());
-  return copy;
-}
-template <typename T>
-std::unique_ptr<T[]> copyOf(const T* array, int n) {
-  return copyOf(array, n, n);
-}
-
-template <typename T>
-void replace(T*& array, std::unique_ptr<T[]> by) {
-  delete[] array;
-  array = by.release();
-}
 
 template <typename T>
 void shrink(T*& array, int& allocated, int n) {
@@ -57,29 +25,24 @@ void shrink(T*& array, int& allocated, int n) {
   allocated = n;
 }
 
-int outOfMemory(const char* call) {
-  std::cerr << "BVH Error! Out of memory on " << call << " call!\n";
-  return fcl::BVH_ERR_MODEL_OUT_OF_MEMORY;
-}
-
-/// `to` is an empty model. What it got is its own if the rest finds no memory. There is room for a
-/// vertex at least: FCL's calls that add some double the room, and write into none where it is 0.
+/// `to` is an empty model. What it got is its own if the rest finds no memory.
 template <typename S>
-void copy(const Model<S>& from, const unsigned int* primitives, const fcl::BVNode<kIOS<S>>* nodes,
-          int num_nodes, Members<S> to) {
+void copy(const Model<S>& from, int num_vertices_given, const unsigned int* primitives,
+          const fcl::BVNode<kIOS<S>>* nodes, int num_nodes, Members<S> to) {
   Model<S>& model = to.model;
   static_cast<fcl::CollisionGeometry<S>&>(model) = from;
   model.num_tris = to.num_tris_allocated = from.num_tris;
-  model.num_vertices = from.num_vertices;
-  to.num_vertices_allocated = std::max(1, from.num_vertices);
+  model.num_vertices = to.num_vertices_allocated = from.num_vertices;
   to.num_nodes = to.num_nodes_allocated = num_nodes;
+  to.num_vertices_given = num_vertices_given;
   model.build_state = from.build_state;
   model.bv_splitter = from.bv_splitter;
   model.bv_fitter = from.bv_fitter;
-  replace(model.vertices, copyOf(from.vertices, from.num_vertices, to.num_vertices_allocated));
+  replace(model.vertices, copyOf(from.vertices, from.num_vertices));
   replace(model.tri_indices, copyOf(from.tri_indices, from.num_tris));
   replace(model.prev_vertices, copyOf(from.prev_vertices, from.num_vertices));
-  replace(to.primitives, copyOf(primitives, to.numPrimitives()));
+  if (num_nodes == 0) return;
+  replace(to.primitives, copyOf(primitives, (num_nodes + 1) / 2));
   replace(to.nodes, copyOf(nodes, num_nodes));
   lendCopy(nodes, to.nodes, to.primitives);
 }
@@ -129,7 +92,8 @@ int end(Members<S> m) {
     std::cerr << "BVH Error! endModel() called on model with no triangles and vertices.\n";
     return fcl::BVH_ERR_BUILD_EMPTY_MODEL;
   }
-  const int num_nodes = 2 * m.numPrimitives() - 1;
+  const int num_nodes = m.numNodes();
+  if (num_nodes == 0) return outOfMemory("endModel()");
   withdrawVolumes(m.nodes);
   try {
     shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
@@ -144,7 +108,8 @@ int end(Members<S> m) {
 }
 
 template <typename S>
-int beginUpdate(Model<S>& model) {
+int beginUpdate(Members<S> m) {
+  Model<S>& model = m.model;
   if (model.build_state != fcl::BVH_BUILD_STATE_PROCESSED &&
       model.build_state != fcl::BVH_BUILD_STATE_UPDATED) {
     std::cerr << "BVH Error! Call beginUpdatemodel() on a BVHModel that has no previous frame.\n";
@@ -152,7 +117,7 @@ int beginUpdate(Model<S>& model) {
   }
   if (!model.prev_vertices) {
     try {
-      replace(model.prev_vertices, makeArray<fcl::Vector3<S>>(model.num_vertices));
+      replace(model.prev_vertices, makeArray<fcl::Vector3<S>>(m.num_vertices_allocated));
     } catch (const std::bad_alloc&) {
       return outOfMemory("beginUpdateModel()");
     }
@@ -170,63 +135,58 @@ namespace fcl {
 // Explicit specialisations can't have the scalar as a parameter. The copy owns its arrays one by
 // one as they come, since it is a whole, empty model before.
 // NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
-#define KIOS_MEMBERS(S)                                                                           \
-  kios::Members<S> {                                                                              \
-    *this, num_tris_allocated, num_vertices_allocated, num_bvs_allocated, primitive_indices, bvs, \
-        num_bvs                                                                                   \
-  }
-#define KIOS_SPECIALISE(S)                                                                 \
-  template <>                                                                              \
-  BVHModel<kios::kIOS<S>>::BVHModel()                                                      \
-      : vertices(nullptr),                                                                 \
-        tri_indices(nullptr),                                                              \
-        prev_vertices(nullptr),                                                            \
-        num_tris(0),                                                                       \
-        num_vertices(0),                                                                   \
-        build_state(BVH_BUILD_STATE_EMPTY),                                                \
-        bv_splitter(new detail::BVSplitter<kios::kIOS<S>>()),                              \
-        bv_fitter(new detail::BVFitter<kios::kIOS<S>>()),                                  \
-        num_tris_allocated(0),                                                             \
-        num_vertices_allocated(0),                                                         \
-        num_bvs_allocated(0),                                                              \
-        num_vertex_updated(0),                                                             \
-        primitive_indices(nullptr),                                                        \
-        bvs(nullptr),                                                                      \
-        num_bvs(0) {}                                                                      \
-  template <>                                                                              \
-  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other) : BVHModel() {                  \
-    kios::copy(other, other.primitive_indices, other.bvs, other.num_bvs, KIOS_MEMBERS(S)); \
-  }                                                                                        \
-  template <>                                                                              \
-  BVHModel<kios::kIOS<S>>::~BVHModel() {                                                   \
-    kios::withdrawVolumes(bvs);                                                            \
-    delete[] vertices;                                                                     \
-    delete[] tri_indices;                                                                  \
-    delete[] prev_vertices;                                                                \
-    delete[] primitive_indices;                                                            \
-    delete[] bvs;                                                                          \
-  }                                                                                        \
-  template <>                                                                              \
-  int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {              \
-    return kios::begin(KIOS_MEMBERS(S), num_tris_, num_vertices_);                         \
-  }                                                                                        \
-  template <>                                                                              \
-  int BVHModel<kios::kIOS<S>>::endModel() {                                                \
-    if (const int failed = kios::end(KIOS_MEMBERS(S))) return failed;                      \
-    buildTree();                                                                           \
-    build_state = BVH_BUILD_STATE_PROCESSED;                                               \
-    return BVH_OK;                                                                         \
-  }                                                                                        \
-  template <>                                                                              \
-  int BVHModel<kios::kIOS<S>>::beginUpdateModel() {                                        \
-    if (const int failed = kios::beginUpdate<S>(*this)) return failed;                     \
-    num_vertex_updated = 0;                                                                \
-    return BVH_OK;                                                                         \
+#define KIOS_SPECIALISE(S)                                                                         \
+  template <>                                                                                      \
+  BVHModel<kios::kIOS<S>>::BVHModel()                                                              \
+      : vertices(nullptr),                                                                         \
+        tri_indices(nullptr),                                                                      \
+        prev_vertices(nullptr),                                                                    \
+        num_tris(0),                                                                               \
+        num_vertices(0),                                                                           \
+        build_state(BVH_BUILD_STATE_EMPTY),                                                        \
+        bv_splitter(new detail::BVSplitter<kios::kIOS<S>>()),                                      \
+        bv_fitter(new detail::BVFitter<kios::kIOS<S>>()),                                          \
+        num_tris_allocated(0),                                                                     \
+        num_vertices_allocated(0),                                                                 \
+        num_bvs_allocated(0),                                                                      \
+        num_vertex_updated(0),                                                                     \
+        primitive_indices(nullptr),                                                                \
+        bvs(nullptr),                                                                              \
+        num_bvs(0) {}                                                                              \
+  template <>                                                                                      \
+  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other) : BVHModel() {                          \
+    kios::copy(other, other.num_vertex_updated, other.primitive_indices, other.bvs, other.num_bvs, \
+               KIOS_MEMBERS(S));                                                                   \
+  }                                                                                                \
+  template <>                                                                                      \
+  BVHModel<kios::kIOS<S>>::~BVHModel() {                                                           \
+    kios::withdrawVolumes(bvs);                                                                    \
+    delete[] vertices;                                                                             \
+    delete[] tri_indices;                                                                          \
+    delete[] prev_vertices;                                                                        \
+    delete[] primitive_indices;                                                                    \
+    delete[] bvs;                                                                                  \
+  }                                                                                                \
+  template <>                                                                                      \
+  int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {                      \
+    return kios::begin(KIOS_MEMBERS(S), num_tris_, num_vertices_);                                 \
+  }                                                                                                \
+  template <>                                                                                      \
+  int BVHModel<kios::kIOS<S>>::endModel() {                                                        \
+    if (const int failed = kios::end(KIOS_MEMBERS(S))) return failed;                              \
+    buildTree();                                                                                   \
+    build_state = BVH_BUILD_STATE_PROCESSED;                                                       \
+    return BVH_OK;                                                                                 \
+  }                                                                                                \
+  template <>                                                                                      \
+  int BVHModel<kios::kIOS<S>>::beginUpdateModel() {                                                \
+    if (const int failed = kios::beginUpdate(KIOS_MEMBERS(S))) return failed;                      \
+    num_vertex_updated = 0;                                                                        \
+    return BVH_OK;                                                                                 \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)
 KIOS_SPECIALISE(float)
 #undef KIOS_SPECIALISE
-#undef KIOS_MEMBERS
 
 }  // namespace fcl

@@ -3,11 +3,13 @@
 #include "fcl_kios/query/clearance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
+#include "fcl_kios/volume/fit.h"
 #include "model/kios_model.h"
 #include "volume/exact/exact_pair.h"
 
@@ -46,6 +48,99 @@ std::vector<kIOS<S>> levelOf(const Model<S>& model, int level) {
   return volumes;
 }
 
+/// Volumes of a triangle's parts, which are halved across their longest sides.
+template <typename S>
+class TriangleParts {
+ public:
+  TriangleParts(double size, std::vector<kIOS<S>>& volumes)
+      : radius_(size / 2), volumes_(volumes) {}
+
+  void add(const std::array<fcl::Vector3<S>, 3>& corners, int depth = 0) {
+    kIOS<S> volume;
+    fitTo(corners, depth, volume);
+    if (double{volume.radius0} <= radius_) {
+      volumes_.push_back(volume);
+      requireFew(volumes_);
+      return;
+    }
+    // A part that doesn't get smaller has come to the rounding of its place.
+    if (depth == kDeepest) refuseSmall();
+    int longest = 0;
+    double most = -1;
+    for (int i = 0; i < 3; ++i) {
+      const double length =
+          (corners[(i + 1) % 3] - corners[i]).template cast<double>().stableNorm();
+      if (length > most) {
+        most = length;
+        longest = i;
+      }
+    }
+    const fcl::Vector3<S>&p = corners[longest], &q = corners[(longest + 1) % 3],
+          &r = corners[(longest + 2) % 3];
+    const fcl::Vector3<S> middle = S(0.5) * p + S(0.5) * q;
+    add({p, middle, r}, depth + 1);
+    add({middle, q, r}, depth + 1);
+  }
+
+  static void requireFew(const std::vector<kIOS<S>>& volumes) {
+    if (volumes.size() > kMost) refuseSmall();
+  }
+
+ private:
+  static constexpr std::size_t kMost = std::size_t{1} << 20;
+  static constexpr int kDeepest = 64;
+
+  [[noreturn]] static void refuseSmall() {
+    throw std::invalid_argument(
+        "fcl_kios: a cover of so small a size would take more than 2^20 volumes.");
+  }
+
+  /// The middles are rounded, each by half a unit in the last place, and the next ones inherit
+  /// that: the true part lies within octahedra about the corners.
+  static void fitTo(const std::array<fcl::Vector3<S>, 3>& corners, int depth, kIOS<S>& volume) {
+    std::vector<fcl::Vector3<S>> points(corners.begin(), corners.end());
+    S largest = 0;
+    for (const auto& p : corners) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    const S off = S(4) * static_cast<S>(depth) * std::numeric_limits<S>::epsilon() * largest;
+    for (int c = 0; c < 3 && depth > 0; ++c) {
+      for (const auto& p : corners) {
+        for (const S by : {-off, off}) {
+          points.push_back(p);
+          points.back()[c] += by;
+        }
+      }
+    }
+    fit(points.data(), static_cast<int>(points.size()), volume);
+  }
+
+  const double radius_;
+  std::vector<kIOS<S>>& volumes_;
+};
+
+template <typename S>
+std::vector<kIOS<S>> volumesOfSize(const Model<S>& model, double size) {
+  requireFinished(model);
+  if (!(size > 0)) throw std::invalid_argument("fcl_kios: the size of a cover must be positive.");
+  std::vector<kIOS<S>> volumes;
+  TriangleParts<S> parts(size, volumes);
+  std::vector<int> nodes = {0};
+  while (!nodes.empty()) {
+    const auto& node = model.getBV(nodes.back());
+    nodes.pop_back();
+    if (2 * double{node.bv.radius0} <= size) {
+      volumes.push_back(node.bv);
+      parts.requireFew(volumes);
+    } else if (node.isLeaf()) {
+      const fcl::Triangle& t = model.tri_indices[node.primitiveId()];
+      parts.add({model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]});
+    } else {
+      nodes.push_back(node.rightChild());
+      nodes.push_back(node.leftChild());
+    }
+  }
+  return volumes;
+}
+
 }  // namespace
 
 template <typename S>
@@ -68,6 +163,11 @@ Cover<S>::Cover(std::vector<kIOS<S>> volumes) {
 
 template <typename S>
 Cover<S>::Cover(const Model<S>& model, int level) : Cover(levelOf(model, level)) {}
+
+template <typename S>
+Cover<S> Cover<S>::ofSize(const Model<S>& model, double size) {
+  return Cover(volumesOfSize(model, size));
+}
 
 template <typename S>
 Cover<S>::~Cover() = default;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "model/kios_model.h"
+#include "model/shape_values.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 #include "volume/stamp.h"
@@ -115,6 +116,7 @@ void newState(Body<S>& body) {
 template <typename S>
 void measure(Body<S>& body) {
   if (body.model) {
+    body.shape = false;
     const kIOS<S>& root = body.model->getBV(0).bv;
     body.sphere = sphereOf(root, 0);
     body.num_caps = std::max(0, root.k() - 1);
@@ -122,6 +124,8 @@ void measure(Body<S>& body) {
   } else {
     // As fcl::CollisionObject does at its construction.
     const_cast<fcl::CollisionGeometry<S>&>(*body.geometry).computeLocalAABB();
+    updateShapeValues(*body.geometry, body.shape_values);
+    body.shape = !body.shape_values.empty();
     body.sphere = sphereOf(*body.geometry);
     body.num_caps = 0;
   }
@@ -164,13 +168,20 @@ void renew(Body<S>& body) {
   measure(body);
 }
 
+template <typename S>
+void renewIfChanged(Body<S>& body) {
+  if (body.shape && !updateShapeValues(*body.geometry, body.shape_values)) measure(body);
+}
+
 template void place(Body<double>&, std::shared_ptr<const fcl::CollisionGeometry<double>>,
                     const fcl::Transform3<double>&);
 template void move(Body<double>&, const fcl::Transform3<double>&);
 template void renew(Body<double>&);
+template void renewIfChanged(Body<double>&);
 template void place(Body<float>&, std::shared_ptr<const fcl::CollisionGeometry<float>>,
                     const fcl::Transform3<float>&);
 template void move(Body<float>&, const fcl::Transform3<float>&);
 template void renew(Body<float>&);
+template void renewIfChanged(Body<float>&);
 
 }  // namespace kios::scene

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include <fcl/geometry/collision_geometry.h>
 #include <fcl/narrowphase/collision_object.h>
@@ -35,9 +36,11 @@ struct Body {
   Box box;
   const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set
   Role role = Role::kBody;
+  bool shape = false;  ///< one of FCL's, whose sizes are compared at each query
 
   std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
   const Model<S>* model = nullptr;  ///< the geometry if it is a mesh over k-IOS
+  std::vector<S> shape_values;      ///< see model/shape_values.h
   fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
   Sphere sphere;     ///< around the content, infinite for planes and the like
   double reach = 0;  ///< the sphere's
@@ -46,6 +49,9 @@ struct Body {
   int num_caps = 0;
 
   bool used() const { return state != 0; }
+  /// A change of the geometry is seen. It is not of octrees and of the user's classes, of which
+  /// nothing is remembered.
+  bool watched() const { return model != nullptr || shape; }
 };
 
 /// Makes the body that of a geometry at a pose.
@@ -61,6 +67,10 @@ void move(Body<S>& body, const fcl::Transform3<S>& X_W);
 /// Measures the body's geometry anew, which has changed.
 template <typename S>
 void renew(Body<S>& body);
+
+/// Does so if the body is a shape that has changed.
+template <typename S>
+void renewIfChanged(Body<S>& body);
 
 /// The state of a model, as its root volume and arrays tell it.
 template <typename S>

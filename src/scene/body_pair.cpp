@@ -49,7 +49,7 @@ BodyPair<S>::BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, Pa
       a_(a),
       b_(b),
       memory_(memory),
-      proof_(memory.find(id_a, a, id_b, b)) {}
+      proof_(lasting() ? memory.find(id_a, a, id_b, b) : nullptr) {}
 
 template <typename S>
 const PairFrame<S>& BodyPair<S>::frame() const {
@@ -155,6 +155,7 @@ typename BodyPair<S>::Answer BodyPair<S>::proven(double limit) const {
 
 template <typename S>
 void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
+  if (!lasting()) return;
   Proof<S>* const proof = memory_.obtain(id_a_, id_b_);
   if (!proof) return;
   const bool same = proof->tellsOf(a_, b_);

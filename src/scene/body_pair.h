@@ -57,6 +57,8 @@ class BodyPair {
   Answer nearby(double limit) const;
 
  private:
+  /// An answer holds until something is seen to have changed.
+  bool lasting() const { return a_.watched() && b_.watched(); }
   bool meshes() const { return a_.model && b_.model; }
   /// The frame of two meshes, made at its first use.
   const PairFrame<S>& frame() const;

@@ -94,6 +94,8 @@ class ManagerQuery<S>::Impl {
       if (body.model) {
         requireFinished(*body.model);
         if (!(scene::keyOf(*body.model) == known.key)) scene::renew(body);
+      } else {
+        scene::renewIfChanged(body);
       }
     }
     if (body.model) known.key = scene::keyOf(*body.model);

@@ -80,6 +80,10 @@ template <typename S>
 void Scene<S>::exclude(int a, int b, bool excluded) {
   body(a);
   body(b);
+  if (a == b) {
+    throw std::invalid_argument("fcl_kios: the object " + std::to_string(a) +
+                                " makes no pair with itself, which could be excluded.");
+  }
   if (excluded) {
     excluded_.insert(keyOf(a, b));
   } else {
@@ -130,6 +134,7 @@ void Scene<S>::beginQuery() {
   for (Body<S>& body : bodies_) {
     if (!body.used()) continue;
     if (body.followed) follow(body);
+    if (body.shape) renewIfChanged(body);
     error = std::max(error, body.rotation_error);
     num_obstacles_ += body.role == Role::kObstacle ? 1 : 0;
   }

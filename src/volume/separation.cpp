@@ -7,6 +7,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
@@ -189,6 +190,27 @@ void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& 
   requireRotation<S>(squares[1], determinantOf(X_WB), "second object's pose");
 }
 
+namespace {
+
+[[noreturn]] void refuseTranslation(const char* what) {
+  throw std::invalid_argument(std::string("fcl_kios: the ") + what +
+                              " is NaN, infinite or too large to be bounded.");
+}
+
+/// The one to blame is the one that is wrong by itself.
+template <typename S>
+[[noreturn, gnu::noinline]] void refuseTranslations(const fcl::Transform3<S>& X_WA,
+                                                    const fcl::Transform3<S>& X_WB) {
+  const auto fits = [](const fcl::Transform3<S>& X) {
+    return X.translation().template cast<double>().template lpNorm<1>() <= kMaxCoordinate<S>;
+  };
+  if (!fits(X_WA)) refuseTranslation("first object's translation");
+  if (!fits(X_WB)) refuseTranslation("second object's translation");
+  refuseTranslation("difference of the two objects' translations");
+}
+
+}  // namespace
+
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)
     : R_(R_AB), T_(T_AB) {
@@ -196,6 +218,7 @@ RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>
   const double square = squaredRotationError(entries);
   requireRotation<S>(square, determinant(entries), "relative pose");
   computeBounds(square);
+  if (!(bounds_.T_norm1 <= kMaxCoordinate<S>)) refuseTranslation("relative pose's translation");
 }
 
 template <typename S>
@@ -209,15 +232,12 @@ RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transfo
   for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
   T_ = detail::rotate<S>(inverse, X_WB.translation() - X_WA.translation());
   computeBounds(squared_errors);
+  if (!(bounds_.T_norm1 <= kMaxCoordinate<S>)) refuseTranslations(X_WA, X_WB);
 }
 
 template <typename S>
 void RelativePose<S>::computeBounds(double squared_errors) {
   bounds_.T_norm1 = std::abs(double{T_[0]}) + std::abs(double{T_[1]}) + std::abs(double{T_[2]});
-  if (!(bounds_.T_norm1 <= kMaxCoordinate<S>)) {
-    throw std::invalid_argument(
-        "fcl_kios: a translation is NaN, infinite or too large to be bounded.");
-  }
   bounds_.stretch = error_bounds::stretchOf<S>(squared_errors);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) bounds_.R[i][j] = static_cast<float>(R_(i, j));

@@ -46,10 +46,13 @@ if [[ $(grep -v searched <<<"$output") != "$expected" ]]; then
   exit 1
 fi
 head -c 200 part.stl >cut.stl
-for bad in cut.stl missing.stl; do
-  if message=$("$program" "$bad" 2>&1); then
-    echo "FAILED: $bad was read: $message"
+refused() { # FILE MESSAGE
+  local status=0 message
+  message=$("$program" "$1" 2>&1) || status=$?
+  if ((status != 1)) || [[ $message != "$1 $2" ]]; then
+    echo "FAILED: $1: status $status, $message"
     exit 1
   fi
-  grep -F "$bad is no binary STL file" <<<"$message"
-done
+}
+refused cut.stl 'is no binary STL file'
+refused missing.stl "can't be opened"

@@ -45,6 +45,18 @@ endloop
 endfacet
 endsolid plate
 STL
+# Each facet has its own corners, and a normal that keeps readers from joining them.
+{
+  echo 'solid tetrahedron'
+  for facet in '0 0 -1|0 0 0|0 1 0|1 0 0' '0 -1 0|0 0 0|1 0 0|0 0 1' '-1 0 0|0 0 0|0 0 1|0 1 0' \
+    '1 1 1|1 0 0|0 1 0|0 0 1'; do
+    IFS='|' read -r normal a b c <<<"$facet"
+    printf 'facet normal %s\nouter loop\n' "$normal"
+    printf 'vertex %s\n' "$a" "$b" "$c"
+    printf 'endloop\nendfacet\n'
+  done
+  echo 'endsolid tetrahedron'
+} >tetrahedron.stl
 : >empty.stl
 printf 'v 0 0 0\nv 1 0 0\nl 1 2\n' >lines.obj
 sed 's/vertex 2 0 0/vertex nan 0 0/' plate.stl >nan.stl
@@ -68,6 +80,7 @@ expect() { # STATUS TEXT ARGUMENT...
 
 expect 0 'cube.obj: 12 triangles, 8 vertices, 1 x 1 x 1' cube.obj
 expect 0 'distance 1, ' cube.obj
+expect 0 'tetrahedron.stl: 4 triangles, 4 vertices, ' tetrahedron.stl
 expect 0 'plate.stl: 2 triangles, ' cube.obj plate.stl
 expect 2 'usage: load_mesh FILE' # no file
 expect 1 'load_mesh: missing.obj: Unable to open file' missing.obj

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include <cmath>
 #include <string>
 
@@ -119,6 +121,26 @@ TEST(Closedness, OfManyCavitiesThoseOutsideAreFound) {
     const Closednessd c = inspect(mesh);
     EXPECT_EQ(c.components, static_cast<int>(parts.size()));
     EXPECT_EQ(c.inside_out, outside) << scale;
+  }
+}
+
+// One behind the other as a ray sees them, each vertex nearly on the ray from that of the next.
+// Rays that looked at all of them would take a minute.
+TEST(Closedness, CavitiesInLineDontSeeEachOther) {
+  const fcl::Vector3d along(0.36602540378443865, 0.61803398874989485, 1);
+  for (const bool turned : {false, true}) {
+    constexpr int kCavities = 3000;
+    std::vector<Mesh> parts = {
+        testing::transformed(scenes::subdividedBox({1300, 2000, 3100}, 3), 1, 1500 * along)};
+    for (int i = 0; i < kCavities; ++i) {
+      parts.push_back(testing::transformed(flipped(scenes::icosphere(0.3, 1)), 1, i * along));
+    }
+    if (turned) parts[0] = flipped(parts[0]);
+    const std::clock_t start = std::clock();
+    const Closednessd c = inspect(scenes::merged(parts));
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 8);
+    EXPECT_EQ(c.components, kCavities + 1);
+    EXPECT_EQ(c.inside_out, turned ? kCavities + 1 : 0);
   }
 }
 

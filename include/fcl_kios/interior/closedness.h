@@ -45,8 +45,9 @@ struct Closedness {
 using Closednessd = Closedness<double>;
 using Closednessf = Closedness<float>;
 
-/// Examines a mesh: O(n log n), and O(n) more for each component whose normals point inwards. Exact
-/// for all finite coordinates. Throws std::invalid_argument if the model is not a finished mesh.
+/// Examines a mesh: O(n log n), and for each component whose normals point inwards O(log n) more
+/// for each component whose box it begins in. Exact for all finite coordinates. Throws
+/// std::invalid_argument if the model is not a finished mesh.
 template <typename S>
 Closedness<S> inspectClosedness(const Model<S>& model);
 /// The same for a mesh without a model, its indices in range and its vertices finite.

@@ -19,6 +19,12 @@ class Cover {
   /// 2^level volumes, the tighter the deeper. Throws std::invalid_argument if the model is not
   /// finished or the level negative.
   Cover(const Model<S>& model, int level);
+  /// Volumes that lie each in a ball of diameter `size`, in the model's units: nodes of its tree,
+  /// and where a triangle is larger, volumes of parts of it. Clearances of two such covers are at
+  /// most their two sizes below the models' distance, whatever their triangles. Throws
+  /// std::invalid_argument if the model is not finished, size is not positive, or the cover would
+  /// take more than 2^20 volumes.
+  static Cover ofSize(const Model<S>& model, double size);
   /// Throws std::invalid_argument if there is no volume, or an empty one.
   explicit Cover(std::vector<kIOS<S>> volumes);
   ~Cover();

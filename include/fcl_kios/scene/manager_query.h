@@ -16,7 +16,8 @@ namespace kios {
 
 /// Scene queries over any broadphase manager of FCL: its distance callback, with a memory of the
 /// pairs from query to query, so that a pair which stood still or moved too little is not searched
-/// again.
+/// again. What the geometries are is looked at in each query: meshes over k-IOS by their root
+/// volumes, FCL's shapes by their sizes. Of others, octrees above all, nothing is remembered.
 ///
 ///     kios::ManagerQueryd query;
 ///     query.findWithin(0.1);                       // or query.findClosest()

@@ -23,8 +23,10 @@ namespace kios {
 /// A pair is admissible unless it is excluded, refused by the filter, or both are obstacles. Two
 /// meshes over k-IOS are never asked twice at one relative pose, nor while their last proven
 /// distance minus a bound on their motion since then exceeds what is asked. Models may be replaced,
-/// updated and refitted between queries; that is noticed by their root volumes. Models that nobody
-/// came near are never prepared. Docs: docs/scene.md.
+/// updated and refitted between queries; that is noticed by their root volumes. So may the sizes of
+/// FCL's shapes. What is no mesh over k-IOS and no shape of FCL's, octrees above all, is asked at
+/// each query that comes near. Models that nobody came near are never prepared. Docs:
+/// docs/scene.md.
 ///
 /// Not to be used from two threads at once; several scenes may share models.
 template <typename S>
@@ -43,8 +45,8 @@ class SceneDistance {
 
   /// Adds an object at its pose in the world and returns its id, the least that is free. A geometry
   /// other than a mesh over k-IOS has its local AABB computed, as fcl::CollisionObject does, which
-  /// is no const use; it must not change later without changed(). Throws std::invalid_argument if
-  /// the geometry is null or an unfinished mesh, or the pose is not rigid.
+  /// is no const use, and so has a shape of FCL's that changed. Throws std::invalid_argument if the
+  /// geometry is null or an unfinished mesh, or the pose is not rigid.
   int add(std::shared_ptr<const Geometry> geometry, const Pose& X_W, Role role = Role::kBody);
   /// The same, but the pose is read from the object at each query. It must outlive its stay here.
   int add(const fcl::CollisionObject<S>* object, Role role = Role::kBody);
@@ -52,12 +54,14 @@ class SceneDistance {
   /// or not finite, or is read from an fcl::CollisionObject.
   void remove(int id);
   void move(int id, const Pose& X_W);
-  /// To be called after a geometry that is no mesh over k-IOS was changed in place.
+  /// To be called after the local AABB of a geometry has grown that is neither a mesh over k-IOS
+  /// nor one of FCL's shapes or octrees.
   void changed(int id);
   bool contains(int id) const;
   std::size_t size() const;  ///< number of objects
 
-  /// Excludes a pair, or admits it again. Forgotten when one of the two is removed.
+  /// Excludes a pair, or admits it again. Forgotten when one of the two is removed. Throws
+  /// std::invalid_argument if one of the two doesn't exist, or a == b.
   void exclude(int a, int b, bool excluded = true);
   /// Replaces the filter; an empty one admits all.
   void setFilter(const Filter& filter);

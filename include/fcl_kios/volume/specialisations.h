@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <fcl/geometry/bvh/BVH_model.h>
 #include "fcl_kios/volume/kios.h"
 
@@ -45,6 +47,7 @@ class BVSplitter<kios::kIOS<S>>;
 // splits by cost. Those that build keep nothing in fitter or splitter (bvh_build.h); those that get
 // memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is none, and may be called again. Those
 // after which a tree is another, or none, first wait for builds that copy it (equal meshes share).
+// Those that take vertices and triangles take no more than there is room for, or make room.
 template <>
 BVHModel<kios::kIOS<double>>::BVHModel();
 template <>
@@ -53,6 +56,32 @@ template <>
 BVHModel<kios::kIOS<double>>::~BVHModel();
 template <>
 int BVHModel<kios::kIOS<double>>::beginModel(int num_tris, int num_vertices);
+template <>
+int BVHModel<kios::kIOS<double>>::addVertex(const Vector3<double>& p);
+template <>
+int BVHModel<kios::kIOS<double>>::addTriangle(const Vector3<double>& p1, const Vector3<double>& p2,
+                                              const Vector3<double>& p3);
+template <>
+int BVHModel<kios::kIOS<double>>::addSubModel(const std::vector<Vector3<double>>& ps);
+template <>
+int BVHModel<kios::kIOS<double>>::addSubModel(const std::vector<Vector3<double>>& ps,
+                                              const std::vector<Triangle>& ts);
+template <>
+int BVHModel<kios::kIOS<double>>::replaceVertex(const Vector3<double>& p);
+template <>
+int BVHModel<kios::kIOS<double>>::replaceTriangle(const Vector3<double>& p1,
+                                                  const Vector3<double>& p2,
+                                                  const Vector3<double>& p3);
+template <>
+int BVHModel<kios::kIOS<double>>::replaceSubModel(const std::vector<Vector3<double>>& ps);
+template <>
+int BVHModel<kios::kIOS<double>>::updateVertex(const Vector3<double>& p);
+template <>
+int BVHModel<kios::kIOS<double>>::updateTriangle(const Vector3<double>& p1,
+                                                 const Vector3<double>& p2,
+                                                 const Vector3<double>& p3);
+template <>
+int BVHModel<kios::kIOS<double>>::updateSubModel(const std::vector<Vector3<double>>& ps);
 template <>
 int BVHModel<kios::kIOS<double>>::endModel();
 template <>
@@ -73,6 +102,30 @@ template <>
 BVHModel<kios::kIOS<float>>::~BVHModel();
 template <>
 int BVHModel<kios::kIOS<float>>::beginModel(int num_tris, int num_vertices);
+template <>
+int BVHModel<kios::kIOS<float>>::addVertex(const Vector3<float>& p);
+template <>
+int BVHModel<kios::kIOS<float>>::addTriangle(const Vector3<float>& p1, const Vector3<float>& p2,
+                                             const Vector3<float>& p3);
+template <>
+int BVHModel<kios::kIOS<float>>::addSubModel(const std::vector<Vector3<float>>& ps);
+template <>
+int BVHModel<kios::kIOS<float>>::addSubModel(const std::vector<Vector3<float>>& ps,
+                                             const std::vector<Triangle>& ts);
+template <>
+int BVHModel<kios::kIOS<float>>::replaceVertex(const Vector3<float>& p);
+template <>
+int BVHModel<kios::kIOS<float>>::replaceTriangle(const Vector3<float>& p1, const Vector3<float>& p2,
+                                                 const Vector3<float>& p3);
+template <>
+int BVHModel<kios::kIOS<float>>::replaceSubModel(const std::vector<Vector3<float>>& ps);
+template <>
+int BVHModel<kios::kIOS<float>>::updateVertex(const Vector3<float>& p);
+template <>
+int BVHModel<kios::kIOS<float>>::updateTriangle(const Vector3<float>& p1, const Vector3<float>& p2,
+                                                const Vector3<float>& p3);
+template <>
+int BVHModel<kios::kIOS<float>>::updateSubModel(const std::vector<Vector3<float>>& ps);
 template <>
 int BVHModel<kios::kIOS<float>>::endModel();
 template <>

@@ -21,12 +21,23 @@ std::size_t bytesOf(const Modeld& model) {
 
 }  // namespace
 
-Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress) {
+Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress,
+                   const RepairOptions* repair) {
   Inspection result;
   result.file = file.string();
   progress.step("reading " + result.file);
   result.mesh = readMesh(file);
   result.read_seconds = progress.done();
+  if (repair) {
+    progress.step("repairing " + result.file);
+    result.repaired = kios::repair(result.mesh.vertices, result.mesh.triangles, *repair);
+    result.mesh.vertices = result.repaired->vertices;
+    result.mesh.triangles = result.repaired->triangles;
+    if (result.mesh.triangles.empty()) {
+      throw InputError(result.file + ": no triangle is left after " + summaryOf(*result.repaired) +
+                       ".");
+    }
+  }
 
   const std::string triangles = std::to_string(result.mesh.triangles.size()) + " triangles";
   progress.step("looking for defects in " + triangles);

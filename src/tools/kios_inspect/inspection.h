@@ -5,10 +5,12 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "defects.h"
+#include "fcl_kios/interior/repair.h"
 #include "mesh.h"
 #include "progress.h"
 #include "tightness.h"
@@ -19,7 +21,8 @@ namespace kios::inspect {
 /// A mesh, its model and its tree, and what there is to tell about them.
 struct Inspection {
   std::string file;
-  Mesh mesh;
+  Mesh mesh;  ///< repaired, if that was asked for
+  std::optional<Repairedd> repaired;
   Defects defects;
   std::shared_ptr<Modeld> model;
   std::unique_ptr<VolumeTree> tree;
@@ -34,7 +37,9 @@ struct Inspection {
 };
 
 /// Reads and examines a file. Throws InputError as readMesh() does, and where a mesh is beyond the
-/// library's range. `tightness`: measure the levels.
-Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress);
+/// library's range. `tightness`: measure the levels. With `repair` it is the repaired mesh that is
+/// examined.
+Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress,
+                   const RepairOptions* repair = nullptr);
 
 }  // namespace kios::inspect

@@ -64,13 +64,26 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--level", options.level,
                  "level of the tree that --html shows first, 0 is the root")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 1000000));
   app.add_option("--html", options.html,
                  "write one self-contained page that shows meshes and volumes, to turn");
   app.add_option("--html-limit", options.html_limit,
                  "size of the page in MB; the page says what it leaves out")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1e-6, 1e6))
       ->capture_default_str();
+  app.add_flag("--repair", options.repair,
+               "look at the repaired mesh, and tell what was changed: near vertices are welded, "
+               "degenerate and double triangles left out, components turned outwards");
+  app.add_option("--weld", options.weld,
+                 "vertices so near to each other are welded, in parts of the box's diagonal; "
+                 "implies --repair")
+      ->check(CLI::Range(0.0, 0.5))
+      ->capture_default_str();
+  app.add_option("--fill-holes", options.fill_holes,
+                 "fill holes of up to so many edges; implies --repair")
+      ->check(CLI::Range(0, int{RepairOptions::kMostHoleEdges}))
+      ->capture_default_str();
+  app.add_option("--write", options.write, "write the repaired mesh as OBJ; implies --repair");
   app.add_flag("--json", options.json, "print JSON instead of text");
   app.add_flag("--strict", options.strict, "exit with 1 if there is a warning");
   app.add_flag("--quiet", options.quiet, "no progress on stderr");
@@ -98,6 +111,21 @@ void requireDirectory(const std::filesystem::path& file) {
   throw OutputError(file.string() + ": there is no directory " + parent.string() + ".");
 }
 
+/// The repaired mesh, every coordinate to its last digit.
+std::string toObj(const Repairedd& mesh) {
+  std::string text = "# written by kios_inspect\n";
+  char line[128];
+  for (const fcl::Vector3d& p : mesh.vertices) {
+    std::snprintf(line, sizeof line, "v %.17g %.17g %.17g\n", p[0], p[1], p[2]);
+    text += line;
+  }
+  for (const fcl::Triangle& t : mesh.triangles) {
+    std::snprintf(line, sizeof line, "f %zu %zu %zu\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    text += line;
+  }
+  return text;
+}
+
 /// Writes all of it or throws OutputError.
 void writeFile(const std::filesystem::path& file, const std::string& content) {
   std::ofstream stream(file, std::ios::binary);
@@ -110,10 +138,16 @@ void writeFile(const std::filesystem::path& file, const std::string& content) {
 
 int run(const Options& options) {
   requireDirectory(options.html);
+  requireDirectory(options.write);
+  RepairOptions repair;
+  repair.relative_weld = options.weld;
+  repair.max_hole_edges = options.fill_holes;
   Progress progress(options.quiet);
   const bool two = options.meshes.size() == 2;
   std::vector<Inspection> inspections;
-  for (const auto& file : options.meshes) inspections.push_back(inspect(file, !two, progress));
+  for (const auto& file : options.meshes) {
+    inspections.push_back(inspect(file, !two, progress, options.repair ? &repair : nullptr));
+  }
 
   requireLevel(options, inspections);
 
@@ -128,6 +162,7 @@ int run(const Options& options) {
     writeFile(options.html,
               page(inspections, pair ? &*pair : nullptr, {options.level, options.html_limit}));
   }
+  if (!options.write.empty()) writeFile(options.write, toObj(*inspections[0].repaired));
   progress.done();
 
   bool warned = false;
@@ -141,7 +176,9 @@ int run(const Options& options) {
   } else {
     for (const Inspection& i : inspections) std::printf("%s\n", toText(i).c_str());
     if (pair) std::printf("%s", toText(*pair).c_str());
-    if (!options.html.empty()) std::printf("wrote %s\n", options.html.string().c_str());
+    for (const auto& file : {options.html, options.write}) {
+      if (!file.empty()) std::printf("wrote %s\n", file.string().c_str());
+    }
   }
   return warned && options.strict ? kWarned : kFine;
 }
@@ -160,6 +197,10 @@ int main(int argc, char** argv) {
     if (options.meshes.size() == 1 && app.count("--pose-a") + app.count("--pose-b") > 0) {
       throw CLI::ValidationError("--pose-a, --pose-b", "are for two meshes");
     }
+    if (options.meshes.size() == 2 && !options.write.empty()) {
+      throw CLI::ValidationError("--write", "is for one mesh");
+    }
+    options.repair |= app.count("--weld") + app.count("--fill-holes") + app.count("--write") > 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kFine : kUsage;
   }

@@ -16,6 +16,10 @@ struct Options {
   int level = -1;  // -1: not given
   std::filesystem::path html;
   double html_limit = 20;
+  bool repair = false;  // implied by the next three
+  double weld = 1e-5;
+  int fill_holes = 0;
+  std::filesystem::path write;  // the repaired mesh, as OBJ
   bool json = false;
   bool strict = false;
   bool quiet = false;

@@ -58,6 +58,19 @@ std::string surface(const Closednessd& surface) {
   return text;
 }
 
+Json toJson(const Repairedd& r) {
+  return {{"weld", r.weld},
+          {"welded_vertices", r.welded_vertices},
+          {"moved_vertices", r.moved_vertices},
+          {"farthest_weld", r.farthest_weld},
+          {"degenerate_triangles", r.degenerate_triangles},
+          {"double_triangles", r.double_triangles},
+          {"flipped_triangles", r.flipped_triangles},
+          {"filled_holes", r.filled.size()},
+          {"filled_triangles", r.filled_triangles},
+          {"open_holes", r.open.size()}};
+}
+
 }  // namespace
 
 Json toJson(const Inspection& i) {
@@ -92,6 +105,7 @@ Json toJson(const Inspection& i) {
             {"branching_edges", i.defects.surface.branching_edges},
             {"points_and_lines", i.mesh.other_faces}}},
           {"warnings", warnings(i.mesh, i.defects)},
+          {"repaired", i.repaired ? toJson(*i.repaired) : Json(nullptr)},
           {"nodes", i.nodes()},
           {"depth", i.tree->depth()},
           {"k", {{"1", i.k[0]}, {"3", i.k[1]}, {"5", i.k[2]}}},
@@ -129,6 +143,7 @@ std::string toText(const Inspection& i) {
   const double n = static_cast<double>(i.mesh.triangles.size());
   std::string out;
   out += i.file + "\n";
+  if (i.repaired) out += "  repaired   " + summaryOf(*i.repaired) + "\n";
   print(out, "  triangles  %zu in %d %s, %s\n", i.mesh.triangles.size(), i.mesh.parts,
         i.mesh.parts == 1 ? "mesh" : "meshes", surface(i.defects.surface).c_str());
   print(out, "  vertices   %zu distinct of %zu as read\n", i.defects.distinct_vertices,

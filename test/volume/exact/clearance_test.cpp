@@ -155,5 +155,54 @@ TEST(Clearance, RefusesWhatItCannotCover) {
   }
 }
 
+// Triangles as long as the bodies: no level of the tree tells anything of the gap.
+TYPED_TEST(ClearanceOf, CoversOfSizeSeeGapsBesideLongTriangles) {
+  using S = TypeParam;
+  const scenes::Mesh link = scenes::subdividedBox({1, 0.05, 0.05}, 1);
+  const auto a = scenes::buildModel<kIOS<S>>(link), b = scenes::buildModel<kIOS<S>>(link);
+  fcl::Transform3d X = fcl::Transform3d::Identity();
+  X.linear() = turned({0.3, 0.1, 0.2}, fcl::Matrix3d::Identity());
+  X.translation() = fcl::Vector3d(0.1, 0.02, 0.2);
+  const scenes::MeshOracle oracle(link, link);
+  const double truth = oracle.distance(fcl::Transform3d::Identity(), X);
+  ASSERT_GT(truth, 0.05);
+  const auto clearance = [&](const Cover<S>& cover_a, const Cover<S>& cover_b,
+                             const fcl::Transform3d& pose) {
+    return minimumClearance(
+        cover_a, cover_b,
+        RelativePose<S>(pose.linear().template cast<S>(), pose.translation().template cast<S>()));
+  };
+  EXPECT_EQ(clearance(Cover<S>(*a, 20), Cover<S>(*b, 20), X).value, 0);
+  for (const double size : {0.02, 0.01}) {
+    const auto cover_a = Cover<S>::ofSize(*a, size), cover_b = Cover<S>::ofSize(*b, size);
+    for (int i = 0; i < cover_a.size(); ++i) {
+      ASSERT_LE(2 * double{cover_a.volume(i).radius0}, size);
+    }
+    const Clearance found = clearance(cover_a, cover_b, X);
+    EXPECT_LE(found.value, truth + 1e-6);
+    EXPECT_GE(found.value, truth - 2 * size);
+    EXPECT_NEAR(found.by_translation.norm(), 1, 1e-5);
+    fcl::Transform3d moved = X;
+    moved.translation() += 0.01 * found.by_translation;
+    EXPECT_GT(clearance(cover_a, cover_b, moved).value, found.value + 0.005);
+  }
+  // The whole surface is covered: no point of it is outside of all volumes.
+  const auto cover = Cover<S>::ofSize(*a, 0.03);
+  Random random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const fcl::Triangle& t = a->tri_indices[i % a->num_tris];
+    const double u = random.uniform(0, 1), v = random.uniform(0, 1 - u);
+    const fcl::Vector3<S>&p = a->vertices[t[0]], &q = a->vertices[t[1]], &r = a->vertices[t[2]];
+    const fcl::Vector3<S> x = p + S(u) * (q - p) + S(v) * (r - p);
+    int inside = 0;
+    for (int j = 0; j < cover.size(); ++j) inside += cover.volume(j).contain(x) ? 1 : 0;
+    ASSERT_GT(inside, 0) << x.transpose();
+  }
+  EXPECT_THROW(Cover<S>::ofSize(*a, 0), std::invalid_argument);
+  EXPECT_THROW(Cover<S>::ofSize(*a, std::nan("")), std::invalid_argument);
+  EXPECT_THROW(Cover<S>::ofSize(*a, 1e-9), std::invalid_argument);
+  EXPECT_THROW(Cover<S>::ofSize(Model<S>(), 1), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace kios::test
