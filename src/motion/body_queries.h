@@ -42,6 +42,12 @@ class BodyQueries {
   /// time; false if that would take a query as long as ask().
   bool touching(const Pair& pair, const Configuration& at) const;
 
+  /// True if one of the bodies may lie in the other: both are marked meshes, or one is and the
+  /// other a shape. Throws std::invalid_argument if a marked one is no solid any more.
+  bool areSolids(const Pair& pair) const;
+  /// True only if the bodies are in contact, as fcl::collide sees it; for solids also if.
+  bool inContact(const Pair& pair, const Configuration& at) const;
+
   /// Of the bodies' balls.
   double smallerRadius(const Pair& pair) const {
     return std::min(body(pair.a).content.radius, body(pair.b).content.radius);
@@ -58,6 +64,8 @@ class BodyQueries {
   /// A mesh and a shape or octree, by fcl::collide.
   bool touchesOther(int mesh, int other, const Configuration& at) const;
   Nearness askShapes(int a, int b, const Configuration& at) const;
+  /// The width of a slab between two shapes; negative if none was found.
+  double gapOfShapes(int a, int b, const Configuration& at) const;
 
   const Path& path_;
   const double min_separation_;
