@@ -109,6 +109,8 @@ void MotionSearch::conclude() {
   if (!waiting_.empty()) contact_.from = std::min(contact_.from, waiting_.front().from);
   if (undecided_.suspect >= 0) contact_.from = std::min(contact_.from, undecided_.from);
   end_ = contact_.to - contact_.from <= request_.resolution ? contact_ : undecided_;
+  const bool starts = end_.verdict == MotionVerdict::kContact && end_.from == 0 && end_.to > 0;
+  if (starts && contactAt(0, end_.suspect)) end_.to = 0;
 }
 
 }  // namespace kios::articulated

@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "motion/meshes.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "fcl_kios/triangle/distance.h"
+#include "interior/solid_queries.h"
 #include "model/prepared.h"
+#include "motion/heights.h"
 #include "query/bracket.h"
 #include "query/mesh_pair.h"
 #include "volume/balls.h"
@@ -15,6 +19,8 @@ namespace kios::continuous {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Directions of a triangle's edges and of its normal.
 struct Edges {
@@ -59,8 +65,10 @@ bool capsApart(int k, const MovingBall& central_a, const FourBalls& caps_a,
 
 bool MovingMeshes::touching(double t) {
   fcl::CollisionResultd result;
-  return collideMeshes(a_, motion_.a().pose(t), b_, motion_.b().pose(t), fcl::CollisionRequestd(),
-                       result) > 0;
+  const fcl::CollisionRequestd request;
+  const fcl::Transform3d X_WA = motion_.a().pose(t), X_WB = motion_.b().pose(t);
+  return (areSolids(a_, b_) ? collideSolids(a_, X_WA, b_, X_WB, request, result)
+                            : collideMeshes(a_, X_WA, b_, X_WB, request, result)) > 0;
 }
 
 // By the engine, as soon as it has paid to prepare both models.
@@ -201,6 +209,46 @@ bool MovingMeshes::leavesStayApart(NodePair pair, const RelativeVelocities& v) c
   return true;
 }
 
+// What is long and thin fits balls badly, but lies on one side of its own plane, as whatever slides
+// along it does.
+bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double duration) const {
+  const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
+  const Eigen::Matrix3d own = Eigen::Matrix3d::Identity(), R = v.pose().R();
+  const Vector3d zero = Vector3d::Zero(), T = v.pose().T();
+  const double lengths = T.lpNorm<1>() + a_.getBV(0).bv.center0.lpNorm<1>() +
+                         a_.getBV(0).bv.radius0 + b_.getBV(0).bv.center0.lpNorm<1>() +
+                         b_.getBV(0).bv.radius0;
+  const double least = v.pad() + 0x1p-46 * (1 + duration * (v.turn() + 1)) * lengths +
+                       (v.stretch() + 0x1p-48) * (a.bv.radius0 + b.bv.radius0);
+  // Of a's points along n, and of b's against it.
+  const auto parts = [&](const Vector3d& n) {
+    const Heights of_a(v.a(), own, zero, n, duration), of_b(v.b(), R, T, -n, duration);
+    constexpr int kMostNodes = 48;
+    int most = kMostNodes;
+    Heights::Height limit = {-kInfinity, -kInfinity};
+    const auto highest = [&limit](const Heights& heights, const Modeld& model, int triangle) {
+      for (const Vector3d& corner : cornersOf(model, triangle)) {
+        const Heights::Height height = heights.of(corner);
+        limit = {std::max(limit.start, height.start), std::max(limit.end, height.end)};
+      }
+    };
+    if (a.isLeaf()) {
+      highest(of_a, a_, a.primitiveId());
+      return of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, most);
+    }
+    highest(of_b, b_, b.primitiveId());
+    return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, most);
+  };
+  const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
+    const auto corners = cornersOf(model, triangle);
+    const Vector3d n =
+        R_AM * (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
+    return n.squaredNorm() > 0.5 && (parts(n) || parts(-n));
+  };
+  return (a.isLeaf() && facesPart(a_, a.primitiveId(), own)) ||
+         (b.isLeaf() && facesPart(b_, b.primitiveId(), R));
+}
+
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
   if (useChords(v, duration)) return nodesStayApart(pair, v);
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
@@ -208,12 +256,15 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
   const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
   const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
   if (v.apart(central_a, central_b, duration)) return true;
-  if (a.k() == 1 && b.k() == 1) return false;
-  Eigen::Array4d centers[3];
-  const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
-  const FourBalls caps_b = v.ballsOfB(centers, radii_b);
-  const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
-  return capsApart(a.k(), central_a, v.ballsOfA(centers, radii_a), central_b, caps_b, v, duration);
+  if (a.k() > 1 || b.k() > 1) {
+    Eigen::Array4d centers[3];
+    const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
+    const FourBalls caps_b = v.ballsOfB(centers, radii_b);
+    const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
+    const FourBalls caps_a = v.ballsOfA(centers, radii_a);
+    if (capsApart(a.k(), central_a, caps_a, central_b, caps_b, v, duration)) return true;
+  }
+  return (a_.getBV(pair.a).isLeaf() || b_.getBV(pair.b).isLeaf()) && planeParts(pair, v, duration);
 }
 
 double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {

@@ -26,6 +26,8 @@ class MovingMeshes final : public PairSearch {
   bool useChords(const RelativeVelocities& v, double duration);
   bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
   bool leavesStayApart(NodePair pair, const RelativeVelocities& v) const;
+  /// True if the plane of a triangle, one of the pair, parts it from the other node.
+  bool planeParts(NodePair pair, const RelativeVelocities& v, double duration) const;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
   const Modeld &a_, &b_;

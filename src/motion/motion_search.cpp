@@ -222,9 +222,47 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
     if (before.outcome == Outcome::kPart) return before;
     return {Outcome::kPart, s, s, s, 0};
   }
+  const Look by_triangles = local(task);
+  if (by_triangles.to - by_triangles.from > kSlabShare * (task.to - task.from)) {
+    return by_triangles;
+  }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
   return widened(task, proven(task, s, std::max(near.apart, roots), motion), pair, c, motion);
+}
+
+// A search that got nowhere is followed by pauses, each twice as long.
+MotionSearch::Look MotionSearch::local(const Task& task) {
+  using Outcome = Look::Outcome;
+  constexpr int kPatience = 6;
+  constexpr long long kMostTests = 100000, kTestsOfQuery = 100;
+  constexpr int kLongestPause = 255;
+  const Look nothing = {Outcome::kUndecided, task.from, task.from, task.from, 0};
+  Suspect& suspect = suspects_[task.suspect];
+  if (++suspect.looks <= kPatience) return nothing;
+  const auto isMesh = [&](int body) { return path_.linkage().bodies[body].model != nullptr; };
+  if (!isMesh(suspect.pair.a) && !isMesh(suspect.pair.b)) return nothing;
+  if (suspect.place < 0) {
+    suspect.place = static_cast<int>(local_.size());
+    local_.push_back(
+        {std::make_unique<LocalSlabs>(path_, suspect.pair, request_.min_separation), 0, 0});
+  }
+  Local& own = local_[suspect.place];
+  if (own.rest > 0) {
+    --own.rest;
+    return nothing;
+  }
+  const long long left = std::max(0LL, request_.max_queries - counts_.queries);
+  const long long before = own.slabs->cost();
+  const double end = own.slabs->provenFrom(
+      task.from, task.to, std::min(kMostTests, kTestsOfQuery * std::min(left, kMostTests)));
+  counts_.queries += (own.slabs->cost() - before) / kTestsOfQuery;
+  const bool paid = end - task.from > kSlabShare * (task.to - task.from);
+  own.rest = own.pause = paid ? 0 : std::min(2 * own.pause + 1, kLongestPause);
+  const Outcome outcome = end >= task.to    ? Outcome::kProven
+                          : end > task.from ? Outcome::kPart
+                                            : Outcome::kUndecided;
+  return {outcome, task.from, task.from, end, end - task.from};
 }
 
 bool MotionSearch::contactAt(double s, int suspect) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "motion/local_slabs.h"
 #include "motion/near_pairs.h"
 
 namespace kios::articulated {
@@ -14,6 +15,8 @@ namespace kios::articulated {
 struct Suspect {
   Pair pair;
   double roots;  ///< rootBound() where the suspects were found
+  int looks = 0;
+  int place = -1;  ///< of its LocalSlabs, if there are any
 };
 
 /// An interval that is not proven yet for a suspect.
@@ -80,6 +83,8 @@ class MotionSearch {
   /// are proven apart from s on, or up to s.
   bool containedAt(double s);
   Look look(const Task& task);
+  /// By slabs between triangles, once a pair has been looked at often; else nothing.
+  Look local(const Task& task);
   Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
   Look widened(const Task& task, const Look& look, Pair& pair, const Configuration& c,
                const PairMotion& motion) const;
@@ -104,6 +109,12 @@ class MotionSearch {
   std::vector<Configuration>& cache_;
   std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
   std::vector<Suspect>& suspects_;
+  /// Of suspects that nothing else proves, and how much of them is worth while.
+  struct Local {
+    std::unique_ptr<LocalSlabs> slabs;
+    int rest = 0, pause = 0;  ///< looks to be spared after one that didn't pay, and next time
+  };
+  std::vector<Local> local_;
   bool looked_at_end_ = false;
   double found_at_ = 0.5;  ///< the configuration in which suspects_ were found
   std::vector<Task>& waiting_;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "fcl_kios/model/model.h"
@@ -20,6 +21,12 @@ double reachOf(const Modeld& model);
 class PairSearch : public MovingPair {
  public:
   double apartFor(double t, double enough) final;
+
+  /// For whoever takes single steps: none is looked for beyond `end`, none takes many more tests
+  /// than `most_tests`, and all may be as long as they can.
+  void setLimits(double end, long long most_tests);
+  /// Of all steps, in tests of volumes.
+  long long cost() const { return counts_.volume_tests + 3 * counts_.leaf_tests; }
 
  protected:
   struct NodePair {
@@ -47,6 +54,8 @@ class PairSearch : public MovingPair {
  private:
   static constexpr long long kLeastBudget = 1000;
   long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
+  double end_ = 1;
+  long long most_tests_ = std::numeric_limits<long long>::max();
   double window_ = 1, last_step_ = 1;
   // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.
   double reach_ = 1.25, slide_ = 0x1p-6;
