@@ -3,6 +3,7 @@
 #include "motion/meshes.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -107,7 +108,9 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
   if (a.isLeaf() && b.isLeaf()) return 0;
   NodePair &near = parts[0], &far = parts[1];
   near = far = pair;
-  if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
+  const bool splits_a =
+      order_ == Order::kLarger ? a.bv.radius0 > b.bv.radius0 : order_ == Order::kA;
+  if (b.isLeaf() || (!a.isLeaf() && splits_a)) {
     near.a = a.leftChild();
     far.a = a.rightChild();
   } else {
@@ -116,6 +119,22 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
   }
   if (centersGap(far, v) < centersGap(near, v)) std::swap(near, far);
   return 2;
+}
+
+// Once all have been tried, steps are halved for a while.
+bool MovingMeshes::changeOrder() {
+  constexpr int kOrders = 3, kPause = 16;
+  if (changes_left_ == 0) {
+    if (++steps_back_ < kPause) return false;
+    steps_back_ = 0;
+    changes_left_ = kOrders;
+  }
+  if (--changes_left_ == 0) {
+    order_ = Order::kLarger;
+    return false;
+  }
+  order_ = static_cast<Order>((static_cast<int>(order_) + 1) % kOrders);
+  return true;
 }
 
 // Where bodies hardly turn, velocities tell as much and round less.
@@ -223,8 +242,7 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
   // Of a's points along n, and of b's against it.
   const auto parts = [&](const Vector3d& n) {
     const Heights of_a(v.a(), own, zero, n, duration), of_b(v.b(), R, T, -n, duration);
-    constexpr int kMostNodes = 48;
-    int most = kMostNodes;
+    int most = order_ == Order::kLarger ? 48 : 512;
     Heights::Height limit = {-kInfinity, -kInfinity};
     const auto highest = [&limit](const Heights& heights, const Modeld& model, int triangle) {
       for (const Vector3d& corner : cornersOf(model, triangle)) {
@@ -240,10 +258,15 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, most);
   };
   const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
-    const auto corners = cornersOf(model, triangle);
-    const Vector3d n =
-        R_AM * (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
-    return n.squaredNorm() > 0.5 && (parts(n) || parts(-n));
+    const Edges edges(cornersOf(model, triangle));
+    const auto partsAcross = [&](const Vector3d& direction) {
+      const Vector3d n = R_AM * direction;
+      return n.squaredNorm() > 0.5 && (parts(n) || parts(-n));
+    };
+    if (partsAcross(edges.normal)) return true;
+    return order_ != Order::kLarger &&
+           std::any_of(std::begin(edges.along), std::end(edges.along),
+                       [&](const Vector3d& edge) { return partsAcross(edge.cross(edges.normal)); });
   };
   return (a.isLeaf() && facesPart(a_, a.primitiveId(), own)) ||
          (b.isLeaf() && facesPart(b_, b.primitiveId(), R));

@@ -22,6 +22,7 @@ class MovingMeshes final : public PairSearch {
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
   double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
   int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+  bool changeOrder() override;
   /// Sets chords_ if they bound the motion better than velocities do, and returns whether.
   bool useChords(const RelativeVelocities& v, double duration);
   bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
@@ -30,7 +31,14 @@ class MovingMeshes final : public PairSearch {
   bool planeParts(NodePair pair, const RelativeVelocities& v, double duration) const;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
+  /// Which node of a pair is split: the larger one, b's down to its leaves, or a's. What lies
+  /// within a hole is best left whole, as each face of the hole lies on one side of it.
+  enum class Order { kLarger, kB, kA };
+
   const Modeld &a_, &b_;
+  Order order_ = Order::kLarger;
+  int changes_left_ = 2,
+      steps_back_ = 0;               ///< of the order; halved steps until they are allowed again
   double time_ = 0;                  ///< of the step
   Chords chords_;                    ///< of the step, until duration() after it
   engine::TrianglePairIds nearest_;  ///< at the last step

@@ -15,7 +15,7 @@ double reachOf(const Modeld& model) {
 }
 
 void PairSearch::setLimits(double end, long long most_tests) {
-  constexpr long long kBudget = 16000;  // a query that fails costs its caller much more than tests
+  constexpr long long kBudget = 2000;
   end_ = end;
   most_tests_ = most_tests;
   slide_ = 1;
@@ -25,10 +25,10 @@ void PairSearch::setLimits(double end, long long most_tests) {
 // Long steps have many triangles in each other's reach, short ones advance little: a step is halved
 // whenever it has cost its budget of tests. What was pruned before stays apart. The budget doubles
 // with each halving, and for the next step: else pairs of which no step is cheap would get ever
-// shorter ones, never reach the end, and count as contact. What the pair as a whole is proven apart
-// for tells how long a step should be looked for: more of it as long as that costs little. Where a
-// search gets no farther than as many of those short steps as it costs, some of them are taken
-// instead, more each time.
+// shorter ones, never reach the end, and count as contact. Before a step is halved, other orders
+// are tried. What the pair as a whole is proven apart for tells how long a step should be looked
+// for: more of it as long as that costs little. Where a search gets no farther than as many of
+// those short steps as it costs, some of them are taken instead, more each time.
 double PairSearch::apartFor(double t, double enough) {
   if (motion_.still()) return 1;
   const double left = end_ - t;
@@ -55,6 +55,10 @@ double PairSearch::apartFor(double t, double enough) {
   long long budget = budget_, budget_ends = counts_.volume_tests + budget;
   stack_.assign(1, {0, 0});
   while (!stack_.empty() && h > 0) {
+    if (counts_.volume_tests >= budget_ends && changeOrder()) {
+      budget_ends += budget;
+      stack_.assign(1, {0, 0});
+    }
     if (counts_.volume_tests >= budget_ends) {
       h *= 0.5;
       budget *= 2;

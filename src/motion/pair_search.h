@@ -43,6 +43,8 @@ class PairSearch : public MovingPair {
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
   /// Time for which two leaves are proven apart; any time of at least `enough` will do.
   virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;
+  /// Goes on to another order in which pairs are split, if there is one that may take fewer tests.
+  virtual bool changeOrder() { return false; }
   static constexpr int kMostParts = 8;
   /// Writes the pairs that a pair consists of, the nearest first, and returns how many; 0 for a
   /// pair of leaves.
