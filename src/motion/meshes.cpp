@@ -76,6 +76,7 @@ bool MovingMeshes::touching(double t) {
 double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
   time_ = t;
   chords_.forget();
+  order_ = static_cast<Order>(std::max_element(worth_, worth_ + kOrders) - worth_);
   const long long tests = counts_.volume_tests + 4 * counts_.leaf_tests;
   const long long more = tests - std::exchange(spent_, tests);
   bool paid = true;
@@ -121,20 +122,18 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
   return 2;
 }
 
-// Once all have been tried, steps are halved for a while.
-bool MovingMeshes::changeOrder() {
-  constexpr int kOrders = 3, kPause = 16;
-  if (changes_left_ == 0) {
-    if (++steps_back_ < kPause) return false;
-    steps_back_ = 0;
-    changes_left_ = kOrders;
-  }
-  if (--changes_left_ == 0) {
-    order_ = Order::kLarger;
-    return false;
-  }
-  order_ = static_cast<Order>((static_cast<int>(order_) + 1) % kOrders);
+bool MovingMeshes::changeOrder(double way, long long cost) {
+  constexpr int kAgain = 32;
+  if (++spent_in_vain_ % kAgain == 0) std::fill_n(worth_, kOrders, -1);
+  noteStep(0.5 * way, cost);
+  double* const unknown = std::find_if(worth_, worth_ + kOrders, [](double w) { return w < 0; });
+  if (unknown == worth_ + kOrders) return false;
+  order_ = static_cast<Order>(unknown - worth_);
   return true;
+}
+
+void MovingMeshes::noteStep(double way, long long cost) {
+  worth_[static_cast<int>(order_)] = way / static_cast<double>(cost + 1);
 }
 
 // Where bodies hardly turn, velocities tell as much and round less.

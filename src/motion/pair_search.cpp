@@ -19,6 +19,7 @@ void PairSearch::setLimits(double end, long long most_tests) {
   end_ = end;
   most_tests_ = most_tests;
   slide_ = 1;
+  most_turn_ = 0x1p-3;
   budget_ = std::max(budget_, kBudget);
 }
 
@@ -50,12 +51,14 @@ double PairSearch::apartFor(double t, double enough) {
   if (last_.a < 0) {
     for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];
   }
-  double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_, most});
+  double h = std::min({window, 4 * last_step_, most});
+  if (h * v.turn() > most_turn_) h = most_turn_ / v.turn();
+  h = std::min(h, leavesApart(last_, v, h));
   const long long before = cost();
   long long budget = budget_, budget_ends = counts_.volume_tests + budget;
   stack_.assign(1, {0, 0});
   while (!stack_.empty() && h > 0) {
-    if (counts_.volume_tests >= budget_ends && changeOrder()) {
+    if (counts_.volume_tests >= budget_ends && changeOrder(h, cost() - before)) {
       budget_ends += budget;
       stack_.assign(1, {0, 0});
     }
@@ -86,6 +89,7 @@ double PairSearch::apartFor(double t, double enough) {
   budget_ = budget > budget_ ? budget : std::max(kLeastBudget, budget / 2);
   constexpr long long kCheap = 300;
   const long long cost = this->cost() - before;
+  noteStep(h, cost);
   if (h >= 0.7 * most && (most == slide_ || cost < kCheap)) {
     (most == slide_ ? slide_ : reach_) *= 2;
   }
