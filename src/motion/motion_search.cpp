@@ -280,6 +280,7 @@ bool MotionSearch::undecided(const Task& task, const Look& look) {
     end_ = {MotionVerdict::kContact, s, s, task.suspect};
     return true;
   }
+  suspects_[task.suspect].undecided = true;
   if (end_.suspect < 0) end_ = {MotionVerdict::kUnresolved, from, to, task.suspect};
   return false;
 }
@@ -294,7 +295,9 @@ void MotionSearch::anyContact() {
     constexpr double kLikely = 0.7;
     const bool near = to - from < kLikely * look.way;
     const double at = near && to == 1 ? 1 : near && from == 0 ? 0 : middleOf(from, to);
-    waiting_.push_back({suspect, from, to, at, look.way - 0.5 * (to - from)});
+    // A pair that can't be decided hardly tells more elsewhere: the others come first.
+    const double margin = look.way - 0.5 * (to - from) + (suspects_[suspect].undecided ? 2 : 0);
+    waiting_.push_back({suspect, from, to, at, margin});
     std::push_heap(waiting_.begin(), waiting_.end(), LeastProven());
   };
   for (int undecided_count = 0; !waiting_.empty() && undecided_count < kMostUndecided;) {

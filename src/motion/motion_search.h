@@ -16,7 +16,8 @@ struct Suspect {
   Pair pair;
   double roots;  ///< rootBound() where the suspects were found
   int looks = 0;
-  int place = -1;  ///< of its LocalSlabs, if there are any
+  bool undecided = false;  ///< somewhere
+  int place = -1;          ///< of its LocalSlabs, if there are any
 };
 
 /// An interval that is not proven yet for a suspect.
