@@ -135,7 +135,7 @@ Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, do
   if (mesh_a && mesh_b) return askMeshes(pair, at, enough, roots);
   if (mesh_a) return askMeshAndOther(pair, pair.a, pair.b, at, enough);
   if (mesh_b) return askMeshAndOther(pair, pair.b, pair.a, at, enough);
-  return askShapes(pair.a, pair.b, at);
+  return askShapes(pair, at);
 }
 
 bool BodyQueries::areSolids(const Pair& pair) const {
@@ -255,15 +255,20 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   return {apart, touchesOther(mesh, other, at)};
 }
 
-double BodyQueries::gapOfShapes(int a, int b, const Configuration& at) const {
-  return shapeGap(body(a), at.pose(a), body(b), at.pose(b)) - path_.pad(a, b);
+double BodyQueries::gapOfShapes(int a, int b, const Configuration& at,
+                                Eigen::Vector3d* direction) const {
+  return shapeGap(body(a), at.pose(a), body(b), at.pose(b), direction) - path_.pad(a, b);
 }
 
 // What a slab proves counts: FCL's GJK sees contacts at gaps of up to 1e-6.
-Nearness BodyQueries::askShapes(int a, int b, const Configuration& at) const {
-  const double apart = gapOfShapes(a, b, at);
-  if (apart > min_separation_) return {apart, false};
-  return {apart, shapesMeet(body(a), at.pose(a), body(b), at.pose(b), min_separation_)};
+Nearness BodyQueries::askShapes(Pair& pair, const Configuration& at) const {
+  const int a = pair.a, b = pair.b;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  const double apart = gapOfShapes(a, b, at, &direction);
+  const double slab = direction.isZero(0) ? -kInfinity : apart;
+  if (slab > 0) pair.direction = direction;
+  if (apart > min_separation_) return {apart, false, slab};
+  return {apart, shapesMeet(body(a), at.pose(a), body(b), at.pose(b), min_separation_), slab};
 }
 
 }  // namespace kios::articulated

@@ -172,12 +172,14 @@ MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart
 }
 
 // Across the direction of the nearest points most of the motion doesn't matter.
-MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pair& pair,
-                                         const Configuration& c, const PairMotion& motion) const {
+MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, double slab,
+                                         Pair& pair, const Configuration& c,
+                                         const PairMotion& motion) const {
   using Outcome = Look::Outcome;
   if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
   const double s = look.s;
-  const double gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
+  double gap = slab - request_.min_separation;
+  if (!(gap > 0)) gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
   if (!(gap > 0)) return look;
   const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
   Look wide = look;
@@ -211,7 +213,7 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
     return proven(task, s, roots, motion);
   }
   const Look nothing = {Outcome::kUndecided, s, s, s, 0};
-  const Look before = widened(task, nothing, pair, c, motion);
+  const Look before = widened(task, nothing, -kInfinity, pair, c, motion);
   if (before.outcome == Outcome::kProven) return before;
   if (before.outcome == Outcome::kPart &&
       before.to - before.from > kSlabShare * (task.to - task.from)) {
@@ -228,7 +230,8 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
-  return widened(task, proven(task, s, std::max(near.apart, roots), motion), pair, c, motion);
+  return widened(task, proven(task, s, std::max(near.apart, roots), motion), near.slab, pair, c,
+                 motion);
 }
 
 // A search that got nowhere is followed by pauses, each twice as long.

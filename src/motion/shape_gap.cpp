@@ -71,24 +71,30 @@ bool nearestPoints(const BodyData& a, const Transform3d& X_WA, const BodyData& b
 }  // namespace
 
 double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
-                const Transform3d& X_WB) {
+                const Transform3d& X_WB, Vector3d* direction) {
   if (!a.bounded) return gapFromPlane(a, X_WA, b, X_WB);
   if (!b.bounded) return gapFromPlane(b, X_WB, a, X_WA);
-  double gap = slab(a, X_WA, b, X_WB, X_WB.translation() - X_WA.translation());
+  double gap = -std::numeric_limits<double>::infinity();
+  const auto attempt = [&](const Vector3d& n) {
+    const double along = slab(a, X_WA, b, X_WB, n);
+    if (!(along > gap)) return;
+    gap = along;
+    if (direction) *direction = n.normalized();
+  };
+  attempt(X_WB.translation() - X_WA.translation());
   const auto isRound = [](const BodyData& body) { return body.solid.margin() > 0; };
   fcl::DistanceResultd result;
   if (isRound(a)) {
-    gap = std::max(gap, slab(a, X_WA, b, X_WB, fromCore(a, X_WA, b, X_WB)));
+    attempt(fromCore(a, X_WA, b, X_WB));
   } else if (isRound(b)) {
-    gap = std::max(gap, slab(a, X_WA, b, X_WB, -fromCore(b, X_WB, a, X_WA)));
+    attempt(-fromCore(b, X_WB, a, X_WA));
   } else if (nearestPoints(a, X_WA, b, X_WB, result)) {
-    const Vector3d n = result.nearest_points[1] - result.nearest_points[0];
-    gap = std::max(gap, slab(a, X_WA, b, X_WB, n));
+    attempt(result.nearest_points[1] - result.nearest_points[0]);
   }
   for (const auto* X : {&X_WA, &X_WB}) {
     for (int i = 0; i < 3; ++i) {
-      const Vector3d n = X->linear().col(i);
-      gap = std::max({gap, slab(a, X_WA, b, X_WB, n), slab(a, X_WA, b, X_WB, -n)});
+      attempt(X->linear().col(i));
+      attempt(-X->linear().col(i));
     }
   }
   return gap;
