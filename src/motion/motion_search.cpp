@@ -18,6 +18,8 @@ constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
 constexpr std::size_t kMany = 8;
+// Looks at a pair before slabs between its triangles are tried.
+constexpr int kPatience = 12;
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
 constexpr int kMostUndecided = 256;
 
@@ -200,6 +202,8 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, dou
 MotionSearch::Look MotionSearch::look(const Task& task) {
   using Outcome = Look::Outcome;
   ++counts_.queries;
+  const Look known = knownLocally(task);
+  if (known.outcome != Outcome::kUndecided) return known;
   Pair& pair = suspects_[task.suspect].pair;
   const double s = task.look_at;
   const Configuration& c = at(s);
@@ -230,25 +234,39 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
-  return widened(task, proven(task, s, std::max(near.apart, roots), motion), near.slab, pair, c,
-                 motion);
+  const Look by_query = widened(task, proven(task, s, std::max(near.apart, roots), motion),
+                                near.slab, pair, c, motion);
+  double& way = suspects_[task.suspect].way;
+  way = std::max(0.5 * way, by_query.to - by_query.from);
+  return by_query;
 }
 
-// A search that got nowhere is followed by pauses, each twice as long.
-MotionSearch::Look MotionSearch::local(const Task& task) {
+MotionSearch::Look MotionSearch::knownLocally(const Task& task) const {
   using Outcome = Look::Outcome;
-  constexpr int kPatience = 6;
-  constexpr long long kMostTests = 100000, kTestsOfQuery = 100;
-  constexpr int kLongestPause = 255;
   const Look nothing = {Outcome::kUndecided, task.from, task.from, task.from, 0};
+  const int place = suspects_[task.suspect].place;
+  if (place < 0) return nothing;
+  const Local& own = local_[place];
+  if (!(own.from <= task.from && own.to > task.from)) return nothing;
+  if (own.to >= task.to) return {Outcome::kProven, task.from, task.from, task.to, 0};
+  return {Outcome::kPart, task.from, task.from, own.to, own.to - task.from};
+}
+
+// Goes on beyond the interval, as far as it gets. One that proved less than queries at the same
+// cost is followed by pauses, each several times as long.
+MotionSearch::Look MotionSearch::local(const Task& task) {
+  constexpr int kLongestPause = 1000;
+  constexpr long long kMostTests = 30000, kTestsOfQuery = 100;
+  const Look nothing = knownLocally(task);
   Suspect& suspect = suspects_[task.suspect];
   if (++suspect.looks <= kPatience) return nothing;
   const auto isMesh = [&](int body) { return path_.linkage().bodies[body].model != nullptr; };
   if (!isMesh(suspect.pair.a) && !isMesh(suspect.pair.b)) return nothing;
   if (suspect.place < 0) {
     suspect.place = static_cast<int>(local_.size());
-    local_.push_back(
-        {std::make_unique<LocalSlabs>(path_, suspect.pair, request_.min_separation), 0, 0});
+    local_.emplace_back();
+    local_.back().slabs =
+        std::make_unique<LocalSlabs>(path_, suspect.pair, request_.min_separation);
   }
   Local& own = local_[suspect.place];
   if (own.rest > 0) {
@@ -257,15 +275,16 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   }
   const long long left = std::max(0LL, request_.max_queries - counts_.queries);
   const long long before = own.slabs->cost();
-  const double end = own.slabs->provenFrom(
-      task.from, task.to, std::min(kMostTests, kTestsOfQuery * std::min(left, kMostTests)));
-  counts_.queries += (own.slabs->cost() - before) / kTestsOfQuery;
-  const bool paid = end - task.from > kSlabShare * (task.to - task.from);
-  own.rest = own.pause = paid ? 0 : std::min(2 * own.pause + 1, kLongestPause);
-  const Outcome outcome = end >= task.to    ? Outcome::kProven
-                          : end > task.from ? Outcome::kPart
-                                            : Outcome::kUndecided;
-  return {outcome, task.from, task.from, end, end - task.from};
+  own.from = task.from;
+  own.to = own.slabs->provenFrom(task.from, 1,
+                                 std::min(kMostTests, kTestsOfQuery * std::min(left, kMostTests)));
+  const long long queries = (own.slabs->cost() - before) / kTestsOfQuery;
+  counts_.queries += queries;
+  constexpr double kFavour = 3;  // of queries, which find contacts as well
+  const bool paid = own.to - own.from > kFavour * suspect.way * static_cast<double>(queries);
+  own.pause = paid ? 0 : std::min(4 * own.pause + 3, kLongestPause);
+  own.rest = own.pause;
+  return knownLocally(task);
 }
 
 bool MotionSearch::contactAt(double s, int suspect) {
@@ -298,8 +317,12 @@ void MotionSearch::anyContact() {
     constexpr double kLikely = 0.7;
     const bool near = to - from < kLikely * look.way;
     const double at = near && to == 1 ? 1 : near && from == 0 ? 0 : middleOf(from, to);
-    // A pair that can't be decided hardly tells more elsewhere: the others come first.
-    const double margin = look.way - 0.5 * (to - from) + (suspects_[suspect].undecided ? 2 : 0);
+    // A pair that can't be decided hardly tells more elsewhere: the others come first. So they do
+    // before one that takes many looks, which is then followed through time, as slabs between
+    // triangles are.
+    const Suspect& own = suspects_[suspect];
+    const bool many = own.undecided || own.looks > kPatience;
+    const double margin = many ? (own.undecided ? 4 : 2) + from : look.way - 0.5 * (to - from);
     waiting_.push_back({suspect, from, to, at, margin});
     std::push_heap(waiting_.begin(), waiting_.end(), LeastProven());
   };

@@ -16,6 +16,7 @@ struct Suspect {
   Pair pair;
   double roots;  ///< rootBound() where the suspects were found
   int looks = 0;
+  double way = 0;          ///< how much of the path a query proves of late
   bool undecided = false;  ///< somewhere
   int place = -1;          ///< of its LocalSlabs, if there are any
 };
@@ -86,6 +87,8 @@ class MotionSearch {
   Look look(const Task& task);
   /// By slabs between triangles, once a pair has been looked at often; else nothing.
   Look local(const Task& task);
+  /// What the last such search proved of an interval, which it may have passed.
+  Look knownLocally(const Task& task) const;
   Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
   /// `slab` is the width of one across the pair's direction; if there is none, one is looked for.
   Look widened(const Task& task, const Look& look, double slab, Pair& pair, const Configuration& c,
@@ -111,10 +114,11 @@ class MotionSearch {
   std::vector<Configuration>& cache_;
   std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
   std::vector<Suspect>& suspects_;
-  /// Of suspects that nothing else proves, and how much of them is worth while.
+  /// Of a suspect that nothing else proves.
   struct Local {
     std::unique_ptr<LocalSlabs> slabs;
-    int rest = 0, pause = 0;  ///< looks to be spared after one that didn't pay, and next time
+    double from = 0, to = 0;  ///< what was proven last
+    int rest = 0, pause = 0;  ///< looks to be spared after a search that didn't pay, and next time
   };
   std::vector<Local> local_;
   bool looked_at_end_ = false;
