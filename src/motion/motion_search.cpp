@@ -19,7 +19,7 @@ constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
 constexpr std::size_t kMany = 8;
 // Looks at a pair before slabs between its triangles are tried.
-constexpr int kPatience = 12;
+constexpr int kPatience = 40;
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
 constexpr int kMostUndecided = 256;
 
@@ -256,7 +256,7 @@ MotionSearch::Look MotionSearch::knownLocally(const Task& task) const {
 // cost is followed by pauses, each several times as long.
 MotionSearch::Look MotionSearch::local(const Task& task) {
   constexpr int kLongestPause = 1000;
-  constexpr long long kMostTests = 30000, kTestsOfQuery = 100;
+  constexpr long long kTestsOfQuery = 100;
   const Look nothing = knownLocally(task);
   Suspect& suspect = suspects_[task.suspect];
   if (++suspect.looks <= kPatience) return nothing;
@@ -273,11 +273,12 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
     --own.rest;
     return nothing;
   }
+  // No more is spent than was on queries, lest a pair that these prove anyhow takes much longer.
   const long long left = std::max(0LL, request_.max_queries - counts_.queries);
+  const long long most = kTestsOfQuery * std::min<long long>(left, suspect.looks);
   const long long before = own.slabs->cost();
   own.from = task.from;
-  own.to = own.slabs->provenFrom(task.from, 1,
-                                 std::min(kMostTests, kTestsOfQuery * std::min(left, kMostTests)));
+  own.to = own.slabs->provenFrom(task.from, 1, most);
   const long long queries = (own.slabs->cost() - before) / kTestsOfQuery;
   counts_.queries += queries;
   constexpr double kFavour = 3;  // of queries, which find contacts as well

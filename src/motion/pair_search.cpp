@@ -15,12 +15,10 @@ double reachOf(const Modeld& model) {
 }
 
 void PairSearch::setLimits(double end, long long most_tests) {
-  constexpr long long kBudget = 2000;
   end_ = end;
   most_tests_ = most_tests;
   slide_ = 1;
   most_turn_ = 0x1p-3;
-  budget_ = std::max(budget_, kBudget);
 }
 
 // Long steps have many triangles in each other's reach, short ones advance little: a step is halved
