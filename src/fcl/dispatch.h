@@ -10,7 +10,6 @@
 #include "fcl_kios/fcl_own.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/mesh_queries.h"
-#include "interior/solid_mark.h"
 #include "interior/solid_queries.h"
 #include "model/kios_model.h"
 #include "query/mesh_and_other.h"
@@ -29,25 +28,6 @@ void requireRelativeError(const fcl::DistanceRequest<S>& request) {
              "its members by name, rel_err = 0 for exact distances (kios::distance() takes larger "
              "errors).";
   throw std::invalid_argument(message.str());
-}
-
-/// True if both are marked meshes, or one is and the other a shape: the two meshes, or null where
-/// there is none, each with its partner. Throws std::invalid_argument if a marked one is no solid
-/// any more.
-template <typename S>
-bool solidPair(const Model<S>* mesh_a, const fcl::CollisionGeometry<S>* b, const Model<S>* mesh_b,
-               const fcl::CollisionGeometry<S>* a) {
-  if (mesh_a && mesh_b) {
-    requireFinished(*mesh_a);
-    requireFinished(*mesh_b);
-    return areSolids(*mesh_a, *mesh_b);
-  }
-  const Model<S>* const mesh = mesh_a ? mesh_a : mesh_b;
-  if (!mesh || !isShape(mesh_a ? *b : *a)) return false;
-  requireFinished(*mesh);
-  SolidMark<S>* const mark = markOf(*mesh);
-  if (mark) mark->check(*mesh);
-  return mark != nullptr;
 }
 
 template <typename S>

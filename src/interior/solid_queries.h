@@ -9,9 +9,30 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/model/model.h"
-#include "query/pair_frame.h"
+#include "interior/solid_mark.h"
+#include "model/kios_model.h"
+#include "query/shape_solid.h"
 
 namespace kios {
+
+/// True if both are marked meshes, or one is and the other a shape: the two meshes, or null where
+/// there is none, each with its partner. Throws std::invalid_argument if a marked one is no solid
+/// any more.
+template <typename S>
+bool solidPair(const Model<S>* mesh_a, const fcl::CollisionGeometry<S>* b, const Model<S>* mesh_b,
+               const fcl::CollisionGeometry<S>* a) {
+  if (mesh_a && mesh_b) {
+    requireFinished(*mesh_a);
+    requireFinished(*mesh_b);
+    return areSolids(*mesh_a, *mesh_b);
+  }
+  const Model<S>* const mesh = mesh_a ? mesh_a : mesh_b;
+  if (!mesh || !isShape(mesh_a ? *b : *a)) return false;
+  requireFinished(*mesh);
+  SolidMark<S>* const mark = markOf(*mesh);
+  if (mark) mark->check(*mesh);
+  return mark != nullptr;
+}
 
 /// fcl::collide and fcl::distance of two marked models: as collideMeshes() and distanceMeshes(),
 /// but one that lies in the other, or a component that does, is in contact with it. Its triangles'

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "fcl_kios/query/mesh_queries.h"
+#include "interior/solid_queries.h"
 #include "model/kios_model.h"
 #include "motion/shape_gap.h"
 #include "query/bracket.h"
@@ -134,20 +135,36 @@ Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, do
   if (mesh_a && mesh_b) return askMeshes(pair, at, enough, roots);
   if (mesh_a) return askMeshAndOther(pair, pair.a, pair.b, at, enough);
   if (mesh_b) return askMeshAndOther(pair, pair.b, pair.a, at, enough);
-  return askShapes(pair.a, pair.b, at);
+  return askShapes(pair, at);
+}
+
+bool BodyQueries::areSolids(const Pair& pair) const {
+  if (!marksExist()) return false;
+  const BodyData &a = body(pair.a), &b = body(pair.b);
+  return solidPair(a.model, b.geometry.get(), b.model, a.geometry.get());
 }
 
 bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
+  const bool quick =
+      body(pair.a).kind != BodyKind::kOctree && body(pair.b).kind != BodyKind::kOctree;
+  return quick && !(min_separation_ > 0) && inContact(pair, at);
+}
+
+bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
   const BodyData &a = body(pair.a), &b = body(pair.b);
-  const auto isQuick = [](const BodyData& body) { return body.kind != BodyKind::kOctree; };
-  if (min_separation_ > 0 || !isQuick(a) || !isQuick(b)) return false;
   ++counts_.narrow_queries;
   if (!a.model && !b.model) {
-    return shapesMeet(a, at.pose(pair.a), b, at.pose(pair.b), min_separation_);
+    return shapesMeet(a, at.pose(pair.a), b, at.pose(pair.b), 0) &&
+           !(gapOfShapes(pair.a, pair.b, at) > 0);
   }
   if (!a.model || !b.model) {
     const int mesh = a.model ? pair.a : pair.b, shape = a.model ? pair.b : pair.a;
     return touchesOther(mesh, shape, at);
+  }
+  if (areSolids(pair)) {
+    fcl::CollisionResultd contacts;
+    return collideSolids(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
+                         fcl::CollisionRequestd(), contacts) > 0;
   }
   const PairFrame<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                                 path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
@@ -160,8 +177,13 @@ bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
 
 bool BodyQueries::touchesOther(int mesh, int other, const Configuration& at) const {
   fcl::CollisionResultd contacts;
-  return collideOther(*body(mesh).model, at.pose(mesh), *body(other).geometry, at.pose(other),
-                      fcl::CollisionRequestd(), contacts) > 0;
+  const Modeld& model = *body(mesh).model;
+  const fcl::CollisionGeometryd& geometry = *body(other).geometry;
+  const fcl::CollisionRequestd request;
+  if (marksExist() && solidPair<double>(&model, &geometry, nullptr, &model)) {
+    return collideSolidShape(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
+  }
+  return collideOther(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
 }
 
 Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough,
@@ -233,12 +255,20 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   return {apart, touchesOther(mesh, other, at)};
 }
 
-Nearness BodyQueries::askShapes(int a, int b, const Configuration& at) const {
-  const BodyData &first = body(a), &second = body(b);
-  const double pad = path_.pad(a, b);
-  const double apart = shapeGap(first, at.pose(a), second, at.pose(b)) - pad;
-  if (apart > min_separation_) return {apart, false};
-  return {apart, shapesMeet(first, at.pose(a), second, at.pose(b), min_separation_)};
+double BodyQueries::gapOfShapes(int a, int b, const Configuration& at,
+                                Eigen::Vector3d* direction) const {
+  return shapeGap(body(a), at.pose(a), body(b), at.pose(b), direction) - path_.pad(a, b);
+}
+
+// What a slab proves counts: FCL's GJK sees contacts at gaps of up to 1e-6.
+Nearness BodyQueries::askShapes(Pair& pair, const Configuration& at) const {
+  const int a = pair.a, b = pair.b;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  const double apart = gapOfShapes(a, b, at, &direction);
+  const double slab = direction.isZero(0) ? -kInfinity : apart;
+  if (slab > 0) pair.direction = direction;
+  if (apart > min_separation_) return {apart, false, slab};
+  return {apart, shapesMeet(body(a), at.pose(a), body(b), at.pose(b), min_separation_), slab};
 }
 
 }  // namespace kios::articulated

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
+
 #include "motion/configuration.h"
 
 namespace kios::articulated {
@@ -20,6 +22,8 @@ struct Nearness {
   /// subtracted.
   double apart = 0;
   bool contact = false;  ///< confirmed by the static query
+  /// The width of a slab across the pair's direction, if one was found.
+  double slab = -std::numeric_limits<double>::infinity();
 };
 
 /// The static queries about two bodies of a linkage at a configuration of a path, a < b. Asks by
@@ -42,6 +46,12 @@ class BodyQueries {
   /// time; false if that would take a query as long as ask().
   bool touching(const Pair& pair, const Configuration& at) const;
 
+  /// True if one of the bodies may lie in the other: both are marked meshes, or one is and the
+  /// other a shape. Throws std::invalid_argument if a marked one is no solid any more.
+  bool areSolids(const Pair& pair) const;
+  /// True only if the bodies are in contact, as fcl::collide sees it; for solids also if.
+  bool inContact(const Pair& pair, const Configuration& at) const;
+
   /// Of the bodies' balls.
   double smallerRadius(const Pair& pair) const {
     return std::min(body(pair.a).content.radius, body(pair.b).content.radius);
@@ -57,7 +67,10 @@ class BodyQueries {
                            double enough) const;
   /// A mesh and a shape or octree, by fcl::collide.
   bool touchesOther(int mesh, int other, const Configuration& at) const;
-  Nearness askShapes(int a, int b, const Configuration& at) const;
+  Nearness askShapes(Pair& pair, const Configuration& at) const;
+  /// The width of a slab between two shapes, as shapeGap() finds it; negative if none was found.
+  double gapOfShapes(int a, int b, const Configuration& at,
+                     Eigen::Vector3d* direction = nullptr) const;
 
   const Path& path_;
   const double min_separation_;

@@ -25,7 +25,6 @@ using articulated::BodyData;
 using articulated::BodyKind;
 using articulated::CarriedBody;
 using articulated::LinkData;
-using articulated::ObstacleBox;
 using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -119,18 +118,11 @@ Hull hullOf(const Modeld& model) {
 #if FCL_HAVE_OCTOMAP
 /// The box of the occupied cells; no points if there are none. Cells have their places by two sums
 /// in octomap and in FCL, which differ by rounding.
-Hull hullOf(const fcl::OcTreed& octree) {
+Hull hullOf(const fcl::OcTreed& octree, const articulated::OccupiedBox& cells) {
   Hull hull;
-  Vector3d low = Vector3d::Constant(kInfinity), high = -low;
-  if (!octree.getRoot()) return hull;
-  for (const auto& cell : octree.toBoxes()) {
-    const Vector3d center(cell[0], cell[1], cell[2]);
-    low = low.cwiseMin(center - Vector3d::Constant(0.5 * cell[3]));
-    high = high.cwiseMax(center + Vector3d::Constant(0.5 * cell[3]));
-  }
-  if (!(low.x() <= high.x())) return hull;
-  addBox(low, high, hull.points);
-  hull.center = 0.5 * (low + high);
+  if (cells.empty()) return hull;
+  addBox(cells.low, cells.high, hull.points);
+  hull.center = 0.5 * (cells.low + cells.high);
   hull.margin = 0x1p-40 * octree.getRootBV().max_.lpNorm<1>();
   return hull;
 }
@@ -154,14 +146,49 @@ Hull measure(BodyData& body) {
   }
 #if FCL_HAVE_OCTOMAP
   if (geometry.getObjectType() == fcl::OT_OCTREE) {
+    const auto& octree = static_cast<const fcl::OcTreed&>(geometry);
     body.kind = BodyKind::kOctree;
-    return hullOf(static_cast<const fcl::OcTreed&>(geometry));
+    body.cells = articulated::occupiedBox(octree);
+    return hullOf(octree, body.cells);
   }
 #endif
   const bool mesh = geometry.getObjectType() == fcl::OT_BVH;
   refuse("a body of a linkage can't be a " + typeName(geometry) +
          (mesh ? "; convert it by kios::toKIOS(model)."
                : "; replace it by a mesh, built by kios::makeModel()."));
+}
+
+/// Sets what bounds the content, whose hull in the geometry's frame is given.
+void setContent(BodyData& body, Hull hull, const std::vector<LinkData>& links) {
+  if (hull.points.empty()) hull.points.push_back(hull.center);
+  double size = hull.margin;
+  for (const Vector3d& p : hull.points) size = std::max(size, p.lpNorm<1>());
+  if (!(size <= kLargest)) refuse("a body of a linkage is too large.");
+
+  // Moved points round by less than 16 u of the lengths.
+  hull.margin += 0x1p-48 * (size + body.X_LB.translation().norm());
+  for (Vector3d& p : hull.points) p = body.X_LB * p;
+  hull.center = body.X_LB * hull.center;
+  body.content = articulated::boundOf(hull.points, hull.margin, hull.center);
+  body.reach = body.content.reach();
+  if (body.bounded) body.supports = articulated::SupportTable(hull.points, hull.margin);
+  if (body.link >= 0) {
+    body.own_radius = articulated::farthestFromAxis(hull.points, hull.margin, Vector3d::Zero(),
+                                                    links[body.link].axis);
+    return;
+  }
+  body.obstacle_length = (body.X_LB.translation().norm() + body.reach) * (1 + 0x1p-50);
+  for (int i = 0; i < 3; ++i) {
+    body.box.low[i] = kInfinity;
+    body.box.high[i] = -kInfinity;
+    for (const Vector3d& p : hull.points) {
+      body.box.low[i] = std::min(body.box.low[i], p[i] - hull.margin);
+      body.box.high[i] = std::max(body.box.high[i], p[i] + hull.margin);
+    }
+    if (body.bounded) continue;
+    body.box.low[i] = -kInfinity;
+    body.box.high[i] = kInfinity;
+  }
 }
 
 bool turns(const std::vector<LinkData>& links, int link) {
@@ -229,40 +256,14 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   body.X_LB.linear() = continuous::orthonormal(X_LB.linear(), "pose of a body");
   body.X_LB.translation() = X_LB.translation();
   requireTranslation(X_LB.translation(), "pose of a body");
-  Hull hull = measure(body);
-  body.meets = body.geometry->isOccupied() && !hull.points.empty();
+  const Hull hull = measure(body);
+  body.occupied = body.geometry->isOccupied();
+  body.meets = body.occupied && !hull.points.empty();
   if (!body.bounded && turns(links, link)) {
     refuse("a half-space or a plane can't turn: a revolute joint carries it.");
   }
-  if (hull.points.empty()) hull.points.push_back(hull.center);
-  double size = hull.margin;
-  for (const Vector3d& p : hull.points) size = std::max(size, p.lpNorm<1>());
-  if (!(size <= kLargest)) refuse("a body of a linkage is too large.");
-
-  // Moved points round by less than 16 u of the lengths.
-  hull.margin += 0x1p-48 * (size + X_LB.translation().norm());
-  for (Vector3d& p : hull.points) p = body.X_LB * p;
-  hull.center = body.X_LB * hull.center;
-  body.content = articulated::boundOf(hull.points, hull.margin, hull.center);
-  body.reach = body.content.reach();
-  if (body.bounded) body.supports = articulated::SupportTable(hull.points, hull.margin);
-  if (link >= 0) {
-    body.own_radius =
-        articulated::farthestFromAxis(hull.points, hull.margin, Vector3d::Zero(), links[link].axis);
-  }
-  ObstacleBox box = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}, 0};
-  if (body.bounded) {
-    for (int i = 0; i < 3; ++i) {
-      box.low[i] = kInfinity;
-      box.high[i] = -kInfinity;
-      for (const Vector3d& p : hull.points) {
-        box.low[i] = std::min(box.low[i], p[i] - hull.margin);
-        box.high[i] = std::max(box.high[i], p[i] + hull.margin);
-      }
-    }
-  }
+  setContent(body, hull, links);
   if (link < 0) {
-    body.obstacle_length = (X_LB.translation().norm() + body.reach) * (1 + 0x1p-50);
     farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
   } else {
     body.carried = static_cast<int>(carried.size());
@@ -271,8 +272,8 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   }
   bodies.push_back(std::move(body));
   const int id = static_cast<int>(bodies.size()) - 1;
-  box.body = id;
-  addPairs(id, box);
+  bodies.back().box.body = id;
+  addPairs(id);
   return id;
 }
 
@@ -283,12 +284,12 @@ int Linkage::Impl::shared(int link_a, int link_b) const {
                           a.begin());
 }
 
-void Linkage::Impl::addPairs(int body, const articulated::ObstacleBox& box) {
+void Linkage::Impl::addPairs(int body) {
   const BodyData& data = bodies[body];
   const auto meet = [&](int other) { return data.meets && bodies[other].meets; };
   if (data.link < 0) {
     if (!data.meets) return;
-    obstacles.push_back(box);
+    obstacles.push_back(data.box);
     obstacle_tree.reset();
     for (const CarriedBody& other : carried) num_pairs += meet(other.body) ? 1 : 0;
     return;
@@ -313,6 +314,7 @@ void Linkage::Impl::allow(int a, int b) {
   }
   if (bodies[a].carried < bodies[b].carried) std::swap(a, b);
   if (a == b || bodies[a].carried < 0) return;
+  allowed_.emplace_back(a, b);
   CarriedBody& body = carried[bodies[a].carried];
   if (bodies[b].carried >= 0) {
     int& joints = body.shared[bodies[b].carried];
@@ -324,6 +326,25 @@ void Linkage::Impl::allow(int a, int b) {
   if (at != body.allowed.end() && *at == b) return;
   body.allowed.insert(at, b);
   if (bodies[a].meets && bodies[b].meets) --num_pairs;
+}
+
+void Linkage::Impl::measureOctrees() {
+  farthest_obstacle = 0;
+  for (BodyData& body : bodies) {
+    if (body.kind == BodyKind::kOctree) {
+      const Hull hull = measure(body);
+      body.meets = body.occupied && !hull.points.empty();
+      setContent(body, hull, links);
+    }
+    farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
+  }
+  const auto allowed = std::exchange(allowed_, {});
+  carried.clear();
+  obstacles.clear();
+  obstacle_tree.reset();
+  num_pairs = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) addPairs(static_cast<int>(i));
+  for (const auto& [a, b] : allowed) allow(a, b);
 }
 
 }  // namespace kios

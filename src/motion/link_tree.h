@@ -5,12 +5,15 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/motion/linkage.h"
 #include "motion/content_bound.h"
 #include "motion/obstacle_tree.h"
+#include "motion/occupied_box.h"
 #include "motion/support.h"
 #include "solid/solid.h"
 
@@ -42,17 +45,28 @@ struct BodyData {
   int link = -1;
   fcl::Transform3d X_LB;  ///< its rotation orthonormal as a link's
   bool bounded = true;    ///< half-spaces and planes are not
+  bool occupied = true;
   bool meets = true;      ///< false: it isn't occupied, or an octree without cells
   ContentBound content;   ///< in the link's frame
   double own_radius = 0;  ///< largest distance of the content from the axis of its link's own joint
   SupportTable supports;  ///< of the content in the link's frame; empty if unbounded
   double reach = 0;  ///< of the content from its link's origin; of an unbounded one, of its plane
+  ObstacleBox box = {};        ///< of an obstacle
   double obstacle_length = 0;  ///< how far an obstacle reaches from the world's origin
   int carried = -1;            ///< among those on links
   int first_motion = 0;  ///< of its BodyMotions in a configuration; those of obstacles are all one
   /// State of a mesh when it was added.
   std::uint64_t stamp = 0;
   const void* vertices = nullptr;
+#if FCL_HAVE_OCTOMAP
+  OccupiedBox cells;  ///< of an octree, when its content was measured
+#endif
+
+  /// Throws std::invalid_argument, naming the body, if what was measured of it when it was added
+  /// is not so any more. Octrees may change.
+  void requireUnchanged(std::size_t id) const;
+  /// True unless the body is an octree with cells outside of those that were measured.
+  bool holdsCells() const;
 };
 
 /// A body on a link, and those with which it must not come into contact.
@@ -83,6 +97,22 @@ class SpareScratch {
   mutable std::atomic<Scratch*> spare_{nullptr};
 };
 
+/// A linkage like another one, whose octrees were measured later. A copy is empty.
+class RenewedLinkage {
+ public:
+  RenewedLinkage() = default;
+  RenewedLinkage(const RenewedLinkage& /*other*/) {}
+  RenewedLinkage& operator=(const RenewedLinkage&) = delete;
+  ~RenewedLinkage() = default;
+
+  /// Measures the octrees of `linkage` again, unless the last time will do.
+  std::shared_ptr<const Linkage::Impl> of(const Linkage::Impl& linkage) const;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<const Linkage::Impl> impl_;
+};
+
 }  // namespace kios::articulated
 
 namespace kios {
@@ -105,13 +135,22 @@ class Linkage::Impl {
               const fcl::Transform3d& X_LB);
   void allow(int a, int b);
 
+  /// This one; or, where an octree has got cells outside of the box that was measured, one that
+  /// holds them. Throws std::invalid_argument if any other geometry was changed.
+  std::shared_ptr<const Impl> current() const;
+  bool holdsCells() const;
+  void measureOctrees();
+
   articulated::SpareScratch spare;
 
   /// The number of moving joints that carry both links.
   int shared(int link_a, int link_b) const;
 
  private:
-  void addPairs(int body, const articulated::ObstacleBox& box);
+  void addPairs(int body);
+
+  std::vector<std::pair<int, int>> allowed_;
+  articulated::RenewedLinkage renewed_;
 };
 
 }  // namespace kios

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "model/kios_model.h"
 #include "motion/motion_search.h"
 
 namespace kios {
@@ -19,20 +18,6 @@ void require(bool valid, const char* name, double value, const char* range) {
   message << "fcl_kios: MotionRequest::" << name << " is " << value << ", but must be " << range
           << ".";
   throw std::invalid_argument(message.str());
-}
-
-/// Bounds were measured when bodies were added.
-void requireUnchanged(const Linkage::Impl& linkage) {
-  for (std::size_t i = 0; i < linkage.bodies.size(); ++i) {
-    const articulated::BodyData& body = linkage.bodies[i];
-    if (!body.model) continue;
-    requireFinished(*body.model);
-    if (body.model->getBV(0).bv.stamp == body.stamp && body.model->vertices == body.vertices) {
-      continue;
-    }
-    throw std::invalid_argument("fcl_kios: the mesh of body " + std::to_string(i) +
-                                " was changed since it was added; build the linkage anew.");
-  }
 }
 
 }  // namespace
@@ -73,8 +58,10 @@ MotionAnswer checkMotion(const Linkage& linkage, const Eigen::VectorXd& q0,
           request.min_separation, "finite and >= 0");
   require(request.resolution >= 0x1p-40 && request.resolution <= 1, "resolution",
           request.resolution, "in [2^-40, 1]");
-  requireUnchanged(linkage.impl());
-  const articulated::Path path(linkage.impl(), q0, q1);
+  require(request.max_queries >= 0, "max_queries", static_cast<double>(request.max_queries),
+          ">= 0");
+  const auto impl = linkage.impl().current();
+  const articulated::Path path(*impl, q0, q1);
   return articulated::MotionSearch(path, request).run();
 }
 

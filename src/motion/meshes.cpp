@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "motion/meshes.h"
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "fcl_kios/triangle/distance.h"
+#include "interior/solid_queries.h"
 #include "model/prepared.h"
+#include "motion/heights.h"
 #include "query/bracket.h"
 #include "query/mesh_pair.h"
 #include "volume/balls.h"
@@ -15,6 +20,8 @@ namespace kios::continuous {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Directions of a triangle's edges and of its normal.
 struct Edges {
@@ -59,14 +66,17 @@ bool capsApart(int k, const MovingBall& central_a, const FourBalls& caps_a,
 
 bool MovingMeshes::touching(double t) {
   fcl::CollisionResultd result;
-  return collideMeshes(a_, motion_.a().pose(t), b_, motion_.b().pose(t), fcl::CollisionRequestd(),
-                       result) > 0;
+  const fcl::CollisionRequestd request;
+  const fcl::Transform3d X_WA = motion_.a().pose(t), X_WB = motion_.b().pose(t);
+  return (areSolids(a_, b_) ? collideSolids(a_, X_WA, b_, X_WB, request, result)
+                            : collideMeshes(a_, X_WA, b_, X_WB, request, result)) > 0;
 }
 
 // By the engine, as soon as it has paid to prepare both models.
 double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
   time_ = t;
   chords_.forget();
+  order_ = static_cast<Order>(std::max_element(worth_, worth_ + kOrders) - worth_);
   const long long tests = counts_.volume_tests + 4 * counts_.leaf_tests;
   const long long more = tests - std::exchange(spent_, tests);
   bool paid = true;
@@ -99,7 +109,9 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
   if (a.isLeaf() && b.isLeaf()) return 0;
   NodePair &near = parts[0], &far = parts[1];
   near = far = pair;
-  if (b.isLeaf() || (!a.isLeaf() && a.bv.radius0 > b.bv.radius0)) {
+  const bool splits_a =
+      order_ == Order::kLarger ? a.bv.radius0 > b.bv.radius0 : order_ == Order::kA;
+  if (b.isLeaf() || (!a.isLeaf() && splits_a)) {
     near.a = a.leftChild();
     far.a = a.rightChild();
   } else {
@@ -108,6 +120,20 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
   }
   if (centersGap(far, v) < centersGap(near, v)) std::swap(near, far);
   return 2;
+}
+
+bool MovingMeshes::changeOrder(double way, long long cost) {
+  constexpr int kAgain = 32;
+  if (++spent_in_vain_ % kAgain == 0) std::fill_n(worth_, kOrders, -1);
+  noteStep(0.5 * way, cost);
+  double* const unknown = std::find_if(worth_, worth_ + kOrders, [](double w) { return w < 0; });
+  if (unknown == worth_ + kOrders) return false;
+  order_ = static_cast<Order>(unknown - worth_);
+  return true;
+}
+
+void MovingMeshes::noteStep(double way, long long cost) {
+  worth_[static_cast<int>(order_)] = way / static_cast<double>(cost + 1);
 }
 
 // Where bodies hardly turn, velocities tell as much and round less.
@@ -201,6 +227,50 @@ bool MovingMeshes::leavesStayApart(NodePair pair, const RelativeVelocities& v) c
   return true;
 }
 
+// What is long and thin fits balls badly, but lies on one side of its own plane, as whatever slides
+// along it does.
+bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double duration) const {
+  const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
+  const Eigen::Matrix3d own = Eigen::Matrix3d::Identity(), R = v.pose().R();
+  const Vector3d zero = Vector3d::Zero(), T = v.pose().T();
+  const double lengths = T.lpNorm<1>() + a_.getBV(0).bv.center0.lpNorm<1>() +
+                         a_.getBV(0).bv.radius0 + b_.getBV(0).bv.center0.lpNorm<1>() +
+                         b_.getBV(0).bv.radius0;
+  const double least = v.pad() + 0x1p-46 * (1 + duration * (v.turn() + 1)) * lengths +
+                       (v.stretch() + 0x1p-48) * (a.bv.radius0 + b.bv.radius0);
+  // Of a's points along n, and of b's against it.
+  const auto parts = [&](const Vector3d& n) {
+    const Heights of_a(v.a(), own, zero, n, duration), of_b(v.b(), R, T, -n, duration);
+    int most = order_ == Order::kLarger ? 48 : 512;
+    Heights::Height limit = {-kInfinity, -kInfinity};
+    const auto highest = [&limit](const Heights& heights, const Modeld& model, int triangle) {
+      for (const Vector3d& corner : cornersOf(model, triangle)) {
+        const Heights::Height height = heights.of(corner);
+        limit = {std::max(limit.start, height.start), std::max(limit.end, height.end)};
+      }
+    };
+    if (a.isLeaf()) {
+      highest(of_a, a_, a.primitiveId());
+      return of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, most);
+    }
+    highest(of_b, b_, b.primitiveId());
+    return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, most);
+  };
+  const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
+    const Edges edges(cornersOf(model, triangle));
+    const auto partsAcross = [&](const Vector3d& direction) {
+      const Vector3d n = R_AM * direction;
+      return n.squaredNorm() > 0.5 && (parts(n) || parts(-n));
+    };
+    if (partsAcross(edges.normal)) return true;
+    return order_ != Order::kLarger &&
+           std::any_of(std::begin(edges.along), std::end(edges.along),
+                       [&](const Vector3d& edge) { return partsAcross(edge.cross(edges.normal)); });
+  };
+  return (a.isLeaf() && facesPart(a_, a.primitiveId(), own)) ||
+         (b.isLeaf() && facesPart(b_, b.primitiveId(), R));
+}
+
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
   if (useChords(v, duration)) return nodesStayApart(pair, v);
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
@@ -208,12 +278,15 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
   const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
   const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
   if (v.apart(central_a, central_b, duration)) return true;
-  if (a.k() == 1 && b.k() == 1) return false;
-  Eigen::Array4d centers[3];
-  const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
-  const FourBalls caps_b = v.ballsOfB(centers, radii_b);
-  const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
-  return capsApart(a.k(), central_a, v.ballsOfA(centers, radii_a), central_b, caps_b, v, duration);
+  if (a.k() > 1 || b.k() > 1) {
+    Eigen::Array4d centers[3];
+    const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
+    const FourBalls caps_b = v.ballsOfB(centers, radii_b);
+    const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
+    const FourBalls caps_a = v.ballsOfA(centers, radii_a);
+    if (capsApart(a.k(), central_a, caps_a, central_b, caps_b, v, duration)) return true;
+  }
+  return (a_.getBV(pair.a).isLeaf() || b_.getBV(pair.b).isLeaf()) && planeParts(pair, v, duration);
 }
 
 double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {

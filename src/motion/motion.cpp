@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
+#include "motion/chain.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 
@@ -107,6 +109,14 @@ Motion Motion::spline(const Points& translations, const Points& rotations) {
   return m;
 }
 
+Motion Motion::chain(std::shared_ptr<const articulated::Chain> chain, double rounding) {
+  Motion m;
+  m.kind_ = Kind::kChain;
+  m.chain_ = std::move(chain);
+  m.rounding_ = rounding;
+  return m;
+}
+
 Motion Motion::translation(const Transform3d& X_0, const Transform3d& X_1) {
   orthonormal(X_1.linear());
   return twist(X_0, X_1.translation() - X_0.translation(), Vector3d::UnitX(), 0, Vector3d::Zero());
@@ -151,6 +161,7 @@ Motion Motion::spline(const Transform3d& X_0, const Transform3d& X_1) {
 }
 
 Transform3d Motion::pose(double t) const {
+  if (kind_ == Kind::kChain) return chain_->pose(t);
   Transform3d X = Transform3d::Identity();
   if (kind_ == Kind::kSpline) {
     X.linear() = rotation(combine(Rd_, weights(t)));
@@ -171,6 +182,7 @@ Transform3d Motion::pose(double t) const {
 }
 
 VelocityField Motion::velocities(double t, const Transform3d& X, double window) const {
+  if (kind_ == Kind::kChain) return chain_->velocities(t, X, window);
   VelocityField v;
   if (kind_ == Kind::kTwist) {
     const double s = std::sin(angle_ * t), c = std::cos(angle_ * t);
@@ -202,7 +214,12 @@ VelocityField Motion::velocities(double t, const Transform3d& X, double window) 
   return v;
 }
 
+bool Motion::steady() const {
+  return kind_ == Kind::kTwist || (kind_ == Kind::kChain && chain_->steady());
+}
+
 bool Motion::still() const {
+  if (kind_ == Kind::kChain) return false;
   if (kind_ == Kind::kTwist) return angle_ == 0 && velocity_.isZero(0);
   for (int i = 1; i < 4; ++i) {
     if (Td_[i] != Td_[0] || Rd_[i] != Rd_[0]) return false;
@@ -214,6 +231,7 @@ bool Motion::still() const {
 // of a step; their velocities have fewer. Rotations: ten roundings an entry, and an angle that is
 // known to u angle; arms are turned likewise.
 double Motion::rounding(double reach) const {
+  if (kind_ == Kind::kChain) return rounding_ + chain_->rounding(reach);
   const double turned = turnRounding() * reach;
   if (kind_ == Kind::kSpline) return 64 * kUlpDouble * largest(Td_) + turned;
   return kUlpDouble * (16 * (T0_.norm() + velocity_.norm()) + 64 * std::abs(angle_) * arm_.norm()) +

@@ -3,9 +3,14 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include <fcl/common/types.h>
 #include "motion/velocity_field.h"
+
+namespace kios::articulated {
+class Chain;
+}
 
 namespace kios::continuous {
 
@@ -28,6 +33,10 @@ class Motion {
   /// fcl::SplineMotion.
   static Motion spline(const Points& translations, const Points& rotations);
 
+  /// That of a body of a linkage; `rounding` is that of all places, and adds to what the chain's
+  /// velocities round by.
+  static Motion chain(std::shared_ptr<const articulated::Chain> chain, double rounding);
+
   // Motions from pose to pose, as FCL's of these names: both poses rigid and finite.
   static Motion translation(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
   static Motion linear(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
@@ -40,8 +49,8 @@ class Motion {
   VelocityField velocities(double t, const fcl::Transform3d& X, double window) const;
 
   /// True if bounds are the same for every window.
-  bool steady() const { return kind_ == Kind::kTwist; }
-  /// True if the body stands still.
+  bool steady() const;
+  /// True if the body stands still. Bodies of linkages never do, as their poses are rounded.
   bool still() const;
   /// Bounds the rounding error of the place of a point within `reach` of the body's origin, at any
   /// time, plus that of its velocity times a time of at most 1.
@@ -50,7 +59,7 @@ class Motion {
   double turnRounding() const;
 
  private:
-  enum class Kind { kTwist, kSpline };
+  enum class Kind { kTwist, kSpline, kChain };
   Motion() = default;
   void check() const;
 
@@ -62,6 +71,9 @@ class Motion {
   // kSpline; axis_ as well, if all rotation vectors are along it.
   Points Td_, Rd_;
   bool fixed_axis_ = true;
+  // kChain.
+  std::shared_ptr<const articulated::Chain> chain_;
+  double rounding_ = 0;
 };
 
 }  // namespace kios::continuous

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "interior/solid_mark.h"
+
 namespace kios::articulated {
 namespace {
 
@@ -15,12 +17,14 @@ constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 // Root volumes that prove so much of an interval spare it a query.
 constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
-// Where something was left undecided, intervals shorter than this aren't searched for contacts.
 constexpr std::size_t kMany = 8;
-constexpr double kShort = 0x1p-6;
+// Looks at a pair before slabs between its triangles are tried.
+constexpr int kPatience = 40;
+// Where so many intervals can't be decided, no contact is looked for in what else is left.
+constexpr int kMostUndecided = 256;
 
-/// A number in the middle of an interval with few bits, so that many pairs are asked about in one
-/// configuration.
+}  // namespace
+
 double middleOf(double from, double to) {
   constexpr double kAside = 0.1;
   const double length = to - from, middle = from + 0.5 * length;
@@ -33,8 +37,6 @@ double middleOf(double from, double to) {
   }
   return middle;
 }
-
-}  // namespace
 
 SpareScratch::~SpareScratch() { delete spare_.load(std::memory_order_acquire); }
 
@@ -134,10 +136,25 @@ bool MotionSearch::touchingAt(double s) {
   std::sort(near.begin(), near.end(),
             [](const Suspect& a, const Suspect& b) { return a.roots < b.roots; });
   for (Suspect& suspect : near) {
+    ++counts_.queries;
     if (suspect.roots > kDeep && queries_.slab(suspect.pair, c, 0) > 0) continue;
     if (!queries_.touching(suspect.pair, c)) continue;
     suspects_.assign(1, suspect);
     end_ = {MotionVerdict::kContact, s, s, 0};
+    return true;
+  }
+  return false;
+}
+
+bool MotionSearch::containedAt(double s) {
+  if (!marksExist()) return false;
+  for (std::size_t i = 0; i < suspects_.size(); ++i) {
+    Pair& pair = suspects_[i].pair;
+    if (!queries_.areSolids(pair)) continue;
+    ++counts_.queries;
+    const Configuration& c = at(s);
+    if (queries_.slab(pair, c, 0) > 0 || !queries_.inContact(pair, c)) continue;
+    end_ = {MotionVerdict::kContact, s, s, static_cast<int>(i)};
     return true;
   }
   return false;
@@ -157,12 +174,14 @@ MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart
 }
 
 // Across the direction of the nearest points most of the motion doesn't matter.
-MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pair& pair,
-                                         const Configuration& c, const PairMotion& motion) const {
+MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, double slab,
+                                         Pair& pair, const Configuration& c,
+                                         const PairMotion& motion) const {
   using Outcome = Look::Outcome;
   if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
   const double s = look.s;
-  const double gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
+  double gap = slab - request_.min_separation;
+  if (!(gap > 0)) gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
   if (!(gap > 0)) return look;
   const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
   Look wide = look;
@@ -182,6 +201,9 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, Pai
 
 MotionSearch::Look MotionSearch::look(const Task& task) {
   using Outcome = Look::Outcome;
+  ++counts_.queries;
+  const Look known = knownLocally(task);
+  if (known.outcome != Outcome::kUndecided) return known;
   Pair& pair = suspects_[task.suspect].pair;
   const double s = task.look_at;
   const Configuration& c = at(s);
@@ -195,7 +217,7 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
     return proven(task, s, roots, motion);
   }
   const Look nothing = {Outcome::kUndecided, s, s, s, 0};
-  const Look before = widened(task, nothing, pair, c, motion);
+  const Look before = widened(task, nothing, -kInfinity, pair, c, motion);
   if (before.outcome == Outcome::kProven) return before;
   if (before.outcome == Outcome::kPart &&
       before.to - before.from > kSlabShare * (task.to - task.from)) {
@@ -206,12 +228,68 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
     if (before.outcome == Outcome::kPart) return before;
     return {Outcome::kPart, s, s, s, 0};
   }
+  const Look by_triangles = local(task);
+  if (by_triangles.to - by_triangles.from > kSlabShare * (task.to - task.from)) {
+    return by_triangles;
+  }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
-  return widened(task, proven(task, s, std::max(near.apart, roots), motion), pair, c, motion);
+  const Look by_query = widened(task, proven(task, s, std::max(near.apart, roots), motion),
+                                near.slab, pair, c, motion);
+  double& way = suspects_[task.suspect].way;
+  way = std::max(0.5 * way, by_query.to - by_query.from);
+  return by_query;
+}
+
+MotionSearch::Look MotionSearch::knownLocally(const Task& task) const {
+  using Outcome = Look::Outcome;
+  const Look nothing = {Outcome::kUndecided, task.from, task.from, task.from, 0};
+  const int place = suspects_[task.suspect].place;
+  if (place < 0) return nothing;
+  const Local& own = local_[place];
+  if (!(own.from <= task.from && own.to > task.from)) return nothing;
+  if (own.to >= task.to) return {Outcome::kProven, task.from, task.from, task.to, 0};
+  return {Outcome::kPart, task.from, task.from, own.to, own.to - task.from};
+}
+
+// Goes on beyond the interval, as far as it gets. One that proved less than queries at the same
+// cost is followed by pauses, each several times as long.
+MotionSearch::Look MotionSearch::local(const Task& task) {
+  constexpr int kLongestPause = 1000;
+  constexpr long long kTestsOfQuery = 100;
+  const Look nothing = knownLocally(task);
+  Suspect& suspect = suspects_[task.suspect];
+  if (++suspect.looks <= kPatience) return nothing;
+  const auto isMesh = [&](int body) { return path_.linkage().bodies[body].model != nullptr; };
+  if (!isMesh(suspect.pair.a) && !isMesh(suspect.pair.b)) return nothing;
+  if (suspect.place < 0) {
+    suspect.place = static_cast<int>(local_.size());
+    local_.emplace_back();
+    local_.back().slabs =
+        std::make_unique<LocalSlabs>(path_, suspect.pair, request_.min_separation);
+  }
+  Local& own = local_[suspect.place];
+  if (own.rest > 0) {
+    --own.rest;
+    return nothing;
+  }
+  // No more is spent than was on queries, lest a pair that these prove anyhow takes much longer.
+  const long long left = std::max(0LL, request_.max_queries - counts_.queries);
+  const long long most = kTestsOfQuery * std::min<long long>(left, suspect.looks);
+  const long long before = own.slabs->cost();
+  own.from = task.from;
+  own.to = own.slabs->provenFrom(task.from, 1, most);
+  const long long queries = (own.slabs->cost() - before) / kTestsOfQuery;
+  counts_.queries += queries;
+  constexpr double kFavour = 3;  // of queries, which find contacts as well
+  const bool paid = own.to - own.from > kFavour * suspect.way * static_cast<double>(queries);
+  own.pause = paid ? 0 : std::min(4 * own.pause + 3, kLongestPause);
+  own.rest = own.pause;
+  return knownLocally(task);
 }
 
 bool MotionSearch::contactAt(double s, int suspect) {
+  ++counts_.queries;
   return queries_.ask(suspects_[suspect].pair, at(s), request_.min_separation, -kInfinity).contact;
 }
 
@@ -225,28 +303,38 @@ bool MotionSearch::undecided(const Task& task, const Look& look) {
     end_ = {MotionVerdict::kContact, s, s, task.suspect};
     return true;
   }
+  suspects_[task.suspect].undecided = true;
   if (end_.suspect < 0) end_ = {MotionVerdict::kUnresolved, from, to, task.suspect};
   return false;
 }
 
 void MotionSearch::anyContact() {
   using Outcome = Look::Outcome;
-  std::make_heap(waiting_.begin(), waiting_.end());
+  std::make_heap(waiting_.begin(), waiting_.end(), LeastProven());
   const auto push = [&](int suspect, double from, double to, const Look& look) {
     if (!(from < to)) return;
-    if (end_.suspect >= 0 && to - from < kShort) return;
     // What is short for the way that was proven nearby is likely to be proven from an end of the
     // path, where other pairs are looked at too.
     constexpr double kLikely = 0.7;
     const bool near = to - from < kLikely * look.way;
     const double at = near && to == 1 ? 1 : near && from == 0 ? 0 : middleOf(from, to);
-    waiting_.push_back({suspect, from, to, at, look.way - 0.5 * (to - from)});
-    std::push_heap(waiting_.begin(), waiting_.end());
+    // A pair that can't be decided hardly tells more elsewhere: the others come first. So they do
+    // before one that takes many looks, which is then followed through time, as slabs between
+    // triangles are.
+    const Suspect& own = suspects_[suspect];
+    const bool many = own.undecided || own.looks > kPatience;
+    const double margin = many ? (own.undecided ? 4 : 2) + from : look.way - 0.5 * (to - from);
+    waiting_.push_back({suspect, from, to, at, margin});
+    std::push_heap(waiting_.begin(), waiting_.end(), LeastProven());
   };
-  while (!waiting_.empty()) {
-    std::pop_heap(waiting_.begin(), waiting_.end());
+  for (int undecided_count = 0; !waiting_.empty() && undecided_count < kMostUndecided;) {
+    std::pop_heap(waiting_.begin(), waiting_.end(), LeastProven());
     const Task task = waiting_.back();
     waiting_.pop_back();
+    if (budgetSpent()) {
+      if (end_.suspect < 0) end_ = {MotionVerdict::kBudgetSpent, task.from, task.to, task.suspect};
+      return;
+    }
     const Look result = look(task);
     switch (result.outcome) {
       case Outcome::kProven:
@@ -260,9 +348,11 @@ void MotionSearch::anyContact() {
           push(task.suspect, result.to, task.to, result);
           break;
         }
+        ++undecided_count;
         if (undecided(task, result)) return;
         break;
       case Outcome::kUndecided:
+        ++undecided_count;
         if (undecided(task, result)) return;
         push(task.suspect, task.from, result.s - request_.resolution, result);
         push(task.suspect, result.s + request_.resolution, task.to, result);
@@ -270,67 +360,16 @@ void MotionSearch::anyContact() {
   }
 }
 
-// The pairs one after the other, each from the start of the path up to what is known of those
-// before.
-void MotionSearch::firstContact() {
-  std::sort(waiting_.begin(), waiting_.end(),
-            [](const Task& a, const Task& b) { return a.margin < b.margin; });
-  const std::vector<Task> tasks = waiting_;
-  for (const Task& task : tasks) firstContactOf(task.suspect);
-}
-
-void MotionSearch::firstContactOf(int suspect) {
-  using Outcome = Look::Outcome;
-  // Bodies close in more slowly than the bounds say: what is proven must come nearer to a contact
-  // than the resolution is long.
-  constexpr double kApproach = 0x1p-8;
-  // What lies after this doesn't matter.
-  const auto limit = [&] {
-    return end_.verdict == MotionVerdict::kUnresolved ? end_.from : end_.to;
-  };
-  std::vector<Task> stack = {{suspect, 0, limit(), 0}};
-  while (!stack.empty()) {
-    Task task = stack.back();
-    stack.pop_back();
-    if (task.from >= limit() && end_.suspect >= 0) continue;
-    task.to = std::min(task.to, limit());
-    const bool ends_in_contact =
-        end_.verdict == MotionVerdict::kContact && end_.suspect == suspect && task.to == end_.to;
-    if (ends_in_contact && task.to - task.from <= request_.resolution) {
-      end_.from = task.from;
-      continue;
-    }
-    task.look_at = middleOf(task.from, task.to);
-    const Look result = look(task);
-    if (result.outcome == Outcome::kContact) {
-      const bool starts = task.from == 0 && result.s > 0 && contactAt(0, suspect);
-      end_ = {MotionVerdict::kContact, task.from, starts ? 0 : result.s, suspect};
-      if (end_.to == 0) return;
-      stack.push_back({suspect, task.from, end_.to, 0});
-    } else if (result.outcome == Outcome::kPart &&
-               task.to - task.from > kApproach * request_.resolution) {
-      if (result.to < task.to) stack.push_back({suspect, result.to, task.to, 0});
-      if (task.from < result.from) stack.push_back({suspect, task.from, result.from, 0});
-    } else if (result.outcome != Outcome::kProven) {
-      const double half = 0.25 * request_.resolution;  // so that repeated steps end
-      const double from = std::max(task.from, result.s - half),
-                   to = std::min(limit(), result.s + half);  // a task may be shorter
-      const bool touches = contactAt(to, suspect);
-      end_ = {touches ? MotionVerdict::kContact : MotionVerdict::kUnresolved, from, to, suspect};
-      stack.push_back({suspect, task.from, touches ? to : from, 0});
-    }
-  }
-}
-
 MotionAnswer MotionSearch::run() {
   if (request_.first_contact) {
     findSuspects();
-    firstContact();
+    if (!containedAt(0)) firstContact();
   } else if (request_.min_separation > 0 || !touchingAt(1)) {
     looked_at_end_ = !(request_.min_separation > 0);
     findSuspects();
     const bool look = suspects_.size() > kMany && !(request_.min_separation > 0);
-    const bool found = end_.suspect >= 0 || (look && (touchingAt(0.25) || touchingAt(0.75)));
+    const bool found = end_.suspect >= 0 || (!looked_at_end_ && containedAt(found_at_)) ||
+                       (look && (touchingAt(0.25) || touchingAt(0.75)));
     if (!found) anyContact();
   }
   MotionAnswer answer;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "motion/local_slabs.h"
 #include "motion/near_pairs.h"
 
 namespace kios::articulated {
@@ -14,17 +15,32 @@ namespace kios::articulated {
 struct Suspect {
   Pair pair;
   double roots;  ///< rootBound() where the suspects were found
+  int looks = 0;
+  double way = 0;          ///< how much of the path a query proves of late
+  bool undecided = false;  ///< somewhere
+  int place = -1;          ///< of its LocalSlabs, if there are any
 };
 
-/// An interval that is not proven yet for a suspect. The task whose distance falls short of its
-/// motion most comes first.
+/// An interval that is not proven yet for a suspect.
 struct Task {
   int suspect;
   double from, to;
-  double look_at;     ///< in the interval
-  double margin = 0;  ///< distance less motion, by what is known of a configuration nearby
-  bool operator<(const Task& o) const { return margin > o.margin; }
+  double look_at;          ///< in the interval
+  double margin = 0;       ///< distance less motion, by what is known of a configuration nearby
+  bool undecided = false;  ///< nothing can be proven of it
 };
+
+/// The task whose distance falls short of its motion most comes first from a heap.
+struct LeastProven {
+  bool operator()(const Task& a, const Task& b) const { return a.margin > b.margin; }
+};
+struct Earliest {
+  bool operator()(const Task& a, const Task& b) const { return a.from > b.from; }
+};
+
+/// A number in the middle of an interval with few bits, so that many pairs are asked about in one
+/// configuration.
+double middleOf(double from, double to);
 
 /// The memory of a search.
 struct Scratch {
@@ -65,15 +81,30 @@ class MotionSearch {
   const Configuration& at(double s);
   void findSuspects();
   bool touchingAt(double s);
+  /// True if one of two solids lies in the other at s; only then it may do so where the surfaces
+  /// are proven apart from s on, or up to s.
+  bool containedAt(double s);
   Look look(const Task& task);
+  /// By slabs between triangles, once a pair has been looked at often; else nothing.
+  Look local(const Task& task);
+  /// What the last such search proved of an interval, which it may have passed.
+  Look knownLocally(const Task& task) const;
   Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
-  Look widened(const Task& task, const Look& look, Pair& pair, const Configuration& c,
+  /// `slab` is the width of one across the pair's direction; if there is none, one is looked for.
+  Look widened(const Task& task, const Look& look, double slab, Pair& pair, const Configuration& c,
                const PairMotion& motion) const;
-  void anyContact();
-  void firstContact();
-  void firstContactOf(int suspect);
-  bool undecided(const Task& task, const Look& look);
   bool contactAt(double s, int suspect);
+  bool budgetSpent() const { return counts_.queries >= request_.max_queries; }
+
+  void anyContact();
+  bool undecided(const Task& task, const Look& look);
+
+  void firstContact();
+  void lookForFirst(Task task);
+  void splitAround(const Task& task, double s);
+  void pushEarliest(const Task& task);
+  void noteProven(int suspect, double from, double to);
+  void conclude();
 
   const Path& path_;
   const MotionRequest& request_;
@@ -83,10 +114,20 @@ class MotionSearch {
   std::vector<Configuration>& cache_;
   std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
   std::vector<Suspect>& suspects_;
+  /// Of a suspect that nothing else proves.
+  struct Local {
+    std::unique_ptr<LocalSlabs> slabs;
+    double from = 0, to = 0;  ///< what was proven last
+    int rest = 0, pause = 0;  ///< looks to be spared after a search that didn't pay, and next time
+  };
+  std::vector<Local> local_;
   bool looked_at_end_ = false;
   double found_at_ = 0.5;  ///< the configuration in which suspects_ were found
   std::vector<Task>& waiting_;
   End end_;
+  // Of the search for the first contact: the earliest that is known, and the earliest interval of
+  // which nothing can be proven.
+  End contact_, undecided_;
 };
 
 }  // namespace kios::articulated

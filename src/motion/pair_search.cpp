@@ -14,16 +14,23 @@ double reachOf(const Modeld& model) {
   return (root.center0.norm() + root.radius0) * (1 + 0x1p-50);
 }
 
+void PairSearch::setLimits(double end, long long most_tests) {
+  end_ = end;
+  most_tests_ = most_tests;
+  slide_ = 1;
+  most_turn_ = 0x1p-3;
+}
+
 // Long steps have many triangles in each other's reach, short ones advance little: a step is halved
 // whenever it has cost its budget of tests. What was pruned before stays apart. The budget doubles
 // with each halving, and for the next step: else pairs of which no step is cheap would get ever
-// shorter ones, never reach the end, and count as contact. What the pair as a whole is proven apart
-// for tells how long a step should be looked for: more of it as long as that costs little. Where a
-// search gets no farther than as many of those short steps as it costs, some of them are taken
-// instead, more each time.
+// shorter ones, never reach the end, and count as contact. Before a step is halved, other orders
+// are tried. What the pair as a whole is proven apart for tells how long a step should be looked
+// for: more of it as long as that costs little. Where a search gets no farther than as many of
+// those short steps as it costs, some of them are taken instead, more each time.
 double PairSearch::apartFor(double t, double enough) {
   if (motion_.still()) return 1;
-  const double left = 1 - t;
+  const double left = end_ - t;
   const double window = motion_.steady() ? left : std::min(left, window_);
   const RelativeVelocities v = motion_.at(t, window);
 
@@ -42,15 +49,25 @@ double PairSearch::apartFor(double t, double enough) {
   if (last_.a < 0) {
     for (last_ = {0, 0}; split(last_, v, parts) > 0;) last_ = parts[0];
   }
-  double h = std::min({window, leavesApart(last_, v, window), 4 * last_step_, most});
-  const long long before = counts_.volume_tests + 3 * counts_.leaf_tests;
+  double h = std::min({window, 4 * last_step_, most});
+  if (h * v.turn() > most_turn_) h = most_turn_ / v.turn();
+  h = std::min(h, leavesApart(last_, v, h));
+  const long long before = cost();
   long long budget = budget_, budget_ends = counts_.volume_tests + budget;
   stack_.assign(1, {0, 0});
   while (!stack_.empty() && h > 0) {
+    if (counts_.volume_tests >= budget_ends && changeOrder(h, cost() - before)) {
+      budget_ends += budget;
+      stack_.assign(1, {0, 0});
+    }
     if (counts_.volume_tests >= budget_ends) {
       h *= 0.5;
       budget *= 2;
       budget_ends += budget;
+    }
+    if (cost() - before > most_tests_) {
+      h = 0;
+      break;
     }
     const NodePair pair = stack_.back();
     stack_.pop_back();
@@ -69,7 +86,8 @@ double PairSearch::apartFor(double t, double enough) {
   }
   budget_ = budget > budget_ ? budget : std::max(kLeastBudget, budget / 2);
   constexpr long long kCheap = 300;
-  const long long cost = counts_.volume_tests + 3 * counts_.leaf_tests - before;
+  const long long cost = this->cost() - before;
+  noteStep(h, cost);
   if (h >= 0.7 * most && (most == slide_ || cost < kCheap)) {
     (most == slide_ ? slide_ : reach_) *= 2;
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "fcl_kios/model/model.h"
@@ -21,6 +22,13 @@ class PairSearch : public MovingPair {
  public:
   double apartFor(double t, double enough) final;
 
+  /// For whoever takes single steps: none is looked for beyond `end`, none takes many more tests
+  /// than `most_tests`, and all may be as long as they can, but for turns by more than an eighth of
+  /// a radian, which whoever is near doesn't make at once.
+  void setLimits(double end, long long most_tests);
+  /// Of all steps, in tests of volumes.
+  long long cost() const { return counts_.volume_tests + 3 * counts_.leaf_tests; }
+
  protected:
   struct NodePair {
     int a, b;
@@ -36,6 +44,11 @@ class PairSearch : public MovingPair {
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
   /// Time for which two leaves are proven apart; any time of at least `enough` will do.
   virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;
+  /// Goes on to another order in which pairs are split, if one may take fewer tests; `cost` was
+  /// spent in vain on a step of length `way`.
+  virtual bool changeOrder(double /*way*/, long long /*cost*/) { return false; }
+  /// Is told what each step came to.
+  virtual void noteStep(double /*way*/, long long /*cost*/) {}
   static constexpr int kMostParts = 8;
   /// Writes the pairs that a pair consists of, the nearest first, and returns how many; 0 for a
   /// pair of leaves.
@@ -47,6 +60,8 @@ class PairSearch : public MovingPair {
  private:
   static constexpr long long kLeastBudget = 1000;
   long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
+  double end_ = 1, most_turn_ = std::numeric_limits<double>::infinity();
+  long long most_tests_ = std::numeric_limits<long long>::max();
   double window_ = 1, last_step_ = 1;
   // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.
   double reach_ = 1.25, slide_ = 0x1p-6;

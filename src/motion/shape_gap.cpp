@@ -9,6 +9,7 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 #include "fcl_kios/fcl_own.h"
+#include "solid/gjk.h"
 
 namespace kios::articulated {
 namespace {
@@ -40,6 +41,22 @@ double gapFromPlane(const BodyData& plane, const Transform3d& X_WP, const BodyDa
   return std::max(above, offset - supportIn(b, X_WB, n));
 }
 
+/// From a ball or capsule `a` to another bounded shape, of any length. The nearest point of b to
+/// a's centre or axis is known well however small the gap is, unlike one to the surface.
+Vector3d fromCore(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
+                  const Transform3d& X_WB) {
+  const double half = a.solid.half_length;  // 0 for a ball
+  const Vector3d ends[2] = {{0, 0, -half}, {0, 0, half}};
+  Vector3d core[2];
+  const int count = half > 0 ? 2 : 1;
+  for (int i = 0; i < count; ++i) {
+    core[i] = X_WB.linear().transpose() * (X_WA * ends[i] - X_WB.translation());
+  }
+  const shape::CoreDistance nearest =
+      shape::gjkDistance(b.solid, core, count, std::numeric_limits<double>::infinity());
+  return X_WB.linear() * (nearest.on_core - nearest.point);
+}
+
 /// FCL's nearest points, or none where its solver gives up.
 bool nearestPoints(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
                    const Transform3d& X_WB, fcl::DistanceResultd& result) {
@@ -54,19 +71,30 @@ bool nearestPoints(const BodyData& a, const Transform3d& X_WA, const BodyData& b
 }  // namespace
 
 double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
-                const Transform3d& X_WB) {
+                const Transform3d& X_WB, Vector3d* direction) {
   if (!a.bounded) return gapFromPlane(a, X_WA, b, X_WB);
   if (!b.bounded) return gapFromPlane(b, X_WB, a, X_WA);
-  double gap = slab(a, X_WA, b, X_WB, X_WB.translation() - X_WA.translation());
+  double gap = -std::numeric_limits<double>::infinity();
+  const auto attempt = [&](const Vector3d& n) {
+    const double along = slab(a, X_WA, b, X_WB, n);
+    if (!(along > gap)) return;
+    gap = along;
+    if (direction) *direction = n.normalized();
+  };
+  attempt(X_WB.translation() - X_WA.translation());
+  const auto isRound = [](const BodyData& body) { return body.solid.margin() > 0; };
   fcl::DistanceResultd result;
-  if (nearestPoints(a, X_WA, b, X_WB, result)) {
-    const Vector3d n = result.nearest_points[1] - result.nearest_points[0];
-    gap = std::max(gap, slab(a, X_WA, b, X_WB, n));
+  if (isRound(a)) {
+    attempt(fromCore(a, X_WA, b, X_WB));
+  } else if (isRound(b)) {
+    attempt(-fromCore(b, X_WB, a, X_WA));
+  } else if (nearestPoints(a, X_WA, b, X_WB, result)) {
+    attempt(result.nearest_points[1] - result.nearest_points[0]);
   }
   for (const auto* X : {&X_WA, &X_WB}) {
     for (int i = 0; i < 3; ++i) {
-      const Vector3d n = X->linear().col(i);
-      gap = std::max({gap, slab(a, X_WA, b, X_WB, n), slab(a, X_WA, b, X_WB, -n)});
+      attempt(X->linear().col(i));
+      attempt(-X->linear().col(i));
     }
   }
   return gap;

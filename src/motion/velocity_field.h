@@ -17,6 +17,7 @@ struct VelocityField {
   Eigen::Vector3d linear, angular, origin;
   // Over the window:
   Eigen::Vector3d acceleration_at[2];  ///< the origin's at both ends; between them it is linear
+  double origin_acceleration = 0;      ///< more of it, in any direction
   bool fixed_axis;                     ///< the body turns about `axis` alone
   Eigen::Vector3d axis;                ///< of unit length, if fixed
   double angular_speed;                ///< bound
@@ -30,6 +31,7 @@ struct VelocityField {
                            double radius) const {
     const double turn = turn_acceleration * distance(x0, radius);
     return std::max(std::abs(n.dot(acceleration_at[0])), std::abs(n.dot(acceleration_at[1]))) +
+           n.norm() * origin_acceleration +
            (fixed_axis ? n.cross(axis).norm() * turn : n.norm() * turn);
   }
   /// As accelerationAlong() for every unit vector n.
@@ -37,7 +39,8 @@ struct VelocityField {
     return originAcceleration() + turn_acceleration * distance(x0, radius);
   }
   double originAcceleration() const {
-    return std::sqrt(std::max(acceleration_at[0].squaredNorm(), acceleration_at[1].squaredNorm()));
+    return origin_acceleration +
+           std::sqrt(std::max(acceleration_at[0].squaredNorm(), acceleration_at[1].squaredNorm()));
   }
   /// Bound over the window of the speed relative to the origin.
   double turnSpeed(const Eigen::Vector3d& x0, double radius) const {

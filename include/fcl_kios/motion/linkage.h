@@ -77,9 +77,10 @@ class Linkage {
 };
 
 enum class MotionVerdict {
-  kClear,      ///< proven: no pair of bodies is in contact anywhere on the path
-  kContact,    ///< a configuration in contact was found
-  kUnresolved  ///< an interval as short as the resolution could be proven neither
+  kClear,       ///< proven: no pair of bodies is in contact anywhere on the path
+  kContact,     ///< a configuration in contact was found
+  kUnresolved,  ///< an interval as short as the resolution could be proven neither
+  kBudgetSpent  ///< max_queries were made before any of these
 };
 
 struct MotionRequest {
@@ -91,6 +92,10 @@ struct MotionRequest {
   double resolution = 0x1p-20;
   /// If true, the earliest contact is asked for, else any, which takes less time.
   bool first_contact = false;
+  /// Bounds the time that a call takes: MotionCounts::queries doesn't exceed it by more than the
+  /// pairs that are near at the path's end, start and middle. Most paths take fewer than a
+  /// thousand; a query takes 1 to 100 us. >= 0.
+  long long max_queries = 1000000;
 };
 
 /// Work done by checkMotion.
@@ -98,15 +103,20 @@ struct MotionCounts {
   long long configurations = 0;  ///< for which the poses of all bodies were computed
   long long pairs = 0;           ///< of bodies that may be checked
   long long proven_at_once = 0;  ///< of these, by bounding volumes at one configuration
-  long long narrow_queries = 0;  ///< a pair at a configuration: farther apart than it may move?
-  long long expansions = 0;      ///< nodes of prepared trees whose children these tested
+  /// About a pair at a configuration, by volumes, slabs or the narrow phase. A search for slabs
+  /// between triangles counts as one for each hundred of its tests.
+  long long queries = 0;
+  long long narrow_queries =
+      0;  ///< of these: a pair at a configuration: farther apart than it may move?
+  long long expansions = 0;  ///< nodes of prepared trees whose children these tested
 };
 
 struct MotionAnswer {
   MotionVerdict verdict = MotionVerdict::kClear;
   /// Of the path's parameter. kClear: [0, 1], which is proven. kContact: a configuration in contact
   /// lies in [from, to], and to - from <= resolution; `to` is one. With first_contact all before
-  /// `from` is proven clear. kUnresolved: the interval that could not be decided.
+  /// `from` is proven clear. kUnresolved: the interval that could not be decided. kBudgetSpent: an
+  /// interval that is not decided yet; with first_contact all before `from` is proven clear.
   double from = 0, to = 1;
   int body_a = -1, body_b = -1;  ///< the pair in contact, or undecided; body_a < body_b
   MotionCounts counts;
