@@ -57,12 +57,16 @@ def _from_trimesh(cls, mesh, *, solid=False):
     return cls(np.asarray(mesh.vertices), np.asarray(mesh.faces), solid=solid)
 
 
+def _loaded(stored, solid):
+    return Mesh._loaded(stored, solid)
+
+
 def _reduce(self, protocol):
     import pickle
 
     stored = self._stored()
     buffer = pickle.PickleBuffer(stored) if protocol >= 5 else stored.tobytes()
-    return type(self)._loaded, (buffer, self.is_solid)
+    return _loaded, (buffer, self.is_solid)
 
 
 def _save(self, path):

@@ -181,6 +181,10 @@ class DistanceData:
         self.done = False
 
 
+def _load_model(stored):
+    return BVHModel._load(stored)
+
+
 def _reduce_by(*attributes):
     return lambda g: (type(g), tuple(getattr(g, name) for name in attributes))
 
@@ -198,7 +202,7 @@ for _class, _reduce in {
     Halfspace: _reduce_by("n", "d"),
     Plane: _reduce_by("n", "d"),
     Convex: _reduce_by("_vertices", "num_faces", "_faces"),
-    BVHModel: lambda g: (BVHModel._load, (g._save(),)),
+    BVHModel: lambda g: (_load_model, (g._save(),)),
     Transform: lambda t: (Transform, (t.getRotation(), t.getTranslation())),
     CollisionObject: lambda o: (CollisionObject, (o._geometry, o.getTransform())),
 }.items():

@@ -13,8 +13,9 @@ namespace {
 std::string shapeOf(const py::array& array) { return py::str(array.attr("shape")); }
 std::string dtypeOf(const py::array& array) { return py::str(array.dtype()); }
 
-[[noreturn]] void refuse(const char* name, const std::string& what) {
-  throw std::invalid_argument(std::string("fcl_kios: ") + name + " " + what);
+/// `what` begins with a space, or with the [index] of what is wrong.
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw std::invalid_argument("fcl_kios: " + name + what);
 }
 
 constexpr int kAligned = 0x0100;  // numpy's NPY_ARRAY_ALIGNED
@@ -26,7 +27,7 @@ py::array arrayOf(py::handle value, const char* name) {
   py::array array = py::array::ensure(value);
   if (!array) {
     PyErr_Clear();
-    refuse(name, "is no array.");
+    refuse(name, " is no array.");
   }
   return array;
 }
@@ -36,7 +37,7 @@ Array converted(const py::array& array, const char* name) {
   Array result = Array::ensure(array);
   if (!result) {
     PyErr_Clear();
-    refuse(name, "of dtype " + dtypeOf(array) + " can't be converted.");
+    refuse(name, " of dtype " + dtypeOf(array) + " can't be converted.");
   }
   return result;
 }
@@ -54,17 +55,17 @@ py::array_t<double> doubles(py::handle value, const char* name) {
   if (isWritten(value) && (kind == 'i' || kind == 'u' || array.size() == 0)) {
     Doubles result = converted<Doubles>(array, name);
     for (py::ssize_t i = 0; i < result.size(); ++i) {
-      if (std::abs(result.data()[i]) > 0x1p53) refuse(name, "has integers that no double holds.");
+      if (std::abs(result.data()[i]) > 0x1p53) refuse(name, " has integers that no double holds.");
     }
     return result;
   }
-  refuse(name, "has dtype " + dtypeOf(array) + "; float64 or float32 is needed.");
+  refuse(name, " has dtype " + dtypeOf(array) + "; float64 or float32 is needed.");
 }
 
 Points::Points(py::handle value, const char* name) : array(doubles(value, name)) {
   single = array.ndim() == 1 && array.shape(0) == 3;
   if (!single && !(array.ndim() == 2 && array.shape(1) == 3)) {
-    refuse(name, "has shape " + shapeOf(array) + "; (n, 3) or (3,) is needed.");
+    refuse(name, " has shape " + shapeOf(array) + "; (n, 3) or (3,) is needed.");
   }
   size = single ? 1 : static_cast<std::size_t>(array.shape(0));
   data = array.data();
@@ -81,7 +82,7 @@ Poses::Poses(py::handle value, const char* name) {
   const int first = single ? 0 : 1;
   if ((array.ndim() != 2 && array.ndim() != 3) || array.shape(first) != 4 ||
       array.shape(first + 1) != 4) {
-    refuse(name, "has shape " + shapeOf(array) + "; (n, 4, 4) or (4, 4) is needed.");
+    refuse(name, " has shape " + shapeOf(array) + "; (n, 4, 4) or (4, 4) is needed.");
   }
   size = single ? 1 : static_cast<std::size_t>(array.shape(0));
   data = array.data();
@@ -105,14 +106,14 @@ fcl::Transform3d Poses::operator[](std::size_t i) const {
 }
 
 fcl::Transform3d Poses::only(const char* name) const {
-  if (!single) refuse(name, "must be one pose, (4, 4).");
+  if (!single) refuse(name, " must be one pose, (4, 4).");
   return (*this)[0];
 }
 
 std::vector<fcl::Vector3d> readVertices(py::handle value, const char* name) {
   const py::array_t<double> array = doubles(value, name);
   if (array.ndim() != 2 || array.shape(1) != 3) {
-    refuse(name, "has shape " + shapeOf(array) + "; (n, 3) is needed.");
+    refuse(name, " has shape " + shapeOf(array) + "; (n, 3) is needed.");
   }
   std::vector<fcl::Vector3d> vertices(static_cast<std::size_t>(array.shape(0)));
   const double* at = array.data();
@@ -128,10 +129,10 @@ std::vector<fcl::Triangle> readTriangles(py::handle value, const char* name,
   const py::array raw = arrayOf(value, name);
   const char kind = raw.dtype().kind();
   if (kind != 'i' && kind != 'u' && !(isWritten(value) && raw.size() == 0)) {
-    refuse(name, "has dtype " + dtypeOf(raw) + "; integers are needed.");
+    refuse(name, " has dtype " + dtypeOf(raw) + "; integers are needed.");
   }
   if (raw.ndim() != 2 || raw.shape(1) != 3) {
-    refuse(name, "has shape " + shapeOf(raw) + "; (m, 3) is needed.");
+    refuse(name, " has shape " + shapeOf(raw) + "; (m, 3) is needed.");
   }
   const Indices array = converted<Indices>(raw, name);
   std::vector<fcl::Triangle> triangles(static_cast<std::size_t>(array.shape(0)));

@@ -23,6 +23,7 @@
 #include <octomap/OcTree.h>
 
 #include "arrays.h"
+#include "fcl_kios/interior/solids.h"
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/model/storage.h"
 #include "objects.h"
@@ -220,6 +221,7 @@ void bindModel(py::module_& m) {
                 vertices, readTriangles(triangles, "triangles", vertices.size())));
           },
           py::arg("verts"), py::arg("triangles"))
+      .def("markSolid", [](Modeld& g) { markSolid(changed(g)); })
       .def("_save",
            [](const Modeld& g) {
              const std::vector<unsigned char> bytes = save(g);
@@ -255,8 +257,9 @@ void requireTree(const std::string& data) {
 }
 
 std::string charsOf(py::handle data) {
-  if (PyObject_CheckBuffer(data.ptr()) != 0)
-    return py::bytes(py::reinterpret_borrow<py::object>(data));
+  if (PyObject_CheckBuffer(data.ptr()) != 0) {
+    return py::reinterpret_steal<py::bytes>(PyBytes_FromObject(data.ptr()));
+  }
   std::string chars;
   for (const py::handle item : data) chars.push_back(static_cast<char>(item.cast<int>()));
   return chars;
@@ -290,7 +293,7 @@ void bindGeometry(py::module_& m) {
       .def("computeLocalAABB",
            [](Geometry& g) {
              requireUnread(g, "geometry");
-             g.computeLocalAABB();
+             computeLocalBox(g);
            })
       .def_property(
           "aabb_center",
@@ -301,7 +304,9 @@ void bindGeometry(py::module_& m) {
           [](Geometry& g, py::handle value) {
             if (isNone(g)) throw py::type_error("CollisionGeometry: there is no geometry.");
             requireUnread(g, "geometry");
-            g.aabb_center = vector(value, "aabb_center");
+            const Eigen::Vector3d center = vector(value, "aabb_center");
+            if (!center.allFinite()) throw std::invalid_argument("aabb_center is not finite.");
+            g.aabb_center = center;
           });
 }
 

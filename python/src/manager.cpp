@@ -45,8 +45,20 @@ bool enter(Manager& m, py::handle object) {
   return true;
 }
 
+/// FCL's tree of boxes divides for ever where one isn't finite.
+void requireBox(Object& object) {
+  const fcl::AABBd& box = object.object.getAABB();
+  if (box.min_.allFinite() && box.max_.allFinite()) return;
+  throw std::invalid_argument(
+      "DynamicAABBTreeCollisionManager: an object's pose or geometry is not finite.");
+}
+
+void requireBoxes(const Manager& m) {
+  for (Object* const object : m.registered) requireBox(*object);
+}
+
 void registerObject(Manager& m, py::handle object) {
-  objectOf(object);
+  requireBox(objectOf(object));
   Tree& tree = m.changed();
   if (enter(m, object)) tree.registerObject(&objectOf(object).object);
 }
@@ -54,7 +66,7 @@ void registerObject(Manager& m, py::handle object) {
 void registerObjects(Manager& m, const py::iterable& objects) {
   std::vector<py::object> given;
   for (const py::handle object : objects) {
-    objectOf(object);
+    requireBox(objectOf(object));
     given.push_back(py::reinterpret_borrow<py::object>(object));
   }
   Tree& tree = m.changed();
@@ -75,6 +87,7 @@ void unregisterObject(Manager& m, py::handle object) {
 }
 
 void update(Manager& m, py::handle arg) {
+  requireBoxes(m);
   if (arg.is_none()) {
     m.changed().update();
   } else if (py::hasattr(arg, "__len__")) {
@@ -207,6 +220,7 @@ struct Contacts {
 
 bool collideDefault(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
   auto& all = *static_cast<Contacts*>(data);
+  requireServed(Query::kCollide, *a, *b);
   fcl::CollisionResultd found;
   fcl::collide(a, b, all.request, found);
   if (!found.isCollision() && found.numCostSources() == 0) return false;
@@ -224,6 +238,7 @@ struct Nearest {
 
 bool distanceDefault(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data, double& dist) {
   auto& nearest = *static_cast<Nearest*>(data);
+  requireServed(Query::kDistance, *a, *b);
   const double before = nearest.found.min_distance;
   fcl::distance(a, b, nearest.request, nearest.found);
   dist = nearest.found.min_distance;

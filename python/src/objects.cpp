@@ -146,8 +146,38 @@ void bindObject(py::module_& m) {
 }  // namespace
 
 Object::Object(py::object of, const fcl::Transform3d& X)
-    : object(of.cast<std::shared_ptr<fcl::CollisionGeometryd>>(), X), geometry(std::move(of)) {
+    : object(of.cast<std::shared_ptr<Geometry>>(), X), geometry(std::move(of)) {
   object.setUserData(this);
+  computeLocalBox(geometry.cast<Geometry&>());
+  object.computeAABB();
+}
+
+void computeLocalBox(Geometry& geometry) {
+  constexpr double kFar = 1e100;  // its square and its sums are finite
+  geometry.computeLocalAABB();
+  fcl::AABBd& box = geometry.aabb_local;
+  if ((box.min_.array() > box.max_.array()).any()) box = fcl::AABBd(Eigen::Vector3d::Zero());
+  if (box.min_.minCoeff() >= -kFar && box.max_.maxCoeff() <= kFar) return;
+  box.min_ = box.min_.cwiseMax(-kFar);
+  box.max_ = box.max_.cwiseMin(kFar);
+  geometry.aabb_center = box.center();
+  geometry.aabb_radius = (box.max_ - box.min_).norm() / 2;
+}
+
+void requireServed(Query query, const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
+  const fcl::NODE_TYPE types[2] = {a.getNodeType(), b.getNodeType()};
+  const auto either = [&](fcl::NODE_TYPE type) { return types[0] == type || types[1] == type; };
+  const bool plane = either(fcl::GEOM_PLANE);
+  if ((!plane && !either(fcl::GEOM_HALFSPACE)) || either(fcl::BV_UNKNOWN)) return;
+  if (query != Query::kDistance && plane && either(fcl::GEOM_CONVEX)) {
+    throw std::invalid_argument(
+        "fcl_kios: FCL crashes on collisions of a Convex and a Plane; make the Convex a BVHModel.");
+  }
+  if (query != Query::kCollide) {
+    throw std::invalid_argument(
+        "fcl_kios: FCL has no distance of a Plane or Halfspace and a shape; make the shape a "
+        "BVHModel.");
+  }
 }
 
 fcl::Transform3d transformOf(py::handle value) { return value.cast<const Transform&>().X; }

@@ -63,6 +63,16 @@ struct ReadingObject {
   ReadingGeometry geometry;
 };
 
+/// FCL's queries, as far as what they don't survive is concerned.
+enum class Query { kCollide, kDistance, kContinuous };
+
+/// Throws std::invalid_argument for a pair of shapes that makes FCL crash.
+void requireServed(Query query, const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b);
+
+/// Computes the box of a geometry in its own frame. That of a half-space, a plane or an empty mesh
+/// is no box, and makes FCL's managers crash: it becomes a finite one.
+void computeLocalBox(fcl::CollisionGeometryd& geometry);
+
 /// The pose of a Python Transform.
 fcl::Transform3d transformOf(py::handle transform);
 

@@ -19,6 +19,7 @@ py::object orNew(py::object value, const char* class_name) {
 }
 
 std::size_t collide(Object& o1, Object& o2, py::object request, py::object result) {
+  requireServed(Query::kCollide, o1.object, o2.object);
   const fcl::CollisionRequestd asked = collisionRequest(request);
   fcl::CollisionResultd found;
   std::size_t contacts = 0;
@@ -33,6 +34,7 @@ std::size_t collide(Object& o1, Object& o2, py::object request, py::object resul
 
 /// Of a result that isn't nearer than `bound` nothing is set.
 double distance(Object& o1, Object& o2, py::handle request, py::handle result, double bound) {
+  requireServed(Query::kDistance, o1.object, o2.object);
   const fcl::DistanceRequestd asked = distanceRequest(request);
   fcl::DistanceResultd found = emptyResult(bound);
   double d = 0;
@@ -54,6 +56,8 @@ double continuousCollide(Object& o1, py::handle tf1_end, Object& o2, py::handle 
       static_cast<fcl::CCDMotionType>(request.attr("ccd_motion_type").cast<int>()),
       static_cast<fcl::GJKSolverType>(request.attr("gjk_solver_type").cast<int>()),
       static_cast<fcl::CCDSolverType>(request.attr("ccd_solver_type").cast<int>()));
+  const bool advances = asked.ccd_solver_type == fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
+  requireServed(advances ? Query::kContinuous : Query::kCollide, o1.object, o2.object);
   const fcl::Transform3d end1 = transformOf(tf1_end), end2 = transformOf(tf2_end);
   fcl::ContinuousCollisionResultd found;
   double time = 0;
