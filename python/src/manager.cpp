@@ -201,7 +201,8 @@ bool distancePython(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* da
                            std::string(py::repr(answer)) + ".");
     }
     const py::sequence pair = answer;
-    dist = py::object(pair[1]).cast<double>();
+    dist = PyFloat_AsDouble(py::object(pair[1]).ptr());
+    if (PyErr_Occurred()) throw py::error_already_set();
     return isTrue(py::object(pair[0]));
   });
 }
@@ -259,7 +260,7 @@ void collide(Manager& manager, const py::args& args) {
     question.run([&](auto*... of) { manager.tree.collide(of..., &callback, collidePython); });
     return callback.rethrow();
   }
-  if (isTrue(question.data.attr("done"))) return;
+  if (attribute<bool>(question.data, "done")) return;
   const py::object result = question.data.attr("result");
   Contacts all{
       collisionRequest(question.data.attr("request")), py::len(result.attr("contacts")), false, {}};
@@ -282,7 +283,7 @@ void distance(Manager& manager, const py::args& args) {
     question.run([&](auto*... of) { manager.tree.distance(of..., &callback, distancePython); });
     return callback.rethrow();
   }
-  if (isTrue(question.data.attr("done"))) return;
+  if (attribute<bool>(question.data, "done")) return;
   const py::object result = question.data.attr("result");
   Nearest nearest{distanceRequest(question.data.attr("request")), emptyResult(minDistance(result))};
   {

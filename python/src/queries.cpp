@@ -51,11 +51,10 @@ double continuousCollide(Object& o1, py::handle tf1_end, Object& o2, py::handle 
                          py::object request, py::object result) {
   request = orNew(std::move(request), "ContinuousCollisionRequest");
   const fcl::ContinuousCollisionRequestd asked(
-      request.attr("num_max_iterations").cast<std::size_t>(),
-      request.attr("toc_err").cast<double>(),
-      static_cast<fcl::CCDMotionType>(request.attr("ccd_motion_type").cast<int>()),
-      static_cast<fcl::GJKSolverType>(request.attr("gjk_solver_type").cast<int>()),
-      static_cast<fcl::CCDSolverType>(request.attr("ccd_solver_type").cast<int>()));
+      attribute<std::size_t>(request, "num_max_iterations"), attribute<double>(request, "toc_err"),
+      static_cast<fcl::CCDMotionType>(attribute<int>(request, "ccd_motion_type")),
+      static_cast<fcl::GJKSolverType>(attribute<int>(request, "gjk_solver_type")),
+      static_cast<fcl::CCDSolverType>(attribute<int>(request, "ccd_solver_type")));
   const bool advances = asked.ccd_solver_type == fcl::CCDC_CONSERVATIVE_ADVANCEMENT;
   requireServed(advances ? Query::kContinuous : Query::kCollide, o1.object, o2.object);
   const fcl::Transform3d end1 = transformOf(tf1_end), end2 = transformOf(tf2_end);
@@ -68,7 +67,7 @@ double continuousCollide(Object& o1, py::handle tf1_end, Object& o2, py::handle 
   }
   if (!result.is_none()) {
     if (found.is_collide) result.attr("is_collide") = true;
-    const double before = result.attr("time_of_contact").cast<double>();
+    const double before = attribute<double>(result, "time_of_contact");
     result.attr("time_of_contact") = std::min(found.time_of_contact, before);
   }
   return time;
@@ -76,7 +75,7 @@ double continuousCollide(Object& o1, py::handle tf1_end, Object& o2, py::handle 
 
 /// Whether a manager may stop.
 bool defaultCollisionCallback(Object& o1, Object& o2, py::handle cdata) {
-  if (py::cast<bool>(py::bool_(cdata.attr("done")))) return true;
+  if (attribute<bool>(cdata, "done")) return true;
   const py::object request = cdata.attr("request"), result = cdata.attr("result");
   collide(o1, o2, request, result);
   if (enough(collisionRequest(request), py::len(result.attr("contacts")))) {
@@ -90,7 +89,7 @@ bool defaultCollisionCallback(Object& o1, Object& o2, py::handle cdata) {
 py::tuple defaultDistanceCallback(Object& o1, Object& o2, py::handle cdata) {
   const py::object result = cdata.attr("result");
   const double before = minDistance(result);
-  if (py::cast<bool>(py::bool_(cdata.attr("done")))) return py::make_tuple(true, before);
+  if (attribute<bool>(cdata, "done")) return py::make_tuple(true, before);
   distance(o1, o2, cdata.attr("request"), result, before);
   const double d = minDistance(result);
   return py::make_tuple(d <= 0, d);

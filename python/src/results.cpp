@@ -3,31 +3,12 @@
 #include "results.h"
 
 #include <limits>
-#include <string>
-#include <type_traits>
 #include <vector>
 
 #include "arrays.h"
 
 namespace kios::python {
 namespace {
-
-template <typename T>
-T attribute(py::handle of, const char* name) {
-  const py::object value = of.attr(name);
-  if constexpr (std::is_same_v<T, bool>) {
-    const int truth = PyObject_IsTrue(value.ptr());
-    if (truth < 0) throw py::error_already_set();
-    return truth != 0;
-  } else {
-    try {
-      return value.cast<T>();
-    } catch (const py::cast_error&) {
-      throw py::type_error(std::string(py::str(py::type::handle_of(of).attr("__name__"))) + "." +
-                           name + " can't be " + std::string(py::repr(value)) + ".");
-    }
-  }
-}
 
 /// The caller's geometry that FCL names: FCL may swap the two.
 py::object geometryOf(const fcl::CollisionGeometryd* geometry, Object& a, Object& b) {

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <type_traits>
+
 #include <fcl/narrowphase/collision_request.h>
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/distance_request.h>
@@ -13,6 +16,24 @@
 // python-fcl's requests and results, which are Python objects with attributes, to and from FCL's.
 
 namespace kios::python {
+
+/// An attribute of a Python object. Throws TypeError that names it if it is of another type.
+template <typename T>
+T attribute(py::handle of, const char* name) {
+  const py::object value = of.attr(name);
+  if constexpr (std::is_same_v<T, bool>) {
+    const int truth = PyObject_IsTrue(value.ptr());
+    if (truth < 0) throw py::error_already_set();
+    return truth != 0;
+  } else {
+    try {
+      return value.cast<T>();
+    } catch (const py::cast_error&) {
+      throw py::type_error(std::string(py::str(py::type::handle_of(of).attr("__name__"))) + "." +
+                           name + " can't be " + std::string(py::repr(value)) + ".");
+    }
+  }
+}
 
 /// The requests that a Python object asks for; None asks for the defaults. Throw TypeError that
 /// names an attribute of another type.

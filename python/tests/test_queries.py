@@ -21,7 +21,7 @@ def cube():
 def test_contacts_name_the_callers_geometries(mesh, cube):
     a, b = shapes.placed(mesh), shapes.placed(cube, shapes.translation(1))
     for o1, o2 in [(a, b), (b, a), (a, shapes.placed(fcl.Box(1, 1, 1), shapes.translation(1))),
-                   (shapes.placed(fcl.Sphere(0.4), shapes.translation(1)), b)]:
+                   (shapes.placed(fcl.Sphere(0.6), shapes.translation(1)), b)]:
         result = fcl.CollisionResult()
         n = fcl.collide(o1=o1, o2=o2, request=fcl.CollisionRequest(num_max_contacts=5,
                                                                    enable_contact=True),
