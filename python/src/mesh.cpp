@@ -80,7 +80,10 @@ void bindMesh(py::module_& m) {
   const auto pose = py::arg("X_AB") = none, of_mesh = py::arg("X_WM") = none;
   const auto from = py::arg("t_min") = 0.0, to = py::arg("t_max") = kInfinity;
   const py::kw_only only;
-  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh")
+  py::class_<Mesh, std::shared_ptr<Mesh>>(m, "Mesh",
+                                          "A mesh that nobody changes, and batches of queries on "
+                                          "it. Threads may share it, and it can be "
+                                          "pickled with its trees.")
       .def(py::init(&built), py::arg("vertices"), py::arg("faces"), only, py::arg("solid") = false,
            "A mesh that nobody changes. vertices: (n, 3) floats; faces: (m, 3) integers below n. "
            "Where solid is\n"
