@@ -245,6 +245,8 @@ def main():
     print("| what | fcl_kios | beside it | ratio |\n| --- | --: | --: | --: |")
     measured = []
     for name in arguments.rows or ROWS:
+        if arguments.cpu and name == "poses_on_two_cores":
+            continue
         found = ROWS[name](arguments.repeats)
         if found is None:
             continue
