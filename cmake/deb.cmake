@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # `cpack -G DEB`: the packages libfcl-kios<version>, the shared library, libfcl-kios-dev, and
-# libfcl-kios-preload, which programs that know FCL alone preload. For a build that was configured
-# with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
+# libfcl-kios-preload, which programs that know FCL alone preload, and python3-fcl-kios, where that
+# is built. For a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
 set(control_dir ${PROJECT_BINARY_DIR}/debian)
 set(so_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(runtime_package libfcl-kios${so_version})
@@ -55,6 +55,19 @@ if(TARGET fcl_kios_preload)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
   set(CPACK_COMPONENT_PRELOAD_DESCRIPTION
     "${text}\n.\nThis package holds the library to preload before programs that were built for FCL.")
+endif()
+if(TARGET fcl_kios_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(python_package python3-fcl-kios)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME ${python_package})
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(python "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor})")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "${runtime_package} (= ${PROJECT_VERSION}-1), ${python}, python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "${text}\n.\nThis package holds the Python package fcl_kios, with python-fcl's names.")
 endif()
 list(JOIN dev_depends ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 

@@ -22,6 +22,7 @@
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/model/motion_bounds.h"
 #include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model/storage.h"
 #include "fcl_kios/motion/continuous.h"
 #include "fcl_kios/motion/linkage.h"
 #include "fcl_kios/overloads.h"

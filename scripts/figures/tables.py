@@ -375,3 +375,17 @@ def preload(rows):
         return time(us) if column[0] == OBBRSS else (
             f"{time(us)} ({number(rows.us(*key[:2], OBBRSS) / us)})")
     return grid("time (FCL's / preloaded)", PRELOADED, columns, cell)
+
+
+# docs/python.md
+
+def python(rows):
+    """What python/bench.py measured."""
+    def cells(row):
+        other, ratio = row.get("other_us"), row.get("ratio")
+        return [row["what"], time(row["median_us"]), time(other) if other else "",
+                number(ratio) if ratio else ""]
+    found = [row for row in rows.rows if row["scenario"].startswith("python/")]
+    if not found:
+        raise LookupError("no row of python")
+    return table(["what", "fcl_kios", "beside it", "ratio"], [cells(row) for row in found])

@@ -42,6 +42,11 @@ case ${5-} in
       -lfcl -lccd -loctomap -loctomath -lpthread
     FCL_KIOS_PRELOAD=stats LD_PRELOAD=libfcl_kios_preload.so "$program" write /dev/null \
       threads 2>&1 | grep -E 'distance: [0-9]{2,} by k-IOS' || fail "nothing was preloaded"
+    if [[ -n $(find "$build_dir" -maxdepth 1 -name 'python3-fcl-kios*.deb') ]]; then
+      /usr/bin/python3 "$source_dir/python/examples/clearance_map.py" | grep 'exact distances' ||
+        fail "the Python package doesn't work"
+      dpkg --purge python3-fcl-kios
+    fi
     dpkg --purge libfcl-kios-preload libfcl-kios-dev "libfcl-kios${version%.*}"
     left=$(find /usr \( -name '*fcl_kios*' -o -name '*fcl-kios*' \) -print)
     [[ -z $left ]] || fail "left after the packages were removed: $left"
@@ -52,7 +57,9 @@ esac
 rm -f "$build_dir"/*.deb
 (cd "$build_dir" && cpack -G DEB >cpack.log 2>&1) || fail "cpack: $(<"$build_dir/cpack.log")"
 debs=("$build_dir"/*.deb)
-((${#debs[@]} == 3)) || fail "cpack made ${#debs[@]} packages: ${debs[*]}"
+expected=3
+if [[ -d $build_dir/python/fcl_kios ]]; then expected=4; fi
+((${#debs[@]} == expected)) || fail "cpack made ${#debs[@]} packages: ${debs[*]}"
 for deb in "${debs[@]}"; do
   depends=$(dpkg-deb -f "$deb" Depends)
   echo "${deb##*/} depends on $depends"

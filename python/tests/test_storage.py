@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pickles and files."""
+import copy
+import multiprocessing
+import pickle
+import time
+
+import numpy as np
+import pytest
+
+import fcl_kios
+import shapes
+from fcl_kios import fcl
+
+
+@pytest.mark.parametrize("protocol", range(2, pickle.HIGHEST_PROTOCOL + 1))
+def test_pickled_meshes_answer_alike(torus, ball, poses, protocol):
+    want = torus.distance(ball, poses)
+    a, b = pickle.loads(pickle.dumps((torus, ball), protocol))
+    assert np.array_equal(a.distance(b, poses), want)
+    assert np.array_equal(a.vertices, torus.vertices) and np.array_equal(a.faces, torus.faces)
+    assert b.is_solid and not a.is_solid and b.contains([0, 0, 0]) is True
+
+
+def test_buffers_travel_out_of_band(torus):
+    buffers = []
+    data = pickle.dumps(torus, protocol=5, buffer_callback=buffers.append)
+    assert len(data) < 500 and len(buffers) == 1
+    raw = buffers[0].raw()
+    again = pickle.loads(data, buffers=[bytes(raw)])
+    assert again._stored().tobytes() == raw.tobytes()
+    assert copy.deepcopy(torus) is torus
+
+
+def distances(mesh, other, poses, connection):
+    connection.send(mesh.distance(other, poses))
+
+
+def test_workers_get_meshes(torus, ball, poses):
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=distances, args=(torus, ball, poses, theirs))
+    process.start()
+    assert ours.poll(60) and np.array_equal(ours.recv(), torus.distance(ball, poses))
+    process.join(60)
+
+
+def test_loading_is_faster_than_building():
+    def best(what, n=7):
+        times = []
+        for _ in range(n):
+            start = time.process_time()
+            what()
+            times.append(time.process_time() - start)
+        return min(times)
+
+    v, f = shapes.torus(150, 66)  # 19,800 triangles
+
+    def build():
+        fcl_kios.Mesh(v, f).prepare()
+
+    built = best(build)
+    buffers = []
+    stored = pickle.dumps(fcl_kios.Mesh(v, f), protocol=5, buffer_callback=buffers.append)
+    assert best(lambda: pickle.loads(stored, buffers=buffers)) < built / 8  # 1/15 if nothing else runs
+
+
+def test_altered_bytes_are_refused(ball):
+    stored = ball._stored().tobytes()
+    random = np.random.default_rng(9)
+    for i in range(2000):
+        altered = bytearray(stored)
+        if i % 3 == 0:
+            altered = altered[:random.integers(len(stored))]
+        else:
+            altered[random.integers(len(stored) if i % 3 == 1 else 96)] ^= 1 << random.integers(8)
+        with pytest.raises(ValueError, match="stored model"):
+            fcl_kios.Mesh._loaded(bytes(altered), True)
+    with pytest.raises(ValueError):
+        fcl_kios.Mesh._loaded(np.frombuffer(stored, np.uint8)[::2], False)
+
+
+def test_files(tmp_path, torus, ball, poses):
+    for mesh in (torus, ball):
+        mesh.save(tmp_path / "mesh.kios")
+        again = fcl_kios.load(tmp_path / "mesh.kios")
+        assert again.is_solid == mesh.is_solid and np.array_equal(again.faces, mesh.faces)
+        assert np.array_equal(again.distance(ball, poses), mesh.distance(ball, poses))
+    v, f = shapes.box()
+    corners = v[f].astype("<f4")
+    triangles = np.zeros(12, [("n", "<f4", 3), ("c", "<f4", (3, 3)), ("a", "<u2")])
+    triangles["c"] = corners
+    (tmp_path / "b.stl").write_bytes(b"solid lies".ljust(80) + np.uint32(12).tobytes()
+                                     + triangles.tobytes())
+    text = "".join("facet normal 0 0 0\nouter loop\n" + "".join(
+        "vertex %g %g %g\n" % tuple(p) for p in t) + "endloop\nendfacet\n" for t in v[f])
+    (tmp_path / "a.STL").write_text("solid box\n" + text + "endsolid box\n")
+    (tmp_path / "q.obj").write_text(
+        "# a box\n" + "".join("v %g %g %g 1 0 0\n" % tuple(p) for p in v)
+        + "f 1 3 4 2\nf 5//1 6//2 8//3 7//4\nf 1/1 2/1 6/1 5/1\nf -6 -2 -1 -5\nf 1 5 7 3\nf 2 4 8 6\n")
+    (tmp_path / "q.off").write_text(
+        "OFF # text\n8 6 0\n" + "".join("%g %g %g\n" % tuple(p) for p in v)
+        + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n")
+    for name in ("b.stl", "a.STL", "q.obj", "q.off"):
+        mesh = fcl_kios.load(tmp_path / name, solid=True)
+        assert len(mesh.vertices) == 8 and len(mesh.faces) == 12
+        assert mesh.contains([[0.4, 0.4, 0.4], [0.6, 0, 0]]).tolist() == [True, False]
+
+
+def test_files_that_cant_be_read(tmp_path):
+    for name, content, message in [
+            ("a.stl", b"solid\nvertex 1 2\n", "can't be read as .stl"), ("b.stl", b"", "neither"),
+            ("c.stl", b"x" * 80 + b"\x09\0\0\0" + b"y" * 50, "neither"),
+            ("d.obj", b"v 0 0 0\nf 1 2 3\n", "vertex 1, but there are 1"),
+            ("e.obj", b"v a b c\n", "can't be read"), ("f.off", b"OFF\n8 6", "can't be read"),
+            ("g.off", b"", "OFF"), ("h.obj", b"", "at least one triangle"),
+            ("i.kios", b"kios", "no stored mesh"), ("j.kios", b"kios-mesh-solid\nabc", "cut off")]:
+        (tmp_path / name).write_bytes(content)
+        with pytest.raises(ValueError, match=message):
+            fcl_kios.load(tmp_path / name)
+    with pytest.raises(OSError):
+        fcl_kios.load(tmp_path / "none.stl")
+
+
+def test_from_trimesh():
+    class Trimesh:
+        vertices, faces = shapes.box()
+
+    assert fcl_kios.Mesh.from_trimesh(Trimesh, solid=True).is_solid
+
+
+def test_scenes_can_be_pickled(torus):
+    scene = fcl_kios.Scene()
+    scene.add("torus", torus)
+    scene.add(("a", 1), fcl.Box(1, 2, 3), shapes.translation(4), obstacle=True)
+    scene.add("ball", fcl.Sphere(0.5), shapes.translation(0, 4))
+    scene.exclude("ball", ("a", 1))
+    again = pickle.loads(pickle.dumps(scene, protocol=5))
+    assert list(again) == list(scene) and again.clearances() == scene.clearances()
+    assert len(again.clearances()) == 2

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// A loaded model is the one that was saved; bytes that were cut off or altered are refused, and
+// those whose hash was computed anew make no query crash.
+
+#include "fcl_kios/model/storage.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+#include <string>
+
+#include "fcl/mesh_cases.h"
+#include "model/bvh_check.h"
+#include "model/deform.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+namespace kios::testing {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+template <typename S = double>
+std::shared_ptr<Model<S>> loaded(const Bytes& bytes) {
+  return load<S>(bytes.data(), bytes.size());
+}
+
+/// What load() says of the bytes; empty if it takes them.
+template <typename S = double>
+std::string refusal(const Bytes& bytes) {
+  try {
+    loaded<S>(bytes);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// The bytes with the hash that belongs to them.
+Bytes rehashed(Bytes bytes) {
+  constexpr std::size_t kHash = 24;
+  for (std::size_t i = 0; i < 16; ++i) bytes.at(kHash + i) = 0;
+  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
+  std::memcpy(&bytes[kHash], &hash.low64, 8);
+  std::memcpy(&bytes[kHash + 8], &hash.high64, 8);
+  return bytes;
+}
+
+class Storage : public ::testing::Test {
+ protected:
+  const Mesh mesh_ = scenes::bumpyTorus(300), other_mesh_ = scenes::icosphere(0.5, 1);
+  const std::shared_ptr<Modeld> other_ = kiosModel(other_mesh_);
+  const std::vector<Frame> frames_ = randomFrames(20, 1.5, 17);
+};
+
+TEST_F(Storage, LoadsWhatWasSaved) {
+  Bytes bytes;
+  std::vector<fcl::BVNode<kIOSd>> nodes;
+  std::vector<double> distances;
+  const auto ask = [&](const Modeld& model) {
+    std::vector<double> found;
+    for (const Frame& frame : frames_) {
+      const DistanceAnswerd answer = distance(model, frame.X_WA, *other_, frame.X_WB);
+      found.insert(found.end(), {answer.distance, double(answer.triangle_a), answer.point_a[0]});
+    }
+    return found;
+  };
+  {
+    const auto model = kiosModel(mesh_);
+    model->cost_density = 3;
+    model->threshold_free = 0.25;
+    bytes = save(*model);
+    nodes = nodesOf(*model);
+    distances = ask(*model);
+    EXPECT_EQ(save(*model), bytes);
+  }
+  const auto model = loaded(bytes);  // no equal model lives
+  EXPECT_TRUE(sameTree(*model, nodes));
+  expectValidTree(*model);
+  EXPECT_EQ(ask(*model), distances);
+  EXPECT_EQ(model->cost_density, 3);
+  EXPECT_EQ(model->threshold_free, 0.25);
+  EXPECT_EQ(save(*model), bytes);
+  // From any address, and the bytes may go.
+  Bytes shifted(bytes.size() + 1);
+  std::copy(bytes.begin(), bytes.end(), shifted.begin() + 1);
+  const auto again = load(&shifted[1], bytes.size());
+  shifted.assign(shifted.size(), 0);
+  EXPECT_EQ(ask(*again), distances);
+}
+
+TEST_F(Storage, StoresTheOrdinaryTreeOfWhateverMesh) {
+  const auto model = kiosModel(mesh_);
+  const std::vector<Vector3d> moved = swayed(mesh_, 1);
+  update(*model, moved, true, true);
+  EXPECT_EQ(save(*model), save(*kiosModel({moved, mesh_.triangles})));
+  // A mesh of no ordinary size has none.
+  std::vector<Vector3d> huge = mesh_.vertices;
+  for (Vector3d& p : huge) p *= 0x1p600;
+  const auto far = kiosModel({huge, mesh_.triangles});
+  const auto far_again = loaded(save(*far));
+  EXPECT_TRUE(sameTree(*far_again, nodesOf(*far)));
+}
+
+TEST_F(Storage, OfFloats) {
+  std::vector<fcl::Vector3f> vertices;
+  for (const Vector3d& p : mesh_.vertices) vertices.push_back(p.cast<float>());
+  const auto model = makeModel(vertices, mesh_.triangles);
+  const Bytes bytes = save(*model);
+  EXPECT_EQ(save(*loaded<float>(bytes)), bytes);
+  EXPECT_NE(refusal(bytes).find("load<float>()"), std::string::npos);
+  EXPECT_NE(refusal<float>(save(*other_)).find("load<double>()"), std::string::npos);
+}
+
+TEST_F(Storage, RefusesTheUnfinished) {
+  Modeld model;
+  EXPECT_THROW(save(model), std::invalid_argument);
+}
+
+TEST_F(Storage, RefusesWhatWasCutOffOrAltered) {
+  const Bytes bytes = save(*other_);
+  EXPECT_EQ(refusal(bytes), "");
+  EXPECT_NE(refusal({}).find("cut off"), std::string::npos);
+  for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
+    EXPECT_NE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))), "") << size;
+  }
+  std::mt19937 random(1);
+  for (int i = 0; i < 10000; ++i) {
+    Bytes altered = bytes;
+    const std::size_t at = i < 800 ? static_cast<std::size_t>(i / 8) : random() % bytes.size();
+    altered[at] = static_cast<unsigned char>(altered[at] ^ (1U << (i % 8)));
+    ASSERT_NE(refusal(altered), "") << "byte " << at << ", bit " << i % 8;
+  }
+  Bytes newer = bytes;
+  newer[8] = 2;
+  EXPECT_NE(refusal(newer).find("newer version"), std::string::npos);
+  Bytes longer = bytes;
+  longer.push_back(0);
+  EXPECT_NE(refusal(longer), "");
+}
+
+TEST_F(Storage, NothingThatIsTakenCrashes) {
+  const Bytes bytes = save(*other_);
+  ASSERT_EQ(rehashed(bytes), bytes);
+  const auto partner = kiosModel(mesh_);
+  std::mt19937 random(2);
+  int taken = 0;
+  for (int i = 0; i < 3000; ++i) {
+    Bytes altered = bytes;
+    const std::size_t head = i % 2 == 0 ? 96 + 160 * 128 : bytes.size();
+    for (int k = 0; k < 1 + i % 3; ++k) {
+      altered[random() % head] = static_cast<unsigned char>(random() % 4 == 0 ? 255 : random());
+    }
+    altered = rehashed(altered);
+    try {
+      const auto model = loaded(altered);
+      ++taken;
+      for (std::size_t f = 0; f < 3; ++f) {
+        const Frame& frame = frames_[f];
+        distance(*model, frame.X_WA, *partner, frame.X_WB);
+        closerThan(*model, frame.X_WA, *model, frame.X_WB, 0.1);
+      }
+    } catch (const std::invalid_argument&) {
+      continue;
+    }
+  }
+  EXPECT_GT(taken, 100);
+}
+
+}  // namespace
+}  // namespace kios::testing
