@@ -20,11 +20,10 @@ inline int threadsFor(int asked, long long items) {
   return static_cast<int>(std::max(1LL, std::min<long long>(asked > 0 ? asked : cores, items)));
 }
 
-/// Calls work(i, thread) for every i < count; the threads take a few at a time. The first exception
+/// Calls work(i, thread) for every i < count; the threads take `few` at a time. The first exception
 /// ends it, and is thrown again.
 template <typename Work>
-void forAll(long long count, int threads, const Work& work) {
-  const long long few = std::max(1LL, std::min(64LL, count / (8LL * threads)));
+void forAll(long long count, int threads, long long few, const Work& work) {
   std::atomic<long long> next{0};
   std::exception_ptr failure;
   std::mutex guard;
@@ -47,6 +46,17 @@ void forAll(long long count, int threads, const Work& work) {
   run(0);
   for (std::thread& other : others) other.join();
   if (failure) std::rethrow_exception(failure);
+}
+
+template <typename Work>
+void forAll(long long count, int threads, const Work& work) {
+  forAll(count, threads, std::max(1LL, std::min(64LL, count / (8LL * threads))), work);
+}
+
+/// The same with work(i) that takes long.
+template <typename Work>
+void forEachAlone(long long count, int threads, const Work& work) {
+  forAll(count, threads, 1, [&](long long i, int /*thread*/) { work(i); });
 }
 
 }  // namespace kios::robot

@@ -279,6 +279,10 @@ Description readUrdf(const std::string& file, const std::map<std::string, std::s
 void readSrdf(const std::string& file, Description& robot) {
   const XmlFile xml(file, "robot");
   const XmlElement& root = xml.root();
+  const auto pairOf = [&](const XmlElement& e) {
+    const std::string first = xml.attribute(e, "link1");
+    return namePair(first, xml.attribute(e, "link2"));
+  };
   // MoveIt 2: links that may touch every other link, but for the pairs that are enabled again.
   for (const XmlElement* e = root.FirstChildElement("disable_default_collisions"); e;
        e = e->NextSiblingElement("disable_default_collisions")) {
@@ -289,11 +293,11 @@ void readSrdf(const std::string& file, Description& robot) {
   }
   for (const XmlElement* e = root.FirstChildElement("enable_collisions"); e;
        e = e->NextSiblingElement("enable_collisions")) {
-    robot.allowed.erase(namePair(xml.attribute(*e, "link1"), xml.attribute(*e, "link2")));
+    robot.allowed.erase(pairOf(*e));
   }
   for (const XmlElement* e = root.FirstChildElement("disable_collisions"); e;
        e = e->NextSiblingElement("disable_collisions")) {
-    robot.allowed.insert(namePair(xml.attribute(*e, "link1"), xml.attribute(*e, "link2")));
+    robot.allowed.insert(pairOf(*e));
   }
   std::set<std::string> virtual_joints;  // of the robot's base and the world
   for (const XmlElement* e = root.FirstChildElement("virtual_joint"); e;
