@@ -95,6 +95,8 @@ Nearness ofMeshes(const Body& a, const Transform3d& X_WA, const Body& b, const T
 Nearness ofMeshAndOther(const Body& mesh, const Transform3d& X_WM, const Body& other,
                         const Transform3d& X_WO, double rel_err, double abs_err,
                         double far_enough) {
+  constexpr double kMost = 0.99;  // FCL's requests take less than 1
+  rel_err = std::min(rel_err, kMost);
   fcl::DistanceRequestd request(true);
   request.rel_err = rel_err;
   request.abs_err = abs_err;

@@ -110,7 +110,7 @@ TEST(RobotQueries, ThePandaAgreesWithBruteForceOverObbrss) {
   BruteForce brute = pandaByHand();
   Random random(11);
   int in_contact = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < 600; ++i) {
     const VectorXd q = randomConfiguration(robot, random);
     const double least = brute.distance(robot, q);
     EXPECT_EQ(robot.contact(q).has_value(), least == 0);
@@ -119,7 +119,7 @@ TEST(RobotQueries, ThePandaAgreesWithBruteForceOverObbrss) {
     EXPECT_NEAR(clearance.clearance, least, 1e-9);
     EXPECT_LE(clearance.lower_bound, clearance.clearance);
   }
-  EXPECT_GT(in_contact, 30);
+  EXPECT_GT(in_contact, 20);
   // Shapes around it; FCL's distance of meshes and boxes is right to 1e-6.
   addBoxes(robot, brute, random, 6);
   for (int i = 0; i < 100; ++i) {
@@ -238,6 +238,8 @@ TEST(RobotQueries, TheLeastClearanceIsThatOfAllPairs) {
     EXPECT_LE(rough.clearance, 1.2 * least.clearance + 1e-12);
     EXPECT_LE(rough.lower_bound, least.clearance);
     EXPECT_GE(rough.lower_bound, least.clearance / 1.2 - 1e-9);
+    options.rel_err = 3;
+    EXPECT_LE(robot.clearance(q, options).lower_bound, least.clearance);
     options = ClearanceOptions();
     options.far_enough = 0.5 * least.clearance;
     if (least.clearance > 0) {
