@@ -3,6 +3,7 @@
 #include "text_file.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +28,12 @@ fcl::Transform3d normalized(const fcl::Transform3d& X) {
 
 }  // namespace
 
-void refuse(const std::string& what) { throw std::invalid_argument("fcl_kios: " + what); }
+void refuse(const std::string& what) {
+  std::string message = "fcl_kios: " + what;  // of one line, whatever a file holds
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  throw std::invalid_argument(message);
+}
 
 void refuseAt(const std::string& file, int line, const std::string& what) {
   refuse(file + (line > 0 ? ":" + std::to_string(line) : std::string()) + ": " + what);
