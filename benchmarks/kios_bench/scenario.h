@@ -55,6 +55,9 @@ void runShapes(const Options& options, Report& report);
 void runOctrees(const Options& options, Report& report);
 void runContinuous(const Options& options, Report& report);
 void runMotions(const Options& options, Report& report);
+#ifdef KIOS_HAVE_ROBOT
+void runMbm(const Options& options, Report& report);
+#endif
 void runBuild(const Options& options, Report& report);
 void runScaling(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);

@@ -59,6 +59,12 @@ const std::vector<Scenario>& scenarios() {
        "straight paths in joint space, UR5 (data) or a generated arm amid obstacles, and two arms: "
        "proven, and sampled 0.01 rad apart",
        runMotions, 20},
+#ifdef KIOS_HAVE_ROBOT
+      {"mbm",
+       "MotionBenchMaker's problems (data) by RRT-Connect: edges proven, sampled, and by FCL's "
+       "manager",
+       runMbm, 0},
+#endif
       {"scaling",
        "bumpy tori of 1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching; build, "
        "preparation and memory",

@@ -40,7 +40,7 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
   requireCoordinates(q0, linkage.coordinates, "q0");
   requireCoordinates(q1, linkage.coordinates, "q1");
   constexpr double kSlack = 0x1p-49;  // 16 u
-  rates_.resize(static_cast<std::size_t>(linkage.coordinates));
+  rates_.resize(linkage.links.size());
   struct Sums {
     double travel = 0, angles = 0, shifts = 0;
   };
@@ -52,8 +52,10 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
     if (link.parent >= 0) sum = sums[link.parent];
     if (link.coordinate < 0) continue;
     const double a = q0[link.coordinate], b = q1[link.coordinate];
-    const double most = std::max(std::abs(a), std::abs(b)) * link.unit;
-    rates_[link.coordinate] = (b - a) * link.unit;
+    const double most =
+        (std::abs(link.multiplier) * std::max(std::abs(a), std::abs(b)) + std::abs(link.offset)) *
+        link.unit;
+    rates_[i] = link.multiplier * (b - a) * link.unit;
     if (link.type == JointType::kPrismatic) {
       sum.travel += most * (1 + 0x1p-50);
       sum.shifts += kSlack * most;
@@ -93,7 +95,7 @@ void Configuration::set(const Path& path, double s) {
     }
     if (link.coordinate < 0) continue;
     placed.axis = placed.R * link.axis;
-    const double value = path.coordinate(link.coordinate, s) * link.unit;
+    const double value = link.at(path.coordinate(link.coordinate, s));
     if (link.type == JointType::kPrismatic) {
       placed.t += value * placed.axis;
     } else {

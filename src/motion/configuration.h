@@ -39,8 +39,11 @@ namespace kios::articulated {
 /// d - 3 |E| (L + L') in the world, as no length in it exceeds L + L'. Both together are below
 /// 640 u (n + n' + 4) (L + L'). `pad` is 1024 u in the place of 640, and pays for the bounds of
 /// balls, boxes and supports too, which take fewer than 40 roundings of such lengths. Coordinates
-/// as computed are those of q(s) to 5 u max(|q0|, |q1|), and the angle or length is to 4 u more; 16
-/// u is `slack`, by which the path is as if it took a detour.
+/// as computed are those of q(s) to 5 u max(|q0|, |q1|), and the angle or length (m q + o) unit, m
+/// and o a joint's multiplier and offset, is to 6 u (|m q| + |o|) unit more; 16 u
+/// is `slack`, by which the path is as if it took a detour. Joints that share a coordinate are
+/// bounded each by itself, w_i = m_i (q1 - q0) unit_i: every bound holds for any motions of the
+/// joints that are straight in s.
 class Path {
  public:
   /// Throws std::invalid_argument if a configuration isn't of the linkage's size or not finite.
@@ -50,8 +53,8 @@ class Path {
   double coordinate(int k, double s) const {
     return s == 1 ? q1_[k] : q0_[k] + s * (q1_[k] - q0_[k]);
   }
-  /// q1 - q0 of a moving joint, in radians or lengths, to 2^-52 of it.
-  double rate(int link) const { return rates_[linkage_.links[link].coordinate]; }
+  /// The way of a moving joint from q0 to q1, in radians or lengths, to 2^-51 of it.
+  double rate(int link) const { return rates_[link]; }
 
   /// L of a body.
   double length(int body) const { return shares_[slot(body)].length + obstacleLength(body); }
@@ -90,7 +93,7 @@ class Path {
 
   const Linkage::Impl& linkage_;
   const Eigen::VectorXd &q0_, &q1_;
-  std::vector<double> rates_;  // by coordinate
+  std::vector<double> rates_;  // by link
   std::vector<Share> shares_;  // of all obstacles, then by carried body
   double largest_level_ = 2;
 };

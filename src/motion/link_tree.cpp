@@ -230,7 +230,19 @@ int Linkage::Impl::addLink(int parent, const Joint& joint) {
       }
       data.unit = unit;
       data.axis = (joint.axis / unit).normalized();
-      data.coordinate = coordinates;
+      constexpr int kMost = 1 << 20;
+      if (joint.coordinate < -1 || joint.coordinate >= kMost) {
+        refuse("a joint's coordinate must be -1, the next one, or below 2^20, but is " +
+               std::to_string(joint.coordinate) + ".");
+      }
+      constexpr double kLargestFactor = 0x1p100;
+      if (!(std::abs(joint.multiplier) <= kLargestFactor &&
+            std::abs(joint.offset) <= kLargestFactor)) {
+        refuse("the multiplier or the offset of a joint is NaN, infinite or too large.");
+      }
+      data.coordinate = joint.coordinate < 0 ? coordinates : joint.coordinate;
+      data.multiplier = joint.multiplier;
+      data.offset = joint.offset;
       data.moving.push_back(link);
       break;
     }
@@ -238,7 +250,7 @@ int Linkage::Impl::addLink(int parent, const Joint& joint) {
       refuse("a joint's type must be fixed, revolute or prismatic.");
   }
   links.push_back(std::move(data));
-  if (links.back().coordinate >= 0) ++coordinates;
+  coordinates = std::max(coordinates, links.back().coordinate + 1);
   return link;
 }
 

@@ -27,8 +27,12 @@ struct LinkData {
   Eigen::Matrix3d R_PJ;
   Eigen::Vector3d t_PJ;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-  double unit = 0;      ///< radians or lengths that a unit of the coordinate means
-  int coordinate = -1;  ///< -1 if fixed
+  double unit = 0;                    ///< radians or lengths that a unit of the coordinate means
+  int coordinate = -1;                ///< -1 if fixed
+  double multiplier = 1, offset = 0;  ///< of the coordinate
+
+  /// Where the joint stands, in radians or lengths.
+  double at(double q) const { return (multiplier * q + offset) * unit; }
   std::vector<int>
       moving;          ///< links with moving joints from the world to this one, itself included
   int level = 0;       ///< joints, fixed ones included, from the world to this link

@@ -57,10 +57,12 @@ Vector3d fromCore(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
   return X_WB.linear() * (nearest.on_core - nearest.point);
 }
 
-/// FCL's nearest points, or none where its solver gives up.
+/// FCL's nearest points, or none where its solver gives up. Of its two solvers the one that rests
+/// on libccd aborts the process by an assertion for some shapes that touch.
 bool nearestPoints(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
                    const Transform3d& X_WB, fcl::DistanceResultd& result) {
   fcl::DistanceRequestd request(true);
+  request.gjk_solver_type = fcl::GST_INDEP;
   try {
     return fcl_own::distance(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, result) > 0;
   } catch (const std::exception&) {

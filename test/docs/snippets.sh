@@ -5,7 +5,8 @@
 # usage: snippets.sh SOURCE_DIR OUTPUT FILE...
 # Writes a program of all blocks marked `cpp` in the Markdown files: each becomes a function, its
 # includes go to the top, and a block with a main() is also run. The blocks of a page `tutorial.md`,
-# given alone, are one program as they stand. Compilers name the Markdown line.
+# given alone, are one program as they stand. Compilers name the Markdown line. FENCE names other
+# blocks to be taken: `c++` are those of the addon fcl_kios::robot.
 set -euo pipefail
 
 source_dir=$1 output=$2
@@ -15,12 +16,13 @@ cd "$source_dir"
 one_program=0
 if [[ $# == 1 && $1 == *tutorial.md ]]; then one_program=1; fi
 
-awk -v one_program=$one_program '
+awk -v one_program=$one_program -v fence="^\`\`\`${FENCE:-cpp}\$" '
   function fail(where, what) {
     print where ": " what > "/dev/stderr"
     failed = 1
   }
-  /^```cpp$/ { inside = 1; ++blocks; file = FILENAME; body = ""; whole = 0; next }
+  BEGIN { gsub(/\+/, "[+]", fence) }
+  $0 ~ fence { inside = 1; ++blocks; file = FILENAME; body = ""; whole = 0; next }
   /^```/ && inside {
     inside = 0
     if (one_program) code = code body

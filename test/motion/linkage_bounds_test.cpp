@@ -38,6 +38,12 @@ struct TwoChains {
                                 : JointType::kFixed;
       joint.X_PJ = randomPose(random, 0.5);
       joint.axis = random.uniform(0.5, 2) * inBall(random);
+      const int known = robot.linkage.coordinates();
+      if (known > 0 && random.unit() < 0.3) {  // mimics a joint of this chain, or of the other one
+        joint.coordinate = std::min(static_cast<int>(random.uniform(0, known)), known - 1);
+        joint.multiplier = random.uniform(-2, 2);
+        joint.offset = random.uniform(-1, 1);
+      }
       return robot.addLink(parent, joint);
     };
     for (int i = static_cast<int>(random.uniform(0, 3)); i > 0; --i) stem = add(stem);

@@ -33,7 +33,8 @@ struct Kind {
   double offset;    // of joints
   double straight;  // chance that a link hangs on the one before
   int obstacles;
-  double spread;  // of obstacles
+  double spread;      // of obstacles
+  double mimics = 0;  // chance that a joint shares the coordinate of one before
 };
 
 RobotCase randomRobot(const Kind& kind, Random& random) {
@@ -47,6 +48,12 @@ RobotCase randomRobot(const Kind& kind, Random& random) {
                               : JointType::kFixed;
     joint.X_PJ = randomPose(random, kind.offset);
     joint.axis = random.uniform(0.2, 2) * inBall(random);
+    const int known = robot.linkage.coordinates();
+    if (known > 0 && kind.mimics > 0 && random.unit() < kind.mimics) {
+      joint.coordinate = std::min(static_cast<int>(random.uniform(0, known)), known - 1);
+      joint.multiplier = random.uniform(-2, 2);
+      joint.offset = random.uniform(-0.5, 0.5);
+    }
     const bool straight = i == 0 || random.unit() < kind.straight;
     const int parent = straight ? i - 1 : static_cast<int>(random.uniform(-1, i));
     robot.addLink(parent, joint);
@@ -101,6 +108,10 @@ void runRandom(const Kind& kind, int robots, double separation, std::uint64_t se
 TEST(RandomLinkages, ShortChains) { runRandom({1, 3, 0.4, 1, 10, 0.7}, 150, 0, 1); }
 TEST(RandomLinkages, LongChains) { runRandom({5, 12, 0.25, 1, 5, 0.7}, 60, 0, 2); }
 TEST(RandomLinkages, Trees) { runRandom({3, 12, 0.3, 0.4, 5, 0.7}, 60, 0, 3); }
+TEST(RandomLinkages, JointsThatMimicOthers) {
+  runRandom({3, 10, 0.3, 0.5, 5, 0.7, 0.5}, 60, 0, 9);
+  runRandom({3, 8, 0.3, 0.5, 12, 0.6, 0.7}, 30, 0.02, 10);
+}
 TEST(RandomLinkages, LongLinks) { runRandom({2, 6, 2, 0.8, 100, 2}, 60, 0, 4); }
 TEST(RandomLinkages, WithASeparation) {
   runRandom({1, 6, 0.3, 0.8, 5, 0.7}, 30, 0.01, 5);

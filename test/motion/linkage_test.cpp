@@ -37,6 +37,11 @@ TEST(Linkages, PosesAreThoseOfExactKinematics) {
       Joint each = joint(static_cast<JointType>(static_cast<int>(random.uniform(0, 3))));
       each.X_PJ = randomPose(random, 1);
       each.axis = random.uniform(0.1, 3) * inBall(random);
+      if (i % 2 != 0 && robot.linkage.coordinates() > 0 && random.unit() < 0.3) {
+        each.coordinate = 0;
+        each.multiplier = random.uniform(-1, 1);
+        each.offset = random.uniform(-1, 1);
+      }
       robot.addLink(k == 0 ? -1 : static_cast<int>(random.uniform(-1, k)), each);
       robot.addBody(k, cube(), randomPose(random, 1));
       length += 2;
@@ -68,6 +73,23 @@ TEST(Linkages, CoordinatesBelongToJointsThatMove) {
   const Eigen::Vector2d q(0.5, 0.25);
   EXPECT_EQ(linkage.pose(0, q).translation(), Vector3d(0, 0, 1.5));
   EXPECT_EQ(linkage.pose(1, q).translation(), Vector3d(4, 0, 0));
+  // A joint that mimics the slider, and one that leaves a coordinate to nobody.
+  Joint mimic = joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0});
+  mimic.coordinate = 1;
+  mimic.multiplier = -2;
+  mimic.offset = 0.125;
+  EXPECT_EQ(linkage.addLink(-1, mimic), 4);
+  EXPECT_EQ(linkage.coordinates(), 2);
+  EXPECT_EQ(linkage.addBody(4, cube()), 2);
+  EXPECT_EQ(linkage.pose(2, q).translation(), Vector3d(-0.375, 0, 0));
+  {
+    Linkage wide = linkage;
+    mimic.coordinate = 3;
+    wide.addLink(-1, mimic);
+    EXPECT_EQ(wide.coordinates(), 4);
+    wide.addLink(-1, joint(JointType::kRevolute));
+    EXPECT_EQ(wide.coordinates(), 5);
+  }
   const Linkage copy = linkage;
   Linkage moved = std::move(linkage);
   moved.addLink(-1, joint(JointType::kRevolute));
@@ -150,6 +172,18 @@ TEST(Linkages, BadLinksAndBodiesAreRefused) {
         "axis");
   }
   expectRefused([&] { linkage.addLink(-1, joint(static_cast<JointType>(7))); }, "type");
+  for (const int coordinate : {-2, 1 << 20}) {
+    Joint far = joint(JointType::kRevolute);
+    far.coordinate = coordinate;
+    expectRefused([&] { linkage.addLink(-1, far); }, "coordinate");
+  }
+  for (const double factor : {kNaN, kInfinity, -0x1p101}) {
+    Joint wild = joint(JointType::kRevolute);
+    wild.multiplier = factor;
+    expectRefused([&] { linkage.addLink(-1, wild); }, "multiplier");
+    std::swap(wild.multiplier, wild.offset);
+    expectRefused([&] { linkage.addLink(-1, wild); }, "offset");
+  }
   expectRefused(
       [&] {
         linkage.addLink(-1, joint(JointType::kFixed, {kNaN, 0, 0}));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -87,6 +88,12 @@ struct RobotCase {
     std::vector<Matrix> R;
     std::vector<Vector> t;
     int next = 0;
+    const auto valueOf = [&](const Joint& joint) {
+      const int k = joint.coordinate < 0 ? next : joint.coordinate;
+      next = std::max(next, k + 1);
+      return static_cast<long double>(joint.multiplier) * static_cast<long double>(q[k]) +
+             static_cast<long double>(joint.offset);
+    };
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const Joint& joint = joints[i];
       const bool root = parents[i] < 0;
@@ -96,9 +103,9 @@ struct RobotCase {
       Vector t_L = t_P + R_P * joint.X_PJ.translation().cast<long double>();
       const Vector axis = joint.axis.cast<long double>();
       if (joint.type == JointType::kPrismatic) {
-        t_L += R_L * axis * static_cast<long double>(q[next++]);
+        t_L += R_L * axis * valueOf(joint);
       } else if (joint.type == JointType::kRevolute) {
-        const long double angle = axis.norm() * static_cast<long double>(q[next++]);
+        const long double angle = axis.norm() * valueOf(joint);
         R_L = (R_L * Eigen::AngleAxis<long double>(angle, axis.normalized()).matrix()).eval();
       }
       R.push_back(R_L);

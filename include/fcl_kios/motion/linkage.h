@@ -29,12 +29,17 @@ struct Joint {
   /// In the joint's frame, of any length but 0, which is the radians or the models' units of length
   /// that a unit of the coordinate means. Fixed joints don't read it.
   fcl::Vector3d axis = fcl::Vector3d::UnitZ();
+  /// The coordinate of q that moves it; -1: the next one that no joint has. Joints may share one:
+  /// the joint stands at multiplier * q[coordinate] + offset, which is how one mimics another.
+  /// Below 2^20, and what it stands at is finite for every q that is asked about.
+  int coordinate = -1;
+  double multiplier = 1, offset = 0;
 };
 
-/// Links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(q_k), J a
-/// rotation about the axis or a translation along it. It is built once and then asked: const calls
-/// are safe from many threads, and the geometry of its bodies must stay as it was. It may be
-/// copied; copies share the geometry.
+/// Links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(v), J a
+/// rotation about the axis or a translation along it, v = multiplier * q_k + offset. It is built
+/// once and then asked: const calls are safe from many threads, and the geometry of its bodies must
+/// stay as it was. It may be copied; copies share the geometry.
 class Linkage {
  public:
   Linkage();
@@ -44,9 +49,9 @@ class Linkage {
   Linkage& operator=(Linkage other) noexcept;
 
   /// Adds a link that `joint` carries on the link `parent`, -1 for the world, and returns its
-  /// number: 0, 1, ... A joint that moves takes the next coordinate of q. Throws
-  /// std::invalid_argument if there is no such parent, the pose is not rigid, or a moving joint's
-  /// axis is not finite or of length 0; nothing is changed then.
+  /// number: 0, 1, ... Throws std::invalid_argument if there is no such parent, the pose is not
+  /// rigid, or a moving joint's axis is not finite or of length 0, its coordinate not in [-1, 2^20)
+  /// or its multiplier or offset not finite; nothing is changed then.
   int addLink(int parent, const Joint& joint);
 
   /// Adds a body to a link, -1 for an obstacle that stands in the world, at X_LB in the link's
@@ -61,7 +66,7 @@ class Linkage {
   /// std::invalid_argument if there are no such bodies.
   void allow(int body_a, int body_b);
 
-  int coordinates() const;  ///< the size of q
+  int coordinates() const;  ///< the size of q: one more than the largest that a joint has
   int links() const;
   int bodies() const;
 

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fcl/geometry/collision_geometry.h>
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/motion/linkage.h"
+#include "fcl_kios/robot/answers.h"
+
+// A robot from its URDF: is it in contact, how far from it, and is a motion free? Docs:
+// docs/robot.md. Lengths are in metres, angles in radians.
+
+namespace kios {
+
+struct RobotOptions {
+  /// The folder of each package that a mesh is named by (package://name/...). Others are looked for
+  /// in ROS_PACKAGE_PATH, then as share/name in AMENT_PREFIX_PATH, then from the URDF's own folder
+  /// and from those above it, with the package's name and without it.
+  std::map<std::string, std::string> packages;
+  double padding = 0;  ///< of all links, metres, >= 0; see Robot::setPadding()
+};
+
+/// A robot, what is attached to it, and obstacles around it. It may be copied, copies share
+/// geometry. Const calls are safe from many threads. Geometry must stay as it was when it was
+/// added.
+///
+/// Names are those of links, obstacles and attached objects. All calls throw std::invalid_argument,
+/// in one sentence that says what is wrong, for a name that is unknown (where one is added: in
+/// use), a configuration of the wrong size or not finite, a pose that isn't rigid, a number out of
+/// range; nothing is changed then.
+///
+/// Pairs of links, of a link and an obstacle or an attached object, of two attached objects, and of
+/// an attached object and an obstacle are checked, unless allow() or a file allows them. Two
+/// obstacles never are, nor an attached object and its link.
+class Robot {
+ public:
+  Robot(const Robot& other);
+  Robot(Robot&& other) noexcept;
+  Robot& operator=(Robot other) noexcept;
+  ~Robot();
+
+  /// The size of q: joints that move and mimic nobody, in the order of the URDF. A planar joint has
+  /// three coordinates (x, y, and the turn about its axis), a floating one six (x, y, z, roll,
+  /// pitch, yaw).
+  int coordinates() const;
+  /// Names by coordinate: a joint's own, or e.g. base/yaw.
+  const std::vector<std::string>& joints() const;
+  const std::vector<std::string>& links() const;  ///< in the order of the URDF
+  /// Limits by coordinate; infinite for continuous joints, planar and floating ones. Those of
+  /// joints that mimic one are taken into account.
+  const Eigen::VectorXd& lower() const;
+  const Eigen::VectorXd& upper() const;
+  /// A group state of the SRDF, those of one name in several groups together. A coordinate that it
+  /// doesn't name is 0, or the limit next to it.
+  Eigen::VectorXd state(const std::string& name) const;
+  std::vector<std::string> states() const;  ///< names of the group states
+  /// The frame of a link or of an attached object in the world, which is the root link's frame.
+  fcl::Transform3d pose(const std::string& link, const Eigen::VectorXd& q) const;
+
+  /// Served are finished meshes over k-IOS, FCL's nine shapes and octrees.
+  void addObstacle(const std::string& name, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
+                   const fcl::Transform3d& X_W = fcl::Transform3d::Identity());
+  /// Reads MoveIt's PlanningScene in YAML: obstacles, attached objects, allowed pairs. Objects of
+  /// the same name are replaced. The matrix of allowed pairs decides for all pairs that it names,
+  /// as in MoveIt. Throws std::invalid_argument if the file can't be read or used, with its name,
+  /// the line, and what to do; nothing is changed then.
+  void addScene(const std::string& file);
+  void moveObstacle(const std::string& name, const fcl::Transform3d& X_W);
+  void remove(const std::string& name);  ///< an obstacle, or what is attached
+  /// Adds an object that a link carries, at X_LB in the link's frame. It may touch the link, and
+  /// the links, obstacles and objects of `touch_links`, which may be added later.
+  void attach(const std::string& name, const std::string& link,
+              std::shared_ptr<const fcl::CollisionGeometryd> geometry, const fcl::Transform3d& X_LB,
+              const std::vector<std::string>& touch_links = {});
+  void allow(const std::string& a, const std::string& b, bool allowed = true);
+  bool allowed(const std::string& a, const std::string& b) const;
+  /// Of a link, an attached object or an obstacle: what is nearer than the paddings of both is in
+  /// contact. Exact: a distance less the paddings, no mesh is grown. Metres, >= 0; obstacles and
+  /// attached objects begin with 0.
+  void setPadding(const std::string& name, double metres);
+
+  /// A pair in contact, or none. Exact for meshes; docs/robot.md says what holds for shapes.
+  std::optional<RobotContact> contact(const Eigen::VectorXd& q) const;
+  /// The pair of least clearance: distance less paddings, 0 less paddings at contact.
+  RobotClearance clearance(const Eigen::VectorXd& q, const ClearanceOptions& options = {}) const;
+  /// All pairs of names whose clearance is at most `within`, the least first.
+  std::vector<RobotClearance> clearances(const Eigen::VectorXd& q, double within) const;
+  /// Is the straight path in joint space clear? As kios::checkMotion(), which proves it, of the
+  /// distances less the paddings.
+  RobotMotion checkMotion(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
+                          const MotionRequest& request = {}) const;
+
+  // Batches: a configuration is a column. `threads` 0 is one a core. Answers are those of the calls
+  // one by one.
+  std::vector<char> contacts(const Eigen::MatrixXd& q, int threads = 0) const;
+  std::vector<RobotClearance> clearances(const Eigen::MatrixXd& q,
+                                         const ClearanceOptions& options = {},
+                                         int threads = 0) const;
+  std::vector<RobotMotion> checkMotions(const Eigen::MatrixXd& q0, const Eigen::MatrixXd& q1,
+                                        const MotionRequest& request = {}, int threads = 0) const;
+
+  /// What every pair of links can do within the joints' limits, whatever is allowed, without
+  /// paddings, obstacles and attached objects. Links without geometry have no pairs.
+  std::vector<LinkPair> linkPairs(const PairOptions& options = {}) const;
+
+  class Impl;  // hidden
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  friend Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file,
+                         const RobotOptions& options);
+  explicit Robot(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads a robot from its URDF, and allowed pairs and group states from its SRDF. Without an SRDF
+/// links that a joint joins are allowed to touch. Throws std::invalid_argument if a file can't be
+/// read or used: its name, the line or the element, what is wrong and what to do.
+Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file = "",
+                const RobotOptions& options = {});
+
+/// Reads a mesh by assimp: STL, OBJ, DAE, PLY, ... Vertices of equal coordinates are one, triangles
+/// stay in the file's order. Coordinates are those of the file times `scale` (a COLLADA file's unit
+/// counts, its up axis does not); a negative one mirrors the mesh, whose triangles then keep their
+/// outside. Throws std::invalid_argument as loadRobot().
+std::shared_ptr<Modeld> loadMesh(const std::string& file, double scale = 1);
+
+}  // namespace kios

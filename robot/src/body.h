@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fcl/geometry/collision_geometry.h>
+#include "description.h"
+#include "fcl_kios/model/model.h"
+
+namespace kios::robot {
+
+enum class BodyKind { kMesh, kShape, kPlane, kOctree };
+
+/// A collision element of a link, an attached object or an obstacle.
+struct Body {
+  Geometry geometry;
+  const Modeld* mesh = nullptr;
+  BodyKind kind = BodyKind::kMesh;
+  bool meets = true;  ///< false: it isn't occupied
+  int entity = -1;    ///< whose it is: a link, then an object
+  int element = 0;
+  int node = -1;  ///< of the tree, that carries it; -1: an obstacle
+  fcl::Transform3d X_LB = fcl::Transform3d::Identity();
+  double padding = 0;
+  /// A box of the content in the body's frame, and the ball about its centre that holds the
+  /// content.
+  fcl::Vector3d middle = fcl::Vector3d::Zero(), half = fcl::Vector3d::Zero();
+  double radius = 0;  ///< infinite for half-spaces and planes
+
+  /// Sets what follows from the geometry.
+  void measure();
+};
+
+}  // namespace kios::robot

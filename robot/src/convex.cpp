@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "convex.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/capsule.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/ellipsoid.h>
+#include <fcl/geometry/shape/sphere.h>
+
+namespace kios::robot {
+namespace {
+
+using fcl::Vector3d;
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <typename Shape>
+const Shape& as(const fcl::CollisionGeometryd& geometry) {
+  return static_cast<const Shape&>(geometry);
+}
+
+/// Of the rim of a disk across z.
+Vector3d onRim(const Vector3d& n, double radius, double z) {
+  const double length = std::hypot(n.x(), n.y());
+  if (!(length > 0)) return {radius, 0, z};
+  return {radius * (n.x() / length), radius * (n.y() / length), z};
+}
+
+Vector3d supportOf(const fcl::CollisionGeometryd& shape, const Vector3d& n) {
+  switch (shape.getNodeType()) {
+    case fcl::GEOM_BOX: {
+      const Vector3d half = 0.5 * as<fcl::Boxd>(shape).side;
+      return {std::copysign(half.x(), n.x()), std::copysign(half.y(), n.y()),
+              std::copysign(half.z(), n.z())};
+    }
+    case fcl::GEOM_CAPSULE:
+      return {0, 0, std::copysign(0.5 * as<fcl::Capsuled>(shape).lz, n.z())};
+    case fcl::GEOM_CYLINDER: {
+      const auto& cylinder = as<fcl::Cylinderd>(shape);
+      return onRim(n, cylinder.radius, std::copysign(0.5 * cylinder.lz, n.z()));
+    }
+    case fcl::GEOM_CONE: {
+      const auto& cone = as<fcl::Coned>(shape);
+      const Vector3d apex(0, 0, 0.5 * cone.lz), rim = onRim(n, cone.radius, -0.5 * cone.lz);
+      return n.dot(apex) >= n.dot(rim) ? apex : rim;
+    }
+    case fcl::GEOM_ELLIPSOID: {
+      const Vector3d radii = as<fcl::Ellipsoidd>(shape).radii, scaled = radii.cwiseProduct(n);
+      const double length = scaled.stableNorm();
+      if (!(length > 0)) return Vector3d::Zero();
+      return radii.cwiseProduct(scaled / length);
+    }
+    case fcl::GEOM_CONVEX: {
+      const auto& points = as<fcl::Convexd>(shape).getVertices();
+      const Vector3d* best = &points.front();
+      for (const Vector3d& p : points) {
+        if (n.dot(p) > n.dot(*best)) best = &p;
+      }
+      return *best;
+    }
+    default:
+      return Vector3d::Zero();  // a sphere's core
+  }
+}
+
+/// Points of a - b, with what they are made of; the nearest to the origin is sum weight y.
+struct Simplex {
+  int size = 0;
+  std::array<Vector3d, 4> y, on_a, on_b;
+  double weight[4] = {};
+};
+
+struct Nearest {
+  double squared = kInfinity;
+  Vector3d v = Vector3d::Zero();
+  double weight[4] = {};
+};
+
+void offer(const Simplex& s, const int* ids, const double* weights, int n, Nearest& best) {
+  Vector3d v = Vector3d::Zero();
+  for (int i = 0; i < n; ++i) v += weights[i] * s.y[ids[i]];
+  const double squared = v.squaredNorm();
+  if (!(squared < best.squared)) return;
+  best.squared = squared;
+  best.v = v;
+  std::fill_n(best.weight, 4, 0.0);
+  for (int i = 0; i < n; ++i) best.weight[ids[i]] = weights[i];
+}
+
+void offerSegment(const Simplex& s, int i, int j, Nearest& best) {
+  const Vector3d d = s.y[j] - s.y[i];
+  const double along = -s.y[i].dot(d), length = d.squaredNorm();
+  const double t = along <= 0 ? 0.0 : (along >= length ? 1.0 : along / length);
+  const int ids[2] = {i, j};
+  const double weights[2] = {1 - t, t};
+  offer(s, ids, weights, 2, best);
+}
+
+void offerTriangle(const Simplex& s, int i, int j, int k, Nearest& best) {
+  const Vector3d &a = s.y[i], u = s.y[j] - a, v = s.y[k] - a;
+  const double uu = u.squaredNorm();
+  const Vector3d w = uu > 0 ? Vector3d(v - (u.dot(v) / uu) * u) : Vector3d::Zero();
+  const double ww = w.squaredNorm();
+  if (ww > 0) {
+    const double t = -a.dot(w) / ww, r = -(a + t * v).dot(u) / uu;
+    if (r > 0 && t > 0 && r + t < 1) {
+      const int ids[3] = {i, j, k};
+      const double weights[3] = {1 - r - t, r, t};
+      offer(s, ids, weights, 3, best);
+      return;
+    }
+  }
+  offerSegment(s, i, j, best);
+  offerSegment(s, j, k, best);
+  offerSegment(s, k, i, best);
+}
+
+/// True if the origin lies in the tetrahedron.
+bool inside(const Simplex& s, double weights[4]) {
+  const Vector3d a = s.y[0] - s.y[3], b = s.y[1] - s.y[3], c = s.y[2] - s.y[3], o = -s.y[3];
+  const double volume = a.dot(b.cross(c));
+  if (!(std::abs(volume) > 16 * kEps * a.norm() * b.norm() * c.norm())) return false;
+  weights[0] = o.dot(b.cross(c)) / volume;
+  weights[1] = a.dot(o.cross(c)) / volume;
+  weights[2] = a.dot(b.cross(o)) / volume;
+  weights[3] = 1 - weights[0] - weights[1] - weights[2];
+  return *std::min_element(weights, weights + 4) >= 0;
+}
+
+Nearest nearestOf(const Simplex& s) {
+  Nearest best;
+  const int first[1] = {0};
+  const double one[1] = {1};
+  if (s.size == 1) offer(s, first, one, 1, best);
+  if (s.size == 2) offerSegment(s, 0, 1, best);
+  if (s.size == 3) offerTriangle(s, 0, 1, 2, best);
+  if (s.size == 4) {
+    if (inside(s, best.weight)) {
+      best.squared = 0;
+      return best;
+    }
+    for (int i = 0; i < 4; ++i) offerTriangle(s, i, (i + 1) % 4, (i + 2) % 4, best);
+  }
+  return best;
+}
+
+void reduce(const Nearest& best, Simplex& s) {
+  int kept = 0;
+  for (int i = 0; i < s.size; ++i) {
+    if (!(best.weight[i] > 0)) continue;
+    s.y[kept] = s.y[i];
+    s.on_a[kept] = s.on_a[i];
+    s.on_b[kept] = s.on_b[i];
+    s.weight[kept++] = best.weight[i];
+  }
+  s.size = kept;
+}
+
+}  // namespace
+
+Vector3d Convex::support(const Vector3d& n) const {
+  return X_ * supportOf(shape_, X_.linear().transpose() * n);
+}
+
+double Convex::margin() const {
+  if (shape_.getNodeType() == fcl::GEOM_SPHERE) return as<fcl::Sphered>(shape_).radius;
+  if (shape_.getNodeType() == fcl::GEOM_CAPSULE) return as<fcl::Capsuled>(shape_).radius;
+  return 0;
+}
+
+ConvexDistance convexDistance(const Convex& a, const Convex& b) {
+  constexpr int kMostSteps = 256;
+  Simplex s;
+  const auto add = [&](const Vector3d& v) {  // the extreme point of a - b against v
+    s.on_a[s.size] = a.support(-v);
+    s.on_b[s.size] = b.support(v);
+    s.y[s.size] = s.on_a[s.size] - s.on_b[s.size];
+    s.weight[s.size] = s.size == 0 ? 1.0 : 0.0;
+    return s.y[s.size++];
+  };
+  Vector3d v = a.center() - b.center();
+  if (v.isZero(0)) v = Vector3d::UnitX();
+  add(v);
+  v = s.y[0];
+  double squared = v.squaredNorm(), lower = -kInfinity, size = 0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double length = std::sqrt(squared);
+    if (!(length > 0)) break;
+    const Simplex before = s;
+    const Vector3d y = add(v);
+    lower = std::max(lower, v.dot(y) / length);
+    size = std::max({size, s.on_a[s.size - 1].lpNorm<1>(), s.on_b[s.size - 1].lpNorm<1>()});
+    bool known = false;
+    for (int i = 0; i < before.size; ++i) known |= before.y[i] == y;
+    if (known || length - lower <= 0x1p-48 * length + 0.25 * kEps * size) {
+      s = before;
+      break;
+    }
+    const Nearest best = nearestOf(s);
+    if (!(best.squared < squared)) {
+      s = before;
+      break;
+    }
+    reduce(best, s);
+    squared = best.squared;
+    v = best.v;
+  }
+  ConvexDistance answer;
+  for (int i = 0; i < s.size; ++i) {
+    answer.point_a += s.weight[i] * s.on_a[i];
+    answer.point_b += s.weight[i] * s.on_b[i];
+  }
+  const Vector3d apart = answer.point_b - answer.point_a;
+  const double core = squared > 0 ? apart.norm() : 0, margins = a.margin() + b.margin();
+  // Cores that touch but for rounding are in contact.
+  const bool touching = !(core > 16 * kEps * size);
+  answer.distance = touching ? 0 : std::max(0.0, core - margins);
+  // Supports round by 2^-50 of the coordinates.
+  answer.lower = std::max(0.0, lower - margins - 0x1p-46 * (size + margins));
+  if (!touching) {
+    const Vector3d n = apart / core;
+    if (answer.distance > 0) {
+      answer.point_a += a.margin() * n;
+      answer.point_b -= b.margin() * n;
+    } else {  // overlap: a point of both
+      const double along = std::min(core, a.margin());
+      answer.point_a = answer.point_b = answer.point_a + along * n;
+    }
+  }
+  return answer;
+}
+
+ConvexDistance planeDistance(const Vector3d& normal, double offset, bool thin, const Convex& b) {
+  const auto side = [&](const Vector3d& n, double at) {
+    ConvexDistance answer;
+    answer.point_b = b.support(-n) - b.margin() * n;
+    const double gap = n.dot(answer.point_b) - at;
+    answer.point_a = answer.point_b - gap * n;
+    const double size = answer.point_b.lpNorm<1>() + std::abs(at);
+    answer.distance = std::max(0.0, gap);
+    answer.lower = std::max(0.0, gap - 0x1p-46 * size);
+    if (!(gap > 0)) answer.point_a = answer.point_b;
+    return answer;
+  };
+  const ConvexDistance above = side(normal, offset);
+  if (!thin || above.distance > 0) return above;
+  return side(-normal, -offset);
+}
+
+}  // namespace kios::robot

@@ -1,0 +1,371 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scene_file.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <stdexcept>
+
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/plane.h>
+#include <fcl/geometry/shape/sphere.h>
+#include "mesh_file.h"
+#include "text_file.h"
+#include "urdf.h"
+
+namespace kios::robot {
+namespace {
+
+using fcl::Transform3d;
+using fcl::Vector3d;
+
+class SceneReader {
+ public:
+  SceneReader(const std::string& file, const Description& robot) : file_(file), robot_(robot) {}
+
+  Scene read() {
+    const std::string content = contentOf(file_);
+    YAML::Node root;
+    try {
+      root = YAML::Load(content);
+    } catch (const YAML::Exception& error) {
+      refuseAt(file_, error.mark.line + 1, "it is no YAML: " + error.msg + ".");
+    }
+    if (!root.IsMap() || !(root["world"] || root["robot_state"] || root["name"] ||
+                           root["allowed_collision_matrix"])) {
+      refuse(file_ + ": it holds no planning scene: there is no world in it.");
+    }
+    for (const YAML::Node& frame : list(root["fixed_frame_transforms"])) {
+      const YAML::Node X = map(frame)["transform"];
+      if (!X) refuseHere(frame, "a transform is missing.");
+      frames_[scalar(frame["child_frame_id"], frame)] = pose(X["translation"], X["rotation"], X);
+    }
+    if (const YAML::Node world = root["world"]) {
+      const YAML::Node octomap = map(world)["octomap"];
+      if (octomap && octomap.IsMap() && octomap["octomap"] && octomap["octomap"].IsMap() &&
+          !list(octomap["octomap"]["data"]).empty()) {
+        refuseHere(octomap, "an octomap isn't read from here; add it by addObstacle().");
+      }
+      for (const YAML::Node& object : list(world["collision_objects"])) readObject(object, -1);
+    }
+    if (const YAML::Node state = root["robot_state"]) {
+      for (const YAML::Node& attached : list(map(state)["attached_collision_objects"])) {
+        readAttached(attached);
+      }
+    }
+    readMatrix(root["allowed_collision_matrix"]);
+    readLinks(root);
+    return std::move(scene_);
+  }
+
+ private:
+  [[noreturn]] void refuseHere(const YAML::Node& node, const std::string& what) const {
+    refuseAt(file_, node.Mark().line + 1, what);
+  }
+
+  YAML::Node map(const YAML::Node& node) const {
+    if (!node.IsMap()) refuseHere(node, "a map of names and values should stand here.");
+    return node;
+  }
+
+  std::vector<YAML::Node> list(const YAML::Node& node) const {
+    std::vector<YAML::Node> items;
+    if (!node || node.IsNull()) return items;
+    if (!node.IsSequence()) refuseHere(node, "a list should stand here.");
+    for (const YAML::Node& item : node) items.push_back(item);
+    return items;
+  }
+
+  std::string scalar(const YAML::Node& node, const YAML::Node& parent) const {
+    if (!node) refuseHere(parent, "a name is missing.");
+    if (!node.IsScalar() || node.Scalar().empty()) refuseHere(node, "a name should stand here.");
+    return node.Scalar();
+  }
+
+  double number(const YAML::Node& node, const YAML::Node& parent) const {
+    double x = 0;
+    if (!node) refuseHere(parent, "a number is missing.");
+    if (!node.IsScalar() || !parseNumbers(node.Scalar(), 1, &x)) {
+      refuseHere(node, "a finite number should stand here.");
+    }
+    return x;
+  }
+
+  bool truth(const YAML::Node& node) const {
+    bool value = false;
+    if (node.IsScalar() && YAML::convert<bool>::decode(node, value)) return value;
+    if (node.IsScalar() && (node.Scalar() == "1" || node.Scalar() == "0")) {
+      return node.Scalar() == "1";
+    }
+    refuseHere(node, "true or false should stand here.");
+  }
+
+  /// [x, y, z] or {x: , y: , z: }.
+  std::vector<double> numbers(const YAML::Node& node, const char* names) const {
+    std::vector<double> values;
+    if (node.IsMap()) {
+      for (const char* name = names; *name != '\0'; ++name) {
+        values.push_back(number(node[std::string(1, *name)], node));
+      }
+      return values;
+    }
+    for (const YAML::Node& item : list(node)) values.push_back(number(item, node));
+    if (*names != '\0' && values.size() != std::char_traits<char>::length(names)) {
+      refuseHere(node, "the numbers " + std::string(names) + " should stand here.");
+    }
+    return values;
+  }
+
+  Transform3d pose(const YAML::Node& position, const YAML::Node& orientation,
+                   const YAML::Node& parent) const {
+    Transform3d X = Transform3d::Identity();
+    if (position) X.translation() = Eigen::Map<const Vector3d>(numbers(position, "xyz").data());
+    if (orientation) {
+      const std::vector<double> q = numbers(orientation, "xyzw");
+      const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
+      const double norm = turn.norm();
+      // All zeros stand for no turn, as in MoveIt.
+      if (norm != 0) {
+        if (!(norm > 0.9 && norm < 1.1))
+          refuseHere(orientation, "the quaternion isn't of length 1.");
+        X.linear() = turn.normalized().toRotationMatrix();
+      }
+    }
+    try {
+      return rigid(X, "an object");
+    } catch (const std::exception&) {
+      refuseHere(parent, "the pose is too large.");
+    }
+  }
+
+  Transform3d pose(const YAML::Node& node) const {
+    map(node);
+    return pose(node["position"], node["orientation"], node);
+  }
+
+  Transform3d frameOf(const YAML::Node& object, int link) const {
+    const YAML::Node header = object["header"];
+    std::string frame;
+    if (header && header.IsMap() && header["frame_id"] && header["frame_id"].IsScalar()) {
+      frame = header["frame_id"].Scalar();
+    }
+    if (!frame.empty() && frame[0] == '/') frame.erase(0, 1);
+    if (frame.empty()) return Transform3d::Identity();
+    if (link >= 0) {
+      if (frame == robot_.links[link].name) return Transform3d::Identity();
+      refuseHere(header,
+                 "what is attached must be posed in its link's frame, not in '" + frame + "'.");
+    }
+    const auto known = frames_.find(frame);
+    if (known != frames_.end()) return known->second;
+    if (frame == "world" || frame == robot_.links[robot_.root()].name) {
+      return Transform3d::Identity();
+    }
+    refuseHere(header, "obstacles must be posed in the frame 'world', '" +
+                           robot_.links[robot_.root()].name +
+                           "' or one of fixed_frame_transforms, not in '" + frame + "'.");
+  }
+
+  void readObject(const YAML::Node& node, int link) {
+    map(node);
+    Object object;
+    object.name = scalar(node["id"], node);
+    object.link = link;
+    if (robot_.linkOf(object.name) >= 0)
+      refuseHere(node, "'" + object.name + "' is a link's name.");
+    const std::string operation =
+        node["operation"] ? scalar(node["operation"], node) : std::string("0");
+    if (operation == "1" || operation == "REMOVE" || operation == "remove") {
+      scene_.removed.push_back(object.name);
+      return;
+    }
+    const bool adds = operation == "0" || operation == "ADD" || operation == "add" ||
+                      (operation.size() == 1 && operation[0] == '\0') || operation == "\\0";
+    if (!adds) refuseHere(node["operation"], "only the operations ADD and REMOVE are read.");
+    for (const Object& other : scene_.objects) {
+      if (other.name == object.name) {
+        refuseHere(node, "'" + object.name + "' is there twice.");
+      }
+    }
+    readElements(node, "primitives", "primitive_poses", object);
+    readElements(node, "meshes", "mesh_poses", object);
+    readElements(node, "planes", "plane_poses", object);
+    if (object.elements.empty()) refuseHere(node, "'" + object.name + "' has no shape.");
+    object.X = frameOf(node, link);
+    const YAML::Node own = node["pose"];
+    if (own && own.IsMap()) {
+      object.X = rigidProduct(object.X, pose(own));
+    } else if (object.elements.size() == 1) {  // the object's frame is its only shape's
+      object.X = rigidProduct(object.X, object.elements[0].X);
+      object.elements[0].X.setIdentity();
+    }
+    scene_.objects.push_back(std::move(object));
+  }
+
+  void readElements(const YAML::Node& node, const char* shapes, const char* poses, Object& object) {
+    const auto items = list(node[shapes]), places = list(node[poses]);
+    if (places.size() > items.size() || (!places.empty() && places.size() < items.size())) {
+      refuseHere(node, "'" + object.name + "' has " + std::to_string(items.size()) + " " + shapes +
+                           ", but " + std::to_string(places.size()) + " " + poses + ".");
+    }
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      Element element;
+      const std::string kind = shapes;
+      map(items[i]);
+      try {
+        element.geometry = kind == "primitives" ? primitive(items[i])
+                           : kind == "meshes"   ? mesh(items[i])
+                                                : plane(items[i]);
+        requireServed(element.geometry);
+      } catch (const std::exception& error) {
+        const std::string text = error.what(), prefix = "fcl_kios: ";
+        if (text.rfind(prefix + file_, 0) == 0) throw;
+        refuseHere(items[i], text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text);
+      }
+      if (!places.empty()) element.X = pose(places[i]);
+      object.elements.push_back(std::move(element));
+    }
+  }
+
+  Geometry primitive(const YAML::Node& node) const {
+    const std::string type = scalar(node["type"], node);
+    if (!node["dimensions"]) refuseHere(node, "its dimensions are missing.");
+    const std::vector<double> d = numbers(node["dimensions"], "");
+    const auto require = [&](std::size_t count) {
+      if (d.size() < count) {
+        refuseHere(node, "a " + type + " has " + std::to_string(count) + " dimensions.");
+      }
+      for (std::size_t i = 0; i < count; ++i) {
+        if (!(d[i] >= 0)) refuseHere(node, "a dimension is negative.");
+      }
+    };
+    if (type == "box" || type == "1") {
+      require(3);
+      return std::make_shared<fcl::Boxd>(d[0], d[1], d[2]);
+    }
+    if (type == "sphere" || type == "2") {
+      require(1);
+      return std::make_shared<fcl::Sphered>(d[0]);
+    }
+    if (type == "cylinder" || type == "3") {
+      require(2);
+      return std::make_shared<fcl::Cylinderd>(d[1], d[0]);
+    }
+    if (type == "cone" || type == "4") {
+      require(2);
+      return std::make_shared<fcl::Coned>(d[1], d[0]);
+    }
+    refuseHere(node, "there is no primitive '" + type + "'; box, sphere, cylinder and cone are.");
+  }
+
+  Geometry mesh(const YAML::Node& node) const {
+    std::vector<Vector3d> vertices;
+    for (const YAML::Node& v : list(node["vertices"])) {
+      vertices.emplace_back(Eigen::Map<const Vector3d>(numbers(v, "xyz").data()));
+    }
+    std::vector<fcl::Triangle> triangles;
+    for (const YAML::Node& t : list(node["triangles"])) {
+      const auto corners = numbers(t.IsMap() ? t["vertex_indices"] : t, "");
+      std::size_t ids[3] = {};
+      bool fits = corners.size() == 3;
+      for (std::size_t k = 0; k < 3 && fits; ++k) {
+        fits = corners[k] >= 0 && corners[k] < static_cast<double>(vertices.size()) &&
+               corners[k] == std::floor(corners[k]);
+        if (fits) ids[k] = static_cast<std::size_t>(corners[k]);
+      }
+      if (!fits) refuseHere(t, "a triangle must be three indices of vertices.");
+      triangles.emplace_back(ids[0], ids[1], ids[2]);
+    }
+    if (triangles.empty()) refuseHere(node, "a mesh without triangles.");
+    return weld(vertices, triangles);
+  }
+
+  Geometry plane(const YAML::Node& node) const {
+    const YAML::Node coef = node["coef"];
+    if (!coef) refuseHere(node, "its coef is missing.");
+    const std::vector<double> c = numbers(coef, "abcd");
+    const Vector3d n(c[0], c[1], c[2]);
+    const double length = n.stableNorm();
+    if (!(length > 0)) refuseHere(coef, "the plane's normal is zero.");
+    return std::make_shared<fcl::Planed>(n / length, -c[3] / length);
+  }
+
+  void readAttached(const YAML::Node& node) {
+    map(node);
+    const std::string name = scalar(node["link_name"], node);
+    const int link = robot_.linkOf(name);
+    if (link < 0) refuseHere(node, "there is no link '" + name + "'.");
+    if (!node["object"]) refuseHere(node, "the object is missing.");
+    readObject(node["object"], link);
+    const std::string id = scalar(node["object"]["id"], node);
+    for (const YAML::Node& touched : list(node["touch_links"])) {
+      scene_.pairs.emplace_back(namePair(id, scalar(touched, node)), true);
+    }
+  }
+
+  void readMatrix(const YAML::Node& matrix) {
+    if (!matrix || matrix.IsNull()) return;
+    map(matrix);
+    std::vector<std::string> names;
+    for (const YAML::Node& name : list(matrix["entry_names"]))
+      names.push_back(scalar(name, matrix));
+    const auto rows = list(matrix["entry_values"]);
+    if (rows.size() != names.size()) {
+      refuseHere(matrix, "it names " + std::to_string(names.size()) + ", but has " +
+                             std::to_string(rows.size()) + " rows.");
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto row = list(rows[i].IsMap() ? rows[i]["enabled"] : rows[i]);
+      if (row.size() != names.size()) {
+        refuseHere(rows[i], "the row of '" + names[i] + "' has " + std::to_string(row.size()) +
+                                " values, not " + std::to_string(names.size()) + ".");
+      }
+      for (std::size_t j = i + 1; j < row.size(); ++j) {
+        scene_.pairs.emplace_back(namePair(names[i], names[j]), truth(row[j]));
+      }
+    }
+    const auto others = list(matrix["default_entry_names"]),
+               values = list(matrix["default_entry_values"]);
+    if (others.size() != values.size())
+      refuseHere(matrix, "its defaults are names without values.");
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      scene_.others.emplace_back(scalar(others[i], matrix), truth(values[i]));
+    }
+  }
+
+  void readLinks(const YAML::Node& root) {
+    for (const YAML::Node& item : list(root["link_padding"])) {
+      const double padding = number(map(item)["padding"], item);
+      if (!(padding >= 0)) refuseHere(item, "a padding is negative.");
+      const std::string link = scalar(item["link_name"], item);
+      if (robot_.linkOf(link) < 0) refuseHere(item, "there is no link '" + link + "'.");
+      scene_.paddings[link] = padding;
+    }
+    for (const YAML::Node& item : list(root["link_scale"])) {
+      if (number(map(item)["scale"], item) != 1) {
+        refuseHere(item, "links can't be scaled; pad them instead.");
+      }
+    }
+  }
+
+  const std::string& file_;
+  const Description& robot_;
+  std::map<std::string, Transform3d> frames_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene readScene(const std::string& file, const Description& robot) {
+  try {
+    return SceneReader(file, robot).read();
+  } catch (const YAML::Exception& error) {
+    refuseAt(file, error.mark.line + 1, error.msg + ".");
+  }
+}
+
+}  // namespace kios::robot

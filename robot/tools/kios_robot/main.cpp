@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// kios_robot: what a robot does, by its URDF. Exit status: 0 if it is clear of contact, 1 if it is
+// not or that is open, 2 for what can't be read or asked.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "fcl_kios/robot/robot.h"
+
+namespace {
+
+using kios::Robot;
+
+struct Options {
+  std::string urdf, srdf, at, to;
+  std::vector<std::string> scenes, packages;
+  double padding = 0, within = 0.1, separation = 0;
+  bool first = false, srdf_out = false;
+  long long boxes = kios::PairOptions().max_boxes;
+};
+
+Robot load(const Options& options) {
+  kios::RobotOptions robot_options;
+  robot_options.padding = options.padding;
+  for (const std::string& package : options.packages) {
+    const std::size_t equals = package.find('=');
+    if (equals == std::string::npos) {
+      throw std::invalid_argument("--package must be NAME=FOLDER, but is " + package + ".");
+    }
+    robot_options.packages[package.substr(0, equals)] = package.substr(equals + 1);
+  }
+  Robot robot = kios::loadRobot(options.urdf, options.srdf, robot_options);
+  for (const std::string& scene : options.scenes) robot.addScene(scene);
+  return robot;
+}
+
+/// Numbers between commas, or the name of a group state; nothing is 0 or the limit next to it.
+Eigen::VectorXd configuration(const Robot& robot, const std::string& text) {
+  if (text.empty()) return robot.lower().cwiseMax(0.0).cwiseMin(robot.upper());
+  std::vector<double> values;
+  std::istringstream stream(text);
+  for (std::string item; std::getline(stream, item, ',');) {
+    std::size_t end = 0;
+    try {
+      values.push_back(std::stod(item, &end));
+    } catch (const std::exception&) {
+      end = 0;
+    }
+    if (end != item.size() || item.empty()) return robot.state(text);
+  }
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+std::string text(const Eigen::VectorXd& q) {
+  std::ostringstream stream;
+  stream.precision(6);
+  for (Eigen::Index i = 0; i < q.size(); ++i) stream << (i > 0 ? "," : "") << q[i];
+  return stream.str();
+}
+
+void print(const char* name, const Eigen::Vector3d& p) {
+  std::printf("  %-18s %.9g %.9g %.9g\n", name, p.x(), p.y(), p.z());
+}
+
+int info(const Robot& robot, const Options&) {
+  std::printf("%zu links, %d coordinates\n", robot.links().size(), robot.coordinates());
+  for (int i = 0; i < robot.coordinates(); ++i) {
+    std::printf("  %-32s %.6g to %.6g\n", robot.joints()[static_cast<std::size_t>(i)].c_str(),
+                robot.lower()[i], robot.upper()[i]);
+  }
+  for (const std::string& name : robot.states()) {
+    try {
+      std::printf("  state %-26s %s\n", name.c_str(), text(robot.state(name)).c_str());
+    } catch (const std::exception& error) {
+      std::printf("  state %-26s %s\n", name.c_str(), error.what());
+    }
+  }
+  return 0;
+}
+
+int contact(const Robot& robot, const Options& options) {
+  const auto found = robot.contact(configuration(robot, options.at));
+  if (!found) {
+    std::puts("free");
+    return 0;
+  }
+  std::printf("contact of %s and %s\n", found->a.c_str(), found->b.c_str());
+  print("point", found->point);
+  if (found->id_a >= 0) std::printf("  triangle of %s: %td\n", found->a.c_str(), found->id_a);
+  if (found->id_b >= 0) std::printf("  triangle of %s: %td\n", found->b.c_str(), found->id_b);
+  return 1;
+}
+
+int clearance(const Robot& robot, const Options& options) {
+  const Eigen::VectorXd q = configuration(robot, options.at);
+  const auto least = robot.clearance(q);
+  if (least.a.empty()) {
+    std::puts("there is no pair to be checked");
+    return 0;
+  }
+  std::printf("%.9g between %s and %s\n", least.clearance, least.a.c_str(), least.b.c_str());
+  print(least.a.c_str(), least.point_a);
+  print(least.b.c_str(), least.point_b);
+  std::printf("  d/dq               %s\n", text(least.gradient).c_str());
+  for (const auto& pair : robot.clearances(q, options.within)) {
+    std::printf("  %.9g %s %s\n", pair.clearance, pair.a.c_str(), pair.b.c_str());
+  }
+  return least.clearance > 0 ? 0 : 1;
+}
+
+int motion(const Robot& robot, const Options& options) {
+  kios::MotionRequest request;
+  request.min_separation = options.separation;
+  request.first_contact = options.first;
+  const auto answer = robot.checkMotion(configuration(robot, options.at),
+                                        configuration(robot, options.to), request);
+  if (answer.verdict == kios::MotionVerdict::kClear) {
+    std::printf("clear, all along: proven by %lld configurations and %lld queries\n",
+                answer.counts.configurations, answer.counts.narrow_queries);
+    return 0;
+  }
+  const bool touches = answer.verdict == kios::MotionVerdict::kContact;
+  std::printf("%s of %s and %s at %.9g to %.9g of the way\n", touches ? "contact" : "unresolved",
+              answer.a.c_str(), answer.b.c_str(), answer.from, answer.to);
+  return 1;
+}
+
+int pairs(const Robot& robot, const Options& options) {
+  kios::PairOptions pair_options;
+  pair_options.max_boxes = options.boxes;
+  const auto all = robot.linkPairs(pair_options);
+  if (options.srdf_out) {
+    std::fputs(kios::toSrdf(all).c_str(), stdout);
+    return 0;
+  }
+  const char* const names[] = {"always", "never", "sometimes", "open"};
+  int open = 0;
+  for (const auto& pair : all) {
+    const auto verdict = static_cast<std::size_t>(pair.verdict);
+    open += pair.verdict == kios::PairVerdict::kOpen ? 1 : 0;
+    std::printf("%-9s %s %s", names[verdict], pair.a.c_str(), pair.b.c_str());
+    if (pair.adjacent) std::printf(", joined by a joint");
+    if (pair.verdict == kios::PairVerdict::kNever) {
+      std::printf(", proven by %lld boxes", pair.boxes);
+    }
+    if (pair.verdict == kios::PairVerdict::kSometimes) {
+      std::printf("%s, at %s", robot.allowed(pair.a, pair.b) ? ", BUT IT IS ALLOWED" : "",
+                  text(pair.q).c_str());
+    }
+    std::puts("");
+  }
+  return open > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app{"What a robot does, by its URDF: contacts, clearances, proven motions and pairs."};
+  app.require_subcommand(1);
+  struct Command {
+    CLI::App* app;
+    int (*run)(const Robot&, const Options&);
+  };
+  std::vector<Command> commands;
+  const auto add = [&](const char* name, const char* what,
+                       int (*run)(const Robot&, const Options&)) {
+    CLI::App* const command = app.add_subcommand(name, what);
+    command->add_option("URDF", options.urdf, "the robot")->required();
+    command->add_option("--srdf", options.srdf, "allowed pairs and group states");
+    command->add_option("--scene", options.scenes, "MoveIt's planning scene in YAML; repeatable");
+    command->add_option("--package", options.packages, "NAME=FOLDER of package://NAME; repeatable");
+    command->add_option("--padding", options.padding, "of all links, metres");
+    commands.push_back({command, run});
+    return command;
+  };
+  const char* const at = "numbers between commas, or a group state; else 0";
+  add("info", "links, coordinates, limits and group states", info);
+  add("contact", "is it in contact?", contact)->add_option("-q,--at", options.at, at);
+  CLI::App* const least =
+      add("clearance", "the least clearance, and all that are small", clearance);
+  least->add_option("-q,--at", options.at, at);
+  least->add_option("--within", options.within, "lists pairs up to this, metres");
+  CLI::App* const way = add("motion", "is the straight path clear?", motion);
+  way->add_option("--from", options.at, at);
+  way->add_option("--to", options.to, at)->required();
+  way->add_option("--separation", options.separation, "farther apart than this, metres");
+  way->add_flag("--first", options.first, "asks for the earliest contact");
+  CLI::App* const all = add("pairs", "settles every pair of links, by proof", pairs);
+  all->add_flag("--to-srdf", options.srdf_out, "prints disable_collisions of an SRDF");
+  all->add_option("--boxes", options.boxes, "a pair may take");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const Command& command : commands) {
+      if (command.app->parsed()) return command.run(load(options), options);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "kios_robot: %s\n", error.what());
+  }
+  return 2;
+}

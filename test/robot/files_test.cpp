@@ -1,0 +1,381 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What URDF, SRDF, meshes and scenes become, by small files that the tests write.
+
+#include <cmath>
+#include <limits>
+
+#include "fcl/expect_refused.h"
+#include "robot/robot_files.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(RobotFiles, JointsOfEveryType) {
+  const Folder folder;
+  const Robot robot = loadRobot(manyJoints(folder));
+  const std::vector<std::string> names = {"drive/x",  "drive/y", "drive/theta", "turn",
+                                          "shoulder", "elbow",   "extend",      "left_finger"};
+  EXPECT_EQ(robot.joints(), names);
+  EXPECT_EQ(robot.coordinates(), 8);
+  EXPECT_EQ(robot.links().size(), 9u);
+  EXPECT_EQ(robot.links()[3], "upper");
+  EXPECT_EQ(robot.lower()[3], -kInfinity);
+  EXPECT_EQ(robot.upper()[0], kInfinity);
+  EXPECT_EQ(robot.lower()[4], -2);
+  EXPECT_EQ(robot.upper()[5], 2.5);
+  EXPECT_EQ(robot.upper()[6], 0.2);
+  VectorXd q(8);
+  q << 0.3, -0.2, 0.5, 0.25, 0.4, -0.7, 0.1, -0.03;
+  const auto about = [](double angle, const Vector3d& axis) {
+    return Transform3d(Eigen::AngleAxisd(angle, axis));
+  };
+  const Vector3d y = Vector3d::UnitY(), z = Vector3d::UnitZ(), x = Vector3d::UnitX();
+  const Transform3d cart = shifted(0, 0, 0.2) * shifted(0.3, -0.2, 0) * about(0.5, z);
+  const Transform3d turret = cart * shifted(0, 0, 0.11) * about(0.25, z);
+  const Transform3d upper = turret * shifted(0, 0, 0.1) * about(0.4, y);
+  const Transform3d lower = upper * shifted(0, 0, 0.34) * about(0.2, x) * about(-0.7, y);
+  const Transform3d slide = lower * shifted(0, 0, 0.32 + 0.1);
+  const std::pair<const char*, Transform3d> expected[] = {
+      {"base", Transform3d::Identity()},
+      {"cart", cart},
+      {"turret", turret},
+      {"upper", upper},
+      {"lower", lower},
+      {"slide", slide},
+      {"left", slide * shifted(0, 0.06 - 0.03, 0.1)},
+      {"right", slide * shifted(0, -0.06 + 0.03, 0.1)},
+      {"tool", slide * shifted(0, 0, 0.2)}};
+  for (const auto& [name, X] : expected) {
+    EXPECT_LE((robot.pose(name, q).matrix() - X.matrix()).norm(), 1e-14) << name;
+  }
+  // Joined links may touch, others may not.
+  EXPECT_TRUE(robot.allowed("cart", "turret"));
+  EXPECT_FALSE(robot.allowed("left", "right"));
+}
+
+TEST(RobotFiles, FloatingJointsTurnAboutFixedAxesAndMimicsFollowOneAnother) {
+  const Folder folder;
+  const Robot robot = loadRobot(folder.write(
+      "f.urdf", "<robot name='f'>" + link("a") + link("b", "<sphere radius='1'/>") + link("c") +
+                    link("d") + link("e") + joint("fly", "floating", "a", "b") +
+                    joint("first", "continuous", "b", "c",
+                          "<axis xyz='0 0 1'/>"
+                          "<mimic joint='second' multiplier='2' offset='0.5'/>") +
+                    joint("second", "continuous", "c", "d",
+                          "<axis xyz='0 0 1'/>"
+                          "<mimic joint='third' multiplier='-3' offset='0.25'/>") +
+                    joint("third", "continuous", "d", "e", "<axis xyz='0 0 1'/>") + "</robot>"));
+  ASSERT_EQ(robot.coordinates(), 7);
+  EXPECT_EQ(robot.joints()[5], "fly/yaw");
+  VectorXd q(7);
+  q << 1, 2, 3, 0.1, 0.2, 0.3, 0.4;
+  Transform3d X = shifted(1, 2, 3);
+  X.linear() =
+      (Eigen::AngleAxisd(0.3, Vector3d::UnitZ()) * Eigen::AngleAxisd(0.2, Vector3d::UnitY()) *
+       Eigen::AngleAxisd(0.1, Vector3d::UnitX()))
+          .toRotationMatrix();
+  EXPECT_LE((robot.pose("b", q).matrix() - X.matrix()).norm(), 1e-15);
+  const double second = -3 * 0.4 + 0.25, first = 2 * second + 0.5;
+  X.rotate(Eigen::AngleAxisd(first + second + 0.4, Vector3d::UnitZ()));
+  EXPECT_LE((robot.pose("e", q).matrix() - X.matrix()).norm(), 1e-14);
+}
+
+// A planar joint moves across its axis, whatever that is.
+TEST(RobotFiles, PlanarJointsMoveAcrossTheirAxis) {
+  const Folder folder;
+  for (const Vector3d& axis :
+       {Vector3d(0, 0, 1), Vector3d(0, 0, -1), Vector3d(1, 0, 0), Vector3d(1, 2, -3)}) {
+    const std::string text =
+        std::to_string(axis.x()) + " " + std::to_string(axis.y()) + " " + std::to_string(axis.z());
+    const Robot robot = loadRobot(folder.write(
+        "p.urdf", "<robot name='p'>" + link("a") + link("b") +
+                      joint("j", "planar", "a", "b", "<axis xyz='" + text + "'/>") + "</robot>"));
+    const Transform3d X = robot.pose("b", Vector3d(0.5, -0.7, 1.1));
+    EXPECT_NEAR(X.translation().dot(axis), 0, 1e-14);
+    EXPECT_NEAR(X.translation().norm(), std::hypot(0.5, 0.7), 1e-14);
+    EXPECT_LE((X.linear() * axis - axis).norm(), 1e-14 * axis.norm());
+  }
+}
+
+TEST(RobotFiles, MeshesAreWeldedScaledAndKeepTheirOutside) {
+  const Folder folder;
+  const std::string file = folder.write("box.obj", boxObj(1, 2, 3));
+  for (const double scale : {1.0, 0.5, -2.0}) {
+    const auto model = loadMesh(file, scale);
+    EXPECT_EQ(model->num_vertices, 8);
+    EXPECT_EQ(model->num_tris, 12);
+    EXPECT_TRUE(inspectClosedness(*model).isSolid()) << scale;
+    double most = 0;
+    for (int i = 0; i < 8; ++i) most = std::max(most, model->vertices[i].x());
+    EXPECT_EQ(most, std::abs(scale));
+  }
+  // The soup of an STL file, its two facets sharing an edge.
+  const std::string stl = folder.write(
+      "two.stl",
+      "solid two\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+      "endloop\nendfacet\nfacet normal 0 0 1\nouter loop\nvertex 1 0 0\nvertex 1 1 0\n"
+      "vertex -0 1 0\nendloop\nendfacet\nendsolid two\n");
+  EXPECT_EQ(loadMesh(stl)->num_vertices, 4);
+  expectRefused([&] { loadMesh(file, 0); }, "scale");
+  expectRefused([&] { loadMesh(folder / "none.obj"); }, "no such file");
+  expectRefused([&] { loadMesh(folder.write("bad.obj", "v 0 0 0\n")); }, "bad.obj");
+  expectRefused([&] { loadMesh(folder.write("empty.stl", "")); }, "empty");
+}
+
+TEST(RobotFiles, PackagesAreLookedForWhereRosHasThem) {
+  const Folder folder;
+  folder.write("ws/share/pack/m/box.obj", boxObj(1, 1, 1));
+  const std::string urdf = folder.write(
+      "far/r.urdf",
+      "<robot name='r'>" + link("a", "<mesh filename='package://pack/m/box.obj'/>") + "</robot>");
+  expectRefused([&] { loadRobot(urdf); }, "RobotOptions::packages");
+  RobotOptions options;
+  options.packages["pack"] = folder / "ws/share/pack";
+  EXPECT_EQ(loadRobot(urdf, "", options).links().size(), 1u);
+  options.packages["pack"] = folder / "ws";
+  expectRefused([&] { loadRobot(urdf, "", options); }, "r.urdf:1");
+  setenv("AMENT_PREFIX_PATH", ("/none:" + (folder / "ws")).c_str(), 1);
+  EXPECT_EQ(loadRobot(urdf).links().size(), 1u);
+  unsetenv("AMENT_PREFIX_PATH");
+  setenv("ROS_PACKAGE_PATH", (folder / "ws/share").c_str(), 1);
+  EXPECT_EQ(loadRobot(urdf).links().size(), 1u);
+  unsetenv("ROS_PACKAGE_PATH");
+}
+
+TEST(RobotFiles, AnSrdfAllowsPairsAndNamesStates) {
+  const Folder folder;
+  const std::string urdf = manyJoints(folder);
+  const Robot robot = loadRobot(
+      urdf, folder.write("arm.srdf",
+                         "<robot name='arm'><virtual_joint name='v' type='fixed'/>"
+                         "<disable_collisions link1='cart' link2='upper' reason='Never'/>"
+                         "<disable_default_collisions link='left'/>"
+                         "<enable_collisions link1='base' link2='left'/>"
+                         "<disable_collisions link1='gone' link2='upper'/>"
+                         "<group_state name='home' group='g'><joint name='elbow' value='1.5'/>"
+                         "<joint name='drive' value='1 2 3'/><joint name='wrist' value='9'/>"
+                         "<joint name='v' value='9'/></group_state>"
+                         "<group_state name='odd' group='g'><joint name='none' value='1'/>"
+                         "</group_state></robot>"));
+  EXPECT_TRUE(robot.allowed("upper", "cart"));
+  EXPECT_FALSE(robot.allowed("cart", "turret"));
+  EXPECT_TRUE(robot.allowed("left", "right"));
+  EXPECT_FALSE(robot.allowed("left", "base"));
+  VectorXd home(8);
+  home << 1, 2, 3, 0, 0, 1.5, 0, 0;
+  EXPECT_EQ(robot.state("home"), home);
+  expectRefused([&] { robot.state("odd"); }, "none");
+  expectRefused([&] { robot.state("hom"); }, "home");
+}
+
+// The limit next to 0 where 0 is beyond.
+TEST(RobotFiles, StatesBeginWithinTheLimits) {
+  const Folder folder;
+  const Robot robot = loadRobot(
+      folder.write("r.urdf",
+                   "<robot name='r'>" + link("a") + link("b") + link("c") +
+                       joint("j", "revolute", "a", "b", "<limit lower='1' upper='2'/>") +
+                       joint("k", "revolute", "b", "c", "<limit lower='-2' upper='-1'/>") +
+                       "</robot>"),
+      folder.write("r.srdf", "<robot name='r'><group_state name='s' group='g'/></robot>"));
+  EXPECT_EQ(robot.state("s"), Eigen::Vector2d(1, -1));
+}
+
+TEST(RobotFiles, ScenesHoldObjectsAttachedOnesAndAllowedPairs) {
+  const Folder folder;
+  Robot robot = loadRobot(manyJoints(folder));
+  const std::string scene = folder.write("scene.yaml", R"(
+name: test
+fixed_frame_transforms:
+  - child_frame_id: hall
+    transform: {translation: [1, 0, 0], rotation: [0, 0, 0, 1]}
+robot_state:
+  attached_collision_objects:
+    - link_name: tool
+      touch_links: [slide, left]
+      object:
+        id: cup
+        header: {frame_id: tool}
+        primitives: [{type: cylinder, dimensions: [0.1, 0.03]}]
+        primitive_poses: [{position: [0, 0, 0.1], orientation: [0, 0, 0, 1]}]
+link_padding:
+  - {link_name: upper, padding: 0.01}
+allowed_collision_matrix:
+  entry_names: [base, cart, shelf, unknown]
+  entry_values:
+    - [false, false, true, true]
+    - [false, false, false, false]
+    - {enabled: [true, false, false, false]}
+    - [true, false, false, false]
+world:
+  collision_objects:
+    - id: shelf
+      header: {frame_id: hall}
+      pose: {position: [0, 2, 0], orientation: [0, 0, 0.7071067811865476, 0.7071067811865476]}
+      primitives: [{type: box, dimensions: [0.2, 0.4, 0.6]}, {type: 2, dimensions: [0.1]}]
+      primitive_poses:
+        - position: {x: 0, y: 0, z: 0}
+          orientation: {x: 0, y: 0, z: 0, w: 1}
+        - position: [1, 0, 0]
+    - id: tent
+      meshes:
+        - vertices: [[0, 0, 0], [1, 0, 0], {x: 0, y: 1, z: 0}]
+          triangles: [{vertex_indices: [0, 1, 2]}]
+      mesh_poses: [{position: [5, 0, 0]}]
+)");
+  robot.addScene(scene);
+  const VectorXd q = VectorXd::Zero(8);
+  EXPECT_EQ(robot.pose("shelf", q).translation(), Vector3d(1, 2, 0));
+  EXPECT_EQ(robot.pose("tent", q).translation(), Vector3d(5, 0, 0));
+  EXPECT_LE(
+      (robot.pose("cup", q).translation() - robot.pose("tool", q) * Vector3d(0, 0, 0.1)).norm(),
+      1e-14);
+  EXPECT_TRUE(robot.allowed("cup", "slide"));
+  EXPECT_FALSE(robot.allowed("cup", "right"));
+  EXPECT_TRUE(robot.allowed("shelf", "base"));
+  EXPECT_FALSE(robot.allowed("base", "cart"));  // joined, but the matrix says no
+  EXPECT_TRUE(robot.allowed("turret", "cart"));
+  // The sphere of the shelf lies a metre along its x, which is the world's y.
+  const auto near = robot.clearances(q, 10);
+  bool seen = false;
+  for (const auto& pair : near) {
+    if (pair.a == "base" && pair.b == "tent") seen = true;
+    EXPECT_NE(pair.a + pair.b, "baseshelf");
+  }
+  EXPECT_TRUE(seen);
+  robot.addScene(scene);  // the same names are replaced
+  robot.remove("tent");
+  expectRefused([&] { robot.pose("tent", q); }, "tent");
+  expectRefused([&] { robot.remove("upper"); }, "link");
+}
+
+TEST(RobotFiles, BadRobotsAreRefusedWithTheirPlace) {
+  const Folder folder;
+  const std::string two = link("a") + link("b");
+  const std::pair<std::string, const char*> cases[] = {
+      {"", "empty"},
+      {"<robot", "well-formed"},
+      {std::string("<robot name='r'>\0</robot>", 25), "zero byte"},
+      {"<model/>", "<robot>"},
+      {"<robot/>", "name"},
+      {"<robot name='r'/>", "<link>"},
+      {"<robot name='r'><link/></robot>", "attribute name"},
+      {"<robot name='r'>" + link("a") + link("a") + "</robot>", "already"},
+      {"<robot name='r'>" + two + "</robot>", "2 roots"},
+      {"<robot name='r'>\n\n" + link("a", "<box size='1 1'/>") + "</robot>", ":3: <box>"},
+      {"<robot name='r'>" + link("a", "<box size='1 1 1 1'/>") + "</robot>", "three finite"},
+      {"<robot name='r'>" + link("a", "<box size='1 -1 1'/>") + "</robot>", "negative"},
+      {"<robot name='r'>" + link("a", "<box/>") + "</robot>", "size"},
+      {"<robot name='r'>" + link("a", "<sphere radius='nan'/>") + "</robot>", "finite"},
+      {"<robot name='r'>" + link("a", "<sphere radius='1e999'/>") + "</robot>", "finite"},
+      {"<robot name='r'>" + link("a", "<sphere radius='1'/><sphere radius='1'/>") + "</robot>",
+       "second shape"},
+      {"<robot name='r'>" + link("a", "<torus/>") + "</robot>", "no such shape"},
+      {"<robot name='r'>" + link("a", "<mesh filename='x.stl'/>") + "</robot>", "x.stl"},
+      {"<robot name='r'>" + link("a", "<mesh filename='http://x/y.stl'/>") + "</robot>", "fetched"},
+      {"<robot name='r'>" + link("a", "<mesh filename='package://y'/>") + "</robot>", "package://"},
+      {"<robot name='r'><link name='a'><collision/></link></robot>", "<geometry>"},
+      {"<robot name='r'>" + two + joint("j", "ball", "a", "b") + "</robot>", "type"},
+      {"<robot name='r'>" + two + joint("j", "fixed", "a", "c") + "</robot>", "'c'"},
+      {"<robot name='r'>" + two + joint("j", "revolute", "a", "b") + "</robot>", "<limit>"},
+      {"<robot name='r'>" + two + joint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>") +
+           "</robot>",
+       "exceeds"},
+      {"<robot name='r'>" + two + joint("j", "continuous", "a", "b", "<axis xyz='0 0 0'/>") +
+           "</robot>",
+       "length 0"},
+      {"<robot name='r'>" + two + joint("j", "continuous", "a", "b", "<mimic joint='k'/>") +
+           "</robot>",
+       "'k'"},
+      {"<robot name='r'>" + two + joint("j", "continuous", "a", "b", "<mimic joint='j'/>") +
+           "</robot>",
+       "circle"},
+      {"<robot name='r'>" + two + link("c") + joint("j", "fixed", "a", "b") +
+           joint("k", "continuous", "b", "c", "<mimic joint='j'/>") + "</robot>",
+       "can't mimic"},
+      {"<robot name='r'>" + two + joint("j", "fixed", "a", "b") + joint("j", "fixed", "a", "b") +
+           "</robot>",
+       "already"},
+      {"<robot name='r'>" + two + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b") +
+           "</robot>",
+       "two joints"},
+      {"<robot name='r'>" + two + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a") +
+           "</robot>",
+       "circle"}};
+  for (const auto& [text, word] : cases) {
+    const std::string file = folder.write("bad.urdf", text);
+    SCOPED_TRACE(text);
+    expectRefused([&] { loadRobot(file); }, word);
+    expectRefused([&] { loadRobot(file); }, "bad.urdf");
+  }
+  expectRefused([&] { loadRobot(folder / "none.urdf"); }, "no such file");
+  expectRefused([&] { loadRobot("."); }, "directory");
+  RobotOptions options;
+  options.padding = -1;
+  expectRefused([&] { loadRobot(manyJoints(folder), "", options); }, "padding");
+  expectRefused(
+      [&] {
+        loadRobot(manyJoints(folder), folder.write("s",
+                                                   "<robot><disable_collisions"
+                                                   "/></robot>"));
+      },
+      "link1");
+}
+
+TEST(RobotFiles, BadScenesAreRefusedAndChangeNothing) {
+  const Folder folder;
+  Robot robot = loadRobot(manyJoints(folder));
+  const std::string object = "world:\n  collision_objects:\n    - id: x\n";
+  const std::pair<std::string, const char*> cases[] = {
+      {"{", "no YAML"},
+      {"[1, 2]", "planning scene"},
+      {"a: b", "planning scene"},
+      {"world: 3", "map"},
+      {"world: {collision_objects: 3}", "list"},
+      {"world: {collision_objects: [3]}", "map"},
+      {"world: {collision_objects: [{}]}", "name is missing"},
+      {object, "no shape"},
+      {object + "      primitives: [{type: box, dimensions: [1, 2]}]", "3 dimensions"},
+      {object + "      primitives: [{type: box, dimensions: [1, 2, -1]}]", "negative"},
+      {object + "      primitives: [{type: box, dimensions: [1, 2, .nan]}]", "finite"},
+      {object + "      primitives: [{type: torus, dimensions: [1]}]", "torus"},
+      {object + "      primitives: [{type: sphere, dimensions: [1]}]\n      primitive_poses: "
+                "[{position: [1, 2]}]",
+       "xyz"},
+      {object + "      primitives: [{type: sphere, dimensions: [1]}]\n      primitive_poses: "
+                "[{orientation: [1, 2, 3, 4]}]",
+       "quaternion"},
+      {object + "      primitives: [{type: sphere, dimensions: [1]}]\n      primitive_poses: "
+                "[{}, {}]",
+       "primitive_poses"},
+      {object + "      header: {frame_id: upper}\n      primitives: [{type: sphere, dimensions: "
+                "[1]}]",
+       "upper"},
+      {object + "      meshes: [{vertices: [[0, 0, 0]], triangles: [[0, 0, 1]]}]", "indices"},
+      {object + "      meshes: [{vertices: [[0, 0, 0]], triangles: []}]", "without triangles"},
+      {object + "      operation: MOVE", "ADD"},
+      {"world: {collision_objects: [{id: upper, primitives: []}]}", "link's name"},
+      {"robot_state: {attached_collision_objects: [{link_name: none}]}", "none"},
+      {"world: {}\nallowed_collision_matrix: {entry_names: [a], entry_values: []}", "rows"},
+      {"world: {}\nallowed_collision_matrix: {entry_names: [a], entry_values: [[1, 2]]}", "row"},
+      {"world: {}\nallowed_collision_matrix: {entry_names: [a, b], entry_values: [[0, 5], [0, 0]]}",
+       "true or false"},
+      {"world: {}\nlink_scale: [{link_name: upper, scale: 2}]", "pad"}};
+  const VectorXd q = VectorXd::Zero(8);
+  const double before = robot.clearance(q).clearance;
+  for (const auto& [text, word] : cases) {
+    const std::string file = folder.write("bad.yaml", text);
+    SCOPED_TRACE(text);
+    expectRefused([&] { robot.addScene(file); }, word);
+    expectRefused([&] { robot.addScene(file); }, "bad.yaml");
+  }
+  expectRefused([&] { robot.pose("x", q); }, "'x'");
+  EXPECT_EQ(robot.clearance(q).clearance, before);
+}
+
+}  // namespace
+}  // namespace kios::testing

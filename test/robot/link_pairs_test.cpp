@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Pairs of links: proofs against samples, gaps that shrink to nothing, joints without limits.
+
+#include "fcl/expect_refused.h"
+#include "robot/robot_files.h"
+
+namespace kios::testing {
+namespace {
+
+/// Are two links in contact at q, whatever is allowed?
+bool meetAt(Robot& alone, const LinkPair& pair, const VectorXd& q) {
+  for (const auto& near : alone.clearances(q, 0)) {
+    if (near.a == pair.a && near.b == pair.b) return true;
+    if (near.a == pair.b && near.b == pair.a) return true;
+  }
+  return false;
+}
+
+/// Nothing is allowed.
+Robot strict(Robot robot) {
+  for (const std::string& a : robot.links()) {
+    for (const std::string& b : robot.links()) {
+      if (a != b) robot.allow(a, b, false);
+    }
+  }
+  return robot;
+}
+
+void expectRight(const Robot& given, const std::vector<LinkPair>& pairs, int samples) {
+  Robot robot = strict(given);
+  Random random(1);
+  for (const LinkPair& pair : pairs) {
+    SCOPED_TRACE(pair.a + " " + pair.b);
+    if (pair.q.size() > 0) {
+      EXPECT_TRUE(meetAt(robot, pair, pair.q));
+    }
+    EXPECT_TRUE(pair.verdict != PairVerdict::kSometimes || pair.q.size() > 0);
+  }
+  for (int i = 0; i < samples; ++i) {
+    const VectorXd q = randomConfiguration(robot, random);
+    for (const auto& near : robot.clearances(q, 0)) {
+      for (const LinkPair& pair : pairs) {
+        const bool same =
+            (near.a == pair.a && near.b == pair.b) || (near.a == pair.b && near.b == pair.a);
+        EXPECT_FALSE(same && pair.verdict == PairVerdict::kNever) << pair.a << " " << pair.b;
+      }
+    }
+  }
+}
+
+int count(const std::vector<LinkPair>& pairs, PairVerdict verdict) {
+  int n = 0;
+  for (const LinkPair& pair : pairs) n += pair.verdict == verdict ? 1 : 0;
+  return n;
+}
+
+TEST(LinkPairs, MotionBenchMakersRobotsAreSettled) {
+  for (const char* const name : {"panda", "ur5"}) {
+    if (mbmFolder(name).empty()) GTEST_SKIP() << "no MotionBenchMaker data";
+    const Robot robot = loadMbm(name);
+    const auto pairs = robot.linkPairs();
+    EXPECT_EQ(count(pairs, PairVerdict::kOpen), 0);
+    EXPECT_GT(count(pairs, PairVerdict::kNever), 20);
+    EXPECT_GT(count(pairs, PairVerdict::kSometimes), 20);
+    expectRight(robot, pairs, 1000);
+  }
+}
+
+TEST(LinkPairs, AllShapesAndJoints) {
+  const Folder folder;
+  const Robot robot = loadRobot(manyJoints(folder));
+  PairOptions options;
+  options.max_boxes = 300000;
+  const auto pairs = robot.linkPairs(options);
+  EXPECT_EQ(pairs.size(), 28u);  // of eight links with geometry
+  expectRight(robot, pairs, 20000);
+  EXPECT_GE(count(pairs, PairVerdict::kAlways), 7);
+  EXPECT_GT(count(pairs, PairVerdict::kSometimes), 5);
+  EXPECT_EQ(count(pairs, PairVerdict::kOpen), 0);
+  const std::string srdf = toSrdf(pairs);
+  EXPECT_NE(srdf.find("reason=\"Adjacent\""), std::string::npos);
+  // What is written is read again, and hides no contact.
+  const Robot again = loadRobot(folder / "arm.urdf",
+                                folder.write("a.srdf", "<robot name='arm'>" + srdf + "</robot>"));
+  for (const LinkPair& pair : pairs) {
+    EXPECT_EQ(again.allowed(pair.a, pair.b), pair.verdict != PairVerdict::kSometimes);
+  }
+}
+
+/// A ball on an arm of two joints swings past a ball: a gap of so much where they are nearest.
+Robot swinging(const Folder& folder, double gap) {
+  const std::string far = std::to_string(1.0 + 0.2 + gap);
+  return loadRobot(folder.write(
+      "s.urdf",
+      "<robot name='s'>" +
+          link("post", "<sphere radius='0.1'/>", "<origin xyz='" + far + " 0 0'/>") +
+          link("first") + link("ball", "<sphere radius='0.1'/>", "<origin xyz='0.5 0 0'/>") +
+          joint("j", "revolute", "post", "first",
+                "<axis xyz='0 0 1'/><limit lower='-3' upper='2.5'/>") +
+          joint("k", "continuous", "first", "ball", "<origin xyz='0.5 0 0'/><axis xyz='0 0 1'/>") +
+          "</robot>"));
+}
+
+TEST(LinkPairs, SmallGapsAreProvenAndSmallOverlapsFound) {
+  const Folder folder;
+  for (const double gap : {0.1, 0.01, 0.001}) {
+    const auto apart = swinging(folder, gap).linkPairs();
+    ASSERT_EQ(apart.size(), 1u);
+    EXPECT_EQ(apart[0].verdict, PairVerdict::kNever) << gap;
+    const Robot robot = swinging(folder, -gap);
+    const auto meet = robot.linkPairs();
+    ASSERT_EQ(meet[0].verdict, PairVerdict::kSometimes) << gap;
+    Robot alone = strict(robot);
+    EXPECT_TRUE(meetAt(alone, meet[0], meet[0].q));
+  }
+  PairOptions none;
+  none.max_boxes = 3;
+  EXPECT_EQ(swinging(folder, 0.001).linkPairs(none)[0].verdict, PairVerdict::kOpen);
+  none.max_boxes = -1;
+  expectRefused([&] { swinging(folder, 1).linkPairs(none); }, "max_boxes");
+}
+
+// One coordinate moves two fingers towards each other; they stop before they meet, or don't.
+TEST(LinkPairs, JointsThatMimicMoveTogether) {
+  const Folder folder;
+  const auto hand = [&](double most) {
+    const std::string limit = "<limit lower='0' upper='" + std::to_string(most) + "'/>";
+    return loadRobot(folder.write(
+        "h.urdf",
+        "<robot name='h'>" + link("palm") + link("l", "<box size='0.1 0.1 0.1'/>") +
+            link("r", "<box size='0.1 0.1 0.1'/>") +
+            joint("a", "prismatic", "palm", "l",
+                  "<origin xyz='0.2 0 0'/><axis xyz='-1 0 0'/>" + limit) +
+            joint("b", "prismatic", "palm", "r",
+                  "<origin xyz='-0.2 0 0'/><axis xyz='1 0 0'/>" + limit + "<mimic joint='a'/>") +
+            "</robot>"));
+  };
+  EXPECT_EQ(hand(0.149).linkPairs()[0].verdict, PairVerdict::kNever);
+  EXPECT_EQ(hand(0.151).linkPairs()[0].verdict, PairVerdict::kSometimes);
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,362 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Contacts, clearances, gradients and motions of robots, against brute force by FCL over OBBRSS and
+// against samples: the Panda and the UR5 where their files are, and an arm of all joints and
+// shapes.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fcl/expect_refused.h"
+#include "robot/robot_files.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+using ObbModel = fcl::BVHModel<fcl::OBBRSSd>;
+
+std::shared_ptr<ObbModel> toObb(const Modeld& model) {
+  auto result = std::make_shared<ObbModel>();
+  result->beginModel();
+  for (int i = 0; i < model.num_tris; ++i) {
+    const fcl::Triangle& t = model.tri_indices[i];
+    result->addTriangle(model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]);
+  }
+  result->endModel();
+  return result;
+}
+
+/// The links' collision geometry as the test knows it, by FCL.
+struct BruteForce {
+  struct Body {
+    std::string name;
+    bool moves;  ///< a link
+    Transform3d X;
+    std::shared_ptr<fcl::CollisionGeometryd> geometry;
+  };
+  std::vector<Body> bodies;
+
+  double distance(const Robot& robot, const VectorXd& q, std::string* names = nullptr) const {
+    std::vector<Transform3d> X;
+    for (const Body& body : bodies) {
+      X.push_back(body.moves ? robot.pose(body.name, q) * body.X : body.X);
+    }
+    double least = kInfinity;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      for (std::size_t k = i + 1; k < bodies.size(); ++k) {
+        const Body &a = bodies[i], &b = bodies[k];
+        if ((!a.moves && !b.moves) || a.name == b.name || robot.allowed(a.name, b.name)) continue;
+        fcl::CollisionResultd contacts;
+        if (kios::fcl_own::collide<double>(a.geometry.get(), X[i], b.geometry.get(), X[k],
+                                           fcl::CollisionRequestd(), contacts) > 0) {
+          if (names) *names = a.name + " " + b.name;
+          return 0;
+        }
+        fcl::DistanceResultd result;
+        const double d = kios::fcl_own::distance<double>(a.geometry.get(), X[i], b.geometry.get(),
+                                                         X[k], fcl::DistanceRequestd(), result);
+        if (d < least && names) *names = a.name + " " + b.name;
+        least = std::min(least, d);
+      }
+    }
+    return least;
+  }
+};
+
+/// Of a MotionBenchMaker robot: links whose meshes are named after them by hand, to be independent
+/// of the reader.
+BruteForce pandaByHand() {
+  const std::string folder = mbmFolder("panda") + "/meshes/collision/";
+  BruteForce brute;
+  const auto add = [&](const std::string& link, const std::string& mesh,
+                       const Transform3d& X = Transform3d::Identity()) {
+    brute.bodies.push_back({link, true, X, toObb(*loadMesh(folder + mesh + ".obj"))});
+  };
+  for (int i = 0; i <= 7; ++i) add("panda_link" + std::to_string(i), "link" + std::to_string(i));
+  add("panda_hand", "hand");
+  add("panda_leftfinger", "finger");
+  add("panda_rightfinger", "finger",
+      Transform3d(Eigen::AngleAxisd(3.14159265359, Vector3d::UnitZ())));
+  return brute;
+}
+
+void addBoxes(Robot& robot, BruteForce& brute, Random& random, int count) {
+  for (int i = 0; i < count; ++i) {
+    auto box = std::make_shared<fcl::Boxd>(random.uniform(0.05, 0.4), random.uniform(0.05, 0.4),
+                                           random.uniform(0.02, 0.4));
+    Transform3d X =
+        shifted(random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.1, 1.2));
+    X.rotate(Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
+                                random.uniform(0.1, 1))
+                 .normalized());
+    const std::string name = "box" + std::to_string(i);
+    robot.addObstacle(name, box, X);
+    brute.bodies.push_back({name, false, X, box});
+  }
+}
+
+TEST(RobotQueries, ThePandaAgreesWithBruteForceOverObbrss) {
+  if (mbmFolder("panda").empty()) GTEST_SKIP() << "no MotionBenchMaker data";
+  Robot robot = loadMbm("panda");
+  ASSERT_EQ(robot.coordinates(), 7);
+  EXPECT_EQ(robot.joints()[3], "panda_joint4");
+  EXPECT_EQ(robot.lower()[3], -3.1416);
+  EXPECT_EQ(robot.state("ready")[1], -0.785);
+  BruteForce brute = pandaByHand();
+  Random random(11);
+  int in_contact = 0;
+  for (int i = 0; i < 600; ++i) {
+    const VectorXd q = randomConfiguration(robot, random);
+    const double least = brute.distance(robot, q);
+    EXPECT_EQ(robot.contact(q).has_value(), least == 0);
+    in_contact += least == 0 ? 1 : 0;
+    const RobotClearance clearance = robot.clearance(q);
+    EXPECT_NEAR(clearance.clearance, least, 1e-9);
+    EXPECT_LE(clearance.lower_bound, clearance.clearance);
+  }
+  EXPECT_GT(in_contact, 20);
+  // Shapes around it; FCL's distance of meshes and boxes is right to 1e-6.
+  addBoxes(robot, brute, random, 6);
+  for (int i = 0; i < 100; ++i) {
+    const VectorXd q = randomConfiguration(robot, random);
+    const double least = brute.distance(robot, q);
+    EXPECT_EQ(robot.contact(q).has_value(), least == 0);
+    EXPECT_NEAR(robot.clearance(q).clearance, least, 1e-5);
+  }
+}
+
+/// An arm of every joint with shapes and meshes around it.
+Robot cluttered(const Folder& folder, int meshes = 4, int shapes = 4) {
+  Robot robot = loadRobot(manyJoints(folder));
+  Random random(5);
+  for (int i = 0; i < meshes + shapes; ++i) {
+    const Transform3d X =
+        shifted(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0, 1.4));
+    Geometry geometry;
+    if (i < meshes) {
+      geometry = loadMesh(folder.write("o.obj", boxObj(0.1, 0.05 + 0.02 * i, 0.2)));
+    } else if (i % 4 == 0) {
+      geometry = std::make_shared<fcl::Sphered>(0.15);
+    } else if (i % 4 == 1) {
+      geometry = std::make_shared<fcl::Cylinderd>(0.1, 0.4);
+    } else if (i % 4 == 2) {
+      geometry = std::make_shared<fcl::Boxd>(0.2, 0.3, 0.1);
+    } else {
+      geometry = std::make_shared<fcl::Capsuled>(0.08, 0.3);
+    }
+    robot.addObstacle("o" + std::to_string(i), geometry, X);
+  }
+  return robot;
+}
+
+VectorXd free(const Robot& robot, Random& random) {
+  VectorXd q;
+  do {
+    q = randomConfiguration(robot, random);
+    q.head(2) *= 0.3;
+  } while (robot.clearance(q).clearance < 1e-3);
+  return q;
+}
+
+/// The derivative by central differences, or nothing where the nearest pair changes on the way.
+bool differences(const Robot& robot, const VectorXd& q, const RobotClearance& at, VectorXd& slope) {
+  constexpr double kStep = 1e-5;
+  slope.resize(q.size());
+  for (int k = 0; k < q.size(); ++k) {
+    double d[2];
+    for (int side = 0; side < 2; ++side) {
+      VectorXd p = q;
+      p[k] += side == 0 ? kStep : -kStep;
+      const RobotClearance there = robot.clearance(p);
+      if (there.a != at.a || there.b != at.b || (there.point_a - at.point_a).norm() > 10 * kStep ||
+          (there.point_b - at.point_b).norm() > 10 * kStep) {
+        return false;
+      }
+      d[side] = there.clearance;
+    }
+    slope[k] = (d[0] - d[1]) / (2 * kStep);
+  }
+  return true;
+}
+
+void expectGradients(const Robot& robot, int count, std::uint64_t seed) {
+  Random random(seed);
+  int unique = 0;
+  for (int i = 0; i < count; ++i) {
+    const VectorXd q = free(robot, random);
+    const RobotClearance clearance = robot.clearance(q);
+    ASSERT_EQ(clearance.gradient.size(), q.size());
+    VectorXd slope;
+    if (!differences(robot, q, clearance, slope)) continue;
+    ++unique;
+    EXPECT_LE((clearance.gradient - slope).lpNorm<Eigen::Infinity>(), 1e-6)
+        << clearance.a << " " << clearance.b << " " << clearance.clearance;
+  }
+  EXPECT_GT(unique, count / 4);
+}
+
+TEST(RobotQueries, GradientsAreThoseOfDifferences) {
+  const Folder folder;
+  expectGradients(cluttered(folder), 200, 1);
+  expectGradients(cluttered(folder, 6, 0), 100, 2);
+  if (mbmFolder("panda").empty()) return;
+  Robot panda = loadMbm("panda");
+  BruteForce unused;
+  Random random(4);
+  addBoxes(panda, unused, random, 5);
+  expectGradients(panda, 100, 3);
+}
+
+TEST(RobotQueries, TheLeastClearanceIsThatOfAllPairs) {
+  const Folder folder;
+  Robot robot = cluttered(folder);
+  Random random(2);
+  for (int i = 0; i < 200; ++i) {
+    VectorXd q = randomConfiguration(robot, random);
+    q.head(2) *= 0.4;
+    const RobotClearance least = robot.clearance(q);
+    const auto all = robot.clearances(q, kInfinity);
+    ASSERT_FALSE(all.empty());
+    EXPECT_EQ(all.front().clearance, least.clearance);
+    EXPECT_TRUE(std::is_sorted(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return a.clearance < b.clearance;
+    }));
+    const double within = all[all.size() / 2].clearance;
+    const auto some = robot.clearances(q, within);
+    std::size_t expected = 0;
+    for (const auto& pair : all) expected += pair.clearance <= within ? 1 : 0;
+    EXPECT_EQ(some.size(), expected);
+    // Errors that are allowed, and a distance that is enough.
+    ClearanceOptions options;
+    options.rel_err = 0.2;
+    const RobotClearance rough = robot.clearance(q, options);
+    EXPECT_LE(rough.clearance, 1.2 * least.clearance + 1e-12);
+    EXPECT_LE(rough.lower_bound, least.clearance);
+    EXPECT_GE(rough.lower_bound, least.clearance / 1.2 - 1e-9);
+    options.rel_err = 3;
+    EXPECT_LE(robot.clearance(q, options).lower_bound, least.clearance);
+    options = ClearanceOptions();
+    options.far_enough = 0.5 * least.clearance;
+    if (least.clearance > 0) {
+      EXPECT_GE(robot.clearance(q, options).lower_bound, 0.5 * least.clearance * (1 - 1e-9));
+    }
+  }
+}
+
+TEST(RobotQueries, PaddingIsTakenFromDistances) {
+  const Folder folder;
+  Robot robot = cluttered(folder);
+  Robot padded = robot;
+  std::map<std::string, double> paddings = {
+      {"upper", 0.05}, {"left", 0.02}, {"slide", 0.02}, {"o2", 0.03}};
+  for (const auto& [name, padding] : paddings) padded.setPadding(name, padding);
+  Random random(3);
+  int touching = 0, free_paths = 0;
+  for (int i = 0; i < 200; ++i) {
+    VectorXd q = randomConfiguration(robot, random);
+    q.head(2) *= 0.4;
+    double least = kInfinity;
+    for (const auto& pair : robot.clearances(q, kInfinity)) {
+      least = std::min(least, pair.clearance - paddings[pair.a] - paddings[pair.b]);
+    }
+    const RobotClearance clearance = padded.clearance(q);
+    EXPECT_NEAR(clearance.clearance, least, 1e-12);
+    EXPECT_EQ(padded.contact(q).has_value(), least <= 0);
+    touching += least <= 0 ? 1 : 0;
+
+    // A proven path keeps the paddings.
+    VectorXd to = q;
+    for (int k = 0; k < to.size(); ++k) to[k] += random.uniform(-0.2, 0.2);
+    const RobotMotion motion = padded.checkMotion(q, to);
+    if (motion.verdict == MotionVerdict::kClear) {
+      ++free_paths;
+      for (int s = 0; s <= 20; ++s) {
+        EXPECT_GT(padded.clearance(q + 0.05 * s * (to - q)).clearance, -1e-9);
+      }
+    } else if (motion.verdict == MotionVerdict::kContact) {
+      EXPECT_LE(padded.clearance(q + motion.to * (to - q)).clearance, 1e-6);
+      EXPECT_FALSE(motion.a.empty());
+      EXPECT_NE(motion.a, motion.b);
+    }
+  }
+  EXPECT_GT(touching, 20);
+  EXPECT_GT(free_paths, 10);
+  RobotOptions options;
+  options.padding = 0.01;
+  const Robot all = loadRobot(manyJoints(folder), "", options);
+  const Robot none = loadRobot(manyJoints(folder));
+  const VectorXd q = VectorXd::Zero(8);
+  EXPECT_NEAR(all.clearance(q).clearance, none.clearance(q).clearance - 0.02, 1e-15);
+}
+
+TEST(RobotQueries, MotionsAreProvenOrMeetContacts) {
+  const Folder folder;
+  const Robot robot = cluttered(folder);
+  Random random(6);
+  int clear = 0, contact = 0;
+  for (int i = 0; i < 200; ++i) {
+    const VectorXd q0 = free(robot, random);
+    VectorXd q1 = q0;
+    for (int k = 0; k < q1.size(); ++k) q1[k] += random.uniform(-0.5, 0.5);
+    const RobotMotion motion = robot.checkMotion(q0, q1);
+    MotionRequest request;
+    request.first_contact = true;
+    const RobotMotion first = robot.checkMotion(q0, q1, request);
+    EXPECT_EQ(first.verdict == MotionVerdict::kClear, motion.verdict == MotionVerdict::kClear);
+    if (first.verdict == MotionVerdict::kUnresolved) continue;
+    if (motion.verdict == MotionVerdict::kClear) {
+      ++clear;
+      for (int s = 0; s <= 50; ++s) EXPECT_FALSE(robot.contact(q0 + 0.02 * s * (q1 - q0)));
+    } else if (motion.verdict == MotionVerdict::kContact) {
+      ++contact;
+      const VectorXd at = motion.to == 1 ? q1 : VectorXd(q0 + motion.to * (q1 - q0));
+      EXPECT_TRUE(robot.contact(at).has_value()) << motion.a << " " << motion.b;
+      EXPECT_LE(first.from, motion.to);
+      for (int s = 0; s < 50; ++s) {
+        EXPECT_FALSE(robot.contact(q0 + 0.02 * s * first.from * (q1 - q0)));
+      }
+    }
+  }
+  EXPECT_GT(clear, 20);
+  EXPECT_GT(contact, 20);
+}
+
+TEST(RobotQueries, BatchesAnswerAsOneByOne) {
+  const Folder folder;
+  const Robot robot = cluttered(folder);
+  Random random(7);
+  Eigen::MatrixXd q0(8, 300), q1(8, 300);
+  for (int i = 0; i < 300; ++i) {
+    q0.col(i) = randomConfiguration(robot, random);
+    q1.col(i) = q0.col(i) + 0.1 * VectorXd::Ones(8);
+  }
+  for (const int threads : {0, 1, 3}) {
+    const auto contacts = robot.contacts(q0, threads);
+    const auto clearances = robot.clearances(q0, {}, threads);
+    const auto motions = robot.checkMotions(q0, q1, {}, threads);
+    ASSERT_EQ(contacts.size(), 300u);
+    for (int i = 0; i < 300; ++i) {
+      EXPECT_EQ(contacts[i] != 0, robot.contact(q0.col(i)).has_value());
+      const RobotClearance one = robot.clearance(q0.col(i));
+      EXPECT_EQ(clearances[i].clearance, one.clearance);
+      EXPECT_EQ(clearances[i].gradient, one.gradient);
+      const RobotMotion motion = robot.checkMotion(q0.col(i), q1.col(i));
+      EXPECT_EQ(motions[i].verdict, motion.verdict);
+      EXPECT_EQ(motions[i].to, motion.to);
+      EXPECT_EQ(motions[i].a, motion.a);
+    }
+  }
+  EXPECT_TRUE(robot.contacts(Eigen::MatrixXd(8, 0)).empty());
+  expectRefused([&] { robot.contacts(Eigen::MatrixXd::Zero(7, 3)); }, "rows");
+  q0(2, 5) = std::numeric_limits<double>::quiet_NaN();
+  expectRefused([&] { robot.contacts(q0); }, "column 5");
+  expectRefused([&] { robot.contacts(q1, -1); }, "threads");
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What is put around a robot and taken away, and calls that are refused.
+
+#include <cmath>
+#include <limits>
+
+#include "fcl/expect_refused.h"
+#include "robot/robot_files.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(RobotSurroundings, WhatIsAddedMovedAttachedAndRemoved) {
+  const Folder folder;
+  Robot robot = loadRobot(manyJoints(folder));
+  const VectorXd q = VectorXd::Zero(8);
+  ASSERT_FALSE(robot.contact(q).has_value());
+  const auto ball = std::make_shared<fcl::Sphered>(0.03);
+  robot.addObstacle("ball", ball, robot.pose("tool", q));
+  EXPECT_FALSE(robot.contact(q).has_value());  // the tool has no geometry
+  const Robot copy = robot;
+  robot.moveObstacle("ball", robot.pose("slide", q));
+  const auto contact = robot.contact(q);
+  ASSERT_TRUE(contact.has_value());
+  EXPECT_EQ(contact->a, "slide");
+  EXPECT_EQ(contact->b, "ball");
+  EXPECT_FALSE(copy.contact(q).has_value());
+  robot.allow("ball", "slide");
+  EXPECT_FALSE(robot.contact(q).has_value());
+  EXPECT_EQ(robot.checkMotion(q, q).verdict, MotionVerdict::kClear);
+  robot.allow("slide", "ball", false);
+  EXPECT_TRUE(robot.contact(q).has_value());
+  robot.remove("ball");
+  EXPECT_FALSE(robot.contact(q).has_value());
+
+  robot.addObstacle("table", std::make_shared<fcl::Boxd>(0.3, 0.3, 0.02),
+                    robot.pose("tool", q) * shifted(0, 0, 0.1));
+  robot.attach("rod", "tool", ball, shifted(0, 0, 0.08));
+  EXPECT_TRUE(robot.contact(q).has_value());
+  EXPECT_EQ(robot.contact(q)->a, "rod");
+  EXPECT_EQ(robot.pose("rod", q).translation(), robot.pose("tool", q) * Vector3d(0, 0, 0.08));
+  robot.remove("rod");
+  robot.attach("rod", "tool", ball, shifted(0, 0, 0.08), {"table"});
+  EXPECT_FALSE(robot.contact(q).has_value());
+  // A floor that everything stands on, but for the base.
+  robot.addObstacle("floor", std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -0.01));
+  EXPECT_EQ(robot.contact(q)->a, "base");
+  robot.allow("floor", "base");
+  EXPECT_FALSE(robot.contact(q).has_value());
+  EXPECT_GT(robot.clearance(q).clearance, 0);
+
+  expectRefused([&] { robot.addObstacle("floor", ball); }, "in use");
+  expectRefused([&] { robot.addObstacle("upper", ball); }, "in use");
+  expectRefused([&] { robot.addObstacle("new", nullptr); }, "null");
+  expectRefused([&] { robot.addObstacle("", ball); }, "name");
+  expectRefused([&] { robot.attach("new", "none", ball, shifted(0, 0, 0)); }, "none");
+  expectRefused([&] { robot.allow("new", "upper"); }, "new");
+  expectRefused([&] { robot.moveObstacle("rod", shifted(0, 0, 0)); }, "rod");
+  expectRefused([&] { robot.setPadding("upper", -1); }, "padding");
+  expectRefused([&] { robot.setPadding("nobody", 1); }, "nobody");
+  Transform3d skew = Transform3d::Identity();
+  skew.linear()(0, 1) = 0.1;
+  expectRefused([&] { robot.moveObstacle("table", skew); }, "rigid");
+  expectRefused([&] { robot.contact(VectorXd::Zero(3)); }, "3 coordinates");
+  VectorXd bad = q;
+  bad[3] = std::numeric_limits<double>::quiet_NaN();
+  expectRefused([&] { robot.clearance(bad); }, "turn");
+  expectRefused([&] { robot.clearances(q, std::nan("")); }, "within");
+  expectRefused(
+      [&] { robot.addObstacle("plain", std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>()); },
+      "toKIOS");
+}
+
+// At overlap the gradient points the shortest way out of marked solids.
+TEST(RobotSurroundings, GradientsOfOverlapLeadOut) {
+  const Folder folder;
+  const std::string box = folder.write("box.obj", boxObj(0.5, 0.5, 0.5));
+  Robot robot = loadRobot(
+      folder.write("r.urdf", "<robot name='r'>" + link("a") + link("b", "<box size='1 1 1'/>") +
+                                 joint("fly", "floating", "a", "b") + "</robot>"));
+  VectorXd q = VectorXd::Zero(6);
+  q << 0.9, 0.1, 0.2, 0, 0, 0;
+  const auto solid = loadMesh(box);
+  markSolid(*solid);
+  robot.addObstacle("mesh", solid);
+  const RobotClearance near = robot.clearance(q);
+  EXPECT_EQ(near.clearance, 0);
+  ASSERT_EQ(near.gradient.size(), 6);
+  EXPECT_GT(near.gradient[0], 0.5);
+}
+
+TEST(RobotSurroundings, WithoutPairsAllIsClear) {
+  const Folder folder;
+  const Robot robot = loadRobot(
+      folder.write("r.urdf", "<robot name='r'>" + link("a", "<sphere radius='1'/>") + "</robot>"));
+  const VectorXd q(0);
+  EXPECT_EQ(robot.coordinates(), 0);
+  EXPECT_FALSE(robot.contact(q).has_value());
+  EXPECT_EQ(robot.clearance(q).clearance, kInfinity);
+  EXPECT_TRUE(robot.clearance(q).a.empty());
+  EXPECT_EQ(robot.checkMotion(q, q).verdict, MotionVerdict::kClear);
+}
+
+}  // namespace
+}  // namespace kios::testing
