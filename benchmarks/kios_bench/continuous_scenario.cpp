@@ -13,8 +13,8 @@
 #include <fcl/math/motion/translation_motion.h>
 
 #include "calls.h"
+#include "fcl_kios/continuous/continuous.h"
 #include "fcl_kios/model/model.h"
-#include "fcl_kios/motion/continuous.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"

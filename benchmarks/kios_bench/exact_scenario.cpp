@@ -15,14 +15,14 @@
 #include <fcl/math/bv/RSS.h>
 #include <fcl/math/bv/utility.h>
 
-#include "fcl_kios/volume/fit.h"
+#include "clearance/exact_pair.h"
+#include "clearance/nearest_pair.h"
+#include "fcl_kios/build/fit.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "volume/exact/exact_pair.h"
-#include "volume/exact/nearest_pair.h"
 
 namespace kios::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <fcl_kios/motion/linkage.h>
+#include <fcl_kios/linkage/linkage.h>
 
 #include "scenes/cells.h"
 

@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/node_layout.h"
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/volume/separation.h"
 #include "paper/packing_tests.h"
@@ -19,6 +18,7 @@
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
+#include "tree/node_layout.h"
 
 namespace kios::bench {
 namespace {

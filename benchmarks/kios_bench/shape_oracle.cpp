@@ -7,8 +7,8 @@
 #include <fcl/geometry/octree/octree.h>
 #include <fcl/geometry/shape/box.h>
 
-#include "query/shape_solid.h"
-#include "solid/triangle_shape.h"
+#include "shape/shape_solid.h"
+#include "shape/triangle_shape.h"
 
 namespace kios::bench {
 

@@ -9,7 +9,7 @@
 
 #include "scenes/mesh.h"
 #include "scenes/motions.h"
-#include "solid/solid.h"
+#include "shape/solid.h"
 
 namespace kios::bench {
 

@@ -20,7 +20,7 @@
 #include <fcl/math/bv/kDOP.h>
 #include <fcl/math/bv/utility.h>
 
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
 #include "paper/volume_policy.h"
 
 namespace kios::paper {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "volume/fit/sphere_fitter.h"
+#include "build/sphere_fitter.h"
 
 namespace kios::paper {
 namespace {

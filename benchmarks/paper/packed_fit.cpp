@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
+#include "build/sphere_fitter.h"
 #include "paper/visit_caps.h"
 #include "volume/balls.h"
-#include "volume/fit/sphere_fitter.h"
 #include "volume/rounding.h"
 
 namespace kios::paper {

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All that this file includes is included before the first target's pass, as in engine/kernels.cpp.
+// All that this file includes is included before the first target's pass, as in search/kernels.cpp.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
-#include "engine/simd/targets.h"
 #include "paper/packing_tests.h"
+#include "search/simd/targets.h"
 #include "volume/lanes.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -17,7 +17,7 @@
 #include <hwy/foreach_target.h>  // NOLINT(llvm-include-order)
 #include <hwy/highway.h>         // NOLINT(llvm-include-order)
 
-#include "engine/simd/node_test-inl.h"
+#include "search/simd/node_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::paper::HWY_NAMESPACE {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/frame_pair.h"
-#include "engine/tree.h"
+#include "search/frame_pair.h"
+#include "tree/tree.h"
 
 namespace kios::paper {
 

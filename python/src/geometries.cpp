@@ -23,9 +23,9 @@
 #include <octomap/OcTree.h>
 
 #include "arrays.h"
-#include "fcl_kios/interior/solids.h"
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/model/storage.h"
+#include "fcl_kios/solid/solids.h"
 #include "objects.h"
 
 namespace kios::python {

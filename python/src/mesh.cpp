@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/interior/penetration.h"
-#include "fcl_kios/interior/solids.h"
 #include "fcl_kios/model/prepare.h"
 #include "fcl_kios/model/storage.h"
+#include "fcl_kios/solid/penetration.h"
+#include "fcl_kios/solid/solids.h"
 #include "mesh_batches.h"
 #include "objects.h"
 

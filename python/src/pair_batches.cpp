@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "fcl_kios/interior/penetration.h"
 #include "fcl_kios/model/prepare.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/distance.h"
+#include "fcl_kios/solid/penetration.h"
 #include "mesh_batches.h"
 #include "results.h"
 

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "fcl_kios/interior/solids.h"
 #include "fcl_kios/model/prepare.h"
 #include "fcl_kios/query/ray.h"
+#include "fcl_kios/solid/solids.h"
 #include "mesh_batches.h"
 
 namespace kios::python {

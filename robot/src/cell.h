@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "body.h"
-#include "fcl_kios/motion/linkage.h"
+#include "fcl_kios/linkage/linkage.h"
 #include "fcl_kios/robot/answers.h"
 #include "kinematic_tree.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "description.h"
-#include "fcl_kios/motion/linkage.h"
+#include "fcl_kios/linkage/linkage.h"
 
 namespace kios::robot {
 

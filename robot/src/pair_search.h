@@ -21,7 +21,7 @@ namespace kios::robot {
 /// carries both, both bodies move, each by the joints of its own side; seen from one of the bodies,
 /// the other one moves by the joints of both sides. All three bounds hold; the least is used.
 ///
-/// Rounding is as in src/motion/configuration.h; 2^-40 stands here in the place of 2^-43.
+/// Rounding is as in src/linkage/configuration.h; 2^-40 stands here in the place of 2^-43.
 class PairSearch {
  public:
   PairSearch(const Arm& arm, int link_a, int link_b);

@@ -11,7 +11,7 @@
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
-#include "fcl_kios/motion/linkage.h"
+#include "fcl_kios/linkage/linkage.h"
 #include "mesh_file.h"
 #include "mesh_path.h"
 #include "text_file.h"

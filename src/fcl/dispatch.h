@@ -10,9 +10,9 @@
 #include "fcl_kios/fcl_own.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/mesh_queries.h"
-#include "interior/solid_queries.h"
 #include "model/kios_model.h"
 #include "query/mesh_and_other.h"
+#include "solid/solid_queries.h"
 
 namespace kios {
 

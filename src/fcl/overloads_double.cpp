@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fcl/narrowphase/continuous_collision.h>
 #include "fcl/dispatch.h"
-#include "fcl_kios/motion/continuous.h"
+#include "fcl_kios/continuous/continuous.h"
 #include "fcl_kios/overloads.h"
 
 namespace fcl {

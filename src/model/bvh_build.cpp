@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/tree_cache.h"
+#include "build/sphere_fitter.h"
 #include "model/tree_build.h"
-#include "volume/fit/sphere_fitter.h"
+#include "tree/tree_cache.h"
 
 namespace kios {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <fcl/geometry/bvh/BV_node.h>
-#include "engine/content_hash.h"
 #include "fcl_kios/volume/kios.h"
+#include "tree/content_hash.h"
 
 namespace kios {
 

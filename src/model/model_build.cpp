@@ -7,12 +7,12 @@
 #include <typeinfo>
 #include <utility>
 
-#include "engine/mesh_tree.h"
-#include "engine/tree_cache.h"
+#include "build/mesh_tree.h"
 #include "model/lent_volumes.h"
 #include "model/members.h"
 #include "model/prepared.h"
 #include "model/tree_build.h"
+#include "tree/tree_cache.h"
 #include "volume/stamp.h"
 
 namespace kios {

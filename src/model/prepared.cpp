@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/prepare.h"
-#include "engine/refit.h"
-#include "engine/search.h"
 #include "fcl_kios/model/prepare.h"
 #include "model/kios_model.h"
+#include "search/search.h"
+#include "tree/prepare.h"
+#include "tree/refit.h"
 
 namespace kios {
 

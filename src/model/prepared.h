@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/mesh.h"
-#include "engine/tree_cache.h"
+#include "build/mesh.h"
 #include "fcl_kios/model/model.h"
+#include "tree/tree_cache.h"
 
 namespace kios {
 

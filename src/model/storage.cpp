@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/mesh_tree.h"
+#include "build/mesh_tree.h"
 #include "model/lent_volumes.h"
 #include "model/prepared.h"
 

@@ -9,7 +9,7 @@
 #include <fcl/geometry/bvh/BVH_internal.h>
 #include <fcl/geometry/bvh/detail/BV_splitter.h>
 #include <fcl/math/triangle.h>
-#include "volume/fit/sphere_fitter.h"
+#include "build/sphere_fitter.h"
 
 namespace kios {
 

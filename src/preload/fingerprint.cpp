@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "engine/simd/targets.h"
+#include "search/simd/targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "preload/fingerprint.cpp"

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/cell_search.h"
+#include "search/cell_search.h"
 #include "volume/balls.h"
 
 namespace kios {

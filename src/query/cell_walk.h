@@ -8,19 +8,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/cell_search.h"
 #include "fcl_kios/model/model.h"
 #include "query/posed_solid.h"
+#include "search/cell_search.h"
 #include "volume/error_bounds.h"
 
 namespace kios {
 
-/// The search of engine/cell_search.h in FCL's tree, for models that aren't prepared: the larger of
+/// The search of search/cell_search.h in FCL's tree, for models that aren't prepared: the larger of
 /// a cell and a node is divided, the caps of a node are four lanes. Real is float where lengths
 /// allow that, as they do for CellFrame, else double.
 ///
 /// Lengths are relative to the search's origin. With S = |centre|_1 + the node's reach instead of
-/// that of a tree, and u of Real, the derivation in engine/cell_search.h holds: offsets of caps are
+/// that of a tree, and u of Real, the derivation in search/cell_search.h holds: offsets of caps are
 /// stored in float, in units of a power of two, and R, the products and the sums cost 16 u S. The
 /// pad, a length here and no coordinate, is 128 u S.
 template <typename S, typename Real>

@@ -5,9 +5,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "engine/pair_query.h"
-#include "fcl_kios/engine/counts.h"
+#include "fcl_kios/search/counts.h"
 #include "query/pair_frame.h"
+#include "search/pair_query.h"
 
 namespace kios {
 

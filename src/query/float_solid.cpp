@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/prepare.h"
+#include "tree/prepare.h"
 #include "volume/error_bounds.h"
 #include "volume/rounding.h"
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "engine/solid_search.h"
 #include "query/posed_solid.h"
-#include "solid/convex_faces.h"
+#include "search/solid_search.h"
+#include "shape/convex_faces.h"
 
 namespace kios {
 

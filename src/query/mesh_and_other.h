@@ -5,7 +5,7 @@
 #include "fcl_kios/query/octree_queries.h"
 #include "fcl_kios/query/shape_queries.h"
 #include "model/kios_model.h"
-#include "query/shape_solid.h"
+#include "shape/shape_solid.h"
 
 namespace kios {
 

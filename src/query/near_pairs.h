@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "engine/mesh_search.h"
 #include "model/prepared.h"
 #include "query/pair_frame.h"
+#include "search/mesh_search.h"
 
 namespace kios {
 

@@ -8,14 +8,14 @@
 #include <limits>
 #include <vector>
 
-#include "engine/cell_search.h"
-#include "engine/search.h"
 #include "model/prepared.h"
 #include "query/cell_tree.h"
 #include "query/cell_walk.h"
 #include "query/mesh_pair.h"
 #include "query/posed_solid.h"
-#include "solid/triangle_shape.h"
+#include "search/cell_search.h"
+#include "search/search.h"
+#include "shape/triangle_shape.h"
 #include "volume/error_bounds.h"
 #include "volume/rounding.h"
 
@@ -137,7 +137,7 @@ class OctreeCollision final : engine::CellSide {
     return true;
   }
 
-  /// `scale` is S of engine/cell_search.h, `reach` the mesh's part.
+  /// `scale` is S of search/cell_search.h, `reach` the mesh's part.
   bool floatsServe(double reach, double scale) const {
     using Frame = engine::CellFrame;
     return posed_.hasUnit1() && reach >= Frame::kLeastReach && scale <= Frame::kLargestReach &&

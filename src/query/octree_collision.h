@@ -5,7 +5,7 @@
 #include "fcl_kios/query/octree_queries.h"
 
 #if FCL_HAVE_OCTOMAP
-#include "solid/solid.h"
+#include "shape/solid.h"
 
 namespace kios {
 

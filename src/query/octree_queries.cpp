@@ -12,7 +12,7 @@
 #include "query/mesh_pair.h"
 #include "query/octree_collision.h"
 #include "query/posed_solid.h"
-#include "solid/triangle_shape.h"
+#include "shape/triangle_shape.h"
 
 namespace kios {
 namespace {

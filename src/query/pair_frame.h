@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "engine/pair_query.h"
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/volume/separation.h"
 #include "model/kios_model.h"
+#include "search/pair_query.h"
 #include "volume/error_bounds.h"
 
 namespace kios {

@@ -6,11 +6,11 @@
 #include <limits>
 #include <utility>
 
-#include "engine/mesh_search.h"
-#include "engine/prepare.h"
-#include "engine/root_bound.h"
 #include "model/prepared.h"
 #include "query/unprepared.h"
+#include "search/mesh_search.h"
+#include "search/root_bound.h"
+#include "tree/prepare.h"
 
 namespace kios {
 namespace {

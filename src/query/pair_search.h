@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "engine/pair_query.h"
-#include "fcl_kios/engine/counts.h"
+#include "fcl_kios/search/counts.h"
 #include "query/pair_frame.h"
+#include "search/pair_query.h"
 
 // The two searches about a pair of meshes, behind every call that asks for a distance or a first
 // contact. They prepare the models if need be. Pairs that the engine can't serve (models whose

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "fcl_kios/volume/separation.h"
-#include "solid/gjk.h"
+#include "shape/gjk.h"
 #include "volume/error_bounds.h"
 
 namespace kios {

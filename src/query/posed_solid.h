@@ -4,7 +4,7 @@
 
 #include "fcl_kios/triangle/triangle.h"
 #include "fcl_kios/volume/kios.h"
-#include "solid/solid.h"
+#include "shape/solid.h"
 #include "volume/balls.h"
 
 namespace kios {

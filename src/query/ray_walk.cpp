@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/search.h"
 #include "model/prepared.h"
+#include "search/search.h"
 
 namespace kios {
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/ray_search.h"
-#include "engine/tree.h"
 #include "fcl_kios/model/model.h"
+#include "search/ray_search.h"
+#include "tree/tree.h"
 #include "triangle/ray_triangle.h"
 #include "volume/ray_interval.h"
 

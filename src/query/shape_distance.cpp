@@ -4,14 +4,14 @@
 #include <limits>
 #include <vector>
 
-#include "engine/pair_query.h"
-#include "engine/search.h"
 #include "fcl_kios/query/shape_queries.h"
 #include "model/prepared.h"
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
-#include "query/shape_solid.h"
-#include "solid/triangle_shape.h"
+#include "search/pair_query.h"
+#include "search/search.h"
+#include "shape/shape_solid.h"
+#include "shape/triangle_shape.h"
 #include "volume/rounding.h"
 
 namespace kios {

@@ -7,13 +7,13 @@
 #include <optional>
 #include <vector>
 
-#include "engine/search.h"
 #include "model/prepared.h"
 #include "query/collide_with.h"
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
-#include "query/shape_solid.h"
-#include "solid/triangle_shape.h"
+#include "search/search.h"
+#include "shape/shape_solid.h"
+#include "shape/triangle_shape.h"
 
 namespace kios {
 namespace {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "engine/pair_query.h"
-#include "fcl_kios/engine/counts.h"
+#include "fcl_kios/search/counts.h"
 #include "query/pair_frame.h"
+#include "search/pair_query.h"
 
 // Queries of models that nobody prepared. They walk FCL's trees for as long as it hasn't paid to
 // prepare both models: see TreeCache::testsToSpare(). Where nothing is returned, the engine is to

@@ -10,11 +10,11 @@
 
 #include <fcl/geometry/collision_geometry.h>
 #include <fcl/narrowphase/collision_object.h>
-#include "engine/tree_cache.h"
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/scene/scene_types.h"
 #include "scene/box.h"
 #include "scene/motion_bound.h"
+#include "tree/tree_cache.h"
 #include "volume/error_bounds.h"
 
 namespace kios::scene {

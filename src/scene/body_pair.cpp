@@ -9,10 +9,10 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
-#include "interior/containment.h"
-#include "interior/solid_mark.h"
 #include "query/bracket.h"
 #include "query/pair_search.h"
+#include "solid/containment.h"
+#include "solid/solid_mark.h"
 #include "volume/error_bounds.h"
 
 namespace kios::scene {

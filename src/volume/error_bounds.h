@@ -76,12 +76,12 @@ double stretchOf(double squared_errors) {
 }
 
 /// Bounds the error of a bound computed in float lanes, `scale` the sum of all lengths that enter:
-/// 16 roundings of 2^-24 at most (volume/separation.cpp and engine/frame_pair.h count them), and as
+/// 16 roundings of 2^-24 at most (volume/separation.cpp and search/frame_pair.h count them), and as
 /// much again.
 inline double laneError(double scale) { return 0x1p-19 * scale; }
 
 /// Bounds that of a bound of boxes in float lanes: at most 96 roundings of 2^-24, which
-/// engine/frame_pair.h counts (test/engine/box_bounds_test.cpp measures them), and a third more.
+/// search/frame_pair.h counts (test/search/box_bounds_test.cpp measures them), and a third more.
 inline double boxError(double scale) { return 4 * laneError(scale); }
 
 /// Bounds that of the distance of two triangles: the kernel promises 16 eps of their extent, the
@@ -105,7 +105,7 @@ double featureError(double extent) {
 }
 
 /// Bounds that of a length between a shape and a volume or a triangle, in double: 5 roundings a
-/// coordinate of the pose, and less than 2^-48 of the lengths from the kernels of src/solid.
+/// coordinate of the pose, and less than 2^-48 of the lengths from the kernels of src/shape.
 inline double solidError(double lengths) { return 0x1p-46 * lengths; }
 
 }  // namespace kios::error_bounds

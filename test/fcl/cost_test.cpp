@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fcl/mesh_cases.h"
-#include "solid/shape_oracle.h"
+#include "shape/shape_oracle.h"
 
 namespace kios::testing {
 namespace {
@@ -127,8 +127,8 @@ TEST_F(Cost, OccupancyDecidesBetweenContactsAndSources) {
   }
 }
 
-// Defects 3, 10 and 23 of docs/fcl-coverage.md: contacts need that both are occupied, sources that neither is free;
-// and sources lie where mesh and shape do, in the world.
+// Defects 3, 10 and 23 of docs/fcl-coverage.md: contacts need that both are occupied, sources that
+// neither is free; and sources lie where mesh and shape do, in the world.
 TEST(ShapeCosts, OccupancyDecidesBetweenContactsAndSources) {
   const auto model = kiosModel(scenes::icosphere(0.5, 1));
   const Transform3d X_WA(Eigen::Translation3d(100, 0, 0));

@@ -9,7 +9,7 @@
 #include <fcl/geometry/octree/octree.h>
 
 #include "fcl/mesh_cases.h"
-#include "solid/shape_oracle.h"
+#include "shape/shape_oracle.h"
 
 namespace kios::testing {
 

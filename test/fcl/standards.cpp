@@ -8,8 +8,8 @@
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/distance.h>
 // Ours after FCL's.
+#include <fcl_kios/continuous/continuous.h>
 #include <fcl_kios/model/model.h>
-#include <fcl_kios/motion/continuous.h>
 #include <fcl_kios/overloads.h>
 
 #include <cmath>

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "build/all_fits.h"
 #include "fcl/mesh_cases.h"
 #include "model/bvh_check.h"
-#include "volume/fit/all_fits.h"
 
 namespace kios::testing {
 namespace {

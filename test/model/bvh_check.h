@@ -10,7 +10,7 @@
 #include "fcl_kios/model/model.h"
 #include "volume/exact_spheres.h"
 
-// Checks of the tree of an fcl::BVHModel over k-IOS; engine/tree_check.h checks prepared trees.
+// Checks of the tree of an fcl::BVHModel over k-IOS; tree/tree_check.h checks prepared trees.
 
 namespace kios::testing {
 

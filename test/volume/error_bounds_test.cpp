@@ -14,15 +14,15 @@
 
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
-#include "engine/feature_distance.h"
+#include "fcl_kios/build/fit.h"
 #include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/volume/fit.h"
 #include "fcl_kios/volume/separation.h"
 #include "query/posed_solid.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/rational_oracle.h"
 #include "scenes/triangle_classes.h"
+#include "search/feature_distance.h"
 
 namespace kios::testing {
 namespace {

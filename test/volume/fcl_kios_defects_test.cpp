@@ -9,7 +9,7 @@
 #include <string>
 
 #include <fcl/math/bv/utility.h>
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
 #include "fcl_kios/volume/separation.h"
 #include "volume/exact_spheres.h"
 

@@ -12,7 +12,7 @@
 
 #include <fcl/geometry/bvh/BV_node.h>
 #include <fcl/math/bv/kIOS.h>
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::test {

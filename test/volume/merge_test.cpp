@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-#include "fcl_kios/volume/fit.h"
+#include "build/all_fits.h"
+#include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
-#include "volume/fit/all_fits.h"
 
 namespace kios::test {
 namespace {

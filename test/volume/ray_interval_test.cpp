@@ -8,8 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "fcl_kios/build/fit.h"
 #include "fcl_kios/query/ray.h"
-#include "fcl_kios/volume/fit.h"
 #include "scenes/ray_oracle.h"
 #include "volume/point_sets.h"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
 #include "volume/exact_pairs.h"
 
 namespace kios::test {

@@ -4,7 +4,7 @@
 // A moved volume contains the moved points, as they are exactly and as they are rounded to S.
 #include <gtest/gtest.h>
 
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
 #include "fcl_kios/volume/separation.h"
 #include "volume/exact_spheres.h"
 

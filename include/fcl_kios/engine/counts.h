@@ -1,27 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
+// The header of 0.2, which stays until 1.0.
 #pragma once
 
-namespace kios {
-
-/// Work done by a search.
-struct SearchCounts {
-  long long expansions = 0;     ///< nodes whose children were tested
-  long long volume_tests = 0;   ///< children tested
-  long long leaf_pairs = 0;     ///< pairs of leaves reached
-  long long leaf_kernels = 0;   ///< of these, those that no separating direction excluded
-  long long exact = 0;          ///< feature and triangle pairs evaluated in double
-  long long tree_searches = 0;  ///< queries that fell back to FCL's tree
-
-  SearchCounts& operator+=(const SearchCounts& o) {
-    expansions += o.expansions;
-    volume_tests += o.volume_tests;
-    leaf_pairs += o.leaf_pairs;
-    leaf_kernels += o.leaf_kernels;
-    exact += o.exact;
-    tree_searches += o.tree_searches;
-    return *this;
-  }
-};
-
-}  // namespace kios
+#include "fcl_kios/search/counts.h"  // IWYU pragma: export

@@ -5,8 +5,8 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/math/bv/utility.h>
+#include "fcl_kios/build/fit.h"
 #include "fcl_kios/model/motion_bounds.h"
-#include "fcl_kios/volume/fit.h"
 #include "fcl_kios/volume/kios.h"
 
 // The specialisations through which FCL's generic code handles kios::kIOS as a volume. They stand

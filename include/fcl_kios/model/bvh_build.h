@@ -8,7 +8,7 @@
 #include <fcl/geometry/bvh/detail/BV_fitter.h>
 #include <fcl/geometry/bvh/detail/BV_splitter.h>
 #include <fcl/math/triangle.h>
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
 
 // These classes build and refit fcl::BVHModel<kios::kIOS<S>>. FCL's copy constructor shares fitter
 // and splitter between models, so neither holds the state of a build: that lives as long as the

@@ -6,8 +6,8 @@
 #include <type_traits>
 
 #include <fcl/common/types.h>
-#include "fcl_kios/engine/counts.h"
 #include "fcl_kios/model/model.h"
+#include "fcl_kios/search/counts.h"
 
 // Distance of two meshes with what FCL's request can't say: a proven bracket instead of a number,
 // bounds at which to stop, a budget, a start from the last frame's answer.

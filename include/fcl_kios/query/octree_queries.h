@@ -9,8 +9,8 @@
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
-#include "fcl_kios/engine/counts.h"
 #include "fcl_kios/model/model.h"
+#include "fcl_kios/search/counts.h"
 
 #if FCL_HAVE_OCTOMAP
 #include <fcl/geometry/octree/octree.h>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <fcl/common/types.h>
-#include "fcl_kios/engine/counts.h"
 #include "fcl_kios/model/model.h"
+#include "fcl_kios/search/counts.h"
 #include "fcl_kios/volume/kios.h"
 
 // Rays against k-IOS and against meshes over k-IOS: the paper's future work (VI).

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <fcl/common/types.h>
-#include "fcl_kios/engine/counts.h"
+#include "fcl_kios/search/counts.h"
 
 namespace kios {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/interior/closedness.h"
+#include "fcl_kios/solid/closedness.h"
 #include "mesh.h"
 
 namespace kios::inspect {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "defects.h"
-#include "fcl_kios/interior/repair.h"
+#include "fcl_kios/solid/repair.h"
 #include "mesh.h"
 #include "progress.h"
 #include "tightness.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_kios/volume/exact_distance.h"
+#include "fcl_kios/clearance/exact_distance.h"
 
 namespace kios::inspect {
 namespace {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "build/all_fits.h"
 #include "paper/kios_policy.h"
 #include "paper/packed_policy.h"
 #include "volume/exact_spheres.h"
-#include "volume/fit/all_fits.h"
 
 namespace kios::test {
 

@@ -4,10 +4,10 @@
 // kios::firstContact of two meshes, against samples of the time by the triangle kernels: no
 // contact is missed, none reported late, none where the meshes are far apart.
 
-#include "fcl_kios/motion/continuous.h"
+#include "continuous/moving_meshes.h"
+#include "fcl_kios/continuous/continuous.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
-#include "motion/moving_meshes.h"
 
 namespace kios::fuzz {
 namespace {

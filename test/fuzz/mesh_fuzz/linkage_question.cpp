@@ -18,9 +18,9 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include <octomap/octomap.h>
-#include "fcl_kios/interior/solids.h"
-#include "fcl_kios/motion/linkage.h"
+#include "fcl_kios/linkage/linkage.h"
 #include "fcl_kios/overloads.h"
+#include "fcl_kios/solid/solids.h"
 #include "fuzz/mesh_fuzz/hard_meshes.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"

@@ -15,7 +15,7 @@
 #include "fcl_kios/overloads.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
-#include "solid/shape_oracle.h"
+#include "shape/shape_oracle.h"
 
 namespace kios::fuzz {
 namespace {

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "fcl_kios/volume/exact_distance.h"
+#include "fcl_kios/clearance/exact_distance.h"
 #include "inspection.h"
 #include "mesh_file.h"
 #include "page.h"

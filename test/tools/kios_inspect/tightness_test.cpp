@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "fcl_kios/volume/exact_distance.h"
-#include "fcl_kios/volume/fit.h"
+#include "fcl_kios/build/fit.h"
+#include "fcl_kios/clearance/exact_distance.h"
 
 namespace kios::inspect {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <fcl/common/types.h>
-#include "fcl_kios/motion/linkage.h"
+#include "fcl_kios/linkage/linkage.h"
 
 // What a robot is asked for, and what it answers (robot.h).
 

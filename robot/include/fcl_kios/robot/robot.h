@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <fcl/geometry/collision_geometry.h>
+#include "fcl_kios/linkage/linkage.h"
 #include "fcl_kios/model/model.h"
-#include "fcl_kios/motion/linkage.h"
 #include "fcl_kios/robot/answers.h"
 
 // A robot from its URDF: is it in contact, how far from it, and is a motion free? Docs:

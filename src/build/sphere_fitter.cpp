@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "build/sphere_fitter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+#include "build/ellipsoid_frame.h"
+#include "build/measure.h"
+#include "build/triangle_fit.h"
+#include "volume/assemble.h"
+#include "volume/balls.h"
+#include "volume/rounding.h"
+
+namespace kios {
+namespace {
+
+template <typename S>
+[[noreturn]] void refuse(const fcl::Vector3<S>& p) {
+  std::ostringstream message;
+  message << "fcl_kios: vertex (" << p[0] << ", " << p[1] << ", " << p[2]
+          << ") is not finite or above "
+          << kMaxCoordinate<S> << " in magnitude; the model stays unfinished.";
+  throw std::invalid_argument(message.str());
+}
+
+/// Throws for the first point that can't be bounded.
+template <typename S>
+void requireUsable(const fcl::Vector3<S>* points, int n) {
+  for (int i = 0; i < n; ++i) {
+    bool usable = true;
+    for (int c = 0; c < 3; ++c) usable &= std::abs(double{points[i][c]}) <= kMaxCoordinate<S>;
+    if (!usable) refuse(points[i]);
+  }
+}
+
+}  // namespace
+
+template <typename S>
+void SphereFitter<S>::loadRelative(const fcl::Vector3<S>* points, int n) {
+  relative_.resize(n);
+  const double x0 = points[0][0], y0 = points[0][1], z0 = points[0][2];
+  double largest = 0, magnitude = 0, poison = 0;  // poison turns NaN if a difference is not finite
+  for (int i = 0; i < n; ++i) {
+    const double x = points[i][0] - x0, y = points[i][1] - y0, z = points[i][2] - z0;
+    poison += 0 * x + 0 * y + 0 * z;
+    largest = std::max(std::max(largest, std::abs(x)), std::max(std::abs(y), std::abs(z)));
+    for (int c = 0; c < 3; ++c) magnitude = std::max(magnitude, std::abs(double{points[i][c]}));
+    relative_.set(i, static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+  }
+  if (poison != 0 || !(magnitude <= kMaxCoordinate<S>)) requireUsable(points, n);
+  exponent_ = capExponent(largest);
+  for (int i = 0; exponent_ != 0 && i < n; ++i) {
+    relative_.set(i, static_cast<float>(scaled(points[i][0] - x0, -exponent_)),
+                  static_cast<float>(scaled(points[i][1] - y0, -exponent_)),
+                  static_cast<float>(scaled(points[i][2] - z0, -exponent_)));
+  }
+  relative_.pad();
+}
+
+template <typename S>
+kIOS<S> SphereFitter<S>::placed(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
+                                const SphereCenters& centers) const {
+  kIOS<S> bv;
+  const auto inModel = [&](float x, float y, float z) {
+    return Eigen::Vector3f(frame.axes * Eigen::Vector3f(x, y, z));
+  };
+  const float* const s0 = centers.sphere[0];
+  const Eigen::Vector3f to_center =
+      inModel(frame.middle[0] + s0[0], frame.middle[1] + s0[1], frame.middle[2] + s0[2]);
+  for (int c = 0; c < 3; ++c) {
+    bv.center0[c] = static_cast<S>(double{points[0][c]} + scaled(double{to_center[c]}, exponent_));
+  }
+  for (int i = 1; i < centers.k; ++i) {
+    const float* const s = centers.sphere[i];
+    const Eigen::Vector3f o = inModel(s[0] - s0[0], s[1] - s0[1], s[2] - s0[2]);
+    bv.cap_x[i - 1] = o[0];
+    bv.cap_y[i - 1] = o[1];
+    bv.cap_z[i - 1] = o[2];
+  }
+  measure(points, n, exponent_, centers.k, static_cast<float>(centers.least_cap_radius), bv);
+  return bv;
+}
+
+template <typename S>
+SphereCenters SphereFitter<S>::centersFor(PrincipalFrame& frame, const FitOptions& options,
+                                          int most) {
+  SphereCenters centers;
+  switch (options.method) {
+    case FitMethod::kTuned:
+      centers = tunedCenters(in_frame_, frame, options, most);
+      break;
+    case FitMethod::kMethodI:
+    case FitMethod::kMethodIAtAngle:
+      frame = ellipsoidFrame(relative_, in_frame_, frame);
+      centers = ellipsoidCenters(frame, options);
+      break;
+    case FitMethod::kMethodII:
+      centers = publishedCenters(in_frame_, frame, options);
+      break;
+  }
+  centers.k = std::min(centers.k, most);
+  if (options.shared_radius || options.count == SphereCount::kByGain) {
+    adjustCenters(in_frame_, frame, options, centers);
+  }
+  return centers;
+}
+
+template <typename S>
+kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, const FitOptions& options,
+                             Split* split) {
+  if (n == 0) return kIOS<S>();
+  if (n == 3 && !split && options.plain()) {
+    requireUsable(points, n);
+    return fitTriangle(points);
+  }
+  loadRelative(points, n);
+  PrincipalFrame frame = principalFrame(relative_, in_frame_);
+  if (split) {
+    const Eigen::Vector3f middle(frame.middle[0], frame.middle[1], frame.middle[2]);
+    const Eigen::Vector3f center = frame.axes * middle;
+    for (int c = 0; c < 3; ++c) {
+      split->center[c] = double{points[0][c]} + scaled(double{center[c]}, exponent_);
+    }
+    split->axis = frame.axes.col(frame.order[0]).template cast<double>();
+    split->axes = frame.axes;
+  }
+  const SphereCenters centers = centersFor(frame, options, kIOS<S>::kMaxSpheres);
+  kIOS<S> bv = placed(points, n, frame, centers);
+  if (!options.plain() && sizeof(S) == sizeof(float) && bv.reach > scaled(0x1p126, -bv.exponent)) {
+    completeCaps(bv, 1);  // accessors could not return such spheres
+  } else if (options.shared_radius && centers.k > 1) {
+    // Rounding outwards may have told them apart.
+    std::fill_n(bv.cap_r, centers.k - 1, *std::max_element(bv.cap_r, bv.cap_r + centers.k - 1));
+    completeCaps(bv, centers.k);
+  }
+  return bv;
+}
+
+template <typename S>
+typename SphereFitter<S>::Placement SphereFitter<S>::placement(const fcl::Vector3<S>* points, int n,
+                                                               const FitOptions& options,
+                                                               int most) {
+  loadRelative(points, n);
+  PrincipalFrame frame = principalFrame(relative_, in_frame_);
+  const SphereCenters centers = centersFor(frame, options, most);
+  Placement result;
+  result.k = centers.k;
+  const Eigen::Matrix3d axes = frame.axes.template cast<double>();
+  const auto at = [&](int i) {
+    const float* const c = centers.sphere[i];
+    return Eigen::Vector3d(frame.middle[0] + c[0], frame.middle[1] + c[1], frame.middle[2] + c[2]);
+  };
+  const Eigen::Vector3d s0 = at(0);
+  for (int i = 0; i < centers.k; ++i) {
+    const Eigen::Vector3d in_units = axes * (i == 0 ? s0 : Eigen::Vector3d(at(i) - s0));
+    Eigen::Vector3d& out = i == 0 ? result.center0 : result.cap[i - 1];
+    for (int c = 0; c < 3; ++c) {
+      out[c] = (i == 0 ? double{points[0][c]} : 0.0) + scaled(in_units[c], exponent_);
+    }
+  }
+  return result;
+}
+
+void requireUsable(const FitOptions& options) {
+  constexpr double kLeast = 1.0 / 256, kHalfPi = 1.5707963267948966;
+  if (options.angle >= kLeast && options.angle < kHalfPi) return;
+  std::ostringstream message;
+  message << "fcl_kios: the angle of a fit must be in [1/256, pi/2), not " << options.angle << ".";
+  throw std::invalid_argument(message.str());
+}
+
+template <typename S>
+void fit(const fcl::Vector3<S>* points, int n, kIOS<S>& bv, const FitOptions& options) {
+  requireUsable(options);
+  SphereFitter<S> fitter;
+  bv = fitter.fit(points, n, options);
+}
+
+template class SphereFitter<double>;
+template class SphereFitter<float>;
+template void fit(const fcl::Vector3<double>*, int, kIOS<double>&, const FitOptions&);
+template void fit(const fcl::Vector3<float>*, int, kIOS<float>&, const FitOptions&);
+
+}  // namespace kios

@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include <fcl/geometry/bvh/BV_node.h>
+#include "build/extremes.h"
+#include "build/four_fit.h"
+#include "build/mesh.h"
+#include "build/point_frame.h"
+#include "build/sphere_fitter.h"
+
+namespace kios::engine {
+
+/// A volume of a mesh's binary tree and its place in it, as FCL stores them.
+template <typename S>
+using VolumeNode = fcl::BVNode<kIOS<S>>;
+
+/// The content of a small node, which decides how it is fitted.
+enum class SmallNode {
+  kTriangle,  ///< one triangle
+  kPart,      ///< several triangles, each with its three corners
+  kCluster    ///< one or a few leaves of the prepared tree, the points of each once
+};
+
+/// Fits the volumes of a tree's nodes, to points as floats in some frame: every sphere contains the
+/// node's vertices in exact arithmetic. A node too small for its frame is fitted to the vertices
+/// themselves.
+template <typename S>
+class VolumeFit {
+ public:
+  /// `primitives` holds the triangles of a node from its first_primitive on, when the node is
+  /// fitted.
+  VolumeFit(const MeshView<S>& mesh, VolumeNode<S>* nodes, const unsigned int* primitives)
+      : mesh_(mesh), nodes_(nodes), primitives_(primitives) {}
+
+  /// The frame of what follows; `reach` bounds all coordinates in it. Small nodes that wait are to
+  /// be finished first.
+  void setFrame(const PointFrame& frame, float reach) {
+    frame_ = frame;
+    reach_ = reach;
+  }
+
+  /// Takes a node of few points, to be fitted with three others. Of each quad the first three
+  /// points count, those of a cluster all.
+  void addSmall(int node, SmallNode content, const PointQuad* quads, int n);
+  void finishSmall();
+
+  /// Places spheres by all points.
+  void fit(int node, const PointQuad* quads, std::size_t n);
+
+  /// Places spheres by the extreme points of the node's two children; returns the node's.
+  Extremes fit(int node, const Extremes& left, const Extremes& right, const PointQuad* quads,
+               std::size_t n);
+
+ private:
+  /// Four nodes of about as many points.
+  struct Batch {
+    int used = 0;
+    int nodes[4] = {};
+    FourSets sets;
+  };
+  /// Points that the sets of each batch have: of triangles, then of parts, then of clusters.
+  static constexpr int kBatches = 11, kParts = 1, kClusters = 6;
+  static constexpr int kRoom[kBatches] = {3, 6, 9, 12, 18, 24, 8, 12, 16, 24, 32};
+
+  void fitBatch(int which);
+  float storeCenter(float center, int c, kIOS<S>& bv) const;
+  void place(int node, SphereSites sites, const PointQuad* quads, std::size_t n);
+  void complete(int node, const SphereSites& sites, const FarthestSquares& far);
+  void fitToVertices(int node);
+
+  const MeshView<S> mesh_;
+  VolumeNode<S>* const nodes_;
+  const unsigned int* const primitives_;
+  PointFrame frame_;
+  float reach_ = 0;
+  Batch batches_[kBatches];
+  PointLanes points_, scratch_;
+  SphereFitter<S> fitter_;
+};
+
+}  // namespace kios::engine

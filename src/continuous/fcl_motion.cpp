@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "continuous/fcl_motion.h"
+
+#include <boost/core/demangle.hpp>
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+
+#include <fcl/math/motion/interp_motion.h>
+#include <fcl/math/motion/screw_motion.h>
+#include <fcl/math/motion/spline_motion.h>
+#include <fcl/math/motion/translation_motion.h>
+
+namespace kios::continuous {
+namespace {
+
+using Eigen::Vector3d;
+using fcl::Transform3d;
+
+/// The pose at time 0, from a copy: integrate() writes to what it is called for.
+template <typename FclMotion>
+Transform3d poseAtStart(FclMotion copy) {
+  Transform3d X;
+  copy.integrate(0);
+  copy.getCurrentTransform(X);
+  return X;
+}
+
+/// FCL gives a spline's de Boor points to derived classes only.
+struct SplinePoints : fcl::SplineMotion<double> {
+  static Motion::Points translations(const fcl::SplineMotion<double>& m) {
+    return points(m.*(&SplinePoints::Td));
+  }
+  static Motion::Points rotations(const fcl::SplineMotion<double>& m) {
+    return points(m.*(&SplinePoints::Rd));
+  }
+  static Motion::Points points(const Vector3d (&p)[4]) { return {p[0], p[1], p[2], p[3]}; }
+};
+
+Motion of(const fcl::TranslationMotion<double>& m) {
+  return Motion::twist(poseAtStart(m), m.getVelocity(), Vector3d::UnitX(), 0, Vector3d::Zero());
+}
+
+Motion of(const fcl::InterpMotion<double>& m) {
+  const Transform3d X = poseAtStart(m);
+  return Motion::twist(X, m.getLinearVelocity(), m.getAngularAxis(), m.getAngularVelocity(),
+                       -(X.linear() * m.getReferencePoint()));
+}
+
+Motion of(const fcl::ScrewMotion<double>& m) {
+  const Transform3d X = poseAtStart(m);
+  return Motion::twist(X, m.getAxis() * m.getLinearVelocity(), m.getAxis(), m.getAngularVelocity(),
+                       X.translation() - m.getAxisOrigin());
+}
+
+Motion of(const fcl::SplineMotion<double>& m) {
+  return Motion::spline(SplinePoints::translations(m), SplinePoints::rotations(m));
+}
+
+}  // namespace
+
+Motion motionOf(const fcl::MotionBase<double>* motion) {
+  if (!motion) {
+    throw std::invalid_argument("fcl_kios: continuousCollide needs a motion for each object.");
+  }
+  const std::type_info& type = typeid(*motion);
+  const auto as = [&](auto* tag) { return static_cast<decltype(tag)>(motion); };
+  if (type == typeid(fcl::TranslationMotion<double>)) {
+    return of(*as(static_cast<const fcl::TranslationMotion<double>*>(nullptr)));
+  }
+  if (type == typeid(fcl::InterpMotion<double>)) {
+    return of(*as(static_cast<const fcl::InterpMotion<double>*>(nullptr)));
+  }
+  if (type == typeid(fcl::ScrewMotion<double>)) {
+    return of(*as(static_cast<const fcl::ScrewMotion<double>*>(nullptr)));
+  }
+  if (type == typeid(fcl::SplineMotion<double>)) {
+    return of(*as(static_cast<const fcl::SplineMotion<double>*>(nullptr)));
+  }
+  throw std::invalid_argument("fcl_kios: continuousCollide can't bound the motion " +
+                              boost::core::demangle(type.name()) +
+                              "; use fcl::TranslationMotion, InterpMotion, ScrewMotion or "
+                              "SplineMotion.");
+}
+
+Motion motionBetween(const Transform3d& X_0, const Transform3d& X_1, fcl::CCDMotionType type) {
+  switch (type) {
+    case fcl::CCDM_TRANS:
+      return Motion::translation(X_0, X_1);
+    case fcl::CCDM_LINEAR:
+      return Motion::linear(X_0, X_1);
+    case fcl::CCDM_SCREW:
+      return Motion::screw(X_0, X_1);
+    case fcl::CCDM_SPLINE:
+      return Motion::spline(X_0, X_1);
+  }
+  throw std::invalid_argument("fcl_kios: ContinuousCollisionRequest::ccd_motion_type is unknown.");
+}
+
+}  // namespace kios::continuous

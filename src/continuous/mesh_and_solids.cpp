@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "continuous/mesh_and_solids.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "query/mesh_pair.h"
+#include "shape/triangle_shape.h"
+#include "volume/balls.h"
+
+namespace kios::continuous {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The spheres of a node in the shape's frame; returns how many.
+int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers, double* radii) {
+  const double stretch = 1 + detail::boundsOf(X).stretch, unit = scaled(1.0, bv.exponent);
+  centers[0] = X * bv.center0;
+  radii[0] = bv.radius0 * stretch;
+  for (int i = 1; i < bv.k(); ++i) {
+    const Vector3d cap(bv.cap_x[i - 1] * unit, bv.cap_y[i - 1] * unit, bv.cap_z[i - 1] * unit);
+    centers[i] = centers[0] + X.R() * cap;
+    radii[i] = bv.cap_r[i - 1] * unit * stretch;
+  }
+  return bv.k();
+}
+
+/// The reach of the leaves, the solids that count.
+double reachOf(const std::vector<SolidNode>& solids) {
+  double reach = 0;
+  for (const SolidNode& part : solids) {
+    if (part.count == 0) reach = std::max(reach, part.center.norm() + part.solid.reach());
+  }
+  return reach;
+}
+
+}  // namespace
+
+MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion,
+                                         std::vector<SolidNode> solids, const Motion& solids_motion,
+                                         Touching touching, ContinuousCounts& counts)
+    : PairSearch(solids_motion, reachOf(solids), mesh_motion, continuous::reachOf(mesh), counts),
+      mesh_(mesh),
+      solids_(std::move(solids)),
+      touching_(std::move(touching)),
+      reach_(reachOf(solids_) + continuous::reachOf(mesh)) {
+  if (reach_ <= 0x1p300) return;
+  throw std::invalid_argument("fcl_kios: a mesh or shape is too large for continuous collision.");
+}
+
+bool MovingMeshAndSolids::touching(double t) {
+  return !solids_.empty() && touching_(motion_.b().pose(t), motion_.a().pose(t));
+}
+
+// Four times the tolerance of the kernels, at the largest extent of a triangle and a solid; the
+// solids' velocities are rounded where the mesh is.
+double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
+  const double lengths = reach_ + detail::boundsOf(v.pose()).T_norm1;
+  return v.pad() + (0x1p-40 + 0x1p-46 * v.turn()) * lengths + 0x1p-290;
+}
+
+int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
+  if (solids_.empty()) return 0;
+  const auto& node = mesh_.getBV(pair.a);
+  const SolidNode& part = solids_[pair.b];
+  int count = 0;
+  if (part.count > 0 && (node.isLeaf() || part.solid.reach() > node.bv.radius0)) {
+    for (int i = 0; i < part.count; ++i) parts[count++] = {pair.a, part.first + i};
+  } else if (!node.isLeaf()) {
+    parts[count++] = {node.leftChild(), pair.b};
+    parts[count++] = {node.rightChild(), pair.b};
+  }
+  double gaps[kMostParts];
+  for (int i = 0; i < count; ++i) {
+    const kIOSd& bv = mesh_.getBV(parts[i].a).bv;
+    const SolidNode& solid = solids_[parts[i].b];
+    const double gap =
+        shape::pointBound(solid.solid, v.pose() * bv.center0 - solid.center) - bv.radius0;
+    int at = i;  // insertion sort
+    for (const NodePair moved = parts[i]; at > 0 && gaps[at - 1] > gap; --at) {
+      gaps[at] = gaps[at - 1];
+      parts[at] = parts[at - 1];
+      parts[at - 1] = moved;
+    }
+    gaps[at] = gap;
+  }
+  return count;
+}
+
+bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
+  if (solids_.empty() || solids_[pair.b].empty) return true;
+  const kIOSd& bv = mesh_.getBV(pair.a).bv;
+  const SolidNode& part = solids_[pair.b];
+  const shape::Solid& solid = part.solid;
+  Vector3d centers[kIOSd::kMaxSpheres];
+  double radii[kIOSd::kMaxSpheres];
+  const int k = spheresOf(bv, v.pose(), centers, radii);
+  // An inner node may be larger than the leaves in it.
+  const double pad = this->pad(v) + 0x1p-46 * (1 + v.turn()) * (part.center.norm() + solid.reach());
+  if (solid.bounded() && v.apart(v.ballOfA(part.center, solid.reach() + pad),
+                                 v.ballOfB(centers[0], radii[0]), duration)) {
+    return true;
+  }
+  // A ball is free if it doesn't get as far as the shape lies.
+  for (int i = 0; i < k; ++i) {
+    const double gap = shape::pointBound(solid, centers[i] - part.center) - radii[i] - pad;
+    if (!(gap > 0)) continue;
+    const auto drift = v.driftFromA(centers[i], 0, duration);
+    if (gap > duration * std::min(drift.most, drift.speed + 0.5 * duration * drift.change)) {
+      return true;
+    }
+  }
+  // Slabs lie across the shape's normal, or across the direction that did best for triangles.
+  const auto behindSlab = [&](const Vector3d& n) {
+    const double extent = n.dot(part.center) + shape::extentAlong(solid, n);
+    for (int i = 0; i < k; ++i) {
+      const double gap = n.dot(centers[i]) - radii[i] - extent - pad;
+      if (!(gap > 0)) continue;
+      const auto drift = v.driftFromA(centers[i], 0, duration, &n);
+      if (gap > duration * (drift.speed + 0.5 * duration * drift.change)) return true;
+    }
+    return false;
+  };
+  if (solid.bounded()) return behindSlab(slab_);
+  return behindSlab(solid.normal) || behindSlab(-solid.normal);
+}
+
+double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
+                                     const std::array<Vector3d, 3>& corners,
+                                     const RelativeVelocities& v, double duration) const {
+  double low = kInfinity, speed = -kInfinity, change = 0;
+  for (const Vector3d& x : corners) {
+    const auto drift = v.driftFromA(x, 0, duration, &n);
+    low = std::min(low, n.dot(x));
+    speed = std::max(speed, drift.speed);
+    change = std::max(change, drift.change);
+  }
+  const auto support = [&part](const Vector3d& m) {
+    const double length = m.norm();
+    if (!(length > 0)) return 0.0;
+    return m.dot(part.center) + length * shape::extentAlong(part.solid, m / length);
+  };
+  const double extent = n.dot(part.center) + shape::extentAlong(part.solid, n);
+  const double pad = this->pad(v);
+  double time = closingTime(low - extent - pad, speed, change);
+  // A slab that doesn't turn suits a body that turns on a table.
+  if (part.solid.bounded() && v.turn() > 0) {
+    time =
+        std::max(time, v.solidSlabTime(n, support, part.center, part.solid.reach(), corners, pad));
+  }
+  return std::min(duration, time);
+}
+
+double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
+  if (solids_.empty() || solids_[pair.b].empty) return enough;
+  const auto& node = mesh_.getBV(pair.a);
+  const auto corners = transformed(cornersOf(mesh_, node.primitiveId()), v.pose());
+  const SolidNode& part = solids_[pair.b];
+  const shape::Solid& solid = part.solid;
+  const auto nearest = shape::distance(
+      solid, {corners[0] - part.center, corners[1] - part.center, corners[2] - part.center},
+      kInfinity);
+  const double gap = std::min(nearest.lower, nearest.distance) - pad(v);
+  double best = 0;
+  if (gap > 0) {
+    const auto drift =
+        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.stretch()), enough);
+    best = std::min(enough, std::max(closingTime(gap, drift.speed, drift.change),
+                                     closingTime(gap, drift.most, 0)));
+  }
+  // As for two triangles: the slab that lasts longest need not be the widest one.
+  const Vector3d witness = (nearest.on_triangle - nearest.on_shape).stableNormalized();
+  const auto attempt = [&](const Vector3d& normal) {
+    if (best >= enough || !(normal.squaredNorm() > 0)) return;
+    const Vector3d n = normal.stableNormalized();
+    const double time = slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), part, corners, v, enough);
+    if (!(time > best)) return;
+    best = time;
+    slab_ = n.dot(witness) >= 0 ? n : Vector3d(-n);
+  };
+  if (!solid.bounded()) {
+    if (best < enough) best = std::max(best, slabTime(solid.normal, part, corners, v, enough));
+    if (best < enough) best = std::max(best, slabTime(-solid.normal, part, corners, v, enough));
+    return best;
+  }
+  attempt(witness);
+  const Vector3d edges[3] = {corners[1] - corners[0], corners[2] - corners[1],
+                             corners[0] - corners[2]};
+  const Vector3d normal = edges[0].stableNormalized().cross(edges[1].stableNormalized());
+  const Vector3d velocity = v.velocityAt(nearest.on_triangle + part.center).stableNormalized();
+  attempt(normal);
+  for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i));
+  for (const Vector3d& edge : edges) attempt(edge.stableNormalized().cross(velocity));
+  for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i).cross(velocity));
+  for (const Vector3d& edge : edges) attempt(edge.stableNormalized().cross(normal));
+  return best;
+}
+
+}  // namespace kios::continuous

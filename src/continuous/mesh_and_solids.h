@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "continuous/pair_search.h"
+#include "shape/solid.h"
+
+namespace kios::continuous {
+
+/// A node of a tree of solids: the first one is the root; `count` children from `first` on.
+struct SolidNode {
+  shape::Solid solid;  ///< contains the children's
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  int first = 0, count = 0;
+  bool empty = false;  ///< without children, and no leaf either
+};
+
+/// A moving mesh and a moving rigid tree of solids, whose leaves count: a shape, or the cells of an
+/// octree. All tests are in the solids' frame and turn with it, so that unbounded shapes have no
+/// velocities but near the mesh. The shapes' kernels are right to 2^-42 of the pair's extent: a
+/// pair nearer than 2^-40 of it counts as touching while something moves.
+class MovingMeshAndSolids final : public PairSearch {
+ public:
+  /// The static query: returns true if the mesh and the solids touch at these poses.
+  using Touching =
+      std::function<bool(const fcl::Transform3d& X_mesh, const fcl::Transform3d& X_solids)>;
+
+  /// No solids: nothing is touched. Throws std::invalid_argument if the model is not finished, or a
+  /// solid is larger than 2^300.
+  MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion, std::vector<SolidNode> solids,
+                      const Motion& solids_motion, Touching touching, ContinuousCounts& counts);
+
+  bool touching(double t) override;
+
+ private:
+  // A node pair is a node of the mesh (a) and one of the solids (b).
+  bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
+  double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
+  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+
+  double pad(const RelativeVelocities& v) const;
+  /// Time for which the slab across n between the solid and corners proves them apart.
+  double slabTime(const Eigen::Vector3d& n, const SolidNode& part,
+                  const std::array<Eigen::Vector3d, 3>& corners, const RelativeVelocities& v,
+                  double duration) const;
+
+  const Modeld& mesh_;
+  const std::vector<SolidNode> solids_;
+  const Touching touching_;
+  const double reach_;
+  Eigen::Vector3d slab_ = Eigen::Vector3d::UnitZ();  ///< normal of the slab that did best of late
+};
+
+}  // namespace kios::continuous

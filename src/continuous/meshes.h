@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "continuous/chords.h"
+#include "continuous/pair_search.h"
+#include "search/pair_query.h"
+
+namespace kios::continuous {
+
+/// Two moving meshes.
+class MovingMeshes final : public PairSearch {
+ public:
+  MovingMeshes(const Modeld& a, const Motion& motion_a, const Modeld& b, const Motion& motion_b,
+               ContinuousCounts& counts)
+      : PairSearch(motion_a, reachOf(a), motion_b, reachOf(b), counts), a_(a), b_(b) {}
+
+  bool touching(double t) override;
+
+ private:
+  double wholeApart(double t, const RelativeVelocities& v) override;
+  bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
+  double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
+  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+  bool changeOrder(double way, long long cost) override;
+  void noteStep(double way, long long cost) override;
+  /// Sets chords_ if they bound the motion better than velocities do, and returns whether.
+  bool useChords(const RelativeVelocities& v, double duration);
+  bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
+  bool leavesStayApart(NodePair pair, const RelativeVelocities& v) const;
+  /// True if the plane of a triangle, one of the pair, parts it from the other node.
+  bool planeParts(NodePair pair, const RelativeVelocities& v, double duration) const;
+  double centersGap(NodePair pair, const RelativeVelocities& v) const;
+
+  /// Which node of a pair is split: the larger one, b's down to its leaves, or a's. What lies
+  /// within a hole is best left whole, as each face of the hole lies on one side of it.
+  enum class Order : std::uint8_t { kLarger, kB, kA };
+
+  const Modeld &a_, &b_;
+  static constexpr int kOrders = 3;
+  Order order_ = Order::kLarger;
+  double worth_[kOrders] = {-1, -1, -1};  ///< length of a step by its cost; negative if not known
+  int spent_in_vain_ = 0;                 ///< budgets
+  double time_ = 0;                       ///< of the step
+  Chords chords_;                         ///< of the step, until duration() after it
+  engine::TrianglePairIds nearest_;       ///< at the last step
+  long long spent_ = 0;                   ///< tests that the models' trees know of
+};
+
+}  // namespace kios::continuous

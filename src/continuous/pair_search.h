@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "continuous/advance.h"
+#include "continuous/relative_motion.h"
+#include "fcl_kios/model/model.h"
+
+namespace kios::continuous {
+
+/// Bound of the distance of the mesh's points from the origin of its frame. Throws
+/// std::invalid_argument if it is not finished.
+double reachOf(const Modeld& model);
+
+/// The search for the time that the pairs of a tree's nodes, or of two trees', are apart. Source:
+/// Tang, Kim & Manocha, "C2A: controlled conservative advancement for continuous collision
+/// detection of polygonal models" (2009).
+class PairSearch : public MovingPair {
+ public:
+  double apartFor(double t, double enough) final;
+
+  /// For whoever takes single steps: none is looked for beyond `end`, none takes many more tests
+  /// than `most_tests`, and all may be as long as they can, but for turns by more than an eighth of
+  /// a radian, which whoever is near doesn't make at once.
+  void setLimits(double end, long long most_tests);
+  /// Of all steps, in tests of volumes.
+  long long cost() const { return counts_.volume_tests + 3 * counts_.leaf_tests; }
+
+ protected:
+  struct NodePair {
+    int a, b;
+  };
+
+  PairSearch(const Motion& motion_a, double reach_a, const Motion& motion_b, double reach_b,
+             ContinuousCounts& counts)
+      : motion_(motion_a, motion_b, reach_a, reach_b), counts_(counts) {}
+
+  /// A time for which the pair is proven apart as a whole, if that is cheap to tell; else 0.
+  virtual double wholeApart(double /*t*/, const RelativeVelocities& /*v*/) { return 0; }
+  /// True if the nodes' contents are proven apart for `duration`.
+  virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
+  /// Time for which two leaves are proven apart; any time of at least `enough` will do.
+  virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;
+  /// Goes on to another order in which pairs are split, if one may take fewer tests; `cost` was
+  /// spent in vain on a step of length `way`.
+  virtual bool changeOrder(double /*way*/, long long /*cost*/) { return false; }
+  /// Is told what each step came to.
+  virtual void noteStep(double /*way*/, long long /*cost*/) {}
+  static constexpr int kMostParts = 8;
+  /// Writes the pairs that a pair consists of, the nearest first, and returns how many; 0 for a
+  /// pair of leaves.
+  virtual int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const = 0;
+
+  const RelativeMotion motion_;
+  ContinuousCounts& counts_;
+
+ private:
+  static constexpr long long kLeastBudget = 1000;
+  long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
+  double end_ = 1, most_turn_ = std::numeric_limits<double>::infinity();
+  long long most_tests_ = std::numeric_limits<long long>::max();
+  double window_ = 1, last_step_ = 1;
+  // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.
+  double reach_ = 1.25, slide_ = 0x1p-6;
+  int spared_ = 0, pause_ = 0;  ///< searches to be spared after one that didn't pay, and next time
+  NodePair last_ = {-1, -1};    ///< leaves that ended the last step
+  std::vector<NodePair> stack_;
+};
+
+}  // namespace kios::continuous

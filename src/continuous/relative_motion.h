@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include "continuous/motion.h"
+#include "fcl_kios/volume/separation.h"
+
+namespace kios::continuous {
+
+/// A ball that is fixed to a body: whatever of the body it contains, it contains always.
+struct MovingBall {
+  Eigen::Vector3d center;
+  double radius;
+  Eigen::Vector3d velocity;  ///< of the centre
+  double acceleration;       ///< bound of the centre's over the window
+};
+
+/// Four balls that are fixed to a body, a lane each, as MovingBall.
+struct FourBalls {
+  Eigen::Array4d center[3], radius, velocity[3], acceleration;
+};
+
+/// The relative motion of two bodies A and B at a time t and, by bounds, until t + window.
+/// Everything is in frame A: the axes and origin of body A at t, standing still from then on.
+class RelativeVelocities {
+ public:
+  RelativeVelocities(const Motion& a, const Motion& b, double t, double window, double pad);
+
+  /// Balls of either body, given in frame A, with their velocities.
+  MovingBall ballOfA(const Eigen::Vector3d& center, double radius) const {
+    return {center, radius, a_.at(center), a_.acceleration(center)};
+  }
+  MovingBall ballOfB(const Eigen::Vector3d& center, double radius) const {
+    return {center, radius, b_.at(center), b_.acceleration(center)};
+  }
+  FourBalls ballsOfA(const Eigen::Array4d* center, const Eigen::Array4d& radius) const;
+  FourBalls ballsOfB(const Eigen::Array4d* center, const Eigen::Array4d& radius) const;
+  /// True if two balls, and so what they contain, are proven apart for `duration`, at most the
+  /// window.
+  bool apart(const MovingBall& a, const MovingBall& b, double duration) const;
+  /// True if that holds for one of four; the ball is of one body, the four of the other one.
+  bool anyApart(const MovingBall& ball, const FourBalls& four, double duration) const;
+  /// The time for which the contents of two balls are proven apart that are `gap` apart at t.
+  double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
+  /// The time for which no point of A's triangle reaches a point of B's, by the slab between them
+  /// across n (of any length near 1); 0 if none is between them. Any time of at least `enough`,
+  /// which is at most the window, will do.
+  template <typename VerticesA, typename VerticesB>
+  double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b,
+                  double enough) const;
+
+  /// The motion of the points of a ball of B as seen from body A, which may turn, within
+  /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
+  /// unit of time. If `n` isn't null, only the direction n counts, and `speed` is along -n.
+  struct Drift {
+    double speed, most, change;
+  };
+  Drift driftFromA(const Eigen::Vector3d& center, double radius, double duration,
+                   const Eigen::Vector3d* n = nullptr) const;
+  const VelocityField& a() const { return a_; }
+  const VelocityField& b() const { return b_; }
+  /// Velocity of A's point at x less that of B's.
+  Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const { return a_.at(x) - b_.at(x); }
+
+  double pad() const { return pad_; }
+  /// Bound of the sum of both angular speeds.
+  double turn() const { return a_.angular_speed + b_.angular_speed; }
+  /// As above for a solid of A within `reach` of `center`: support(m) is the largest m . x in it.
+  /// `pad` is taken off the gap.
+  template <typename Support, typename Vertices>
+  double solidSlabTime(const Eigen::Vector3d& n, const Support& support,
+                       const Eigen::Vector3d& center, double reach, const Vertices& b,
+                       double pad) const;
+
+  const RelativePose<double>& pose() const { return X_AB_; }
+  double stretch() const { return detail::boundsOf(X_AB_).stretch; }  ///< of pose()
+
+ private:
+  /// The rounding error, per length, of the centres of balls, which may be farther off than the
+  /// bodies reach: 32 u of positions, and of velocities times the duration.
+  double rounding(double duration) const { return 0x1p-48 * (1 + duration * turn()); }
+
+  fcl::Transform3d X_WA_, X_WB_;
+  RelativePose<double> X_AB_;
+  VelocityField a_, b_;
+  double origins_speed_;  ///< bound over the window of the speed of b's origin relative to a's
+  double pad_;            ///< rounding takes at most this off any gap
+};
+
+/// The relative motion of two bodies whose points are within reach_a and reach_b of their origins.
+class RelativeMotion {
+ public:
+  RelativeMotion(const Motion& a, const Motion& b, double reach_a, double reach_b)
+      : a_(a), b_(b), pad_(a.rounding(reach_a) + b.rounding(reach_b)) {}
+
+  RelativeVelocities at(double t, double window) const { return {a_, b_, t, window, pad_}; }
+  const Motion& a() const { return a_; }
+  const Motion& b() const { return b_; }
+  /// Of places, for a unit of the distance from the bodies' origins.
+  double turnRounding() const { return a_.turnRounding() + b_.turnRounding(); }
+  bool steady() const { return a_.steady() && b_.steady(); }
+  bool still() const { return a_.still() && b_.still(); }
+
+ private:
+  const Motion &a_, &b_;
+  double pad_;
+};
+
+// Each vertex has its own speed. What is left of the slab after a time is a minimum of lines less a
+// parabola, and so concave: between a time where some is left and one where none is, its chord lies
+// below it, and ends at a time for which the slab lasts.
+template <typename VerticesA, typename VerticesB>
+double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a,
+                                    const VerticesB& b, double enough) const {
+  const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double closing = n.dot(a_.linear - b_.linear);
+  double at_a[3], speed_a[3], at_b[3], speed_b[3], acceleration_a = 0, acceleration_b = 0;
+  double high_a = -kInfinity, low_b = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    at_a[k] = n.dot(a[k]);
+    at_b[k] = n.dot(b[k]);
+    high_a = std::max(high_a, at_a[k]);
+    low_b = std::min(low_b, at_b[k]);
+  }
+  const double gap = low_b - high_a - pad_;
+  if (!(gap > 0)) return 0;
+  double fastest_a = -kInfinity, slowest_b = kInfinity, sizes = 0, speeds = std::abs(closing);
+  for (int k = 0; k < 3; ++k) {
+    speed_a[k] = turn_a.dot(a[k] - a_.origin);  // n . (w x r) = (n x w) . r
+    speed_b[k] = turn_b.dot(b[k] - b_.origin);
+    fastest_a = std::max(fastest_a, speed_a[k]);
+    slowest_b = std::min(slowest_b, speed_b[k]);
+    acceleration_a = std::max(acceleration_a, a_.accelerationAlong(n, a[k], 0));
+    acceleration_b = std::max(acceleration_b, b_.accelerationAlong(n, b[k], 0));
+    sizes += std::abs(at_a[k]) + std::abs(at_b[k]);
+    speeds += std::abs(speed_a[k]) + std::abs(speed_b[k]);
+  }
+  const double acceleration = acceleration_a + acceleration_b;
+  const double least = closingTime(gap, closing + (fastest_a - slowest_b), acceleration);
+  if (least >= enough) return least;
+  const auto leftAfter = [&](double s) {
+    const double high =
+        std::max({at_a[0] + s * speed_a[0], at_a[1] + s * speed_a[1], at_a[2] + s * speed_a[2]});
+    const double low =
+        std::min({at_b[0] + s * speed_b[0], at_b[1] + s * speed_b[1], at_b[2] + s * speed_b[2]});
+    return low - high - s * (closing + 0.5 * s * acceleration) - pad_;
+  };
+  double over = enough, left_over = leftAfter(over);
+  const double slack = 0x1p-49 * (sizes + over * (speeds + over * acceleration));  // of leftAfter()
+  if (left_over > slack) return enough;
+  double time = least, left = leftAfter(least);
+  for (int step = 0; step < 4 && left > slack; ++step) {
+    const double next = time + (over - time) * (left - slack) / (left - left_over) * (1 - 0x1p-40);
+    const double left_next = leftAfter(next);
+    if (!(left_next > slack) || !(next > time)) break;
+    time = next;
+    left = left_next;
+  }
+  return time;
+}
+
+template <typename Support, typename Vertices>
+double RelativeVelocities::solidSlabTime(const Eigen::Vector3d& n, const Support& support,
+                                         const Eigen::Vector3d& center, double reach,
+                                         const Vertices& b, double pad) const {
+  const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
+  double low_b = std::numeric_limits<double>::infinity(), speed_b = low_b, acceleration_b = 0;
+  for (const Eigen::Vector3d& x : b) {
+    low_b = std::min(low_b, n.dot(x));
+    speed_b = std::min(speed_b, turn_b.dot(x - b_.origin));
+    acceleration_b = std::max(acceleration_b, b_.accelerationAlong(n, x, 0));
+  }
+  const double speed_a = support(turn_a) - turn_a.dot(a_.origin);
+  return closingTime(low_b - support(n) - pad, n.dot(a_.linear - b_.linear) + (speed_a - speed_b),
+                     a_.accelerationAlong(n, center, reach) + acceleration_b);
+}
+
+}  // namespace kios::continuous

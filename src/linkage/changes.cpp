@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// What became of a linkage's geometry since it was measured.
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include <fcl/geometry/shape/convex.h>
+#include "linkage/link_tree.h"
+#include "model/kios_model.h"
+#include "shape/shape_solid.h"
+
+namespace kios {
+namespace articulated {
+namespace {
+
+bool samePoints(const fcl::Convexd& convex, const shape::Solid& solid) {
+  return convex.getVertices() == solid.points && convex.getFaces().data() == solid.faces &&
+         convex.getFaceCount() == solid.num_faces;
+}
+
+/// True if toSolid() would give the same solid, bit by bit.
+bool sameShape(const fcl::CollisionGeometryd& geometry, const shape::Solid& solid) {
+  if (solid.kind == shape::Kind::kConvex) {
+    return samePoints(static_cast<const fcl::Convexd&>(geometry), solid);
+  }
+  const shape::Solid now = toSolid(geometry);
+  return now.half == solid.half && now.radius == solid.radius &&
+         now.half_length == solid.half_length && now.normal == solid.normal &&
+         now.offset == solid.offset;
+}
+
+[[noreturn]] void refuse(const char* what, std::size_t id) {
+  throw std::invalid_argument(std::string("fcl_kios: the ") + what + " of body " +
+                              std::to_string(id) +
+                              " was changed since it was added; build the linkage anew.");
+}
+
+}  // namespace
+
+void BodyData::requireUnchanged(std::size_t id) const {
+  if (kind == BodyKind::kMesh) {
+    requireFinished(*model);
+    if (model->getBV(0).bv.stamp != stamp || model->vertices != vertices) refuse("mesh", id);
+  } else if (kind == BodyKind::kShape && !sameShape(*geometry, solid)) {
+    refuse("shape", id);
+  }
+  if (geometry->isOccupied() != occupied) refuse("occupancy", id);
+}
+
+bool BodyData::holdsCells() const {
+#if FCL_HAVE_OCTOMAP
+  if (kind == BodyKind::kOctree) {
+    return cells.holds(occupiedBox(static_cast<const fcl::OcTreed&>(*geometry)));
+  }
+#endif
+  return true;
+}
+
+std::shared_ptr<const Linkage::Impl> RenewedLinkage::of(const Linkage::Impl& linkage) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!impl_ || !impl_->holdsCells()) {
+    auto renewed = std::make_shared<Linkage::Impl>(linkage);
+    renewed->measureOctrees();
+    impl_ = std::move(renewed);
+  }
+  return impl_;
+}
+
+}  // namespace articulated
+
+std::shared_ptr<const Linkage::Impl> Linkage::Impl::current() const {
+  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].requireUnchanged(i);
+  if (!holdsCells()) return renewed_.of(*this);
+  return {std::shared_ptr<const Impl>(), this};
+}
+
+bool Linkage::Impl::holdsCells() const {
+  return std::all_of(bodies.begin(), bodies.end(),
+                     [](const articulated::BodyData& body) { return body.holdsCells(); });
+}
+
+}  // namespace kios

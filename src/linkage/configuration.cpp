@@ -1,0 +1,216 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linkage/configuration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace kios::articulated {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+Matrix3d rotationAbout(const Vector3d& axis, double angle) {
+  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+}
+
+void requireCoordinates(const Eigen::VectorXd& q, int size, const char* name) {
+  if (q.size() == size && (size == 0 || q.lpNorm<Eigen::Infinity>() <= 0x1p300) && q.allFinite()) {
+    return;
+  }
+  std::ostringstream message;
+  if (q.size() != size) {
+    message << "fcl_kios: " << name << " has " << q.size() << " coordinates, but the linkage "
+            << size << ".";
+  } else if (!q.allFinite()) {
+    message << "fcl_kios: a coordinate of " << name << " is NaN or infinite.";
+  } else {
+    message << "fcl_kios: a coordinate of " << name << " is too large.";
+  }
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen::VectorXd& q1)
+    : linkage_(linkage), q0_(q0), q1_(q1) {
+  requireCoordinates(q0, linkage.coordinates, "q0");
+  requireCoordinates(q1, linkage.coordinates, "q1");
+  constexpr double kSlack = 0x1p-49;  // 16 u
+  rates_.resize(linkage.links.size());
+  struct Sums {
+    double travel = 0, angles = 0, shifts = 0;
+  };
+  // By link: what prismatic joints add to lengths, and the rounding of angles and of lengths.
+  std::vector<Sums> sums(linkage.links.size());
+  for (std::size_t i = 0; i < linkage.links.size(); ++i) {
+    const LinkData& link = linkage.links[i];
+    Sums& sum = sums[i];
+    if (link.parent >= 0) sum = sums[link.parent];
+    if (link.coordinate < 0) continue;
+    const double a = q0[link.coordinate], b = q1[link.coordinate];
+    const double most =
+        (std::abs(link.multiplier) * std::max(std::abs(a), std::abs(b)) + std::abs(link.offset)) *
+        link.unit;
+    rates_[i] = link.multiplier * (b - a) * link.unit;
+    if (link.type == JointType::kPrismatic) {
+      sum.travel += most * (1 + 0x1p-50);
+      sum.shifts += kSlack * most;
+    } else {
+      sum.angles += kSlack * most;
+    }
+  }
+  shares_.resize(linkage.carried.size() + 1);
+  for (const CarriedBody& carried : linkage.carried) {
+    const BodyData& body = linkage.bodies[carried.body];
+    const LinkData& link = linkage.links[body.link];
+    Share& share = shares_[body.carried + 1];
+    share.length =
+        (body.X_LB.translation().norm() + body.reach + link.offsets + sums[body.link].travel) *
+        (1 + 0x1p-50);
+    share.level = link.level + 2;
+    largest_level_ = std::max(largest_level_, share.level);
+    share.slack = (sums[body.link].angles * share.length + sums[body.link].shifts) * (1 + 0x1p-50);
+  }
+}
+
+void Configuration::set(const Path& path, double s) {
+  path_ = &path;
+  s_ = s;
+  const auto& links = path.linkage().links;
+  links_.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const LinkData& link = links[i];
+    PlacedLink& placed = links_[i];
+    if (link.parent < 0) {
+      placed.R = link.R_PJ;
+      placed.t = link.t_PJ;
+    } else {
+      const PlacedLink& parent = links_[link.parent];
+      placed.R.noalias() = parent.R * link.R_PJ;
+      placed.t = parent.t + parent.R * link.t_PJ;
+    }
+    if (link.coordinate < 0) continue;
+    placed.axis = placed.R * link.axis;
+    const double value = link.at(path.coordinate(link.coordinate, s));
+    if (link.type == JointType::kPrismatic) {
+      placed.t += value * placed.axis;
+    } else {
+      placed.R = (placed.R * rotationAbout(link.axis, value)).eval();
+    }
+  }
+  placed_.resize(path.linkage().carried.size());
+  for (PlacedBody& body : placed_) body.ready = body.moves = false;
+  motions_.resize(static_cast<std::size_t>(path.linkage().num_motions));
+}
+
+void Configuration::place(const BodyData& body) const {
+  const PlacedLink& link = links_[body.link];
+  PlacedBody& placed = placed_[body.carried];
+  placed.ready = true;
+  placed.X.setIdentity();
+  placed.X.linear().noalias() = link.R * body.X_LB.linear();
+  placed.X.translation() = link.t + link.R * body.X_LB.translation();
+  placed.center = link.t + link.R * body.content.center;
+}
+
+// From the last joint to the first, each sum taking in one more joint.
+void Configuration::addMotions(const BodyData& body, int id) const {
+  placed_[body.carried].moves = true;
+  const auto& links = path_->linkage().links;
+  const auto& moving = links[body.link].moving;
+  const PlacedLink& own = links_[body.link];
+  const Vector3d ends[2] = {own.t + own.R * body.content.ends[0],
+                            own.t + own.R * body.content.ends[1]};
+  const Vector3d& center = placed_[body.carried].center;
+  const double rounding = path_->axisRounding(id);
+  // For the stretch of rotations that are ones to rounding, and for the sums.
+  constexpr double kSums = 1 + 0x1p-30;
+
+  BodyMotion* const motions = &motions_[body.first_motion];
+  motions[moving.size()] = BodyMotion();
+  Vector3d turning = Vector3d::Zero(), velocities[2] = {turning, turning};
+  double most = 0, second = 0, third = 0, outer = 0, rates = 0;
+  for (std::size_t i = moving.size(); i-- > 0;) {
+    const int link = moving[i];
+    const double rate = path_->rate(link), speed = std::abs(rate) * (1 + 0x1p-50);
+    const Vector3d &axis = links_[link].axis, &origin = links_[link].t;
+    if (speed > 0 && links[link].type == JointType::kPrismatic) {
+      velocities[0] += rate * axis;
+      velocities[1] += rate * axis;
+      most += speed;
+    } else if (speed > 0) {
+      const Vector3d arms[2] = {axis.cross(ends[0] - origin), axis.cross(ends[1] - origin)};
+      double away = std::sqrt(std::max(arms[0].squaredNorm(), arms[1].squaredNorm())) +
+                    body.content.capsule_radius;
+      away = std::min(away, axis.cross(center - origin).norm() + body.content.radius) + rounding;
+      if (link == body.link) away = std::min(away, body.own_radius);
+      turning += rate * axis;
+      velocities[0] += rate * arms[0];
+      velocities[1] += rate * arms[1];
+      second += speed * (speed * away + 2 * most);
+      third += speed * (speed * most + 2 * outer);
+      outer += speed * most;
+      most += speed * away;
+      rates += speed;
+    }
+    BodyMotion& motion = motions[i];
+    motion.most = most * kSums;
+    motion.ends[0] = velocities[0];
+    motion.ends[1] = velocities[1];
+    motion.swing = turning * body.content.capsule_radius;
+    motion.rounding = 4 * rounding * rates + 0x1p-40 * most;
+    motion.change[0] = second * kSums;
+    motion.change[1] = third * kSums;
+  }
+}
+
+double BodyMotion::during(double time) const {
+  const double speed =
+      std::sqrt(std::max(ends[0].squaredNorm(), ends[1].squaredNorm())) + swing.norm() + rounding;
+  return std::min(most, speed + 0.5 * time * (change[0] + time * change[1])) * time;
+}
+
+PairMotion::PairMotion(const BodyMotion& a, const BodyMotion& b)
+    : a_(a),
+      b_(b),
+      most_(a.most + b.most),
+      second_(a.change[0] + b.change[0]),
+      third_(a.change[1] + b.change[1]) {
+  double square = 0;
+  for (const Vector3d& u : a.ends) {
+    for (const Vector3d& v : b.ends) square = std::max(square, (u - v).squaredNorm());
+  }
+  first_ = std::sqrt(square) + a.swing.norm() + b.swing.norm() + a.rounding + b.rounding;
+}
+
+double PairMotion::timeFor(double gap, double longest) const {
+  return std::max(timeForSlab(gap, first_, longest), std::min(longest, gap / most_));
+}
+
+PairMotion::Closing PairMotion::closing(const Vector3d& n) const {
+  const double a[2] = {n.dot(a_.ends[0]), n.dot(a_.ends[1])};
+  const double b[2] = {n.dot(b_.ends[0]), n.dot(b_.ends[1])};
+  const double swing =
+      n.cross(a_.swing).norm() + n.cross(b_.swing).norm() + a_.rounding + b_.rounding;
+  return {std::max(a[0], a[1]) - std::min(b[0], b[1]) + swing,
+          std::max(b[0], b[1]) - std::min(a[0], a[1]) + swing};
+}
+
+// What is used up is convex in time and 0 at 0. Newton's steps come down to the time looked for
+// from above, and the chord from 0 then ends below it.
+double PairMotion::timeForSlab(double gap, double speed, double longest) const {
+  double time = longest, used = after(time, speed);
+  if (used < gap) return longest;
+  if (!(used < 0x1p500)) return 0;  // an overflow proves nothing
+  for (int step = 0; step < 3; ++step) {
+    time -= (used - gap) / (speed + time * (second_ + 1.5 * time * third_));
+    used = after(time, speed);
+  }
+  return used > gap ? time * (gap / used) * (1 - 0x1p-45) : time * (1 - 0x1p-45);
+}
+
+}  // namespace kios::articulated

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/frame_pair.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "tree/prepare.h"
+#include "volume/error_bounds.h"
+#include "volume/rounding.h"
+
+namespace kios::engine {
+namespace {
+
+FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
+  FloatPose pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) pose.R[i][j] = static_cast<float>(R(i, j));
+    pose.t[i] = static_cast<float>(t[i]);
+  }
+  return pose;
+}
+
+}  // namespace
+
+template <typename S>
+bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out) {
+  const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
+  const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
+  out.R = X_AB.R().template cast<double>();
+  out.t = detail::rotate<double>(out.R, origin_b) + X_AB.T().template cast<double>() - origin_a;
+  const double reach_a = a.reach, reach_b = b.reach;
+  out.scale = reach_a + reach_b + out.t.template lpNorm<1>();
+  if (!(std::min(reach_a, reach_b) >= kLeastReach && out.scale <= kLargestReach)) return false;
+  const double points =
+      error_bounds::volumeError<S>(origin_b.template lpNorm<1>() + 2 * reach_b,
+                                   bounds.T_norm1 + origin_a.template lpNorm<1>(), 2 * reach_a, 0);
+  out.stretch = bounds.stretch;
+  const double rest = 2 * bounds.stretch * out.scale + points;
+  out.pad = error_bounds::laneError(out.scale) + rest;
+  out.box_pad = error_bounds::boxError(out.scale) + rest;
+  return out.pad <= 0x1p-4 * std::min(reach_a, reach_b);
+}
+
+// The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by
+// 3 stretch S: far below a rounding in float, which the counts have room for, if the stretch is.
+void makeFramePair(const TreePose& X_AB, FramePair& out) {
+  constexpr double kRigid = 0x1p-30;
+  Eigen::Matrix3d inverse;
+  if (X_AB.stretch <= kRigid) {
+    inverse = X_AB.R.transpose();
+  } else {
+    inverse = X_AB.R.inverse();
+  }
+  out.a_from_b = toFloat(X_AB.R, X_AB.t);
+  out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, X_AB.t));
+  out.pad = roundUpFloat(X_AB.pad);
+  out.box_pad = roundUpFloat(X_AB.box_pad);
+  out.scale = roundUpFloat(X_AB.scale);
+}
+
+template <typename S>
+bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
+  TreePose pose;
+  if (!makeTreePose(a, b, X_AB, pose)) return false;
+  makeFramePair(pose, out);
+  return true;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                \
+  template bool makeTreePose(const Tree&, const Tree&, const RelativePose<S>&, TreePose&); \
+  template bool makeFramePair(const Tree&, const Tree&, const RelativePose<S>&, FramePair&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios::engine

@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "search/frame_pair.h"
+
+namespace kios::engine {
+
+/// Lower bound of the distance of two models by the boxes of their roots; not positive where that
+/// proves nothing. It tells most near pairs of CAD parts apart before anything is built for a
+/// search.
+double rootBound(const Tree& a, const Tree& b, const TreePose& X_AB);
+
+}  // namespace kios::engine

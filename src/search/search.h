@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "fcl_kios/search/counts.h"
+#include "search/frame_pair.h"
+#include "tree/tree.h"
+
+// The types that the SIMD traversals share with the exact stage.
+
+namespace kios::engine {
+
+enum class PairKind : std::uint8_t {
+  kEdgeEdge,
+  kVertexFace,
+  kFaceVertex,
+  kEdgeFace,
+  kFaceEdge,
+  kFaces
+};
+
+/// Features of a and b, named in that order by `kind`, that float can't tell from the answer.
+struct Candidate {
+  PairKind kind;
+  FeatureId a, b;
+};
+
+/// The exact side of a search.
+class ExactEvaluator {
+ public:
+  /// Evaluates a candidate, which may lower the bounds below. Returns true to end the search.
+  virtual bool evaluate(const Candidate& candidate) = 0;
+  /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is
+  /// nearer than keep_to.
+  virtual void offer(float upper_bound) = 0;
+
+  float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far
+                                                            ///< apart don't matter
+  float keep_to = std::numeric_limits<float>::infinity();   ///< feature pairs at most so far apart
+                                                            ///< are candidates
+
+ protected:
+  ~ExactEvaluator() = default;
+};
+
+/// Where the leaf of one tree is much larger than a node of the other, its triangles take its
+/// place, one by one: they are named like nodes, by this bit, the leaf's index << 3 and the lane.
+constexpr std::uint32_t kTriangleNode = 1U << 31;
+constexpr bool isTriangle(std::uint32_t node) { return (node & kTriangleNode) != 0; }
+constexpr std::uint32_t leafOfTriangle(std::uint32_t node) { return (node & ~kTriangleNode) >> 3; }
+constexpr std::uint32_t laneOfTriangle(std::uint32_t node) { return node & (kLanes - 1U); }
+
+/// Hears of everything that a search leaves out, for tests.
+class Audit {
+ public:
+  /// The contents of two nodes were proven at least `bound` apart, and so left out. Either may be a
+  /// triangle of a leaf.
+  virtual void pruned(std::uint32_t node_a, std::uint32_t node_b, float bound) = 0;
+
+ protected:
+  ~Audit() = default;
+};
+
+/// When a search that brackets the distance may end, and what it proved.
+struct Bracket {
+  float near_enough = -std::numeric_limits<float>::infinity();  ///< a pair so near ends it
+  long long max_expansions = std::numeric_limits<long long>::max();
+  /// All that was not evaluated is at least so far apart.
+  float proven = -std::numeric_limits<float>::infinity();
+  bool out_of_budget = false;
+};
+
+struct CellSearch;
+struct RaySearch;
+struct SolidSearch;
+
+struct Search {
+  const Tree& a;
+  const Tree& b;
+  const FramePair& frames;
+  ExactEvaluator& evaluator;
+  SearchCounts& counts;
+  Audit* audit = nullptr;
+  Bracket* bracket = nullptr;  ///< of Kernels::bracket
+};
+
+/// The traversals of one instruction set.
+struct Kernels {
+  const char* target;
+  /// Every feature pair that may be nearer than evaluator.keep_to, and every edge and face that may
+  /// cross, is evaluated.
+  void (*distance)(const Search& search);
+  /// Feature pairs that may be nearer than evaluator.prune_at are evaluated, and one of the nearest
+  /// that were offered; may end early, and tells what was proven.
+  void (*bracket)(const Search& search);
+  /// Every edge and face that may touch is evaluated.
+  void (*contact)(const Search& search);
+  /// Every pair of triangles that may touch is evaluated.
+  void (*contacts)(const Search& search);
+  /// Every triangle that the ray may meet is evaluated, those ahead first.
+  void (*ray)(const RaySearch& search);
+  /// Every cell of an octree and triangle that may touch are evaluated.
+  void (*cells)(const CellSearch& search);
+  /// Every triangle that may be nearer to the solid than evaluator.prune_at is evaluated.
+  void (*solid)(const SolidSearch& search);
+};
+
+/// The best instruction set of this machine, or that which the environment variable
+/// FCL_KIOS_SIMD names.
+const Kernels& kernels();
+
+}  // namespace kios::engine

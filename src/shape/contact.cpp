@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shape/convex_faces.h"
+#include "shape/features.h"
+#include "shape/hull.h"
+#include "shape/intersection.h"
+#include "shape/nearest_point.h"
+#include "shape/polygon.h"
+#include "shape/triangle_shape.h"
+
+namespace kios::shape {
+namespace {
+
+/// The direction of least depth so far: how far the triangle must move along it to leave the solid.
+class Exit {
+ public:
+  Exit(const Solid& solid, const Triangle& triangle)
+      : solid_(solid),
+        t_(triangle),
+        box_(solid.kind == Kind::kBox),
+        symmetric_(solid.kind != Kind::kCone && solid.kind != Kind::kConvex),
+        margin_(solid.margin()) {}
+
+  const Vec& normal() const { return normal_; }
+  double depth() const { return depth_; }
+
+  /// Takes a direction of length 1.
+  bool offerUnit(const Vec& n) { return offerSlab(n, extent(n)); }
+  bool offerSlab(const Vec& n, double extent) {
+    const double depth = extent - std::min({n.dot(t_[0]), n.dot(t_[1]), n.dot(t_[2])});
+    if (!(depth < depth_)) return false;
+    depth_ = depth;
+    normal_ = n;
+    return true;
+  }
+  void offer(const Vec& direction) {
+    const double length = direction.norm();
+    if (isLength(length)) offerUnit(direction / length);
+  }
+  /// The direction and its opposite. Only those that are better are made unit.
+  void offerBoth(const Vec& n) {
+    const double length = n.norm();
+    if (!isLength(length)) return;
+    const double a = n.dot(t_[0]), b = n.dot(t_[1]), c = n.dot(t_[2]);
+    const double along = extent(n) + (length - 1) * margin_;
+    const double against = symmetric_ ? along : extent(-n) + (length - 1) * margin_;
+    take(n, along - std::min({a, b, c}), length);
+    take(-n, against + std::max({a, b, c}), length);
+  }
+
+ private:
+  static bool isLength(double length) {
+    return length > 0 && length < std::numeric_limits<double>::infinity();
+  }
+  void take(const Vec& n, double depth, double length) {
+    if (!(depth < depth_ * length)) return;
+    depth_ = depth / length;
+    normal_ = n / length;
+  }
+  double extent(const Vec& n) const {
+    return box_ ? solid_.half.dot(n.cwiseAbs()) : extentAlong(solid_, n);
+  }
+
+  const Solid& solid_;
+  const Triangle& t_;
+  const bool box_, symmetric_;
+  const double margin_;
+  Vec normal_ = Vec::UnitZ();
+  double depth_ = std::numeric_limits<double>::infinity();
+};
+
+/// Descent on the sphere of directions, by steps that shrink: 2^-7 rad is the last.
+void descend(Exit& exit) {
+  double step = 0.25;
+  for (int i = 0; i < 24 && step >= 0x1p-7; ++i) {
+    const Vec n = exit.normal(), u = n.unitOrthogonal(), v = n.cross(u);
+    const double to_unit = 1 / std::sqrt(1 + step * step);
+    const Vec along = to_unit * n, su = (to_unit * step) * u, sv = (to_unit * step) * v;
+    const bool better = exit.offerUnit(along + su) || exit.offerUnit(along - su) ||
+                        exit.offerUnit(along + sv) || exit.offerUnit(along - sv);
+    if (!better) step *= 0.5;
+  }
+}
+
+/// A point of both; for a capsule the pair of nearest points of its segment and the triangle.
+CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CoreDistance core = {};
+  if (s.kind == Kind::kBox) {
+    Polygon polygon(t);
+    for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, s.half[axis]);
+    if (polygon.size > 0) {
+      core.point = core.on_core = polygon.middle();
+      return core;
+    }
+  } else if (s.kind == Kind::kConvex) {
+    for (int i = 0; faces && i < 3; ++i) {
+      if (!faces->contains(t[i])) continue;
+      core.point = core.on_core = t[i];
+      return core;
+    }
+  } else if (s.kind == Kind::kCapsule) {
+    if (distanceByCertificate(s, t, kInfinity, core)) return core;
+  } else if (meets(s, t, &core.point)) {
+    core.on_core = core.point;
+    return core;
+  }
+  core = gjkDistance(s, t.data(), 3, kInfinity);
+  if (s.margin() > 0) return closedBracket(s, t, kInfinity, core);
+  if (!core.inside) meetsAt(s, t, core, &core.point);
+  return core;
+}
+
+TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+  Exit exit(s, t);
+  if (faces && !faces->known()) faces = nullptr;
+  const CoreDistance core = commonPoint(s, t, faces);
+  const Vec& position = core.point;
+  exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
+  exit.offerBoth(faceNormal(t));
+  if (s.kind == Kind::kConvex && s.num_faces > 0) {
+    // The depth is that of all points, not of thin faces.
+    if (faces) {
+      const std::size_t face = faces->leastExit(t);
+      exit.offerSlab(faces->normal(face), faces->offset(face));
+    } else {
+      exit.offer(leastFaceExit(s, t));
+    }
+    return {position, exit.normal(), std::max(0.0, exit.depth())};
+  }
+  const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};
+  for (int c = 0; c < 3; ++c) {
+    const Vec axis = Vec::Unit(c);
+    exit.offerBoth(axis);
+    for (const Vec& edge : edges) exit.offerBoth(axis.cross(edge));
+  }
+  // These are all the directions that a box and a capsule need.
+  if (s.kind != Kind::kBox && s.kind != Kind::kCapsule) {
+    exit.offer(position);  // away from the solid's origin
+    exit.offer({position.x(), position.y(), 0});
+    descend(exit);
+  }
+  return {position, exit.normal(), std::max(0.0, exit.depth())};
+}
+
+/// The directions of solidContact() in closed form, and what the box's slabs leave of the triangle.
+/// False if rounding leaves nothing.
+bool boxContact(const Solid& s, const Triangle& t, TriangleShapeContact& contact) {
+  Polygon polygon(t);
+  for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, s.half[axis]);
+  if (polygon.size == 0) return false;
+  contact = {polygon.middle(), Vec::UnitZ(), std::numeric_limits<double>::infinity()};
+  // Depths along n and -n, of length `length`, of a box that reaches as far as `reach`.
+  const auto offer = [&](double x, double y, double z, double length, double reach, double low,
+                         double high) {
+    if (!(length > 0 && length < std::numeric_limits<double>::infinity())) return;
+    const double depth = (reach + std::min(-low, high)) / length;
+    if (!(depth < contact.depth)) return;
+    contact.depth = depth;
+    contact.normal = Vec(x, y, z) / (high < -low ? -length : length);
+  };
+  const Vec n = faceNormal(t), &h = s.half;
+  const double a = n.dot(t[0]), b = n.dot(t[1]), c = n.dot(t[2]);
+  offer(n.x(), n.y(), n.z(), n.norm(), h.dot(n.cwiseAbs()), std::min({a, b, c}),
+        std::max({a, b, c}));
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    offer(i == 0, i == 1, i == 2, 1, h[i], std::min({t[0][i], t[1][i], t[2][i]}),
+          std::max({t[0][i], t[1][i], t[2][i]}));
+    for (int edge = 0; edge < 3; ++edge) {  // unit vector i x edge: -ek along j, ej along k
+      const Vec &from = t[edge], &to = t[(edge + 1) % 3], &other = t[(edge + 2) % 3];
+      const double ej = to[j] - from[j], ek = to[k] - from[k];
+      const double p = ej * from[k] - ek * from[j], q = ej * to[k] - ek * to[j],
+                   r = ej * other[k] - ek * other[j];
+      Vec w = Vec::Zero();
+      w[j] = -ek;
+      w[k] = ej;
+      offer(w.x(), w.y(), w.z(), std::sqrt(ej * ej + ek * ek),
+            h[j] * std::abs(ek) + h[k] * std::abs(ej), std::min({p, q, r}), std::max({p, q, r}));
+    }
+  }
+  contact.depth = std::max(0.0, contact.depth);
+  return true;
+}
+
+TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
+  double height[3];
+  for (int i = 0; i < 3; ++i) height[i] = s.normal.dot(t[i]) - s.offset;
+  const auto low = std::min_element(height, height + 3),
+             high = std::max_element(height, height + 3);
+  if (s.kind == Kind::kHalfspace) {
+    return {t[low - height] - 0.5 * *low * s.normal, s.normal, std::max(0.0, -*low)};
+  }
+  // FCL: the middle of the crossing segment, and the normal of the side that has more.
+  Vec sum = Vec::Zero();
+  int crossings = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    if (height[i] == 0) {
+      sum += t[i];
+      ++crossings;
+    } else if ((height[i] < 0 && height[j] > 0) || (height[i] > 0 && height[j] < 0)) {
+      const double way = height[i] / (height[i] - height[j]);
+      sum += (1 - way) * t[i] + way * t[j];
+      ++crossings;
+    }
+  }
+  const Vec normal = *high > -*low ? s.normal : Vec(-s.normal);
+  return {sum / std::max(1, crossings), normal, std::max(0.0, std::min(*high, -*low))};
+}
+
+}  // namespace
+
+TriangleShapeContact contact(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+  if (!s.bounded()) return planeContact(s, t);
+  TriangleShapeContact of_box;
+  if (s.kind == Kind::kBox && boxContact(s, t, of_box)) return of_box;
+  if (s.kind != Kind::kSphere) return solidContact(s, t, faces);
+  const Vec q = nearestToOrigin(t);
+  const double length = q.norm();
+  Vec normal = length > 0 ? Vec(q / length) : faceNormal(t);
+  if (!(normal.squaredNorm() > 0)) normal = Vec::UnitZ();
+  return {q, normal.normalized(), std::max(0.0, s.radius - length)};
+}
+
+}  // namespace kios::shape

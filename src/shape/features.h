@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "shape/gjk.h"
+#include "shape/triangle_shape.h"
+
+namespace kios::shape {
+
+/// The distance of a triangle and the core of a bounded solid, other than a convex one, by closed
+/// forms: of a corner, of an edge, of the face. Each comes with the slab across it; a feature is
+/// the nearest one if the rest of the triangle lies beyond that slab, but for 2^-49 of sizeOf(t)
+/// and the solid's reach. Corners and edges are evaluated by their own coordinates alone, so that
+/// triangles that share a nearest one are bitwise as far. Returns false if no slab decides, or if
+/// the pair is nearer than 2^-36 of those lengths: GJK and the kernels of close pairs then do. Ends
+/// early, with `upper` no more than an upper bound, once the pair is proven farther than `enough`.
+bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double enough,
+                           CoreDistance& core);
+
+}  // namespace kios::shape

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shape/hull.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/triangle/intersection.h"
+#include "shape/growing_hull.h"
+#include "triangle/common_point.h"
+#include "triangle/predicates.h"
+
+namespace kios::shape {
+namespace {
+
+/// Calls f with a polygon of `corners` corners as a fan of triangles until f returns true; segments
+/// and points are triangles without area.
+template <typename Corner, typename F>
+bool anyOfFan(int corners, const Corner& corner, const F& f) {
+  if (corners == 1) return f(Triangle{corner(0), corner(0), corner(0)});
+  if (corners == 2) return f(Triangle{corner(0), corner(1), corner(1)});
+  for (int k = 2; k < corners; ++k) {
+    if (f(Triangle{corner(0), corner(k - 1), corner(k)})) return true;
+  }
+  return false;
+}
+
+template <typename F>
+bool anyBoxFace(const Vec& h, const F& f) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const double side : {-h[axis], h[axis]}) {
+      const auto corner = [&](int k) {
+        Vec p;
+        p[axis] = side;
+        p[u] = k == 1 || k == 2 ? h[u] : -h[u];
+        p[v] = k >= 2 ? h[v] : -h[v];
+        return p;
+      };
+      if (anyOfFan(4, corner, f)) return true;
+    }
+  }
+  return false;
+}
+
+/// Calls f with each face of the core as triangles, until f returns true. Returns whether it did.
+template <typename F>
+bool anyFace(const Solid& s, const F& f) {
+  if (s.kind == Kind::kBox) return anyBoxFace(s.half, f);
+  if (s.kind == Kind::kCapsule) {
+    const Vec end(0, 0, s.half_length);
+    return f(Triangle{Vec(-end), end, end});
+  }
+  const auto point = [&s](int k) { return s.points[k]; };
+  if (s.points.size() <= 3) return anyOfFan(static_cast<int>(s.points.size()), point, f);
+  const int* face = s.faces;
+  for (int i = 0; i < s.num_faces; ++i) {
+    const int corners = face[0];
+    const auto corner = [&s, face](int k) { return s.points[face[1 + k]]; };
+    if (anyOfFan(corners, corner, f)) return true;
+    face += corners + 1;
+  }
+  return false;
+}
+
+Vec middleOf(const Solid& s) {
+  Vec sum = Vec::Zero();
+  for (const Vec& q : s.points) sum += q;
+  return sum / static_cast<double>(s.points.size());
+}
+
+/// True if p lies in a hull that has a volume: in one of the tetrahedra of a vertex and the faces,
+/// whichever way the corners of those run.
+bool contains(const Solid& s, const Vec& p) {
+  if (s.points.size() <= 3) return false;
+  Vec low = s.points[0], high = low;
+  for (const Vec& q : s.points) {
+    low = low.cwiseMin(q);
+    high = high.cwiseMax(q);
+  }
+  if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) return false;
+  return anyFace(s, [&](const Triangle& face) { return inTetrahedron(s.points[0], face, p); });
+}
+
+}  // namespace
+
+bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p) {
+  constexpr int kApex = 3, kPoint = 4;
+  PairPredicates::Coordinates points;
+  const Vec* given[6] = {&face[0], &face[1], &face[2], &apex, &p, &p};
+  for (int i = 0; i < 6; ++i) points[i] = {given[i]->x(), given[i]->y(), given[i]->z()};
+  const PairPredicates signs(points);
+  const int volume = signs.orient3d(0, 1, 2, kApex);
+  return volume != 0 && signs.orient3d(0, 1, 2, kPoint) * volume >= 0 &&
+         signs.orient3d(kPoint, 1, 2, kApex) * volume >= 0 &&
+         signs.orient3d(0, kPoint, 2, kApex) * volume >= 0 &&
+         signs.orient3d(0, 1, kPoint, kApex) * volume >= 0;
+}
+
+bool hasFaces(const Solid& s) {
+  return s.kind == Kind::kBox || s.kind == Kind::kCapsule ||
+         (s.kind == Kind::kConvex && (s.num_faces > 0 || s.points.size() <= 3));
+}
+
+bool meetsHull(const Solid& s, const Triangle& t, Vec* common) {
+  const bool meets = anyFace(s, [&](const Triangle& face) {
+    return common ? commonPoint(t, face, *common) : trianglesIntersect(t, face);
+  });
+  if (meets) return true;
+  // Without a common point with the surface the triangle is inside as a whole, or not at all.
+  const bool inside = s.kind == Kind::kConvex && contains(s, t[0]);
+  if (inside && common) *common = t[0];
+  return inside;
+}
+
+TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t, double within) {
+  TriangleShapeDistance best;
+  best.distance = best.lower = std::numeric_limits<double>::infinity();
+  // Upper bounds of distances are off by less than this.
+  const double slack = 0x1p-46 * (sizeOf(t) + s.reach());
+  const Vec low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+  anyFace(s, [&](const Triangle& face) {
+    const double reach = std::min(within, best.distance) + slack;
+    for (int c = 0; c < 3; ++c) {
+      if (std::min({face[0][c], face[1][c], face[2][c]}) > high[c] + reach) return false;
+      if (std::max({face[0][c], face[1][c], face[2][c]}) < low[c] - reach) return false;
+    }
+    const TriangleDistance<double> d = triangleDistance(t, face);
+    if (d.distance < best.distance) {
+      best.distance = best.lower = d.distance;
+      best.on_triangle = d.point_a;
+      best.on_shape = d.point_b;
+    }
+    return false;
+  });
+  return best;
+}
+
+CoreDistance closedBracket(const Solid& s, const Triangle& t, double enough,
+                           const CoreDistance& core) {
+  const double tolerance = 0x1p-48 * (sizeOf(t) + core.on_core.lpNorm<1>());
+  const bool decided = core.inside || core.lower > enough;
+  if (decided || core.upper - core.lower <= tolerance) return core;
+  if (!hasFaces(s) && s.kind != Kind::kConvex) return core;
+  const TriangleShapeDistance exact =
+      hasFaces(s) ? distanceToHull(s, t, core.upper) : distanceToPoints(s, t);
+  CoreDistance closed = core;
+  if (exact.distance <= core.upper) {
+    closed.upper = exact.distance;
+    closed.point = exact.on_triangle;
+    closed.on_core = exact.on_shape;
+  }
+  closed.lower = std::min(closed.upper, exact.lower);
+  return closed;
+}
+
+Vec leastFaceExit(const Solid& s, const Triangle& t) {
+  const Vec middle = middleOf(s);
+  Vec best = Vec::UnitZ();
+  double least = std::numeric_limits<double>::infinity();
+  anyFace(s, [&](const Triangle& face) {
+    Vec n = (face[1] - face[0]).cross(face[2] - face[0]);
+    if (n.dot(middle - face[0]) > 0) n = -n;
+    const double length = n.norm();
+    if (!(length > 0)) return false;
+    const double depth =
+        (n.dot(face[0]) - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])})) / length;
+    if (depth < least) {
+      least = depth;
+      best = n / length;
+    }
+    return false;
+  });
+  return best;
+}
+
+}  // namespace kios::shape

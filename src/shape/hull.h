@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "shape/gjk.h"
+#include "shape/triangle_shape.h"
+
+// Solids whose core is a polytope (a capsule's segment, a box, a convex shape) by the faces of that
+// core, with the exact and certified kernels of two triangles, for pairs that are too close for
+// GJK. O(faces).
+
+namespace kios::shape {
+
+/// True if the core is a polytope, other than a point, whose faces are known.
+bool hasFaces(const Solid& solid);
+
+/// Returns true if a triangle meets a capsule's segment or a full convex shape; exact. Then
+/// `common`, unless null, becomes a common point, to a few eps of the extent.
+bool meetsHull(const Solid& solid, const Triangle& triangle, Vec* common = nullptr);
+
+/// Distance of a triangle and a core that don't intersect: that of the nearest face, within 16 eps
+/// of the extent. Faces farther than `within` are passed over, which must be the distance of two
+/// points of the pair or infinite.
+TriangleShapeDistance distanceToHull(const Solid& solid, const Triangle& triangle, double within);
+
+/// True if p lies in the closed tetrahedron of an apex and a face, by exact signs. Flat ones
+/// contain nothing.
+bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p);
+
+/// GJK's bracket for the pair, or if that is left open beyond rounding around or below `enough`,
+/// and the core is a polytope, the distance by its faces or points.
+CoreDistance closedBracket(const Solid& solid, const Triangle& triangle, double enough,
+                           const CoreDistance& core);
+
+/// The unit normal outwards of the face of a convex shape by which a triangle leaves the hull on
+/// the shortest way; the z axis if no face has one.
+Vec leastFaceExit(const Solid& convex, const Triangle& triangle);
+
+}  // namespace kios::shape

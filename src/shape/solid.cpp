@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "shape/solid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shape/gjk.h"
+
+namespace kios::shape {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double radial(const Vec& p) { return std::sqrt(p.x() * p.x() + p.y() * p.y()); }
+
+/// Distance to a product of two convex sets from the signed distances to both.
+double productDistance(double u, double v) {
+  if (u <= 0 || v <= 0) return std::max(u, v);
+  return std::sqrt(u * u + v * v);
+}
+
+/// The cone is the triangle (0, -h), (r, -h), (0, h) of the half-plane (rho, z), turned.
+double conePoint(const Solid& s, const Vec& p) {
+  const double h = s.half_length, r = s.radius, rho = radial(p), z = p.z();
+  const double base = -h - z;
+  const double length = std::sqrt(4 * h * h + r * r);
+  if (!(length > 0)) return std::sqrt(rho * rho + z * z);
+  const double slant = (2 * h * (rho - r) + r * (z + h)) / length;
+  if (base <= 0 && slant <= 0) return std::max(base, slant);
+  const double to_base = std::hypot(std::max(rho - r, 0.0), base);
+  const double t = std::clamp((2 * h * (z + h) - r * (rho - r)) / (length * length), 0.0, 1.0);
+  const double to_slant = std::hypot(rho - (1 - t) * r, z + h - 2 * h * t);
+  return std::min(to_base, to_slant);
+}
+
+/// n p - h(n) bounds the distance from below for every unit n. The nearest point x has the normal
+/// p_i / (e_i^2 + t) for one t > 0; a few Newton steps towards it, from below, give good normals.
+double ellipsoidBound(const Solid& s, const Vec& p) {
+  const Vec& e = s.half;
+  const double e_max = e.maxCoeff();
+  double best = p.norm() - e_max;
+  const Vec e2 = e.cwiseProduct(e), ep = e.cwiseProduct(p);
+  double t = std::max(0.0, ep.norm() - e_max * e_max);
+  if (!(e2.minCoeff() + t > 0)) return best;  // flat, and p not clearly outside
+  for (int step = 0; step < 3; ++step) {
+    const Vec n = p.array() / (e2.array() + t);
+    const double length = n.norm();
+    if (!(length > 0 && length < kInfinity)) break;
+    const double bound = (n.dot(p) - e.cwiseProduct(n).norm()) / length;
+    if (bound > best) best = bound;
+    const Vec x = e.cwiseProduct(n);  // F(t) = |x|^2 - 1 falls and is convex
+    const double slope = -2 * (x.array().square() / (e2.array() + t)).sum();
+    if (!(slope < 0)) break;
+    const double next = t - (x.squaredNorm() - 1) / slope;
+    if (!(next > t)) break;
+    t = next;
+  }
+  return best;
+}
+
+}  // namespace
+
+double Solid::reach() const {
+  switch (kind) {
+    case Kind::kSphere:
+      return radius;
+    case Kind::kCapsule:
+      return radius + half_length;
+    case Kind::kBox:
+      return half.norm();
+    case Kind::kEllipsoid:
+      return half.maxCoeff();
+    case Kind::kCylinder:
+    case Kind::kCone:
+      return std::sqrt(radius * radius + half_length * half_length);
+    case Kind::kConvex: {
+      double squared = 0;
+      for (const Vec& p : points) squared = std::max(squared, p.squaredNorm());
+      return std::sqrt(squared);
+    }
+    default:
+      return std::abs(offset);
+  }
+}
+
+Vec coreSupport(const Solid& s, const Vec& n) {
+  switch (s.kind) {
+    case Kind::kCapsule:
+      return {0, 0, n.z() >= 0 ? s.half_length : -s.half_length};
+    case Kind::kBox:
+      return {n.x() >= 0 ? s.half.x() : -s.half.x(), n.y() >= 0 ? s.half.y() : -s.half.y(),
+              n.z() >= 0 ? s.half.z() : -s.half.z()};
+    case Kind::kEllipsoid: {
+      const Vec m = s.half.cwiseProduct(n);
+      const double length = m.norm();
+      if (!(length > 0)) return Vec::Zero();
+      return s.half.cwiseProduct(m) / length;
+    }
+    case Kind::kCylinder: {
+      const double across = radial(n), scale = across > 0 ? s.radius / across : 0.0;
+      return {n.x() * scale, n.y() * scale, n.z() >= 0 ? s.half_length : -s.half_length};
+    }
+    case Kind::kCone: {
+      const double across = radial(n), scale = across > 0 ? s.radius / across : 0.0;
+      if (n.z() * 2 * s.half_length > across * s.radius) return {0, 0, s.half_length};
+      return {n.x() * scale, n.y() * scale, -s.half_length};
+    }
+    case Kind::kConvex: {
+      const Vec* best = s.points.data();
+      double most = n.dot(*best);
+      for (const Vec& p : s.points) {
+        const double along = n.dot(p);
+        if (along > most) {
+          most = along;
+          best = &p;
+        }
+      }
+      return *best;
+    }
+    default:
+      return Vec::Zero();
+  }
+}
+
+double extentAlong(const Solid& s, const Vec& n) {
+  switch (s.kind) {
+    case Kind::kSphere:
+      return s.radius;
+    case Kind::kCapsule:
+      return s.half_length * std::abs(n.z()) + s.radius;
+    case Kind::kBox:
+      return s.half.dot(n.cwiseAbs());
+    case Kind::kEllipsoid:
+      return s.half.cwiseProduct(n).norm();
+    case Kind::kCylinder:
+      return s.radius * radial(n) + s.half_length * std::abs(n.z());
+    case Kind::kCone:
+      return std::max(s.half_length * n.z(), s.radius * radial(n) - s.half_length * n.z());
+    case Kind::kConvex:
+      return n.dot(coreSupport(s, n));
+    default:
+      break;
+  }
+  const bool along = (n - s.normal).isZero(0), against = (n + s.normal).isZero(0);
+  if (along) return s.offset;
+  return against && s.kind == Kind::kPlane ? -s.offset : kInfinity;
+}
+
+double pointBound(const Solid& s, const Vec& p) {
+  switch (s.kind) {
+    case Kind::kSphere:
+      return p.norm() - s.radius;
+    case Kind::kCapsule: {
+      const double z = std::max(std::abs(p.z()) - s.half_length, 0.0);
+      return std::sqrt(p.x() * p.x() + p.y() * p.y() + z * z) - s.radius;
+    }
+    case Kind::kBox: {
+      const Vec q = p.cwiseAbs() - s.half;
+      const double inside = q.maxCoeff();
+      return inside <= 0 ? inside : q.cwiseMax(0.0).norm();
+    }
+    case Kind::kEllipsoid:
+      return ellipsoidBound(s, p);
+    case Kind::kCylinder:
+      return productDistance(radial(p) - s.radius, std::abs(p.z()) - s.half_length);
+    case Kind::kCone:
+      return conePoint(s, p);
+    case Kind::kConvex: {
+      constexpr int kSteps = 4;
+      return gjkDistance(s, &p, 1, kInfinity, kSteps).lower;
+    }
+    case Kind::kHalfspace:
+      return s.normal.dot(p) - s.offset;
+    default:
+      return std::abs(s.normal.dot(p) - s.offset);
+  }
+}
+
+}  // namespace kios::shape

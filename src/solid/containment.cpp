@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solid/containment.h"
+
+#include <vector>
+
+#include "query/pair_search.h"
+#include "query/ray_walk.h"
+#include "solid/nearest_surface.h"
+#include "solid/solid_mark.h"
+#include "solid/winding.h"
+#include "triangle/ray_crossing.h"
+#include "volume/error_bounds.h"
+
+namespace kios {
+namespace {
+
+/// The place of p, in a's frame, in b as posed there: by all of b's triangles.
+template <typename S>
+bool liesInPosed(const fcl::Vector3d& p, const PairFrame<S>& frame) {
+  const double largest = p.cwiseAbs().maxCoeff() + 2 * largestOf(frame.b);
+  const RayCrossing ray(p, windingDirection(), largest);
+  int winding = 0;
+  for (int t = 0; t < frame.b.num_tris; ++t) {
+    const TriangleVertices<S> corners = frame.triangleB(t);
+    switch (ray.cross({corners[0].template cast<double>(), corners[1].template cast<double>(),
+                       corners[2].template cast<double>()})) {
+      case Crossing::kForward:
+        ++winding;
+        break;
+      case Crossing::kBackward:
+        --winding;
+        break;
+      case Crossing::kOrigin:
+        return true;
+      case Crossing::kNone:
+        break;
+    }
+  }
+  return winding > 0;
+}
+
+}  // namespace
+
+template <typename S>
+bool surfacesMeet(const PairFrame<S>& frame, SearchCounts& counts) {
+  if (frame.rootBound(0) > 0) return false;
+  std::vector<engine::TrianglePairIds> found;
+  if (searchContacts(frame, 1, found, counts)) return !found.empty();
+  const engine::PairAnswer<S> answer = searchNearest(frame, {}, counts);
+  return answer.found() && answer.nearest.distance == 0;
+}
+
+template <typename S>
+fcl::Vector3d toB(const RelativePose<S>& X_AB, const fcl::Vector3d& p) {
+  const fcl::Matrix3d R = X_AB.R().template cast<double>();
+  return detail::rotate<double>(R.transpose(), p - X_AB.T().template cast<double>());
+}
+
+// R y = R R^T (p - T), where R R^T differs from 1 by |E|, at most twice the stretch and a little
+// more; |y - x| is that by at most |p - T|. Products and sums round by 2^-50 of their terms.
+template <typename S>
+double inverseError(const RelativePose<S>& X_AB, double norm1) {
+  const auto& bounds = detail::boundsOf(X_AB);
+  return 2 * (norm1 + bounds.T_norm1) * (2.1 * bounds.stretch + 0x1p-48);
+}
+
+template <typename S>
+std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>& frame, SearchCounts& counts) {
+  for (const auto& component : requireSolid(frame.b)->components()) {
+    const fcl::Vector3d p = (frame.X_AB * frame.b.vertices[component[0]]).template cast<double>();
+    if (placeOf(p, frame.a, counts).inside()) return p;
+  }
+  // b's tree lies in b's frame, where a's vertices are known but for rounding: that doesn't matter
+  // unless b's surface is as near.
+  for (const auto& component : requireSolid(frame.a)->components()) {
+    bool decided = false, inside = false;
+    fcl::Vector3d p;
+    for (std::size_t i = 0; i < component.size() && !decided; ++i) {
+      p = frame.a.vertices[component[i]].template cast<double>();
+      const fcl::Vector3d y = toB(frame.X_AB, p);
+      const double error =
+          inverseError(frame.X_AB, p.template lpNorm<1>()) +
+          error_bounds::frameError<S>(2 * y.template lpNorm<1>() + 4 * largestOf(frame.b),
+                                      detail::boundsOf(frame.X_AB).T_norm1);
+      const double enough = error + 2 * surfaceError(frame.b, y);
+      decided = nearestSurface(frame.b, y, 0, enough).lower > error;
+      if (decided) inside = placeOf(y, frame.b, counts).inside();
+    }
+    if (!decided) inside = liesInPosed(p, frame);
+    if (inside) return p;
+  }
+  return std::nullopt;
+}
+
+#define KIOS_INSTANTIATE(S)                                                 \
+  template bool surfacesMeet(const PairFrame<S>&, SearchCounts&);           \
+  template fcl::Vector3d toB(const RelativePose<S>&, const fcl::Vector3d&); \
+  template double inverseError(const RelativePose<S>&, double);             \
+  template std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>&, SearchCounts&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

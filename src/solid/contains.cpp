@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/LU>
+#include <sstream>
+#include <stdexcept>
+
+#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/volume/separation.h"
+#include "solid/solid_mark.h"
+#include "solid/winding.h"
+#include "volume/rounding.h"
+
+namespace kios {
+
+template <typename S>
+bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
+              const fcl::Vector3<std::common_type_t<S>>& point) {
+  checkSolid(solid);
+  if (!(point.allFinite() && double{point.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>)) {
+    std::ostringstream message;
+    message << "fcl_kios: the point is " << point.transpose()
+            << ", but must be finite, and at most "
+            << (sizeof(S) == sizeof(double) ? "2^1000." : "2^120.");
+    throw std::invalid_argument(message.str());
+  }
+  const RelativePose<S> rigid(X_WM.linear(), X_WM.translation());  // or it throws
+  const fcl::Matrix3d inverse = X_WM.linear().template cast<double>().inverse();
+  const fcl::Vector3d from =
+      point.template cast<double>() - X_WM.translation().template cast<double>();
+  SearchCounts unused;
+  return placeOf<S>(detail::rotate<double>(inverse, from), solid, unused).inside();
+}
+
+template bool contains(const Model<double>&, const fcl::Transform3<double>&,
+                       const fcl::Vector3<double>&);
+template bool contains(const Model<float>&, const fcl::Transform3<float>&,
+                       const fcl::Vector3<float>&);
+
+}  // namespace kios

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/model/model.h"
+#include "solid/vertex_graph.h"
+
+namespace kios {
+
+/// How deep the hulls of two meshes overlap, in a's frame.
+struct HullDepth {
+  /// A ball of this radius about the origin lies in the hull of all differences a_i - b_j of
+  /// vertices: proven; 0 if that couldn't be certified.
+  double lower = 0;
+  double upper = 0;                              ///< about the height of that hull along `normal`
+  fcl::Vector3d normal = fcl::Vector3d::Zero();  ///< unit: b leaves a's hull along it; or zero
+};
+
+/// The extreme differences of vertices of two meshes, b's as posed in a's frame.
+template <typename S>
+class Differences {
+ public:
+  /// Graphs, where they are not empty, are of convex meshes and spare the search of the trees.
+  Differences(const Model<S>& a, const VertexGraph& graph_a, const Model<S>& b,
+              const VertexGraph& graph_b, const fcl::Matrix3d& R_AB, const fcl::Vector3d& T_AB);
+
+  struct Point {
+    fcl::Vector3d at;
+    int a = 0, b = 0;  ///< vertices of the graphs, from which the next walk may start
+  };
+  /// A point that is farthest along n: proven by trees alone, and certain to be one of the points.
+  Point farthest(const fcl::Vector3d& n, const Point& near) const;
+  /// n . p for the farthest point p: not less, rounding is paid for. n is a unit vector.
+  double height(const fcl::Vector3d& n) const;
+  /// Bounds the rounding of a point.
+  double error() const { return error_; }
+
+ private:
+  fcl::Vector3d inA(const fcl::Vector3d& p_B) const { return R_ * p_B + T_; }
+  fcl::Vector3d inB(const fcl::Vector3d& n) const { return R_.transpose() * n; }
+
+  const Model<S>&a_, &b_;
+  const VertexGraph &graph_a_, &graph_b_;
+  const fcl::Matrix3d R_;
+  const fcl::Vector3d T_;
+  const double error_;
+};
+
+/// Expands a polytope of differences towards the faces nearest to the origin (van den Bergen's
+/// EPA), until upper <= (1 + rel_gap) lower or `max_points` were added.
+template <typename S>
+HullDepth hullDepth(const Differences<S>& differences, double size, double rel_gap, int max_points);
+
+}  // namespace kios

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solid/nearest_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fcl_kios/triangle/distance.h"
+#include "query/ray_walk.h"
+#include "volume/balls.h"
+#include "volume/error_bounds.h"
+
+namespace kios {
+namespace {
+
+/// Lower bound of the distance of the content, but for rounding.
+template <typename S>
+double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double enough) {
+  const double x = p[0] - double{bv.center0[0]}, y = p[1] - double{bv.center0[1]},
+               z = p[2] - double{bv.center0[2]};
+  double bound = std::sqrt(x * x + y * y + z * z) - double{bv.radius0};
+  if (bound >= enough) return bound;
+  // Caps that k doesn't count repeat the first sphere.
+  using Caps = Eigen::Array<float, kIOS<S>::kCaps, 1>;
+  const double unit = scaled(1, bv.exponent);
+  const auto at = [unit](const float* v) {
+    return unit * Eigen::Map<const Caps>(v).template cast<double>();
+  };
+  const auto u = x - at(bv.cap_x), v = y - at(bv.cap_y), w = z - at(bv.cap_z);
+  return std::max(bound, ((u * u + v * v + w * w).sqrt() - at(bv.cap_r)).maxCoeff());
+}
+
+/// The nearest point of a segment.
+fcl::Vector3d nearestOnSegment(const fcl::Vector3d& p, const fcl::Vector3d& a,
+                               const fcl::Vector3d& b) {
+  const fcl::Vector3d d = b - a;
+  const double square = d.squaredNorm();
+  if (!(square > 0)) return a;
+  return a + std::clamp(d.dot(p - a) / square, 0.0, 1.0) * d;
+}
+
+struct NearPoint {
+  double distance;
+  fcl::Vector3d at;
+};
+
+/// Over the face of an ordinary triangle the plane tells the distance, else the nearest edge. About
+/// its border a point counts as over the face, where the plane is nearer than the edge by rounding
+/// only. The plane's normal has 2^-50 / thin, thin at least 2^-5. All else goes to the robust
+/// kernel.
+NearPoint nearestOnTriangle(const fcl::Vector3d& p, const TriangleVertices<double>& t) {
+  const fcl::Vector3d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0], n = u.cross(v);
+  const double square = n.squaredNorm();
+  const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (t[2] - t[1]).squaredNorm()});
+  if (!(square > 0x1p-10 * longest * longest && longest > 0x1p-400 && longest < 0x1p400)) {
+    const auto d = triangleDistance<double>({p, p, p}, t);
+    return {d.distance, d.point_b};
+  }
+  constexpr double kBorder = -1e-9;
+  const double at_v = n.dot(u.cross(w)) / square, at_u = n.dot(w.cross(v)) / square;
+  if (at_u >= kBorder && at_v >= kBorder && at_u + at_v <= 1 - kBorder) {
+    const double height = n.dot(w) / square;
+    return {std::abs(height) * std::sqrt(square), p - height * n};
+  }
+  NearPoint best = {std::numeric_limits<double>::infinity(), t[0]};
+  for (int k = 0; k < 3; ++k) {
+    const fcl::Vector3d q = nearestOnSegment(p, t[k], t[k == 2 ? 0 : k + 1]);
+    const double distance = (p - q).norm();
+    if (distance < best.distance) best = {distance, q};
+  }
+  return best;
+}
+
+}  // namespace
+
+// Distances from volumes take 8 roundings of |p| + |c| + reach at most; those from triangles are
+// right to 16 eps of the extent. 2^-46 of all lengths covers both.
+template <typename S>
+double surfaceError(const Model<S>& model, const fcl::Vector3d& p) {
+  return error_bounds::solidError(4 * (p.lpNorm<1>() + 2 * largestOf(model)));
+}
+
+template <typename S>
+NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
+                              double enough, double least) {
+  NearestSurface best;
+  double left_out = std::numeric_limits<double>::infinity(), prune_at = enough;
+  struct Waiting {
+    double bound;
+    int node;
+  };
+  std::vector<Waiting> waiting;
+  waiting.reserve(64);
+  waiting.push_back({distanceOf(model.getBV(0).bv, p, prune_at), 0});
+  const auto push = [&](const Waiting& item) {
+    if (item.bound < prune_at) {
+      waiting.push_back(item);
+    } else {
+      left_out = std::min(left_out, item.bound);
+    }
+  };
+  while (!waiting.empty()) {
+    const Waiting at = waiting.back();
+    waiting.pop_back();
+    if (at.bound >= prune_at) {
+      left_out = std::min(left_out, at.bound);
+      continue;
+    }
+    const auto& node = model.getBV(at.node);
+    if (!node.isLeaf()) {
+      Waiting near = {distanceOf(model.getBV(node.leftChild()).bv, p, prune_at), node.leftChild()};
+      Waiting far = {distanceOf(model.getBV(node.rightChild()).bv, p, prune_at), node.rightChild()};
+      if (far.bound < near.bound) std::swap(near, far);
+      push(far);
+      push(near);
+      continue;
+    }
+    const fcl::Triangle& ids = model.tri_indices[node.primitiveId()];
+    TriangleVertices<double> corners;
+    for (int k = 0; k < 3; ++k) corners[k] = model.vertices[ids[k]].template cast<double>();
+    const NearPoint near = nearestOnTriangle(p, corners);
+    if (!(near.distance < best.upper)) continue;
+    best.upper = near.distance;
+    best.point = near.at;
+    if (best.upper < least) return best;
+    prune_at = std::min(prune_at, best.upper * (1 - rel_err));
+  }
+  best.lower = std::max(0.0, std::min(left_out, best.upper) - surfaceError(model, p));
+  return best;
+}
+
+#define KIOS_INSTANTIATE(S)                                                                     \
+  template double surfaceError(const Model<S>&, const fcl::Vector3d&);                          \
+  template NearestSurface nearestSurface(const Model<S>&, const fcl::Vector3d&, double, double, \
+                                         double);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
+
+}  // namespace kios

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solid/touching.h"
+
+#include <vector>
+
+#include "query/pair_search.h"
+#include "triangle/predicates.h"
+
+namespace kios {
+namespace {
+
+/// The side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
+template <typename Corners>
+int sideOf(const TriangleVertices<double>& plane, int num_triangles, const Corners& corners_of) {
+  int side = 0;
+  for (int t = 0; t < num_triangles; ++t) {
+    const auto corners = corners_of(t);
+    PairPredicates::Coordinates points;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        points[i][c] = plane[i][static_cast<Eigen::Index>(c)];
+        points[i + 3][c] = double{corners[i][static_cast<Eigen::Index>(c)]};
+      }
+    }
+    const PairPredicates exact(points);
+    for (int i = 3; i < 6; ++i) {
+      const int sign = exact.orient3d(0, 1, 2, i);
+      if (sign == 0) continue;
+      if (side == -sign) return 0;
+      side = sign;
+    }
+  }
+  return side;
+}
+
+template <typename S>
+TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
+  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
+}
+
+}  // namespace
+
+template <typename S>
+bool partedByFace(SolidPair<S>& pair, double length) {
+  constexpr double kRoundings = 1 << 12;
+  if (!(length <= kRoundings * pair.rounding())) return false;
+  const PairFrame<S>& frame = pair.frame();
+  std::vector<engine::TrianglePairIds> found;
+  constexpr std::size_t kContacts = 16;
+  if (!searchContacts(frame, kContacts, found, pair.counts())) return false;
+  const auto of_a = [&](int t) { return frame.triangleA(t); };
+  const auto of_b = [&](int t) { return frame.triangleB(t); };
+  for (const auto& ids : found) {
+    for (const TriangleVertices<double>& plane :
+         {inDouble(frame.triangleA(ids.a)), inDouble(frame.triangleB(ids.b))}) {
+      const int side = sideOf(plane, frame.a.num_tris, of_a);
+      if (side != 0 && sideOf(plane, frame.b.num_tris, of_b) == -side) return true;
+    }
+  }
+  return false;
+}
+
+template bool partedByFace(SolidPair<double>&, double);
+template bool partedByFace(SolidPair<float>&, double);
+
+}  // namespace kios

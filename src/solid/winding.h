@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "fcl_kios/model/model.h"
+#include "fcl_kios/search/counts.h"
+
+namespace kios {
+
+/// The direction of the rays that count: along no edge or face of ordinary meshes, so that the
+/// exact stages are rarely needed.
+inline fcl::Vector3d windingDirection() { return {0.36602540378443865, 0.61803398874989485, 1}; }
+
+/// Where a point lies relative to a closed oriented mesh.
+struct PointPlace {
+  bool on_surface;
+  int winding;  ///< the number of times that the mesh winds round the point, off the surface
+
+  bool inside() const { return on_surface || winding > 0; }
+};
+
+/// Exact, for a point in the model's frame; one ray through the model's tree.
+template <typename S>
+PointPlace placeOf(const fcl::Vector3d& point, const Model<S>& model, SearchCounts& counts);
+
+}  // namespace kios

@@ -1,0 +1,320 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree/prepare.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "build/principal_frame.h"
+#include "tree/box_fit.h"
+#include "tree/leaf_layout.h"
+#include "tree/node_layout.h"
+#include "tree/ownership.h"
+#include "tree/quick_fit.h"
+#include "tree/weld.h"
+#include "tree/wide_tree.h"
+#include "volume/balls.h"
+
+namespace kios::engine {
+namespace {
+
+template <typename S>
+class Preparation {
+ public:
+  Preparation(const MeshView<S>& mesh, const VolumeNode<S>* volumes)
+      : mesh_(mesh),
+        volumes_(volumes),
+        tree_(std::make_unique<Tree>()),
+        corners_(mesh.num_triangles),
+        order_(mesh.num_triangles) {
+    const std::vector<std::uint32_t> first = weld(mesh);
+    fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
+    for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const std::size_t v = mesh.index(t, k);
+        corners_[t][k] = first[v];
+        welds_ |= first[v] != v;
+        low = low.cwiseMin(mesh.corner(t, k));
+        high = high.cwiseMax(mesh.corner(t, k));
+      }
+    }
+    origin_ = 0.5 * (low.template cast<double>() + high.template cast<double>());
+    points_.resize(mesh.num_vertices);
+    for (std::size_t v = 0; v < mesh.num_vertices; ++v) {
+      if (first[v] == v) points_[v] = relative(mesh.vertices[v]).template cast<float>();
+    }
+    stamps_.assign(mesh.num_vertices, 0);
+    place_.resize(mesh.num_vertices);
+  }
+
+  std::unique_ptr<Tree> run() {
+    std::copy_n(origin_.data(), 3, tree_->origin);
+    readBinary();
+    layOut();
+    fillLeaves();
+    placeVolumes();
+    tree_->cost = searchCost(*tree_);
+    measureLeaves(*tree_);
+    tree_->indices = indexHash(mesh_);
+    if (welds_) tree_->corners = std::move(corners_);
+    return std::move(tree_);
+  }
+
+ private:
+  Eigen::Vector3d relative(const fcl::Vector3<S>& v) const {
+    return v.template cast<double>() - origin_;
+  }
+
+  /// The binary tree down to the leaves of the wide one, and the order of the triangles.
+  void readBinary() {
+    const int n = static_cast<int>(mesh_.num_triangles);
+    binary_.reserve(n / 2 + 4);
+    binary_.push_back({0, n});
+    std::vector<int> stack = {0};
+    while (!stack.empty()) {
+      const int at = stack.back();
+      stack.pop_back();
+      const VolumeNode<S>& volume = volumes_[binary_[at].volume];
+      const int left = volume.first_child;
+      if (binary_[at].count <= kLeafTriangles) {
+        readTriangles(binary_[at].volume);
+        continue;
+      }
+      binary_[at].size = static_cast<float>(2 * volume.bv.radius0);
+      binary_[at].left = static_cast<int>(binary_.size());
+      binary_[at].right = binary_[at].left + 1;
+      for (int child = left; child < left + 2; ++child) {
+        const VolumeNode<S>& of_child = volumes_[child];
+        __builtin_prefetch(&volumes_[std::max(0, of_child.first_child)]);
+        binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, -1, 0, child});
+      }
+      stack.push_back(binary_[at].right);
+      stack.push_back(binary_[at].left);
+    }
+  }
+
+  void readTriangles(int volume) {
+    // The descendants of a node follow each other, but for the root of the part.
+    const VolumeNode<S>& root = volumes_[volume];
+    if (root.first_child < 0) {
+      order_[root.first_primitive] = static_cast<std::uint32_t>(-root.first_child - 1);
+      return;
+    }
+    for (int i = root.first_child; i < root.first_child + 2 * root.num_primitives - 2; ++i) {
+      const VolumeNode<S>& node = volumes_[i];
+      if (node.first_child < 0) {
+        order_[node.first_primitive] = static_cast<std::uint32_t>(-node.first_child - 1);
+      }
+    }
+  }
+
+  /// Nodes and blocks, depth first, children of a block in a row.
+  void layOut() {
+    const Collapse collapse(binary_);
+    struct Pending {
+      std::uint32_t node;
+      int binary, depth;
+    };
+    std::vector<Pending> stack = {{0, 0, 0}};
+    std::vector<int> children;
+    tree_->nodes.reserve(binary_.size());
+    tree_->nodes.emplace_back();
+    of_node_.push_back(0);
+    while (!stack.empty()) {
+      const Pending at = stack.back();
+      stack.pop_back();
+      if (binary_[at.binary].isLeaf()) {
+        tree_->nodes[at.node].child = ~static_cast<std::int32_t>(leaves_.size());
+        leaves_.push_back(at.binary);
+        continue;
+      }
+      tree_->depth = std::max(tree_->depth, at.depth + 1);
+      collapse.children(at.binary, children);
+      tree_->nodes[at.node].child = static_cast<std::int32_t>(tree_->blocks.size());
+      tree_->nodes[at.node].first_child = static_cast<std::uint32_t>(tree_->nodes.size());
+      Children& of_block = tree_->children.emplace_back();
+      of_block.count = static_cast<std::uint8_t>(children.size());
+      tree_->blocks.emplace_back();
+      for (int lane = 0; lane < kLanes; ++lane) {
+        if (lane < static_cast<int>(children.size())) {
+          stack.push_back(
+              {static_cast<std::uint32_t>(tree_->nodes.size()), children[lane], at.depth + 1});
+          tree_->nodes.emplace_back();
+          of_node_.push_back(binary_[children[lane]].volume);
+          of_block.leaves |= static_cast<std::uint8_t>(binary_[children[lane]].isLeaf() << lane);
+        }
+      }
+    }
+    tree_->children.shrink_to_fit();
+    tree_->nodes.shrink_to_fit();
+    tree_->blocks.shrink_to_fit();
+  }
+
+  /// All volumes, bottom-up: nodes lie before their children.
+  void placeVolumes() {
+    std::vector<PointChunk> chunks;
+    std::vector<ChunkRange> of_leaf(tree_->leaves.size());
+    chunks.reserve(2 * tree_->leaves.size());
+    for (std::size_t l = 0; l < tree_->leaves.size(); ++l) {
+      const Leaf& leaf = tree_->leaves[l];
+      of_leaf[l].begin = chunks.size();
+      for (int i = 0; i < leaf.num_vertices; i += kLanes) {
+        const Lanes* const rows = &tree_->lanes[leaf.offset + 3 * (i / kLanes)];
+        chunks.push_back({rows[0], rows[1], rows[2]});
+      }
+      of_leaf[l].end = chunks.size();
+    }
+    std::vector<ChunkRange> below(tree_->nodes.size());
+    tree_->boxes.resize(tree_->nodes.size());
+    bool any_flat = false;
+    for (std::size_t n = tree_->nodes.size(); n-- > 0;) {
+      constexpr std::size_t kAhead = 4;
+      if (n >= kAhead) __builtin_prefetch(&volumes_[of_node_[n - kAhead]].bv.cap_x);
+      Node& node = tree_->nodes[n];
+      if (node.isLeaf()) {
+        below[n] = of_leaf[node.leaf()];
+      } else {
+        const Children children = tree_->children[static_cast<std::size_t>(node.child)];
+        Block& block = tree_->blocks[static_cast<std::size_t>(node.child)];
+        below[n] = below[node.first_child];
+        for (int lane = 0; lane < kLanes; ++lane) {
+          const bool used = lane < children.count;
+          const std::size_t c = node.first_child + (used ? lane : 0);
+          writeLane(tree_->nodes[c], lane, block);
+          if (!used) continue;
+          below[n].begin = std::min(below[n].begin, below[c].begin);
+          below[n].end = std::max(below[n].end, below[c].end);
+        }
+      }
+      place(volumes_[of_node_[n]].bv, &chunks[below[n].begin], below[n].end - below[n].begin, node,
+            tree_->boxes[n]);
+      any_flat |= node.flat != 0;
+      tree_->reach = std::max(tree_->reach, reachOf(node));
+    }
+    tree_->root_box = tree_->boxes[0];
+    tree_->box_blocks.resize(any_flat ? tree_->blocks.size() : 0);
+    if (any_flat && fitBoxes(chunks, below, *tree_)) {
+      tree_->root_box = tree_->boxes[0];
+      return;
+    }
+    tree_->boxes = {};
+    tree_->box_blocks = {};
+  }
+
+  /// The spheres of `bv`, moved to the tree's origin and measured.
+  void place(const kIOS<S>& bv, const PointChunk* chunks, std::size_t n, Node& node, Box& box) {
+    kIOS<float> moved;
+    moved.num_spheres = bv.num_spheres;
+    for (int c = 0; c < 3; ++c) {
+      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - origin_[c]);
+    }
+    const auto unit = static_cast<float>(scaled(1.0, bv.exponent));
+    for (int i = 0; i + 1 < bv.k(); ++i) {
+      moved.cap_x[i] = bv.cap_x[i] * unit;
+      moved.cap_y[i] = bv.cap_y[i] * unit;
+      moved.cap_z[i] = bv.cap_z[i] * unit;
+    }
+    measureSpheres(chunks, n, moved);
+    writeSpheres(moved, node);
+    box = boxAround(axesOf(moved, chunks, n), chunks, n);
+    node.flat = isFlat(box);
+  }
+
+  void fillLeaves() {
+    // Leaves as the nodes number them; triangles in that order.
+    std::vector<std::uint32_t> order, begin = {0};
+    order.reserve(order_.size());
+    for (const int leaf : leaves_) {
+      const auto first = order_.begin() + binary_[leaf].first;
+      std::copy(first, first + binary_[leaf].count, std::back_inserter(order));
+      std::sort(order.begin() + begin.back(), order.end());
+      begin.push_back(static_cast<std::uint32_t>(order.size()));
+    }
+    const Ownership owned = assignFeatures(corners_, order, begin, mesh_.num_vertices);
+    tree_->leaves.reserve(leaves_.size());
+    tree_->lanes.reserve(leaves_.size() * 22);
+    tree_->features.reserve(order.size() + owned.edges.size() + owned.vertices.size());
+    LeafContent content;
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+      gather(order.data() + begin[l], begin[l + 1] - begin[l], owned, l, content);
+      appendLeaf(content, *tree_);
+    }
+    tree_->lanes.shrink_to_fit();
+  }
+
+  Eigen::Vector3d cornerOf(FeatureId id, std::uint32_t step) const {
+    return relative(mesh_.corner(id.triangle(), (id.corner() + step) % 3));
+  }
+
+  void gather(const std::uint32_t* triangles, std::size_t n, const Ownership& owned, std::size_t l,
+              LeafContent& content) {
+    content.triangles.clear();
+    content.faces.clear();
+    content.edges.clear();
+    content.owned.clear();
+    content.vertices.clear();
+    ++stamp_;
+    const auto addVertex = [&](std::uint32_t v) {
+      if (std::exchange(stamps_[v], stamp_) != stamp_) {
+        place_[v] = static_cast<std::uint8_t>(content.vertices.size());
+        content.vertices.push_back(points_[v]);
+      }
+      return place_[v];
+    };
+    for (std::uint32_t i = owned.vertex_begin[l]; i < owned.vertex_begin[l + 1]; ++i) {
+      const FeatureId id = owned.vertices[i];
+      addVertex(corners_[id.triangle()][id.corner()]);
+      content.owned.push_back(id);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      const Corners3& v = corners_[triangles[i]];
+      const FeatureId id = {triangles[i] << 2};
+      content.triangles.push_back(
+          {triangles[i], {addVertex(v[0]), addVertex(v[1]), addVertex(v[2])}});
+      content.faces.push_back({cornerOf(id, 0), cornerOf(id, 1), cornerOf(id, 2)});
+    }
+    for (std::uint32_t i = owned.edge_begin[l]; i < owned.edge_begin[l + 1]; ++i) {
+      const FeatureId id = owned.edges[i];
+      const Corners3& v = corners_[id.triangle()];
+      content.edges.push_back({id, place_[v[id.corner()]], place_[v[(id.corner() + 1) % 3]]});
+    }
+  }
+
+  const MeshView<S> mesh_;
+  const VolumeNode<S>* const volumes_;
+  std::unique_ptr<Tree> tree_;
+  std::vector<Corners3> corners_;  ///< by triangle, welded
+  bool welds_ = false;             ///< they aren't the mesh's own
+  Eigen::Vector3d origin_;
+  std::vector<std::uint32_t> order_;
+  std::vector<Eigen::Vector3f> points_;  ///< relative to the origin, by welded vertex
+  std::vector<std::uint32_t> stamps_;    ///< by welded vertex
+  std::vector<std::uint8_t> place_;      ///< in the leaf at hand, by welded vertex
+  std::uint32_t stamp_ = 0;
+  std::vector<BinaryNode> binary_;
+  std::vector<int> leaves_;   ///< binary nodes
+  std::vector<int> of_node_;  ///< the model's node of each node
+};
+
+}  // namespace
+
+template <typename S>
+std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volumes) {
+  return Preparation<S>(mesh, volumes).run();
+}
+
+template <typename S>
+std::unique_ptr<Tree> prepare(const MeshView<S>& mesh) {
+  const std::unique_ptr<VolumeNode<S>[]> volumes(new VolumeNode<S>[2 * mesh.num_triangles - 1]);
+  std::vector<unsigned int> primitives(mesh.num_triangles);
+  if (!buildVolumes(mesh, volumes.get(), primitives.data())) return nullptr;
+  return prepare(mesh, volumes.get());
+}
+
+template std::unique_ptr<Tree> prepare(const MeshView<double>&);
+template std::unique_ptr<Tree> prepare(const MeshView<float>&);
+template std::unique_ptr<Tree> prepare(const MeshView<double>&, const VolumeNode<double>*);
+template std::unique_ptr<Tree> prepare(const MeshView<float>&, const VolumeNode<float>*);
+
+}  // namespace kios::engine

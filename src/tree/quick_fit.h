@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fcl_kios/volume/kios.h"
+#include "tree/tree.h"
+
+namespace kios::engine {
+
+/// Eight points; those beyond the last repeat it.
+struct PointChunk {
+  Lanes x, y, z;
+};
+
+/// Number, mean and scatter of points: what principal axes need of them.
+struct Moments {
+  double n = 0;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+
+  void add(const Moments& o);
+};
+
+Moments momentsOf(const Eigen::Vector3f* points, int n);
+
+/// Sets the radii of a volume's spheres by points, in the frame of the points: every sphere holds
+/// all of them, in exact arithmetic. Its centres are set, in units of 1.
+void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv);
+
+/// Orthonormal axes, the first along a, the second towards b, each rounded once: a box's slabs add
+/// up only if its axes are so. Either may be 0 or not finite, or parallel to the other.
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
+
+/// Axes for the box of a volume: along its caps, or where it has not enough of them the principal
+/// axes of the points.
+Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks);
+
+/// The box of points along orthonormal axes.
+Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks);
+
+/// Fits spheres and box of a node to points: along the principal axes by moments, around the middle
+/// of the box, in two passes. Less tight than SphereFitter by some percent, and several times as
+/// fast. Every sphere (a cap is middle +- half, in exact arithmetic) and the box enclose the
+/// points.
+void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
+              Box* box);
+
+}  // namespace kios::engine

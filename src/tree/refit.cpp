@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tree/refit.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "tree/box_fit.h"
+#include "tree/leaf_layout.h"
+#include "tree/node_layout.h"
+#include "tree/quick_fit.h"
+
+namespace kios::engine {
+namespace {
+
+/// If a deformation raises the cost of a search by this factor, the partition is made anew.
+constexpr double kPoor = 1.5;
+
+template <typename S>
+class Refit {
+ public:
+  Refit(const MeshView<S>& mesh, Tree& tree) : mesh_(mesh), tree_(tree) {}
+
+  bool run() {
+    if (!sameTopology()) return false;
+    moveOrigin();
+    ranges_.resize(tree_.nodes.size());
+    moments_.resize(tree_.nodes.size());
+    chunks_.reserve(3 * tree_.leaves.size());
+    placeLeaves();
+    // Nodes lie before their children.
+    tree_.reach = 0;
+    for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n);
+    if (!tree_.boxes.empty()) {
+      fitBoxes(chunks_, ranges_, tree_);  // none need be flat now
+      tree_.root_box = tree_.boxes[0];
+    }
+    measureLeaves(tree_);
+    return searchCost(tree_) <= kPoor * tree_.cost;
+  }
+
+ private:
+  /// True if the mesh has the triangles that the tree was made of, and what was one vertex still
+  /// is: the tree's topology is then the mesh's.
+  bool sameTopology() const {
+    if (!(indexHash(mesh_) == tree_.indices)) return false;
+    for (std::size_t t = 0; t < tree_.corners.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        if (mesh_.corner(t, k) != mesh_.vertices[tree_.corners[t][k]]) return false;
+      }
+    }
+    return true;
+  }
+
+  void moveOrigin() {
+    fcl::Vector3<S> low = mesh_.corner(0, 0), high = low;
+    for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        low = low.cwiseMin(mesh_.corner(t, k));
+        high = high.cwiseMax(mesh_.corner(t, k));
+      }
+    }
+    origin_ = 0.5 * (low.template cast<double>() + high.template cast<double>());
+    std::copy_n(origin_.data(), 3, tree_.origin);
+  }
+
+  void placeLeaves() {
+    Eigen::Vector3f vertices[kMaxLeafFeatures];
+    FaceCorners faces[kLeafTriangles];
+    leaf_ranges_.resize(tree_.leaves.size());
+    leaf_moments_.resize(tree_.leaves.size());
+    for (std::size_t l = 0; l < tree_.leaves.size(); ++l) {
+      Leaf& leaf = tree_.leaves[l];
+      for (int i = 0; i < leaf.num_faces; ++i) {
+        const std::uint32_t t = tree_.features[leaf.feature_offset + i].triangle();
+        for (int k = 0; k < 3; ++k) {
+          faces[i][k] = mesh_.corner(t, k).template cast<double>() - origin_;
+          vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
+        }
+      }
+      placeLeaf(vertices, faces, leaf, tree_);
+      leaf_ranges_[l].begin = chunks_.size();
+      const Lanes* const lanes = &tree_.lanes[leaf.offset];
+      for (int i = 0; i < leaf.num_vertices; i += kLanes) {
+        const Lanes* const rows = lanes + 3 * (i / kLanes);
+        chunks_.push_back({rows[0], rows[1], rows[2]});
+      }
+      leaf_ranges_[l].end = chunks_.size();
+      leaf_moments_[l] = momentsOf(vertices, leaf.num_vertices);
+    }
+  }
+
+  void fit(std::size_t n) {
+    Node& node = tree_.nodes[n];
+    ChunkRange& range = ranges_[n];
+    Moments& moments = moments_[n];
+    if (node.isLeaf()) {
+      range = leaf_ranges_[node.leaf()];
+      moments = leaf_moments_[node.leaf()];
+    } else {
+      const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
+      range = ranges_[node.first_child];
+      moments = moments_[node.first_child];
+      for (int i = 1; i < count; ++i) {
+        const ChunkRange& of_child = ranges_[node.first_child + i];
+        range.begin = std::min(range.begin, of_child.begin);
+        range.end = std::max(range.end, of_child.end);
+        moments.add(moments_[node.first_child + i]);
+      }
+    }
+    Box* box = tree_.boxes.empty() ? nullptr : &tree_.boxes[n];
+    if (!box && n == 0) box = &tree_.root_box;
+    quickFit(&chunks_[range.begin], range.end - range.begin, moments, node, box);
+    if (tree_.boxes.empty()) node.flat = 0;  // no search has its box
+    tree_.reach = std::max(tree_.reach, reachOf(node));
+    if (!node.isLeaf()) fillBlock(node);
+  }
+
+  void fillBlock(const Node& node) {
+    Block& block = tree_.blocks[static_cast<std::size_t>(node.child)];
+    const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      writeLane(tree_.nodes[node.first_child + (lane < count ? lane : 0)], lane, block);
+    }
+  }
+
+  const MeshView<S> mesh_;
+  Tree& tree_;
+  Eigen::Vector3d origin_;
+  std::vector<PointChunk> chunks_;
+  std::vector<ChunkRange> leaf_ranges_, ranges_;  ///< by leaf, by node
+  std::vector<Moments> leaf_moments_, moments_;   ///< likewise
+};
+
+}  // namespace
+
+template <typename S>
+bool refit(const MeshView<S>& mesh, Tree& tree) {
+  return Refit<S>(mesh, tree).run();
+}
+
+template bool refit(const MeshView<double>&, Tree&);
+template bool refit(const MeshView<float>&, Tree&);
+
+}  // namespace kios::engine

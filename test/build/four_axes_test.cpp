@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "build/four_axes.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "scenes/random.h"
+
+namespace kios::test {
+namespace {
+
+Scatter scatterOf(const Eigen::Matrix3d& m) {
+  const auto at = [&](int i, int j) { return static_cast<float>(m(i, j)); };
+  return {at(0, 0), at(0, 1), at(0, 2), at(1, 1), at(1, 2), at(2, 2)};
+}
+
+double orthonormalError(const Eigen::Matrix3d& axes) {
+  return (axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm();
+}
+
+TEST(FourAxes, AxesAreOrthonormalAndDiagonaliseTheMatrix) {
+  scenes::Random random(4);
+  double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const auto spread = [&] { return std::exp(random.uniform(-6, 6)); };
+    Eigen::Vector3d values(spread(), spread(), spread());
+    if (i % 3 == 1) values[2] = values[1];
+    if (i % 5 == 1) values[0] = 0;
+    if (i % 7 == 1) values[1] = values[0];
+    const Eigen::Quaterniond turn = Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1),
+                                                       random.uniform(-1, 1), random.uniform(-1, 1))
+                                        .normalized();
+    const Eigen::Matrix3d matrix =
+        turn.toRotationMatrix() * values.asDiagonal() * turn.toRotationMatrix().transpose();
+    const Eigen::Matrix3d axes = principalAxes(scatterOf(matrix)).cast<double>();
+    ASSERT_LT(orthonormalError(axes), 2e-6);
+    const Eigen::Matrix3d diagonal = axes.transpose() * matrix * axes;
+    worst = std::max(worst, std::max({std::abs(diagonal(0, 1)), std::abs(diagonal(0, 2)),
+                                      std::abs(diagonal(1, 2))}) /
+                                matrix.trace());
+  }
+  EXPECT_LT(worst, 1e-3);
+}
+
+TEST(FourAxes, AnyMatrixGivesOrthonormalAxes) {
+  const float none = std::numeric_limits<float>::quiet_NaN(),
+              huge = std::numeric_limits<float>::infinity();
+  for (const float v : {0.0F, 1e-40F, 1e-20F, 1.0F, 1e20F, 1e38F, none, huge, -1.0F}) {
+    for (const float w : {0.0F, 1e-38F, 1.0F, 1e38F, none, -huge}) {
+      for (const Scatter& s : {Scatter{v, 0, 0, w, 0, 0}, Scatter{v, w, w, v, w, v},
+                               Scatter{v, 0, w, v, 0, v}, Scatter{w, v, v, w, v, w}}) {
+        EXPECT_LT(orthonormalError(principalAxes(s).cast<double>()), 2e-6) << v << " " << w;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::test

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The gradient of the exact distance: against finite differences, against convexity, and along
+// paths on which those of AABB, OBB and RSS jump while that of k-IOS does not (paper, III-D).
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <functional>
+
+#include "fcl_kios/clearance/exact_distance.h"
+#include "fcl_kios/fcl_kios.h"
+#include "scenes/mesh.h"
+#include "scenes/shapes.h"
+#include "volume/exact_pairs.h"
+
+namespace kios::test {
+namespace {
+
+fcl::Matrix3d turned(const fcl::Vector3d& w, const fcl::Matrix3d& R) {
+  const double angle = w.norm();
+  if (angle == 0) return R;
+  return fcl::AngleAxisd(angle, w / angle).toRotationMatrix() * R;
+}
+
+/// A pair of fitted volumes of size about 1, apart.
+struct OrdinaryPair {
+  explicit OrdinaryPair(Random& random) {
+    const auto draw = [&random] {
+      const auto shape = static_cast<Shape>(below(random, kShapes));
+      return fitted(place<double>(random, shapePoints(random, shape, 3 + below(random, 8)), 0, 1));
+    };
+    a = draw();
+    b = draw();
+    R = randomRotation(random);
+    T = random.uniform(0.2, 4) * randomDirection(random);
+  }
+  ExactDistance at(const fcl::Matrix3d& rotation, const fcl::Vector3d& translation) const {
+    return exactDistance(a, b, RelativePose<double>(rotation, translation));
+  }
+  kIOSd a, b;
+  fcl::Matrix3d R;
+  fcl::Vector3d T;
+};
+
+// Second derivatives are at most about (1 + arm)^2 / distance.
+TEST(ExactGradient, AgreesWithCentralDifferences) {
+  Random random(31);
+  int checked = 0;
+  for (int i = 0; i < 3'000; ++i) {
+    const OrdinaryPair pair(random);
+    const ExactDistance exact = pair.at(pair.R, pair.T);
+    if (!(exact.distance > 1e-2)) continue;
+    constexpr double kStep = 1e-6;
+    for (int c = 0; c < 3; ++c) {
+      const fcl::Vector3d h = kStep * fcl::Vector3d::Unit(c);
+      const double by_t =
+          pair.at(pair.R, pair.T + h).distance - pair.at(pair.R, pair.T - h).distance;
+      const double by_w = pair.at(turned(h, pair.R), pair.T).distance -
+                          pair.at(turned(-h, pair.R), pair.T).distance;
+      ASSERT_NEAR(by_t / (2 * kStep), exact.normal[c], 1e-8 + 4e-6 / exact.distance) << i;
+      ASSERT_NEAR(by_w / (2 * kStep), exact.moment[c], 1e-8 + 4e-5 / exact.distance) << i;
+    }
+    ++checked;
+  }
+  EXPECT_GT(checked, 1'500);
+}
+
+// The distance is a convex function of the translation: its gradient is a lower bound of every
+// difference, however long the step. No rounding hides in that.
+TEST(ExactGradient, SupportsTheConvexDistance) {
+  Random random(32);
+  for (int i = 0; i < 5'000; ++i) {
+    const OrdinaryPair pair(random);
+    const ExactDistance exact = pair.at(pair.R, pair.T);
+    if (!exact.apart()) continue;
+    for (int k = 0; k < 4; ++k) {
+      const fcl::Vector3d h = std::pow(10.0, -random.uniform(-1, 9)) * randomDirection(random);
+      const ExactDistance moved = pair.at(pair.R, pair.T + h);
+      const double bound = exact.distance + exact.normal.dot(h);
+      ASSERT_GE(moved.distance + moved.error, bound - 1e-12) << i;
+      ASSERT_LE(std::abs(moved.distance - exact.distance), h.norm() + 1e-12) << i;
+    }
+  }
+}
+
+// Properties 2 to 4 along random paths: distance, witnesses and gradient change by no more than a
+// step times what curvature allows, and ten times less for a tenth of the step.
+TEST(ExactGradient, IsContinuousAlongRandomPaths) {
+  Random random(33);
+  int paths = 0;
+  for (int i = 0; i < 100; ++i) {
+    const OrdinaryPair pair(random);
+    const fcl::Vector3d along = 0.5 * randomDirection(random), about = randomDirection(random);
+    const auto largestStep = [&](int steps, double* nearest) {
+      double largest = 0;
+      ExactDistance before;
+      for (int s = 0; s <= steps; ++s) {
+        const double t = static_cast<double>(s) / steps;
+        const ExactDistance now = pair.at(turned(t * about, pair.R), pair.T + t * along);
+        *nearest = std::min(*nearest, now.distance);
+        if (s > 0) {
+          largest = std::max({largest, (now.normal - before.normal).norm(),
+                              (now.moment - before.moment).norm(), (now.p - before.p).norm(),
+                              (now.q - before.q).norm()});
+        }
+        before = now;
+      }
+      return largest;
+    };
+    double nearest = 1e300;
+    const double coarse = largestStep(100, &nearest), fine = largestStep(2'000, &nearest);
+    if (!(nearest > 0.05)) continue;
+    // A step turns the normal by at most (1 + arm) / distance times its length.
+    ASSERT_LE(coarse, 8.0 / 100 / nearest) << i;
+    ASSERT_LE(fine, 8.0 / 2'000 / nearest) << i;
+    ++paths;
+  }
+  EXPECT_GT(paths, 45);
+}
+
+/// Largest change of the slope of f from one step to the next on [-range, range].
+double largestJump(const std::function<double(double)>& slope, double range, int steps) {
+  double largest = 0, before = slope(-range);
+  for (int s = 1; s <= steps; ++s) {
+    const double now = slope(range * (2.0 * s / steps - 1));
+    largest = std::max(largest, std::abs(now - before));
+    before = now;
+  }
+  return largest;
+}
+
+std::function<double(double)> differenceOf(const std::function<double(double)>& f) {
+  constexpr double kStep = 1e-7;
+  return [f](double t) { return (f(t + kStep) - f(t - kStep)) / (2 * kStep); };
+}
+
+/// B, the box of `size` around its origin, turns about y above A = the same box: at angle 0 two
+/// faces are parallel, and the nearest corner changes sides.
+class ParallelFaces {
+ public:
+  ParallelFaces() {
+    const scenes::Mesh mesh = scenes::subdividedBox(size_, 1);
+    points_ = mesh.vertices;
+    model_ = scenes::buildModel<kIOSd>(mesh);
+    volume_ = fitted(points_);
+    fcl::fit(points_.data(), static_cast<int>(points_.size()), rss_);
+  }
+  // Odd numbers of steps straddle 0.
+  static fcl::Matrix3d R(double angle) { return turned({0, angle, 0}, fcl::Matrix3d::Identity()); }
+
+  double kiosMoment(double angle) const {
+    return exactDistance(volume_, volume_, RelativePose<double>(R(angle), T_)).moment[1];
+  }
+  double obb(double angle) const {  // the box is its own oriented box
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    X.linear() = R(angle);
+    X.translation() = T_;
+    fcl::DistanceResultd result;
+    return fcl::distance(model_.get(), fcl::Transform3d::Identity(), model_.get(), X,
+                         fcl::DistanceRequestd(), result);
+  }
+  double rss(double angle) const { return fcl::distance(R(angle), T_, rss_, rss_); }
+  double aabb(double angle) const {
+    fcl::AABBd fixed, turning;
+    for (const auto& p : points_) {
+      fixed += p;
+      turning += R(angle) * p + T_;
+    }
+    return fixed.distance(turning);
+  }
+
+ private:
+  const fcl::Vector3d size_ = {2, 1.2, 0.8}, T_ = {0, 0, 2.5};
+  Points<double> points_;
+  std::shared_ptr<Modeld> model_;
+  kIOSd volume_;
+  fcl::RSSd rss_;
+};
+
+TEST(ExactGradient, IsContinuousWhereOthersJump) {
+  const ParallelFaces faces;
+  const auto jumps = [&](int steps) {
+    const auto jump = [steps](const std::function<double(double)>& slope) {
+      return largestJump(slope, 0.3, steps);
+    };
+    return std::array<double, 4>{jump([&](double t) { return faces.kiosMoment(t); }),
+                                 jump(differenceOf([&](double t) { return faces.obb(t); })),
+                                 jump(differenceOf([&](double t) { return faces.rss(t); })),
+                                 jump(differenceOf([&](double t) { return faces.aabb(t); }))};
+  };
+  const auto coarse = jumps(101), fine = jumps(1001);
+  std::printf(
+      "largest change of d distance / d angle, 101 and 1001 steps: kIOS %.4f %.5f, "
+      "OBB %.3f %.3f, RSS %.3f %.3f, AABB %.3f %.3f\n",
+      coarse[0], fine[0], coarse[1], fine[1], coarse[2], fine[2], coarse[3], fine[3]);
+  EXPECT_LT(coarse[0], 0.1);
+  EXPECT_LT(fine[0], 0.15 * coarse[0]);
+  for (int other = 1; other < 4; ++other) {
+    EXPECT_GT(fine[other], 0.5) << "volume " << other;
+    EXPECT_GT(fine[other], 0.9 * coarse[other]) << "volume " << other;
+  }
+}
+
+// B slides past A: their nearest points run over sphere, circle and vertex, and never jump.
+TEST(ExactGradient, IsContinuousAcrossTheFeatures) {
+  Random random(34);
+  for (int i = 0; i < 40; ++i) {
+    const kIOSd a = fitted(shapePoints(random, Shape::kTriangle, 3)),
+                b = fitted(shapePoints(random, Shape::kSliver, 6));
+    const fcl::Matrix3d R = randomRotation(random);
+    const fcl::Vector3d e = randomDirection(random), f = randomDirection(random).cross(e);
+    if (!(f.norm() > 0.1)) continue;
+    constexpr int kSteps = 4'000;
+    ExactDistance before;
+    fcl::Vector3d T_before = fcl::Vector3d::Zero();
+    for (int s = 0; s <= kSteps; ++s) {
+      const double angle = 2 * fcl::constants<double>::pi() * s / kSteps;
+      const fcl::Vector3d T =
+          4.5 * (std::cos(angle) * e + std::sin(angle) * f.normalized()) + a.center0;
+      const ExactDistance now = exactDistance(a, b, RelativePose<double>(R, T));
+      ASSERT_TRUE(now.apart());
+      ASSERT_LE(now.error, 1e-12);
+      if (s > 0) {
+        // A step is 0.0071 long; the bodies are at least 1 apart and of radius at most 2.
+        ASSERT_LE((now.normal - before.normal).norm(), 0.03) << i << " at step " << s;
+        ASSERT_LE((now.p - before.p).norm() + (now.q - before.q).norm(), 0.1) << i;
+        // Convex: the change lies between what the gradients at both ends foresee.
+        const double change = now.distance - before.distance;
+        ASSERT_GE(change, before.normal.dot(T - T_before) - 1e-12) << i << " at step " << s;
+        ASSERT_LE(change, now.normal.dot(T - T_before) + 1e-12) << i << " at step " << s;
+      }
+      before = now;
+      T_before = T;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::test

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Scales, offsets, degenerate triangles, refits, and motions that keep close without touching.
+
+#include <cmath>
+
+#include "continuous/moving_meshes.h"
+#include "scenes/cad_shapes.h"
+
+namespace kios::testing {
+namespace {
+
+Mesh scaled(Mesh mesh, double scale, const Vector3d& offset = Vector3d::Zero()) {
+  for (Vector3d& v : mesh.vertices) v = scale * v + offset;
+  return mesh;
+}
+
+Transform3d scaledPose(Transform3d X, double scale) {
+  X.translation() *= scale;
+  return X;
+}
+
+// Times of contact don't change with the unit of length.
+TEST(HardCases, AnyScale) {
+  const Mesh torus = scenes::bumpyTorus(200), box = scenes::subdividedBox({1, 1, 1}, 2);
+  for (auto type : kMotionTypes) {
+    double expected = -1;
+    for (double scale : {1.0, 1e-6, 1e6, 1e-30, 1e30, 0x1p300, 0x1p-400}) {
+      const Pair pair(scaled(torus, scale), scaled(box, scale));
+      fcl::ContinuousCollisionResultd result;
+      ContinuousCounts counts;
+      firstContact(*pair.a, at(0, 0, 0), at(0, 0, 0, 1), *pair.b, scaledPose(at(5, 1, 2), scale),
+                   scaledPose(at(-4, 0, 0.2, 0.4), scale), requestFor(type, 1e-6), result, &counts);
+      EXPECT_TRUE(result.is_collide) << scale << " type " << type << " steps " << counts.steps;
+      if (expected < 0) expected = result.time_of_contact;
+      EXPECT_NEAR(result.time_of_contact, expected, 1e-6) << scale;
+      EXPECT_LT(counts.steps, 300) << scale;
+    }
+  }
+}
+
+// Vertices far from the model's origin, and models far from the world's: turning about a far point.
+TEST(HardCases, FarVertices) {
+  const Vector3d far(1e6, -2e6, 5e5);
+  const Mesh box = scenes::subdividedBox({2, 2, 2}, 1);
+  const Pair pair(box, scaled(box, 1, far));
+  Transform3d X_0 = at(10, 0, 0), X_1 = at(-10, 0, 0);
+  X_0.translation() -= far;
+  X_1.translation() -= far;
+  fcl::ContinuousCollisionResultd result;
+  for (auto type : kMotionTypes) {
+    firstContact(*pair.a, at(0, 0, 0), at(0, 0, 0), *pair.b, X_0, X_1, requestFor(type, 1e-6),
+                 result);
+    EXPECT_TRUE(result.is_collide);
+    EXPECT_LE(result.time_of_contact, 0.4 + 1e-9);
+    EXPECT_GE(result.time_of_contact, 0.4 - 2e-6);
+  }
+  // Both at 1e9, where doubles are 1e-7 apart.
+  const Pair near(box, box);
+  const Vector3d out(1e9, 1e9, -1e9);
+  const auto pose = [&](double x) { return at(out.x() + x, out.y(), out.z()); };
+  firstContact(*near.a, pose(0), pose(0), *near.b, pose(10), pose(-10),
+               requestFor(fcl::CCDM_TRANS, 1e-6), result);
+  EXPECT_TRUE(result.is_collide);
+  EXPECT_NEAR(result.time_of_contact, 0.4, 2e-6);
+}
+
+TEST(HardCases, DegenerateTriangles) {
+  const Mesh needle = scenes::singleTriangle({0, 0, -1}, {0, 0, 1}, {0, 0, 0.5});
+  const Mesh point = scenes::singleTriangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
+  const Mesh sheet = scenes::sheet(2, 2, 4, 4, 0);
+  fcl::ContinuousCollisionResultd result;
+  for (auto type : kMotionTypes) {
+    const auto request = requestFor(type, 1e-7);
+    // A point through a sheet; a needle across another one.
+    const auto s = kiosModel(sheet), p = kiosModel(point), n = kiosModel(needle);
+    firstContact(*s, at(0, 0, 0), at(0, 0, 0), *p, at(0.1, 0.2, 4), at(0.1, 0.2, -4), request,
+                 result);
+    EXPECT_TRUE(result.is_collide);
+    EXPECT_NEAR(result.time_of_contact, 0.5, 1e-6);
+    firstContact(*n, at(0, 0, 0), at(0, 0, 0), *n, at(5, 1, 0.3, M_PI / 2, Vector3d::UnitX()),
+                 at(-5, 1, 0.3, M_PI / 2, Vector3d::UnitX()), request, result);
+    EXPECT_TRUE(result.is_collide);
+    EXPECT_NEAR(result.time_of_contact, 0.5, 1e-6);
+    firstContact(*p, at(0, 0, 0), at(0, 0, 0), *p, at(5, 1e-6, 0), at(-5, 1e-6, 0), request,
+                 result);
+    EXPECT_FALSE(result.is_collide);
+  }
+}
+
+// A wheel that turns at a small clearance to a wall: many turns, bounded work.
+TEST(HardCases, ASpinningWheelKeepsClear) {
+  const Mesh wheel = scenes::uvSphere(1, 6, 12), wall = scenes::subdividedBox({0.2, 4, 4}, 2);
+  const Pair pair(wheel, wall);
+  const Vector3d z = Vector3d::UnitZ(), o = Vector3d::Zero();
+  const fcl::SplineMotion<double> spin(o, o, o, o, -6 * z, 0 * z, 6 * z, 12 * z);
+  for (double gap : {1e-2, 1e-3}) {
+    const Motion still = motionOf(fcl::CCDM_TRANS, at(1.1 + gap, 0, 0), at(1.1 + gap, 0, 0));
+    const Answer answer = ask(pair, spin, *still, 1e-4);
+    EXPECT_FALSE(answer.result.is_collide) << gap;
+    EXPECT_LT(answer.counts.steps, 3000) << gap;
+    expectRight(pair, spin, *still, answer.result, 1e-4, 500, 10);
+    std::printf("wheel, gap %g: %lld steps, %lld volume tests, %lld leaf tests\n", gap,
+                answer.counts.steps, answer.counts.volume_tests, answer.counts.leaf_tests);
+  }
+}
+
+// A curve above a table, turning about its normal.
+TEST(HardCases, ACurvedSlideTakesFewSteps) {
+  const Mesh table = scenes::subdividedBox({6, 6, 1}, 2), box = scenes::subdividedBox({1, 1, 1}, 2);
+  const Pair pair(table, box);
+  const Motion still = motionOf(fcl::CCDM_TRANS, at(0, 0, 0), at(0, 0, 0));
+  const Vector3d z = Vector3d::UnitZ();
+  for (double gap : {1e-3, 1e-6, 1e-9}) {
+    const double h = 1 + gap;
+    const fcl::SplineMotion<double> slide({-3, 0, h}, {-1, 2, h}, {1, -2, h}, {3, 1, h}, -1 * z,
+                                          2 * z, 9 * z, 10 * z);
+    const Answer answer = ask(pair, *still, slide, 1e-4);
+    EXPECT_FALSE(answer.result.is_collide) << gap;
+    EXPECT_LT(answer.counts.steps, 60) << gap;
+  }
+}
+
+TEST(HardCases, RefittedModels) {
+  const Mesh mesh = scenes::bumpyTorus(200);
+  const auto a = kiosModel(mesh), b = kiosModel(mesh);
+  std::vector<Vector3d> larger = mesh.vertices;
+  for (Vector3d& v : larger) v *= 2;
+  fcl::ContinuousCollisionResultd before, after, fresh;
+  const auto ask = [&](const Modeld& first, fcl::ContinuousCollisionResultd& result) {
+    firstContact(first, at(0, 0, 0), at(0, 0, 0, 1), *b, at(9, 0, 0), at(-9, 0, 0, 1),
+                 requestFor(fcl::CCDM_LINEAR, 1e-7), result);
+  };
+  ask(*a, before);
+  ASSERT_EQ(a->beginReplaceModel(), fcl::BVH_OK);
+  ASSERT_EQ(a->replaceSubModel(larger), fcl::BVH_OK);
+  ASSERT_EQ(a->endReplaceModel(true, true), fcl::BVH_OK);
+  ask(*a, after);
+  ask(*kiosModel(scaled(mesh, 2)), fresh);
+  EXPECT_LT(after.time_of_contact, before.time_of_contact - 0.01);
+  EXPECT_NEAR(after.time_of_contact, fresh.time_of_contact, 1e-7);
+}
+
+// Models that aren't occupied touch nothing, as in collide().
+TEST(HardCases, FreeModels) {
+  const auto a = kiosModel(scenes::subdividedBox({1, 1, 1}, 1));
+  const auto b = kiosModel(scenes::subdividedBox({1, 1, 1}, 1));
+  b->cost_density = b->threshold_occupied / 2;
+  ASSERT_FALSE(b->isOccupied());
+  fcl::ContinuousCollisionResultd result;
+  firstContact(*a, at(0, 0, 0), at(0, 0, 0), *b, at(4, 0, 0), at(-4, 0, 0),
+               requestFor(fcl::CCDM_TRANS), result);
+  EXPECT_FALSE(result.is_collide);
+}
+
+// Two soups amid each other, all of whose nodes overlap: no step is cheap, and none may be cut down
+// to nothing for it.
+TEST(HardCases, CostlyStepsReachTheEnd) {
+  const Mesh soup = scenes::randomSoup(2000, 1, 1e-3, 2e-3, 5);
+  const Pair pair(soup, scenes::moved(at(0, 0, 0, 0.7, {1, 2, 3}), soup));
+  const double distance = pair.oracle.distance(at(0, 0, 0), at(0, 0, 0));
+  ASSERT_GT(distance, 0);
+  for (auto type : {fcl::CCDM_TRANS, fcl::CCDM_SPLINE}) {
+    for (const double part : {1e-6, 1e-3, 0.1}) {
+      const auto still = motionOf(type, at(0, 0, 0), at(0, 0, 0));
+      const auto moves = motionOf(type, at(0, 0, 0), at(part * distance, 0, 0));
+      const Answer answer = ask(pair, *still, *moves, 1e-3);
+      EXPECT_FALSE(answer.result.is_collide) << type << " " << part;
+      EXPECT_LT(answer.counts.steps, 50);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing

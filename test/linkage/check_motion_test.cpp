@@ -1,0 +1,285 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Paths whose answers are known: what is thin, what touches, what slides by, shapes and octrees.
+
+#include <fcl/config.h>
+
+#include "fcl/expect_refused.h"
+#include "linkage/robot_cases.h"
+
+namespace kios::testing {
+namespace {
+
+Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Translation3d(x, y, z)); }
+
+Joint joint(JointType type, const Vector3d& place, const Vector3d& axis) {
+  Joint result;
+  result.type = type;
+  result.X_PJ.translation() = place;
+  result.axis = axis;
+  return result;
+}
+
+Geometry box(double x, double y, double z) { return modelOf(scenes::subdividedBox({x, y, z}, 2)); }
+
+/// A box that slides along x, one unit of q a metre.
+RobotCase slider(const Geometry& body) {
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0}));
+  robot.addBody(0, body);
+  return robot;
+}
+
+MotionAnswer ask(const RobotCase& robot, const Joints& q0, const Joints& q1, bool first = false,
+                 double separation = 0) {
+  MotionRequest request;
+  request.first_contact = first;
+  request.min_separation = separation;
+  return checkMotion(robot.linkage, q0, q1, request);
+}
+
+Joints one(double x) { return Joints::Constant(1, x); }
+
+TEST(CheckMotion, FirstContactsOfASliderAreAtTheirTimes) {
+  RobotCase robot = slider(box(1, 1, 1));
+  robot.addBody(-1, box(1, 1, 1), at(5, 0.3, 0.2));
+  robot.addBody(-1, box(1, 1, 1), at(8, 0.3, 0.2));
+  for (const double separation : {0.0, 0.25}) {
+    const MotionAnswer first = ask(robot, one(0), one(10), true, separation);
+    ASSERT_EQ(first.verdict, MotionVerdict::kContact);
+    EXPECT_EQ(first.body_a, 0);
+    EXPECT_EQ(first.body_b, 1);
+    const double time = (4 - separation) / 10;
+    EXPECT_LE(first.from, time + 1e-12);
+    EXPECT_GE(first.to, time - 1e-12);
+    EXPECT_LE(first.to - first.from, 0x1p-20);
+    EXPECT_EQ(ask(robot, one(0), one(3.9), true, separation).verdict,
+              separation > 0 ? MotionVerdict::kContact : MotionVerdict::kClear);
+    // From the start in contact; backwards; away from it.
+    const MotionAnswer started = ask(robot, one(5), one(20), true, separation);
+    EXPECT_EQ(started.verdict, MotionVerdict::kContact);
+    EXPECT_EQ(started.from, 0);
+    EXPECT_EQ(started.to, 0);
+    const MotionAnswer back = ask(robot, one(12), one(2), true, separation);
+    EXPECT_EQ(back.body_b, 2);
+    EXPECT_NEAR(back.to, (3 - separation) / 10, 2e-6);
+  }
+  EXPECT_EQ(ask(robot, one(6.25), one(6.75)).verdict, MotionVerdict::kClear);
+}
+
+// Plates of a millionth, and triangles of no thickness at all, which a path crosses in an instant.
+TEST(CheckMotion, NothingIsTooThin) {
+  for (const double thick : {1e-2, 1e-4, 1e-5}) {
+    RobotCase robot = slider(box(thick, 1, 1));
+    robot.addBody(-1, box(thick, 0.9, 0.9), at(0.71828182845, 0.01, 0.02));
+    for (const bool first : {false, true}) {
+      const MotionAnswer answer = ask(robot, one(0), one(1), first);
+      ASSERT_EQ(answer.verdict, MotionVerdict::kContact) << thick;
+      EXPECT_NEAR(answer.to, 0.71828182845, 2 * thick);
+    }
+    EXPECT_EQ(ask(robot, one(0), one(0.7)).verdict, MotionVerdict::kClear);
+  }
+  for (const double turn : {0.0, 1e-3}) {
+    const Mesh triangle = scenes::singleTriangle({0, -1, -1}, {0, 1, -1}, {0, 0, 1});
+    RobotCase robot = slider(modelOf(triangle));
+    Transform3d X = at(0.71828182845, 0.01, 0.02);
+    X.linear() = Eigen::AngleAxisd(turn, Vector3d(0, 1, 1).normalized()).matrix();
+    robot.addBody(-1, modelOf(triangle), X);
+    const MotionAnswer answer = ask(robot, one(0), one(1), true);
+    EXPECT_NE(answer.verdict, MotionVerdict::kClear);
+    EXPECT_NEAR(answer.from, 0.71828182845, 1e-5 + 2 * turn);
+  }
+  // A rod's tip passes a needle at 1/300 of the turn.
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
+  robot.addBody(0, box(2, 1e-3, 1e-3), at(1, 0, 0));
+  robot.addBody(-1, box(1e-3, 1e-3, 1), at(1.9 * std::cos(1.234), 1.9 * std::sin(1.234), 0));
+  EXPECT_EQ(robot.firstSample(one(0), one(3), 400), 2) << "samples find it, so this shows nothing";
+  const MotionAnswer answer = ask(robot, one(0), one(3));
+  ASSERT_EQ(answer.verdict, MotionVerdict::kContact);
+  EXPECT_NEAR(3 * answer.to, 1.234, 2e-3);
+  EXPECT_TRUE(robot.meetAt(one(3 * answer.to)));
+}
+
+// A box that slides along a face needs few queries however near it is, as its slab doesn't shrink.
+TEST(CheckMotion, SlidingAlongAFace) {
+  for (const double gap : {1e-1, 1e-3, 1e-6, 1e-9}) {
+    RobotCase robot = slider(box(0.1, 0.1, 0.1));
+    robot.addBody(-1, box(4, 1, 0.1), at(0, 0, -0.1 - gap));
+    const MotionAnswer answer = ask(robot, one(-1.5), one(1.5));
+    EXPECT_EQ(answer.verdict, MotionVerdict::kClear) << gap;
+    EXPECT_LE(answer.counts.narrow_queries, 10) << gap;
+    EXPECT_EQ(ask(robot, one(-1.5), one(1.5), false, 1.01 * gap).verdict, MotionVerdict::kContact);
+    EXPECT_EQ(ask(robot, one(-1.5), one(1.5), true, 1.01 * gap).verdict, MotionVerdict::kContact);
+  }
+  RobotCase robot = slider(box(0.125, 0.125, 0.125));
+  robot.addBody(-1, box(4, 1, 0.125), at(0, 0, -0.125));  // touching all along
+  EXPECT_EQ(ask(robot, one(-1.5), one(1.5)).verdict, MotionVerdict::kContact);
+  EXPECT_EQ(ask(robot, one(-1.5), one(1.5), true).from, 0);
+}
+
+// The end touches in a face, exactly; and an ulp before it.
+TEST(CheckMotion, PosesThatTouch) {
+  RobotCase robot = slider(box(1, 1, 1));
+  robot.addBody(-1, box(1, 1, 1), at(5, 0, 0));
+  EXPECT_EQ(ask(robot, one(0), one(4)).verdict, MotionVerdict::kContact);
+  EXPECT_EQ(ask(robot, one(4), one(0)).verdict, MotionVerdict::kContact);
+  const MotionAnswer first = ask(robot, one(0), one(4), true);
+  EXPECT_NE(first.verdict, MotionVerdict::kClear);
+  EXPECT_GE(first.from, 1 - 0x1p-19);
+  EXPECT_EQ(ask(robot, one(0), one(4 - 1e-9)).verdict, MotionVerdict::kClear);
+  // Nearer than rounding, but apart: nothing may be called clear that isn't proven.
+  EXPECT_NE(ask(robot, one(0), one(4 - 1e-15)).verdict, MotionVerdict::kClear);
+  // Paths of no length.
+  EXPECT_EQ(ask(robot, one(4), one(4)).verdict, MotionVerdict::kContact);
+  EXPECT_EQ(ask(robot, one(4 - 1e-9), one(4 - 1e-9)).verdict, MotionVerdict::kClear);
+}
+
+// Two arms on one turntable: what carries both moves neither towards the other.
+TEST(CheckMotion, SharedJointsCancel) {
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
+  robot.addLink(0, joint(JointType::kPrismatic, {10, 0, 0}, {0, 1, 0}));
+  robot.addLink(0, joint(JointType::kPrismatic, {10, 0, 0}, {0, 1, 0}));
+  robot.addBody(1, box(1, 1, 1));
+  robot.addBody(2, box(1, 1, 1), at(0, 1.01, 0));
+  Joints q0 = Joints::Zero(3), q1 = Joints::Zero(3);
+  q1[0] = 100;  // sixteen turns
+  const MotionAnswer turned = ask(robot, q0, q1);
+  EXPECT_EQ(turned.verdict, MotionVerdict::kClear);
+  EXPECT_LE(turned.counts.narrow_queries, 2);
+  q1[1] = 0.02;
+  EXPECT_EQ(ask(robot, q0, q1).verdict, MotionVerdict::kContact);
+  EXPECT_NEAR(ask(robot, q0, q1, true).to, 0.5, 1e-4);
+}
+
+/// Shapes as links, and as obstacles.
+std::vector<Geometry> shapes() {
+  return {std::make_shared<fcl::Sphered>(0.12),
+          std::make_shared<fcl::Capsuled>(0.05, 0.4),
+          std::make_shared<fcl::Boxd>(0.1, 0.3, 0.2),
+          std::make_shared<fcl::Cylinderd>(0.1, 0.3),
+          std::make_shared<fcl::Coned>(0.12, 0.3),
+          std::make_shared<fcl::Ellipsoidd>(0.1, 0.2, 0.15)};
+}
+
+RobotCase shapeRobot(Random& random, bool meshes_too) {
+  RobotCase robot;
+  const auto all = shapes();
+  for (int i = 0; i < 4; ++i) {
+    Joint each = joint(i == 2 ? JointType::kPrismatic : JointType::kRevolute, 0.4 * inBall(random),
+                       inBall(random));
+    robot.addLink(i - 1, each);
+    const bool mesh = meshes_too && i % 2 == 0;
+    robot.addBody(i,
+                  mesh ? box(0.3, 0.1, 0.1) : all[static_cast<std::size_t>(random.uniform(0, 6))],
+                  randomPose(random, 0.1));
+    if (i > 0) robot.allow(i - 1, i);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    robot.addBody(-1, all[i], randomPose(random, 0.9));
+    if (meshes_too) robot.addBody(-1, box(0.2, 0.2, 0.02), randomPose(random, 0.9));
+  }
+  robot.addBody(-1, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -0.9));
+  return robot;
+}
+
+void expectShapesRight(bool with_meshes, std::uint64_t seed) {
+  Random random(seed);
+  MotionTally tally;
+  for (int i = 0; i < 120; ++i) {
+    const RobotCase robot = shapeRobot(random, with_meshes);
+    Joints q0(4), step(4);
+    for (double& x : q0) x = random.uniform(-2, 2);
+    for (double& x : step) x = random.uniform(-0.5, 0.5);
+    SCOPED_TRACE(i);
+    expectRight(robot, q0, q0 + step, 100, tally);
+  }
+  tally.expectBothKinds();
+  EXPECT_EQ(tally.unresolved, 0);
+}
+
+TEST(CheckMotion, ShapesAndMeshesAgreeWithDenseSampling) { expectShapesRight(true, 11); }
+TEST(CheckMotion, ShapesAmongThemselvesAgreeWithDenseSampling) { expectShapesRight(false, 12); }
+
+TEST(CheckMotion, PlanesThatAreCarriedMustNotTurn) {
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {0, 0, 1}));
+  robot.addBody(0, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0));
+  robot.addBody(-1, box(1, 1, 1), at(0, 0, 1));
+  EXPECT_EQ(ask(robot, one(-1), one(0.4)).verdict, MotionVerdict::kClear);
+  const MotionAnswer first = ask(robot, one(-1), one(1), true);
+  EXPECT_EQ(first.verdict, MotionVerdict::kContact);
+  EXPECT_NEAR(first.to, 0.75, 1e-6);
+  // FCL takes a cylinder whose axis is askew to the plane for one in contact; it is 0.005 apart.
+  Transform3d X = Transform3d::Identity();
+  X.linear() = Eigen::AngleAxisd(0.7, Vector3d::UnitY()).matrix();
+  const double reach = 0.1 * std::abs(std::sin(0.7)) + 0.15 * std::cos(0.7);
+  RobotCase askew;
+  askew.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0}));
+  askew.addBody(0, std::make_shared<fcl::Cylinderd>(0.1, 0.3), X);
+  askew.addBody(-1, std::make_shared<fcl::Planed>(Vector3d::UnitZ(), reach + 0.005));
+  EXPECT_EQ(ask(askew, one(-1), one(1)).verdict, MotionVerdict::kClear);
+  EXPECT_EQ(ask(askew, one(-1), one(1), false, 0.006).verdict, MotionVerdict::kContact);
+  robot.addBody(-1, std::make_shared<fcl::Planed>(Vector3d::UnitZ(), 5));
+  expectRefused([&] { ask(robot, one(-1), one(0)); }, "half-spaces and planes");
+}
+
+#if FCL_HAVE_OCTOMAP
+TEST(CheckMotion, OctreesAgreeWithDenseSampling) {
+  Random random(13);
+  MotionTally tally;
+  for (int i = 0; i < 40; ++i) {
+    const auto tree = std::make_shared<octomap::OcTree>(0.05);
+    for (int k = 0; k < 60; ++k) {
+      const Vector3d p = inBall(random);
+      tree->updateNode(octomap::point3d(static_cast<float>(p.x()), static_cast<float>(p.y()),
+                                        static_cast<float>(p.z())),
+                       true);
+    }
+    RobotCase robot;
+    for (int link = 0; link < 3; ++link) {
+      robot.addLink(link - 1, joint(JointType::kRevolute, 0.4 * inBall(random), inBall(random)));
+      robot.addBody(link, box(0.3, 0.05, 0.05), randomPose(random, 0.1));
+      if (link > 0) robot.allow(link - 1, link);
+    }
+    robot.addBody(-1, std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree)),
+                  randomPose(random, 0.2));
+    robot.addBody(-1, std::make_shared<fcl::OcTreed>(0.1));  // which has no cells
+    robot.addBody(-1, std::make_shared<fcl::Sphered>(0.1), at(0, 0, 0.5));
+    Joints q0(3), step(3);
+    for (double& x : q0) x = random.uniform(-2, 2);
+    for (double& x : step) x = random.uniform(-0.4, 0.4);
+    SCOPED_TRACE(i);
+    expectRight(robot, q0, q0 + step, 100, tally);
+    if (i > 0) continue;
+    robot.addBody(2, std::make_shared<fcl::Sphered>(2));
+    expectRefused([&] { ask(robot, q0, q0 + step); }, "OcTree");
+  }
+  tally.expectBothKinds();
+  EXPECT_EQ(tally.unresolved, 0);
+}
+#endif
+
+// Where nothing can be proven at the resolution asked for, that is said, with the interval.
+TEST(CheckMotion, UnresolvedNamesTheInterval) {
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
+  robot.addBody(0, box(2, 0.1, 0.1), at(1, 0, 0));
+  // The tip's corner passes the plate a ten-millionth away, as it points along x.
+  const double reach = std::hypot(2, 0.05);
+  robot.addBody(-1, box(0.1, 2, 0.1), at(reach + 0.05 + 1e-7, 0, 0));
+  MotionRequest request;
+  request.resolution = 1.0 / 16;
+  const MotionAnswer answer = checkMotion(robot.linkage, one(-0.5), one(0.5), request);
+  EXPECT_EQ(answer.verdict, MotionVerdict::kUnresolved);
+  EXPECT_EQ(answer.body_a, 0);
+  EXPECT_EQ(answer.body_b, 1);
+  EXPECT_LE(answer.to - answer.from, request.resolution);
+  EXPECT_NEAR(answer.from, 0.5, 0.2);
+  EXPECT_EQ(ask(robot, one(-0.5), one(0.5)).verdict, MotionVerdict::kClear);
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Random trees of joints among random obstacles: the answers of checkMotion() against dense
+// samples.
+
+#include "linkage/robot_cases.h"
+
+namespace kios::testing {
+namespace {
+
+Mesh linkMesh(Random& random) {
+  const double size = random.uniform(0.05, 0.3);
+  switch (static_cast<int>(random.uniform(0, 5))) {
+    case 0:  // a rod
+      return scenes::subdividedBox({2 * size, 0.02, 0.03}, 3);
+    case 1:  // a plate
+      return scenes::subdividedBox({size, 1.5 * size, 0.004}, 4);
+    case 2:
+      return scenes::flangedCylinder(0.3 * size, size, 12);
+    case 3: {
+      Mesh torus = scenes::bumpyTorus(300);
+      for (Vector3d& p : torus.vertices) p *= 0.5 * size;
+      return torus;
+    }
+    default:
+      return scenes::randomSoup(12, size, 0.1 * size, size, 1 + static_cast<int>(1e6 * size));
+  }
+}
+
+struct Kind {
+  int least_links, most_links;
+  double offset;    // of joints
+  double straight;  // chance that a link hangs on the one before
+  int obstacles;
+  double spread;      // of obstacles
+  double mimics = 0;  // chance that a joint shares the coordinate of one before
+};
+
+RobotCase randomRobot(const Kind& kind, Random& random) {
+  RobotCase robot;
+  const int links = static_cast<int>(random.uniform(kind.least_links, kind.most_links + 1));
+  for (int i = 0; i < links; ++i) {
+    Joint joint;
+    const double type = random.unit();
+    joint.type = type < 0.7   ? JointType::kRevolute
+                 : type < 0.9 ? JointType::kPrismatic
+                              : JointType::kFixed;
+    joint.X_PJ = randomPose(random, kind.offset);
+    joint.axis = random.uniform(0.2, 2) * inBall(random);
+    const int known = robot.linkage.coordinates();
+    if (known > 0 && kind.mimics > 0 && random.unit() < kind.mimics) {
+      joint.coordinate = std::min(static_cast<int>(random.uniform(0, known)), known - 1);
+      joint.multiplier = random.uniform(-2, 2);
+      joint.offset = random.uniform(-0.5, 0.5);
+    }
+    const bool straight = i == 0 || random.unit() < kind.straight;
+    const int parent = straight ? i - 1 : static_cast<int>(random.uniform(-1, i));
+    robot.addLink(parent, joint);
+    if (random.unit() < 0.85) {
+      robot.addBody(i, modelOf(linkMesh(random)), randomPose(random, 0.3 * kind.offset));
+    }
+  }
+  for (int i = 0; i < kind.obstacles; ++i) {
+    robot.addBody(-1, modelOf(linkMesh(random)), randomPose(random, kind.spread));
+  }
+  return robot;
+}
+
+/// Bodies that are in contact at q are allowed to be; a planner's start is free.
+void allowContacts(RobotCase& robot, const Joints& q, double separation) {
+  const auto X = robot.poses(q);
+  for (std::size_t a = 0; a < X.size(); ++a) {
+    for (std::size_t b = a + 1; b < X.size(); ++b) {
+      const int i = static_cast<int>(a), j = static_cast<int>(b);
+      if (robot.meet(i, X[a], j, X[b], separation)) robot.allow(i, j);
+    }
+  }
+}
+
+Joints randomJoints(int count, double far, Random& random) {
+  Joints q(count);
+  for (double& x : q) x = random.uniform(-far, far);
+  return q;
+}
+
+void runRandom(const Kind& kind, int robots, double separation, std::uint64_t seed) {
+  Random random(seed);
+  MotionTally tally;
+  for (int i = 0; i < robots; ++i) {
+    RobotCase robot = randomRobot(kind, random);
+    const int n = robot.linkage.coordinates();
+    Joints q0 = randomJoints(n, 2, random);
+    allowContacts(robot, q0, separation);
+    for (const double length : {0.03, 0.3, 0.3, 1.0, 3.0}) {
+      const Joints q1 = q0 + randomJoints(n, length, random);
+      SCOPED_TRACE("robot " + std::to_string(i) + " of seed " + std::to_string(seed) + ", length " +
+                   std::to_string(length));
+      expectRight(robot, q0, q1, 200, tally, separation);
+      if (::testing::Test::HasFailure()) return;
+    }
+  }
+  tally.expectBothKinds();
+  EXPECT_EQ(tally.unresolved, 0);
+  EXPECT_LE(tally.first_unresolved, tally.contact / 100);
+}
+
+TEST(RandomLinkages, ShortChains) { runRandom({1, 3, 0.4, 1, 10, 0.7}, 150, 0, 1); }
+TEST(RandomLinkages, LongChains) { runRandom({5, 12, 0.25, 1, 5, 0.7}, 60, 0, 2); }
+TEST(RandomLinkages, Trees) { runRandom({3, 12, 0.3, 0.4, 5, 0.7}, 60, 0, 3); }
+TEST(RandomLinkages, JointsThatMimicOthers) {
+  runRandom({3, 10, 0.3, 0.5, 5, 0.7, 0.5}, 60, 0, 9);
+  runRandom({3, 8, 0.3, 0.5, 12, 0.6, 0.7}, 30, 0.02, 10);
+}
+TEST(RandomLinkages, LongLinks) { runRandom({2, 6, 2, 0.8, 100, 2}, 60, 0, 4); }
+TEST(RandomLinkages, WithASeparation) {
+  runRandom({1, 6, 0.3, 0.8, 5, 0.7}, 30, 0.01, 5);
+  runRandom({1, 6, 0.3, 0.8, 5, 0.7}, 30, 0.1, 6);
+}
+
+// The gap of a pair somewhere on the path: of equally near triangles, whose distances differ by a
+// rounding, searches find one or the other. A contact is what fcl::distance() says it is.
+TEST(RandomLinkages, SeparationsThatAreGaps) {
+  Random random(8);
+  int contacts = 0;
+  for (int i = 0; i < 60; ++i) {
+    const RobotCase robot = randomRobot({1, 3, 0.4, 1, 3, 0.7}, random);
+    const int n = robot.linkage.coordinates(), count = static_cast<int>(robot.bodies.size());
+    for (int k = 0; k < 40 && count >= 2; ++k) {
+      const Joints q0 = randomJoints(n, 2, random), q1 = q0 + randomJoints(n, 0.01, random);
+      const auto X = robot.poses(between(q0, q1, 0.5 * (k % 3)));
+      MotionRequest request;
+      request.min_separation = std::numeric_limits<double>::infinity();
+      for (int a = 0; a < count; ++a) {
+        for (int b = a + 1; b < count; ++b) {
+          if (!robot.checked(a, b)) continue;
+          fcl::DistanceResultd gap;
+          fcl::distance(robot.bodies[a].geometry.get(), X[a], robot.bodies[b].geometry.get(), X[b],
+                        fcl::DistanceRequestd(), gap);
+          request.min_separation = std::min(request.min_separation, gap.min_distance);
+        }
+      }
+      if (!std::isfinite(request.min_separation)) continue;
+      for (const bool first : {false, true}) {
+        request.first_contact = first;
+        const MotionAnswer answer = checkMotion(robot.linkage, q0, q1, request);
+        if (answer.verdict != MotionVerdict::kContact) continue;
+        ++contacts;
+        const int a = answer.body_a, b = answer.body_b;
+        const Joints q = between(q0, q1, answer.to);
+        ASSERT_TRUE(robot.meet(a, robot.linkage.pose(a, q), b, robot.linkage.pose(b, q),
+                               request.min_separation))
+            << i << " " << k << " " << request.min_separation;
+      }
+    }
+  }
+  EXPECT_GT(contacts, 500);
+}
+
+// Far from the world's origin poses are rounded to 1e-10; the proof pays for that, and stays one.
+TEST(RandomLinkages, FarFromTheOrigin) {
+  Random random(7);
+  MotionTally tally;
+  for (int i = 0; i < 20; ++i) {
+    RobotCase near = randomRobot({1, 4, 0.3, 1, 8, 0.7}, random), far;
+    Joint base;
+    base.X_PJ.translation() = Vector3d(1e5, -2e5, 3e5);
+    far.addLink(-1, base);
+    for (std::size_t k = 0; k < near.joints.size(); ++k) {
+      far.addLink(near.parents[k] + 1, near.joints[k]);
+    }
+    for (const auto& body : near.bodies) {
+      Transform3d X = body.X_LB;
+      if (body.link < 0) X.translation() += base.X_PJ.translation();
+      far.addBody(body.link < 0 ? -1 : body.link + 1, body.geometry, X);
+    }
+    const Joints q0 = randomJoints(far.linkage.coordinates(), 2, random);
+    allowContacts(far, q0, 0);
+    const Joints q1 = q0 + randomJoints(far.linkage.coordinates(), 0.6, random);
+    SCOPED_TRACE(i);
+    expectRight(far, q0, q1, 200, tally);
+  }
+  EXPECT_GT(tally.clear, 0);
+  EXPECT_GT(tally.contact, 0);
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The search for near pairs of a robot: none may be lost, at any scale, and few found in vain.
+
+#include "linkage/near_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "linkage/robot_cases.h"
+
+namespace kios::testing {
+namespace {
+
+using articulated::BallLanes;
+using articulated::ObstacleBox;
+using articulated::ObstacleTree;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kScales[] = {1e-30, 1e-18, 1e-3, 1, 1e6, 1e15, 1e30, 1e200};
+// Rounding alone makes a pair near: so much of its coordinates and of the distance.
+constexpr double kVain = 1e-5;
+
+Vector3d point(Random& random, double far) {
+  return {random.uniform(-far, far), random.uniform(-far, far), random.uniform(-far, far)};
+}
+
+long double distanceTo(const Vector3d& p, const ObstacleBox& box) {
+  long double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const long double x = p[i];
+    const long double off = std::max({box.low[i] - x, x - box.high[i], 0.0L});
+    square += off * off;
+  }
+  return std::sqrt(square);
+}
+
+TEST(ObstacleTree, FindsAllThatIsNear) {
+  Random random(5);
+  for (int i = 0; i < 2000; ++i) {
+    const double scale = kScales[i % 8];
+    const int count = i % 7 == 0 ? static_cast<int>(random.uniform(0, 6))
+                                 : static_cast<int>(std::pow(300, random.unit()));
+    std::vector<ObstacleBox> boxes;
+    for (int k = 0; k < count; ++k) {
+      ObstacleBox box = {{}, {}, 3 * k + 1};
+      const Vector3d low = point(random, scale), size = point(random, 0.2 * scale).cwiseAbs();
+      const bool unbounded = random.unit() < 0.01;
+      for (int c = 0; c < 3; ++c) {
+        box.low[c] = unbounded ? -kInfinity : low[c];
+        box.high[c] = unbounded ? kInfinity : low[c] + size[c];
+      }
+      boxes.push_back(box);
+    }
+    const ObstacleTree tree(boxes);
+    Vector3d p = point(random, 1.3 * scale);
+    if (!boxes.empty() && i % 9 == 0 && boxes[0].high[0] < kInfinity) {  // beside a face
+      p = {boxes[0].low[0] * (1 + 1e-9), boxes[0].low[1], boxes[0].high[2]};
+    }
+    double far = scale * std::pow(10, random.uniform(-4, 0.3));
+    // Just near enough, where rounding could lose it.
+    if (!boxes.empty() && i % 3 == 0) far = static_cast<double>(distanceTo(p, boxes[0]));
+    std::vector<int> found;
+    tree.forNear(p, far, [&](int body) { found.push_back(body); });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(std::unique(found.begin(), found.end()), found.end()) << "found twice";
+    for (const ObstacleBox& box : boxes) {
+      const bool is_found = std::binary_search(found.begin(), found.end(), box.body);
+      const long double distance = distanceTo(p, box);
+      if (distance <= far) {
+        EXPECT_TRUE(is_found) << i;
+      }
+      if (scale > 1e-17 && scale < 1e17 && distance > far + kVain * (scale + far)) {
+        EXPECT_FALSE(is_found) << i;
+      }
+    }
+  }
+}
+
+TEST(BallLanes, FindAllThatTouch) {
+  Random random(6);
+  for (int i = 0; i < 2000; ++i) {
+    const double scale = kScales[i % 8];
+    const auto count = static_cast<std::size_t>(random.uniform(1, 23));
+    BallLanes lanes;
+    lanes.clear();
+    std::vector<Vector3d> centers;
+    std::vector<double> radii;
+    for (std::size_t k = 0; k < count; ++k) {
+      centers.push_back(point(random, scale));
+      radii.push_back(random.unit() < 0.02 ? kInfinity : 0.6 * scale * random.unit());
+      if (k > 0 && i % 3 == 0 && radii[0] < kInfinity) {  // touching
+        radii[k] = std::max(0.0, (centers[k] - centers[0]).norm() * (1 + 1e-15) - radii[0]);
+      }
+      std::vector<char> found(k, 0);
+      lanes.add(centers[k], radii[k], [&](std::size_t at) {
+        ASSERT_LT(at, k);
+        EXPECT_EQ(found[at], 0) << "found twice";
+        found[at] = 1;
+      });
+      for (std::size_t at = 0; at < k; ++at) {
+        const long double apart =
+            (centers[k].cast<long double>() - centers[at].cast<long double>()).stableNorm();
+        const long double reach = static_cast<long double>(radii[k]) + radii[at];
+        if (apart <= reach) {
+          EXPECT_EQ(found[at], 1) << i;
+        }
+        if (scale > 1e-12 && scale < 1e17 && apart > reach + kVain * (scale + reach)) {
+          EXPECT_EQ(found[at], 0) << i;
+        }
+      }
+    }
+  }
+}
+
+TEST(LazyObstacleTree, ThreadsGetOne) {
+  Random random(7);
+  std::vector<ObstacleBox> boxes(500, ObstacleBox{{0, 0, 0}, {1, 1, 1}, 0});
+  for (int round = 0; round < 50; ++round) {
+    articulated::LazyObstacleTree lazy;
+    std::vector<const ObstacleTree*> got(8);
+    std::vector<std::thread> threads;
+    for (auto& tree : got) threads.emplace_back([&] { tree = &lazy.of(boxes); });
+    for (std::thread& thread : threads) thread.join();
+    for (const auto* tree : got) EXPECT_EQ(tree, got[0]);
+  }
+}
+
+// Obstacles that come after a path was asked about, and pairs that are allowed, in any order.
+TEST(NearPairs, AreThoseToBeChecked) {
+  const Geometry box = modelOf(scenes::subdividedBox({0.2, 0.2, 0.2}, 2));
+  const auto shifted = [](double x) {
+    Transform3d X = Transform3d::Identity();
+    X.translation().x() = x;
+    return X;
+  };
+  RobotCase robot;
+  Joint joint;
+  joint.type = JointType::kPrismatic;
+  joint.axis = Vector3d::UnitX();
+  robot.addLink(-1, joint);
+  robot.addLink(-1, joint);
+  const int a = robot.addBody(0, box), b = robot.addBody(1, box, shifted(5));
+  const Joints q0 = Joints::Zero(2), q1 = (Joints(2) << 0, 0.01).finished();
+  const auto ask = [&] { return checkMotion(robot.linkage, q0, q1); };
+  EXPECT_EQ(ask().counts.pairs, 1);
+  const int near = robot.addBody(-1, box, shifted(0.1)), far = robot.addBody(-1, box, shifted(9));
+  EXPECT_EQ(ask().counts.pairs, 5);
+  MotionAnswer answer = ask();
+  EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
+  EXPECT_EQ(answer.body_a, a);
+  EXPECT_EQ(answer.body_b, near);
+  robot.allow(near, a);
+  robot.allow(a, near);
+  robot.allow(a, a);
+  robot.allow(near, far);
+  EXPECT_EQ(ask().counts.pairs, 4);
+  EXPECT_EQ(ask().verdict, MotionVerdict::kClear);
+  const Linkage copy = robot.linkage;
+  const int last = robot.addBody(-1, box, shifted(5.15));
+  answer = ask();
+  EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
+  EXPECT_EQ(answer.body_a, b);
+  EXPECT_EQ(answer.body_b, last);
+  EXPECT_EQ(checkMotion(copy, q0, q1).verdict, MotionVerdict::kClear);
+  robot.allow(b, a);
+  robot.allow(a, b);
+  EXPECT_EQ(ask().counts.pairs, 5);
+}
+
+}  // namespace
+}  // namespace kios::testing

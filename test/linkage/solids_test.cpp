@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Motions of and in marked solids: what lies in one is in contact, as fcl::collide says, though no
+// surfaces meet.
+
+#include "linkage/robot_cases.h"
+
+namespace kios::testing {
+namespace {
+
+Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Translation3d(x, y, z)); }
+
+Geometry meshBox(const Vector3d& size, bool solid) {
+  const Mesh mesh = scenes::subdividedBox(size, 2);
+  const auto model = makeModel(mesh.vertices, mesh.triangles);
+  if (solid) markSolid(*model);
+  return model;
+}
+
+/// A box with a cavity, or with another box in it, beside it or around it: two components.
+Geometry twoBoxes(const Vector3d& outer, const Vector3d& inner, const Vector3d& place,
+                  bool cavity) {
+  Mesh mesh = scenes::subdividedBox(outer, 1), second = scenes::subdividedBox(inner, 1);
+  const std::size_t first = mesh.vertices.size();
+  for (const Vector3d& p : second.vertices) mesh.vertices.push_back(p + place);
+  for (const fcl::Triangle& t : second.triangles) {
+    mesh.triangles.emplace_back(first + t[0], first + t[cavity ? 2 : 1], first + t[cavity ? 1 : 2]);
+  }
+  const auto model = makeModel(mesh.vertices, mesh.triangles);
+  markSolid(*model);
+  return model;
+}
+
+std::vector<Geometry> smallBodies(double size) {
+  return {meshBox({size, size, size}, true), std::make_shared<fcl::Sphered>(0.5 * size),
+          std::make_shared<fcl::Capsuled>(0.3 * size, 0.4 * size),
+          std::make_shared<fcl::Boxd>(size, size, size),
+          std::make_shared<fcl::Coned>(0.4 * size, size)};
+}
+
+RobotCase slider(const Geometry& body, const Geometry& obstacle, bool swapped) {
+  RobotCase robot;
+  Joint joint;
+  joint.type = JointType::kPrismatic;
+  joint.axis = Vector3d::UnitX();
+  robot.addLink(-1, joint);
+  if (swapped) robot.addBody(-1, obstacle);
+  robot.addBody(0, body);
+  if (!swapped) robot.addBody(-1, obstacle);
+  return robot;
+}
+
+void expectVerdicts(const RobotCase& robot, double from, double to, bool contact) {
+  for (const double separation : {0.0, 0.01}) {
+    for (const bool first : {false, true}) {
+      MotionRequest request;
+      request.first_contact = first;
+      request.min_separation = separation;
+      const Joints q0 = Joints::Constant(1, from), q1 = Joints::Constant(1, to);
+      const MotionAnswer answer = checkMotion(robot.linkage, q0, q1, request);
+      ASSERT_EQ(answer.verdict, contact ? MotionVerdict::kContact : MotionVerdict::kClear)
+          << first << " " << separation;
+      if (!contact) continue;
+      const Joints q = between(q0, q1, answer.to);
+      EXPECT_TRUE(robot.meet(0, robot.linkage.pose(0, q), 1, robot.linkage.pose(1, q), separation));
+      if (first) {
+        EXPECT_EQ(answer.to, 0);
+      }
+    }
+  }
+}
+
+TEST(MotionsOfSolids, WhatMovesWithinOneIsInContact) {
+  for (const Geometry& body : smallBodies(0.2)) {
+    for (const bool swapped : {false, true}) {
+      expectVerdicts(slider(body, meshBox({2, 2, 2}, true), swapped), -0.5, 0.5, true);
+      expectVerdicts(slider(body, meshBox({2, 2, 2}, true), swapped), 1.2, 3, false);
+      if (body->getObjectType() == fcl::OT_GEOM) continue;
+      expectVerdicts(slider(body, meshBox({2, 2, 2}, false), swapped), -0.5, 0.5, false);
+      // The solid moves, and what is in it stands still.
+      expectVerdicts(slider(meshBox({2, 2, 2}, true), body, swapped), -0.5, 0.5, true);
+    }
+  }
+  for (const Geometry& body : smallBodies(0.2)) {  // a mesh that isn't marked has no inside
+    expectVerdicts(slider(body, meshBox({2, 2, 2}, false), false), -0.5, 0.5, false);
+  }
+}
+
+TEST(MotionsOfSolids, ComponentsAndCavities) {
+  for (const Geometry& body : smallBodies(0.2)) {
+    const Geometry hollow = twoBoxes({4, 4, 4}, {2, 2, 2}, Vector3d::Zero(), true);
+    expectVerdicts(slider(body, hollow, false), -0.5, 0.5, false);
+    expectVerdicts(slider(body, hollow, false), 1.2, 1.7, true);
+    const Geometry two = twoBoxes({1, 1, 1}, {1, 1, 1}, {5, 0, 0}, false);
+    expectVerdicts(slider(body, two, false), -0.2, 0.2, true);
+    expectVerdicts(slider(body, two, true), 4.8, 5.2, true);
+    expectVerdicts(slider(body, two, false), 1, 4, false);
+  }
+  // One component of the body that moves is in the obstacle, the other far from it.
+  const Geometry dumbbell = twoBoxes({0.2, 0.2, 0.2}, {0.2, 0.2, 0.2}, {0, 0, 5}, false);
+  expectVerdicts(slider(dumbbell, meshBox({2, 2, 2}, true), false), -0.5, 0.5, true);
+}
+
+TEST(MotionsOfSolids, RandomPathsAgreeWithDenseSampling) {
+  Random random(5);
+  MotionTally tally;
+  for (int i = 0; i < 150; ++i) {
+    RobotCase robot;
+    for (int link = 0; link < 3; ++link) {
+      Joint joint;
+      joint.type = random.unit() < 0.5 ? JointType::kPrismatic : JointType::kRevolute;
+      joint.X_PJ = randomPose(random, 0.2);
+      joint.axis = inBall(random);
+      robot.addLink(link - 1, joint);
+      const auto bodies = smallBodies(0.1);
+      robot.addBody(link, bodies[static_cast<std::size_t>(random.uniform(0, 5))],
+                    randomPose(random, 0.1));
+      if (link > 0) robot.allow(link - 1, link);
+    }
+    robot.allow(0, 2);
+    robot.addBody(-1, meshBox({1, 1, 1}, random.unit() < 0.7), randomPose(random, 0.9));
+    robot.addBody(-1, twoBoxes({1.2, 1.2, 1.2}, {0.8, 0.8, 0.8}, Vector3d::Zero(), true),
+                  randomPose(random, 0.9));
+    Joints q0(3), step(3);
+    for (double& x : q0) x = random.uniform(-1, 1);
+    for (double& x : step) x = random.uniform(-0.2, 0.2);
+    SCOPED_TRACE(i);
+    expectRight(robot, q0, q0 + step, 60, tally, i % 3 == 0 ? 0.02 : 0.0);
+  }
+  tally.expectBothKinds();
+  EXPECT_EQ(tally.unresolved, 0);
+}
+
+TEST(MotionsOfSolids, ContinuousCollisionSeesThemToo) {
+  const Geometry solid = meshBox({2, 2, 2}, true), soup = meshBox({2, 2, 2}, false);
+  for (const Geometry& body : smallBodies(0.2)) {
+    for (const auto type : {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW, fcl::CCDM_SPLINE}) {
+      for (const bool swapped : {false, true}) {
+        fcl::ContinuousCollisionRequestd request;
+        request.ccd_motion_type = type;
+        const auto ask = [&](const Geometry& obstacle, const Transform3d& from,
+                             const Transform3d& to) {
+          fcl::ContinuousCollisionResultd result;
+          const Transform3d still = Transform3d::Identity();
+          const double time = swapped
+                                  ? fcl::continuousCollide(obstacle.get(), still, still, body.get(),
+                                                           from, to, request, result)
+                                  : fcl::continuousCollide(body.get(), from, to, obstacle.get(),
+                                                           still, still, request, result);
+          EXPECT_EQ(time, result.time_of_contact);
+          EXPECT_EQ(result.is_collide, time < 1);
+          return time;
+        };
+        EXPECT_EQ(ask(solid, at(-0.5, 0, 0), at(0.5, 0, 0)), 0);
+        EXPECT_EQ(ask(solid, at(0, 0, 0), at(0, 0, 0)), 0);
+        EXPECT_EQ(ask(solid, at(0, 0, 0), at(5, 0, 0)), 0);
+        EXPECT_EQ(ask(soup, at(-0.5, 0, 0), at(0.5, 0, 0)), 1);
+        EXPECT_EQ(ask(solid, at(1.5, 0, 0), at(5, 0, 0)), 1);
+        EXPECT_GT(ask(solid, at(5, 0, 0), at(0, 0, 0)), 0.5);
+      }
+    }
+  }
+}
+
+TEST(MotionsOfSolids, OneThatWasOpenedIsRefused) {
+  Mesh soup;
+  const Mesh mesh = scenes::subdividedBox({2, 2, 2}, 1);
+  for (const fcl::Triangle& t : mesh.triangles) {
+    const std::size_t first = soup.vertices.size();
+    for (int k = 0; k < 3; ++k) soup.vertices.push_back(mesh.vertices[t[k]]);
+    soup.triangles.emplace_back(first, first + 1, first + 2);
+  }
+  const auto model = makeModel(soup.vertices, soup.triangles);
+  markSolid(*model);
+  soup.vertices[0] *= 1.5;
+  model->beginReplaceModel();
+  model->replaceSubModel(soup.vertices);
+  model->endReplaceModel();
+  const RobotCase robot = slider(meshBox({0.2, 0.2, 0.2}, true), model, false);
+  EXPECT_THROW(checkMotion(robot.linkage, Joints::Zero(1), Joints::Ones(1)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace kios::testing

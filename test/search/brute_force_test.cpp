@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Searches of the prepared trees against the triangle kernels over all pairs of triangles, which
+// are judged in test/triangle.
+
+#include <gtest/gtest.h>
+
+#include "search/brute_force.h"
+
+namespace kios::testing {
+namespace {
+
+using engine::TrianglePairIds;
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
+bool same(const TrianglePairIds& x, const TrianglePairIds& y) { return x.a == y.a && x.b == y.b; }
+
+/// Counts of poses, by which a test knows that it saw both kinds.
+struct Seen {
+  int apart = 0, touching = 0;
+};
+
+template <typename S>
+class Searches {
+ public:
+  Searches(const Mesh& a, const Mesh& b) : posed_(a, b) {}
+
+  void check(const fcl::Transform3d& X_A, const fcl::Transform3d& X_B, Seen& seen) {
+    ASSERT_TRUE(posed_.pose(X_A.cast<S>(), X_B.cast<S>()));
+    const AllPairs<S> all = allPairs(posed_);
+    ++(all.hits.empty() ? seen.apart : seen.touching);
+    checkDistance(all);
+    checkBounds(all);
+    checkErrors(all);
+    checkContacts(all);
+  }
+
+ private:
+  static constexpr double kEps = std::numeric_limits<S>::epsilon();
+
+  /// The distance if that is less than at_most, else at_most and no ids.
+  S distance(S at_most, TrianglePairIds& ids, double rel_err = 0, double abs_err = 0) const {
+    engine::PairQuery query;
+    query.rel_err = rel_err;
+    query.abs_err = abs_err;
+    if (at_most < std::numeric_limits<S>::max()) query.far_enough = query.pruneAt(at_most);
+    SearchCounts counts;
+    const auto found = engine::nearestTriangles(posed_.pair(), query, counts);
+    const bool nearer = found.found() && found.nearest.distance < at_most;
+    ids = nearer ? found.ids : TrianglePairIds();
+    return nearer ? found.nearest.distance : at_most;
+  }
+
+  // The answer is the kernel's for the pair that it names, and no pair is nearer.
+  void checkDistance(const AllPairs<S>& all) const {
+    TrianglePairIds ids;
+    const S d = distance(std::numeric_limits<S>::max(), ids);
+    ASSERT_GE(ids.a, 0);
+    const auto p = posed_.a.corners(static_cast<std::size_t>(ids.a));
+    const auto q = posed_.cornersOfB(static_cast<std::size_t>(ids.b));
+    EXPECT_EQ(d, triangleDistance(p, q).distance);
+    EXPECT_EQ(d == 0, !all.hits.empty());
+    EXPECT_LE(double{d} - double{all.distance}, 16 * kEps * std::max(all.extent, extentOf(p, q)));
+  }
+
+  // A bound on entry is kept if nothing is nearer, and beaten if something is.
+  void checkBounds(const AllPairs<S>& all) const {
+    const double slack = 32 * kEps * all.extent;
+    for (const double factor : {0.5, 1 - 1e-3, 1.0, 1 + 1e-3, 2.0, 1e3}) {
+      const S at_most = static_cast<S>(factor * double{all.distance});
+      if (!(at_most > 0)) continue;
+      TrianglePairIds ids;
+      const S d = distance(at_most, ids);
+      EXPECT_LE(d, at_most);
+      EXPECT_EQ(ids.a < 0, d == at_most);
+      if (double{all.distance} < double{at_most} - slack) {
+        EXPECT_NEAR(d, all.distance, slack);
+      } else if (double{all.distance} > double{at_most} + slack) {
+        EXPECT_LT(ids.a, 0);
+      }
+    }
+  }
+
+  void checkErrors(const AllPairs<S>& all) const {
+    const double slack = 32 * kEps * all.extent;
+    for (const double rel_err : {0.0, 1e-6, 0.01, 0.3, 10.0}) {
+      for (const double abs_err : {0.0, 1e-3 * all.extent, 0.5 * double{all.distance}}) {
+        TrianglePairIds ids;
+        const S d = distance(std::numeric_limits<S>::max(), ids, rel_err, abs_err);
+        const double error = double{d} - double{all.distance};
+        EXPECT_GE(error, -slack);
+        EXPECT_LE(error,
+                  std::max(rel_err * double{all.distance}, abs_err) * (1 + 4 * kEps) + slack);
+        ASSERT_GE(ids.a, 0);
+        EXPECT_EQ(d, triangleDistance(posed_.a.corners(static_cast<std::size_t>(ids.a)),
+                                      posed_.cornersOfB(static_cast<std::size_t>(ids.b)))
+                         .distance);
+      }
+    }
+  }
+
+  void checkContacts(const AllPairs<S>& all) const {
+    SearchCounts counts;
+    const auto found = engine::intersectingTriangles(posed_.pair(), kAll, counts);
+    EXPECT_TRUE(std::equal(found.begin(), found.end(), all.hits.begin(), all.hits.end(), same));
+    for (const std::size_t limit : {std::size_t{1}, std::size_t{2}, std::size_t{5}}) {
+      const auto some = engine::intersectingTriangles(posed_.pair(), limit, counts);
+      EXPECT_EQ(some.size(), std::min(limit, all.hits.size()));
+      EXPECT_TRUE(std::is_sorted(some.begin(), some.end()));
+      for (std::size_t i = 0; i < some.size(); ++i) {
+        EXPECT_TRUE(std::binary_search(all.hits.begin(), all.hits.end(), some[i]));
+        EXPECT_FALSE(i > 0 && same(some[i], some[i - 1]));
+      }
+    }
+  }
+
+  PosedPair<S> posed_;
+};
+
+template <typename S>
+Seen checkPoses(const Mesh& a, const Mesh& b, double spread, int poses, double scale = 1,
+                std::uint64_t seed = 41) {
+  Searches<S> searches(transformed(a, scale, fcl::Vector3d::Zero()),
+                       transformed(b, scale, fcl::Vector3d::Zero()));
+  Seen seen;
+  auto drawn = scenes::randomPoses(2 * poses, spread, seed);
+  for (fcl::Transform3d& X : drawn) X.translation() *= scale;
+  for (int i = 0; i < poses; ++i) searches.check(drawn[2 * i], drawn[2 * i + 1], seen);
+  return seen;
+}
+
+template <typename S>
+class BruteForce : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(BruteForce, Scalars);
+
+TYPED_TEST(BruteForce, EveryKindOfMesh) {
+  const Mesh other = scenes::bumpyTorus(100);
+  Seen seen;
+  for (const NamedMesh& named : unitMeshes()) {
+    SCOPED_TRACE(named.name);
+    for (const bool swapped : {false, true}) {
+      const Seen some = swapped ? checkPoses<TypeParam>(other, named.mesh, 1.2, 3)
+                                : checkPoses<TypeParam>(named.mesh, other, 1.2, 3);
+      seen.apart += some.apart;
+      seen.touching += some.touching;
+    }
+  }
+  EXPECT_GT(seen.apart, 30);
+  EXPECT_GT(seen.touching, 30);
+}
+
+TYPED_TEST(BruteForce, AnyScale) {
+  for (const double scale : {1e-9, 1e-3, 1e4, 1e9}) {
+    const Seen seen =
+        checkPoses<TypeParam>(scenes::bumpyTorus(100), scenes::icosphere(0.6, 1), 1.2, 10, scale);
+    EXPECT_GT(seen.apart, 2);
+    EXPECT_GT(seen.touching, 2);
+  }
+}
+
+TYPED_TEST(BruteForce, MixedScales) {
+  const Mesh large = scenes::subdividedBox({2, 2, 2}, 3);
+  for (const double scale : {0.1, 1e-2, 1e-3}) {
+    checkPoses<TypeParam>(large, transformed(scenes::icosphere(1, 1), scale, {0, 0, 1}), 0.3, 6);
+    checkPoses<TypeParam>(transformed(scenes::bumpyTorus(100), scale, {0, 0, 1}), large, 0.3, 6);
+  }
+}
+
+// Nearly every pair of leaves is as near as any: the frontier and its waiting room overflow.
+TYPED_TEST(BruteForce, NestedSpheresOfEqualClearance) {
+  Searches<TypeParam> searches(scenes::icosphere(1, 3), scenes::icosphere(1.02, 3));
+  Seen seen;
+  for (const fcl::Transform3d& X : scenes::randomPoses(2, 1e-3, 7)) {
+    searches.check(fcl::Transform3d::Identity(), X, seen);
+  }
+  EXPECT_EQ(seen.apart + seen.touching, 2);
+}
+
+// Coplanar sheets that overlap, in a pose that rounds nothing and in poses that do.
+TYPED_TEST(BruteForce, CoplanarSheets) {
+  const Mesh a = lattice(7, 1), b = transformed(lattice(5, 1), 1, {0.5, 0.25, 0});
+  Searches<TypeParam> searches(a, b);
+  Seen seen;
+  for (const double dx : {0.0, 0.5, 4.0, 6.5, 6.75, -5.5, -6.0}) {
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    X.translation() = fcl::Vector3d(dx, 0.125, 0);
+    searches.check(fcl::Transform3d::Identity(), X, seen);
+  }
+  EXPECT_GE(seen.touching, 5);
+  EXPECT_GE(seen.apart, 2);
+  for (const fcl::Transform3d& X : scenes::randomPoses(8, 2, 43)) {
+    const fcl::Transform3d X_B = X * Eigen::Translation3d(1.25, 0.5, 0);
+    searches.check(X, X_B, seen);
+  }
+}
+
+// Coplanar triangles of which none has a corner in the other.
+TYPED_TEST(BruteForce, CoplanarStars) {
+  Random random(14);
+  Seen seen;
+  const auto poses = scenes::randomPoses(60, 2, 51);
+  for (int i = 0; i < 60; ++i) {
+    std::vector<fcl::Vector3d> p;
+    for (int k = 0; k < 6; ++k) {
+      const double angle = M_PI / 3 * (k + random.uniform(-0.2, 0.2)), r = random.uniform(0.9, 1.1);
+      p.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
+    }
+    Searches<TypeParam> searches(scenes::singleTriangle(p[0], p[2], p[4]),
+                                 scenes::singleTriangle(p[1], p[3], p[5]));
+    searches.check(fcl::Transform3d::Identity(), fcl::Transform3d::Identity(), seen);
+    searches.check(poses[i], poses[i], seen);
+  }
+  EXPECT_GE(seen.touching, 60);
+}
+
+// Spikes that stand on a sheet by their tips, all but touching or touching as rounding has it: a
+// tip that looks like touching must not hide one that does.
+TYPED_TEST(BruteForce, SpikesOnASheet) {
+  Random random(15);
+  Seen seen;
+  for (const fcl::Transform3d& X : scenes::randomPoses(60, 2, 52)) {
+    std::vector<Mesh> spikes;
+    for (int i = 0; i < 12; ++i) {
+      const double x = random.uniform(-0.9, 0.9), y = random.uniform(-0.9, 0.9);
+      const fcl::Vector3d tip(x, y, 0);
+      spikes.push_back(scenes::singleTriangle(tip, tip + fcl::Vector3d(0.05, 0.02, 0.3),
+                                              tip + fcl::Vector3d(-0.03, 0.04, 0.3)));
+    }
+    Searches<TypeParam> searches(scenes::sheet(2, 2, 5, 5, 0), scenes::merged(spikes));
+    searches.check(X, X * Eigen::Translation3d(0, 0, random.uniform(0, 3e-17)), seen);
+  }
+  EXPECT_GT(seen.touching, 20);
+}
+
+// Sheets that cross at angles down to none.
+TYPED_TEST(BruteForce, GrazingSheets) {
+  const Mesh a = scenes::sheet(2, 2, 6, 6, 0), b = scenes::sheet(1.5, 1.7, 5, 5, 0);
+  Searches<TypeParam> searches(a, b);
+  Seen seen;
+  const auto poses = scenes::randomPoses(10, 1, 47);
+  for (int i = 0; i < 10; ++i) {
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    X.linear() =
+        Eigen::AngleAxisd(std::pow(10, -i), fcl::Vector3d(1, 0.3, 0).normalized()).matrix();
+    X.translation() = fcl::Vector3d(0.1, 0.2, 0.3 * std::pow(10, -i));
+    searches.check(fcl::Transform3d::Identity(), X, seen);
+    searches.check(poses[i], poses[i] * X, seen);
+  }
+  EXPECT_GE(seen.touching, 10);
+}
+
+// Boxes that touch in a vertex, an edge or a face, at poses that round: by chance a gap of a few
+// eps is left, or none.
+TYPED_TEST(BruteForce, TouchingBoxes) {
+  Random random(12);
+  Searches<TypeParam> searches(scenes::subdividedBox({1, 1, 1}, 1),
+                               scenes::subdividedBox({1, 1, 1}, 2));
+  Seen seen;
+  for (const fcl::Transform3d& X : scenes::randomPoses(40, 1, 49)) {
+    for (const int shared : {0, 1, 2, 3}) {  // axes along which the boxes overlap
+      fcl::Vector3d offset(1, 1, 1);
+      for (int c = 0; c < shared; ++c) offset[c] = random.uniform(-0.9, 0.9);
+      searches.check(X, X * Eigen::Translation3d(offset), seen);
+    }
+  }
+  EXPECT_GT(seen.apart, 20);
+  EXPECT_GT(seen.touching, 20);
+}
+
+// Points and segments in the plane of a sheet and above it.
+TYPED_TEST(BruteForce, DegenerateTrianglesOnASheet) {
+  Random random(10);
+  const auto grid = [&random](double step) { return step * std::floor(random.uniform(-8, 9)); };
+  Seen seen;
+  for (int i = 0; i < 30; ++i) {
+    std::vector<Mesh> parts;
+    for (int part = 0; part < 12; ++part) {
+      const fcl::Vector3d p(grid(0.5), grid(0.5), i % 3 == 0 ? 0.25 : std::abs(grid(0.125)));
+      const fcl::Vector3d q = p + fcl::Vector3d(grid(0.25), grid(0.25), i % 2 == 0 ? 0 : 1);
+      parts.push_back(part % 2 == 0 ? scenes::singleTriangle(p, p, p)
+                                    : scenes::singleTriangle(p, q, 0.5 * (p + q)));
+    }
+    const Mesh degenerate = scenes::merged(parts);
+    Searches<TypeParam> searches(lattice(6, 1), degenerate), among(degenerate, degenerate);
+    for (const double z : {0.0, -0.25}) {
+      fcl::Transform3d X = fcl::Transform3d::Identity();
+      X.translation() = fcl::Vector3d(3, 3, z);
+      searches.check(fcl::Transform3d::Identity(), X, seen);
+      among.check(fcl::Transform3d::Identity(), X, seen);
+    }
+  }
+  EXPECT_GT(seen.apart, 20);
+  EXPECT_GT(seen.touching, 20);
+}
+
+// The least ids, first of A, then of B, win among pairs that are exactly equally near.
+TYPED_TEST(BruteForce, TiesGoToTheLeastIds) {
+  Random random(9);
+  for (const int shape : {0, 1, 2}) {
+    Mesh a = shape == 1 ? scenes::subdividedBox({4, 4, 4}, 4) : lattice(6, 1);
+    Mesh b = shape == 0 ? lattice(5, 1) : scenes::subdividedBox({2, 2, 2}, 2);
+    for (Mesh* mesh : {&a, &b}) {  // ids that say nothing about places
+      for (std::size_t i = mesh->triangles.size(); i > 1; --i) {
+        std::swap(mesh->triangles[i - 1],
+                  mesh->triangles[static_cast<std::size_t>(random.unit() * double(i))]);
+      }
+    }
+    for (const bool as_soups : {false, true}) {
+      PosedPair<TypeParam> posed(as_soups ? scenes::soup(a) : a, as_soups ? scenes::soup(b) : b);
+      for (int i = 0; i < 40; ++i) {
+        fcl::Transform3<TypeParam> X = fcl::Transform3<TypeParam>::Identity();
+        for (int c = 0; c < 3; ++c) {
+          X.translation()[c] = static_cast<TypeParam>(std::floor(random.uniform(-8, 9)));
+        }
+        ASSERT_TRUE(posed.pose(fcl::Transform3<TypeParam>::Identity(), X));
+        const auto all = allPairs(posed);
+        SearchCounts counts;
+        const auto found = engine::nearestTriangles(posed.pair(), {}, counts);
+        EXPECT_EQ(found.nearest.distance, all.distance);
+        if (all.distance == 0) continue;
+        EXPECT_EQ(found.ids.a, all.nearest.a);
+        EXPECT_EQ(found.ids.b, all.nearest.b);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "build/mesh.h"
+#include "fcl_kios/volume/separation.h"
+#include "search/mesh_search.h"
+#include "shapes.h"
+#include "tree/prepare.h"
+#include "tree/refit.h"
+
+// Shapes with their trees, and pairs of them, that the tests of the engine share.
+
+namespace kios::testing {
+
+template <typename S>
+engine::MeshView<S> viewOf(const Shape<S>& shape) {
+  return {shape.vertices.data(), shape.vertices.size(), shape.triangles.data(),
+          shape.triangles.size()};
+}
+
+/// The tree as prepared, or as refitted from where the mesh was before; nullptr if it can't be.
+template <typename S>
+std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* before) {
+  if (!before) return engine::prepare(viewOf(shape));
+  auto tree = engine::prepare(viewOf(*before));
+  return engine::refit(viewOf(shape), *tree) ? std::move(tree) : nullptr;
+}
+
+/// Two shapes with their trees, at a pose.
+template <typename S>
+class PosedPair {
+ public:
+  explicit PosedPair(const Mesh& a, const Mesh& b, bool refitted = false)
+      : a(a), b(b), tree_a(made(this->a, a, refitted)), tree_b(made(this->b, b, refitted)) {}
+
+  /// False if floats can't serve the pair there.
+  bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
+    X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
+    return engine::makeFramePair(*tree_a, *tree_b, *X_AB, frames_);
+  }
+  engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
+    return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, frames_, audit};
+  }
+  TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
+    const TriangleVertices<S> q = b.corners(t);
+    return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};
+  }
+
+  const Shape<S> a, b;
+  const std::unique_ptr<engine::Tree> tree_a, tree_b;
+  std::unique_ptr<RelativePose<S>> X_AB;
+
+ private:
+  static std::unique_ptr<engine::Tree> made(const Shape<S>& shape, const Mesh& mesh,
+                                            bool refitted) {
+    const Shape<S> before(swayed(mesh));
+    auto tree = treeOf(shape, refitted ? &before : nullptr);
+    return tree ? std::move(tree) : engine::prepare(viewOf(shape));
+  }
+  engine::FramePair frames_;
+};
+
+}  // namespace kios::testing

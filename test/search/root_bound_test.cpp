@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The bound of two models by the boxes of their roots is at most their distance, measured over all
+// pairs of triangles: boxes whose faces, edges and corners meet or all but meet, far from their
+// origins for their size too; and it tells boxes that are apart.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "search/brute_force.h"
+#include "search/root_bound.h"
+
+namespace kios::testing {
+namespace {
+
+struct Outcome {
+  long wrong = 0, without_pad = 0, apart = 0, told = 0;
+};
+
+/// Both meshes at poses where they are `gap` apart, or nearly so.
+template <typename S>
+void tryPoses(const Mesh& a, const Mesh& b, double size, double offset, bool parallel,
+              std::uint64_t seed, Outcome& sum) {
+  Random random(seed);
+  const fcl::Vector3d away = offset * size * inCube(random);
+  PosedPair<S> posed(transformed(a, size, away), transformed(b, size, away));
+  for (const double gap : {0.0, 1e-7, 1e-4, 1e-2, 0.3}) {
+    fcl::Transform3d X_AB = fcl::Transform3d::Identity();
+    if (!parallel) {
+      X_AB.linear() =
+          Eigen::AngleAxisd(random.uniform(0, 6), inCube(random).normalized()).toRotationMatrix();
+    }
+    X_AB.translation() = away - X_AB.linear() * away + size * (2 * inCube(random));
+    for (int step = 0; step < 3; ++step) {  // towards the gap
+      if (!posed.pose(fcl::Transform3<S>::Identity(), X_AB.cast<S>())) return;
+      const AllPairs<S> all = allPairs(posed);
+      engine::TreePose pose;
+      ASSERT_TRUE(makeTreePose(*posed.tree_a, *posed.tree_b, *posed.X_AB, pose));
+      const double bound = rootBound(*posed.tree_a, *posed.tree_b, pose);
+      sum.wrong += bound > double{all.distance};
+      sum.apart += double{all.distance} > 0.2 * size;
+      sum.told += double{all.distance} > 0.2 * size && bound > 0.1 * size;
+      pose.pad = pose.box_pad = 0;
+      const double without_pad = rootBound(*posed.tree_a, *posed.tree_b, pose);
+      sum.without_pad += without_pad > double{all.distance};
+      if (!(all.distance > 0)) break;
+      const auto nearest =
+          triangleDistance(posed.a.corners(static_cast<std::size_t>(all.nearest.a)),
+                           posed.cornersOfB(static_cast<std::size_t>(all.nearest.b)));
+      const fcl::Vector3d way = (nearest.point_a - nearest.point_b).template cast<double>();
+      X_AB.translation() += (1 - gap * size / double{all.distance}) * way;
+    }
+  }
+}
+
+template <typename S>
+Outcome tryMeshes() {
+  const Mesh slab = scenes::subdividedBox({2, 1, 0.02}, 2),
+             block = scenes::subdividedBox({1, 1, 1}, 1);
+  const Mesh sheet = scenes::sheet(1.5, 1, 3, 3, 0), round = scenes::icosphere(0.5, 1);
+  const Mesh plank =
+      scenes::moved(fcl::Transform3d(Eigen::AngleAxisd(0.7, fcl::Vector3d(1, 2, 3).normalized())),
+                    scenes::subdividedBox({1.5, 0.1, 0.05}, 2));
+  Outcome sum;
+  std::uint64_t seed = 1;
+  for (const double size : {1.0, 1e-6, 1e6}) {
+    for (const double offset : {0.0, 1.0, 100.0}) {
+      for (const bool parallel : {true, false}) {
+        for (int i = 0; i < 3; ++i) {
+          tryPoses<S>(slab, block, size, offset, parallel, ++seed, sum);
+          tryPoses<S>(sheet, slab, size, offset, parallel, ++seed, sum);
+          tryPoses<S>(plank, slab, size, offset, parallel, ++seed, sum);
+          tryPoses<S>(round, slab, size, offset, parallel, ++seed, sum);
+          tryPoses<S>(slab, round, size, offset, parallel, ++seed, sum);
+        }
+      }
+    }
+  }
+  return sum;
+}
+
+template <typename S>
+class RootBound : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
+TYPED_TEST_SUITE(RootBound, Scalars);
+
+TYPED_TEST(RootBound, IsAtMostTheDistance) {
+  const Outcome sum = tryMeshes<TypeParam>();
+  EXPECT_EQ(sum.wrong, 0);
+  if (sizeof(TypeParam) == sizeof(float)) {  // it is the pad that makes it right
+    EXPECT_GT(sum.without_pad, 50);          // (double: for what the stored floats might lose)
+  }
+  ASSERT_GT(sum.apart, 100);
+  EXPECT_GT(sum.told, 0.8 * static_cast<double>(sum.apart));  // a ball fills its box badly
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+// Prints every bit of the answers of queries, and the work they took: a line a query. Whatever the
+// machine, and whatever instruction set the environment variable FCL_KIOS_SIMD chooses, the output
+// must be the same: same_targets.sh compares. The name of the target goes to the standard error
+// stream.
+
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "fcl_kios/fcl_kios.h"
+#include "fcl_kios/query/shape_queries.h"
+#include "fcl_kios/volume/rigid.h"
+#include "search/prepared_pair.h"
+
+namespace kios::testing {
+namespace {
+
+void print(const SearchCounts& c) {
+  std::printf(" %lld %lld %lld %lld %lld %lld", c.expansions, c.volume_tests, c.leaf_pairs,
+              c.leaf_kernels, c.exact, c.tree_searches);
+}
+
+template <typename S>
+void print(const fcl::Vector3<S>& p) {
+  for (int i = 0; i < 3; ++i) std::printf(" %a", double{p[i]});
+}
+
+template <typename S>
+void ask(const Model<S>& a, const fcl::Transform3<S>& X_A, const Model<S>& b,
+         const fcl::Transform3<S>& X_B) {
+  prepare(a);
+  prepare(b);
+  for (const S rel_err : {S(0), S(0.1)}) {
+    fcl::DistanceResult<S> result;
+    SearchCounts counts;
+    const fcl::DistanceRequest<S> request(true, false, rel_err);
+    const S d = distanceMeshes(a, X_A, b, X_B, request, result, &counts);
+    std::printf("%a %" PRIdPTR " %" PRIdPTR, double{d}, result.b1, result.b2);
+    print<S>(result.nearest_points[0]);
+    print<S>(result.nearest_points[1]);
+    print(counts);
+    std::printf("\n");
+  }
+  for (const std::size_t most : {1, 4, 100000}) {
+    fcl::CollisionResult<S> result;
+    SearchCounts counts;
+    collideMeshes(a, X_A, b, X_B, fcl::CollisionRequest<S>(most, true), result, &counts);
+    std::printf("%zu", result.numContacts());
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      const fcl::Contact<S>& contact = result.getContact(i);
+      std::printf(" %" PRIdPTR " %" PRIdPTR, contact.b1, contact.b2);
+    }
+    print(counts);
+    std::printf("\ndepths");  // FCL's own, which its build for a machine decides
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      std::printf(" %a", double{result.getContact(i).penetration_depth});
+    }
+    std::printf("\n");
+  }
+}
+
+/// Rays at vertices, along edges and anywhere, from around a mesh.
+template <typename S>
+void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed) {
+  Random random(seed);
+  for (int i = 0; i < 24; ++i) {
+    const auto t = static_cast<int>(random.unit() * model.num_tris);
+    const fcl::Triangle& ids = model.tri_indices[t];
+    Ray<S> ray;
+    for (S& c : ray.origin) c = static_cast<S>(random.uniform(-3, 3));
+    ray.direction = detail::transform<S>(X, model.vertices[ids[0]]) - ray.origin;
+    if (i % 3 == 1) {
+      ray.direction =
+          detail::rotate<S>(X.linear(), model.vertices[ids[1]] - model.vertices[ids[0]]);
+    }
+    if (ray.direction.isZero(0)) ray.direction = -ray.origin;
+    for (const std::size_t most : {1, 100000}) {
+      SearchCounts counts;
+      for (const RayHit<S>& hit : allHits(model, X, ray, most, &counts)) {
+        std::printf("%d %a", hit.triangle, double{hit.t});
+        print<S>(hit.point);
+        print<S>(hit.weights);
+      }
+      print(counts);
+      std::printf("\n");
+    }
+  }
+}
+
+/// FCL's shapes, of sizes about those of the mesh, and a floor.
+template <typename S>
+std::vector<std::shared_ptr<fcl::CollisionGeometry<S>>> shapes() {
+  const auto points = std::make_shared<std::vector<fcl::Vector3<S>>>();
+  const auto faces = std::make_shared<std::vector<int>>();
+  for (const fcl::Vector3d& p : rounded(scenes::icosphere(0.6, 0), 0x1p-20).vertices) {
+    points->push_back(p.template cast<S>());
+  }
+  for (const fcl::Triangle& t : scenes::icosphere(0.6, 0).triangles) {
+    faces->push_back(3);
+    for (int c = 0; c < 3; ++c) faces->push_back(static_cast<int>(t[c]));
+  }
+  const fcl::Vector3<S> n(S(0.6), 0, S(0.8));
+  return {std::make_shared<fcl::Box<S>>(S(0.5), S(0.75), S(0.25)),
+          std::make_shared<fcl::Box<S>>(S(100), S(100), S(0.5)),
+          std::make_shared<fcl::Sphere<S>>(S(0.5)),
+          std::make_shared<fcl::Ellipsoid<S>>(S(0.5), S(0.25), S(0.75)),
+          std::make_shared<fcl::Capsule<S>>(S(0.25), S(0.5)),
+          std::make_shared<fcl::Cone<S>>(S(0.5), S(0.75)),
+          std::make_shared<fcl::Cylinder<S>>(S(0.5), S(0.25)),
+          std::make_shared<fcl::Convex<S>>(points, static_cast<int>(faces->size() / 4), faces),
+          std::make_shared<fcl::Halfspace<S>>(n, S(-0.5)),
+          std::make_shared<fcl::Plane<S>>(n, S(0.5))};
+}
+
+template <typename S>
+void askShapes(const Model<S>& model, const fcl::Transform3<S>& X_M,
+               const fcl::Transform3<S>& X_S) {
+  prepare(model);
+  for (const auto& shape : shapes<S>()) {
+    for (const S rel_err : {S(0), S(0.1)}) {
+      fcl::DistanceResult<S> result;
+      SearchCounts counts;
+      const fcl::DistanceRequest<S> request(true, false, rel_err);
+      const S d = distanceShape(model, X_M, *shape, X_S, request, result, &counts);
+      std::printf("%a %" PRIdPTR, double{d}, result.b1);
+      print<S>(result.nearest_points[0]);
+      print<S>(result.nearest_points[1]);
+      print(counts);
+      std::printf("\n");
+    }
+    for (const std::size_t most : {1, 4, 100000}) {
+      fcl::CollisionResult<S> result;
+      SearchCounts counts;
+      collideShape(model, X_M, *shape, X_S, fcl::CollisionRequest<S>(most, true), result, &counts);
+      std::printf("%zu", result.numContacts());
+      for (std::size_t i = 0; i < result.numContacts(); ++i) {
+        const fcl::Contact<S>& contact = result.getContact(i);
+        std::printf(" %" PRIdPTR, contact.b1);
+        print<S>(contact.pos);
+      }
+      print(counts);
+      std::printf("\n");
+    }
+  }
+}
+
+template <typename S>
+void askAll() {
+  constexpr double kGrid = 0x1p-30;
+  const auto b = scenes::buildModel<kIOS<S>>(rounded(scenes::bumpyTorus(400), kGrid));
+  for (const NamedMesh& named : unitMeshes()) {
+    const auto a = scenes::buildModel<kIOS<S>>(rounded(named.mesh, kGrid));
+    std::printf("%s\n", named.name.c_str());
+    Random random(5);
+    for (std::uint64_t i = 0; i < 6; ++i) {
+      const auto X1 = wholePose(random, 1.5).template cast<S>();
+      const auto X2 = wholePose(random, 1.5).template cast<S>();
+      ask<S>(*a, X1, *b, X2);
+      ask<S>(*b, X1, *a, X2);
+      cast<S>(*a, X1, i);
+      if (i < 3) askShapes<S>(*a, X1, X2);
+    }
+  }
+  // Ties, at a pose that rounds nothing.
+  const auto sheet = scenes::buildModel<kIOS<S>>(lattice(12, 1));
+  for (int i = 0; i < 6; ++i) {
+    fcl::Transform3<S> X = fcl::Transform3<S>::Identity();
+    X.translation() = fcl::Vector3<S>(S(3 * i), S(0.5), S(i / 2));
+    ask<S>(*sheet, fcl::Transform3<S>::Identity(), *sheet, X);
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
+
+int main() {
+  try {
+    std::fprintf(stderr, "%s\n", kios::simdTarget());
+    kios::testing::askAll<double>();
+    kios::testing::askAll<float>();
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}

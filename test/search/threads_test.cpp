@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Prepared trees are made once, shared without locks, and never changed while they are in use.
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "fcl/mesh_cases.h"
+#include "scenes/random.h"
+#include "together.h"
+#include "tree/tree_cache.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr int kThreads = 8;
+
+struct Answer {
+  double distance = -1;
+  std::intptr_t a = -1, b = -1;
+  Pairs contacts;
+  long long expansions = 0, exact = 0, tree_searches = 0;
+  /// At distance 0 any pair that intersects may be named.
+  bool same(const Answer& o) const {
+    return distance == o.distance && (distance == 0 || (a == o.a && b == o.b)) &&
+           contacts == o.contacts;
+  }
+  /// With the same pair at distance 0.
+  bool equals(const Answer& o) const { return same(o) && a == o.a && b == o.b; }
+  /// And for the same work, which models take that are prepared.
+  bool operator==(const Answer& o) const {
+    return equals(o) && expansions == o.expansions && exact == o.exact &&
+           tree_searches == o.tree_searches;
+  }
+};
+
+Answer ask(const Modeld& a, const Modeld& b, const Frame& frame) {
+  fcl::DistanceResultd distance;
+  fcl::CollisionResultd contacts;
+  SearchCounts counts;
+  Answer answer;
+  answer.distance =
+      distanceMeshes(a, frame.X_WA, b, frame.X_WB, fcl::DistanceRequestd(), distance, &counts);
+  collideMeshes(a, frame.X_WA, b, frame.X_WB, fcl::CollisionRequestd(kAllContacts), contacts,
+                &counts);
+  answer.a = distance.b1;
+  answer.b = distance.b2;
+  answer.contacts = contactPairs(contacts);
+  answer.expansions = counts.expansions;
+  answer.exact = counts.exact;
+  answer.tree_searches = counts.tree_searches;
+  return answer;
+}
+
+std::vector<Vector3d> shifted(const Mesh& mesh, double by) {
+  std::vector<Vector3d> vertices = mesh.vertices;
+  for (Vector3d& p : vertices) p += Vector3d(by, 0.5 * by, 0);
+  return vertices;
+}
+
+class EngineThreads : public ::testing::Test {
+ protected:
+  std::vector<Answer> answers(const Modeld& a, const Modeld& b) const {
+    prepare(a);
+    prepare(b);
+    std::vector<Answer> result;
+    for (const Frame& frame : frames_) result.push_back(ask(a, b, frame));
+    return result;
+  }
+
+  const Mesh mesh_ = scenes::bumpyTorus(600), other_mesh_ = scenes::icosphere(0.5, 2);
+  const std::vector<Frame> frames_ = randomFrames(10, 1.3, 91);
+};
+
+TEST_F(EngineThreads, AllAskFirst) {
+  const std::vector<Answer> expected = answers(*kiosModel(mesh_), *kiosModel(other_mesh_));
+  for (int round = 0; round < 20; ++round) {
+    const auto a = kiosModel(mesh_), b = kiosModel(other_mesh_);
+    const Modeld copy(*a);
+    prepare(copy);
+    const std::size_t one = preparedBytes(*a);
+    std::atomic<int> wrong{0};
+    together(kThreads, [&](int t) {
+      const std::size_t at = static_cast<std::size_t>(t + round) % frames_.size();
+      wrong += !ask(*a, *b, frames_[at]).equals(expected[at]);
+    });
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(preparedBytes(*a), one);  // the model and its copy share it
+  }
+}
+
+TEST_F(EngineThreads, SharedModelsAnswerAsInOneThread) {
+  const auto a = kiosModel(mesh_), b = kiosModel(other_mesh_);
+  const std::vector<Answer> expected = answers(*a, *b);
+  std::atomic<int> wrong{0};
+  together(kThreads, [&](int t) {
+    for (std::size_t i = 0; i < 3 * frames_.size(); ++i) {
+      const std::size_t at = (i + static_cast<std::size_t>(t)) % frames_.size();
+      wrong += !(ask(*a, *b, frames_[at]) == expected[at]);
+    }
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+// Copies share the place where trees are kept: more copies than places, refitted and asked at once.
+TEST_F(EngineThreads, RefittedCopiesAndQueriesDoNotMeet) {
+  const auto original = kiosModel(mesh_), other = kiosModel(other_mesh_);
+  constexpr int kStates = 4;
+  std::vector<std::vector<Answer>> expected;
+  for (int state = 0; state < kStates; ++state) {
+    expected.push_back(answers(*kiosModel({shifted(mesh_, 0.1 * state), mesh_.triangles}), *other));
+  }
+  std::atomic<int> wrong{0};
+  together(12, [&](int t) {
+    Modeld own(*original);
+    for (int i = 0; i < 12; ++i) {
+      const std::size_t at = static_cast<std::size_t>(i + t) % frames_.size();
+      if (t % 3 == 0) {
+        const int state = (i + t) % kStates;
+        own.beginReplaceModel();
+        own.replaceSubModel(shifted(mesh_, 0.1 * state));
+        own.endReplaceModel(true, i % 2 == 0);
+        const Answer answer = ask(own, *other, frames_[at]);
+        wrong += !answer.same(expected[static_cast<std::size_t>(state)][at]);
+        if (i % 4 == 3) invalidate(own);
+      } else if (t % 3 == 1) {
+        wrong += !ask(own, *other, frames_[at]).equals(expected[0][at]);
+      } else {
+        wrong += !ask(*original, *other, frames_[at]).equals(expected[0][at]);
+        prepare(*original);
+        wrong += preparedBytes(*original) == 0;
+      }
+    }
+  });
+  EXPECT_EQ(wrong, 0);
+}
+
+/// A tree that says what it was made from, of a content that no other has.
+engine::SharedTree marked(std::uint64_t stamp) {
+  static std::atomic<std::uint64_t> contents{0};
+  return engine::SharedTree({++contents, 0}, [&] {
+    auto tree = std::make_unique<engine::Tree>();
+    tree->origin[0] = static_cast<double>(stamp);
+    tree->nodes.resize(100);
+    return tree;
+  });
+}
+
+// The cache alone, with more keys than places: it finds the tree of the key, and the tree stays.
+TEST(TreeCacheThreads, FindsWhatWasAskedFor) {
+  engine::TreeCache cache;
+  std::atomic<int> made{0}, wrong{0};
+  const double data[40] = {};
+  together(kThreads, [&](int t) {
+    scenes::Random random(static_cast<std::uint64_t>(t));
+    for (int i = 0; i < 3000; ++i) {
+      const auto which = static_cast<std::size_t>(random.unit() * (i < 1500 ? 6 : 40));
+      const engine::TreeKey key = {which + 1, data + which, data, 3, 1};
+      const auto use = cache.findOrMake(key, [&](const engine::SharedTree& /*old*/) {
+        ++made;
+        return marked(which + 1);
+      });
+      if (i % 7 == 0) cache.drop(data + (which + 1) % 6);
+      if (i % 11 == 0) std::this_thread::yield();
+      wrong += !use || use->origin[0] != static_cast<double>(which + 1) || use->nodes.size() != 100;
+      const auto held = cache.find({which + 1, data + which, data, 3, 1});
+      wrong += held && held->origin[0] != static_cast<double>(which + 1);
+      wrong += static_cast<bool>(cache.find({which + 1, data + which, data, 4, 1}));
+    }
+  });
+  EXPECT_EQ(wrong, 0);
+  EXPECT_GE(made, 40);
+  EXPECT_LE(cache.bytes(), 8 * marked(1).get()->bytes());
+}
+
+// Every place in use by others: the tree is made for its asker alone.
+TEST(TreeCacheThreads, TreesInUseAreNotReplaced) {
+  engine::TreeCache cache;
+  const double data[20] = {};
+  std::vector<engine::TreeCache::Use> uses;
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    uses.push_back(cache.findOrMake({i + 1, data + i, data, 3, 1},
+                                    [&](const engine::SharedTree&) { return marked(i + 1); }));
+  }
+  for (std::uint64_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(uses[i]->origin[0], static_cast<double>(i + 1));
+    EXPECT_EQ(static_cast<bool>(cache.find({i + 1, data + i, data, 3, 1})), i < 8);
+  }
+  cache.drop(data);
+  EXPECT_EQ(uses[0]->origin[0], 1);
+  uses.clear();
+  EXPECT_EQ(cache
+                .findOrMake({20, data + 19, data, 3, 1},
+                            [](const engine::SharedTree&) { return marked(20); })
+                ->origin[0],
+            20);
+  EXPECT_TRUE(static_cast<bool>(cache.find({20, data + 19, data, 3, 1})));
+}
+
+TEST(TreeCacheThreads, OneIsMadeHoweverManyAsk) {
+  for (int round = 0; round < 200; ++round) {
+    engine::TreeCache cache;
+    std::atomic<int> made{0}, wrong{0};
+    together(kThreads, [&](int) {
+      const auto use =
+          cache.findOrMake({7, &cache, &cache, 3, 1}, [&](const engine::SharedTree& /*old*/) {
+            ++made;
+            return marked(7);
+          });
+      wrong += use->origin[0] != 7;
+    });
+    EXPECT_EQ(made, 1);
+    EXPECT_EQ(wrong, 0);
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The triangle nearest to a shape is the least of those whose computed distances are bitwise the
+// least, whether a model is prepared or not; contacts are those of brute force, in one order.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <set>
+
+#include "fcl/mesh_cases.h"
+#include "fcl_kios/model/prepare.h"
+#include "query/mesh_pair.h"
+#include "query/posed_solid.h"
+#include "shape/convex_faces.h"
+#include "shape/shape_oracle.h"
+#include "shape/shape_solid.h"
+#include "shape/triangle_shape.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <typename S>
+struct Brute {
+  double distance = kInfinity;
+  int id = -1;
+  std::set<int> hits;
+
+  Brute(const fcl::BVHModel<kIOS<S>>& model, const fcl::Transform3<S>& X_WM,
+        const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS) {
+    const PosedSolid<S> posed(toSolid(shape), X_WM, X_WS, model.getBV(0).bv);
+    const shape::ConvexFaces faces(posed.solid());
+    for (int i = 0; i < model.num_tris; ++i) {
+      const shape::Triangle t = posed.place(cornersOf(model, i));
+      const double d = shape::distance(posed.solid(), t, kInfinity).distance;
+      const bool meets = shape::intersects(posed.solid(), t);
+      EXPECT_EQ(meets, shape::intersects(posed.solid(), t, &faces));
+      if (meets) hits.insert(i);
+      if (!(d < distance)) continue;
+      distance = d;
+      id = i;
+    }
+  }
+};
+
+template <typename S>
+std::vector<int> contactsOf(const fcl::CollisionResult<S>& result) {
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < result.numContacts(); ++i) {
+    ids.push_back(static_cast<int>(result.getContact(i).b1));
+  }
+  return ids;
+}
+
+template <typename S>
+class Compare {
+ public:
+  int apart = 0, contacts = 0, ties = 0;
+
+  void operator()(const Mesh& mesh, const ShapeSpec& spec, const fcl::Transform3d& X_M,
+                  const fcl::Transform3d& X_S) {
+    Mesh alone = mesh;
+    alone.vertices.push_back(alone.vertices[0]);
+    const auto model = scenes::buildModel<kIOS<S>>(alone);
+    const auto shape = makeShape<S>(spec);
+    const fcl::Transform3<S> X_WM(X_M.cast<S>()), X_WS(X_S.cast<S>());
+    const Brute<S> brute(*model, X_WM, *shape, X_WS);
+    for (const bool prepared : {false, true}) {
+      if (prepared) prepare(*model);
+      for (const std::size_t most : {std::size_t{1}, std::size_t{3}, kAllContacts}) {
+        fcl::CollisionResult<S> result;
+        collideShape(*model, X_WM, *shape, X_WS, fcl::CollisionRequest<S>(most, false), result);
+        const std::vector<int> ids = contactsOf(result), all(brute.hits.begin(), brute.hits.end());
+        EXPECT_EQ(ids.size(), std::min(most, all.size()));
+        EXPECT_TRUE(most < kAllContacts || ids == all);
+        for (const int id : ids) EXPECT_TRUE(brute.hits.count(id));
+      }
+      fcl::DistanceResult<S> result;
+      SearchCounts counts;
+      const fcl::DistanceRequest<S> request(true);
+      const S d = distanceShape(*model, X_WM, *shape, X_WS, request, result, &counts);
+      EXPECT_EQ(d, static_cast<S>(brute.distance));
+      if (brute.distance > 0) {
+        EXPECT_EQ(result.b1, brute.id) << prepared;
+        ++apart;
+      } else {
+        EXPECT_TRUE(brute.hits.count(static_cast<int>(result.b1)));
+      }
+      fcl::DistanceResult<S> within(static_cast<S>(std::nextafter(d, 2 * d)));
+      EXPECT_EQ(distanceShape(*model, X_WM, *shape, X_WS, request, within), d);
+      if (d > 0) {
+        EXPECT_EQ(within.b1, brute.id);
+        fcl::DistanceResult<S> below(d);
+        EXPECT_EQ(distanceShape(*model, X_WM, *shape, X_WS, request, below), d);
+        EXPECT_EQ(below.o1, nullptr);
+      }
+      if (!prepared) points_ = {result.nearest_points[0], result.nearest_points[1]};
+      if (prepared && d > 0) {
+        EXPECT_EQ(points_[0], result.nearest_points[0]);
+        EXPECT_EQ(points_[1], result.nearest_points[1]);
+      }
+    }
+    contacts += static_cast<int>(brute.hits.size());
+  }
+
+ private:
+  std::array<fcl::Vector3<S>, 2> points_;
+};
+
+template <typename S>
+void compareAll(Shape kind) {
+  Compare<S> compare;
+  scenes::Random random(29);
+  const Mesh box = scenes::subdividedBox({1, 1, 1}, 4);
+  for (const Mesh& mesh :
+       {scenes::bumpyTorus(300), scenes::randomSoup(60, 1, 1e-2, 1, 3), box, scenes::soup(box)}) {
+    for (const Frame& frame : randomFrames(24, 1.6, 3)) {
+      compare(mesh, randomShape(kind, random), frame.X_WA, frame.X_WB);
+    }
+    // Faces and edges parallel to the shape's axes: many features are as near.
+    for (int i = 0; i < 16; ++i) {
+      ShapeSpec spec = randomShape(kind, random);
+      fcl::Transform3d X = fcl::Transform3d::Identity(), turned = X;
+      X.translation() = Vector3d(0.25 * (i % 3), 0.25 * (i % 2), i < 12 ? 1.75 : 0.5);
+      if (i % 2 == 1) turned.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;
+      compare(mesh, spec, X, turned);
+    }
+  }
+  EXPECT_GT(compare.apart, 10);
+  EXPECT_GT(compare.contacts, 10);
+}
+
+class NearestId : public ::testing::TestWithParam<Shape> {};
+TEST_P(NearestId, IsThatOfBruteForce) { compareAll<double>(GetParam()); }
+TEST_P(NearestId, IsThatOfBruteForceInFloat) { compareAll<float>(GetParam()); }
+
+// Around the vertex or along the edge of a mesh that is nearest, all triangles are as near,
+// bitwise, and the least id is named.
+TEST_P(NearestId, IsTheLeastAroundAVertex) {
+  if (GetParam() >= Shape::kConvex) return;  // by GJK, triangle by triangle; or tilted
+  const Mesh ball = scenes::icosphere(1, 2);
+  scenes::Random random(31);
+  int around = 0;
+  for (std::size_t v = 0; v < ball.vertices.size(); v += 5) {
+    const auto shape = makeShape<double>(randomShape(GetParam(), random));
+    // The vertex on top: the nearest to what lies above it.
+    const Vector3d up = ball.vertices[v].normalized();
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    X.linear() = Eigen::Quaterniond::FromTwoVectors(up, -Vector3d::UnitZ()).toRotationMatrix();
+    X.translation().z() = 3;
+    const auto model = kiosModel(ball);
+    fcl::DistanceResultd result;
+    distanceShape(*model, X, *shape, fcl::Transform3d::Identity(), fcl::DistanceRequestd(true),
+                  result);
+    int least = -1;
+    for (int t = static_cast<int>(ball.triangles.size()) - 1; t >= 0; --t) {
+      for (int c = 0; c < 3; ++c) {
+        if (ball.triangles[static_cast<std::size_t>(t)][c] == v) least = t;
+      }
+    }
+    if ((X * ball.vertices[v] - result.nearest_points[0]).norm() > 1e-12) continue;
+    EXPECT_EQ(result.b1, least);
+    ++around;
+  }
+  EXPECT_GT(around, 10);
+}
+
+std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
+INSTANTIATE_TEST_SUITE_P(Shapes, NearestId, ::testing::ValuesIn(kShapes), nameOfCase);
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,315 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/triangle/intersection.h"
+#include "scenes/triangle_oracle.h"
+#include "shape/solid.h"
+#include "shape/triangle_shape.h"
+
+// Distance of a triangle and a solid in long double, for any sizes: polyhedral cores by the oracle
+// of two triangles on each of their faces, round shapes by searching edges and by the support point
+// of the triangle's plane. It shares no code with the library.
+
+namespace kios::testing {
+
+using Real = long double;
+using scenes::ExactPoint;
+using scenes::ExactTriangle;
+
+inline ExactTriangle exact(const shape::Triangle& t) {
+  return {t[0].cast<Real>(), t[1].cast<Real>(), t[2].cast<Real>()};
+}
+
+/// Distance, and a point of the triangle and of the solid that realise it.
+struct ExactNearest {
+  Real distance = std::numeric_limits<Real>::infinity();
+  ExactPoint on_triangle = ExactPoint::Zero(), on_shape = ExactPoint::Zero();
+};
+
+/// The surface of a sphere's, capsule's, box's or convex shape's core as triangles.
+inline std::vector<ExactTriangle> coreFaces(const shape::Solid& s) {
+  const ExactPoint h = s.half.cast<Real>();
+  std::vector<ExactTriangle> faces;
+  const ExactPoint end(0, 0, s.half_length), origin = ExactPoint::Zero();
+  if (s.kind == shape::Kind::kSphere) faces.push_back({origin, origin, origin});
+  if (s.kind == shape::Kind::kCapsule) faces.push_back({ExactPoint(-end), end, end});
+  if (s.kind == shape::Kind::kBox) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {-1, 1}) {
+        ExactPoint q[4];
+        for (int k = 0; k < 4; ++k) {
+          q[k][axis] = side * h[axis];
+          q[k][(axis + 1) % 3] = (k == 1 || k == 2 ? 1 : -1) * h[(axis + 1) % 3];
+          q[k][(axis + 2) % 3] = (k >= 2 ? 1 : -1) * h[(axis + 2) % 3];
+        }
+        faces.push_back({q[0], q[1], q[2]});
+        faces.push_back({q[0], q[2], q[3]});
+      }
+    }
+  }
+  if (s.kind == shape::Kind::kConvex) {
+    const auto corner = [&](int i) { return ExactPoint(s.points[i].cast<Real>()); };
+    const int* face = s.faces;
+    for (int i = 0; i < s.num_faces; face += face[0] + 1, ++i) {
+      for (int k = 2; k < std::max(3, face[0]); ++k) {
+        const auto at = [&](int c) { return corner(face[1 + std::min(c, face[0] - 1)]); };
+        faces.push_back({at(0), at(k - 1), at(k)});
+      }
+    }
+  }
+  return faces;
+}
+
+/// Nearest point of a cylinder, cone or ellipsoid; the distance is negative inside, where it is
+/// -(the depth at most).
+inline Real pointLevel(const shape::Solid& s, const ExactPoint& p, ExactPoint* nearest = nullptr) {
+  const Real r = s.radius, h = s.half_length;
+  if (s.kind == shape::Kind::kEllipsoid) {
+    const ExactPoint e = s.half.cast<Real>();
+    Real level = 0;
+    bool outside_flat = false;
+    for (int c = 0; c < 3; ++c) {
+      if (e[c] > 0) {
+        level += p[c] / e[c] * (p[c] / e[c]);
+      } else {
+        outside_flat |= p[c] != 0;
+      }
+    }
+    if (level <= 1 && !outside_flat) {
+      if (nearest) *nearest = p;
+      return (std::sqrt(level) - 1) * e.minCoeff();
+    }
+    Real low = 0, high = e.cwiseProduct(p).norm();
+    const auto at = [&](Real t) {
+      ExactPoint x = ExactPoint::Zero();
+      for (int c = 0; c < 3; ++c) {
+        if (e[c] > 0) x[c] = e[c] * (e[c] * p[c] / (e[c] * e[c] + t));
+      }
+      return x;
+    };
+    if (level > 1) {
+      for (int i = 0; i < 110; ++i) {
+        const Real t = (low + high) / 2, square = [&] {
+          Real sum = 0;
+          for (int c = 0; c < 3; ++c) {
+            const Real q = e[c] > 0 ? e[c] * p[c] / (e[c] * e[c] + t) : Real(0);
+            sum += q * q;
+          }
+          return sum;
+        }();
+        (square > 1 ? low : high) = t;
+      }
+    }
+    const ExactPoint x = at(level > 1 ? high : 0);
+    if (nearest) *nearest = x;
+    return (p - x).norm();
+  }
+  // In the half-plane (rho, z) of a turned solid: a convex polygon, its sides from the axis out.
+  const Real rho = std::hypot(p.x(), p.y()), z = p.z();
+  const bool cone = s.kind == shape::Kind::kCone;
+  const Real corners[4][2] = {{0, -h}, {r, -h}, {cone ? 0 : r, h}, {0, h}};
+  Real best = std::numeric_limits<Real>::infinity(), at[2] = {0, 0};
+  for (int i = 0; i < 3; ++i) {
+    const Real *a = corners[i], *b = corners[i + 1];
+    const Real dx = b[0] - a[0], dz = b[1] - a[1], square = dx * dx + dz * dz;
+    Real t = square > 0 ? ((rho - a[0]) * dx + (z - a[1]) * dz) / square : 0;
+    t = std::clamp(t, Real(0), Real(1));
+    const Real x = a[0] + t * dx, y = a[1] + t * dz, d = std::hypot(rho - x, z - y);
+    if (d < best) {
+      best = d;
+      at[0] = x;
+      at[1] = y;
+    }
+  }
+  const Real slant = std::hypot(2 * h, r);
+  const Real side = !cone || h == 0 ? rho - r : (2 * h * (rho - r) + r * (z + h)) / slant;
+  const Real inside = std::max({side, -h - z, z - h});
+  if (inside <= 0) {
+    if (nearest) *nearest = p;
+    return std::min(inside, Real(0));
+  }
+  if (nearest) {
+    const Real scale = rho > 0 ? at[0] / rho : 0;
+    *nearest =
+        rho > 0 ? ExactPoint(scale * p.x(), scale * p.y(), at[1]) : ExactPoint(at[0], 0, at[1]);
+  }
+  return best;
+}
+
+/// Golden section for the least value of a convex function on [0, 1]; returns where.
+template <typename F>
+Real leastAt(const F& f, int steps) {
+  const Real phi = (std::sqrt(Real(5)) - 1) / 2;
+  Real low = 0, high = 1, a = high - phi, b = low + phi, fa = f(a), fb = f(b);
+  Real at = fa <= fb ? a : b, least = std::min(fa, fb);
+  const auto note = [&](Real x, Real value) {
+    if (value < least) {
+      least = value;
+      at = x;
+    }
+  };
+  note(0, f(0));
+  note(1, f(1));
+  for (int i = 0; i < steps; ++i) {
+    if (fa <= fb) {
+      high = b;
+      b = a;
+      fb = fa;
+      a = high - phi * (high - low);
+      fa = f(a);
+      note(a, fa);
+    } else {
+      low = a;
+      a = b;
+      fa = fb;
+      b = low + phi * (high - low);
+      fb = f(b);
+      note(b, fb);
+    }
+  }
+  return at;
+}
+
+/// Least value of a convex function of points over a triangle.
+template <typename F>
+Real leastOver(const ExactTriangle& t, const F& f) {
+  constexpr int kSteps = 64;
+  const auto inner = [&](Real u) {
+    const ExactPoint from = t[0] + u * (t[1] - t[0]), to = t[0] + u * (t[2] - t[0]);
+    const auto at = [&](Real w) { return f(ExactPoint(from + w * (to - from))); };
+    return at(leastAt(at, kSteps));
+  };
+  return inner(leastAt(inner, kSteps));
+}
+
+/// Least level of a cylinder, cone or ellipsoid over the triangle: negative where the inside is
+/// met.
+inline Real leastPointLevel(const shape::Solid& s, const ExactTriangle& t) {
+  const ExactPoint e = s.half.cast<Real>(), origin = ExactPoint::Zero();
+  if (s.kind == shape::Kind::kEllipsoid && e.minCoeff() > 0) {  // a ball, in units of the radii
+    const ExactTriangle scaled = {t[0].cwiseQuotient(e), t[1].cwiseQuotient(e),
+                                  t[2].cwiseQuotient(e)};
+    const Real level = scenes::triangleDistance(scaled, {origin, origin, origin}) - 1;
+    return level < 0 ? level * e.minCoeff() : std::numeric_limits<Real>::infinity();
+  }
+  return leastOver(t, [&s](const ExactPoint& p) { return pointLevel(s, p); });
+}
+
+/// The point of a cylinder, cone or ellipsoid that is extreme along n.
+inline ExactPoint exactSupport(const shape::Solid& s, const ExactPoint& n) {
+  if (s.kind == shape::Kind::kEllipsoid) {
+    const ExactPoint m = s.half.cast<Real>().cwiseProduct(n);
+    return m.norm() > 0 ? ExactPoint(s.half.cast<Real>().cwiseProduct(m) / m.norm()) : m;
+  }
+  const Real across = std::hypot(n.x(), n.y()), h = s.half_length;
+  const Real scale = across > 0 ? s.radius / across : 0;
+  if (s.kind == shape::Kind::kCone) {
+    if (n.z() * 2 * h > across * s.radius) return {0, 0, h};
+    return {n.x() * scale, n.y() * scale, -h};
+  }
+  return {n.x() * scale, n.y() * scale, n.z() >= 0 ? h : -h};
+}
+
+/// Distance of a triangle and a round shape that don't overlap.
+inline ExactNearest roundDistance(const shape::Solid& s, const ExactTriangle& t) {
+  ExactNearest best;
+  const auto offer = [&](const ExactPoint& x) {
+    ExactPoint q;
+    const Real d = std::max(Real(0), pointLevel(s, x, &q));
+    if (d < best.distance) best = {d, x, q};
+  };
+  for (int i = 0; i < 3; ++i) {
+    const ExactPoint a = t[i], d = t[(i + 1) % 3] - a;
+    const auto at = [&](Real u) { return ExactPoint(a + u * d); };
+    offer(at(leastAt([&](Real u) { return pointLevel(s, at(u)); }, 110)));
+  }
+  const ExactPoint u = t[1] - t[0], v0 = t[2] - t[0];
+  const Real uu = u.squaredNorm();
+  if (!(uu > 0)) return best;
+  ExactPoint v = v0 - u.dot(v0) / uu * u;
+  v -= u.dot(v) / uu * u;
+  const Real vv = v.squaredNorm();
+  if (!(vv > 1e-34L * uu)) return best;
+  const ExactPoint n = (u / std::sqrt(uu)).cross(v / std::sqrt(vv));
+  for (const int side : {-1, 1}) {
+    const ExactPoint q = exactSupport(s, side * n) - t[0];
+    const Real b = q.dot(v) / vv, a = (q.dot(u) - b * u.dot(v0)) / uu;
+    if (a >= 0 && b >= 0 && a + b <= 1) offer(t[0] + a * u + b * v0);
+  }
+  return best;
+}
+
+/// The largest height of a point above a box's or hull's faces: negative inside.
+class FaceLevel {
+ public:
+  FaceLevel(const shape::Solid& s, const std::vector<ExactTriangle>& faces) {
+    if (s.kind == shape::Kind::kBox) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const ExactPoint n = ExactPoint::Unit(axis);
+        planes_.push_back({n, s.half[axis]});
+        planes_.push_back({-n, s.half[axis]});
+      }
+      thickness_ = s.half.minCoeff() / s.reach();
+      return;
+    }
+    ExactPoint middle = ExactPoint::Zero();
+    for (const shape::Vec& p : s.points) middle += p.cast<Real>() / Real(s.points.size());
+    for (const ExactTriangle& face : faces) {
+      ExactPoint n = (face[1] - face[0]).cross(face[2] - face[0]);
+      const Real length = n.norm();
+      // Corners of flat shapes are rounded, and the normals of some faces nothing else.
+      const bool face_has_normal = length > 1e-14L * s.reach() * s.reach();
+      if (!face_has_normal) n.setZero();
+      if (face_has_normal) n *= (n.dot(middle - face[0]) > 0 ? -1 : 1) / length;
+      planes_.push_back({n, n.dot(face[0])});
+    }
+    thickness_ = planes_.size() < 4 ? 0 : std::max(Real(0), -(*this)(middle)) / s.reach();
+  }
+  /// Is the solid's, as a part of its reach. Where faces are thin, their normals, and levels, are
+  /// uncertain by 1e-19 over that.
+  Real thickness() const { return thickness_; }
+
+  Real operator()(const ExactPoint& p) const {
+    Real most = -std::numeric_limits<Real>::infinity();
+    for (const Plane& plane : planes_) most = std::max(most, plane.normal.dot(p) - plane.offset);
+    return most;
+  }
+
+ private:
+  struct Plane {
+    ExactPoint normal;
+    Real offset;
+  };
+  std::vector<Plane> planes_;
+  Real thickness_;
+};
+
+/// Distance of a triangle and a face, both held by doubles. Their meeting is decided exactly,
+/// as long double can't for thin ones.
+inline Real faceDistance(const shape::Triangle& t, const ExactTriangle& face) {
+  const shape::Triangle f = {face[0].cast<double>(), face[1].cast<double>(),
+                             face[2].cast<double>()};
+  if (trianglesIntersect(t, f)) return 0;
+  const Real d = scenes::triangleDistance(exact(t), face);
+  return d > 0 ? d : Real(triangleDistance(t, f).distance);
+}
+
+/// Nearest points of a triangle and a round solid; for others the distance to the core's surface.
+inline ExactNearest coreNearest(const shape::Solid& s, const shape::Triangle& triangle,
+                                const std::vector<ExactTriangle>& faces) {
+  if (faces.empty()) return roundDistance(s, exact(triangle));
+  ExactNearest best;
+  for (const ExactTriangle& face : faces) {
+    best.distance = std::min(best.distance, faceDistance(triangle, face));
+  }
+  return best;
+}
+
+}  // namespace kios::testing

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Brackets of convex solids that are thin in one direction or two, as the vertices' own coordinates
+// have them or turned, so that their faces are flat only up to rounding.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solid/solid_meshes.h"
+
+namespace kios::testing {
+namespace {
+
+const fcl::Transform3d kHere = fcl::Transform3d::Identity();
+
+fcl::Transform3d turned(double angle, const fcl::Vector3d& axis, const fcl::Vector3d& translation) {
+  fcl::Transform3d X = fcl::Transform3d::Identity();
+  X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  X.translation() = translation;
+  return X;
+}
+
+Mesh baked(Mesh mesh, const fcl::Transform3d& X) {
+  for (fcl::Vector3d& p : mesh.vertices) p = X * p;
+  return mesh;
+}
+
+void expectClosed(const Penetration& depth, const std::string& what) {
+  EXPECT_GT(depth.lower, 0) << what;
+  EXPECT_LE(depth.upper, 1.041 * depth.lower) << what;
+}
+
+TEST(ThinSolids, BracketsClose) {
+  const auto cube = solidOf(scenes::subdividedBox({0.5, 0.5, 0.5}, 1));
+  const fcl::Transform3d X = turned(0.3, {1, 2, 3}, {0.05, 0.1, 0.15});
+  for (const double thin : {1e-2, 1e-4, 1e-5, 1e-6, 1e-7}) {
+    const Mesh needle = scenes::subdividedBox({1, thin, thin}, 1),
+               sheet = scenes::subdividedBox({1, 0.7, thin}, 1),
+               fine = scenes::subdividedBox({1, 0.7, thin}, 3);
+    const std::vector<std::pair<std::string, Mesh>> meshes = {
+        {"needle", needle}, {"sheet", sheet}, {"fine", fine}};
+    for (const auto& [name, mesh] : meshes) {
+      const std::string what = name + " of 1e-7 times " + std::to_string(thin * 1e7);
+      expectClosed(penetration(*cube, kHere, *solidOf(mesh), X), what);
+      // Faces of coordinates that are rounded bulge by 1e-16, against which thinner ones are thick.
+      if (thin >= 1e-6) {
+        const auto rounded = solidOf(baked(mesh, turned(1.1, {3, -1, 2}, {0.3, 0.2, 0.1})));
+        expectClosed(penetration(*cube, kHere, *rounded, kHere), what + ", rounded");
+      }
+    }
+  }
+}
+
+// What is dented by more than rounding is not taken for convex, however thin: the bound of the hull
+// would be none.
+TEST(ThinSolids, DentsAreSeen) {
+  for (const double thin : {1.0, 1e-3, 1e-5}) {
+    // Half of the sheet's top lies at mid-height: a step, in which a small box is free.
+    Mesh step;
+    const double outline[6][2] = {{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}};
+    for (const double y : {0.0, 1.0}) {
+      for (const auto& p : outline) step.vertices.emplace_back(p[0], y, thin * p[1]);
+    }
+    for (const auto& t : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
+      step.triangles.emplace_back(t[0], t[1], t[2]);
+      step.triangles.emplace_back(6 + t[0], 6 + t[2], 6 + t[1]);
+    }
+    for (int i = 0; i < 6; ++i) {
+      const int n = (i + 1) % 6;
+      step.triangles.emplace_back(i, 6 + n, n);
+      step.triangles.emplace_back(i, 6 + i, 6 + n);
+    }
+    const double side = 0.25 * thin;
+    const auto box = solidOf(scenes::subdividedBox({side, side, side}, 1));
+    // Its lower face is 0.01 thick below the step's tread, which lets it out there.
+    const Penetration depth =
+        penetration(*solidOf(step), kHere, *box, at(0.75, 0.5, thin * (0.5 + 0.125 - 0.01)));
+    EXPECT_LE(depth.lower, 0.0101 * thin) << thin;
+    EXPECT_GE(depth.upper, 0.01 * thin * (1 - 1e-9)) << thin;
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing

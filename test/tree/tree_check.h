@@ -1,0 +1,350 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "search/prepared_pair.h"
+
+// Checks a prepared tree against its mesh: all of it is there, and nothing sticks out.
+
+namespace kios::testing {
+
+using engine::Box;
+using engine::FeatureId;
+using engine::kLanes;
+using engine::Leaf;
+using engine::Node;
+using engine::Tree;
+using Exact = boost::multiprecision::cpp_bin_float_100;
+
+/// Coordinates as they are compared: -0 and 0 are equal.
+using Coordinates = std::tuple<double, double, double>;
+using Edge = std::pair<Coordinates, Coordinates>;
+
+template <typename S>
+Coordinates coordinates(const Point<S>& p) {
+  return {double{p[0]}, double{p[1]}, double{p[2]}};
+}
+
+template <typename S>
+Edge edgeOf(const TriangleVertices<S>& t, std::uint32_t k) {
+  return std::minmax({coordinates(t[k]), coordinates(t[(k + 1) % 3])});
+}
+
+/// x^2 + y^2 + z^2 <= r^2 for sums of floats, without rounding.
+inline bool inSphere(const Eigen::Vector3f& p, const Exact (&center)[3], const Exact& r) {
+  Exact sum = 0;
+  for (int c = 0; c < 3; ++c) sum += (p[c] - center[c]) * (p[c] - center[c]);
+  return r >= 0 && sum <= r * r;
+}
+
+/// True if a node's five spheres hold the point.
+inline bool spheresHold(const Node& node, const Eigen::Vector3f& p) {
+  const auto sphere = [&](int row, int half, int sign) {
+    Exact center[3] = {node.x[row], node.y[row], node.z[row]}, r = node.r[row];
+    if (half >= 0) {
+      center[0] += Exact(sign * node.x[half]);
+      center[1] += Exact(sign * node.y[half]);
+      center[2] += Exact(sign * node.z[half]);
+      r += Exact(sign * node.r[half]);
+    }
+    return inSphere(p, center, r);
+  };
+  using namespace engine;
+  return sphere(kCentral, -1, 0) && sphere(kMiddle2, kHalf2, 1) && sphere(kMiddle2, kHalf2, -1) &&
+         sphere(kMiddle1, kHalf1, 1) && sphere(kMiddle1, kHalf1, -1);
+}
+
+/// Returns how far the point sticks out of the box, at most 0 if it is inside.
+inline double outside(const Box& box, const Eigen::Vector3f& p) {
+  double worst = -1;
+  for (int i = 0; i < 3; ++i) {
+    const Exact along = Exact(box.x[i]) * (Exact(p[0]) - box.x[engine::kCenter]) +
+                        Exact(box.y[i]) * (Exact(p[1]) - box.y[engine::kCenter]) +
+                        Exact(box.z[i]) * (Exact(p[2]) - box.z[engine::kCenter]);
+    worst = std::max(worst, static_cast<double>(Exact(abs(along) - box.half[i])));
+  }
+  return worst;
+}
+
+/// How far the box's axes are from being orthonormal.
+inline double skew(const Box& box) {
+  double worst = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      const double dot =
+          double{box.x[i]} * box.x[j] + double{box.y[i]} * box.y[j] + double{box.z[i]} * box.z[j];
+      worst = std::max(worst, std::abs(dot - (i == j)));
+    }
+  }
+  return worst;
+}
+
+/// The greatest |centre| + |radius| of the node's spheres.
+inline double farthest(const Node& node) {
+  using namespace engine;
+  double result = 0;
+  const auto add = [&](int row, int half, double sign) {
+    const auto at = [&](const float* v) {
+      return double{v[row]} + (half < 0 ? 0 : sign * double{v[half]});
+    };
+    const fcl::Vector3d center(at(node.x), at(node.y), at(node.z));
+    result = std::max(result, center.norm() + std::abs(at(node.r)));
+  };
+  add(kCentral, -1, 0);
+  for (const double sign : {-1.0, 1.0}) {
+    add(kMiddle2, kHalf2, sign);
+    add(kMiddle1, kHalf1, sign);
+  }
+  return result;
+}
+
+/// check() fails the test unless the tree is one of the shape.
+template <typename S>
+class TreeOf {
+ public:
+  TreeOf(const Shape<S>& shape, const Tree& tree) : shape_(shape), tree_(tree) {}
+
+  void check() {
+    ASSERT_FALSE(tree_.nodes.empty());
+    int flat = 0;
+    for (const Node& node : tree_.nodes) flat += static_cast<int>(node.flat);
+    if (!tree_.boxes.empty() || flat > 0) {
+      ASSERT_EQ(tree_.boxes.size(), tree_.nodes.size());
+    }
+    ASSERT_EQ(tree_.box_blocks.size(), tree_.boxes.empty() ? 0 : tree_.blocks.size());
+    ASSERT_EQ(tree_.children.size(), tree_.blocks.size());
+    leaf_seen_.assign(tree_.leaves.size(), 0);
+    EXPECT_EQ(descend(0, 0).first, tree_.depth);
+    EXPECT_EQ(nodes_seen_, tree_.nodes.size());
+    for (const int seen : leaf_seen_) EXPECT_EQ(seen, 1);
+    for (std::size_t t = 0; t < shape_.triangles.size(); ++t) EXPECT_EQ(in_leaf_.count(t), 1u);
+    EXPECT_EQ(in_leaf_.size(), shape_.triangles.size());
+    checkOwners();
+  }
+
+ private:
+  using Points = std::vector<Eigen::Vector3f>;
+
+  /// Depth in blocks, and the stored vertices below the node, which must lie within it.
+  std::pair<int, Points> descend(std::uint32_t at, int level) {
+    ++nodes_seen_;
+    const Node& node = tree_.nodes[at];
+    Points points;
+    int depth = level;
+    if (node.isLeaf()) {
+      EXPECT_LT(node.leaf(), tree_.leaves.size());
+      ++leaf_seen_[node.leaf()];
+      points = checkLeaf(node.leaf());
+    } else {
+      const auto block = static_cast<std::size_t>(node.child);
+      const std::size_t count = tree_.children[block].count;
+      EXPECT_GE(count, 2u);
+      EXPECT_LE(count, static_cast<std::size_t>(kLanes));
+      EXPECT_GT(node.first_child, at);  // no cycles
+      for (std::uint32_t i = 0; i < kLanes; ++i) {
+        const std::uint32_t child = node.first_child + (i < count ? i : 0);
+        expectLane(tree_.blocks[block], static_cast<int>(i), tree_.nodes[child]);
+        if (!tree_.boxes.empty()) {
+          expectLane(tree_.box_blocks[block], static_cast<int>(i), tree_.boxes[child]);
+        }
+        if (i >= count) continue;
+        EXPECT_EQ(tree_.children[block].flat >> i & 1U, tree_.nodes[child].flat);
+        const auto [deepest, below] = descend(child, level + 1);
+        depth = std::max(depth, deepest);
+        points.insert(points.end(), below.begin(), below.end());
+      }
+    }
+    const auto less = [](const auto& p, const auto& q) {
+      return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+    };
+    std::sort(points.begin(), points.end(), less);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    int out_of_spheres = 0;
+    double out_of_box = 0;
+    for (const Eigen::Vector3f& p : points) {
+      out_of_spheres += !spheresHold(node, p);
+      if (!tree_.boxes.empty()) out_of_box = std::max(out_of_box, outside(tree_.boxes[at], p));
+    }
+    EXPECT_EQ(out_of_spheres, 0) << "node " << at;
+    EXPECT_LE(out_of_box, 0) << "node " << at;
+    EXPECT_EQ(node.size, node.r[engine::kCentral]);
+    EXPECT_GE(double{tree_.reach} * (1 + 0x1p-50), farthest(node));
+    if (!tree_.boxes.empty()) {
+      // Each coordinate of an axis is rounded once.
+      EXPECT_LE(skew(tree_.boxes[at]), 2.1 * 0x1p-24);
+      EXPECT_EQ(tree_.boxes[at].half[3], 0);
+    }
+    return {depth, points};
+  }
+
+  static void expectLane(const engine::Block& block, int lane, const Node& node) {
+    for (int row = 0; row < engine::kSphereRows; ++row) {
+      EXPECT_EQ(block.x[row].v[lane], node.x[row]);
+      EXPECT_EQ(block.y[row].v[lane], node.y[row]);
+      EXPECT_EQ(block.z[row].v[lane], node.z[row]);
+      EXPECT_EQ(block.r[row].v[lane], node.r[row]);
+    }
+  }
+
+  static void expectLane(const engine::BoxBlock& block, int lane, const Box& box) {
+    for (int column = 0; column < engine::kBoxColumns; ++column) {
+      EXPECT_EQ(block.x[column].v[lane], box.x[column]);
+      EXPECT_EQ(block.y[column].v[lane], box.y[column]);
+      EXPECT_EQ(block.z[column].v[lane], box.z[column]);
+    }
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(block.half[axis].v[lane], box.half[axis]);
+  }
+
+  Point<S> cornerOf(FeatureId id, std::uint32_t step = 0) const {
+    return shape_.corners(id.triangle())[(id.corner() + step) % 3];
+  }
+  /// Relative to the origin, as the tree may store it.
+  Eigen::Vector3d relative(const Point<S>& p) const {
+    return p.template cast<double>() - Eigen::Map<const Eigen::Vector3d>(tree_.origin);
+  }
+
+  /// A chunk's row of lane i.
+  float lane(std::size_t offset, int rows, std::uint32_t i, int row) const {
+    return tree_
+        .lanes[offset + i / kLanes * static_cast<std::uint32_t>(rows) +
+               static_cast<std::uint32_t>(row)]
+        .v[i % kLanes];
+  }
+  Eigen::Vector3f vector(std::size_t offset, int rows, std::uint32_t i, int row) const {
+    return {lane(offset, rows, i, row), lane(offset, rows, i, row + 1),
+            lane(offset, rows, i, row + 2)};
+  }
+
+  Points checkLeaf(std::size_t index) {
+    const Leaf& leaf = tree_.leaves[index];
+    const FeatureId* const ids = tree_.features.data() + leaf.feature_offset;
+    const std::size_t faces = leaf.offset + 3u * static_cast<unsigned>(leaf.vertexChunks());
+    EXPECT_GE(leaf.num_faces, 1);
+    EXPECT_LE(leaf.num_faces, engine::kLeafTriangles);
+    EXPECT_LE(leaf.num_owned, leaf.num_vertices);
+    EXPECT_LE(faces + engine::kFaceRows, tree_.lanes.size());
+
+    std::set<Coordinates> distinct;
+    for (std::uint32_t i = 0; i < leaf.num_faces; ++i) {
+      EXPECT_EQ(ids[i].corner(), 0u);
+      EXPECT_TRUE(in_leaf_.emplace(ids[i].triangle(), index).second);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        distinct.insert(coordinates(cornerOf(ids[i], k)));
+        EXPECT_EQ(vector(leaf.offset, 3, leaf.corners[3 * i + k], 0),
+                  relative(cornerOf(ids[i], k)).template cast<float>());
+      }
+      checkFace(faces, i, ids[i]);
+    }
+    EXPECT_EQ(leaf.num_vertices, distinct.size());
+    for (std::uint32_t i = 0; i < leaf.num_edges; ++i) {
+      const FeatureId id = ids[leaf.num_faces + i];
+      for (std::uint32_t k = 0; k < 2; ++k) {
+        EXPECT_LT((leaf.ends[i] >> 8 * k & 0xFF), leaf.num_vertices);
+        EXPECT_EQ(vector(leaf.offset, 3, (leaf.ends[i] >> 8 * k & 0xFF), 0),
+                  relative(cornerOf(id, k)).template cast<float>());
+      }
+      EXPECT_TRUE(edge_owner_
+                      .emplace(edgeOf(shape_.corners(id.triangle()), id.corner()),
+                               std::pair(index, id.packed))
+                      .second);
+    }
+    for (std::uint32_t i = 0; i < leaf.num_owned; ++i) {
+      const FeatureId id = ids[leaf.num_faces + leaf.num_edges + i];
+      EXPECT_EQ(vector(leaf.offset, 3, i, 0), relative(cornerOf(id)).template cast<float>());
+      EXPECT_TRUE(
+          vertex_owner_.emplace(coordinates(cornerOf(id)), std::pair(index, id.packed)).second);
+    }
+    checkAcross(leaf);
+    Points points;
+    for (std::uint32_t i = 0; i < 8u * static_cast<unsigned>(leaf.vertexChunks()); ++i) {
+      points.push_back(vector(leaf.offset, 3, i, 0));
+      EXPECT_TRUE(i < leaf.num_vertices || points[i] == points[leaf.num_vertices - 1u]);
+    }
+    return points;
+  }
+
+  /// The direction across a leaf has length 1 or 0, and its vertices lie where the leaf says.
+  void checkAcross(const Leaf& leaf) const {
+    const Eigen::Vector3d normal = Eigen::Map<const Eigen::Vector3f>(leaf.normal).cast<double>();
+    EXPECT_LE(std::min(normal.norm(), std::abs(normal.norm() - 1)), 0x1p-21);
+    double bottom = 1e300, top = -1e300;
+    for (std::uint32_t i = 0; i < leaf.num_vertices; ++i) {
+      const double h = normal.dot(vector(leaf.offset, 3, i, 0).template cast<double>());
+      bottom = std::min(bottom, h);
+      top = std::max(top, h);
+    }
+    EXPECT_NEAR(leaf.normal_bottom, bottom, 0x1p-21 * tree_.reach);
+    EXPECT_NEAR(leaf.normal_top, top, 0x1p-21 * tree_.reach);
+  }
+
+  /// Planes hold their corners; the inside of each edge plane is where the third corner lies.
+  void checkFace(std::size_t faces, std::uint32_t i, FeatureId id) const {
+    const auto row = [&](int r) { return double{lane(faces, engine::kFaceRows, i, r)}; };
+    const auto height = [&](int r, const Eigen::Vector3d& p) {
+      return row(r) * p[0] + row(r + 1) * p[1] + row(r + 2) * p[2] + row(r + 3);
+    };
+    const auto isUnit = [&](int r) {
+      return std::abs(row(r) * row(r) + row(r + 1) * row(r + 1) + row(r + 2) * row(r + 2) - 1) <
+             0x1p-21;
+    };
+    const double pad = 0x1p-19 * tree_.reach;
+    const bool thin = row(0) == 0 && row(1) == 0 && row(2) == 0;
+    EXPECT_TRUE(thin || isUnit(engine::kFacePlane));
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Eigen::Vector3d corner = relative(cornerOf(id, k));
+      EXPECT_LE(std::abs(height(engine::kFacePlane, corner)), pad);
+      for (int edge = 0; edge < 3; ++edge) {
+        EXPECT_GE(height(engine::kEdgePlanes + 4 * edge, corner), -pad);
+      }
+      EXPECT_TRUE(thin || isUnit(engine::kEdgePlanes + 4 * static_cast<int>(k)));
+    }
+  }
+
+  /// Each edge and vertex of the mesh has one owner, which holds a triangle of it and names it by
+  /// the first triangle that has it.
+  void checkOwners() const {
+    std::map<Edge, std::uint32_t> first_edge;
+    std::map<Coordinates, std::uint32_t> first_vertex;
+    std::set<std::pair<Edge, std::size_t>> edge_in_leaf;
+    std::set<std::pair<Coordinates, std::size_t>> vertex_in_leaf;
+    for (std::uint32_t t = 0; t < shape_.triangles.size(); ++t) {
+      const TriangleVertices<S> corners = shape_.corners(t);
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        first_edge.emplace(edgeOf(corners, k), t << 2 | k);
+        first_vertex.emplace(coordinates(corners[k]), t << 2 | k);
+        edge_in_leaf.emplace(edgeOf(corners, k), in_leaf_.at(t));
+        vertex_in_leaf.emplace(coordinates(corners[k]), in_leaf_.at(t));
+      }
+    }
+    ASSERT_EQ(edge_owner_.size(), first_edge.size());
+    ASSERT_EQ(vertex_owner_.size(), first_vertex.size());
+    for (const auto& [edge, owner] : edge_owner_) {
+      EXPECT_EQ(owner.second, first_edge.at(edge));
+      EXPECT_EQ(edge_in_leaf.count({edge, owner.first}), 1u);
+    }
+    for (const auto& [vertex, owner] : vertex_owner_) {
+      EXPECT_EQ(owner.second, first_vertex.at(vertex));
+      EXPECT_EQ(vertex_in_leaf.count({vertex, owner.first}), 1u);
+    }
+  }
+
+  const Shape<S>& shape_;
+  const Tree& tree_;
+  std::size_t nodes_seen_ = 0;
+  std::vector<int> leaf_seen_;
+  std::map<std::size_t, std::size_t> in_leaf_;  ///< by triangle
+  std::map<Edge, std::pair<std::size_t, std::uint32_t>> edge_owner_;
+  std::map<Coordinates, std::pair<std::size_t, std::uint32_t>> vertex_owner_;
+};
+
+}  // namespace kios::testing
