@@ -58,7 +58,6 @@ distance, tori of 80,000 triangles, gap 0.001    | scaling/80000/gap_1e-3 distan
 distance, strips 600 times as long as wide       | strips distance fcl_obbrss
 first contact, falling tori                      | falling collide fcl_obbrss
 first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
-first contact, strips                            | strips collide fcl_obbrss
 distance, UR5's links and a room                 | world/room/ur5 distance fcl_obbrss
 first contact, UR5's links and a shelf           | world/shelf/ur5 collide fcl_obbrss
 first contact, links off a floor                 | world/floor/ur5/apart collide fcl_obbrss
@@ -66,7 +65,6 @@ nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_o
 closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
 all contacts of a mesh and a convex shape        | shapes/convex contacts fcl_obbrss
 moving tori, linear motion                       | continuous/linear continuous fcl_obbrss_sampling
-moving tori, screw motion                        | continuous/screw continuous fcl_obbrss_sampling
 a path of 0.2 rad is free, UR5 in a cell         | motions/ur5_cell/valid/0.2 motion fcl_obbrss
 first hit of a random ray, 80,000 triangles      | rays/80000/random first embree
 build and prepare a torus of 80,000 triangles    | build/welded/80000 prepared fcl_obbrss
