@@ -170,7 +170,7 @@ bool readRequest(const fs::path& file, const Robot& robot, PlanRequest& request)
 
 struct Tally {
   const char* name;
-  std::vector<double> seconds;  ///< of solved problems
+  std::vector<double> seconds = {};  ///< of solved problems
   double all_seconds = 0;
   long long edges = 0, path_edges = 0, refuted = 0;
   int solved = 0;
