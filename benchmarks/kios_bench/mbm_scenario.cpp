@@ -197,7 +197,7 @@ void planAll(const std::string& name, const fs::path& folder, const fs::path& pr
   double first_plan = 0;
   for (int i = 0; i < wanted; ++i) {
     const fs::path& set = sets[static_cast<std::size_t>(i) % sets.size()];
-    char number[8];
+    char number[16];
     std::snprintf(number, sizeof number, "%04d", 1 + i / static_cast<int>(sets.size()));
     const fs::path scene = set / (std::string("scene") + number + ".yaml");
     PlanRequest request;
