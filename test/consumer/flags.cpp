@@ -86,6 +86,9 @@ int main(int argc, char** argv) {
   PRINT(MotionCounts);
   PRINT(MotionRequest);
   PRINT(ContinuousCounts);
+  PRINT(Hole);
+  PRINT(RepairOptions);
+  PRINT(Repaired);
   PRINT(Clearance);
   PRINT(ExactDistance);
   PRINT(FitOptions);
