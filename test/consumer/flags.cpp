@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   PRINT(ContinuousCounts);
   PRINT(Hole);
   PRINT(RepairOptions);
-  PRINT(Repaired);
+  PRINT_BOTH(Repaired);
   PRINT(Clearance);
   PRINT(ExactDistance);
   PRINT(FitOptions);
