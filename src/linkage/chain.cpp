@@ -33,7 +33,7 @@ void Chain::advance(Place& place, int link, double s) const {
   place.t += place.R * data.t_PJ;
   place.R = (place.R * data.R_PJ).eval();
   if (data.coordinate < 0) return;
-  const double value = path_.coordinate(data.coordinate, s) * data.unit;
+  const double value = data.at(path_.coordinate(data.coordinate, s));
   if (data.type == JointType::kPrismatic) {
     place.t += place.R * (value * data.axis);
   } else {
