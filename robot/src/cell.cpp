@@ -101,6 +101,7 @@ RobotMotion Cell::checkMotion(const std::vector<Proof>& proofs, const Eigen::Vec
     counts.configurations += answer.counts.configurations;
     counts.pairs += answer.counts.pairs;
     counts.proven_at_once += answer.counts.proven_at_once;
+    counts.queries += answer.counts.queries;
     counts.narrow_queries += answer.counts.narrow_queries;
     counts.expansions += answer.counts.expansions;
     const bool contact = answer.verdict == MotionVerdict::kContact;
@@ -108,7 +109,7 @@ RobotMotion Cell::checkMotion(const std::vector<Proof>& proofs, const Eigen::Vec
     const bool first = result.verdict == MotionVerdict::kClear;
     const bool better = request.first_contact
                             ? isEarlier(answer, result)
-                            : contact && result.verdict == MotionVerdict::kUnresolved;
+                            : contact && result.verdict != MotionVerdict::kContact;
     if (first || better) static_cast<MotionAnswer&>(result) = answer;
     if (contact && !request.first_contact) break;
   }

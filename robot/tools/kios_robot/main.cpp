@@ -124,8 +124,12 @@ int motion(const Robot& robot, const Options& options) {
                 answer.counts.configurations, answer.counts.narrow_queries);
     return 0;
   }
-  const bool touches = answer.verdict == kios::MotionVerdict::kContact;
-  std::printf("%s of %s and %s at %.9g to %.9g of the way\n", touches ? "contact" : "unresolved",
+  const bool touches = answer.verdict == kios::MotionVerdict::kContact,
+             spent = answer.verdict == kios::MotionVerdict::kBudgetSpent;
+  std::printf("%s of %s and %s at %.9g to %.9g of the way\n",
+              touches ? "contact"
+              : spent ? "budget spent, by"
+                      : "unresolved",
               answer.a.c_str(), answer.b.c_str(), answer.from, answer.to);
   return 1;
 }
