@@ -53,8 +53,8 @@ class Twins {
   Hold hold(const Mesh& mesh);
 
   /// Notes that FCL was asked about the model for so long, in nanoseconds, as there was no twin. Of
-  /// a query that two models share each pays its part. Once a twin costs a small part of that, it is
-  /// made: about 1.3 times the time is spent that was needed. No Hold may be kept meanwhile.
+  /// a query that two models share each pays its part. Once a twin costs a small part of that, it
+  /// is made: about 1.3 times the time is spent that was needed. No Hold may be kept meanwhile.
   void pay(const Mesh& mesh, double nanoseconds);
 
   /// Makes the model's twin now, unless it has a current one.
