@@ -141,7 +141,8 @@ std::vector<unsigned char> write(const Model<S>& model, bool with_tree) {
     std::memcpy(&bytes[at.primitives + 4 * static_cast<std::size_t>(node.first_primitive)],
                 &primitive, 4);
   }
-  std::memcpy(&bytes[at.vertices], model.vertices, header.num_vertices * 3 * sizeof(S));
+  std::memcpy(&bytes[at.vertices], reinterpret_cast<const unsigned char*>(model.vertices),
+              header.num_vertices * 3 * sizeof(S));
   for (std::size_t t = 0; t < header.num_triangles; ++t) {
     for (int corner = 0; corner < 3; ++corner) {
       const auto vertex = static_cast<std::uint32_t>(model.tri_indices[t][corner]);
@@ -310,11 +311,13 @@ std::shared_ptr<Model<S>> load(const void* bytes, std::size_t size) {
   return model;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
 #define KIOS_INSTANTIATE(S)                                        \
   template std::vector<unsigned char> save(const Model<S>& model); \
   template std::shared_ptr<Model<S>> load<S>(const void* bytes, std::size_t size);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace kios
