@@ -10,6 +10,7 @@
 #include "query/mesh_pair.h"
 #include "shape/triangle_shape.h"
 #include "volume/balls.h"
+#include "volume/unit_vector.h"
 
 namespace kios::continuous {
 namespace {
@@ -175,10 +176,10 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
                                      closingTime(gap, drift.most, 0)));
   }
   // As for two triangles: the slab that lasts longest need not be the widest one.
-  const Vector3d witness = (nearest.on_triangle - nearest.on_shape).stableNormalized();
+  const Vector3d witness = unitVector(nearest.on_triangle - nearest.on_shape);
   const auto attempt = [&](const Vector3d& normal) {
     if (best >= enough || !(normal.squaredNorm() > 0)) return;
-    const Vector3d n = normal.stableNormalized();
+    const Vector3d n = unitVector(normal);
     const double time = slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), part, corners, v, enough);
     if (!(time > best)) return;
     best = time;
@@ -192,13 +193,13 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
   attempt(witness);
   const Vector3d edges[3] = {corners[1] - corners[0], corners[2] - corners[1],
                              corners[0] - corners[2]};
-  const Vector3d normal = edges[0].stableNormalized().cross(edges[1].stableNormalized());
-  const Vector3d velocity = v.velocityAt(nearest.on_triangle + part.center).stableNormalized();
+  const Vector3d normal = unitVector(edges[0]).cross(unitVector(edges[1]));
+  const Vector3d velocity = unitVector(v.velocityAt(nearest.on_triangle + part.center));
   attempt(normal);
   for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i));
-  for (const Vector3d& edge : edges) attempt(edge.stableNormalized().cross(velocity));
+  for (const Vector3d& edge : edges) attempt(unitVector(edge).cross(velocity));
   for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i).cross(velocity));
-  for (const Vector3d& edge : edges) attempt(edge.stableNormalized().cross(normal));
+  for (const Vector3d& edge : edges) attempt(unitVector(edge).cross(normal));
   return best;
 }
 

@@ -15,6 +15,7 @@
 #include "query/mesh_pair.h"
 #include "solid/solid_queries.h"
 #include "volume/balls.h"
+#include "volume/unit_vector.h"
 
 namespace kios::continuous {
 namespace {
@@ -27,8 +28,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Edges {
   explicit Edges(const TriangleVertices<double>& t)
       : along{t[1] - t[0], t[2] - t[1], t[0] - t[2]}, normal(along[0].cross(along[1])) {
-    for (Vector3d& edge : along) edge = edge.stableNormalized();
-    normal = normal.stableNormalized();
+    for (Vector3d& edge : along) edge = unitVector(edge);
+    normal = unitVector(normal);
   }
   Vector3d along[3], normal;
 };
@@ -212,7 +213,7 @@ bool MovingMeshes::leavesStayApart(NodePair pair, const RelativeVelocities& v) c
                                     cornersOf(b_, b_.getBV(pair.b).primitiveId()));
   for (int part = 0; part < Chords::kParts; ++part) {
     const auto stays = [&](const Vector3d& n) {
-      const Vector3d unit = n.stableNormalized();
+      const Vector3d unit = unitVector(n);
       return unit.squaredNorm() > 0 && (chords_.slabStays(v, triangles, part, unit) ||
                                         chords_.slabStays(v, triangles, part, -unit));
     };
@@ -300,14 +301,14 @@ double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, dou
   double best =
       v.apartTime(v.ballOfA(a.center0, a.radius0),
                   v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())), nearest.distance);
-  const Vector3d witness = (nearest.point_b - nearest.point_a).stableNormalized();
+  const Vector3d witness = unitVector(nearest.point_b - nearest.point_a);
   if (best < enough) best = std::max(best, v.slabTime(witness, p, q, enough));
   // The slab that lasts longest need not be the widest one: a body that slides along a face stays
   // on its side of it, and a body that passes an edge stays on its side of a plane through the edge
   // and the velocity.
   const auto attempt = [&](const Vector3d& normal) {
     if (best >= enough) return;
-    const Vector3d n = normal.stableNormalized();
+    const Vector3d n = unitVector(normal);
     best = std::max(best, v.slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), p, q, enough));
   };
   const Edges edges_p(p), edges_q(q);

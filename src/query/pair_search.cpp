@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "query/pair_search.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -195,6 +196,25 @@ class TreeSearch {
   PairAnswer<S> result_;
 };
 
+/// Returns a lower bound of how far the model's content reaches from any point, and so of its
+/// tree's reach: a quarter of the radius of a root volume that was fitted to the content. One that
+/// was merged, as bottom-up refits do, may be a hundred times as large; some of the content tells
+/// then.
+template <typename S>
+double leastReach(const Model<S>& model) {
+  const kIOS<S>& root = model.getBV(0).bv;
+  if (treesOf(model)->isBuilt(root.stamp)) return double{root.radius0} / 4;
+  constexpr int kSamples = 16;
+  const int step = std::max(1, model.num_tris / kSamples);
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < model.num_tris; i += step) {
+    for (int k = 0; k < 3; ++k) {
+      box.extend(model.vertices[model.tri_indices[i][k]].template cast<double>());
+    }
+  }
+  return std::min(double{root.radius0} / 4, 0.49 * box.sizes().maxCoeff());
+}
+
 }  // namespace
 
 template <typename S>
@@ -219,15 +239,14 @@ PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
   return TreeSearch<S>(frame, query, counts).run();
 }
 
-// The tests of preparedTree() and makeFramePair() with room for what a tree's reach may be: at
-// least a quarter of the root volume's radius, as the content reaches farther from any point, and
-// hardly ever above 64 times that, which is for the caps of flat content.
+// The tests of preparedTree() and makeFramePair() with room for what a tree's reach may be: hardly
+// ever above 64 times the root volumes' radii, which is for the caps of flat content.
 template <typename S>
 bool engineServes(const PairFrame<S>& frame) {
   const kIOS<S>&a = frame.rootA(), &b = frame.rootB();
   if (!treesOf(frame.a) || !treesOf(frame.b) || a.stamp == 0 || b.stamp == 0) return false;
-  const double radius_a = a.radius0, radius_b = b.radius0, least = std::min(radius_a, radius_b) / 4;
-  const double reach = 64 * (radius_a + radius_b);
+  const double least = std::min(leastReach(frame.a), leastReach(frame.b));
+  const double reach = 64 * (double{a.radius0} + double{b.radius0});
   const auto norm1 = [](const kIOS<S>& v) {
     return v.center0.template cast<double>().template lpNorm<1>();
   };

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fcl_kios/triangle/intersection.h"
+#include "volume/unit_vector.h"
 
 namespace kios {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 /// Unit normal, zero for a triangle without one.
 template <typename S>
 Point<S> normalOf(const TriangleVertices<S>& t) {
-  const Point<S> u = (t[1] - t[0]).stableNormalized(), v = (t[2] - t[0]).stableNormalized();
+  const Point<S> u = unitVector(t[1] - t[0]), v = unitVector(t[2] - t[0]);
   const Point<S> n = u.cross(v);
   return n.squaredNorm() > 0 ? Point<S>(n.normalized()) : Point<S>(Point<S>::Zero());
 }

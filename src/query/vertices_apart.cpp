@@ -68,10 +68,11 @@ bool verticesApart(const PairFrame<S>& frame, double margin) {
     return Vec(detail::rotate<double>(R, x.template cast<double>()) + T);
   };
   Vec n = place(root_b.center0) - root_a.center0.template cast<double>();
-  double length = std::sqrt(detail::dot<double>(n, n));
+  const auto isDivisor = [](double length) { return length > 0x1p-500 && length < 0x1p500; };
+  const double distance = std::sqrt(detail::dot<double>(n, n));
+  if (!isDivisor(distance)) return false;
+  n /= distance;
   for (int i = 0; i < kPlanes; ++i) {
-    if (!(length > 0x1p-500 && length < 0x1p500)) return false;
-    if (i == 0) n /= length;
     const Vec n_B(R(0, 0) * n[0] + R(1, 0) * n[1] + R(2, 0) * n[2],
                   R(0, 1) * n[0] + R(1, 1) * n[1] + R(2, 1) * n[2],
                   R(0, 2) * n[0] + R(1, 2) * n[1] + R(2, 2) * n[2]);
@@ -81,7 +82,8 @@ bool verticesApart(const PairFrame<S>& frame, double margin) {
     if (gap > least) return true;
     const Vec between =
         place(b.vertices[of_b.vertex]) - a.vertices[of_a.vertex].template cast<double>();
-    length = std::sqrt(detail::dot<double>(between, between));
+    const double length = std::sqrt(detail::dot<double>(between, between));
+    if (!isDivisor(length)) return false;
     const Vec r = between / length;
     n -= 2 * detail::dot<double>(r, n) * r;
     n /= std::sqrt(detail::dot<double>(n, n));

@@ -9,6 +9,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "shape/hull.h"
 #include "shape/nearest_point.h"
+#include "volume/unit_vector.h"
 
 namespace kios::shape {
 namespace {
@@ -19,7 +20,7 @@ bool isEdge(TriangleFeature feature) {
 
 Vec edgeOf(const Triangle& t, TriangleFeature feature) {
   const int i = static_cast<int>(feature) - static_cast<int>(TriangleFeature::kEdge0);
-  return (t[(i + 1) % 3] - t[i]).stableNormalized();
+  return unitVector(t[(i + 1) % 3] - t[i]);
 }
 
 /// From the solid to the triangle, unit, across the features where they are nearest: these keep
@@ -28,14 +29,14 @@ Vec directionAcross(const Triangle& t, const Triangle& face, const TriangleDista
   const Vec between = d.point_a - d.point_b;
   Vec n = Vec::Zero();
   if (d.feature_a == TriangleFeature::kFace) {
-    n = faceNormal(t).stableNormalized();
+    n = unitVector(faceNormal(t));
   } else if (d.feature_b == TriangleFeature::kFace) {
-    n = faceNormal(face).stableNormalized();
+    n = unitVector(faceNormal(face));
   } else if (isEdge(d.feature_a) && isEdge(d.feature_b)) {
     n = edgeOf(t, d.feature_a).cross(edgeOf(face, d.feature_b));
   }
   if (!(n.squaredNorm() > 0x1p-80)) n = between;
-  return (n.dot(between) < 0 ? Vec(-n) : n).stableNormalized();
+  return unitVector(n.dot(between) < 0 ? Vec(-n) : n);
 }
 
 /// The point that may lie farthest beyond x along n, whose direction may be off by `error`; null if

@@ -10,7 +10,7 @@ namespace kios::testing {
 namespace {
 
 /// Poses of a second mesh whose centre lies at the first one's: inside, across, touching along an
-/// axis in parallel, near and far.
+/// axis in parallel, near and far; and some where corners of triangles coincide.
 template <typename S>
 std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::uint64_t seed) {
   const double size = std::max(std::max(extent(a), extent(b)), 1e-6);
@@ -25,6 +25,15 @@ std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::ui
   for (fcl::Transform3d& X : poses) {
     X.translation() += centreOf(a) - X.linear() * centreOf(b);
     result.push_back(X.cast<S>());
+  }
+  for (int i = 0; i < 4 && !a.triangles.empty() && !b.triangles.empty(); ++i) {
+    const auto& t =
+        a.triangles[static_cast<std::size_t>(random.uniform(0, 1) * a.triangles.size())];
+    const auto& u =
+        b.triangles[static_cast<std::size_t>(random.uniform(0, 1) * b.triangles.size())];
+    result.push_back(fcl::Transform3<S>::Identity());
+    result.back().translation() =
+        a.vertices[t[i % 3]].template cast<S>() - b.vertices[u[i / 2]].template cast<S>();
   }
   return result;
 }
@@ -66,11 +75,13 @@ TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
             });
           }
           for (const std::size_t most : {std::size_t{1}, std::size_t{5}, std::size_t{100000}}) {
-            flags.during(names + "fcl::collide", [&] {
-              fcl::CollisionResult<S> result;
-              fcl::collide(a.get(), here, b.get(), X, fcl::CollisionRequest<S>(most, false),
-                           result);
-            });
+            for (const bool enable_contact : {false, true}) {
+              flags.during(names + "fcl::collide", [&] {
+                fcl::CollisionResult<S> result;
+                fcl::collide(a.get(), here, b.get(), X,
+                             fcl::CollisionRequest<S>(most, enable_contact), result);
+              });
+            }
           }
           for (const S t : {S(0), S(0.5) * d, d, S(2) * d}) {
             flags.during(names + "closerThan",

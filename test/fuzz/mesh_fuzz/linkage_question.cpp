@@ -41,6 +41,7 @@ class LinkageQuestion {
     for (const Mesh& mesh : c.meshes) {
       for (const Vector3d& p : mesh.vertices) size_ = std::max(size_, p.norm());
     }
+    if (size_ == 0) size_ = 1;
   }
 
   Verdict run() {

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // usage: mesh_fuzz [--seed N] [--seconds S] [--case K] [--only QUESTION] [--threads N] [--list]
-//                  [--skip QUESTION]... [--shrink S]
+//                  [--skip QUESTION]... [--shrink S] [--slow S] [--traps 0]
 // Asks cases 0, 1, 2 ... of a seed until the time is up, or --case's alone. At the first failure it
 // prints one line that repeats it, the smallest case that fails alike (searched for --shrink
-// seconds), and exits with 1.
+// seconds), and exits with 1. A case that takes more than --slow seconds of a processor (1) is a
+// failure, and so is an operation that raises FE_INVALID or FE_DIVBYZERO, unless --traps is 0.
 
 #include <atomic>
+#include <cfenv>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -34,6 +36,8 @@ struct Settings {
   double seconds = 10, shrink_seconds = 20;
   long long index = -1;  ///< negative: all
   int threads = 1;
+  double slow = 1;
+  bool traps = true;
   const Question* only = nullptr;
   std::set<const Question*> skip;
 };
@@ -49,6 +53,12 @@ std::uint64_t running_seed = 0;
 /// Returns the processor time of all threads: what a busy or paused machine does to the clock on
 /// the wall is no failure.
 double processorSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+/// Returns the processor time of this thread alone.
+double threadSeconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 long long milliseconds() { return 1 + static_cast<long long>(1000 * processorSeconds()); }
 
 extern "C" void onCrash(int signal) {
@@ -87,6 +97,9 @@ class Run {
  private:
   void work(int thread, Current& state) {
     current = &state;
+#ifdef __GLIBC__
+    if (settings_.traps) feenableexcept(FE_INVALID | FE_DIVBYZERO);
+#endif
     const bool one = settings_.index >= 0;
     std::uint64_t i =
         one ? static_cast<std::uint64_t>(settings_.index) : static_cast<std::uint64_t>(thread);
@@ -97,7 +110,12 @@ class Run {
       state.since = milliseconds();
       const Case c = drawCase(settings_.seed, i, settings_.only);
       if (!one && settings_.skip.count(c.question) > 0) continue;
-      const Verdict wrong = ask(c);
+      const double start = threadSeconds();
+      Verdict wrong = ask(c);
+      const double seconds = threadSeconds() - start;
+      if (!wrong && seconds > settings_.slow) {
+        wrong = Failure{"takes " + std::to_string(seconds) + " s", ""};
+      }
       ++cases_;
       if (wrong) report(c, i, *wrong);
       if (one) break;
@@ -169,6 +187,10 @@ Settings parsed(int argc, char** argv) {
       settings.seconds = std::stod(value);
     } else if (option == "--shrink") {
       settings.shrink_seconds = std::stod(value);
+    } else if (option == "--slow") {
+      settings.slow = std::stod(value);
+    } else if (option == "--traps") {
+      settings.traps = value != "0";
     } else if (option == "--case") {
       settings.index = std::stoll(value);
     } else if (option == "--threads") {

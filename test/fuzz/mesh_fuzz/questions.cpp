@@ -17,7 +17,8 @@ const std::vector<Question>& questions() {
                                             {"shape", 1, 1, 1, 1, 1, false, askShape},
                                             {"continuous", 0.3, 2, 2, 2, 2, false, askContinuous},
                                             {"linkage", 0.5, 3, 1, 2, 1, false, askLinkage},
-                                            {"manager", 0.5, 4, 3, 2, 1, false, askManager}};
+                                            {"manager", 0.5, 4, 3, 2, 1, false, askManager},
+                                            {"changing", 1, 3, 4, 3, 1, false, askChanging}};
   return all;
 }
 

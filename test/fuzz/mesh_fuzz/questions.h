@@ -20,5 +20,6 @@ Verdict askManager(const Case& c);     ///< ManagerQuery with an FCL manager
 Verdict askRefit(const Case& c);       ///< models that were replaced, updated or copied
 Verdict askContinuous(const Case& c);  ///< kios::firstContact
 Verdict askLinkage(const Case& c);     ///< kios::checkMotion
+Verdict askChanging(const Case& c);    ///< scenes whose geometries change in place
 
 }  // namespace kios::fuzz
