@@ -125,7 +125,7 @@ TEST(TightFits, ARodSlidesThroughARing) {
       const RobotCase robot = fitted(peg, hole, JointType::kPrismatic, {{0, 0, 1}}, turned);
       expectClear(robot, Joints::Constant(1, 0.5), 300);
       if (clearance > 1e-7) expectClear(robot, Joints::Constant(1, 0.5), 300, 0.5 * clearance);
-      // The same the other way about, and as a shape.
+      // It holds the other way about, too, and for a shape.
       expectClear(fitted(hole, peg, JointType::kPrismatic, {{0, 0, 1}}, turned),
                   Joints::Constant(1, 0.5), 300);
       expectClear(fitted(std::make_shared<fcl::Cylinderd>(0.01, 2), hole, JointType::kPrismatic,

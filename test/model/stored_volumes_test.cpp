@@ -36,7 +36,7 @@ class DerivedFitter final : public fcl::detail::BVFitter<kIOSd> {
   const kIOSd volume_ = reach();
 };
 
-/// The same by FCL's interface alone.
+/// Does so by FCL's interface alone.
 class PlainFitter final : public fcl::detail::BVFitterBase<kIOSd> {
  public:
   explicit PlainFitter(int least) : least_(least) {}

@@ -68,8 +68,8 @@ struct BruteForce {
   }
 };
 
-/// Of a MotionBenchMaker robot: links whose meshes are named after them by hand, to be independent
-/// of the reader.
+/// Sets up a MotionBenchMaker robot: links whose meshes are named after them by hand, to be
+/// independent of the reader.
 BruteForce pandaByHand() {
   const std::string folder = mbmFolder("panda") + "/meshes/collision/";
   BruteForce brute;

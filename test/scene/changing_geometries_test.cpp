@@ -84,7 +84,7 @@ class ChangingGeometries : public ::testing::TestWithParam<bool> {
   const std::shared_ptr<Modeld> mesh_ = kiosModel(scenes::icosphere(0.5, 2));
 };
 
-// Of one object alone, as its user keeps its boxes up to date, and without.
+// One object alone is asked about, as its user keeps its boxes up to date, and without.
 TEST_P(ChangingGeometries, ManagerQueriesSeeTheChange) {
   for (const Changing& c : changingGeometries()) {
     fcl::CollisionObjectd mesh(mesh_, away_), other(c.geometry);
