@@ -41,16 +41,16 @@ def places(rows, query, links="*"):
 
 
 def world(rows):
-    columns = spec(QUERIES + "cold distance | distance cold\ncold contact | collide cold")
-
-    def entry(line, column, settings):
-        scenario, (query, *cold) = line[0], column
-        if cold:
-            scenario += "/cold"
-            if scenario not in rows.scenarios(scenario):
-                return ""  # one set of links alone is asked cold
-        return cell(rows, scenario, query, **settings)
-    return grid("us (FCL / k-IOS)", places(rows, "closer_than"), columns, entry)
+    names = dict.fromkeys(label.rpartition(", ")[0] for label, _ in places(rows, "closer_than"))
+    columns = spec(QUERIES + """cold distance      | distance /ur5/cold
+cold contact       | collide /ur5/cold
+parts: distance    | distance /parts
+first contact      | collide /parts
+all contacts       | contacts /parts
+""")
+    return grid("us (FCL / k-IOS)", [(name, ([name.replace(" ", "_")], {})) for name in names],
+                columns, lambda line, column, settings: cell(
+                    rows, f"world/{line[0]}{(*column, '/ur5')[1]}", column[0], **settings))
 
 
 def world_shapes(rows):
