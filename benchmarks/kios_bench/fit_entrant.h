@@ -30,12 +30,12 @@ struct FitSize {
 /// differ by their volumes alone.
 struct FitTrees {
   std::function<paper::VariantResult(const RelativePose<double>&X_AB)> distance, collide;
-  /// The bound of two nodes, for a distance query.
+  /// Returns the bound of two nodes, for a distance query.
   std::function<double(const NodePair& pair)> bound;
   std::function<FitSize()> size;
 };
 
-/// A volume and its fit.
+/// Holds a volume and its fit.
 struct FitEntrant {
   std::string name;
   bool serves_distance;  ///< false for a volume without distances

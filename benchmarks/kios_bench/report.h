@@ -47,7 +47,7 @@ struct Volumes {
   Maybe tightness;                ///< mean of bound / true distance of the contents
 };
 
-/// As ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.
+/// Is as ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.
 struct ToSsv {
   Maybe ratio;
   Maybe max_ratio;  ///< the largest of all frames
@@ -79,17 +79,17 @@ struct Row {
   Pairs pairs;
   std::optional<std::string> simd_target;
 
-  /// A copy for a competitor, with its times.
+  /// Returns a copy for a competitor, with its times.
   Row of(const Competitor& competitor, const Competitor* reference = nullptr) const;
 };
 
 /// Moves the rows to the end of `all`.
 void append(std::vector<Row> rows, std::vector<Row>& all);
 
-/// A number as the tables print it, by printf's format; `-` if it is unknown or not finite.
+/// Returns a number as the tables print it, by printf's format; `-` if it is unknown or not finite.
 std::string cell(const Maybe& value, const char* format);
 
-/// The row as one line of JSON. Numbers that are not finite become null.
+/// Returns the row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);
 
 /// Receives rows as they are measured: an aligned table on stdout and, if a file is named, one JSON

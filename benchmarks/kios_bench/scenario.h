@@ -18,7 +18,7 @@ class Skipped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A named set of scenes. Its rows carry the name, followed by `/` and the scene where it has
+/// Holds a named set of scenes. Its rows carry the name, followed by `/` and the scene where it has
 /// several.
 struct Scenario {
   const char* name;

@@ -62,8 +62,8 @@ class PackedPolicy {
   using Volume = CapSpheres;
   using Store = PackedStore;
 
-  /// Pose of B in A between the models' units, in units of 2^exponent, and its rounding. Refers to
-  /// both models' data, which must outlive it.
+  /// Holds a pose of B in A between the models' units, in units of 2^exponent, and its rounding.
+  /// Refers to both models' data, which must outlive it.
   struct Placed {
     const Shared *a, *b;
     double R[3][3], T[3];
@@ -128,7 +128,7 @@ class AxisAlignedKios : public PackedPolicy {
 /// stores once. They turn with the model, so that no rotation makes anything be computed again.
 class FixedDirectionKios : public PackedPolicy {
  public:
-  /// The principal axes of each model's vertices.
+  /// Returns the principal axes of each model's vertices.
   explicit FixedDirectionKios(const FitOptions& options = {})
       : PackedPolicy(Axes::kOfTheModel, 7, options) {}
   /// Sets 1 to 6 directions, the same for every model, each in the model's frame, of any finite

@@ -25,9 +25,10 @@ struct VariantResult {
   std::int64_t leaf_tests = 0;
 };
 
-/// A mesh with a volume of `Policy` (volume_policy.h) around every node of its split. Traversal and
-/// leaf tests are the same for all policies and do not look into volumes, so that counts compare
-/// the volumes alone. For comparison: fcl::BVHModel<kIOSd> is what answers queries fast.
+/// Holds a mesh with a volume of `Policy` (volume_policy.h) around every node of its split.
+/// Traversal and leaf tests are the same for all policies and do not look into volumes, so that
+/// counts compare the volumes alone. For comparison: fcl::BVHModel<kIOSd> is what answers queries
+/// fast.
 template <typename Policy>
 class VariantTree {
  public:

@@ -14,7 +14,7 @@ namespace {
 
 using fcl::Vector3d;
 
-/// A closed polygon about the z axis, counter-clockwise seen from above.
+/// Holds a closed polygon about the z axis, counter-clockwise seen from above.
 struct Corner {
   double x, y;
 };

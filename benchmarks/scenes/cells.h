@@ -45,10 +45,10 @@ void placeLinks(const Cell& cell, const Joints& q, std::vector<fcl::Transform3d>
 /// `size` times that.
 Cell workCell(const Robot& robot, int count, double size, std::uint64_t seed);
 
-/// Two robots whose workspaces overlap, the second at X_W2, and nothing else.
+/// Returns two robots whose workspaces overlap, the second at X_W2, and nothing else.
 Cell sideBySide(const Robot& robot, const fcl::Transform3d& X_W2);
 
-/// A configuration in the robots' range.
+/// Returns a configuration in the robots' range.
 Joints randomJoints(const Cell& cell, Random& random);
 
 /// From q in a random direction, the joint that turns most by `length` radians.

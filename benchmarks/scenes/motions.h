@@ -22,9 +22,9 @@ struct Frame {
 /// frames differ little when there are many.
 std::vector<Frame> fallingMotion(int frames);
 
-/// The spinning benchmark of the k-IOS paper: A at (-1, 0, 0) and B at (1, 0, 0) turn in place. For
-/// frame i = 1, 2, ... and the angles (a, b, c) = (0.1 i, 0.2 i, 0.3 i) in radians,
-/// R_WA = Rx(a) Ry(b) Rz(c) and R_WB = Rx(c) Ry(a) Rz(b).
+/// Returns the spinning benchmark of the k-IOS paper: A at (-1, 0, 0) and B at (1, 0, 0) turn in
+/// place. For frame i = 1, 2, ... and the angles (a, b, c) = (0.1 i, 0.2 i, 0.3 i) in radians, R_WA
+/// = Rx(a) Ry(b) Rz(c) and R_WB = Rx(c) Ry(a) Rz(b).
 std::vector<Frame> spinningMotion(int frames);
 
 /// Uniformly distributed rotation (Shoemake's quaternion) and a translation uniform in the cube
@@ -41,8 +41,8 @@ using DistanceFunction = std::function<double(const Frame&)>;
 std::vector<Frame> gapMotion(int frames, double gap, double apart, std::uint64_t seed,
                              const DistanceFunction& distance);
 
-/// Independent random orientations; A at the origin, B in a random direction at a distance uniform
-/// in [nearest, farthest].
+/// Returns independent random orientations; A at the origin, B in a random direction at a distance
+/// uniform in [nearest, farthest].
 std::vector<Frame> farMotion(int frames, double nearest, double farthest, std::uint64_t seed);
 
 /// The frames in a random order, which the seed sets: no coherence is left.

@@ -26,7 +26,7 @@ class MeshOracle {
   /// Distance, 0 in contact (touching counts), rounded to double once.
   double distance(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
-  /// True if some pair of triangles meets (trianglesMeet).
+  /// Returns true if some pair of triangles meets (trianglesMeet).
   bool collide(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
   /// All pairs that meet, in ascending order.

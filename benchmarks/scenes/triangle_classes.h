@@ -14,8 +14,8 @@
 
 namespace kios::scenes {
 
-/// A named family of pairs. All coordinates are finite and at most 1e300 in magnitude. Vertices
-/// come in random order and the triangles in either.
+/// Holds a named family of pairs. All coordinates are finite and at most 1e300 in magnitude.
+/// Vertices come in random order and the triangles in either.
 struct TriangleClass {
   const char* name;
   std::function<TrianglePair(Random&)> make;

@@ -12,7 +12,7 @@
 namespace kios::testing {
 namespace {
 
-/// A volume around all that the test's models ever are.
+/// Returns a volume around all that the test's models ever are.
 kIOSd reach() {
   std::vector<Vector3d> box;
   for (int i = 0; i < 8; ++i) {

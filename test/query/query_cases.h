@@ -36,7 +36,7 @@ std::shared_ptr<Model<S>> modelOf(const Mesh& mesh, bool own_fitter = true) {
   return model;
 }
 
-/// The mesh with vertices that S can hold.
+/// Returns the mesh with vertices that S can hold.
 template <typename S>
 Mesh rounded(Mesh mesh) {
   for (fcl::Vector3d& p : mesh.vertices) p = p.template cast<S>().template cast<double>();

@@ -21,7 +21,7 @@ namespace kios::testing {
 template <typename S>
 const fcl::Transform3<S> kIdentity = fcl::Transform3<S>::Identity();
 
-/// A model that must be searched in FCL's tree.
+/// Returns a model that must be searched in FCL's tree.
 template <typename S>
 std::shared_ptr<Model<S>> unpreparedModel(const Mesh& mesh) {
   auto model = std::make_shared<Model<S>>();

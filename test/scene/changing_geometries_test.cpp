@@ -18,7 +18,7 @@ namespace {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-/// A geometry, and its n-th change.
+/// Holds a geometry, and its n-th change.
 struct Changing {
   std::string name;
   Geometry geometry;
@@ -26,7 +26,7 @@ struct Changing {
   bool remembered = true;  ///< its distances, as long as it doesn't change
 };
 
-/// A shape of the user's own, which depends on what no library can know.
+/// Holds a shape of the user's own, which depends on what no library can know.
 class Inflated final : public fcl::Sphered {
  public:
   using fcl::Sphered::Sphered;

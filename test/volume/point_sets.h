@@ -96,7 +96,7 @@ inline Points<double> shapePoints(Random& random, Shape shape, int n) {
   return points;
 }
 
-/// Turned at random or not, shifted by `offset` sizes, scaled and rounded to S.
+/// Returns it turned at random or not, shifted by `offset` sizes, scaled and rounded to S.
 template <typename S>
 Points<S> place(Random& random, const Points<double>& points, double offset, double scale) {
   const fcl::Matrix3d R =
@@ -110,7 +110,7 @@ Points<S> place(Random& random, const Points<double>& points, double offset, dou
   return placed;
 }
 
-/// Sizes for which bounds are promised, the ordinary ones more often than the extreme ones.
+/// Returns sizes for which bounds are promised, the ordinary ones more often than the extreme ones.
 template <typename S>
 double randomScale(Random& random) {
   const bool is_double = sizeof(S) == sizeof(double);
@@ -139,7 +139,7 @@ inline int randomCount(Random& random) {
   return kind < 3 ? 3 : kind < 4 ? 6 : kind < 9 ? 1 + below(random, 16) : 1 + below(random, 60);
 }
 
-/// Any shape at any place and scale.
+/// Returns any shape at any place and scale.
 template <typename S>
 Points<S> hardPointSet(Random& random, int n) {
   const auto shape = static_cast<Shape>(below(random, kShapes));
