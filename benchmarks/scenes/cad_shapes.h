@@ -22,18 +22,18 @@ struct ProfilePoint {
   double z;
 };
 
-/// Returns a solid of revolution. The profile runs upwards outside the solid's axis, from a point on
-/// it (radius 0) to another: its ends become fans, each step between two a ring of long quads.
+/// Returns a solid of revolution. The profile runs upwards outside the solid's axis, from a point
+/// on it (radius 0) to another: its ends become fans, each step between two a ring of long quads.
 Mesh turnedPart(const std::vector<ProfilePoint>& profile, int segments);
 
 /// Returns a cylinder from z = 0 to `length` with a chamfered flange of 1.35 times its radius at
 /// each end.
 Mesh flangedCylinder(double radius, double length, int segments);
 
-/// Returns a block [-size/2, size/2] with a round bore along z, upright edges rounded by `rounding`,
-/// chamfers at top and bottom. `segments`, a multiple of 4, counts the bore's edges; 12 segments
-/// triangles. Sides are single long quads; top and bottom are fans between the bore and the
-/// roundings.
+/// Returns a block [-size/2, size/2] with a round bore along z, upright edges rounded by
+/// `rounding`, chamfers at top and bottom. `segments`, a multiple of 4, counts the bore's edges; 12
+/// segments triangles. Sides are single long quads; top and bottom are fans between the bore and
+/// the roundings.
 Mesh boredBlock(const fcl::Vector3d& size, double rounding, double chamfer, double bore_radius,
                 int segments);
 

@@ -33,16 +33,17 @@ Mesh bumpyTorus(int triangles);
 /// shared between faces: 12 n^2 triangles.
 Mesh subdividedBox(const fcl::Vector3d& size, int n);
 
-/// Returns an icosahedron subdivided `subdivisions` times, vertices on the sphere: 20 * 4^subdivisions
-/// triangles.
+/// Returns an icosahedron subdivided `subdivisions` times, vertices on the sphere: 20 *
+/// 4^subdivisions triangles.
 Mesh icosphere(double radius, int subdivisions);
 
 /// Returns a sphere with poles on z, `rings` >= 2 bands of latitude, `segments` >= 3 of longitude:
 /// 2 segments (rings - 1) triangles, slivers near the poles.
 Mesh uvSphere(double radius, int rings, int segments);
 
-/// Returns an open height field z = amplitude sin(2 pi x / width) sin(2 pi y / depth) over a centred
-/// rectangle, nx x ny squares of two triangles; flat, with all triangles coplanar, for amplitude 0.
+/// Returns an open height field z = amplitude sin(2 pi x / width) sin(2 pi y / depth) over a
+/// centred rectangle, nx x ny squares of two triangles; flat, with all triangles coplanar, for
+/// amplitude 0.
 Mesh sheet(double width, double depth, int nx, int ny, double amplitude);
 
 Mesh singleTriangle(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c);

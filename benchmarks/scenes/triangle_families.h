@@ -95,7 +95,8 @@ inline TrianglePair shifted(const TrianglePair& pair, const Eigen::Vector3d& t) 
   return mapped(pair, [&t](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + t; });
 }
 
-/// Returns it moved rigidly at random, then rounded, so that nothing is exact that was so in `pair`.
+/// Returns it moved rigidly at random, then rounded, so that nothing is exact that was so in
+/// `pair`.
 inline TrianglePair posed(Random& random, const TrianglePair& pair) {
   const Eigen::Matrix3d R = rotation(random);
   const Eigen::Vector3d t = point(random);
