@@ -14,6 +14,16 @@ namespace kios {
 ///
 /// Sphere 0 (S0) is the central sphere; spheres 1, 2 and 3, 4 are pairs of larger "caps" that cut
 /// S0 off along the smallest and the middle axis of the content. Units and frame are the model's.
+/// In section, along the smallest axis:
+/// @verbatim
+///             .-"""""""-.            S0
+///    ______.-'___________'-.______   part of sphere 2, whose centre lies far below
+///        .'    #########    '.
+///        |  ###############  |       the content lies in all spheres
+///        '.    #########    .'
+///    ------'-.-----------.-'------   part of sphere 1, whose centre lies far above
+///             '-._____.-'
+/// @endverbatim
 ///
 /// Every sphere contains the content in exact arithmetic: its radius is measured from the centre
 /// as stored and rounded outwards. Every bound that is derived from it is conservative in floating
