@@ -48,6 +48,13 @@ def worst_triangles(rows):
             f"wrong for none")
 
 
+def wrong_zeros(rows):
+    """How often FCL's triangle distance says contact for none, or none for contact."""
+    found = [rows.find(scenario, "distance", "fcl") for scenario in rows.scenarios("stability/*")]
+    return (f"{sum(row['wrong_verdicts'] for row in found):,} of "
+            f"{sum(row['frames'] for row in found):,}")
+
+
 # README.md
 
 README = spec("""
