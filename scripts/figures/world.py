@@ -93,31 +93,27 @@ two triangles, contact   | crowds/one_triangle collide
 
 
 def coal(rows):
+    """Ours / Coal's / FCL's OBBRSS, and how Coal's answers stand against the oracle."""
     lines = spec("""
-UR5's links and a table, distance   | world/table/ur5 distance
-the same, first contact             | world/table/ur5 collide
-the same, nearer than 2 cm?         | world/table/ur5 closer_than threshold=0.02
-a shelf, distance                   | world/shelf/ur5 distance
-the same, first contact             | world/shelf/ur5 collide
-the same, nearer than 2 cm?         | world/shelf/ur5 closer_than threshold=0.02
-terrain, distance                   | world/terrain_1m/ur5 distance
-the same, first contact             | world/terrain_1m/ur5 collide
-a building, distance                | world/building/ur5 distance
-the same, first contact             | world/building/ur5 collide
+UR5's links and a table | world/table/ur5
+a shelf                 | world/shelf/ur5
+terrain                 | world/terrain_1m/ur5
+a building              | world/building/ur5
 """)
     columns = spec("""
-k-IOS        | us kios
-Coal         | us coal_obbrss
-FCL's OBBRSS | us fcl_obbrss
-Coal's error, m | error coal_obbrss
-wrong        | wrong coal_obbrss
+distance            | distance
+first contact       | collide
+nearer than 2 cm?   | closer_than threshold=0.02
+Coal's error, m     | error
+Coal's wrong        | wrong
 """)
 
     def entry(line, column, settings):
-        row = rows.find(*line, column[1], **settings)
-        if column[0] == "us":
-            return time(row["median_us"])
         if column[0] == "error":
-            return f"{row['max_abs_error']:.0e}" if "max_abs_error" in row else ""
-        return f"{row['wrong_verdicts']}"
-    return grid("a query", lines, columns, entry)
+            return f"{rows.find(line[0], 'distance', 'coal_obbrss')['max_abs_error']:.0e}"
+        if column[0] == "wrong":
+            return str(sum(rows.find(line[0], query, "coal_obbrss")["wrong_verdicts"]
+                           for query in ("distance", "collide")))
+        return " / ".join(number(rows.us(line[0], column[0], bv, **settings))
+                          for bv in (OURS, "coal_obbrss", OBBRSS))
+    return grid("us: k-IOS / Coal / FCL's OBBRSS", lines, columns, entry)
