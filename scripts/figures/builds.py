@@ -11,8 +11,6 @@ with `kios::prepare`         | prepared kios
 with a first query           | first_query kios
 the same again, and prepared | again kios
 OBBRSS: `endModel`           | build fcl_obbrss
-OBB                          | build fcl_obb
-RSS                          | build fcl_rss
 FCL's kIOS                   | build fcl_kios_builtin
 AABB                         | build fcl_aabb
 k-DOP, 24 planes             | build fcl_kdop24

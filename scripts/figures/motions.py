@@ -23,8 +23,9 @@ queries                 | narrow_queries fcl_obbrss
             f"{time(us)} ({number(rows.us(line[0], 'motion', OBBRSS) / us)})")
     lines = [f"{place}, {length} rad, {kind} | motions/ur5_{scene}/{of}/{length}"
              for scene, place in (("cell", "in the cell"), ("pair", "two arms"))
-             for kind, of in (("free", "valid"), ("not free", "invalid"))
-             for length in ("0.05", "0.2", "0.8")]
+             for kind, of, lengths in (("free", "valid", ("0.05", "0.2", "0.8")),
+                                       ("not free", "invalid", ("0.2",)))
+             for length in lengths]
     return grid("path", spec("\n".join(lines)), columns, cell)
 
 

@@ -148,7 +148,7 @@ def scenes(rows):
     """Smooth motion / random poses."""
     queries = {"closest pair": "closest", "within 0.1, exact": "within",
                "within 0.1, which": "verdicts", "every clearance": "clearances"}
-    robots = {"two arms": "generated", "two humanoids": "humanoids", "two UR5s": "ur5"}
+    robots = {"two UR5s": "ur5", "two humanoids": "humanoids"}
     lines = spec("\n".join(f"{name}: {label} | robots/{robot} {query}"
                            for name, robot in robots.items() for label, query in queries.items()))
     columns = spec("""
@@ -201,7 +201,6 @@ def calls(rows):
 do they touch? `fcl::collide`, one contact | collide kios
 nearer than ten times the distance? `kios::closerThan` | threshold kios threshold=10
 nearer than 1.1 times | threshold kios threshold=1.1
-nearer than 1.01 times | threshold kios threshold=1.01
 nearer than 0.9 times | threshold kios threshold=0.9
 how far, exactly? `fcl::distance`, `kios::distance` | distance kios rel_err=0 abs_err=0
 how far, within a tenth? `rel_err = 0.1` | distance kios rel_err=0.1 abs_err=0
@@ -361,7 +360,6 @@ PRELOADED = spec("""
 distance, 0.02 apart, 1,000 triangles          | distance_near/1000 distance
 5,000                                          | distance_near/5000 distance
 100,000                                        | distance_near/100000 distance
-0.0005 apart, 10,000                           | distance_close/10000 distance
 1 apart, 100,000                               | distance_far/100000 distance
 nearer than 0.01? 0.02 apart, 5,000            | distance_near_bounded/5000 distance
 the same, 100,000                              | distance_near_bounded/100000 distance
@@ -370,15 +368,12 @@ distance to an octree, 5,000                   | distance_octree_near/5000 dista
 do they touch? far apart, 5,000                | collide_reject/5000 collide
 0.02 apart, 5,000                              | collide_near/5000 collide
 0.02 apart, 100,000                            | collide_near/100000 collide
-0.0005 apart, 5,000                            | collide_close/5000 collide
 just touching, 5,000                           | collide_touch/5000 collide
-just touching, 100,000                         | collide_touch/100000 collide
 deep in each other, 5,000                      | collide_deep/5000 collide
 deep in each other, 100,000                    | collide_deep/100000 collide
 100 contacts, 5,000                            | collide_deep_contacts/5000 collide
 a box, 0.02 apart, 20,000                      | collide_box_near/20000 collide
 a sphere, 0.02 apart, 5,000                    | collide_sphere_near/5000 collide
-a box far apart, 5,000                         | collide_box_reject/5000 collide
 DART: distance of two robots of 7 links        | dart_distance distance
 """)
 
