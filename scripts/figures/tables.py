@@ -201,7 +201,6 @@ def calls(rows):
 do they touch? `fcl::collide`, one contact | collide kios
 nearer than ten times the distance? `kios::closerThan` | threshold kios threshold=10
 nearer than 1.1 times | threshold kios threshold=1.1
-nearer than 0.9 times | threshold kios threshold=0.9
 how far, exactly? `fcl::distance`, `kios::distance` | distance kios rel_err=0 abs_err=0
 how far, within a tenth? `rel_err = 0.1` | distance kios rel_err=0.1 abs_err=0
 how far, within 0.1? `abs_err = 0.1` | distance kios rel_err=0 abs_err=0.1
