@@ -47,7 +47,7 @@ inline void addTriangle(Mesh& mesh, const fcl::Vector3d& a, const fcl::Vector3d&
   mesh.triangles.emplace_back(n, n + 1, n + 2);
 }
 
-/// Uniform in [-1, 1]^3.
+/// Returns a number uniform in [-1, 1]^3.
 inline fcl::Vector3d inCube(Random& random) {
   const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
   return {x, y, random.uniform(-1, 1)};
@@ -155,7 +155,7 @@ inline std::vector<NamedMesh> unitMeshes() {
   return meshes;
 }
 
-/// Those, and some of them at other scales and away from their origin.
+/// Returns those, and some of them at other scales and away from their origin.
 template <typename S>
 std::vector<NamedMesh> allMeshes() {
   std::vector<NamedMesh> meshes = unitMeshes();

@@ -91,7 +91,8 @@ class Contest {
   std::vector<Competitor> builds_;
 };
 
-/// `count` of the frames, evenly spaced from the first; all of them for count = 0 or too many.
+/// Returns `count` of the frames, evenly spaced from the first; all of them for count = 0 or too
+/// many.
 std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames, int count);
 
 /// Returns the frames thinned evenly to options.frames, or to a few for options.quick.

@@ -20,8 +20,8 @@ struct NodePair {
   double distance;
 };
 
-/// Means over the nodes of both trees: numbers that describe a volume, as the paper counts; bytes
-/// that it takes here; its spheres, 0 if it has none.
+/// Holds means over the nodes of both trees: numbers that describe a volume, as the paper counts;
+/// bytes that it takes here; its spheres, 0 if it has none.
 struct FitSize {
   double numbers = 0, bytes = 0, spheres = 0;
 };
@@ -42,7 +42,7 @@ struct FitEntrant {
   std::function<FitTrees(const Split& a, const Split& b)> build;
 };
 
-/// All constructions of k-IOS, and the volumes that they are compared with.
+/// Returns all constructions of k-IOS, and the volumes that they are compared with.
 std::vector<FitEntrant> fitEntrants();
 
 }  // namespace kios::bench

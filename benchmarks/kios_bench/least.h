@@ -18,8 +18,8 @@ struct Standing {
   const char* why = nullptr;  ///< why ours may be slower there, nullptr if it may not
 };
 
-/// All rows called `kios` that have a row of FCL's volumes, or of Embree, beside them, by their
-/// ratios, least first. AABB and k-DOPs are no rivals in building.
+/// Returns all rows called `kios` that have a row of FCL's volumes, or of Embree, beside them, by
+/// their ratios, least first. AABB and k-DOPs are no rivals in building.
 std::vector<Standing> byRatio(const std::vector<Row>& rows);
 
 /// Returns why ours may be slower than others in rows of this scenario; nullptr if it may not.

@@ -49,7 +49,7 @@ struct Question {
   std::size_t max_contacts = 1000000;
 };
 
-/// Meshes over one bounding volume, queried as a user would: through fcl::distance and
+/// Holds meshes over one bounding volume, queried as a user would: through fcl::distance and
 /// fcl::collide on collision objects that exist once and are moved for every question.
 class MeshSet {
  public:
@@ -98,7 +98,7 @@ std::unique_ptr<MeshSet> makeCoalSet();
 /// Names that makeMeshSet knows, ours first.
 std::vector<std::string> volumeNames();
 
-/// Those that run where none is named.
+/// Returns those that run where none is named.
 std::vector<std::string> defaultVolumeNames();
 
 }  // namespace kios::bench

@@ -11,7 +11,7 @@
 
 namespace kios::bench {
 
-/// One way to answer the questions of a task: with a bounding volume, a library, a call.
+/// Holds one way to answer the questions of a task: with a bounding volume, a library, a call.
 struct Competitor {
   std::string name;  ///< `bv` of its rows
   /// Answers questions [begin, end), each with a fresh request and result. This alone is timed.

@@ -33,7 +33,7 @@ class RayCaster {
   virtual std::optional<SearchCounts> counts() const { return std::nullopt; }
 };
 
-/// Ours: by the prepared tree, and by FCL's tree.
+/// Returns ours: by the prepared tree, and by FCL's tree.
 std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh, bool prepared);
 
 /// Returns embree, single precision with its robust flag; nullptr if this program was built without

@@ -38,7 +38,7 @@ struct Tests {
   Maybe bvs, leaves;
 };
 
-/// Properties of the models and their volumes.
+/// Holds properties of the models and their volumes.
 struct Volumes {
   Maybe bytes_per_triangle, build_us_per_triangle;
   Maybe peak_bytes_per_triangle;  ///< while they are built
@@ -53,7 +53,7 @@ struct ToSsv {
   Maybe max_ratio;  ///< the largest of all frames
 };
 
-/// Pairs of a scene.
+/// Holds pairs of a scene.
 struct Pairs {
   MaybeCount skipped;
   MaybeCount total;      ///< of all frames, where a frame has several
@@ -61,7 +61,7 @@ struct Pairs {
   MaybeCount prepared_models;
 };
 
-/// One measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
+/// Holds one measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
 struct Row {
   std::string scenario, query, bv;
   std::size_t triangles = 0;  ///< of all meshes

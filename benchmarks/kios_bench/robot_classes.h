@@ -16,7 +16,7 @@ enum class PairClass {
   kHit
 };
 
-/// "root_reject", "apart", "near", "hit".
+/// Returns "root_reject", "apart", "near", "hit".
 const char* name(PairClass pair_class);
 
 /// Returns the questions of each class in turn, in their order.

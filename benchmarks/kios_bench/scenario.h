@@ -29,7 +29,7 @@ struct Scenario {
   int least_frames;
 };
 
-/// All scenarios. To add one: a file with its run function, declared below, and a line in
+/// Returns all scenarios. To add one: a file with its run function, declared below, and a line in
 /// scenarios.cpp.
 const std::vector<Scenario>& scenarios();
 

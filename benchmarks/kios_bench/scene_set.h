@@ -12,8 +12,8 @@
 
 namespace kios::bench {
 
-/// The nearest admissible pair; all that are nearer than a margin, with their distances; just which
-/// these are; the distance of each.
+/// Names the nearest admissible pair; all that are nearer than a margin, with their distances; just
+/// which these are; the distance of each.
 enum class SceneQuery { kClosest, kWithin, kVerdicts, kClearances };
 
 struct SceneAnswer {

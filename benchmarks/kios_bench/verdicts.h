@@ -17,7 +17,7 @@ struct Verdicts {
   std::vector<double> answers;  // exact distance, or the number of contacts
 };
 
-/// The true answer of a question: the distance, also where a threshold is asked about, or the
+/// Holds the true answer of a question: the distance, also where a threshold is asked about, or the
 /// number of contacts, at most 1 for kCollide.
 using TruthOf = std::function<double(Query query, const Question& question)>;
 

@@ -12,7 +12,7 @@
 
 namespace kios::bench {
 
-/// Meshes that robots are made of.
+/// Holds meshes that robots are made of.
 struct LinkSet {
   std::string name;
   std::vector<scenes::Mesh> meshes;
@@ -35,8 +35,8 @@ std::vector<PlacedLink> placedLinks(const scenes::World& world,
 /// Returns where worlds stand: not at the origin, nor along its axes.
 fcl::Transform3d worldPose();
 
-/// `full` poses, a mesh scene's 42 in the run of all; fewer in proportion where the options name
-/// frames; seven for options.quick.
+/// Returns `full` poses, a mesh scene's 42 in the run of all; fewer in proportion where the options
+/// name frames; seven for options.quick.
 int poseCount(int full, const Options& options);
 
 /// Returns the options with FCL's RSS and OBBRSS beside ours, and a third of the frames judged,

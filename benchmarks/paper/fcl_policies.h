@@ -93,7 +93,7 @@ struct AabbPolicy : PaddedPolicy {
   }
 };
 
-/// One sphere: a 1-IOS, the S0 of the tuned fit.
+/// Holds one sphere: a 1-IOS, the S0 of the tuned fit.
 struct SpherePolicy : PaddedPolicy {
   struct Volume {
     fcl::Vector3d center;
@@ -123,7 +123,7 @@ struct KdopPolicy {
     std::array<double, kDirections> lower, upper;
     std::vector<fcl::Vector3d> corners;
   };
-  /// Volumes with their corners, as doubles.
+  /// Holds volumes with their corners, as doubles.
   class Store {
    public:
     void add(const Volume& v) { volumes_.push_back(v); }

@@ -27,7 +27,7 @@ class MeshSplit {
   /// coordinate that a triangle uses is NaN, infinite or above 2^1000 in magnitude.
   MeshSplit(std::vector<fcl::Vector3d> vertices, std::vector<fcl::Triangle> triangles);
 
-  /// 2 n - 1 for n triangles; the root first, children after their parent.
+  /// Returns the 2 n - 1 nodes for n triangles; the root first, children after their parent.
   const std::vector<Node>& nodes() const { return nodes_; }
   int triangleCount() const { return static_cast<int>(triangles_.size()); }
   /// Returns the id of the triangle at `place`, in the order of the constructor.

@@ -9,7 +9,7 @@
 
 namespace kios::scenes {
 
-/// Axis-aligned box in the frame of its points.
+/// Holds an axis-aligned box in the frame of its points.
 struct ExactBox {
   ExactPoint lower;
   ExactPoint upper;

@@ -34,7 +34,7 @@ Mesh drilledPlate(int columns, int rows, double pitch, double hole_radius, doubl
 /// outside and 0.15 radius deep, each turn of `segments` steps.
 Mesh screw(double radius, double pitch, int turns, int segments);
 
-/// One of each, between 0.05 and 0.3 large: 800 to 6,000 triangles.
+/// Returns one of each, between 0.05 and 0.3 large: 800 to 6,000 triangles.
 std::vector<Mesh> cadParts();
 
 }  // namespace kios::scenes

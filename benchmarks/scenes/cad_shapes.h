@@ -40,7 +40,7 @@ Mesh boredBlock(const fcl::Vector3d& size, double rounding, double chamfer, doub
 /// Returns the mesh with its vertices at X p.
 Mesh moved(const fcl::Transform3d& X, Mesh mesh);
 
-/// All triangles of the parts, in order, as one mesh.
+/// Returns all triangles of the parts, in order, as one mesh.
 Mesh merged(const std::vector<Mesh>& parts);
 
 /// Returns the mesh with equal vertices made one, in order of first use.

@@ -11,7 +11,7 @@
 
 namespace kios::scenes {
 
-/// Poses of two meshes in the world frame W: x_W = X_WA x_A.
+/// Holds poses of two meshes in the world frame W: x_W = X_WA x_A.
 struct Frame {
   fcl::Transform3d X_WA;
   fcl::Transform3d X_WB;
@@ -27,11 +27,11 @@ std::vector<Frame> fallingMotion(int frames);
 /// = Rx(a) Ry(b) Rz(c) and R_WB = Rx(c) Ry(a) Rz(b).
 std::vector<Frame> spinningMotion(int frames);
 
-/// Uniformly distributed rotation (Shoemake's quaternion) and a translation uniform in the cube
-/// [-half_width, half_width]^3, from the seed.
+/// Returns a uniformly distributed rotation (Shoemake's quaternion) and a translation uniform in
+/// the cube [-half_width, half_width]^3, from the seed.
 std::vector<fcl::Transform3d> randomPoses(int count, double half_width, std::uint64_t seed);
 
-/// Exact distance of the two meshes at given poses, 0 in contact.
+/// Computes the exact distance of the two meshes at given poses, 0 in contact.
 using DistanceFunction = std::function<double(const Frame&)>;
 
 /// Independent random orientations (no coherence between frames); A at the origin, B moved towards

@@ -35,10 +35,10 @@ struct MovingPair {
   std::vector<Frame> frames;
 };
 
-/// A = bent torus (torus1), B = knobby torus (torus2), 2398 frames, 392 of them in contact.
+/// Loads A = bent torus (torus1), B = knobby torus (torus2), 2398 frames, 392 of them in contact.
 MovingPair loadFalling(const std::filesystem::path& data);
 
-/// A = bunny, B = torus; the first `frames` frames of spinningMotion(), never in contact.
+/// Loads A = bunny, B = torus; the first `frames` frames of spinningMotion(), never in contact.
 MovingPair loadSpinning(const std::filesystem::path& data, int frames);
 
 }  // namespace kios::scenes

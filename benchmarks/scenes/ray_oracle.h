@@ -13,7 +13,7 @@
 
 namespace kios::scenes {
 
-/// origin + t direction, t_min <= t <= t_max, all finite.
+/// Holds origin + t direction, t_min <= t <= t_max, all finite.
 struct RationalRay {
   Eigen::Vector3d origin, direction;
   double t_min, t_max;

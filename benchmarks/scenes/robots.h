@@ -13,7 +13,7 @@
 
 namespace kios::scenes {
 
-/// Many bodies over some meshes and, frame by frame, their poses in the world.
+/// Holds many bodies over some meshes and, frame by frame, their poses in the world.
 struct BodyScene {
   std::vector<Mesh> meshes;
   std::vector<int> mesh_of;                           // by body
@@ -57,12 +57,13 @@ std::vector<std::pair<int, int>> allowedPairs(const Robot& robot);
 BodyScene twoRobots(const Robot& robot, const fcl::Transform3d& X_W1, const fcl::Transform3d& X_W2,
                     int frames, bool smooth, std::uint64_t seed);
 
-/// `count` bodies over many small meshes in a loose, jittered grid, each drifting about its place,
-/// so that few are near each other in a frame.
+/// Returns `count` bodies over many small meshes in a loose, jittered grid, each drifting about its
+/// place, so that few are near each other in a frame.
 BodyScene driftingCrowd(int count, int frames, std::uint64_t seed);
 
-/// `count` bodies 0.2 to 0.4 across that stand still in a jittered grid of this spacing, each a
-/// mesh of its own: a box for 12 `triangles`, else a bumpy ball of as many, a multiple of 20.
+/// Returns `count` bodies 0.2 to 0.4 across that stand still in a jittered grid of this spacing,
+/// each a mesh of its own: a box for 12 `triangles`, else a bumpy ball of as many, a multiple of
+/// 20.
 BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t seed);
 
 /// Returns a robot's configurations, all at random, amid `count` obstacles that stand still and

@@ -48,7 +48,7 @@ Mesh sheet(double width, double depth, int nx, int ny, double amplitude);
 
 Mesh singleTriangle(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c);
 
-/// `count` unconnected triangles. First corners are uniform in the cube [-half_width,
+/// Returns `count` unconnected triangles. First corners are uniform in the cube [-half_width,
 /// half_width]^3; the two edges there have uniform directions and log-uniform lengths in [min_edge,
 /// max_edge].
 Mesh randomSoup(int count, double half_width, double min_edge, double max_edge, std::uint64_t seed);

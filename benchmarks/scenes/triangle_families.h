@@ -27,7 +27,7 @@ inline int integer(Random& random, int lower, int upper) {
   return lower + static_cast<int>(random.unit() * (upper - lower + 1));
 }
 
-/// Uniform in [1, 2) times 2^e, e uniform in [lower, upper].
+/// Returns a number uniform in [1, 2) times 2^e, e uniform in [lower, upper].
 inline double logUniform(Random& random, int lower, int upper) {
   const int e = integer(random, lower, upper);
   return std::ldexp(random.uniform(1, 2), e);
@@ -79,7 +79,7 @@ TrianglePair verticesFrom(const Vertex& vertex) {
   return {{vertex(), vertex(), vertex()}, {vertex(), vertex(), vertex()}};
 }
 
-/// Every vertex of both triangles mapped by f.
+/// Returns every vertex of both triangles mapped by f.
 template <typename Map>
 TrianglePair mapped(TrianglePair pair, const Map& f) {
   for (Eigen::Vector3d& p : pair.a) p = f(p);

@@ -12,7 +12,8 @@
 
 namespace kios::scenes {
 
-/// A point in extended precision (64-bit significand on x86; plain double where long double is).
+/// Holds a point in extended precision (64-bit significand on x86; plain double where long double
+/// is).
 using ExactPoint = Eigen::Matrix<long double, 3, 1>;
 using ExactTriangle = std::array<ExactPoint, 3>;
 

@@ -47,7 +47,7 @@ std::vector<Board> shelf() {
   return boards;
 }
 
-/// Floor, ceiling and three walls of 8 x 6 x 3 m inside.
+/// Returns a floor, a ceiling and three walls of 8 x 6 x 3 m inside.
 World room() {
   World world =
       boxWorld("room", {board({8.4, 6.4, 0.2}, 0, 0, -0.1), board({8.4, 6.4, 0.2}, 0, 0, 3.1),
@@ -132,7 +132,7 @@ World building(int triangles) {
   return world;
 }
 
-/// 150 triangles 1 to 2 m long and 1 mm wide.
+/// Returns 150 triangles 1 to 2 m long and 1 mm wide.
 World needles() {
   Random random(7);
   World world;

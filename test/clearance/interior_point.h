@@ -31,7 +31,7 @@ struct StoredBalls {
       spheres.push_back({Real3(s.offset[0], s.offset[1], s.offset[2]), s.radius});
     }
   }
-  /// max |x - c| - r, x relative to S0's centre.
+  /// Returns max |x - c| - r, x relative to S0's centre.
   Real outside(const Real3& x) const {
     Real worst = -1e300L;
     for (const Sphere& s : spheres) worst = std::max(worst, (x - s.c).norm() - s.r);

@@ -125,7 +125,7 @@ struct RobotCase {
     return result;
   }
 
-  /// fcl::collide, or fcl::distance <= separation.
+  /// Returns the answer of fcl::collide, or fcl::distance <= separation.
   bool meet(int a, const Transform3d& X_WA, int b, const Transform3d& X_WB,
             double separation) const {
     const auto *first = bodies[a].geometry.get(), *second = bodies[b].geometry.get();

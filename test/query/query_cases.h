@@ -52,7 +52,8 @@ inline fcl::Vector3d centreOf(const Mesh& mesh) {
   return (low + high) / 2;
 }
 
-/// Random poses, in S, at which both centres lie within `spread` of the origin or of each other.
+/// Holds random poses, in S, at which both centres lie within `spread` of the origin or of each
+/// other.
 template <typename S>
 struct Poses {
   fcl::Transform3<S> X_WA, X_WB;

@@ -52,8 +52,8 @@ inline const char* nameOf(Shape shape) {
   return kNames[static_cast<int>(shape)];
 }
 
-/// Sizes by kind: box sides, ellipsoid radii, (radius, length), normal and offset. Those of half
-/// spaces and planes aside, all are floats.
+/// Holds sizes by kind: box sides, ellipsoid radii, (radius, length), normal and offset. Those of
+/// half spaces and planes aside, all are floats.
 struct ShapeSpec {
   Shape kind;
   fcl::Vector3d size;

@@ -27,7 +27,7 @@ inline ExactTriangle exact(const shape::Triangle& t) {
   return {t[0].cast<Real>(), t[1].cast<Real>(), t[2].cast<Real>()};
 }
 
-/// Distance, and a point of the triangle and of the solid that realise it.
+/// Holds the distance, and a point of the triangle and of the solid that realise it.
 struct ExactNearest {
   Real distance = std::numeric_limits<Real>::infinity();
   ExactPoint on_triangle = ExactPoint::Zero(), on_shape = ExactPoint::Zero();

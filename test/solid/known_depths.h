@@ -13,7 +13,7 @@
 
 namespace kios::testing {
 
-/// max n x over a mesh's vertices at a pose.
+/// Returns max n x over a mesh's vertices at a pose.
 inline double extentAlong(const Mesh& mesh, const fcl::Transform3d& X, const fcl::Vector3d& n) {
   double most = -std::numeric_limits<double>::infinity();
   for (const fcl::Vector3d& p : mesh.vertices) most = std::max(most, n.dot(X * p));
@@ -68,7 +68,7 @@ inline double convexDepth(const Mesh& a, const fcl::Transform3d& X_WA, const Mes
   return std::max(0.0, depth);
 }
 
-/// Axis-aligned boxes, whose union is a solid.
+/// Holds axis-aligned boxes, whose union is a solid.
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 
 /// Returns the depth of two unions of boxes: the point nearest to the origin outside the union of

@@ -40,7 +40,7 @@ Edge edgeOf(const TriangleVertices<S>& t, std::uint32_t k) {
   return std::minmax({coordinates(t[k]), coordinates(t[(k + 1) % 3])});
 }
 
-/// x^2 + y^2 + z^2 <= r^2 for sums of floats, without rounding.
+/// Returns x^2 + y^2 + z^2 <= r^2 for sums of floats, without rounding.
 inline bool inSphere(const Eigen::Vector3f& p, const Exact (&center)[3], const Exact& r) {
   Exact sum = 0;
   for (int c = 0; c < 3; ++c) sum += (p[c] - center[c]) * (p[c] - center[c]);

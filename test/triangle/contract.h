@@ -63,7 +63,7 @@ inline std::string text(const TrianglePair& pair) {
   return out + "}";
 }
 
-/// Errors in units of eps L, and the first promise that is broken, if any.
+/// Holds errors in units of eps L, and the first promise that is broken, if any.
 struct ContractResult {
   double distance_error = 0;      ///< of the distance
   double witness_error = 0;       ///< of |point_a - point_b|, and off the triangles
@@ -95,7 +95,7 @@ class ContractCheck {
     if (!kept && result_.broken.empty()) result_.broken = broken;
   }
 
-  /// 16 eps L, and the rounding of a result below the normal numbers.
+  /// Returns 16 eps L, and the rounding of a result below the normal numbers.
   long double distanceBound() const { return 16 * kEps * extent_ + kLeast; }
 
   /// Returns points also suffer from the rounding of coordinates, which an offset makes large.

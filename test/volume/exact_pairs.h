@@ -89,7 +89,7 @@ class HardPair {
            std::ldexp(static_cast<long double>(b.reach), b.exponent);
   }
   long double rounding() const { return std::numeric_limits<S>::epsilon(); }
-  /// |R^T R - I|.
+  /// Returns |R^T R - I|.
   long double shear() const {
     const fcl::Matrix3<long double> M = R.template cast<long double>();
     return (M.transpose() * M - fcl::Matrix3<long double>::Identity()).norm() + 1e-14L;

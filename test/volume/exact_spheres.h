@@ -49,7 +49,8 @@ struct StoredSphere {
     radius = i ? ldexp(T(v.cap_r[i - 1]), v.exponent) : T(v.radius0);
   }
 
-  /// |p - centre|, and in `error` the sum of the magnitudes that its rounding is relative to.
+  /// Returns |p - centre|, and in `error` the sum of the magnitudes that its rounding is relative
+  /// to.
   T distanceTo(const T p[3], T* error) const {
     T sum = 0;
     *error = 0;

@@ -17,7 +17,7 @@ using Points = std::vector<fcl::Vector3<S>>;
 
 inline int below(Random& random, int n) { return static_cast<int>(random.unit() * n); }
 
-/// The shapes of content that are hard for a fit, a merge or a bound, each posed on purpose.
+/// Names the shapes of content that are hard for a fit, a merge or a bound, each posed on purpose.
 enum class Shape {
   kRandom,
   kCoplanar,
@@ -44,7 +44,7 @@ inline fcl::Vector3d randomDirection(Random& random) {
   return randomRotation(random) * fcl::Vector3d::UnitX();
 }
 
-/// n points of a shape, of size about 1, around the origin.
+/// Returns n points of a shape, of size about 1, around the origin.
 inline Points<double> shapePoints(Random& random, Shape shape, int n) {
   const auto u = [&] { return random.uniform(-1, 1); };
   const double thin = std::pow(10.0, -random.uniform(0, 12)), size = random.uniform(0.1, 1);
@@ -128,12 +128,12 @@ double randomScale(Random& random) {
   }
 }
 
-/// Offsets of up to 1e12 sizes, or none.
+/// Returns offsets of up to 1e12 sizes, or none.
 inline double randomOffset(Random& random) {
   return random.unit() < 0.5 ? 0 : std::pow(10.0, random.uniform(-1, 12));
 }
 
-/// 1 to about 60 points, triangles (3) and pairs of triangles (6) most often.
+/// Returns 1 to about 60 points, triangles (3) and pairs of triangles (6) most often.
 inline int randomCount(Random& random) {
   const int kind = below(random, 10);
   return kind < 3 ? 3 : kind < 4 ? 6 : kind < 9 ? 1 + below(random, 16) : 1 + below(random, 60);

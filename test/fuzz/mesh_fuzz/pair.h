@@ -42,7 +42,7 @@ struct ModelPair {
         Y(c.pose(1, frame).template cast<S>()) {}
 };
 
-/// Numbers in decimal and, exactly, in hexadecimal.
+/// Holds numbers in decimal and, exactly, in hexadecimal.
 class Words {
  public:
   Words() { stream_.precision(9); }
