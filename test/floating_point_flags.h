@@ -39,8 +39,8 @@ class Flags {
   }
 
  private:
-  /// Signalling NaN, of float and of double, where the next call keeps its variables: what reads
-  /// them before they are set is seen.
+  /// Leaves signalling NaN, of float and of double, where the next call keeps its variables: what
+  /// reads them before they are set is seen.
   __attribute__((noinline)) static void fillStack() {
     constexpr std::uint64_t kNaN = 0x7FF400007FA00000U;
     volatile std::uint64_t words[1 << 15];

@@ -20,7 +20,7 @@ namespace kios::testing {
 using scenes::Mesh;
 using scenes::Random;
 
-/// A mesh in the precision of a query.
+/// Holds a mesh in the precision of a query.
 template <typename S>
 struct Shape {
   std::vector<fcl::Vector3<S>> vertices;
@@ -47,7 +47,7 @@ inline void addTriangle(Mesh& mesh, const fcl::Vector3d& a, const fcl::Vector3d&
   mesh.triangles.emplace_back(n, n + 1, n + 2);
 }
 
-/// Uniform in [-1, 1]^3.
+/// Returns a number uniform in [-1, 1]^3.
 inline fcl::Vector3d inCube(Random& random) {
   const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
   return {x, y, random.uniform(-1, 1)};
@@ -58,8 +58,8 @@ inline Mesh transformed(Mesh mesh, double scale, const fcl::Vector3d& offset) {
   return mesh;
 }
 
-/// Vertices on a grid, so much coarser than the mathematical library errs that its last bits, which
-/// vary by machine, don't matter.
+/// Returns vertices on a grid, so much coarser than the mathematical library errs that its last
+/// bits, which vary by machine, don't matter.
 inline Mesh rounded(Mesh mesh, double grid) {
   for (fcl::Vector3d& p : mesh.vertices) {
     for (int i = 0; i < 3; ++i) p[i] = std::nearbyint(p[i] / grid) * grid;
@@ -91,7 +91,7 @@ inline fcl::Transform3d wholePose(Random& random, double half_width) {
   return X;
 }
 
-/// Points (0), segments (1) and proper triangles (2), mixed if `kind` is 3.
+/// Returns points (0), segments (1) and proper triangles (2), mixed if `kind` is 3.
 inline Mesh degenerateMesh(int count, int kind, std::uint64_t seed) {
   Random random(seed);
   std::vector<Mesh> parts;
@@ -112,7 +112,7 @@ inline Mesh repeated(int count) {
   return mesh;
 }
 
-/// A flat grid of n x n squares of side `step`, each of two triangles, in the plane z = 0.
+/// Returns a flat grid of n x n squares of side `step`, each of two triangles, in the plane z = 0.
 inline Mesh lattice(int n, double step) {
   Mesh mesh;
   for (int y = 0; y <= n; ++y) {
@@ -128,7 +128,7 @@ inline Mesh lattice(int n, double step) {
   return mesh;
 }
 
-/// Meshes of extent about 1 of every kind that a partition meets.
+/// Returns meshes of extent about 1 of every kind that a partition meets.
 inline std::vector<NamedMesh> unitMeshes() {
   using namespace scenes;
   const Mesh torus = bumpyTorus(300);
@@ -155,7 +155,7 @@ inline std::vector<NamedMesh> unitMeshes() {
   return meshes;
 }
 
-/// Those, and some of them at other scales and away from their origin.
+/// Returns those, and some of them at other scales and away from their origin.
 template <typename S>
 std::vector<NamedMesh> allMeshes() {
   std::vector<NamedMesh> meshes = unitMeshes();
@@ -169,7 +169,7 @@ std::vector<NamedMesh> allMeshes() {
   return meshes;
 }
 
-/// Swayed by about a tenth of its size, and turned. Equal vertices stay equal.
+/// Returns it swayed by about a tenth of its size, and turned. Equal vertices stay equal.
 inline Mesh swayed(Mesh mesh) {
   fcl::Vector3d low = mesh.vertices[0], high = low;
   for (const fcl::Vector3d& p : mesh.vertices) {
@@ -188,7 +188,7 @@ inline Mesh swayed(Mesh mesh) {
   return mesh;
 }
 
-/// Diagonal of the box of two triangles, by which errors are measured.
+/// Returns the diagonal of the box of two triangles, by which errors are measured.
 template <typename S>
 double extentOf(const TriangleVertices<S>& p, const TriangleVertices<S>& q) {
   Point<S> low = p[0], high = p[0];

@@ -43,7 +43,7 @@ std::vector<Question> questionsOf(const scenes::Arm& arm, const fcl::Transform3d
   return questions;
 }
 
-/// What rows there are beside those of whole frames: of frames before which the processor did
+/// Says what rows there are beside those of whole frames: of frames before which the processor did
 /// something else, and of the pairs of each class, a pair a frame.
 void addDetails(const Task& whole, const std::vector<scenes::Mesh>& meshes, Contest& contest,
                 std::vector<Row>& rows) {
@@ -91,7 +91,7 @@ void reportArms(const std::string& scenario, const scenes::Arm& arm, const fcl::
   report.add(rows);
 }
 
-/// The second of two robots of one kind that face each other.
+/// Returns the second of two robots of one kind that face each other.
 fcl::Transform3d facing(double distance) {
   fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
   X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();

@@ -27,8 +27,8 @@ using Meshes = std::vector<scenes::Mesh>;
 
 constexpr char kReference[] = "fcl_obbrss";
 
-/// What is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kFirstQuery: endModel() and
-/// whether the last mesh and the first, side by side, touch. kAgain: as kPrepared, while equal
+/// Says what is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kFirstQuery: endModel()
+/// and whether the last mesh and the first, side by side, touch. kAgain: as kPrepared, while equal
 /// models live.
 enum class Stage { kBuild, kPrepared, kFirstQuery, kAgain };
 
@@ -99,14 +99,14 @@ constexpr Volume kVolumes[] = {
     {"fcl_kdop16", make<fcl::KDOPd<16>>},   {"fcl_kdop18", make<fcl::KDOPd<18>>},
     {"fcl_kdop24", make<fcl::KDOPd<24>>}};
 
-/// Meshes whose models share nothing with those before.
+/// Returns meshes whose models share nothing with those before.
 Meshes unlike(const Meshes& meshes) {
   Meshes others;
   for (const scenes::Mesh& mesh : meshes) others.push_back(scenes::unlike(mesh));
   return others;
 }
 
-/// A volume at a stage.
+/// Holds a volume at a stage.
 struct Entrant {
   std::string bv;
   Stage stage;
@@ -138,8 +138,8 @@ std::vector<Entrant> entrants(const Options& options) {
   return all;
 }
 
-/// Bytes of a run, with those of the arrays that it begins with. None of a query: FCL's own copies
-/// models by malloc, which isn't counted.
+/// Returns bytes of a run, with those of the arrays that it begins with. None of a query: FCL's own
+/// copies models by malloc, which isn't counted.
 Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles) {
   Volumes volumes;
   if (entrant.stage == Stage::kFirstQuery) return volumes;
@@ -188,7 +188,7 @@ void race(const std::string& scenario, const Meshes& meshes, const Options& opti
   report.add(rows);
 }
 
-/// Where the bytes of a prepared model go.
+/// Says where the bytes of a prepared model go.
 void reportBytes(const std::string& scenario, const scenes::Mesh& mesh, const Options& options,
                  Report& report) {
   const auto model = scenes::buildModel<kIOSd>(mesh);

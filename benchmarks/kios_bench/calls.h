@@ -8,8 +8,8 @@
 
 namespace kios::bench {
 
-/// FCL's own functions. They are called with explicit template arguments, ahead of our overloads:
-/// the rows of FCL's volumes must not pay for our dispatch.
+/// Holds FCL's own functions. They are called with explicit template arguments, ahead of our
+/// overloads: the rows of FCL's volumes must not pay for our dispatch.
 struct FclCalls {
   static void distance(const fcl::CollisionObjectd* a, const fcl::CollisionObjectd* b,
                        const fcl::DistanceRequestd& request, fcl::DistanceResultd& result) {

@@ -23,7 +23,8 @@ constexpr int kGeneratedFrames = 1200;
 
 constexpr char kReference[] = "fcl_obbrss";
 
-/// What a planner does between the queries of two frames: other code, other data, other branches.
+/// Says what a planner does between the queries of two frames: other code, other data, other
+/// branches.
 void workElsewhere() {
   static std::vector<unsigned> data(1U << 20);  // 4 MB: twice what a core has for itself
   static unsigned state = 1;

@@ -30,7 +30,7 @@ struct Task {
   bool ours_alone = false;  // FCL crashes
 };
 
-/// The task of a scene with the meshes 0 and 1.
+/// Returns the task of a scene with the meshes 0 and 1.
 Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames);
 
 using Geometries = std::vector<std::shared_ptr<fcl::CollisionGeometryd>>;
@@ -43,11 +43,11 @@ class Contest {
   /// Geometries that are no meshes are the bodies after these, and second in every question.
   Contest(std::vector<scenes::Mesh> meshes, const Options& options, Geometries others = {});
 
-  /// Times the build of all models.
+  /// Returns times the build of all models.
   std::vector<Row> buildRows(const std::string& scenario) const;
 
-  /// Times the build of all models together with one distance query, so that what a model leaves
-  /// to its first query is counted. The ratio is to FCL's build alone, of the same repeat.
+  /// Returns times the build of all models together with one distance query, so that what a model
+  /// leaves to its first query is counted. The ratio is to FCL's build alone, of the same repeat.
   std::vector<Row> prepareRows(const std::string& scenario, const Question& question) const;
 
   /// Times refits of all models from where their vertices were before (meshes of the same
@@ -61,10 +61,10 @@ class Contest {
   /// compared with the oracle, and tests are counted in a pass that is not timed.
   std::vector<Row> queryRows(const Task& task);
 
-  /// The least time of each frame over options.repeats, by volume, in microseconds.
+  /// Returns the least time of each frame over options.repeats, by volume, in microseconds.
   std::map<std::string, std::vector<double>> frameTimes(const Task& task);
 
-  /// The oracle of two of the meshes, made when first asked for.
+  /// Returns the oracle of two of the meshes, made when first asked for.
   const scenes::MeshOracle& oracle(std::size_t a = 0, std::size_t b = 1);
 
  private:
@@ -74,7 +74,7 @@ class Contest {
   /// The oracles' answers, each found once.
   double truthOf(Query query, const Question& question);
   double findTruth(Query query, const Question& question);
-  /// The competitors' rows, with what is known of all models and no answers.
+  /// Returns the competitors' rows, with what is known of all models and no answers.
   std::vector<Row> rowsOf(const std::string& scenario, Query query, std::size_t frames,
                           const std::vector<Competitor>& competitors,
                           const Competitor* reference) const;
@@ -91,10 +91,11 @@ class Contest {
   std::vector<Competitor> builds_;
 };
 
-/// `count` of the frames, evenly spaced from the first; all of them for count = 0 or too many.
+/// Returns `count` of the frames, evenly spaced from the first; all of them for count = 0 or too
+/// many.
 std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames, int count);
 
-/// The frames thinned evenly to options.frames, or to a few for options.quick.
+/// Returns the frames thinned evenly to options.frames, or to a few for options.quick.
 std::vector<scenes::Frame> chosenFrames(const std::vector<scenes::Frame>& frames,
                                         const Options& options);
 

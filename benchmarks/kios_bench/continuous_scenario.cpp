@@ -97,7 +97,7 @@ bool isWrong(const fcl::ContinuousCollisionResultd& result, const scenes::MeshOr
 
 using Result = fcl::ContinuousCollisionResultd;
 
-/// A way to find the first contact in time of two models.
+/// Holds a way to find the first contact in time of two models.
 struct Way {
   const char* name;
   double time_error;

@@ -45,7 +45,7 @@ class Crowd {
                     const std::vector<fcl::Transform3d>& poses) = 0;
   /// Every pair that the manager brings, first contact.
   virtual void collide(std::vector<BodyPair>& pairs) = 0;
-  /// The least distance.
+  /// Returns the least distance.
   virtual double distance() = 0;
 };
 
@@ -154,7 +154,7 @@ std::vector<std::unique_ptr<Crowd>> crowdsOf(const Options& options) {
   return crowds;
 }
 
-/// The times of one query of each repeat.
+/// Returns the times of one query of each repeat.
 Competitor part(const Competitor& of, std::size_t query) {
   Competitor one{of.name, {}};
   for (const std::vector<double>& us : of.us) one.us.push_back({us[query]});

@@ -47,14 +47,14 @@ struct ErrorQuestion {
   double distance = 0;  // exact
 };
 
-/// A bracket of the distance; without a lower bound where the query gives none. For kThreshold the
-/// upper end is 0 if the pair is nearer than the threshold, infinity if not.
+/// Holds a bracket of the distance; without a lower bound where the query gives none. For
+/// kThreshold the upper end is 0 if the pair is nearer than the threshold, infinity if not.
 struct Bracket {
   double lower = std::numeric_limits<double>::quiet_NaN();
   double upper = kInfinity;
 };
 
-/// A volume with both meshes.
+/// Holds a volume with both meshes.
 struct Way {
   const char* name;
   bool all_queries;  // or just kDistance and kThreshold
@@ -92,8 +92,8 @@ Way kiosWay(const scenes::MovingPair& pair) {
           }};
 }
 
-/// FCL's by its traversal node, whose error members FCL's own queries leave at 0. A node stops at a
-/// pair that meets both of its errors: the one not asked for is infinite.
+/// Returns FCL's by its traversal node, whose error members FCL's own queries leave at 0. A node
+/// stops at a pair that meets both of its errors: the one not asked for is infinite.
 template <typename BV, typename Node>
 Way nodeWay(const char* name, const scenes::MovingPair& pair) {
   const auto a = scenes::buildModel<BV>(pair.a), b = scenes::buildModel<BV>(pair.b);
@@ -191,7 +191,7 @@ void print(const std::vector<Row>& rows) {
   std::fflush(stdout);
 }
 
-/// A way at a setting.
+/// Holds a way at a setting.
 struct Entry {
   const Way* way;
   Setting setting;

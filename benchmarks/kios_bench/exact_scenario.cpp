@@ -29,7 +29,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The `count` triangles of `mesh` nearest to one of them.
+/// Returns the `count` triangles of `mesh` nearest to one of them.
 scenes::Mesh patch(const scenes::Mesh& mesh, scenes::Random& random, int count) {
   const auto corner = [&mesh](std::size_t t) { return mesh.vertices[mesh.triangles[t][0]]; };
   const fcl::Vector3d center =
@@ -85,7 +85,7 @@ std::vector<Pair> draw(int triangles, int count) {
   return pairs;
 }
 
-/// A distance or a bound of it.
+/// Holds a distance or a bound of it.
 struct Way {
   const char* bv;
   double (*distance)(const Pair& pair);

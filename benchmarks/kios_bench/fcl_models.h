@@ -23,7 +23,7 @@ void start(Node& node, const fcl::BVHModel<BV>& a, const fcl::Transform3d& X_WA,
   }
 }
 
-/// Bytes of nodes, primitive indices, vertices and triangles.
+/// Returns bytes of nodes, primitive indices, vertices and triangles.
 template <typename BV>
 std::size_t bytesOf(const fcl::BVHModel<BV>& model) {
   const std::size_t nodes = model.getNumBVs();

@@ -20,8 +20,8 @@ struct NodePair {
   double distance;
 };
 
-/// Means over the nodes of both trees: numbers that describe a volume, as the paper counts; bytes
-/// that it takes here; its spheres, 0 if it has none.
+/// Holds means over the nodes of both trees: numbers that describe a volume, as the paper counts;
+/// bytes that it takes here; its spheres, 0 if it has none.
 struct FitSize {
   double numbers = 0, bytes = 0, spheres = 0;
 };
@@ -30,19 +30,19 @@ struct FitSize {
 /// differ by their volumes alone.
 struct FitTrees {
   std::function<paper::VariantResult(const RelativePose<double>&X_AB)> distance, collide;
-  /// The bound of two nodes, for a distance query.
+  /// Returns the bound of two nodes, for a distance query.
   std::function<double(const NodePair& pair)> bound;
   std::function<FitSize()> size;
 };
 
-/// A volume and its fit.
+/// Holds a volume and its fit.
 struct FitEntrant {
   std::string name;
   bool serves_distance;  ///< false for a volume without distances
   std::function<FitTrees(const Split& a, const Split& b)> build;
 };
 
-/// All constructions of k-IOS, and the volumes that they are compared with.
+/// Returns all constructions of k-IOS, and the volumes that they are compared with.
 std::vector<FitEntrant> fitEntrants();
 
 }  // namespace kios::bench

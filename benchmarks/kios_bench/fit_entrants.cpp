@@ -65,7 +65,7 @@ void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf si
   all.push_back({name, serves_distance, build});
 }
 
-/// Spheres with their own radii, or with one that all but S0 share.
+/// Returns spheres with their own radii, or with one that all but S0 share.
 VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
   const int k = bv.k();
   const bool shares = shared_radius && k > 1;

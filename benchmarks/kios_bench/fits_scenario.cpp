@@ -38,8 +38,8 @@ double distanceOf(const MeshSplit& a, const MeshSplit::Node& m, const MeshSplit&
   return distance;
 }
 
-/// Pairs of nodes of up to 64 triangles and of similar size, turned at random and moved to between
-/// a hundredth of their size and that size apart, each with its true distance.
+/// Returns pairs of nodes of up to 64 triangles and of similar size, turned at random and moved to
+/// between a hundredth of their size and that size apart, each with its true distance.
 std::vector<NodePair> sampleNodes(const MeshSplit& a, const MeshSplit& b, int count,
                                   std::uint64_t seed) {
   constexpr int kMostTriangles = 64;
@@ -109,7 +109,7 @@ void print(const std::string& name, const FitSize& size, const Row* distance, co
               *collide.errors.wrong + (distance ? *distance->errors.wrong : 0));
 }
 
-/// An entrant, its trees, and what it did in the race of one query.
+/// Holds an entrant, its trees, and what it did in the race of one query.
 struct Lane {
   const FitEntrant* entrant;
   FitTrees trees;

@@ -19,7 +19,7 @@ constexpr struct {
     {"rays/", "Embree serves nothing but rays, in single precision; FCL serves none"},
 };
 
-/// What rows have in common that answer the same.
+/// Says what rows have in common that answer the same.
 using Setting = std::tuple<std::string, std::string, Maybe, Maybe, Maybe, Maybe>;
 
 Setting settingOf(const Row& row) {

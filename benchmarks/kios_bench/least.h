@@ -10,7 +10,7 @@
 
 namespace kios::bench {
 
-/// A row of ours beside the fastest other library's of the same scenario, query and setting.
+/// Holds a row of ours beside the fastest other library's of the same scenario, query and setting.
 struct Standing {
   Row ours;
   std::string best;           ///< `bv` of the fastest other
@@ -18,14 +18,14 @@ struct Standing {
   const char* why = nullptr;  ///< why ours may be slower there, nullptr if it may not
 };
 
-/// All rows called `kios` that have a row of FCL's volumes, or of Embree, beside them, by their
-/// ratios, least first. AABB and k-DOPs are no rivals in building.
+/// Returns all rows called `kios` that have a row of FCL's volumes, or of Embree, beside them, by
+/// their ratios, least first. AABB and k-DOPs are no rivals in building.
 std::vector<Standing> byRatio(const std::vector<Row>& rows);
 
-/// Why ours may be slower than others in rows of this scenario; nullptr if it may not.
+/// Returns why ours may be slower than others in rows of this scenario; nullptr if it may not.
 const char* whySlower(const std::string& scenario);
 
-/// How many are below 1 without a reason.
+/// Returns how many are below 1 without a reason.
 int countSlower(const std::vector<Standing>& standings);
 
 /// Prints a line for each of the first `count`.

@@ -33,8 +33,8 @@ double secondsSince(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// FCL's dynamic AABB trees over OBBRSS, as MoveIt asks them: the robot against itself and against
-/// the world.
+/// Holds FCL's dynamic AABB trees over OBBRSS, as MoveIt asks them: the robot against itself and
+/// against the world.
 class ObbrssCell {
  public:
   explicit ObbrssCell(const Robot& robot) : robot_(robot) {
@@ -145,7 +145,7 @@ IsFreeEdge sampled(const IsFree& is_free) {
   };
 }
 
-/// A problem's start and goal by the robot's coordinates.
+/// Finds a problem's start and goal by the robot's coordinates.
 bool readRequest(const fs::path& file, const Robot& robot, PlanRequest& request) {
   const YAML::Node root = YAML::LoadFile(file.string());
   request.start = request.goal = VectorXd::Zero(robot.coordinates());

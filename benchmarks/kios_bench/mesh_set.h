@@ -32,7 +32,7 @@ enum class Query {
   kRefit
 };
 
-/// The name of the query in tables and JSON.
+/// Returns the name of the query in tables and JSON.
 const char* name(Query query);
 
 /// FCL's endReplaceModel() does this with the tree.
@@ -49,13 +49,13 @@ struct Question {
   std::size_t max_contacts = 1000000;
 };
 
-/// Meshes over one bounding volume, queried as a user would: through fcl::distance and
+/// Holds meshes over one bounding volume, queried as a user would: through fcl::distance and
 /// fcl::collide on collision objects that exist once and are moved for every question.
 class MeshSet {
  public:
   virtual ~MeshSet() = default;
 
-  /// True if FCL answers this query for meshes of this volume without rebuilding them.
+  /// Returns true if FCL answers this query for meshes of this volume without rebuilding them.
   virtual bool serves(Query query) const = 0;
 
   /// Builds all models and drops them; a `build` row times this.
@@ -81,10 +81,10 @@ class MeshSet {
   virtual Tests count(Query query, const std::vector<Question>& questions,
                       std::size_t frames) const = 0;
 
-  /// Bytes of all models: nodes, primitive indices, vertices and triangles.
+  /// Returns bytes of all models: nodes, primitive indices, vertices and triangles.
   virtual std::size_t bytes() const = 0;
 
-  /// The SIMD target that answers, where the volume has more than one.
+  /// Returns the SIMD target that answers, where the volume has more than one.
   virtual std::optional<std::string> simdTarget() const = 0;
 };
 
@@ -98,7 +98,7 @@ std::unique_ptr<MeshSet> makeCoalSet();
 /// Names that makeMeshSet knows, ours first.
 std::vector<std::string> volumeNames();
 
-/// Those that run where none is named.
+/// Returns those that run where none is named.
 std::vector<std::string> defaultVolumeNames();
 
 }  // namespace kios::bench

@@ -25,7 +25,7 @@ namespace {
 namespace nodes = fcl::detail;
 using Object = fcl::CollisionObjectd;
 
-/// A query that the volume does not serve.
+/// Holds a query that the volume does not serve.
 struct NoNode {};
 
 /// A kind of set names its volume, the volume's traversal nodes or NoNode, and the calls that

@@ -23,9 +23,10 @@ class MotionSet {
   virtual ~MotionSet() = default;
 
   const std::string& name() const { return name_; }
-  /// True if no contact is found from q0, which is free, to q1.
+  /// Returns true if no contact is found from q0, which is free, to q1.
   virtual bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) = 0;
-  /// Pairs for which the narrow phase was asked since the last call, and, of ours, undecided paths.
+  /// Returns pairs for which the narrow phase was asked since the last call, and, of ours,
+  /// undecided paths.
   virtual long long takeQueried() { return 0; }
   virtual long long takeUnresolved() { return 0; }
 
@@ -40,7 +41,8 @@ class MotionSet {
 /// it.
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell);
 
-/// True if a configuration is free of contact, by the static query of every pair whose boxes meet.
+/// Returns true if a configuration is free of contact, by the static query of every pair whose
+/// boxes meet.
 std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& cell);
 
 }  // namespace kios::bench

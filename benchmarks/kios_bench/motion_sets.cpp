@@ -89,7 +89,7 @@ class Sampled : public MotionSet {
   std::deque<std::pair<int, int>> halves_;
 };
 
-/// FCL's dynamic AABB trees, one of the links and one of what stands still.
+/// Holds FCL's dynamic AABB trees, one of the links and one of what stands still.
 template <typename BV, typename Calls>
 class Managed final : public Sampled {
  public:

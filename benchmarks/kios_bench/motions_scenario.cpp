@@ -23,16 +23,16 @@ constexpr double kStep = 0.01;  // of the samples, in the largest joint
 constexpr double kLengths[] = {0.05, 0.2, 0.8};
 constexpr const char* kSets[] = {"kios", "sampled_kios", "sampled_scene", "fcl_obbrss"};
 
-/// The truth: an exact static query at so many configurations, and of those that checkMotion()
-/// names.
+/// Holds the truth: an exact static query at so many configurations, and of those that
+/// checkMotion() names.
 class Oracle {
  public:
   explicit Oracle(const scenes::Cell& cell)
       : linkage_(linkageOf(cell)), free_(makeStaticCheck(cell)) {}
 
   bool isFreeAt(const Joints& q) const { return free_(q); }
-  /// False if one of `samples` + 1 configurations from q0 to q1 is in contact, or one between them
-  /// that a contact is said to be in.
+  /// Returns false if one of `samples` + 1 configurations from q0 to q1 is in contact, or one
+  /// between them that a contact is said to be in.
   bool isFree(const Edge& edge, int samples) const {
     for (int i = 0; i <= samples; ++i) {
       if (!free_(scenes::between(edge.q0, edge.q1, 1.0 * i / samples))) return false;
@@ -51,7 +51,7 @@ class Oracle {
   const std::function<bool(const Joints&)> free_;
 };
 
-/// A path of this length from a free configuration.
+/// Returns a path of this length from a free configuration.
 Edge drawEdge(const scenes::Cell& cell, const Oracle& oracle, double length,
               scenes::Random& random) {
   Edge edge;
@@ -62,7 +62,7 @@ Edge drawEdge(const scenes::Cell& cell, const Oracle& oracle, double length,
   return edge;
 }
 
-/// As many of either kind, if there are so many among many.
+/// Is as many of either kind, if there are so many among many.
 struct Edges {
   std::vector<Edge> free, blocked;
 };

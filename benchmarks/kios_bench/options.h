@@ -13,7 +13,7 @@
 
 namespace kios::bench {
 
-/// The options of the command line.
+/// Holds the options of the command line.
 struct Options {
   std::string scenario;
   std::string part;                           // of a scenario whose scenes run one by one
@@ -29,7 +29,7 @@ struct Options {
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
 };
 
-/// The data folder that the command line names, else the one that is found.
+/// Returns the data folder that the command line names, else the one that is found.
 inline std::optional<std::filesystem::path> findData(const Options& options) {
   return options.data ? options.data : scenes::findData();
 }

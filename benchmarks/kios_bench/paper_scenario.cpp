@@ -164,7 +164,8 @@ void reportFigure6(const std::string& scenario, const scenes::Robot& robot, doub
   reportInPaperUnits(meshes, rows, report);
 }
 
-/// The robot with ellipsoids of well-shaped triangles in place of its links, in the same boxes.
+/// Returns the robot with ellipsoids of well-shaped triangles in place of its links, in the same
+/// boxes.
 scenes::Robot rounded(scenes::Robot robot) {
   for (scenes::Link& link : robot.links) {
     fcl::AABBd box;

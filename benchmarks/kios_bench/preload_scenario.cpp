@@ -19,18 +19,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A row of the client (benchmarks/preload) at some sizes.
+/// Holds a row of the client (benchmarks/preload) at some sizes.
 struct Rows {
   const char* name;
   std::vector<int> triangles;
 };
 
-/// What a client printed.
+/// Says what a client printed.
 struct Measured {
   double us = 0, sum = 0;
 };
 
-/// The folder of this program, where its clients lie.
+/// Returns the folder of this program, where its clients lie.
 fs::path programFolder() { return fs::read_symlink("/proc/self/exe").parent_path(); }
 
 /// Runs a client, with the library preloaded unless the mode is empty.

@@ -11,7 +11,7 @@
 
 namespace kios::bench {
 
-/// One way to answer the questions of a task: with a bounding volume, a library, a call.
+/// Holds one way to answer the questions of a task: with a bounding volume, a library, a call.
 struct Competitor {
   std::string name;  ///< `bv` of its rows
   /// Answers questions [begin, end), each with a fresh request and result. This alone is timed.
@@ -46,14 +46,15 @@ struct Times {
   std::optional<double> ratio_to_fcl_obbrss;  ///< above 1: faster than FCL's OBBRSS
 };
 
-/// The time of each repeat by the number of frames that it answers. The ratio is to the reference,
-/// if there is one: its time by the competitor's, in steps that both answered, median over repeats.
+/// Returns the time of each repeat by the number of frames that it answers. The ratio is to the
+/// reference, if there is one: its time by the competitor's, in steps that both answered, median
+/// over repeats.
 Times timesOf(const Competitor& competitor, std::size_t frames, const Competitor* reference);
 
-/// The competitor of this name, nullptr if there is none.
+/// Returns the competitor of this name, nullptr if there is none.
 const Competitor* named(const std::string& name, const std::vector<Competitor>& competitors);
 
-/// This thread's CPU time where the system has it, so that other programs disturb it least.
+/// Returns this thread's CPU time where the system has it, so that other programs disturb it least.
 double nowMicroseconds();
 
 double median(std::vector<double> values);

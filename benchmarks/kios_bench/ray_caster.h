@@ -13,7 +13,7 @@
 
 namespace kios::bench {
 
-/// A hit as all that cast rays tell it.
+/// Holds a hit as all that cast rays tell it.
 struct CastHit {
   double t;
   int triangle;
@@ -33,10 +33,11 @@ class RayCaster {
   virtual std::optional<SearchCounts> counts() const { return std::nullopt; }
 };
 
-/// Ours: by the prepared tree, and by FCL's tree.
+/// Returns ours: by the prepared tree, and by FCL's tree.
 std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh, bool prepared);
 
-/// Embree, single precision with its robust flag; nullptr if this program was built without it.
+/// Returns embree, single precision with its robust flag; nullptr if this program was built without
+/// it.
 std::unique_ptr<RayCaster> makeEmbreeCaster(const scenes::Mesh& mesh);
 
 }  // namespace kios::bench

@@ -23,7 +23,7 @@ using Vector = fcl::Vector3d;
 
 Vector toFloats(const Vector& v) { return v.cast<float>().cast<double>(); }
 
-/// A camera that looks at the torus: line by line, two thirds of them hit.
+/// Returns a camera that looks at the torus: line by line, two thirds of them hit.
 std::vector<Rayd> cameraRays(int count) {
   const int side = std::max(2, static_cast<int>(std::sqrt(count)));
   const Vector eye(2.5, 1.5, 2), ahead = -eye.normalized();
@@ -144,7 +144,7 @@ Verdicts judge(RayCaster& caster, const std::vector<Rayd>& rays,
   return wrong;
 }
 
-/// The three queries of all casters. One row a query and caster.
+/// Returns the three queries of all casters. One row a query and caster.
 std::vector<Row> contest(const std::string& name,
                          const std::vector<std::unique_ptr<RayCaster>>& casters,
                          const std::vector<Rayd>& rays, const scenes::Mesh& mesh,

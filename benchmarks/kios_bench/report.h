@@ -38,7 +38,7 @@ struct Tests {
   Maybe bvs, leaves;
 };
 
-/// Properties of the models and their volumes.
+/// Holds properties of the models and their volumes.
 struct Volumes {
   Maybe bytes_per_triangle, build_us_per_triangle;
   Maybe peak_bytes_per_triangle;  ///< while they are built
@@ -47,13 +47,13 @@ struct Volumes {
   Maybe tightness;                ///< mean of bound / true distance of the contents
 };
 
-/// As ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.
+/// Is as ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.
 struct ToSsv {
   Maybe ratio;
   Maybe max_ratio;  ///< the largest of all frames
 };
 
-/// Pairs of a scene.
+/// Holds pairs of a scene.
 struct Pairs {
   MaybeCount skipped;
   MaybeCount total;      ///< of all frames, where a frame has several
@@ -61,7 +61,7 @@ struct Pairs {
   MaybeCount prepared_models;
 };
 
-/// One measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
+/// Holds one measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
 struct Row {
   std::string scenario, query, bv;
   std::size_t triangles = 0;  ///< of all meshes
@@ -79,17 +79,17 @@ struct Row {
   Pairs pairs;
   std::optional<std::string> simd_target;
 
-  /// A copy for a competitor, with its times.
+  /// Returns a copy for a competitor, with its times.
   Row of(const Competitor& competitor, const Competitor* reference = nullptr) const;
 };
 
 /// Moves the rows to the end of `all`.
 void append(std::vector<Row> rows, std::vector<Row>& all);
 
-/// A number as the tables print it, by printf's format; `-` if it is unknown or not finite.
+/// Returns a number as the tables print it, by printf's format; `-` if it is unknown or not finite.
 std::string cell(const Maybe& value, const char* format);
 
-/// The row as one line of JSON. Numbers that are not finite become null.
+/// Returns the row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);
 
 /// Receives rows as they are measured: an aligned table on stdout and, if a file is named, one JSON

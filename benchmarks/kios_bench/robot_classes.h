@@ -16,10 +16,10 @@ enum class PairClass {
   kHit
 };
 
-/// "root_reject", "apart", "near", "hit".
+/// Returns "root_reject", "apart", "near", "hit".
 const char* name(PairClass pair_class);
 
-/// The questions of each class in turn, in their order.
+/// Returns the questions of each class in turn, in their order.
 std::vector<std::vector<Question>> byClass(const std::vector<scenes::Mesh>& meshes,
                                            const std::vector<Question>& questions);
 

@@ -18,7 +18,7 @@ class Skipped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A named set of scenes. Its rows carry the name, followed by `/` and the scene where it has
+/// Holds a named set of scenes. Its rows carry the name, followed by `/` and the scene where it has
 /// several.
 struct Scenario {
   const char* name;
@@ -29,7 +29,7 @@ struct Scenario {
   int least_frames;
 };
 
-/// All scenarios. To add one: a file with its run function, declared below, and a line in
+/// Returns all scenarios. To add one: a file with its run function, declared below, and a line in
 /// scenarios.cpp.
 const std::vector<Scenario>& scenarios();
 

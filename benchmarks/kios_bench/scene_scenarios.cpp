@@ -73,7 +73,7 @@ void compare(SceneQuery query, const std::vector<SceneAnswer>& answers,
   }
 }
 
-/// A set and what it answered: each so many-th frame, where it takes too long.
+/// Holds a set and what it answered: each so many-th frame, where it takes too long.
 struct Entrant {
   std::unique_ptr<SceneSet> set;
   std::size_t stride;

@@ -12,8 +12,8 @@
 
 namespace kios::bench {
 
-/// The nearest admissible pair; all that are nearer than a margin, with their distances; just which
-/// these are; the distance of each.
+/// Names the nearest admissible pair; all that are nearer than a margin, with their distances; just
+/// which these are; the distance of each.
 enum class SceneQuery { kClosest, kWithin, kVerdicts, kClearances };
 
 struct SceneAnswer {
@@ -34,10 +34,10 @@ class SceneSet {
   /// Moves the bodies to a frame's poses and asks. Pairs with distance 0 may be given in any order;
   /// of equally near pairs any may be the closest.
   virtual std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) = 0;
-  /// Pairs for which the last answer() asked the narrow phase.
+  /// Returns pairs for which the last answer() asked the narrow phase.
   virtual long long queried() const = 0;
   virtual std::size_t bytes() const = 0;
-  /// Models that hold something prepared, and the SIMD target, where there are such things.
+  /// Returns models that hold something prepared, and the SIMD target, where there are such things.
   virtual MaybeCount preparedModels() const { return std::nullopt; }
   virtual std::optional<std::string> simdTarget() const { return std::nullopt; }
 

@@ -18,7 +18,7 @@ namespace {
 
 using Object = fcl::CollisionObjectd;
 
-/// The bodies of a scene as collision objects over BV, at the poses of frame 0.
+/// Holds the bodies of a scene as collision objects over BV, at the poses of frame 0.
 template <typename BV>
 struct SceneObjects {
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models;
@@ -95,8 +95,8 @@ class ScenePairs final : public SceneSet {
   std::vector<std::pair<int, int>> pairs_;
 };
 
-/// FCL's dynamic AABB tree with what its default distance callback does, after the filter. Bodies
-/// that stand still are in a manager of their own, and never asked about each other.
+/// Holds FCL's dynamic AABB tree with what its default distance callback does, after the filter.
+/// Bodies that stand still are in a manager of their own, and never asked about each other.
 class FclManager final : public SceneSet {
  public:
   FclManager(const std::string& name, const scenes::BodyScene& scene)

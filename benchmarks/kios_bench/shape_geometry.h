@@ -12,7 +12,7 @@
 
 namespace kios::bench {
 
-/// A convex shape with the faces of a mesh that is one.
+/// Returns a convex shape with the faces of a mesh that is one.
 inline std::shared_ptr<fcl::CollisionGeometryd> convexOf(const scenes::Mesh& hull) {
   const auto faces = std::make_shared<std::vector<int>>();
   for (const fcl::Triangle& t : hull.triangles) {
@@ -23,7 +23,7 @@ inline std::shared_ptr<fcl::CollisionGeometryd> convexOf(const scenes::Mesh& hul
                                         static_cast<int>(hull.triangles.size()), faces);
 }
 
-/// The cells of this size that hold points are occupied.
+/// Returns the cells of this size that hold points are occupied.
 inline std::shared_ptr<fcl::CollisionGeometryd> octreeOf(const std::vector<fcl::Vector3d>& points,
                                                          double cell) {
   auto tree = std::make_shared<octomap::OcTree>(cell);

@@ -24,8 +24,8 @@ namespace {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-/// The mesh and the geometry at the frames of a query: apart for distances, touching or near for
-/// contacts.
+/// Returns the mesh and the geometry at the frames of a query: apart for distances, touching or
+/// near for contacts.
 std::vector<Question> questionsOf(Query query, int count, std::uint64_t seed) {
   std::vector<Question> questions;
   for (const scenes::Frame& frame : query == Query::kDistance

@@ -84,7 +84,7 @@ void contain(const std::string& name, const Mesh& mesh, const Options& options, 
 /// depth.
 class Overlaps {
  public:
-  /// The depth of a frame, where it is known: at least and at most.
+  /// Holds the depth of a frame, where it is known: at least and at most.
   struct Known {
     double least, most;
   };
@@ -219,7 +219,7 @@ std::vector<Frame> posesWithin(double half_width, int count, std::uint64_t seed)
   return frames;
 }
 
-/// Two boxes of these sizes: the least overlap along the axes of faces and crossed edges.
+/// Returns two boxes of these sizes: the least overlap along the axes of faces and crossed edges.
 Overlaps::Depth depthOfBoxes(const fcl::Vector3d& size_a, const fcl::Vector3d& size_b) {
   return [size_a, size_b](const Frame& f) {
     const fcl::Matrix3d &A = f.X_WA.linear(), &B = f.X_WB.linear();

@@ -10,7 +10,7 @@
 
 namespace kios::bench {
 
-/// One kernel on one class of triangle pairs, judged by exact rational arithmetic.
+/// Holds one kernel on one class of triangle pairs, judged by exact rational arithmetic.
 struct TriangleScore {
   double max_error = 0;            ///< of the distance, relative to the extent L of each pair
   std::size_t wrong_zeros = 0;     ///< distance 0 of pairs that don't intersect
@@ -24,8 +24,8 @@ enum TriangleKernel { kOurs, kFcl, kTriangleKernels };
 
 constexpr const char* kTriangleKernelNames[kTriangleKernels] = {"kios", "fcl"};
 
-/// triangleDistance and trianglesIntersect beside fcl::detail::TriangleDistance::triDistance and
-/// fcl::detail::Intersect::intersect_Triangle, which take turns at blocks of the same pairs.
+/// Judges triangleDistance and trianglesIntersect beside fcl::detail::TriangleDistance::triDistance
+/// and fcl::detail::Intersect::intersect_Triangle, which take turns at blocks of the same pairs.
 std::array<TriangleScore, kTriangleKernels> scoreKernels(
     const std::vector<scenes::TrianglePair>& pairs, int repeats);
 

@@ -17,15 +17,15 @@ struct Verdicts {
   std::vector<double> answers;  // exact distance, or the number of contacts
 };
 
-/// The true answer of a question: the distance, also where a threshold is asked about, or the
+/// Holds the true answer of a question: the distance, also where a threshold is asked about, or the
 /// number of contacts, at most 1 for kCollide.
 using TruthOf = std::function<double(Query query, const Question& question)>;
 
-/// The truth of two meshes.
+/// Returns the truth of two meshes.
 double truth(const scenes::MeshOracle& oracle, Query query, const Question& question);
 
-/// Judges `wanted` of the questions, spread evenly with a step that varies, so that it falls on
-/// every pair of meshes where each frame asks the same pairs in turn; all of them for 0.
+/// Judges `wanted` of the questions, spread evenly with a step that varies, so that it
+/// falls on every pair of meshes where each frame asks the same pairs in turn; all of them for 0.
 Verdicts judge(const TruthOf& truth, Query query, const std::vector<Question>& questions,
                int wanted);
 

@@ -47,8 +47,8 @@ std::vector<LinkSet> thinned(std::vector<LinkSet> sets) {
   return sets;
 }
 
-/// First contacts of the poses that touch, of those within 5 cm of a surface and of the others: one
-/// time for all hides what the answer costs.
+/// Returns the first contacts of the poses that touch, of those within 5 cm of a surface and of the
+/// others: one time for all hides what the answer costs.
 std::vector<Row> rowsByGap(const Task& whole, Contest& contest) {
   const std::vector<std::pair<const char*, std::vector<std::size_t>>> kinds = {
       {"hit", {0, 3}}, {"near", {1, 2, 4}}, {"apart", {5, 6}}};

@@ -163,7 +163,7 @@ std::vector<ShapeWorld> singleShapes() {
   return all;
 }
 
-/// A scan of a table before a wall in cells of this size, and the surfaces as scanned.
+/// Returns a scan of a table before a wall in cells of this size, and the surfaces as scanned.
 ShapeWorld octree(const std::string& name, double cell) {
   const scenes::World table = scenes::boxWorld("", {{{1.6, 1, 0.02}, scenes::shift(0, 0, 0.75)},
                                                     {{2.4, 0.02, 2}, scenes::shift(0, 0.6, 1)}});

@@ -12,41 +12,41 @@
 
 namespace kios::bench {
 
-/// Meshes that robots are made of.
+/// Holds meshes that robots are made of.
 struct LinkSet {
   std::string name;
   std::vector<scenes::Mesh> meshes;
 };
 
-/// A UR5's where the data is there, and parts of machines; a few of them for options.quick.
+/// Returns a UR5's where the data is there, and parts of machines; a few of them for options.quick.
 std::vector<LinkSet> linkSets(const Options& options);
 
-/// A link, by its number, at a pose in the world's frame.
+/// Holds a link, by its number, at a pose in the world's frame.
 struct PlacedLink {
   std::size_t link;
   fcl::Transform3d X_VL;
 };
 
-/// Poses near the world for all links in turn.
+/// Returns poses near the world for all links in turn.
 std::vector<PlacedLink> placedLinks(const scenes::World& world,
                                     const std::vector<scenes::Mesh>& links, int count,
                                     std::uint64_t seed);
 
-/// Where worlds stand: not at the origin, nor along its axes.
+/// Returns where worlds stand: not at the origin, nor along its axes.
 fcl::Transform3d worldPose();
 
-/// `full` poses, a mesh scene's 42 in the run of all; fewer in proportion where the options name
-/// frames; seven for options.quick.
+/// Returns `full` poses, a mesh scene's 42 in the run of all; fewer in proportion where the options
+/// name frames; seven for options.quick.
 int poseCount(int full, const Options& options);
 
-/// The options with FCL's RSS and OBBRSS beside ours, and a third of the frames judged, where the
-/// command line doesn't say.
+/// Returns the options with FCL's RSS and OBBRSS beside ours, and a third of the frames judged,
+/// where the command line doesn't say.
 Options worldOptions(const Options& options);
 
-/// A copy of the task with at most so many of its frames, evenly chosen.
+/// Returns a copy of the task with at most so many of its frames, evenly chosen.
 Task fewer(const Task& task, std::size_t frames);
 
-/// A copy of the task as cold as it gets: a few of its frames, 96 MB written before each.
+/// Returns a copy of the task as cold as it gets: a few of its frames, 96 MB written before each.
 Task colder(const Task& task, const Options& options);
 
 /// Whether the command line asks for this scene of 'world', or for all.

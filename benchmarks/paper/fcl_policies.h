@@ -25,7 +25,7 @@
 
 namespace kios::paper {
 
-/// A bound that proves contents apart and says nothing of how far.
+/// Is a bound that proves contents apart and says nothing of how far.
 constexpr double kApart = std::numeric_limits<double>::min();
 
 /// FCL's fits and tests don't round outwards. The pad, 1e-12 of the coordinates, covers what they
@@ -73,7 +73,8 @@ struct OrientedPolicy : PaddedPolicy {
   }
 };
 
-/// FCL's AABB. That of B is recomputed at every test: the box, in A's axes, of the rotated box.
+/// Holds FCL's AABB. That of B is recomputed at every test: the box, in A's axes, of the rotated
+/// box.
 struct AabbPolicy : PaddedPolicy {
   using Volume = fcl::AABBd;
   using Store = VolumeArray<Volume>;
@@ -92,7 +93,7 @@ struct AabbPolicy : PaddedPolicy {
   }
 };
 
-/// One sphere: a 1-IOS, the S0 of the tuned fit.
+/// Holds one sphere: a 1-IOS, the S0 of the tuned fit.
 struct SpherePolicy : PaddedPolicy {
   struct Volume {
     fcl::Vector3d center;
@@ -110,9 +111,9 @@ struct SpherePolicy : PaddedPolicy {
   }
 };
 
-/// FCL's k-DOPs. That of B is recomputed at every test, from the corners of its polytope, which are
-/// found at its fit (Klosowski et al. 1998, their approximation method). The distance is bounded by
-/// the widest gap along a direction, and by that of the boxes.
+/// Holds FCL's k-DOPs. That of B is recomputed at every test, from the corners of its polytope,
+/// which are found at its fit (Klosowski et al. 1998, their approximation method). The distance is
+/// bounded by the widest gap along a direction, and by that of the boxes.
 template <std::size_t N>
 struct KdopPolicy {
   static constexpr std::size_t kDirections = N / 2;
@@ -122,7 +123,7 @@ struct KdopPolicy {
     std::array<double, kDirections> lower, upper;
     std::vector<fcl::Vector3d> corners;
   };
-  /// Volumes with their corners, as doubles.
+  /// Holds volumes with their corners, as doubles.
   class Store {
    public:
     void add(const Volume& v) { volumes_.push_back(v); }
@@ -192,7 +193,7 @@ struct KdopPolicy {
   static constexpr double kTolerance =
       1e-9;  ///< of the coordinates, for volumes that meet in a corner
 
-  /// FCL's directions, not normalised: what its k-DOP of a point of each axis says.
+  /// Returns FCL's directions, not normalised: what its k-DOP of a point of each axis says.
   static const Directions& directions() {
     static const Directions all = [] {
       Directions rows;

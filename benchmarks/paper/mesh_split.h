@@ -27,13 +27,13 @@ class MeshSplit {
   /// coordinate that a triangle uses is NaN, infinite or above 2^1000 in magnitude.
   MeshSplit(std::vector<fcl::Vector3d> vertices, std::vector<fcl::Triangle> triangles);
 
-  /// 2 n - 1 for n triangles; the root first, children after their parent.
+  /// Returns the 2 n - 1 nodes for n triangles; the root first, children after their parent.
   const std::vector<Node>& nodes() const { return nodes_; }
   int triangleCount() const { return static_cast<int>(triangles_.size()); }
-  /// Id of the triangle at `place`, in the order of the constructor.
+  /// Returns the id of the triangle at `place`, in the order of the constructor.
   int triangle(int place) const { return static_cast<int>(order_[place]); }
   TriangleVertices<double> corners(int triangle_id) const;
-  /// The distinct vertices of a node's triangles.
+  /// Returns the distinct vertices of a node's triangles.
   std::vector<fcl::Vector3d> points(const Node& node) const;
 
  private:

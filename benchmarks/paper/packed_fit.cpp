@@ -18,9 +18,9 @@ namespace {
 // Models smaller than 2^-1000 use the units of one of that size: 2^1000 is still a double.
 constexpr int kLeastExponent = -1000;
 
-/// Radius that encloses the points q around c + o in exact arithmetic. A coordinate of q is known
-/// to u |q| (it was subtracted from the origin), of q - c - o to another 2 u (|q| + |c| + |o|);
-/// squares, sum and root have 3.5 u of the length.
+/// Returns the radius that encloses the points q around c + o in exact arithmetic. A coordinate of
+/// q is known to u |q| (it was subtracted from the origin), of q - c - o to another 2 u (|q| + |c|
+/// + |o|); squares, sum and root have 3.5 u of the length.
 float radiusAround(const std::vector<fcl::Vector3d>& q, const fcl::Vector3d& c,
                    const fcl::Vector3d& o) {
   double squared = 0, largest = 0;

@@ -10,9 +10,9 @@
 
 namespace kios::paper {
 
-/// S0 and pairs of caps, centres of caps relative to S0's, all floats in a model's units (origin
-/// and power of two, so that neither place nor size of the model matters): what packed variants are
-/// fitted as and unpacked to. Every sphere contains the content in exact arithmetic.
+/// Holds S0 and pairs of caps, centres of caps relative to S0's, all floats in a model's units
+/// (origin and power of two, so that neither place nor size of the model matters): what packed
+/// variants are fitted as and unpacked to. Every sphere contains the content in exact arithmetic.
 struct CapSpheres {
   static constexpr int kMostCaps = 12;
   bool empty = true;
@@ -25,10 +25,10 @@ struct CapSpheres {
   float height[kMostCaps] = {};
 };
 
-/// Volumes as floats one after the other, 4 for S0, then 1 for a shared radius, then for each cap
-/// its place (x, y, z, or a height along a direction that is stored elsewhere) and, if not shared,
-/// its radius. Beside them an index of 5 bytes a volume says where it starts and which pairs it
-/// has.
+/// Holds volumes as floats one after the other, 4 for S0, then 1 for a shared radius, then for each
+/// cap its place (x, y, z, or a height along a direction that is stored elsewhere) and, if not
+/// shared, its radius. Beside them an index of 5 bytes a volume says where it starts and which
+/// pairs it has.
 class PackedStore {
  public:
   struct Packed {
@@ -50,7 +50,7 @@ class PackedStore {
   std::vector<std::uint8_t> pairs_;
 };
 
-/// k-IOS that store no more floats than their kind needs; see its three kinds below.
+/// Holds k-IOS that store no more floats than their kind needs; see its three kinds below.
 class PackedPolicy {
  public:
   /// Once a model: units, and the directions of a fixed-direction k-IOS.
@@ -62,8 +62,8 @@ class PackedPolicy {
   using Volume = CapSpheres;
   using Store = PackedStore;
 
-  /// Pose of B in A between the models' units, in units of 2^exponent, and its rounding. Refers to
-  /// both models' data, which must outlive it.
+  /// Holds a pose of B in A between the models' units, in units of 2^exponent, and its rounding.
+  /// Refers to both models' data, which must outlive it.
   struct Placed {
     const Shared *a, *b;
     double R[3][3], T[3];
@@ -102,8 +102,8 @@ class PackedPolicy {
   std::vector<fcl::Vector3f> given_;  ///< directions that no model stores, or all do
 };
 
-/// Oriented k-IOS (paper, III-A): caps along the principal axes of each volume's content, as the
-/// fit of `options` places them; k = 1, 3, 5 or, by the tuned fit alone, 7 (by ratio, where the
+/// Holds oriented k-IOS (paper, III-A): caps along the principal axes of each volume's content, as
+/// the fit of `options` places them; k = 1, 3, 5 or, by the tuned fit alone, 7 (by ratio, where the
 /// paper gives 5), at most K. Floats: 4 + 4 (k - 1), with a shared radius 5 + 3 (k - 1).
 template <int K>
 class OrientedKios : public PackedPolicy {
@@ -114,21 +114,22 @@ class OrientedKios : public PackedPolicy {
       : PackedPolicy(Axes::kOfTheVolume, K, options) {}
 };
 
-/// Axis-aligned k-IOS (paper, III-A): caps along the coordinate axes of the model's frame, of which
-/// nothing is stored. The method of `options` does not matter; by ratio, an axis gets caps where
-/// the largest of the extents is more than 1.5 times its own, which is the paper's rule (III-C).
-/// Floats: 4 + 2 (k - 1), with a shared radius 5 + (k - 1).
+/// Holds axis-aligned k-IOS (paper, III-A): caps along the coordinate axes of the model's frame, of
+/// which nothing is stored. The method of `options` does not matter; by ratio, an axis gets caps
+/// where the largest of the extents is more than 1.5 times its own, which is the paper's rule
+/// (III-C). Floats: 4 + 2 (k - 1), with a shared radius 5 + (k - 1).
 class AxisAlignedKios : public PackedPolicy {
  public:
   explicit AxisAlignedKios(const FitOptions& options = {})
       : PackedPolicy(Axes::kCoordinates, 7, options) {}
 };
 
-/// Fixed-direction k-IOS (paper, III-A, V-B): as AxisAlignedKios, along directions that a model
-/// stores once. They turn with the model, so that no rotation makes anything be computed again.
+/// Holds fixed-direction k-IOS (paper, III-A, V-B): as AxisAlignedKios, along directions that a
+/// model stores once. They turn with the model, so that no rotation makes anything be computed
+/// again.
 class FixedDirectionKios : public PackedPolicy {
  public:
-  /// The principal axes of each model's vertices.
+  /// Returns the principal axes of each model's vertices.
   explicit FixedDirectionKios(const FitOptions& options = {})
       : PackedPolicy(Axes::kOfTheModel, 7, options) {}
   /// Sets 1 to 6 directions, the same for every model, each in the model's frame, of any finite

@@ -63,7 +63,7 @@ SphereSet moved(const SphereSet& b, const engine::FloatPose& X) {
   return out;
 }
 
-/// The sphere pairs (n / k_B, n mod k_B) of two k-IOS, four a row.
+/// Holds the sphere pairs (n / k_B, n mod k_B) of two k-IOS, four a row.
 struct Packing {
   int rows = 0;
   bool one_left = false;

@@ -13,8 +13,8 @@
 
 namespace kios::paper {
 
-/// The spheres of a k-IOS in floats, S0 first. Rows go on with the first again, so that four from
-/// any of the k are spheres.
+/// Holds the spheres of a k-IOS in floats, S0 first. Rows go on with the first again, so that four
+/// from any of the k are spheres.
 struct SphereSet {
   int k = 0;
   float x[8] = {}, y[8] = {}, z[8] = {}, r[8] = {};
@@ -23,7 +23,7 @@ struct SphereSet {
   void repeat();
 };
 
-/// A node of B against eight nodes of A, several times over, as each test streams them.
+/// Holds a node of B against eight nodes of A, several times over, as each test streams them.
 struct PackingPairs {
   std::vector<engine::FloatPose> X_AB;
   std::vector<SphereSet> b;
@@ -53,7 +53,7 @@ void testScalar(const PackingPairs& pairs, bool overlap, float* bounds, PackingC
 void testPackedByFour(const PackingPairs& pairs, bool overlap, float* bounds,
                       PackingCounts& counts);
 
-/// The engine's test: eight volumes at a time, nine of the 25 sphere pairs of each.
+/// Holds the engine's test: eight volumes at a time, nine of the 25 sphere pairs of each.
 struct EightNodesTest {
   std::string target;
   PackingTest test;

@@ -15,7 +15,7 @@
 
 namespace kios::paper {
 
-/// Answer and cost of a query of two trees.
+/// Holds the answer and the cost of a query of two trees.
 struct VariantResult {
   double distance = std::numeric_limits<double>::infinity();  ///< 0 in contact
   bool contact = false;
@@ -25,9 +25,10 @@ struct VariantResult {
   std::int64_t leaf_tests = 0;
 };
 
-/// A mesh with a volume of `Policy` (volume_policy.h) around every node of its split. Traversal and
-/// leaf tests are the same for all policies and do not look into volumes, so that counts compare
-/// the volumes alone. For comparison: fcl::BVHModel<kIOSd> is what answers queries fast.
+/// Holds a mesh with a volume of `Policy` (volume_policy.h) around every node of its split.
+/// Traversal and leaf tests are the same for all policies and do not look into volumes, so that
+/// counts compare the volumes alone. For comparison: fcl::BVHModel<kIOSd> is what answers queries
+/// fast.
 template <typename Policy>
 class VariantTree {
  public:
@@ -48,12 +49,13 @@ class VariantTree {
   const Policy& policy() const { return policy_; }
   const typename Policy::Shared& shared() const { return shared_; }
   const typename Policy::Store& store() const { return store_; }
-  /// Floats that memory holds for a volume, on average over the nodes.
+  /// Returns floats that memory holds for a volume, on average over the nodes.
   double floatsPerVolume() const {
     return static_cast<double>(store_.floats()) / static_cast<double>(split_->nodes().size());
   }
 
-  /// Exact distance to b at X_AB: that of the triangles with b's vertices moved by X_AB * p.
+  /// Returns the exact distance to b at X_AB: that of the triangles with b's vertices moved by X_AB
+  /// * p.
   VariantResult distance(const VariantTree& b, const RelativePose<double>& X_AB) const {
     Query query(*this, b, X_AB);
     query.leafDistance(0, 0);

@@ -33,7 +33,7 @@
 
 namespace kios::paper {
 
-/// A store of volumes that are all of one size.
+/// Holds a store of volumes that are all of one size.
 template <typename Volume>
 class VolumeArray {
  public:

@@ -31,7 +31,7 @@ namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-/// Torus about z, radii 1 and about 0.4, with bumps.
+/// Returns a torus about z, radii 1 and about 0.4, with bumps.
 std::shared_ptr<Model> torus(int triangles) {
   const double pi = std::acos(-1);
   const int around = std::max(6, static_cast<int>(std::sqrt(triangles / 0.8)));
@@ -69,7 +69,7 @@ fcl::Vector3d randomDirection(std::mt19937& random) {
   return fcl::Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-/// What the torus meets: another, unless the row names one of FCL's shapes or an octree.
+/// Returns what the torus meets: another, unless the row names one of FCL's shapes or an octree.
 std::shared_ptr<fcl::CollisionGeometryd> partner(const std::string& row, int triangles) {
   const auto names = [&](const char* word) { return row.find(word) != std::string::npos; };
   if (names("box")) return std::make_shared<fcl::Boxd>(0.6, 0.5, 0.8);

@@ -115,7 +115,7 @@ struct Cell {
 
 constexpr int kPairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
-/// Verdicts, contacts and distances of all pairs of robots in some configurations.
+/// Returns verdicts, contacts and distances of all pairs of robots in some configurations.
 std::vector<double> answer(Cell& cell, int frames, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<double> answers;

@@ -35,7 +35,7 @@ class Transcript {
     ++count_;
   }
 
-  /// The status of the program.
+  /// Returns the status of the program.
   int end() {
     if (writes_) {
       std::ofstream file(path_);

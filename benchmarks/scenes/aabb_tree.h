@@ -9,17 +9,17 @@
 
 namespace kios::scenes {
 
-/// Axis-aligned box in the frame of its points.
+/// Holds an axis-aligned box in the frame of its points.
 struct ExactBox {
   ExactPoint lower;
   ExactPoint upper;
 };
 
-/// Distance of two boxes, 0 if they overlap.
+/// Returns the distance of two boxes, 0 if they overlap.
 long double boxDistance(const ExactBox& a, const ExactBox& b);
 
-/// Binary tree of axis-aligned boxes over triangles, one triangle a leaf. The topology is fixed at
-/// construction; boxes are computed for any later position of the same triangles.
+/// Holds a binary tree of axis-aligned boxes over triangles, one triangle a leaf. The topology is
+/// fixed at construction; boxes are computed for any later position of the same triangles.
 class AabbTree {
  public:
   struct Node {
@@ -30,10 +30,10 @@ class AabbTree {
   /// Median split by centroid along the longest side. `triangles` must not be empty.
   explicit AabbTree(const std::vector<ExactTriangle>& triangles);
 
-  /// Nodes with the root first and children after their parent.
+  /// Returns nodes with the root first and children after their parent.
   const std::vector<Node>& nodes() const { return nodes_; }
 
-  /// The box of each node for the triangles as they lie now: same count and order as at
+  /// Returns the box of each node for the triangles as they lie now: same count and order as at
   /// construction.
   std::vector<ExactBox> boxes(const std::vector<ExactTriangle>& triangles) const;
 

@@ -14,7 +14,7 @@ namespace {
 
 using fcl::Vector3d;
 
-/// A closed polygon about the z axis, counter-clockwise seen from above.
+/// Holds a closed polygon about the z axis, counter-clockwise seen from above.
 struct Corner {
   double x, y;
 };
@@ -29,7 +29,7 @@ Outline circle(double radius, int segments, double start = 0) {
   return outline;
 }
 
-/// The indices of a closed polygon's vertices.
+/// Holds the indices of a closed polygon's vertices.
 using Loop = std::vector<std::size_t>;
 
 Loop addOutline(const Outline& outline, double z, Mesh& mesh,

@@ -12,11 +12,11 @@
 
 namespace kios::scenes {
 
-/// Pipe about z from z = 0 to `length`, of 8 segments triangles.
+/// Returns a pipe about z from z = 0 to `length`, of 8 segments triangles.
 Mesh tube(double inner_radius, double outer_radius, double length, int segments);
 
-/// Spur gear about z from z = 0 to `thickness` with straight-sided teeth, whose height is 2.25
-/// `module`, the pitch circle's diameter being teeth * module, and a round bore of `segments`
+/// Returns a spur gear about z from z = 0 to `thickness` with straight-sided teeth, whose height is
+/// 2.25 `module`, the pitch circle's diameter being teeth * module, and a round bore of `segments`
 /// edges.
 Mesh spurGear(int teeth, double module, double thickness, double bore_radius, int segments);
 
@@ -24,8 +24,9 @@ Mesh spurGear(int teeth, double module, double thickness, double bore_radius, in
 /// `fillet` in so many steps each: 2 * 4 (steps + 1) strips as long as the bar, ends as fans.
 Mesh filletedBar(double x, double y, double length, double fillet, int steps);
 
-/// Plate [0, columns * pitch] x [0, rows * pitch] x [0, thickness] with a round hole of `segments`
-/// edges, a multiple of 4, in each of its squares, top and bottom as fans between square and hole.
+/// Returns a plate [0, columns * pitch] x [0, rows * pitch] x [0, thickness] with a round hole of
+/// `segments` edges, a multiple of 4, in each of its squares, top and bottom as fans between square
+/// and hole.
 Mesh drilledPlate(int columns, int rows, double pitch, double hole_radius, double thickness,
                   int segments);
 
@@ -33,7 +34,7 @@ Mesh drilledPlate(int columns, int rows, double pitch, double hole_radius, doubl
 /// outside and 0.15 radius deep, each turn of `segments` steps.
 Mesh screw(double radius, double pitch, int turns, int segments);
 
-/// One of each, between 0.05 and 0.3 large: 800 to 6,000 triangles.
+/// Returns one of each, between 0.05 and 0.3 large: 800 to 6,000 triangles.
 std::vector<Mesh> cadParts();
 
 }  // namespace kios::scenes

@@ -16,32 +16,34 @@ namespace kios::scenes {
 /// triangles each; caps are fans about their centres: 4 strips triangles.
 Mesh stripCylinder(int strips, double length, double width);
 
-/// A point of a profile that turns about z.
+/// Holds a point of a profile that turns about z.
 struct ProfilePoint {
   double radius;
   double z;
 };
 
-/// Solid of revolution. The profile runs upwards outside the solid's axis, from a point on it
-/// (radius 0) to another: its ends become fans, each step between two a ring of long quads.
+/// Returns a solid of revolution. The profile runs upwards outside the solid's axis, from a point
+/// on it (radius 0) to another: its ends become fans, each step between two a ring of long quads.
 Mesh turnedPart(const std::vector<ProfilePoint>& profile, int segments);
 
-/// Cylinder from z = 0 to `length` with a chamfered flange of 1.35 times its radius at each end.
+/// Returns a cylinder from z = 0 to `length` with a chamfered flange of 1.35 times its radius at
+/// each end.
 Mesh flangedCylinder(double radius, double length, int segments);
 
-/// Block [-size/2, size/2] with a round bore along z, upright edges rounded by `rounding`, chamfers
-/// at top and bottom. `segments`, a multiple of 4, counts the bore's edges; 12 segments triangles.
-/// Sides are single long quads; top and bottom are fans between the bore and the roundings.
+/// Returns a block [-size/2, size/2] with a round bore along z, upright edges rounded by
+/// `rounding`, chamfers at top and bottom. `segments`, a multiple of 4, counts the bore's edges; 12
+/// segments triangles. Sides are single long quads; top and bottom are fans between the bore and
+/// the roundings.
 Mesh boredBlock(const fcl::Vector3d& size, double rounding, double chamfer, double bore_radius,
                 int segments);
 
-/// The mesh with its vertices at X p.
+/// Returns the mesh with its vertices at X p.
 Mesh moved(const fcl::Transform3d& X, Mesh mesh);
 
-/// All triangles of the parts, in order, as one mesh.
+/// Returns all triangles of the parts, in order, as one mesh.
 Mesh merged(const std::vector<Mesh>& parts);
 
-/// The mesh with equal vertices made one, in order of first use.
+/// Returns the mesh with equal vertices made one, in order of first use.
 Mesh welded(const Mesh& mesh);
 
 }  // namespace kios::scenes

@@ -14,8 +14,8 @@
 
 namespace kios::scenes {
 
-/// Robots of one kind that stand at their bases among obstacles. Bodies are the links of the first
-/// robot, those of the second, and the obstacles. The joints of all robots are one vector q.
+/// Holds robots of one kind that stand at their bases among obstacles. Bodies are the links of the
+/// first robot, those of the second, and the obstacles. The joints of all robots are one vector q.
 struct Cell {
   Robot robot;
   std::vector<fcl::Transform3d> bases;  // in the world
@@ -35,26 +35,26 @@ struct Cell {
   bool admissible(int a, int b) const;
 };
 
-/// Joint values.
+/// Holds joint values.
 using Joints = std::vector<double>;
 
 /// Poses of all links at q, which are overwritten.
 void placeLinks(const Cell& cell, const Joints& q, std::vector<fcl::Transform3d>& poses);
 
-/// One robot on a table between two walls, amid `count` obstacles of 1,000 to 20,000 triangles, or
-/// `size` times that.
+/// Returns one robot on a table between two walls, amid `count` obstacles of 1,000 to 20,000
+/// triangles, or `size` times that.
 Cell workCell(const Robot& robot, int count, double size, std::uint64_t seed);
 
-/// Two robots whose workspaces overlap, the second at X_W2, and nothing else.
+/// Returns two robots whose workspaces overlap, the second at X_W2, and nothing else.
 Cell sideBySide(const Robot& robot, const fcl::Transform3d& X_W2);
 
-/// A configuration in the robots' range.
+/// Returns a configuration in the robots' range.
 Joints randomJoints(const Cell& cell, Random& random);
 
 /// From q in a random direction, the joint that turns most by `length` radians.
 Joints randomStep(const Joints& q, double length, Random& random);
 
-/// q0 + s (q1 - q0)
+/// Returns q0 + s (q1 - q0)
 Joints between(const Joints& q0, const Joints& q1, double s);
 
 }  // namespace kios::scenes

@@ -14,13 +14,14 @@
 
 namespace kios::scenes {
 
-/// A triangle mesh in its own frame. Triangles index `vertices`; every index is in range.
+/// Holds a triangle mesh in its own frame. Triangles index `vertices`; every index is in range.
 struct Mesh {
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;
 };
 
-/// Diagonal of the axis-aligned bounding box of the vertices; 0 for a mesh without vertices.
+/// Returns the diagonal of the axis-aligned bounding box of the vertices; 0 for a mesh without
+/// vertices.
 inline double extent(const Mesh& mesh) {
   if (mesh.vertices.empty()) return 0;
   fcl::Vector3d lower = mesh.vertices.front();
@@ -47,9 +48,9 @@ inline Mesh soup(const Mesh& mesh) {
   return result;
 }
 
-/// The mesh as an FCL model over any bounding volume, vertices cast to BV::S, its nodes fitted by
-/// `fitter` if one is given.
-/// Throws std::runtime_error if FCL refuses the mesh (for instance one without triangles).
+/// Returns the mesh as an FCL model over any bounding volume, vertices cast to BV::S, its nodes
+/// fitted by `fitter` if one is given. Throws std::runtime_error if FCL refuses the mesh (for
+/// instance one without triangles).
 template <typename BV>
 std::shared_ptr<fcl::BVHModel<BV>> buildModel(
     const Mesh& mesh, std::shared_ptr<fcl::detail::BVFitterBase<BV>> fitter = nullptr) {

@@ -26,7 +26,8 @@ std::string lowerExtension(const fs::path& file) {
   return extension;
 }
 
-/// The vertex that a corner of a face names: its first number, from 1, or from the end if negative.
+/// Returns the vertex that a corner of a face names: its first number, from 1, or from the end if
+/// negative.
 std::size_t vertexOf(const std::string& corner, std::size_t count) {
   std::size_t end = 0;
   long index = 0;

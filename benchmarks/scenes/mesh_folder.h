@@ -11,20 +11,20 @@
 
 namespace kios::scenes {
 
-/// The meshes of a folder's binary STL and OBJ files, by name, equal vertices welded. Polygons of
-/// OBJ become fans. Throws std::runtime_error that names the file and what is wrong with it, or the
-/// folder if it holds none.
+/// Returns the meshes of a folder's binary STL and OBJ files, by name, equal vertices welded.
+/// Polygons of OBJ become fans. Throws std::runtime_error that names the file and what is wrong
+/// with it, or the folder if it holds none.
 std::vector<Mesh> loadMeshes(const std::filesystem::path& folder);
 
 /// An OBJ file's vertices and faces; everything else in it is passed over. Throws likewise.
 Mesh loadObj(const std::filesystem::path& file);
 
-/// The meshes as links of an arm, in their order: each with the longest side of its box along the
-/// arm, from joint to joint, the joints twisting and bending in turn. All that is known of the
-/// robot are its sizes.
+/// Returns the meshes as links of an arm, in their order: each with the longest side of its box
+/// along the arm, from joint to joint, the joints twisting and bending in turn. All that is known
+/// of the robot are its sizes.
 Arm chainOf(const std::vector<Mesh>& meshes);
 
-/// Length of the chain when stretched.
+/// Returns the length of the chain when stretched.
 double chainLength(const Arm& chain);
 
 }  // namespace kios::scenes

@@ -11,7 +11,7 @@
 
 namespace kios::scenes {
 
-/// Poses of two meshes in the world frame W: x_W = X_WA x_A.
+/// Holds poses of two meshes in the world frame W: x_W = X_WA x_A.
 struct Frame {
   fcl::Transform3d X_WA;
   fcl::Transform3d X_WB;
@@ -22,16 +22,16 @@ struct Frame {
 /// frames differ little when there are many.
 std::vector<Frame> fallingMotion(int frames);
 
-/// The spinning benchmark of the k-IOS paper: A at (-1, 0, 0) and B at (1, 0, 0) turn in place. For
-/// frame i = 1, 2, ... and the angles (a, b, c) = (0.1 i, 0.2 i, 0.3 i) in radians,
-/// R_WA = Rx(a) Ry(b) Rz(c) and R_WB = Rx(c) Ry(a) Rz(b).
+/// Returns the spinning benchmark of the k-IOS paper: A at (-1, 0, 0) and B at (1, 0, 0) turn in
+/// place. For frame i = 1, 2, ... and the angles (a, b, c) = (0.1 i, 0.2 i, 0.3 i) in radians, R_WA
+/// = Rx(a) Ry(b) Rz(c) and R_WB = Rx(c) Ry(a) Rz(b).
 std::vector<Frame> spinningMotion(int frames);
 
-/// Uniformly distributed rotation (Shoemake's quaternion) and a translation uniform in the cube
-/// [-half_width, half_width]^3, from the seed.
+/// Returns a uniformly distributed rotation (Shoemake's quaternion) and a translation uniform in
+/// the cube [-half_width, half_width]^3, from the seed.
 std::vector<fcl::Transform3d> randomPoses(int count, double half_width, std::uint64_t seed);
 
-/// Exact distance of the two meshes at given poses, 0 in contact.
+/// Computes the exact distance of the two meshes at given poses, 0 in contact.
 using DistanceFunction = std::function<double(const Frame&)>;
 
 /// Independent random orientations (no coherence between frames); A at the origin, B moved towards
@@ -41,8 +41,8 @@ using DistanceFunction = std::function<double(const Frame&)>;
 std::vector<Frame> gapMotion(int frames, double gap, double apart, std::uint64_t seed,
                              const DistanceFunction& distance);
 
-/// Independent random orientations; A at the origin, B in a random direction at a distance uniform
-/// in [nearest, farthest].
+/// Returns independent random orientations; A at the origin, B in a random direction at a distance
+/// uniform in [nearest, farthest].
 std::vector<Frame> farMotion(int frames, double nearest, double farthest, std::uint64_t seed);
 
 /// The frames in a random order, which the seed sets: no coherence is left.

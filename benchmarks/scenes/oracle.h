@@ -17,7 +17,7 @@ namespace kios::scenes {
 /// rotations. Const calls are safe from several threads.
 class MeshOracle {
  public:
-  /// Pairs of a triangle of A and a triangle of B.
+  /// Holds pairs of a triangle of A and a triangle of B.
   using Pairs = std::vector<std::pair<int, int>>;
 
   /// Throws std::invalid_argument if a mesh has no triangle.
@@ -26,10 +26,10 @@ class MeshOracle {
   /// Distance, 0 in contact (touching counts), rounded to double once.
   double distance(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
-  /// True if some pair of triangles meets (trianglesMeet).
+  /// Returns true if some pair of triangles meets (trianglesMeet).
   bool collide(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
-  /// All pairs that meet, in ascending order.
+  /// Returns all pairs that meet, in ascending order.
   Pairs collidingPairs(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
   // Searches all pairs of triangles, without a tree. Results are equal, bit by bit.

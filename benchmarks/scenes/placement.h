@@ -14,7 +14,7 @@ inline fcl::Transform3d shift(double x, double y, double z) {
   return fcl::Transform3d(Eigen::Translation3d(x, y, z));
 }
 
-/// A turn about a unit axis, in radians.
+/// Returns a turn about a unit axis, in radians.
 inline fcl::Transform3d turn(double angle, const fcl::Vector3d& axis) {
   return fcl::Transform3d(fcl::AngleAxisd(angle, axis));
 }

@@ -15,29 +15,30 @@
 
 namespace kios::scenes {
 
-/// The data folder: $KIOS_DATA if set, else ../shared/data seen from the current folder, else the
-/// same seen from the source tree; nothing if the one so found is not a folder with `pqp` in it.
+/// Returns the data folder: $KIOS_DATA if set, else ../shared/data seen from the current folder,
+/// else the same seen from the source tree; nothing if the one so found is not a folder with `pqp`
+/// in it.
 std::optional<std::filesystem::path> findData();
 
-/// A `.tris` file: the number n of triangles, then 3n vertices `x y z`. Gives a soup of 3n
+/// Returns a `.tris` file: the number n of triangles, then 3n vertices `x y z`. Gives a soup of 3n
 /// vertices. Throws std::runtime_error naming the file and what is wrong with it.
 Mesh loadTris(const std::filesystem::path& file);
 
-/// A `.path` file: the number of frames, then a row-major rotation and a translation for each. The
-/// numbers are taken as written (rotations have six digits). Throws as loadTris does.
+/// Returns a `.path` file: the number of frames, then a row-major rotation and a translation for
+/// each. The numbers are taken as written (rotations have six digits). Throws as loadTris does.
 std::vector<fcl::Transform3d> loadPath(const std::filesystem::path& file);
 
-/// Two meshes on their way, in the world frame.
+/// Holds two meshes on their way, in the world frame.
 struct MovingPair {
   Mesh a;
   Mesh b;
   std::vector<Frame> frames;
 };
 
-/// A = bent torus (torus1), B = knobby torus (torus2), 2398 frames, 392 of them in contact.
+/// Loads A = bent torus (torus1), B = knobby torus (torus2), 2398 frames, 392 of them in contact.
 MovingPair loadFalling(const std::filesystem::path& data);
 
-/// A = bunny, B = torus; the first `frames` frames of spinningMotion(), never in contact.
+/// Loads A = bunny, B = torus; the first `frames` frames of spinningMotion(), never in contact.
 MovingPair loadSpinning(const std::filesystem::path& data, int frames);
 
 }  // namespace kios::scenes

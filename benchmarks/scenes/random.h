@@ -14,10 +14,10 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
 
-  /// Uniform in [0, 1), a multiple of 2^-53.
+  /// Returns a number uniform in [0, 1), a multiple of 2^-53.
   double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
 
-  /// Uniform in [lower, upper).
+  /// Returns a number uniform in [lower, upper).
   double uniform(double lower, double upper) { return lower + (upper - lower) * unit(); }
 
  private:

@@ -20,9 +20,9 @@ struct RationalDistance {
       distance;  ///< rounded once; neither under- nor overflows where it has 15 exponent bits
 };
 
-/// Exact for all finite coordinates, denormals included, and for segments and points.
-/// The least of all feasible pairs: vertices on edges, edges on edges, vertices on faces, and edges
-/// that pierce a face. About 5 us times the pair's range of exponents in units of 100 bits.
+/// Is exact for all finite coordinates, denormals included, and for segments and points. The least
+/// of all feasible pairs: vertices on edges, edges on edges, vertices on faces, and edges that
+/// pierce a face. About 5 us times the pair's range of exponents in units of 100 bits.
 RationalDistance rationalDistance(const TrianglePair& pair);
 
 /// Returns that of a point and a triangle.

@@ -13,14 +13,14 @@
 
 namespace kios::scenes {
 
-/// origin + t direction, t_min <= t <= t_max, all finite.
+/// Holds origin + t direction, t_min <= t <= t_max, all finite.
 struct RationalRay {
   Eigen::Vector3d origin, direction;
   double t_min, t_max;
 };
 
 struct RationalRayHit {
-  /// The least t of a common point, rounded once; neither under- nor overflows where it has 15
+  /// Is the least t of a common point, rounded once; neither under- nor overflows where it has 15
   /// exponent bits.
   long double t;
   bool crosses;  ///< the ray leaves the triangle's plane, so that the following are set
@@ -28,7 +28,7 @@ struct RationalRayHit {
   std::array<long double, 3> weights;  ///< barycentric
 };
 
-/// None if the ray doesn't meet the closed triangle, which may be a segment or a point.
+/// Returns none if the ray doesn't meet the closed triangle, which may be a segment or a point.
 std::optional<RationalRayHit> rationalRayHit(const RationalRay& ray,
                                              const std::array<Eigen::Vector3d, 3>& triangle);
 

@@ -13,7 +13,7 @@
 
 namespace kios::scenes {
 
-/// Many bodies over some meshes and, frame by frame, their poses in the world.
+/// Holds many bodies over some meshes and, frame by frame, their poses in the world.
 struct BodyScene {
   std::vector<Mesh> meshes;
   std::vector<int> mesh_of;                           // by body
@@ -36,37 +36,38 @@ struct Robot {
 
 Robot robotOf(const Arm& arm);
 
-/// Humanoid of 19 links, 1.8 high: pelvis, chest and head, two arms and two legs of 4 links each;
-/// 1.2k to 3.0k triangles a link.
+/// Returns a humanoid of 19 links, 1.8 high: pelvis, chest and head, two arms and two legs of 4
+/// links each; 1.2k to 3.0k triangles a link.
 Robot humanoid();
 
-/// Poses of the meshes with the base at X_WB and the joints at `angles`.
+/// Returns poses of the meshes with the base at X_WB and the joints at `angles`.
 std::vector<fcl::Transform3d> robotPoses(const Robot& robot, const fcl::Transform3d& X_WB,
                                          const std::vector<double>& angles);
 
-/// Joint angles for each frame: smooth as armMotion()'s, or uniform in the robot's range.
+/// Returns joint angles for each frame: smooth as armMotion()'s, or uniform in the robot's range.
 std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
                                              std::uint64_t seed);
 
-/// Pairs of links that a planner wouldn't ask about: neighbours, and those that touch in more than
-/// one of twenty random configurations.
+/// Returns pairs of links that a planner wouldn't ask about: neighbours, and those that touch in
+/// more than one of twenty random configurations.
 std::vector<std::pair<int, int>> allowedPairs(const Robot& robot);
 
-/// Two robots of one kind with their bases at X_W1 and X_W2, each with all its links, which share
-/// meshes. Smooth frames are the first of a motion of 400 for three swings of a joint.
+/// Returns two robots of one kind with their bases at X_W1 and X_W2, each with all its links, which
+/// share meshes. Smooth frames are the first of a motion of 400 for three swings of a joint.
 BodyScene twoRobots(const Robot& robot, const fcl::Transform3d& X_W1, const fcl::Transform3d& X_W2,
                     int frames, bool smooth, std::uint64_t seed);
 
-/// `count` bodies over many small meshes in a loose, jittered grid, each drifting about its place,
-/// so that few are near each other in a frame.
+/// Returns `count` bodies over many small meshes in a loose, jittered grid, each drifting about its
+/// place, so that few are near each other in a frame.
 BodyScene driftingCrowd(int count, int frames, std::uint64_t seed);
 
-/// `count` bodies 0.2 to 0.4 across that stand still in a jittered grid of this spacing, each a
-/// mesh of its own: a box for 12 `triangles`, else a bumpy ball of as many, a multiple of 20.
+/// Returns `count` bodies 0.2 to 0.4 across that stand still in a jittered grid of this spacing,
+/// each a mesh of its own: a box for 12 `triangles`, else a bumpy ball of as many, a multiple of
+/// 20.
 BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t seed);
 
-/// A robot's configurations, all at random, amid `count` obstacles that stand still and keep clear
-/// of its base: what a roadmap planner asks.
+/// Returns a robot's configurations, all at random, amid `count` obstacles that stand still and
+/// keep clear of its base: what a roadmap planner asks.
 BodyScene roadmap(const Robot& robot, int count, int configurations, std::uint64_t seed);
 
 }  // namespace kios::scenes

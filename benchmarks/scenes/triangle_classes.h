@@ -14,18 +14,19 @@
 
 namespace kios::scenes {
 
-/// A named family of pairs. All coordinates are finite and at most 1e300 in magnitude. Vertices
-/// come in random order and the triangles in either.
+/// Holds a named family of pairs. All coordinates are finite and at most 1e300 in magnitude.
+/// Vertices come in random order and the triangles in either.
 struct TriangleClass {
   const char* name;
   std::function<TrianglePair(Random&)> make;
 };
 
-/// Every class: general position, contacts of every pair of features, exact and rounded, gaps and
-/// penetrations, degenerate triangles, slivers, offsets, and scales from denormals to 1e300.
+/// Returns every class: general position, contacts of every pair of features, exact and rounded,
+/// gaps and penetrations, degenerate triangles, slivers, offsets, and scales from denormals to
+/// 1e300.
 const std::vector<TriangleClass>& triangleClasses();
 
-/// `count` pairs of the class of that index, the same on every platform.
+/// Returns `count` pairs of the class of that index, the same on every platform.
 std::vector<TrianglePair> trianglePairs(std::size_t class_index, std::size_t count,
                                         std::uint64_t seed);
 

@@ -27,7 +27,7 @@ inline int integer(Random& random, int lower, int upper) {
   return lower + static_cast<int>(random.unit() * (upper - lower + 1));
 }
 
-/// Uniform in [1, 2) times 2^e, e uniform in [lower, upper].
+/// Returns a number uniform in [1, 2) times 2^e, e uniform in [lower, upper].
 inline double logUniform(Random& random, int lower, int upper) {
   const int e = integer(random, lower, upper);
   return std::ldexp(random.uniform(1, 2), e);
@@ -48,7 +48,7 @@ inline Eigen::Vector3d direction(Random& random) {
   }
 }
 
-/// A vector of any direction and length in [2^lower, 2^(upper + 1)).
+/// Returns a vector of any direction and length in [2^lower, 2^(upper + 1)).
 inline Eigen::Vector3d displacement(Random& random, int lower, int upper) {
   const double length = logUniform(random, lower, upper);
   return length * direction(random);
@@ -73,13 +73,13 @@ inline Eigen::Vector3d latticePoint(Random& random, int n) {
   return Eigen::Vector3d(x, y, integer(random, -n, n));
 }
 
-/// Six vertices, each made by a call of `vertex`.
+/// Returns six vertices, each made by a call of `vertex`.
 template <typename Vertex>
 TrianglePair verticesFrom(const Vertex& vertex) {
   return {{vertex(), vertex(), vertex()}, {vertex(), vertex(), vertex()}};
 }
 
-/// Every vertex of both triangles mapped by f.
+/// Returns every vertex of both triangles mapped by f.
 template <typename Map>
 TrianglePair mapped(TrianglePair pair, const Map& f) {
   for (Eigen::Vector3d& p : pair.a) p = f(p);
@@ -95,7 +95,8 @@ inline TrianglePair shifted(const TrianglePair& pair, const Eigen::Vector3d& t) 
   return mapped(pair, [&t](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + t; });
 }
 
-/// Moved rigidly at random, then rounded, so that nothing is exact that was so in `pair`.
+/// Returns it moved rigidly at random, then rounded, so that nothing is exact that was so in
+/// `pair`.
 inline TrianglePair posed(Random& random, const TrianglePair& pair) {
   const Eigen::Matrix3d R = rotation(random);
   const Eigen::Vector3d t = point(random);
@@ -107,7 +108,7 @@ inline TrianglePair posed(Random& random, const TrianglePair& pair) {
   });
 }
 
-/// Random lattice triangles that touch exactly: see touching_triangles.cpp.
+/// Returns random lattice triangles that touch exactly: see touching_triangles.cpp.
 TrianglePair latticeVertexOnFace(Random& random);
 TrianglePair latticeVertexOnEdge(Random& random);
 TrianglePair latticeEdgeThroughEdge(Random& random);

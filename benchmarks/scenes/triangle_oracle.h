@@ -12,15 +12,16 @@
 
 namespace kios::scenes {
 
-/// A point in extended precision (64-bit significand on x86; plain double where long double is).
+/// Holds a point in extended precision (64-bit significand on x86; plain double where long double
+/// is).
 using ExactPoint = Eigen::Matrix<long double, 3, 1>;
 using ExactTriangle = std::array<ExactPoint, 3>;
 
-/// Distance of two closed triangles in one frame, 0 where trianglesMeet. Every candidate is the
-/// distance of a point of one to a point of the other, so the result is never too small by more
-/// than rounding; all feature pairs are tried, so it is too large by a few long-double roundings of
-/// the triangles' extent at most, for any aspect ratio down to 1e-16. Degenerate triangles are
-/// allowed.
+/// Returns the distance of two closed triangles in one frame, 0 where trianglesMeet. Every
+/// candidate is the distance of a point of one to a point of the other, so the result is never too
+/// small by more than rounding; all feature pairs are tried, so it is too large by a few
+/// long-double roundings of the triangles' extent at most, for any aspect ratio down to 1e-16.
+/// Degenerate triangles are allowed.
 long double triangleDistance(const ExactTriangle& a, const ExactTriangle& b);
 
 /// True if the closed triangles share a point: an edge of one meets the face of the other, or both

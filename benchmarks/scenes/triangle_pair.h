@@ -9,7 +9,7 @@
 
 namespace kios::scenes {
 
-/// Two triangles in one frame.
+/// Holds two triangles in one frame.
 struct TrianglePair {
   std::array<Eigen::Vector3d, 3> a, b;
 };
@@ -17,7 +17,7 @@ struct TrianglePair {
 /// Returns L, the diagonal of the pair's bounding box, by which errors are measured.
 long double extent(const TrianglePair& pair);
 
-/// Largest magnitude of a coordinate of the pair.
+/// Returns the largest magnitude of a coordinate of the pair.
 double magnitude(const TrianglePair& pair);
 
 }  // namespace kios::scenes

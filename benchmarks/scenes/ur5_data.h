@@ -9,14 +9,14 @@
 
 namespace kios::scenes {
 
-/// True if the data folder holds the UR5's meshes.
+/// Returns true if the data folder holds the UR5's meshes.
 bool holdsUr5(const std::filesystem::path& data);
 
-/// The UR5 of the data folder: base and 6 links, equal vertices welded. Throws std::runtime_error
-/// naming the file and what is wrong with it.
+/// Returns the UR5 of the data folder: base and 6 links, equal vertices welded. Throws
+/// std::runtime_error naming the file and what is wrong with it.
 Arm loadUr5(const std::filesystem::path& data);
 
-/// A binary STL file as a soup. Throws as loadUr5 does.
+/// Returns a binary STL file as a soup. Throws as loadUr5 does.
 Mesh loadStl(const std::filesystem::path& file);
 
 }  // namespace kios::scenes

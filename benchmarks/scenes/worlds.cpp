@@ -21,7 +21,7 @@ using fcl::Vector3d;
 
 Board board(const Vector3d& size, double x, double y, double z) { return {size, shift(x, y, z)}; }
 
-/// A tray without a lid, centred on (x, y), whose inside is `size` and begins at z.
+/// Returns a tray without a lid, centred on (x, y), whose inside is `size` and begins at z.
 std::vector<Board> tray(const Vector3d& size, double wall, double x, double y, double z) {
   const double width = size.x() + 2 * wall, middle = z + size.z() / 2;
   return {board({width, size.y() + 2 * wall, wall}, x, y, z - wall / 2),
@@ -47,7 +47,7 @@ std::vector<Board> shelf() {
   return boards;
 }
 
-/// Floor, ceiling and three walls of 8 x 6 x 3 m inside.
+/// Returns a floor, a ceiling and three walls of 8 x 6 x 3 m inside.
 World room() {
   World world =
       boxWorld("room", {board({8.4, 6.4, 0.2}, 0, 0, -0.1), board({8.4, 6.4, 0.2}, 0, 0, 3.1),
@@ -76,7 +76,7 @@ std::vector<Board> stairs() {
   return boards;
 }
 
-/// A square of cells x cells squares, each of two triangles, over hills.
+/// Returns a square of cells x cells squares, each of two triangles, over hills.
 World terrain(const std::string& name, double cell, int cells, double height, std::uint64_t seed) {
   constexpr int kWaves = 12;
   Random random(seed);
@@ -99,7 +99,8 @@ World terrain(const std::string& name, double cell, int cells, double height, st
   return world;
 }
 
-/// Slabs of 30 x 20 m on columns, four storeys, and between them parts of machines in hundreds.
+/// Returns slabs of 30 x 20 m on columns, four storeys, and between them parts of machines in
+/// hundreds.
 World building(int triangles) {
   std::vector<Board> slabs;
   for (int storey = 0; storey < 4; ++storey) {
@@ -131,7 +132,7 @@ World building(int triangles) {
   return world;
 }
 
-/// 150 triangles 1 to 2 m long and 1 mm wide.
+/// Returns 150 triangles 1 to 2 m long and 1 mm wide.
 World needles() {
   Random random(7);
   World world;

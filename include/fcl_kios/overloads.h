@@ -23,7 +23,7 @@
 // all else is as in FCL.
 
 namespace kios {
-/// True if the geometry is a fcl::BVHModel<kIOS>, finished or not.
+/// Returns true if the geometry is a fcl::BVHModel<kIOS>, finished or not.
 bool holdsModel(const fcl::CollisionGeometry<double>* geometry);
 bool holdsModel(const fcl::CollisionGeometry<float>* geometry);
 namespace detail {
@@ -47,7 +47,7 @@ std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>&
                     const CollisionRequest<float>& request, CollisionResult<float>& result);
 
 /// Returns result.min_distance: 0 for meshes that intersect (polygon soups have no inside, so
-/// enable_signed_distance adds nothing, but for marked solids: interior/solids.h), unchanged if the
+/// enable_signed_distance adds nothing, but for marked solids: solid/solids.h), unchanged if the
 /// pair is not nearer than it was on entry.
 double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                 const DistanceRequest<double>& request, DistanceResult<double>& result);
@@ -60,8 +60,8 @@ float distance(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
                const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
                const DistanceRequest<float>& request, DistanceResult<float>& result);
 
-/// The first contact of two moving objects: kios::firstContact's contract, by one method
-/// for every solver and motion type; FCL's own misses contacts. Motions and models are only read.
+/// Finds the first contact of two moving objects: kios::firstContact's contract, by one method for
+/// every solver and motion type; FCL's own misses contacts. Motions and models are only read.
 /// Double only, as FCL 0.7's continuousCollide<float> doesn't compile.
 double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<double>* motion1,
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,
@@ -81,8 +81,8 @@ double collide(const ContinuousCollisionObject<double>* o1,
                const ContinuousCollisionRequest<double>& request,
                ContinuousCollisionResult<double>& result);
 
-/// The forms with a GJK solver, which pairs with a kIOS model don't need. Templates, so that only
-/// files which call them pay for FCL's, and more specialised than FCL's.
+/// Serve the forms with a GJK solver, which pairs with a kIOS model don't need. Templates, so that
+/// only files which call them pay for FCL's, and more specialised than FCL's.
 template <typename S, template <typename> class Solver>
 std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,
                     const CollisionGeometry<S>* o2, const Transform3<S>& tf2,

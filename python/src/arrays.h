@@ -59,7 +59,7 @@ std::vector<fcl::Triangle> readTriangles(py::handle value, const char* name,
 std::vector<double> numbers(py::handle value, py::ssize_t n, const char* what);
 Eigen::Vector3d vector(py::handle value, const char* what);
 Eigen::Matrix3d matrix(py::handle value, const char* what);
-/// Of a quaternion w, x, y, z.
+/// Turns a quaternion w, x, y, z into a matrix.
 Eigen::Matrix3d rotation(py::handle value, const char* what);
 
 py::array_t<double> toArray(const Eigen::Vector3d& v);

@@ -32,7 +32,7 @@ std::size_t collide(Object& o1, Object& o2, py::object request, py::object resul
   return contacts;
 }
 
-/// Of a result that isn't nearer than `bound` nothing is set.
+/// Sets nothing of a result that isn't nearer than `bound`.
 double distance(Object& o1, Object& o2, py::handle request, py::handle result, double bound) {
   requireServed(Query::kDistance, o1.object, o2.object);
   const fcl::DistanceRequestd asked = distanceRequest(request);

@@ -73,7 +73,7 @@ class Cell {
 
   bool checked(const Body& a, const Body& b, const std::set<NamePair>& allowed) const;
   void addProofs();
-  /// Of the ball of body a from the box of body b.
+  /// Bounds the distance of the ball of body a from the box of body b.
   double ballToBox(const Placed& placed, int a, int b) const;
   double boundOf(const Placed& placed, int a, int b) const;
   bool findContact(const Eigen::VectorXd& q, RobotContact* contact) const;

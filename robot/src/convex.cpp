@@ -28,7 +28,7 @@ const Shape& as(const fcl::CollisionGeometryd& geometry) {
   return static_cast<const Shape&>(geometry);
 }
 
-/// Of the rim of a disk across z.
+/// Returns the point of the rim of a disk across z that lies farthest along n.
 Vector3d onRim(const Vector3d& n, double radius, double z) {
   const double length = std::hypot(n.x(), n.y());
   if (!(length > 0)) return {radius, 0, z};

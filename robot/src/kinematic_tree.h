@@ -17,7 +17,7 @@ struct PlacedLink {
   Eigen::Matrix3d R;
   Eigen::Vector3d t, axis;
 
-  /// Of a body at X_LB, its rotation as rigid() leaves it.
+  /// Places a body at X_LB, its rotation as rigid() leaves it.
   fcl::Transform3d pose(const fcl::Transform3d& X_LB) const {
     fcl::Transform3d X = fcl::Transform3d::Identity();
     X.linear().noalias() = R * X_LB.linear();

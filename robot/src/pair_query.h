@@ -27,8 +27,8 @@ Nearness distanceOf(const Body& a, const fcl::Transform3d& X_WA, const Body& b,
                     const fcl::Transform3d& X_WB, double rel_err = 0, double abs_err = 0,
                     double far_enough = std::numeric_limits<double>::infinity());
 
-/// Of two bodies in contact: the direction in the world in which b moves out of a, zero if none is
-/// known; and a point of the contact.
+/// Returns, for two bodies in contact, the direction in the world in which b moves out of a, zero
+/// if none is known; and a point of the contact.
 fcl::Vector3d wayOut(const Body& a, const fcl::Transform3d& X_WA, const Body& b,
                      const fcl::Transform3d& X_WB, Nearness& near);
 

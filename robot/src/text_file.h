@@ -10,7 +10,7 @@ namespace kios::robot {
 
 /// Throws std::invalid_argument with a sentence about a file.
 [[noreturn]] void refuse(const std::string& what);
-/// The same with the place: "file:line: what".
+/// Throws likewise, with the place: "file:line: what".
 [[noreturn]] void refuseAt(const std::string& file, int line, const std::string& what);
 
 /// The content of a file. Throws std::invalid_argument if it can't be read, is a directory, empty,
@@ -24,7 +24,7 @@ bool parseNumbers(const std::string& text, int count, double* numbers);
 /// A rigid pose with its rotation orthonormal to rounding: a quaternion's, as a linkage would take
 /// it. Throws std::invalid_argument if it isn't rigid or not finite; `what` is part of the message.
 fcl::Transform3d rigid(const fcl::Transform3d& X, const std::string& what);
-/// Of two such poses.
+/// Multiplies two such poses.
 fcl::Transform3d rigidProduct(const fcl::Transform3d& X, const fcl::Transform3d& Y);
 
 }  // namespace kios::robot

@@ -4,20 +4,6 @@
 from figures.rows import OBBRSS, grid, number, spec, table, time
 
 
-def preparing(rows):
-    lines = spec("""
-build (`endModel`) | scaling/20000 build
-build, prepare and first query | scaling/20000 prepare
-then: a distance at a gap of 0.1 | scaling/20000/gap_0.1 distance
-a distance at contact | scaling/20000/touching distance
-a pair that the root volumes decide: collide | rootreject/far collide
-a pair that they decide: a threshold | rootreject/far threshold
-""")
-    columns = spec("k-IOS | kios\nFCL OBBRSS | fcl_obbrss")
-    return grid("two tori of 20,000 triangles", lines, columns,
-                lambda line, column, _: time(rows.us(*line, *column)))
-
-
 def building(rows):
     lines = spec("""
 k-IOS: `endModel`            | build kios
@@ -25,8 +11,6 @@ with `kios::prepare`         | prepared kios
 with a first query           | first_query kios
 the same again, and prepared | again kios
 OBBRSS: `endModel`           | build fcl_obbrss
-OBB                          | build fcl_obb
-RSS                          | build fcl_rss
 FCL's kIOS                   | build fcl_kios_builtin
 AABB                         | build fcl_aabb
 k-DOP, 24 planes             | build fcl_kdop24
@@ -62,17 +46,6 @@ UR5, 7 links          | ur5
         row = rows.find(f"build/{column[0]}", *line)
         return f"{number(row['bytes_per_triangle'])} ({number(row['peak_bytes_per_triangle'])})"
     return grid("bytes a triangle (peak)", lines, columns, cell)
-
-
-def memory_parts(rows):
-    """Where the bytes of a triangle go."""
-    meshes = {"shared vertices": "build/bytes/welded", "three vertices each": "build/bytes/soup"}
-    parts = dict.fromkeys(row["query"] for row in rows.rows if row["scenario"] in meshes.values())
-    lines = [[part, *(rows.find(scenario, part)["bytes_per_triangle"]
-                      for scenario in meshes.values())] for part in parts]
-    lines.append(["all", *(sum(line[i] for line in lines) for i in (1, 2))])
-    return table(["bytes a triangle", *meshes], [[line[0], *map(number, line[1:])]
-                                                 for line in lines])
 
 
 def refits(rows):

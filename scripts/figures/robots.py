@@ -4,21 +4,6 @@
 from figures.rows import OBBRSS, OURS, grid, number, spec, time
 
 
-def arms(rows):
-    lines = spec("""
-`SceneDistance`, closest pair | closest kios
-FCL's `DynamicAABBTreeCollisionManager`, OBBRSS, closest pair | closest fcl_manager
-`SceneDistance`, all within 0.1, with distances | within kios
-the same with `exact = false`: only which | verdicts kios
-FCL's manager, all within 0.1 | within fcl_manager
-`SceneDistance`, every clearance | clearances kios
-`fcl::distance` of each pair over k-IOS | clearances kios_pairs
-""")
-    return grid("us a frame", lines, spec("smooth motion | smooth\nrandom poses | random"),
-                lambda line, column, _: number(
-                    rows.us(f"robots/ur5/{column[0]}/{line[0]}", "scene", line[1])))
-
-
 def links(rows):
     """What a pair costs by how near it is: ours, and how many times that OBBRSS takes."""
     lines = spec("""

@@ -41,86 +41,79 @@ def places(rows, query, links="*"):
 
 
 def world(rows):
-    columns = spec(QUERIES + "cold distance | distance cold\ncold contact | collide cold")
-
-    def entry(line, column, settings):
-        scenario, (query, *cold) = line[0], column
-        if cold:
-            scenario += "/cold"
-            if scenario not in rows.scenarios(scenario):
-                return ""  # one set of links alone is asked cold
-        return cell(rows, scenario, query, **settings)
-    return grid("us (FCL / k-IOS)", places(rows, "closer_than"), columns, entry)
+    names = dict.fromkeys(label.rpartition(", ")[0] for label, _ in places(rows, "closer_than"))
+    columns = spec(QUERIES + """cold distance      | distance /ur5/cold
+cold contact       | collide /ur5/cold
+parts: distance    | distance /parts
+first contact      | collide /parts
+all contacts       | contacts /parts
+""")
+    return grid("us (FCL / k-IOS)", [(name, ([name.replace(" ", "_")], {})) for name in names],
+                columns, lambda line, column, settings: cell(
+                    rows, f"world/{line[0]}{(*column, '/ur5')[1]}", column[0], **settings))
 
 
 def world_shapes(rows):
     meshes = dict(places(rows, "closer_than"))
-    lines = [line for line in places(rows, "distance") if line[0] not in meshes]
+    names = dict.fromkeys(label.rpartition(", ")[0] for label, _ in places(rows, "distance")
+                          if label not in meshes)
     columns = spec("""
-distance           | distance
-first contact      | collide
-at most 100        | contacts
+distance, links      | distance ur5
+parts                | distance parts
+first contact, links | collide ur5
+parts                | collide parts
+at most 100, links   | contacts ur5
+parts                | contacts parts
 """)
-    return grid("us (FCL / k-IOS)", lines, columns,
-                lambda line, column, settings: cell(rows, line[0], column[0], **settings))
+    return grid("us (FCL / k-IOS)", [(name, ([name.replace(" ", "_")], {})) for name in names],
+                columns, lambda line, column, settings: cell(
+                    rows, f"world/{line[0]}/{column[1]}", column[0], **settings))
 
 
 def crowd_of_small(rows):
     lines = spec("""
-all pairs, 12 triangles, cold    | crowds/12/cold collide
-again                            | crowds/12/again collide
-third                            | crowds/12/third collide
-all pairs, 100 triangles, cold   | crowds/100/cold collide
-again                            | crowds/100/again collide
-third                            | crowds/100/third collide
-all pairs, 900 triangles, cold   | crowds/900/cold collide
-again                            | crowds/900/again collide
-third                            | crowds/900/third collide
-least distance, 900, cold        | crowds/900/cold distance
-again                            | crowds/900/again distance
-one triangle and one, distance   | crowds/one_triangle distance
-the same, contact                | crowds/one_triangle collide
+all pairs, 12 triangles  | crowds/12 collide
+all pairs, 100 triangles | crowds/100 collide
+all pairs, 900 triangles | crowds/900 collide
+least distance, 900      | crowds/900 distance
+two triangles, distance  | crowds/one_triangle distance
+two triangles, contact   | crowds/one_triangle collide
 """)
-    columns = spec("""
-k-IOS          | us kios
-FCL's OBBRSS   | us fcl_obbrss
-OBBRSS / k-IOS | ratio
-""")
+    columns = spec("cold | /cold\nagain | /again\nthird | /third")
 
     def entry(line, column, _):
-        ours, theirs = (rows.find(*line, bv)["median_us"] for bv in (OURS, OBBRSS))
-        if column[0] == "ratio":
-            return number(theirs / ours)
-        return time(ours if column[1] == OURS else theirs)
-    return grid("2,000 bodies", lines, columns, entry)
+        scenario = line[0] + column[0]
+        if line[0].endswith("one_triangle"):  # is asked again and again, as one row
+            if column[0] != "/again":
+                return ""
+            scenario = line[0]
+        ours, theirs = (rows.find(scenario, line[1], bv)["median_us"] for bv in (OURS, OBBRSS))
+        return f"{time(ours)} ({number(theirs / ours)})"
+    return grid("2,000 bodies (OBBRSS / k-IOS)", lines, columns, entry)
 
 
 def coal(rows):
+    """Ours / Coal's / FCL's OBBRSS, and how Coal's answers stand against the oracle."""
     lines = spec("""
-UR5's links and a table, distance   | world/table/ur5 distance
-the same, first contact             | world/table/ur5 collide
-the same, nearer than 2 cm?         | world/table/ur5 closer_than threshold=0.02
-a shelf, distance                   | world/shelf/ur5 distance
-the same, first contact             | world/shelf/ur5 collide
-the same, nearer than 2 cm?         | world/shelf/ur5 closer_than threshold=0.02
-terrain, distance                   | world/terrain_1m/ur5 distance
-the same, first contact             | world/terrain_1m/ur5 collide
-a building, distance                | world/building/ur5 distance
-the same, first contact             | world/building/ur5 collide
+UR5's links and a table | world/table/ur5
+a shelf                 | world/shelf/ur5
+terrain                 | world/terrain_1m/ur5
+a building              | world/building/ur5
 """)
     columns = spec("""
-k-IOS        | us kios
-Coal         | us coal_obbrss
-FCL's OBBRSS | us fcl_obbrss
-Coal's error, m | error coal_obbrss
-wrong        | wrong coal_obbrss
+distance            | distance
+first contact       | collide
+nearer than 2 cm?   | closer_than threshold=0.02
+Coal's error, m     | error
+Coal's wrong        | wrong
 """)
 
     def entry(line, column, settings):
-        row = rows.find(*line, column[1], **settings)
-        if column[0] == "us":
-            return time(row["median_us"])
         if column[0] == "error":
-            return f"{row['max_abs_error']:.0e}" if "max_abs_error" in row else ""
-        return f"{row['wrong_verdicts']}"
-    return grid("a query", lines, columns, entry)
+            return f"{rows.find(line[0], 'distance', 'coal_obbrss')['max_abs_error']:.0e}"
+        if column[0] == "wrong":
+            return str(sum(rows.find(line[0], query, "coal_obbrss")["wrong_verdicts"]
+                           for query in ("distance", "collide")))
+        return " / ".join(number(rows.us(line[0], column[0], bv, **settings))
+                          for bv in (OURS, "coal_obbrss", OBBRSS))
+    return grid("us: k-IOS / Coal / FCL's OBBRSS", lines, columns, entry)

@@ -21,9 +21,17 @@ struct SphereCenters {
 /// Returns the axis of the frame along which cap i lies, 1 <= i < k.
 inline int axisOfCap(const PrincipalFrame& frame, int i) { return frame.order[2 - (i - 1) / 2]; }
 
-/// The tuned fit: S0 nearly minimal; each cap starts as a sphere through the rim of the far face
-/// of the box, half opening angle 30 degrees by default, and is re-centred in its plane. At most
-/// `most` spheres: 1, 3, 5 or 7.
+/// Returns the tuned fit: S0 nearly minimal; each cap starts as a sphere through the rim of the far
+/// face of the box, half opening angle 30 degrees by default, and is re-centred in its plane. At
+/// most `most` spheres: 1, 3, 5 or 7.
+///
+///          o          centre
+///         /|\         half opening angle
+///        / | \        w / tan(angle) from the centre to the far face
+///     +-/--+--\-+     box of the content, 2 h high
+///     |/   | h \|
+///     +----+----+     far face, whose rim is at most w from the axis
+///      '-._ _.-'      cap
 SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
                            const FitOptions& options, int most);
 

@@ -6,14 +6,14 @@
 
 namespace kios::continuous {
 
-/// A moving pair of objects, t in [0, 1].
+/// Holds a moving pair of objects, t in [0, 1].
 class MovingPair {
  public:
   virtual ~MovingPair() = default;
-  /// True if they touch at t; exact.
+  /// Returns true if they touch at t; exact.
   virtual bool touching(double t) = 0;
-  /// A time h <= 1 - t such that they are proven apart from t to t + h: the longest one that a
-  /// search finds, or any of at least `enough` that costs less for its length.
+  /// Returns a time h <= 1 - t such that they are proven apart from t to t + h: the longest one
+  /// that a search finds, or any of at least `enough` that costs less for its length.
   virtual double apartFor(double t, double enough) = 0;
 };
 

@@ -25,7 +25,7 @@ class Chords {
   double duration() const { return duration_; }  ///< -1 if it isn't set
   void forget() { duration_ = -1; }
 
-  /// A body's frame, in frame A, as computed.
+  /// Holds a body's frame, in frame A, as computed.
   struct Place {
     Eigen::Matrix3d R;
     Eigen::Vector3d T;
@@ -33,12 +33,12 @@ class Chords {
   const Place& ofA(int end) const { return of_a_[end]; }
   const Place& ofB(int end) const { return of_b_[end]; }
 
-  /// How far a path leaves its chord, rounding included: of a point with at most this acceleration
-  /// and at most so far from its body's origin.
+  /// Returns how far a path leaves its chord, rounding included: of a point with at most this
+  /// acceleration and at most so far from its body's origin.
   double bulge(double acceleration, double distance) const {
     return bulge_ * acceleration + rounding_ * distance + 0.5 * pad_;
   }
-  /// A ball during a part: as if it moved on the chord within a time of 1.
+  /// Returns a ball during a part: as if it moved on the chord within a time of 1.
   static MovingBall alongChord(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                double radius, double bulge) {
     return {from, radius, to - from, 2 * bulge};
@@ -57,8 +57,8 @@ class Chords {
     }
     std::array<Eigen::Vector3d, 3> of_a[kParts + 1], of_b[kParts + 1];
   };
-  /// True if a slab across n, |n| = 1, stays between two triangles in a part of the time. Along the
-  /// chords the gap is concave, so that it is least at an end.
+  /// Returns true if a slab across n, |n| = 1, stays between two triangles in a part of the time.
+  /// Along the chords the gap is concave, so that it is least at an end.
   bool slabStays(const RelativeVelocities& v, const Triangles& triangles, int part,
                  const Eigen::Vector3d& n) const {
     const double infinity = std::numeric_limits<double>::infinity();

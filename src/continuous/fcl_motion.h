@@ -12,12 +12,12 @@ class MotionBase;
 
 namespace kios::continuous {
 
-/// The motion that an FCL motion describes by its pose after integrate(t). The object is
+/// Returns the motion that an FCL motion describes by its pose after integrate(t). The object is
 /// only read, so that many threads may share it. Throws std::invalid_argument, naming the type, if
 /// it isn't one of FCL's four (a derived class may integrate otherwise), null, or not finite.
 Motion motionOf(const fcl::MotionBase<double>* motion);
 
-/// The motion from pose to pose that a request asks for.
+/// Returns the motion from pose to pose that a request asks for.
 Motion motionBetween(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1,
                      fcl::CCDMotionType type);
 

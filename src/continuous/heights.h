@@ -7,9 +7,9 @@
 
 namespace kios::continuous {
 
-/// How high the points of a moving body lie along a direction n, at the start of a time and at its
-/// end. Between them a point lies at most as high as on the line between both heights, since that
-/// at the end takes the largest acceleration along n for granted all the time.
+/// Says how high the points of a moving body lie along a direction n, at the start of a time and at
+/// its end. Between them a point lies at most as high as on the line between both heights, since
+/// that at the end takes the largest acceleration along n for granted all the time.
 class Heights {
  public:
   /// n is of length 1, and it and the velocities are in one frame, in which the body lies at R, T.
@@ -19,12 +19,12 @@ class Heights {
   struct Height {
     double start, end;
   };
-  /// Of a point of the body, in its own frame.
+  /// Returns the height of a point of the body, in its own frame.
   Height of(const Eigen::Vector3d& y) const {
     return {n_[0].dot(y) + offset_[0], n_[1].dot(y) + offset_[1] + bulge(y, 0)};
   }
-  /// True if all triangles under a node of the body's tree are proven to stay as low, at the start
-  /// and at the end. Gives up after `most` nodes, which is then set to 0 or less.
+  /// Returns true if all triangles under a node of the body's tree are proven to stay as low, at
+  /// the start and at the end. Gives up after `most` nodes, which is then set to 0 or less.
   bool below(const Modeld& model, int node, const Height& limit, int& most) const;
 
  private:

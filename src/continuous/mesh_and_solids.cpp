@@ -32,7 +32,7 @@ int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers,
   return bv.k();
 }
 
-/// The reach of the leaves, the solids that count.
+/// Returns the reach of the leaves, the solids that count.
 double reachOf(const std::vector<SolidNode>& solids) {
   double reach = 0;
   for (const SolidNode& part : solids) {

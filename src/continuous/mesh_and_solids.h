@@ -18,9 +18,9 @@ struct SolidNode {
   bool empty = false;  ///< without children, and no leaf either
 };
 
-/// A moving mesh and a moving rigid tree of solids, whose leaves count: a shape, or the cells of an
-/// octree. All tests are in the solids' frame and turn with it, so that unbounded shapes have no
-/// velocities but near the mesh. The shapes' kernels are right to 2^-42 of the pair's extent: a
+/// Holds a moving mesh and a moving rigid tree of solids, whose leaves count: a shape, or the cells
+/// of an octree. All tests are in the solids' frame and turn with it, so that unbounded shapes have
+/// no velocities but near the mesh. The shapes' kernels are right to 2^-42 of the pair's extent: a
 /// pair nearer than 2^-40 of it counts as touching while something moves.
 class MovingMeshAndSolids final : public PairSearch {
  public:
@@ -42,7 +42,7 @@ class MovingMeshAndSolids final : public PairSearch {
   int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
 
   double pad(const RelativeVelocities& v) const;
-  /// Time for which the slab across n between the solid and corners proves them apart.
+  /// Returns the time for which the slab across n between the solid and corners proves them apart.
   double slabTime(const Eigen::Vector3d& n, const SolidNode& part,
                   const std::array<Eigen::Vector3d, 3>& corners, const RelativeVelocities& v,
                   double duration) const;

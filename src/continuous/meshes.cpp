@@ -24,7 +24,7 @@ using Eigen::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Directions of a triangle's edges and of its normal.
+/// Holds the directions of a triangle's edges and of its normal.
 struct Edges {
   explicit Edges(const TriangleVertices<double>& t)
       : along{t[1] - t[0], t[2] - t[1], t[0] - t[2]}, normal(along[0].cross(along[1])) {
@@ -239,7 +239,7 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
                          b_.getBV(0).bv.radius0;
   const double least = v.pad() + 0x1p-46 * (1 + duration * (v.turn() + 1)) * lengths +
                        (v.stretch() + 0x1p-48) * (a.bv.radius0 + b.bv.radius0);
-  // Of a's points along n, and of b's against it.
+  // Bounds how far a's points get along n, and b's against it.
   const auto parts = [&](const Vector3d& n) {
     const Heights of_a(v.a(), own, zero, n, duration), of_b(v.b(), R, T, -n, duration);
     int most = order_ == Order::kLarger ? 48 : 512;

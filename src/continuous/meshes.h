@@ -10,7 +10,7 @@
 
 namespace kios::continuous {
 
-/// Two moving meshes.
+/// Holds two moving meshes.
 class MovingMeshes final : public PairSearch {
  public:
   MovingMeshes(const Modeld& a, const Motion& motion_a, const Modeld& b, const Motion& motion_b,
@@ -30,11 +30,11 @@ class MovingMeshes final : public PairSearch {
   bool useChords(const RelativeVelocities& v, double duration);
   bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
   bool leavesStayApart(NodePair pair, const RelativeVelocities& v) const;
-  /// True if the plane of a triangle, one of the pair, parts it from the other node.
+  /// Returns true if the plane of a triangle, one of the pair, parts it from the other node.
   bool planeParts(NodePair pair, const RelativeVelocities& v, double duration) const;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
-  /// Which node of a pair is split: the larger one, b's down to its leaves, or a's. What lies
+  /// Says which node of a pair is split: the larger one, b's down to its leaves, or a's. What lies
   /// within a hole is best left whole, as each face of the hole lies on one side of it.
   enum class Order : std::uint8_t { kLarger, kB, kA };
 

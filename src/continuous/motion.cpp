@@ -18,12 +18,12 @@ using fcl::Transform3d;
 
 Matrix3d orthonormal(const Matrix3d& R) { return continuous::orthonormal(R, "pose of a motion"); }
 
-/// Axis and angle in [0, pi] that take R0 to R1.
+/// Returns the axis and angle in [0, pi] that take R0 to R1.
 Eigen::AngleAxisd turn(const Matrix3d& R0, const Matrix3d& R1) {
   return Eigen::AngleAxisd(Eigen::Quaterniond(R1 * R0.transpose()).normalized());
 }
 
-/// Weights of the de Boor points, and those of the first and second derivative.
+/// Returns the weights of the de Boor points, and those of the first and second derivative.
 std::array<double, 4> weights(double t) {
   const double s = 1 - t, tt = t * t;
   return {s * s * s / 6, (4 - 6 * tt + 3 * tt * t) / 6, (1 + 3 * t + 3 * tt - 3 * tt * t) / 6,
@@ -49,7 +49,7 @@ double speedBound(const Motion::Points& p, double t, double window) {
   const Vector3d middle = first + 0.5 * window * combine(p, weights2(t));
   return std::max({first.norm(), middle.norm(), last.norm()});
 }
-/// Bound of |p''|, which is linear in t.
+/// Returns a bound of |p''|, which is linear in t.
 double accelerationBound(const Motion::Points& p, double t, double window) {
   return std::max(combine(p, weights2(t)).norm(), combine(p, weights2(t + window)).norm());
 }
@@ -60,8 +60,8 @@ Matrix3d rotation(const Vector3d& w) {
   return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
 }
 
-/// Angular velocity of exp(w(t)): the left Jacobian of SO(3) at w times w'. Both factors are
-/// evaluated without cancellation that matters: the second one multiplies |w|^2.
+/// Returns the angular velocity of exp(w(t)): the left Jacobian of SO(3) at w times w'. Both
+/// factors are evaluated without cancellation that matters: the second one multiplies |w|^2.
 Vector3d angularVelocity(const Vector3d& w, const Vector3d& dw) {
   const double angle = w.norm();
   if (angle < 1e-4) return dw + 0.5 * w.cross(dw) + w.cross(w.cross(dw)) / 6;

@@ -10,7 +10,7 @@
 
 namespace kios::continuous {
 
-/// A motion that is computed elsewhere: that of a link, by the joints that carry it.
+/// Holds a motion that is computed elsewhere: that of a link, by the joints that carry it.
 class KnownMotion {
  public:
   virtual ~KnownMotion() = default;
@@ -24,12 +24,13 @@ class KnownMotion {
   virtual double rounding(double reach) const = 0;
 };
 
-/// The rotation itself if it is orthonormal to rounding (16 u, the Frobenius norm of R^T R - I),
-/// else that of its quaternion. Throws std::invalid_argument, naming `what`, if it isn't rigid.
+/// Returns the rotation itself if it is orthonormal to rounding (16 u, the Frobenius norm of R^T R
+/// - I), else that of its quaternion. Throws std::invalid_argument, naming `what`, if it isn't
+/// rigid.
 Eigen::Matrix3d orthonormal(const Eigen::Matrix3d& R, const char* what);
 
-/// A rigid motion X(t) of a body in the world, t in [0, 1]: a plain value, read by any number of
-/// threads. Rotations that are not orthonormal to rounding are replaced by the nearest
+/// Holds a rigid motion X(t) of a body in the world, t in [0, 1]: a plain value, read by any number
+/// of threads. Rotations that are not orthonormal to rounding are replaced by the nearest
 /// quaternion's.
 class Motion {
  public:
@@ -39,8 +40,8 @@ class Motion {
   /// at X_0.translation() - arm at first moves on a line: with `velocity`. Angle in radians.
   static Motion twist(const fcl::Transform3d& X_0, const Eigen::Vector3d& velocity,
                       const Eigen::Vector3d& axis, double angle, const Eigen::Vector3d& arm);
-  /// Cubic B-splines of the translation and of the rotation vector, by their de Boor points:
-  /// fcl::SplineMotion.
+  /// Returns cubic B-splines of the translation and of the rotation vector, by their de Boor
+  /// points: fcl::SplineMotion.
   static Motion spline(const Points& translations, const Points& rotations);
 
   /// One that something above knows; `rounding` is that of all places, and adds to what its
@@ -58,14 +59,15 @@ class Motion {
   /// Velocities at t in the world, X = pose(t), and their bounds over [t, t + window].
   VelocityField velocities(double t, const fcl::Transform3d& X, double window) const;
 
-  /// True if bounds are the same for every window.
+  /// Returns true if bounds are the same for every window.
   bool steady() const;
-  /// True if the body stands still. Bodies of linkages never do, as their poses are rounded.
+  /// Returns true if the body stands still. Bodies of linkages never do, as their poses are
+  /// rounded.
   bool still() const;
   /// Bounds the rounding error of the place of a point within `reach` of the body's origin, at any
   /// time, plus that of its velocity times a time of at most 1.
   double rounding(double reach) const;
-  /// The part of it that a unit of `reach` adds.
+  /// Returns the part of it that a unit of `reach` adds.
   double turnRounding() const;
 
  private:

@@ -18,7 +18,7 @@ using fcl::CollisionGeometryd;
 
 namespace {
 
-/// The solids of a geometry that is no mesh; false if it can't be served.
+/// Finds the solids of a geometry that is no mesh; false if it can't be served.
 bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Modeld& mesh,
               const Motion& mesh_motion, std::vector<SolidNode>& solids) {
   if (isShape(geometry)) {

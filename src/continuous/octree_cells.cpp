@@ -16,7 +16,8 @@ struct Sphere {
   double radius;
 };
 
-/// Spheres in the octree's frame that contain the mesh at all times: one for each part of the time.
+/// Returns spheres in the octree's frame that contain the mesh at all times: one for each part of
+/// the time.
 std::vector<Sphere> sweptBy(const Modeld& mesh, const RelativeMotion& motion) {
   constexpr int kParts = 64;
   const kIOSd& root = mesh.getBV(0).bv;

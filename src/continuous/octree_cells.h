@@ -12,8 +12,8 @@
 
 namespace kios::continuous {
 
-/// The occupied cells of an octree that the moving mesh may come near to, as a tree of boxes in the
-/// octree's frame. Occupied as in FCL's collision: every cell down to a leaf is.
+/// Returns the occupied cells of an octree that the moving mesh may come near to, as a tree of
+/// boxes in the octree's frame. Occupied as in FCL's collision: every cell down to a leaf is.
 std::vector<SolidNode> cellsNear(const fcl::OcTree<double>& octree, const Motion& octree_motion,
                                  const Modeld& mesh, const Motion& mesh_motion);
 

@@ -11,7 +11,7 @@
 
 namespace kios::continuous {
 
-/// Bound of the distance of the mesh's points from the origin of its frame. Throws
+/// Returns a bound of the distance of the mesh's points from the origin of its frame. Throws
 /// std::invalid_argument if it is not finished.
 double reachOf(const Modeld& model);
 
@@ -26,7 +26,7 @@ class PairSearch : public MovingPair {
   /// than `most_tests`, and all may be as long as they can, but for turns by more than an eighth of
   /// a radian, which whoever is near doesn't make at once.
   void setLimits(double end, long long most_tests);
-  /// Of all steps, in tests of volumes.
+  /// Returns the cost of all steps, in tests of volumes.
   long long cost() const { return counts_.volume_tests + 3 * counts_.leaf_tests; }
 
  protected:
@@ -38,9 +38,10 @@ class PairSearch : public MovingPair {
              ContinuousCounts& counts)
       : motion_(motion_a, motion_b, reach_a, reach_b), counts_(counts) {}
 
-  /// A time for which the pair is proven apart as a whole, if that is cheap to tell; else 0.
+  /// Returns a time for which the pair is proven apart as a whole, if that is cheap to tell; else
+  /// 0.
   virtual double wholeApart(double /*t*/, const RelativeVelocities& /*v*/) { return 0; }
-  /// True if the nodes' contents are proven apart for `duration`.
+  /// Returns true if the nodes' contents are proven apart for `duration`.
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
   /// Time for which two leaves are proven apart; any time of at least `enough` will do.
   virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;

@@ -17,7 +17,7 @@ struct MovingBall {
   double acceleration;       ///< bound of the centre's over the window
 };
 
-/// Four balls that are fixed to a body, a lane each, as MovingBall.
+/// Holds four balls that are fixed to a body, a lane each, as MovingBall.
 struct FourBalls {
   Eigen::Array4d center[3], radius, velocity[3], acceleration;
 };
@@ -28,7 +28,7 @@ class RelativeVelocities {
  public:
   RelativeVelocities(const Motion& a, const Motion& b, double t, double window, double pad);
 
-  /// Balls of either body, given in frame A, with their velocities.
+  /// Returns balls of either body, given in frame A, with their velocities.
   MovingBall ballOfA(const Eigen::Vector3d& center, double radius) const {
     return {center, radius, a_.at(center), a_.acceleration(center)};
   }
@@ -42,16 +42,17 @@ class RelativeVelocities {
   bool apart(const MovingBall& a, const MovingBall& b, double duration) const;
   /// True if that holds for one of four; the ball is of one body, the four of the other one.
   bool anyApart(const MovingBall& ball, const FourBalls& four, double duration) const;
-  /// The time for which the contents of two balls are proven apart that are `gap` apart at t.
+  /// Returns the time for which the contents of two balls are proven apart that are `gap` apart at
+  /// t.
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
-  /// The time for which no point of A's triangle reaches a point of B's, by the slab between them
-  /// across n (of any length near 1); 0 if none is between them. Any time of at least `enough`,
-  /// which is at most the window, will do.
+  /// Returns the time for which no point of A's triangle reaches a point of B's, by the slab
+  /// between them across n (of any length near 1); 0 if none is between them. Any time of at least
+  /// `enough`, which is at most the window, will do.
   template <typename VerticesA, typename VerticesB>
   double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b,
                   double enough) const;
 
-  /// The motion of the points of a ball of B as seen from body A, which may turn, within
+  /// Holds the motion of the points of a ball of B as seen from body A, which may turn, within
   /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
   /// unit of time. If `n` isn't null, only the direction n counts, and `speed` is along -n.
   struct Drift {
@@ -61,11 +62,11 @@ class RelativeVelocities {
                    const Eigen::Vector3d* n = nullptr) const;
   const VelocityField& a() const { return a_; }
   const VelocityField& b() const { return b_; }
-  /// Velocity of A's point at x less that of B's.
+  /// Returns the velocity of A's point at x less that of B's.
   Eigen::Vector3d velocityAt(const Eigen::Vector3d& x) const { return a_.at(x) - b_.at(x); }
 
   double pad() const { return pad_; }
-  /// Bound of the sum of both angular speeds.
+  /// Returns a bound of the sum of both angular speeds.
   double turn() const { return a_.angular_speed + b_.angular_speed; }
   /// As above for a solid of A within `reach` of `center`: support(m) is the largest m . x in it.
   /// `pad` is taken off the gap.
@@ -78,8 +79,8 @@ class RelativeVelocities {
   double stretch() const { return detail::boundsOf(X_AB_).stretch; }  ///< of pose()
 
  private:
-  /// The rounding error, per length, of the centres of balls, which may be farther off than the
-  /// bodies reach: 32 u of positions, and of velocities times the duration.
+  /// Returns the rounding error, per length, of the centres of balls, which may be farther off than
+  /// the bodies reach: 32 u of positions, and of velocities times the duration.
   double rounding(double duration) const { return 0x1p-48 * (1 + duration * turn()); }
 
   fcl::Transform3d X_WA_, X_WB_;
@@ -89,7 +90,8 @@ class RelativeVelocities {
   double pad_;            ///< rounding takes at most this off any gap
 };
 
-/// The relative motion of two bodies whose points are within reach_a and reach_b of their origins.
+/// Holds the relative motion of two bodies whose points are within reach_a and reach_b of their
+/// origins.
 class RelativeMotion {
  public:
   RelativeMotion(const Motion& a, const Motion& b, double reach_a, double reach_b)
@@ -98,7 +100,7 @@ class RelativeMotion {
   RelativeVelocities at(double t, double window) const { return {a_, b_, t, window, pad_}; }
   const Motion& a() const { return a_; }
   const Motion& b() const { return b_; }
-  /// Of places, for a unit of the distance from the bodies' origins.
+  /// Bounds the rounding of places, for a unit of the distance from the bodies' origins.
   double turnRounding() const { return a_.turnRounding() + b_.turnRounding(); }
   bool steady() const { return a_.steady() && b_.steady(); }
   bool still() const { return a_.still() && b_.still(); }

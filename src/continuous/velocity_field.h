@@ -25,8 +25,8 @@ struct VelocityField {
 
   Eigen::Vector3d at(const Eigen::Vector3d& x) const { return linear + angular.cross(x - origin); }
 
-  /// Bound of |n . x''| over the window, for points x within `radius` of the point `x0` of the
-  /// body. About a fixed axis, points keep their distance from it, and accelerate across it.
+  /// Returns a bound of |n . x''| over the window, for points x within `radius` of the point `x0`
+  /// of the body. About a fixed axis, points keep their distance from it, and accelerate across it.
   double accelerationAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& x0,
                            double radius) const {
     const double turn = turn_acceleration * distance(x0, radius);
@@ -34,7 +34,7 @@ struct VelocityField {
            n.norm() * origin_acceleration +
            (fixed_axis ? n.cross(axis).norm() * turn : n.norm() * turn);
   }
-  /// As accelerationAlong() for every unit vector n.
+  /// Does as accelerationAlong() for every unit vector n.
   double acceleration(const Eigen::Vector3d& x0, double radius = 0) const {
     return originAcceleration() + turn_acceleration * distance(x0, radius);
   }
@@ -42,17 +42,17 @@ struct VelocityField {
     return origin_acceleration +
            std::sqrt(std::max(acceleration_at[0].squaredNorm(), acceleration_at[1].squaredNorm()));
   }
-  /// Bound over the window of the speed relative to the origin.
+  /// Returns a bound over the window of the speed relative to the origin.
   double turnSpeed(const Eigen::Vector3d& x0, double radius) const {
     return angular_speed * distance(x0, radius);
   }
-  /// Bound over the window of how fast a unit vector n that is fixed to the body turns.
+  /// Returns a bound over the window of how fast a unit vector n that is fixed to the body turns.
   double turnOf(const Eigen::Vector3d& n) const {
     return angular_speed * (fixed_axis ? n.cross(axis).norm() : 1.0);
   }
 
  private:
-  /// Of points from the axis, or from the origin.
+  /// Bounds the distance of points from the axis, or from the origin.
   double distance(const Eigen::Vector3d& x0, double radius) const {
     const Eigen::Vector3d arm = x0 - origin;
     return (fixed_axis ? axis.cross(arm).norm() : arm.norm()) + radius;

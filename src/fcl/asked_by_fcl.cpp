@@ -27,7 +27,7 @@ struct Range {
   }
 };
 
-/// Of the part of an object that holds its code, if the object is libfcl (libfcl.so.0.7, or
+/// Adds the part of an object that holds its code, if the object is libfcl (libfcl.so.0.7, or
 /// libfcl-<hash>.so.0.7 as wheels rename it).
 int addCode(dl_phdr_info* info, std::size_t, void* range) {
   const char* const slash = std::strrchr(info->dlpi_name, '/');

@@ -19,7 +19,8 @@ namespace kios::articulated {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Of the distance that a query finds. Halving an interval costs as much as closing a bracket.
+// This is the error allowed to a query of the distance. Halving an interval costs as much as
+// closing a bracket.
 constexpr double kRelErr = 1;
 
 /// A ball's centre in the frame of a body, whose distance from the body's shape bounds that of the

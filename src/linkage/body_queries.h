@@ -52,7 +52,7 @@ class BodyQueries {
   /// True only if the bodies are in contact, as fcl::collide sees it; for solids also if.
   bool inContact(const Pair& pair, const Configuration& at) const;
 
-  /// Of the bodies' balls.
+  /// Returns the smaller radius of the bodies' balls.
   double smallerRadius(const Pair& pair) const {
     return std::min(body(pair.a).content.radius, body(pair.b).content.radius);
   }

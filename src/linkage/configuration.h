@@ -58,7 +58,7 @@ class Path {
 
   /// L of a body.
   double length(int body) const { return shares_[slot(body)].length + obstacleLength(body); }
-  /// Of a pair.
+  /// Bounds the rounding of a pair.
   double pad(int a, int b) const {
     const Share &x = shares_[slot(a)], &y = shares_[slot(b)];
     return 0x1p-43 * (x.level + y.level) * (length(a) + length(b)) + x.slack + y.slack;
@@ -68,7 +68,7 @@ class Path {
     const Share& share = shares_[slot(body)];
     return 0x1p-43 * (share.level + 2) * (share.length + linkage_.farthest_obstacle) + share.slack;
   }
-  /// Of two carried bodies these sum to at least their pad.
+  /// Returns a share: those of two carried bodies sum to at least their pad.
   double padShare(int body) const {
     const Share& share = shares_[slot(body)];
     return 0x1p-42 * largest_level_ * share.length + share.slack;

@@ -114,7 +114,7 @@ class MotionSearch {
   std::vector<Configuration>& cache_;
   std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
   std::vector<Suspect>& suspects_;
-  /// Of a suspect that nothing else proves.
+  /// Holds what is tried for a suspect that nothing else proves.
   struct Local {
     std::unique_ptr<LocalSlabs> slabs;
     double from = 0, to = 0;  ///< what was proven last
@@ -125,8 +125,8 @@ class MotionSearch {
   double found_at_ = 0.5;  ///< the configuration in which suspects_ were found
   std::vector<Task>& waiting_;
   End end_;
-  // Of the search for the first contact: the earliest that is known, and the earliest interval of
-  // which nothing can be proven.
+  // These serve the search for the first contact: the earliest that is known, and the earliest
+  // interval of which nothing can be proven.
   End contact_, undecided_;
 };
 

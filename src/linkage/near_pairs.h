@@ -89,7 +89,7 @@ class NearPairs {
   }
 
  private:
-  /// Of two bodies on links: by the motion of one against the other.
+  /// Tells two bodies on links apart, by the motion of one against the other.
   static bool apart(const Path& path, const Configuration& c, const Pair& pair, double distance,
                     double time) {
     const BodyData &a = path.linkage().bodies[pair.a], &b = path.linkage().bodies[pair.b];

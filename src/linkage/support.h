@@ -16,7 +16,7 @@ namespace kios::articulated {
 class SupportTable {
  public:
   SupportTable() = default;
-  /// Of the hull of `points`, each grown by `margin`.
+  /// Tabulates the hull of `points`, each grown by `margin`.
   SupportTable(const std::vector<fcl::Vector3d>& points, double margin);
 
   bool empty() const { return heights_.empty(); }

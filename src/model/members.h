@@ -25,7 +25,8 @@ struct Members {
   int& num_nodes;
 
   int numPrimitives() const { return model.num_tris > 0 ? model.num_tris : model.num_vertices; }
-  /// Of a tree over all primitives; 0 if there are none, or more than FCL's nodes can count.
+  /// Counts the nodes of a tree over all primitives; 0 if there are none, or more than FCL's nodes
+  /// can count.
   int numNodes() const {
     const int n = numPrimitives();
     return n > 0 && n <= std::numeric_limits<int>::max() / 2 ? 2 * n - 1 : 0;

@@ -13,14 +13,14 @@
 
 namespace kios::preload {
 
-/// Who answered a query.
+/// Says who answered a query.
 enum class By {
   kHandedOn,   ///< nobody yet: FCL's own function is to be called, with the result as it was
   kFclSearch,  ///< FCL's search, made here: its first test, or all of it
   kTwins
 };
 
-/// Two geometries at poses in the world.
+/// Holds two geometries at poses in the world.
 struct Pair {
   const Geometry* a;
   const Pose& X_WA;
@@ -45,7 +45,7 @@ class Back {
  public:
   explicit Back(const Start& start) : start(start), twins(start) {}
 
-  /// For pairs that isServed() says.
+  /// Answers for pairs that isServed() says.
   By collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result);
   By distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result);
 
@@ -55,7 +55,7 @@ class Back {
 
   /// Every pair is asked of twins, from the first query on.
   bool always() const { return start.mode == Mode::kVerify; }
-  /// The model's twin of its present content.
+  /// Makes the model's twin of its present content.
   void makeTwin(const Mesh& mesh);
 };
 

@@ -37,7 +37,8 @@ using CollisionResult = fcl::CollisionResult<double>;
 using DistanceRequest = fcl::DistanceRequest<double>;
 using DistanceResult = fcl::DistanceResult<double>;
 
-/// The four queries that clients of libfcl import: fcl::collide<double> and fcl::distance<double>.
+/// Holds the four queries that clients of libfcl import: fcl::collide<double> and
+/// fcl::distance<double>.
 struct Calls {
   std::size_t (*collide_objects)(const Object*, const Object*, const CollisionRequest&,
                                  CollisionResult&);
@@ -48,7 +49,7 @@ struct Calls {
                      const DistanceRequest&, DistanceResult&);
 };
 
-/// What the environment variable FCL_KIOS_PRELOAD asks for.
+/// Says what the environment variable FCL_KIOS_PRELOAD asks for.
 enum class Mode { kOff, kOn, kTrust, kVerify, kStats };
 
 /// Calls of FCL's functions without which no model gets another content, but by writing it in
@@ -66,8 +67,8 @@ struct Start {
   const Fits* fits;
 };
 
-/// What the front calls around fork(): before it, and after it in both processes. The child has one
-/// thread, and so must find nothing that another one had taken.
+/// Says what the front calls around fork(): before it, and after it in both processes. The child
+/// has one thread, and so must find nothing that another one had taken.
 struct Forks {
   void (*before)();
   void (*in_parent)();
@@ -79,7 +80,7 @@ struct Opened {
   Forks forks;
 };
 
-/// The back's only symbol. Its calls throw nothing of their own.
+/// Is the type of the back's only symbol. Its calls throw nothing of their own.
 using Open = Opened (*)(const Start*);
 constexpr const char* kOpenName = "fcl_kios_preload_open";
 

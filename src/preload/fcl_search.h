@@ -20,7 +20,7 @@ struct Price {
 };
 constexpr Price kCollidePrice = {55, 220}, kDistancePrice = {115, 330};
 
-/// How a search ended, and what it cost by the prices above.
+/// Says how a search ended, and what it cost by the prices above.
 struct Search {
   bool done;
   double nanoseconds;
@@ -47,7 +47,7 @@ struct FclNodes<fcl::OBBRSSd> {
   using Distance = fcl::detail::MeshDistanceTraversalNodeOBBRSS<double>;
 };
 
-/// One of FCL's nodes with an end.
+/// Gives one of FCL's nodes an end.
 template <typename Node>
 class LimitedNode : public Node {
  public:
@@ -85,7 +85,7 @@ class LimitedDistance final : public LimitedNode<Node> {
  public:
   explicit LimitedDistance(double limit) : LimitedNode<Node>(kDistancePrice, limit) {}
 
-  /// FCL's own rule, whose errors are never set.
+  /// Finds FCL's own rule, whose errors are never set.
   bool canStop(double bound) const override {
     if (bound >= this->result->min_distance) return true;
     ended_ = ended_ || this->hasEnded();
@@ -97,7 +97,7 @@ class LimitedDistance final : public LimitedNode<Node> {
   mutable bool ended_ = false;
 };
 
-/// FCL's first test, of the volumes of the whole models.
+/// Finds FCL's first test, of the volumes of the whole models.
 template <typename BV>
 bool rootsOverlap(const fcl::BVHModel<BV>& a, const Pose& X_WA, const fcl::BVHModel<BV>& b,
                   const Pose& X_WB) {
@@ -108,8 +108,8 @@ bool rootsOverlap(const fcl::BVHModel<BV>& a, const Pose& X_WA, const fcl::BVHMo
   return overlap(R, T, a.getBV(0).bv, b.getBV(0).bv);
 }
 
-/// The rest of FCL's search of models whose roots overlap. Adds to the result; nothing if it ends
-/// before it is done.
+/// Returns the rest of FCL's search of models whose roots overlap. Adds to the result; nothing if
+/// it ends before it is done.
 template <typename BV>
 Search collideByFcl(const fcl::BVHModel<BV>& a, const Pose& X_WA, const fcl::BVHModel<BV>& b,
                     const Pose& X_WB, const CollisionRequest& request, CollisionResult& result,
@@ -133,7 +133,7 @@ Search collideByFcl(const fcl::BVHModel<BV>& a, const Pose& X_WA, const fcl::BVH
   return {!(node.foundNothing() && node.hasEnded()), node.spent()};
 }
 
-/// FCL's search for the distance. Lowers the result if it is done, else leaves it.
+/// Returns FCL's search for the distance. Lowers the result if it is done, else leaves it.
 template <typename BV>
 Search distanceByFcl(const fcl::BVHModel<BV>& a, const Pose& X_WA, const fcl::BVHModel<BV>& b,
                      const Pose& X_WB, const DistanceRequest& request, DistanceResult& result,

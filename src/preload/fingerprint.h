@@ -17,7 +17,8 @@ struct Fingerprint {
   bool operator==(const Fingerprint& o) const { return first == o.first && second == o.second; }
 };
 
-/// Of two arrays of so many bytes, multiples of 8. Reads them once, about as fast as memory allows.
+/// Hashes two arrays of so many bytes, multiples of 8. Reads them once, about as fast as memory
+/// allows.
 Fingerprint fingerprint(const void* one, std::size_t one_bytes, const void* other,
                         std::size_t other_bytes);
 

@@ -43,7 +43,8 @@ void count() {
 
 Sites sites;
 
-/// FCL's function of that name for calls from there: one for all if it is in the global scope.
+/// Returns FCL's function of that name for calls from there: one for all if it is in the global
+/// scope.
 template <typename Function>
 Function* next(std::atomic<Function*>& of_all, const char* name, const void* caller) {
   if (Function* const function = of_all.load(std::memory_order_acquire)) return function;

@@ -6,7 +6,7 @@
 
 namespace kios::preload {
 
-/// The count of this process.
+/// Returns the count of this process.
 const Fits& fits();
 
 /// From now on calls of FCL's fitting functions are counted; before, they are only handed on.

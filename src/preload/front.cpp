@@ -45,10 +45,10 @@ void readEnvironment() {
   if (mode == Mode::kTrust) countFits();
 }
 
-/// Also called by the first query, which another library's constructor may make before this one.
+/// Is also called by the first query, which another library's constructor may make before this one.
 __attribute__((constructor)) void start() { pthread_once(&started, &readEnvironment); }
 
-/// In the place of a function that nobody can call, as the caller's FCL has none.
+/// Stands in the place of a function that nobody can call, as the caller's FCL has none.
 void undefined() {
   say("a function of FCL is called that its library lacks.");
   std::abort();
@@ -120,8 +120,8 @@ bool isWorthOpening() {
   return (mode != Mode::kOn && mode != Mode::kTrust) || queries++ >= kFirst;
 }
 
-/// At the first queries of a process, or of a place in it: FCL's own functions, and the back's if
-/// they are libfcl's.
+/// Chooses at the first queries of a process, or of a place in it: FCL's own functions, and the
+/// back's if they are libfcl's.
 const Calls* choose(const void* caller) {
   start();
   pthread_mutex_lock(&choosing);

@@ -11,7 +11,7 @@
 
 namespace kios::preload {
 
-/// A model's arrays as they lie: not owned.
+/// Holds a model's arrays as they lie: not owned.
 struct Mesh {
   const Geometry* model = nullptr;
   const fcl::Vector3d* vertices = nullptr;
@@ -32,8 +32,8 @@ const fcl::BVHModel<BV>& modelOf(const Geometry* geometry) {
   return static_cast<const fcl::BVHModel<BV>&>(*geometry);
 }
 
-/// The arrays of a finished mesh that counts as occupied; false for any other state, of which FCL
-/// makes what it makes. As FCL does, the geometry's node type is believed.
+/// Finds the arrays of a finished mesh that counts as occupied; false for any other state, of which
+/// FCL makes what it makes. As FCL does, the geometry's node type is believed.
 template <typename BV>
 bool readMesh(const Geometry* geometry, Mesh& mesh) {
   const auto& model = modelOf<BV>(geometry);

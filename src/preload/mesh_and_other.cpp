@@ -25,11 +25,11 @@ constexpr double kCollideByFcl = 3e3;
 double timeOfDistance(const Mesh& mesh) {
   return 1e4 + 20 * static_cast<double>(mesh.num_triangles);
 }
-/// How long a mesh may be compared for a distance: FCL's take so much longer that any comparison
-/// pays.
+/// Says how long a mesh may be compared for a distance: FCL's take so much longer that any
+/// comparison pays.
 constexpr double kAnyTime = 1e9;
 
-/// The same for a verdict about a near pair: FCL's time less the twin's.
+/// Does so for a verdict about a near pair: FCL's time less the twin's.
 double timeToCompare(const Geometry& other) {
   switch (other.getNodeType()) {
     case fcl::GEOM_BOX:
@@ -44,7 +44,8 @@ double timeToCompare(const Geometry& other) {
 
 bool isOctree(const Geometry& geometry) { return geometry.getNodeType() == fcl::GEOM_OCTREE; }
 
-/// Radius of a sphere about the shape's origin that holds it; infinity where that isn't cheap.
+/// Returns the radius of a sphere about the shape's origin that holds it; infinity where that isn't
+/// cheap.
 double radiusOf(const Geometry& shape) {
   switch (shape.getNodeType()) {
     case fcl::GEOM_BOX:
@@ -70,7 +71,7 @@ double radiusOf(const Geometry& shape) {
   }
 }
 
-/// A box that holds the model, by its root: centre and half sides along axes.
+/// Holds a box that holds the model, by its root: centre and half sides along axes.
 struct RootBox {
   fcl::Matrix3d axes;
   fcl::Vector3d center, half;

@@ -49,7 +49,7 @@ void pay(Back& back, const Mesh& a, const Mesh& b, double nanoseconds) {
   if (of_b) back.twins.pay(b, of_a ? 0.5 * nanoseconds : nanoseconds);
 }
 
-/// Whether the twins touch, and by which triangles. Throws as k-IOS's queries.
+/// Returns whether the twins touch, and by which triangles. Throws as k-IOS's queries.
 bool touch(const Asked& asked, const Pair& pair, int& id_a, int& id_b) {
   CollisionResult verdict;
   kios::collideMeshes(asked.hold_a.twin(), pair.X_WA, asked.hold_b.twin(), pair.X_WB,

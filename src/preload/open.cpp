@@ -55,7 +55,7 @@ double distance(const Geometry* a, const Pose& X_WA, const Geometry* b, const Po
   return result.min_distance;
 }
 
-// The same, watched.
+// These do the same, and are watched.
 
 std::size_t collideObjectsWatched(const Object* a, const Object* b, const CollisionRequest& request,
                                   CollisionResult& result) {
@@ -108,7 +108,7 @@ constexpr Calls kWatched = {&collideObjectsWatched, &collideWatched, &distanceOb
 }  // namespace
 }  // namespace kios::preload
 
-/// To be called once.
+/// Is called once.
 extern "C" __attribute__((visibility("default"))) kios::preload::Opened fcl_kios_preload_open(
     const kios::preload::Start* start) {
   using namespace kios::preload;

@@ -16,13 +16,13 @@ namespace {
 
 constexpr const char* kLibfcl = "libfcl.so.0.7";
 
-/// The place of the object that an address lies in; nullptr if it is in none.
+/// Returns the place of the object that an address lies in; nullptr if it is in none.
 const void* baseOf(const void* address) {
   Dl_info info;
   return address && dladdr(address, &info) ? info.dli_fbase : nullptr;
 }
 
-/// The name of that object's file.
+/// Returns the name of that object's file.
 const char* fileOf(const void* address) {
   Dl_info info;
   return address && dladdr(address, &info) && info.dli_fname ? info.dli_fname : "?";

@@ -10,7 +10,8 @@ namespace kios::preload {
 /// scope, else that which the caller's own library would have found, else libfcl.so.0.7's wherever
 /// it was loaded; nullptr if there is none.
 void* findDefinition(const char* name, const void* caller);
-/// The same; ends the program if there is none, which the loader rules out for what is called.
+/// Finds it likewise; ends the program if there is none, which the loader rules out for what is
+/// called.
 void* nextDefinition(const char* name, const void* caller);
 /// Whether the definition is one for all callers, in the global scope.
 bool isGlobal(const char* name);
@@ -22,10 +23,10 @@ bool isOfLibfcl(const void* definition);
 /// for reports, also if they can't be yet.
 void reportReach(Mode mode);
 
-/// "fcl_kios_preload: " and the words on a line of stderr.
+/// Writes "fcl_kios_preload: " and the words on a line of stderr.
 void say(const char* words, const char* more = "", const char* end = "");
 
-/// What FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
+/// Returns what FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
 Mode modeOfEnvironment();
 
 /// Opens the back; no calls, and says why, if it can't.

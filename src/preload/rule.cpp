@@ -49,7 +49,7 @@ Rule::Past Rule::find(const Question& question) {
   return past.tag == tagOf(question) ? past : Past{};
 }
 
-/// Of all pairs with the first model that have no history.
+/// Asks about all pairs with the first model that have no history.
 Question Rule::ofFirst(const Question& question) {
   Question first = question;
   first.serial_b = 0;

@@ -13,17 +13,17 @@ namespace kios::preload {
 
 enum class Kind : std::uint32_t { kVerdict, kContacts, kDistance };
 
-/// A pair of models and what is asked about it.
+/// Holds a pair of models and what is asked about it.
 struct Question {
   std::uint32_t serial_a, serial_b;
   Kind kind;
   double twins_cost;  ///< what the twins need, in nanoseconds
 };
 
-/// What it takes to compare so many bytes, in nanoseconds.
+/// Returns what it takes to compare so many bytes, in nanoseconds.
 double timeOfComparison(std::size_t bytes);
 
-/// What the twins need for a query: to compare so many bytes, and to search.
+/// Returns what the twins need for a query: to compare so many bytes, and to search.
 double costOfTwins(Kind kind, std::size_t bytes_to_compare);
 
 /// Decides for each pair whether FCL or the twins are asked first, from what FCL's searches of that
@@ -33,8 +33,8 @@ double costOfTwins(Kind kind, std::size_t bytes_to_compare);
 /// lost, begins with that of its first model.
 class Rule {
  public:
-  /// How much FCL's search may cost before the twins are asked: 0 if they come first, infinity if
-  /// FCL alone, and kHandOn if its search need not even be watched.
+  /// Returns how much FCL's search may cost before the twins are asked: 0 if they come first,
+  /// infinity if FCL alone, and kHandOn if its search need not even be watched.
   double fclLimit(const Question& question);
   static constexpr double kHandOn = -1;
 

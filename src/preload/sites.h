@@ -16,7 +16,7 @@ namespace kios::preload {
 /// opens them.
 class Sites {
  public:
-  /// nullptr if nothing was kept.
+  /// Returns nullptr if nothing was kept.
   const void* find(const void* caller, const char* name) const {
     for (std::size_t i = 0; i < kTried; ++i) {
       const Site* const site = sites_[placeOf(caller, name, i)].load(std::memory_order_acquire);

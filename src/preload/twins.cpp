@@ -19,7 +19,7 @@
 namespace kios::preload {
 namespace {
 
-/// Bytes that twins may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
+/// Returns bytes that twins may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
 std::size_t limitOfEnvironment() {
   constexpr long long kDefault = 1024, kMost = 1LL << 40;
   const char* const text = std::getenv("FCL_KIOS_PRELOAD_MIB");
@@ -38,14 +38,14 @@ Fingerprint fingerprintOf(const Mesh& mesh) {
   return fingerprint(mesh.vertices, mesh.vertexBytes(), mesh.triangles, mesh.triangleBytes());
 }
 
-/// What a twin costs to make, in nanoseconds.
+/// Returns what a twin costs to make, in nanoseconds.
 double priceOf(const Mesh& mesh) { return 5e3 + 950.0 * static_cast<double>(mesh.num_triangles); }
 
-/// Of FCL's time, by the prices of its tests, so much may be spent on twins. They cost 0.3 of it at
-/// most: the prices are a slow machine's, on others FCL takes less.
+/// This part of FCL's time, by the prices of its tests, may be spent on twins. They cost 0.3 of it
+/// at most: the prices are a slow machine's, on others FCL takes less.
 constexpr double kShare = 0.22;
 
-/// A twin and what it was made of. Constant, but for the count of fits.
+/// Holds a twin and what it was made of. Constant, but for the count of fits.
 struct Content {
   Mesh mesh;
   Fingerprint print;
@@ -54,7 +54,7 @@ struct Content {
   std::atomic<std::uint64_t> fits_at_last_comparison{0};
 };
 
-/// nullptr for a mesh that k-IOS refuses.
+/// Returns nullptr for a mesh that k-IOS refuses.
 std::unique_ptr<Content> makeContent(const Mesh& mesh, std::uint64_t fits) {
   try {
     const std::vector<fcl::Vector3d> vertices(mesh.vertices, mesh.vertices + mesh.num_vertices);
@@ -86,7 +86,7 @@ constexpr std::size_t kSets = 512, kWays = 8;
 
 }  // namespace
 
-/// The place of one model.
+/// Holds the place of one model.
 struct alignas(64) Twins::Cell {
   std::atomic<std::uint32_t> holders{0};  ///< kClosed is added while the next two change
   std::unique_ptr<Content> content;
@@ -174,7 +174,7 @@ struct Twins::Table {
     return clock.load(std::memory_order_relaxed) - cell.used_at.load(std::memory_order_relaxed);
   }
 
-  /// Of a closed cell.
+  /// Fills a closed cell.
   void fill(Cell& cell, std::unique_ptr<Content> content) {
     if (cell.content) bytes -= cell.content->bytes, --count;
     if (content) bytes += content->bytes, ++count;

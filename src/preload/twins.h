@@ -12,13 +12,13 @@
 
 namespace kios::preload {
 
-/// k-IOS models of the contents that FCL's models had. Any thread may call anything here; queries
-/// wait for nobody.
+/// Holds k-IOS models of the contents that FCL's models had. Any thread may call anything here;
+/// queries wait for nobody.
 class Twins {
  public:
   struct Cell;
 
-  /// A model's place, kept while this lives.
+  /// Holds a model's place, kept while this lives.
   class Hold {
    public:
     Hold() = default;
@@ -29,12 +29,13 @@ class Twins {
     explicit operator bool() const { return cell_ != nullptr; }
     /// Whether there is a twin, of the present content or of one before.
     bool hasTwin() const;
-    /// Bytes that isCurrent() compares; 0 where nothing was fitted since that was last true.
+    /// Returns bytes that isCurrent() compares; 0 where nothing was fitted since that was last
+    /// true.
     std::size_t bytesToCompare() const;
     /// Whether the twin has the model's present content. If not, it will not be asked again.
     bool isCurrent() const;
     const Modeld& twin() const;
-    /// Of the model, in the order of first queries.
+    /// Numbers the models in the order of their first queries.
     std::uint32_t serial() const;
 
    private:

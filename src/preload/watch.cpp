@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kQuestions[] = {"collide", "distance"};
 
-/// The size of numbers that a distance is computed from.
+/// Returns the size of numbers that a distance is computed from.
 double scaleOf(const Pair& pair) {
   return 1 + pair.X_WA.translation().norm() + pair.X_WB.translation().norm();
 }

@@ -45,7 +45,7 @@ class Watch {
   void report() const;
 
  private:
-  /// Times of one query by both, in nanoseconds of the thread's CPU.
+  /// Holds the times of one query by both, in nanoseconds of the thread's CPU.
   struct Times {
     float ours, fcl;
   };

@@ -21,7 +21,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
   throw std::invalid_argument("fcl_kios: " + what);
 }
 
-/// The square of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
+/// Returns the square of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
 template <typename S>
 double requireRigid(const fcl::Transform3<S>& X) {
   const auto& R = X.linear();
@@ -55,8 +55,8 @@ Sphere sphereOf(const kIOS<S>& root, int i) {
   return {{double{c[0]}, double{c[1]}, double{c[2]}}, double{root.sphereRadius(i)}};
 }
 
-/// FCL's own local AABB, which place() and renew() made afresh. Its radius has no margin, and FCL's
-/// GJK is off by up to its tolerance, 1e-6, so that distances may come out smaller.
+/// Returns FCL's own local AABB, which place() and renew() made afresh. Its radius has no margin,
+/// and FCL's GJK is off by up to its tolerance, 1e-6, so that distances may come out smaller.
 template <typename S>
 Sphere sphereOf(const fcl::CollisionGeometry<S>& geometry) {
   const double radius = geometry.aabb_radius * (1 + 1e-4) + 1e-5;

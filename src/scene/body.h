@@ -19,20 +19,20 @@
 
 namespace kios::scene {
 
-/// An object of a scene as the last query found it.
+/// Holds an object of a scene as the last query found it.
 template <typename S>
 struct Body {
   // These members come first, as every query reads them in every body.
 
-  /// Unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
+  /// Is unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
   /// object.
   std::uint64_t state = 0;
   /// No point of the content has moved farther than this in this state; it grows with each move.
   double path = 0;
   double rotation_error = 0;   ///< >= |R^T R - I|_2
   double rotation_square = 0;  ///< the square of |R^T R - I| (Frobenius)
-  /// A box around the content in the world, so wide that the gap of two bodies' boxes, less a share
-  /// boxShare() of it, is at most the distance that the narrow phase would compute.
+  /// Is a box around the content in the world, so wide that the gap of two bodies' boxes, less a
+  /// share boxShare() of it, is at most the distance that the narrow phase would compute.
   Box box;
   const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set
   Role role = Role::kBody;
@@ -44,7 +44,7 @@ struct Body {
   fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
   Sphere sphere;     ///< around the content, infinite for planes and the like
   double reach = 0;  ///< the sphere's
-  /// More spheres around the content: the caps of its k-IOS.
+  /// Are more spheres around the content: the caps of its k-IOS.
   std::array<Sphere, kIOS<S>::kCaps> caps;
   int num_caps = 0;
 
@@ -72,7 +72,7 @@ void renew(Body<S>& body);
 template <typename S>
 void renewIfChanged(Body<S>& body);
 
-/// The state of a model, as its root volume and arrays tell it.
+/// Returns the state of a model, as its root volume and arrays tell it.
 template <typename S>
 engine::TreeKey keyOf(const Model<S>& model) {
   return {model.getBV(0).bv.stamp, model.vertices, model.tri_indices,

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// |t_b - t_a|_1, which bounds the translation between the bodies' frames.
+/// Returns |t_b - t_a|_1, which bounds the translation between the bodies' frames.
 template <typename S>
 double translation(const Body<S>& a, const Body<S>& b) {
   double sum = 0;
@@ -171,7 +171,7 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   proof->apart = apart;
   proof->exact = exact;
   proof->distance = answer.distance;
-  // Of a bound alone, the old triangles may still be the nearest.
+  // If only a bound was found, the old triangles may still be the nearest.
   if (answer.triangle_a >= 0 || exact || !same) {
     proof->triangle_a = answer.triangle_a;
     proof->triangle_b = answer.triangle_b;

@@ -12,11 +12,11 @@
 
 namespace kios::scene {
 
-/// A bound of a pair's distance that is known without a search.
+/// Holds a bound of a pair's distance that is known without a search.
 struct PairBound {
   enum class Source { kNothing, kStill, kMotion, kRoots };
-  /// The narrow phase would compute at least that; below 0 for root volumes that overlap, deeper
-  /// ones first.
+  /// Says that the narrow phase would compute at least that; below 0 for root volumes that overlap,
+  /// deeper ones first.
   double bound;
   Source source;  ///< of the bound
   bool exact;     ///< it would compute just the proof's distance
@@ -31,7 +31,7 @@ class BodyPair {
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
   PairBound know(double limit) const;
 
-  /// The answer of the narrow phase.
+  /// Holds the answer of the narrow phase.
   struct Answer {
     bool within = false;  ///< `distance` is at most the limit; else the pair is farther than that
     S distance = 0;
@@ -41,32 +41,34 @@ class BodyPair {
   /// is false, for any that is at most that.
   Answer search(double limit, bool exact, SearchCounts& counts);
 
-  /// The last search's or the proof's answer, where know() said that it is exact.
+  /// Returns the last search's or the proof's answer, where know() said that it is exact.
   Answer proven(double limit) const;
 
-  /// The distance of the triangles of the last proof, which lie somewhere near; +infinity if there
-  /// are none.
+  /// Returns the distance of the triangles of the last proof, which lie somewhere near; +infinity
+  /// if there are none.
   double upperBound() const;
-  /// An upper bound of that, rounding included: the narrow phase computes at most this.
+  /// Returns an upper bound of that, rounding included: the narrow phase computes at most this.
   double ceiling() const;
-  /// True if the narrow phase would compute exactly the proof's distance.
+  /// Returns true if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
   /// The narrow phase computes at least this, wherever the bodies are.
   double least() const { return meshes() ? 0 : -std::numeric_limits<double>::infinity(); }
-  /// An answer with these triangles, if that proves that the narrow phase's is at most the limit.
+  /// Returns an answer with these triangles, if that proves that the narrow phase's is at most the
+  /// limit.
   Answer nearby(double limit) const;
 
  private:
   /// An answer holds until something is seen to have changed.
   bool lasting() const { return a_.watched() && b_.watched(); }
   bool meshes() const { return a_.model && b_.model; }
-  /// The frame of two meshes, made at its first use.
+  /// Returns the frame of two meshes, made at its first use.
   const PairFrame<S>& frame() const;
   double afterMotion(double moved, double T_norm1) const;
   /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
   double outlook(double limit) const;
-  /// True if the bodies are solids and one, whose surface is apart from the other's, lies in it.
+  /// Returns true if the bodies are solids and one, whose surface is apart from the other's, lies
+  /// in it.
   bool contained(SearchCounts& counts) const;
   Answer searchMeshes(double limit, SearchCounts& counts);
   Answer decideMeshes(double limit, SearchCounts& counts);
@@ -79,7 +81,7 @@ class BodyPair {
   mutable std::optional<PairFrame<S>> frame_;
 };
 
-/// The points that realise a pair's distance, in the world.
+/// Finds the points that realise a pair's distance, in the world.
 template <typename S>
 void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair);
 

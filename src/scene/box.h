@@ -7,7 +7,7 @@
 
 namespace kios::scene {
 
-/// Axis-aligned box in the world.
+/// Holds an axis-aligned box in the world.
 struct Box {
   double lower[3], upper[3];
 
@@ -19,7 +19,7 @@ struct Box {
   }
 };
 
-/// Squared distance of two boxes, up to 6 roundings; infinite boxes touch.
+/// Returns the squared distance of two boxes, up to 6 roundings; infinite boxes touch.
 inline double squaredGap(const Box& a, const Box& b) {
   const auto larger = [](double x, double y) { return x > y ? x : y; };  // without a branch
   const auto side = [&](int i) {
@@ -29,8 +29,8 @@ inline double squaredGap(const Box& a, const Box& b) {
   return x * x + y * y + z * z;
 }
 
-/// A number that squaredGap() exceeds only if the distance exceeds `limit`: it covers rounding, and
-/// what underflows.
+/// Returns a number that squaredGap() exceeds only if the distance exceeds `limit`: it covers
+/// rounding, and what underflows.
 inline double squaredLimit(double limit) {
   if (limit < 0) limit = 0;  // bodies of FCL that overlap have negative distances
   return limit * limit * (1 + 0x1p-40) + 1e-300;

@@ -8,8 +8,8 @@
 
 namespace kios::scene {
 
-/// Binary tree of boxes over the objects of a scene, one a leaf, built by halving the centres along
-/// the longest side and refitted while objects move.
+/// Holds a binary tree of boxes over the objects of a scene, one a leaf, built by halving the
+/// centres along the longest side and refitted while objects move.
 class BoxTree {
  public:
   struct Node {
@@ -20,7 +20,8 @@ class BoxTree {
     int bodies = 0;             ///< of them, those that are no obstacles
 
     bool isLeaf() const { return object >= 0; }
-    /// Pairs of objects below, and those with an object below `o`, another part of the tree.
+    /// Returns pairs of objects below, and those with an object below `o`, another part of the
+    /// tree.
     long long pairs() const { return static_cast<long long>(count) * (count - 1) / 2; }
     long long pairsWith(const Node& o) const { return static_cast<long long>(count) * o.count; }
   };

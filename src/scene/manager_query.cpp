@@ -70,7 +70,7 @@ class ManagerQuery<S>::Impl {
  private:
   using PairMemory = scene::PairMemory<S>;
 
-  /// An object, and its model's state when it was last met.
+  /// Holds an object, and its model's state when it was last met.
   struct Known {
     scene::Body<S> body;
     engine::TreeKey key;

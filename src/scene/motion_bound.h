@@ -9,12 +9,12 @@
 
 namespace kios::scene {
 
-/// A sphere around a content, in its body's frame.
+/// Holds a sphere around a content, in its body's frame.
 struct Sphere {
   double center[3] = {0, 0, 0};
   double radius = 0;
 
-  /// >= |y| of every y in it.
+  /// Returns a bound >= |y| of every y in it.
   double reach() const;
 };
 
@@ -25,7 +25,7 @@ template <typename S>
 double displacement(const fcl::Matrix3<S>& R0, const fcl::Vector3<S>& T0, const fcl::Matrix3<S>& R1,
                     const fcl::Vector3<S>& T1, const Sphere& sphere);
 
-/// A number >= a + b, which is not NaN; above a if b = 0.
+/// Returns a number >= a + b, which is not NaN; above a if b = 0.
 inline double addUp(double a, double b) {
   const double sum = a + b;
   return sum + (std::abs(sum) * 0x1p-52 + std::numeric_limits<double>::denorm_min());

@@ -10,21 +10,21 @@
 
 namespace kios::scene {
 
-/// The pairs of objects whose boxes were within a reach of each other at one query. As long as no
-/// object has moved much since then, they include all pairs within a smaller limit, and the tree
-/// need not be searched (Verlet's list).
+/// Holds the pairs of objects whose boxes were within a reach of each other at one query. As long
+/// as no object has moved much since then, they include all pairs within a smaller limit, and the
+/// tree need not be searched (Verlet's list).
 template <typename S>
 class NearList {
  public:
   using Pairs = std::vector<std::pair<int, int>>;
 
-  /// True if all pairs within `limit` are listed. The list is valid while the same objects are
-  /// there, in the same states, and no rotation is worse; other pairs came nearer by their paths at
-  /// most.
+  /// Returns true if all pairs within `limit` are listed. The list is valid while the same objects
+  /// are there, in the same states, and no rotation is worse; other pairs came nearer by their
+  /// paths at most.
   bool covers(double limit) const { return valid_ && limit + 2 * moved_ <= reach_; }
   const Pairs& pairs() const { return pairs_; }
 
-  /// To be called at each query once all bodies are up to date.
+  /// Has to be called at each query once all bodies are up to date.
   void follow(const std::vector<Body<S>>& bodies);
 
   /// Starts a list at the present poses that serves `limit` and is likely to do so for a few more
@@ -33,7 +33,7 @@ class NearList {
   double startFor(double limit, const std::vector<Body<S>>& bodies);
   /// Adds a pair within reach. Returns false if they have become too many, and there is no list.
   bool add(int a, int b);
-  /// To be called once all pairs within reach were added: a search that throws leaves no list.
+  /// Has to be called once all pairs within reach were added: a search that throws leaves no list.
   void finish() { valid_ = listing_; }
 
  private:

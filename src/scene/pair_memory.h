@@ -9,8 +9,8 @@
 
 namespace kios::scene {
 
-/// The last answer of the narrow phase about two bodies, and their poses then. It says nothing of
-/// other states of their geometries.
+/// Holds the last answer of the narrow phase about two bodies, and their poses then. It says
+/// nothing of other states of their geometries.
 template <typename S>
 struct Proof {
   std::uint64_t state_a = 0, state_b = 0;  ///< 0: nothing was proven
@@ -29,8 +29,8 @@ struct Proof {
   }
 };
 
-/// The proofs of the pairs that queries came near. Their number is bounded: a query forgets the
-/// proofs that it didn't use as soon as they are more than those that it used, plus kSpare.
+/// Holds the proofs of the pairs that queries came near. Their number is bounded: a query forgets
+/// the proofs that it didn't use as soon as they are more than those that it used, plus kSpare.
 template <typename S>
 class PairMemory {
  public:
@@ -47,7 +47,7 @@ class PairMemory {
 
   /// The proof of the pair in their present states; nullptr if there is none.
   Proof<S>* find(int id_a, const Body<S>& a, int id_b, const Body<S>& b);
-  /// A place for a proof; nullptr if there is no room.
+  /// Returns a place for a proof; nullptr if there is no room.
   Proof<S>* obtain(int id_a, int id_b);
 
   std::size_t size() const { return proofs_.size(); }

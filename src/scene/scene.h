@@ -21,7 +21,7 @@
 
 namespace kios::scene {
 
-/// The bodies of a SceneDistance, and its queries.
+/// Holds the bodies of a SceneDistance, and its queries.
 template <typename S>
 class Scene {
  public:
@@ -46,7 +46,7 @@ class Scene {
  private:
   using Answer = typename BodyPair<S>::Answer;
 
-  /// A model that bodies share, as its volumes were last measured.
+  /// Holds a model that bodies share, as its volumes were last measured.
   struct Watch {
     engine::TreeKey key;
     int users = 0;
@@ -73,10 +73,10 @@ class Scene {
   /// may be within the limit.
   template <typename Visit>
   void forNearPairs(double limit, const Visit& visit);
-  /// A number that the squared gap of two objects' boxes exceeds only if the narrow phase computes
-  /// more than the limit.
+  /// Returns a number that the squared gap of two objects' boxes exceeds only if the narrow phase
+  /// computes more than the limit.
   double gapLimit(double limit) const { return squaredLimit(limit / box_share_); }
-  /// A lower bound of that, roundings covered.
+  /// Returns a lower bound of that, roundings covered.
   double boxBound(double square) const {
     return square < 0x1p1000 ? std::sqrt(square) * box_share_ * (1 - 0x1p-40) : 0x1p499;
   }

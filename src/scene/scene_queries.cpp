@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The largest number below x.
+/// Returns the largest number below x.
 template <typename S>
 double below(S x) {
   return std::nextafter(x, -std::numeric_limits<S>::infinity());
 }
 
-/// Two parts of the tree, or two bodies, whose distances are at least `bound`.
+/// Holds two parts of the tree, or two bodies, whose distances are at least `bound`.
 struct Waiting {
   double bound;
   int a, b;

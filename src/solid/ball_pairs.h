@@ -11,32 +11,32 @@
 
 namespace kios {
 
-/// The translations after which an inner ball of b meets one of a: balls about the differences of
-/// centres, of radii that add up. A cheap picture of the pair, to look for ways out; nothing is
-/// proven by it. All in a's frame.
+/// Holds the translations after which an inner ball of b meets one of a: balls about the
+/// differences of centres, of radii that add up. A cheap picture of the pair, to look for ways out;
+/// nothing is proven by it. All in a's frame.
 class BallPairs {
  public:
   template <typename S>
   explicit BallPairs(const SolidPair<S>& pair);
 
-  /// A direction, unit, and the length by which b seems to leave a along it: all balls, grown by
-  /// gap(), are left.
+  /// Holds a direction, unit, and the length by which b seems to leave a along it: all balls, grown
+  /// by gap(), are left.
   struct Way {
     fcl::Vector3d direction;
     double reach;
   };
-  /// Ways along the axes, the diagonals and these directions, the shortest first.
+  /// Returns ways along the axes, the diagonals and these directions, the shortest first.
   std::vector<Way> ways(const std::vector<fcl::Vector3d>& directions) const;
-  /// The length by which all balls, grown by so much, are left along n.
+  /// Returns the length by which all balls, grown by so much, are left along n.
   double reach(const fcl::Vector3d& n, double grown) const;
-  /// A translation near `from` at which they are: it is moved out of the ball in which it is
+  /// Finds a translation near `from` at which they are: it is moved out of the ball in which it is
   /// deepest, again and again.
   fcl::Vector3d escape(const fcl::Vector3d& from, double grown) const;
-  /// True if balls meet after a translation, and with them the solids.
+  /// Returns true if balls meet after a translation, and with them the solids.
   bool meet(const fcl::Vector3d& translation) const;
-  /// The point that is deepest in a ball of each; none if no two meet.
+  /// Returns the point that is deepest in a ball of each; none if no two meet.
   std::optional<fcl::Vector3d> common() const;
-  /// About what the balls leave out of the solids.
+  /// Returns about what the balls leave out of the solids.
   double gap() const { return gap_; }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 using Vec = fcl::Vector3d;
 
-/// The balls about a point, in a's frame.
+/// Holds the balls about a point, in a's frame.
 struct Balls {
   bool in_a = false, in_b = false;
   double depth = 0;  ///< proven
@@ -59,8 +59,8 @@ class CommonCenter {
     return balls;
   }
 
-  /// Where the balls may be largest within `reach` of c, by the points of the surfaces that are
-  /// known, and by how much at most.
+  /// Returns where the balls may be largest within `reach` of c, by the points of the surfaces that
+  /// are known, and by how much at most.
   std::pair<Vec, double> highest(const Vec& c, double reach) const {
     const auto nearest = [](const std::vector<Vec>& points, const Vec& p, Vec& away) {
       away.setZero();

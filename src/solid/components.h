@@ -10,7 +10,7 @@
 
 namespace kios {
 
-/// A mesh taken apart into components, and their orientation.
+/// Holds a mesh taken apart into components, and their orientation.
 template <typename S>
 class Components {
  public:
@@ -18,9 +18,9 @@ class Components {
 
   /// Sets `inside_out` and `oriented` too.
   const Closedness<S>& closedness() const { return closedness_; }
-  /// The first triangle of each component that is inside out.
+  /// Returns the first triangle of each component that is inside out.
   const std::vector<int>& insideOut() const { return inside_out_; }
-  /// Of a component, in ascending order.
+  /// Ranges over a component's triangles, in ascending order.
   struct Triangles {
     const int *first, *last;
     const int* begin() const { return first; }
@@ -32,7 +32,7 @@ class Components {
   }
 
  private:
-  /// A side of a triangle, at the edge between two welded vertices.
+  /// Holds a side of a triangle, at the edge between two welded vertices.
   struct Half {
     std::uint32_t low, high;
     std::uint32_t triangle : 30;

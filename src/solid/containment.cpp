@@ -15,7 +15,7 @@
 namespace kios {
 namespace {
 
-/// The place of p, in a's frame, in b as posed there: by all of b's triangles.
+/// Finds the place of p, in a's frame, in b as posed there: by all of b's triangles.
 template <typename S>
 bool liesInPosed(const fcl::Vector3d& p, const PairFrame<S>& frame) {
   const double largest = p.cwiseAbs().maxCoeff() + 2 * largestOf(frame.b);

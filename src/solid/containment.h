@@ -9,14 +9,14 @@
 
 namespace kios {
 
-/// True if the surfaces have a point in common: exact in the common frame.
+/// Returns true if the surfaces have a point in common: exact in the common frame.
 template <typename S>
 bool surfacesMeet(const PairFrame<S>& frame, SearchCounts& counts);
 
-/// A point of a's or b's surface, in a's frame, that lies in the other solid; none if no component
-/// of either lies in the other. Both must be solids, and their surfaces disjoint in the common
-/// frame: then it is exact in that frame, since a component is in the other solid with all of its
-/// points or with none.
+/// Returns a point of a's or b's surface, in a's frame, that lies in the other solid; none if no
+/// component of either lies in the other. Both must be solids, and their surfaces disjoint in the
+/// common frame: then it is exact in that frame, since a component is in the other solid with all
+/// of its points or with none.
 template <typename S>
 std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>& frame, SearchCounts& counts);
 
@@ -25,7 +25,7 @@ std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>& frame, SearchCou
 template <typename S>
 double inverseError(const RelativePose<S>& X_AB, double norm1);
 
-/// R^T (p - T), in double.
+/// Returns R^T (p - T), in double.
 template <typename S>
 fcl::Vector3d toB(const RelativePose<S>& X_AB, const fcl::Vector3d& p);
 

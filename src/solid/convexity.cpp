@@ -20,8 +20,8 @@ namespace {
 using Vec = fcl::Vector3d;
 using Fine = boost::multiprecision::cpp_bin_float_quad;
 
-/// A mesh as seen from a point within, its vertices welded. Triangles with two equal corners are
-/// left out: they pass an edge once each way.
+/// Holds a mesh as seen from a point within, its vertices welded. Triangles with two equal corners
+/// are left out: they pass an edge once each way.
 class ConeMesh {
  public:
   template <typename S>
@@ -52,7 +52,7 @@ class ConeMesh {
   /// No vertex is farther from the centre.
   double farthest() const { return farthest_; }
 
-  /// Six times the volume of each face's cone, at least. False if one may not be positive.
+  /// Measures six times the volume of each face's cone, at least. False if one may not be positive.
   bool measureCones() {
     cones_.reserve(faces_.size());
     for (const auto& face : faces_) {
@@ -70,7 +70,7 @@ class ConeMesh {
     return !cones_.empty();
   }
 
-  /// Sides by the vertex from which they run. False unless all edges have two faces.
+  /// Sorts sides by the vertex from which they run. False unless all edges have two faces.
   bool pairSides() {
     begin_.assign(points_.size() + 1, 0);
     for (const auto& face : faces_) {
@@ -106,7 +106,7 @@ class ConeMesh {
     return 2 * edges_.size() == to_.size();
   }
 
-  /// E, and its share of edges that are reflex beyond the rounding of doubles.
+  /// Holds E, and its share of edges that are reflex beyond the rounding of doubles.
   struct Reflex {
     double sum = 0, certain = 0;
   };
@@ -143,7 +143,8 @@ class ConeMesh {
   VertexGraph graph() && { return {std::move(points_), std::move(begin_), std::move(to_)}; }
 
  private:
-  /// Of determinants of differences of coordinates, relative to the product of their lengths.
+  /// Bounds the error of determinants of differences of coordinates, relative to the product of
+  /// their lengths.
   static constexpr double kError = 0x1p-48;
   static constexpr double kFineError = 0x1p-100;
 
@@ -160,7 +161,7 @@ class ConeMesh {
     return f[0] != v && f[0] != w ? f[0] : f[1] != v && f[1] != w ? f[1] : f[2];
   }
 
-  /// Of the surface, so that it lies well within a convex solid.
+  /// Returns the surface's centre, which lies well within a convex solid.
   Vec middle() const {
     Vec sum = Vec::Zero();
     double weight = 0;
@@ -173,8 +174,8 @@ class ConeMesh {
     return weight > 0 ? Vec(point(0) + sum / weight) : Vec(Vec::Zero());
   }
 
-  /// |p x q| times the largest distance of a vertex from the plane through the centre, p and q, all
-  /// relative to it: at most that of a corner of the box.
+  /// Bounds |p x q| times the largest distance of a vertex from the plane through the centre, p and
+  /// q, all relative to it: at most that of a corner of the box.
   double farthestFromPlane(const Vec& p, const Vec& q) const {
     const Vec normal = p.cross(q);
     const double error = kError * p.norm() * q.norm();
@@ -183,7 +184,7 @@ class ConeMesh {
     return sum;
   }
 
-  /// (q - p) x (a - p) . (b - p), where doubles can't tell.
+  /// Returns (q - p) x (a - p) . (b - p), where doubles can't tell.
   static double fineVolume(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
     Fine d[3][3];
     const Vec* const ends[3] = {&q, &a, &b};
@@ -196,9 +197,9 @@ class ConeMesh {
     return static_cast<double>(volume);
   }
 
-  /// A box around all vertices: along the way to the farthest, and to the farthest from that line.
-  /// Thin solids fill it, however they are turned, so that E tells how thick a dent is relative to
-  /// them.
+  /// Fits a box around all vertices: along the way to the farthest, and to the farthest from that
+  /// line. Thin solids fill it, however they are turned, so that E tells how thick a dent is
+  /// relative to them.
   void fitBox() {
     const auto farthestFrom = [this](const auto& squared) {
       Vec found = Vec::Zero();

@@ -7,7 +7,7 @@
 
 namespace kios {
 
-/// How nearly a solid is the hull of its vertices.
+/// Says how nearly a solid is the hull of its vertices.
 ///
 /// Let a point c see all faces from within, and the mesh wind round it once: then the cones from c
 /// over the faces tile space. On the cone of face i let G be g_i, the linear function of x - c that

@@ -13,14 +13,14 @@ namespace {
 
 using Vec = fcl::Vector3d;
 
-/// Translations that the plane between two nearest points admits: normal . x >= least.
+/// Holds the translations that the plane between two nearest points admits: normal . x >= least.
 struct Plane {
   Vec normal;
   double least;
 };
 
-/// The point of all half-spaces that is nearest to the origin, to about a percent: Hildreth's
-/// method.
+/// Returns the point of all half-spaces that is nearest to the origin, to about a percent:
+/// Hildreth's method.
 Vec nearestToOrigin(const std::vector<Plane>& planes) {
   std::vector<double> weights(planes.size(), 0.0);
   Vec x = Vec::Zero();
@@ -86,7 +86,7 @@ class ExitSearch {
     return best_.translation;
   }
 
-  /// Bodies that all but touch: the least length that can be proven.
+  /// Shortens it for bodies that all but touch: to the least length that can be proven.
   void shortenToRounding() {
     if (!(best_.length < 1e-6 * pair_.size())) return;
     const Vec n = best_.translation / best_.length;
@@ -96,8 +96,8 @@ class ExitSearch {
     }
   }
 
-  /// Towards the origin by a little less than the gap: surfaces stay apart as b moves by less than
-  /// their distance. Poses are rounded, so that b's true way is measured.
+  /// Moves b towards the origin by a little less than the gap: surfaces stay apart as b moves by
+  /// less than their distance. Poses are rounded, so that b's true way is measured.
   void slide(const Vec& at, const Test& test) {
     const double length = at.norm(), step = std::min(0.98 * test.gap, length);
     if (!(step > 1e-3 * length)) return;
@@ -105,13 +105,14 @@ class ExitSearch {
     if (pair_.wayBetween(at, x) < 0.99 * test.gap - 16 * pair_.rounding()) accept(x, test);
   }
 
-  /// test(), unless inner balls meet.
+  /// Calls test(), unless inner balls meet.
   Test testOf(const Vec& x) {
     if (balls_.meet(pair_.R_WA().transpose() * x)) return {};
     return pair_.test(x, best_.length);
   }
 
-  /// The shortest translation that seems to part the solids, of those about which their balls part.
+  /// Returns the shortest translation that seems to part the solids, of those about which their
+  /// balls part.
   Vec tryStarts(const std::vector<Vec>& directions, const std::vector<BallPairs::Way>& ways) {
     Vec best = best_.translation;
     const auto tryStart = [&](const Vec& start) {
@@ -128,7 +129,7 @@ class ExitSearch {
     return best;
   }
 
-  /// A few, the shortest first.
+  /// Returns a few, the shortest first.
   std::vector<Vec> startsOf(const std::vector<Vec>& directions,
                             const std::vector<BallPairs::Way>& ways) const {
     std::vector<Vec> starts;

@@ -9,7 +9,7 @@
 
 namespace kios {
 
-/// A translation of b in the world after which the solids are proven apart.
+/// Holds a translation of b in the world after which the solids are proven apart.
 struct Exit {
   fcl::Vector3d translation = fcl::Vector3d::Zero();
   double length = 0;
@@ -33,7 +33,7 @@ template <typename S>
 Exit leaveNearby(SolidPair<S>& pair, const Exit& exit, const std::vector<fcl::Vector3d>& directions,
                  const BallPairs& balls, long long last_test);
 
-/// The same, from where the solids' inner balls part.
+/// Searches likewise from where the solids' inner balls part.
 template <typename S>
 Exit leaveAnywhere(SolidPair<S>& pair, const Exit& exit,
                    const std::vector<fcl::Vector3d>& directions,

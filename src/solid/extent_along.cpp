@@ -14,7 +14,7 @@
 namespace kios {
 namespace {
 
-/// Upper bound of n . x for the content, but for rounding.
+/// Returns an upper bound of n . x for the content, but for rounding.
 template <typename S>
 double heightOf(const kIOS<S>& bv, const fcl::Vector3d& n, double length) {
   const fcl::Vector3d center = bv.center0.template cast<double>();

@@ -22,7 +22,7 @@ void forEdges(const Sides& sides, const Visit& visit) {
   }
 }
 
-/// The corners in ascending order, and whether that turns the face.
+/// Returns the corners in ascending order, and whether that turns the face.
 std::pair<std::array<int, 3>, bool> sorted(std::array<int, 3> c) {
   bool odd = false;
   for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)}) {
@@ -97,7 +97,7 @@ std::pair<std::vector<int>, int> FaceSet::parts(const std::vector<Side>& sides,
 
 int FaceSet::dropDoubles() {
   const std::size_t before = faces_.size();
-  // Of each orientation the first stays.
+  // The first face of each orientation stays.
   std::map<std::array<int, 3>, std::array<int, 2>> first;
   std::vector<bool> dropped(faces_.size(), false);
   for (std::size_t f = 0; f < faces_.size(); ++f) {

@@ -11,8 +11,8 @@
 
 namespace kios {
 
-/// Triangles over welded vertices, which are taken away, turned and added. Two faces meet where
-/// they share two vertices, whatever their coordinates.
+/// Holds triangles over welded vertices, which are taken away, turned and added. Two faces meet
+/// where they share two vertices, whatever their coordinates.
 class FaceSet {
  public:
   struct Face {
@@ -34,27 +34,28 @@ class FaceSet {
   void flip(std::size_t face);
   void fill(const std::array<int, 3>& corners);
 
-  /// Ways round holes, in the order that a triangle would fill them: along edges of one face.
+  /// Returns ways round holes, in the order that a triangle would fill them: along edges of one
+  /// face.
   std::vector<std::vector<int>> holes() const;
-  /// A closed part of the surface.
+  /// Holds a closed part of the surface.
   struct Part {
     std::vector<int> faces;
     bool as_given;  ///< no face of it was turned, or all were
   };
-  /// The parts connected by edges of two faces (`across_branches`: by any edges) that are closed by
-  /// themselves: as many faces run through each edge one way as the other.
+  /// Returns the parts connected by edges of two faces (`across_branches`: by any edges) that are
+  /// closed by themselves: as many faces run through each edge one way as the other.
   std::vector<Part> closedParts(bool across_branches) const;
 
  private:
-  /// A side of a face.
+  /// Holds a side of a face.
   struct Side {
     int low, high, face;
     bool forward;  ///< it runs from low to high
     bool sameEdge(const Side& o) const { return low == o.low && high == o.high; }
   };
-  /// All sides, edge by edge.
+  /// Returns all sides, edge by edge.
   std::vector<Side> sides() const;
-  /// Numbers of the parts of each face, and how many there are.
+  /// Returns numbers of the parts of each face, and how many there are.
   std::pair<std::vector<int>, int> parts(const std::vector<Side>& sides,
                                          bool across_branches) const;
   void take(const std::vector<bool>& dropped);

@@ -10,14 +10,14 @@
 
 namespace kios {
 
-/// The triangles of least area that fill a hole, over its vertices and in their order (Barequet and
-/// Sharir, Filling gaps in the boundary of a polyhedron, 1995). Diagonals of which `avoid` is true
-/// are taken only where nothing else is left. O(k^3) in at least 3 corners. Returns places among
-/// the corners.
+/// Returns the triangles of least area that fill a hole, over its vertices and in their order
+/// (Barequet and Sharir, Filling gaps in the boundary of a polyhedron, 1995). Diagonals of which
+/// `avoid` is true are taken only where nothing else is left. O(k^3) in at least 3 corners. Returns
+/// places among the corners.
 std::vector<std::array<int, 3>> fillHole(const std::vector<fcl::Vector3d>& corners,
                                          const std::function<bool(int, int)>& avoid);
 
-/// The length of the way round.
+/// Returns the length of the way round.
 double perimeterOf(const std::vector<fcl::Vector3d>& corners);
 
 }  // namespace kios

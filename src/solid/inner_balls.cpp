@@ -14,7 +14,7 @@ namespace {
 
 using Vec = fcl::Vector3d;
 
-/// A place of the surface.
+/// Holds a place of the surface.
 struct Sample {
   Vec point, inwards;
   double gap = std::numeric_limits<double>::infinity();  ///< to the nearest ball

@@ -19,7 +19,7 @@ struct InnerBalls {
   double gap = 0;  ///< about the mean distance of the surface from them
 };
 
-/// Balls that touch the surface, each where the ones before it leave most out.
+/// Returns balls that touch the surface, each where the ones before it leave most out.
 template <typename S>
 InnerBalls innerBalls(const Model<S>& model);
 

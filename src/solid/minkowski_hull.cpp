@@ -19,7 +19,7 @@ using Vec = fcl::Vector3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A polytope whose faces are triangles of points, wound outwards.
+/// Holds a polytope whose faces are triangles of points, wound outwards.
 class Polytope {
  public:
   struct Face {
@@ -140,7 +140,7 @@ class Polytope {
   std::vector<Face> faces_;
 };
 
-/// Four points that span the set, or none if it is flat.
+/// Finds four points that span the set, or none if it is flat.
 template <typename S>
 bool spanningPoints(const Differences<S>& set, double size,
                     std::array<typename Differences<S>::Point, 4>& p) {

@@ -7,7 +7,7 @@
 
 namespace kios {
 
-/// How deep the hulls of two meshes overlap, in a's frame.
+/// Says how deep the hulls of two meshes overlap, in a's frame.
 struct HullDepth {
   /// A ball of this radius about the origin lies in the hull of all differences a_i - b_j of
   /// vertices: proven; 0 if that couldn't be certified.
@@ -16,7 +16,7 @@ struct HullDepth {
   fcl::Vector3d normal = fcl::Vector3d::Zero();  ///< unit: b leaves a's hull along it; or zero
 };
 
-/// The extreme differences of vertices of two meshes, b's as posed in a's frame.
+/// Holds the extreme differences of vertices of two meshes, b's as posed in a's frame.
 template <typename S>
 class Differences {
  public:
@@ -28,7 +28,8 @@ class Differences {
     fcl::Vector3d at;
     int a = 0, b = 0;  ///< vertices of the graphs, from which the next walk may start
   };
-  /// A point that is farthest along n: proven by trees alone, and certain to be one of the points.
+  /// Returns a point that is farthest along n: proven by trees alone, and certain to be one of the
+  /// points.
   Point farthest(const fcl::Vector3d& n, const Point& near) const;
   /// n . p for the farthest point p: not less, rounding is paid for. n is a unit vector.
   double height(const fcl::Vector3d& n) const;

@@ -13,7 +13,7 @@
 namespace kios {
 namespace {
 
-/// The vertices that stay, in cubes as wide as the tolerance: near ones lie in the same or in
+/// Holds the vertices that stay, in cubes as wide as the tolerance: near ones lie in the same or in
 /// neighbouring cubes. Coordinates are those of the box, in parts of its longest side, so that
 /// squares neither overflow nor vanish.
 template <typename S>
@@ -28,7 +28,8 @@ class StayingVertices {
         // Wider by more than rounding, and not so small that indices overflow.
         cube_(std::max(tolerance * (1 + 0x1p-20), 0x1p-30)) {}
 
-  /// The nearest one within the tolerance, of equally near ones the first; -1 if there is none.
+  /// Returns the nearest one within the tolerance, of equally near ones the first; -1 if there is
+  /// none.
   int nearest(int vertex) const {
     const Eigen::Vector3d p = scaled(vertex);
     const Cube at = cubeOf(p);

@@ -8,7 +8,7 @@
 
 namespace kios {
 
-/// Vertices that stand for others.
+/// Names the vertices that stand for others.
 struct NearWeld {
   std::vector<int> by;  ///< by vertex, the one that stands for it; -1 for those that aren't used
   double tolerance = 0;

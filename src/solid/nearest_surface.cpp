@@ -15,7 +15,7 @@
 namespace kios {
 namespace {
 
-/// Lower bound of the distance of the content, but for rounding.
+/// Returns a lower bound of the distance of the content, but for rounding.
 template <typename S>
 double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double enough) {
   const double x = p[0] - double{bv.center0[0]}, y = p[1] - double{bv.center0[1]},
@@ -32,7 +32,7 @@ double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double enough) {
   return std::max(bound, ((u * u + v * v + w * w).sqrt() - at(bv.cap_r)).maxCoeff());
 }
 
-/// The nearest point of a segment.
+/// Returns the nearest point of a segment.
 fcl::Vector3d nearestOnSegment(const fcl::Vector3d& p, const fcl::Vector3d& a,
                                const fcl::Vector3d& b) {
   const fcl::Vector3d d = b - a;

@@ -8,21 +8,22 @@
 
 namespace kios {
 
-/// The surface of a model about a point.
+/// Holds the surface of a model about a point.
 struct NearestSurface {
   double lower = 0;  ///< no point of the surface is nearer: rounding is paid for
   double upper = std::numeric_limits<double>::infinity();  ///< distance of `point`; infinite: none
   fcl::Vector3d point = fcl::Vector3d::Zero();
 };
 
-/// For a point in the model's frame: lower >= upper (1 - rel_err) but for rounding, or lower >=
-/// enough, at which the search ends. It also ends once `upper` is below `least`; lower is then 0.
+/// Searches for a point in the model's frame: lower >= upper (1 - rel_err) but for rounding, or
+/// lower >= enough, at which the search ends. It also ends once `upper` is below `least`; lower is
+/// then 0.
 template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
                               double enough = std::numeric_limits<double>::infinity(),
                               double least = 0);
 
-/// What `lower` pays for rounding.
+/// Returns what `lower` pays for rounding.
 template <typename S>
 double surfaceError(const Model<S>& model, const fcl::Vector3d& p);
 

@@ -10,18 +10,19 @@
 
 namespace kios {
 
-/// Which closed components of a mesh lie in others. A component winds round no point outside of its
-/// box, so that a ray from a point looks only into the components whose boxes hold it: cavities in
-/// line don't meet each other's rays. O(n log n) for a mesh, unless many boxes overlap: it is O(log
-/// n) for each box that a component begins in, and a look at each that lies along its ray.
+/// Says which closed components of a mesh lie in others. A component winds round no point outside
+/// of its box, so that a ray from a point looks only into the components whose boxes hold it:
+/// cavities in line don't meet each other's rays. O(n log n) for a mesh, unless many boxes overlap:
+/// it is O(log n) for each box that a component begins in, and a look at each that lies along its
+/// ray.
 template <typename S>
 class Nesting {
  public:
   /// `parts` must live as long as this; each one must be closed.
   Nesting(const engine::MeshView<S>& mesh, const Components<S>& parts);
 
-  /// True if the others wind round the component's vertices, or all of these lie on others, so that
-  /// nothing is proven wrong.
+  /// Returns true if the others wind round the component's vertices, or all of these lie on others,
+  /// so that nothing is proven wrong.
   bool liesWithinOthers(int component);
 
  private:

@@ -69,7 +69,7 @@ class PenetrationQuery {
   }
 
  private:
-  /// By the one of the first few directions along which b leaves a's hull soonest.
+  /// Leaves by the one of the first few directions along which b leaves a's hull soonest.
   Exit leaveHulls(const Differences<S>& differences, const std::vector<Vec>& directions) {
     constexpr std::size_t kFew = 3;
     Vec best = Vec::UnitX();
@@ -84,7 +84,7 @@ class PenetrationQuery {
     return goAlong(pair_, pair_.R_WA() * best, least, pair_.size());
   }
 
-  /// Of solids that are not both convex. Those that overlap by little may leave as hulls do, or
+  /// Serves solids that are not both convex. Those that overlap by little may leave as hulls do, or
   /// nearby; others leave where their inner balls part.
   void search(const Differences<S>& differences) {
     const std::vector<Vec> directions = pair_.exitDirections();

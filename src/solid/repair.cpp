@@ -37,7 +37,7 @@ void requireValid(const RepairOptions& options) {
   }
 }
 
-/// The vertices that triangles use.
+/// Returns the vertices that triangles use.
 template <typename S>
 std::vector<bool> usedVertices(const std::vector<fcl::Vector3<S>>& vertices,
                                const std::vector<fcl::Triangle>& triangles) {

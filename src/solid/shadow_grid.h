@@ -14,7 +14,7 @@ namespace kios {
 class ShadowGrid {
  public:
   using Shadow = Eigen::Vector2d;
-  /// Around the shadow of a thing.
+  /// Encloses the shadow of a thing.
   struct Box {
     Shadow low = Shadow::Constant(4), high = Shadow::Constant(-4);
     void extend(const Box& o) {
@@ -27,7 +27,7 @@ class ShadowGrid {
 
   ShadowGrid(std::vector<Box> boxes, double largest);
 
-  /// Every thing that the ray from the point p may meet, by its number; none twice.
+  /// Finds every thing that the ray from the point p may meet, by its number; none twice.
   void find(const Point<double>& p, std::vector<std::size_t>& things) const;
 
  private:

@@ -82,14 +82,14 @@ class ShapeExit {
  private:
   Vec inModel(const Vec& p_W) const { return R_WM_.transpose() * (p_W - t_WM_); }
 
-  /// In the shape's frame. A half-space or plane ends along its own normal alone, to the bit, so
-  /// that it takes the place of what differs by rounding.
+  /// Turns n into the shape's frame. A half-space or plane ends along its own normal alone, to the
+  /// bit, so that it takes the place of what differs by rounding.
   Vec inShape(const Vec& n) const {
     if (solid_.bounded()) return R_WS_.transpose() * n;
     return n.dot(R_WS_ * solid_.normal) > 0 ? solid_.normal : Vec(-solid_.normal);
   }
 
-  /// b leaves the model's hull along n, in the world.
+  /// Returns the way by which b leaves the model's hull along n, in the world.
   double exitAlong(const Vec& n) const {
     const double shape = shape::extentAlong(solid_, inShape(-n)) - n.dot(t_WS_ - t_WM_);
     return farthestAlong<S>(model_, R_WM_.transpose() * n).height + shape;

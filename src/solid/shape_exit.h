@@ -16,8 +16,8 @@ std::optional<fcl::Vector3<S>> shapePointIn(const Model<S>& solid, const fcl::Tr
                                             const fcl::CollisionGeometry<S>& shape,
                                             const fcl::Transform3<S>& X_WS);
 
-/// A short translation of the shape that is proven to part it from a solid that it overlaps, and no
-/// lower bound: away from the hull along a few directions, shortened by bisection.
+/// Returns a short translation of the shape that is proven to part it from a solid that it
+/// overlaps, and no lower bound: away from the hull along a few directions, shortened by bisection.
 template <typename S>
 Penetration shapeExit(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
                       const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS);

@@ -16,7 +16,7 @@
 
 namespace kios {
 
-/// What queries want to know of a solid in one state of its model. Immutable, but for what is
+/// Says what queries want to know of a solid in one state of its model. Immutable, but for what is
 /// found out at its first use.
 template <typename S>
 class SolidState {
@@ -24,7 +24,7 @@ class SolidState {
   explicit SolidState(const Model<S>& model);
 
   const Closedness<S>& closedness() const { return closedness_; }
-  /// Vertices of a component that are extreme along the axes, from -x to +z.
+  /// Holds the vertices of a component that are extreme along the axes, from -x to +z.
   using Extremes = std::array<int, 6>;
   const std::vector<Extremes>& components() const { return components_; }
   /// The model must be in this state.
@@ -57,9 +57,9 @@ class SolidMark final : public engine::TreeCache::Attachment {
     }
     require(model);
   }
-  /// The same, and the state.
+  /// Does the same, and returns the state.
   std::shared_ptr<const SolidState<S>> require(const Model<S>& model);
-  /// The same without that check.
+  /// Returns the state without that check.
   std::shared_ptr<const SolidState<S>> stateOf(const Model<S>& model);
 
  private:
@@ -74,24 +74,24 @@ class SolidMark final : public engine::TreeCache::Attachment {
 };
 
 namespace detail {
-/// Of all models. While it is 0, no query looks for marks.
+/// Counts the marks of all models. While it is 0, no query looks for marks.
 extern std::atomic<int> num_solid_marks;
 
 template <typename S>
 SolidMark<S>* findMark(const Model<S>& model);
 }  // namespace detail
 
-/// True if any model is marked.
+/// Returns true if any model is marked.
 inline bool marksExist() { return detail::num_solid_marks.load(std::memory_order_relaxed) != 0; }
 
-/// The model's mark; nullptr if it has none.
+/// Returns the model's mark; nullptr if it has none.
 template <typename S>
 SolidMark<S>* markOf(const Model<S>& model) {
   return marksExist() ? detail::findMark(model) : nullptr;
 }
 
-/// True if both models are marked. Throws std::invalid_argument if one that is is no solid any
-/// more.
+/// Returns true if both models are marked. Throws std::invalid_argument if one that is is no solid
+/// any more.
 template <typename S>
 bool areSolids(const Model<S>& a, const Model<S>& b) {
   SolidMark<S>*const mark_a = markOf(a), *const mark_b = markOf(b);
@@ -104,8 +104,8 @@ bool areSolids(const Model<S>& a, const Model<S>& b) {
 /// Throws std::invalid_argument if the model is unfinished, not marked, or no solid any more.
 template <typename S>
 void checkSolid(const Model<S>& model);
-/// The same, and the solid's state. Throws std::invalid_argument if the model is unfinished, not
-/// marked, or no solid any more.
+/// Checks it, and returns the solid's state. Throws std::invalid_argument if the model is
+/// unfinished, not marked, or no solid any more.
 template <typename S>
 std::shared_ptr<const SolidState<S>> requireSolid(const Model<S>& model);
 

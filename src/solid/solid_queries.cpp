@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kNone = -1;
 
-/// A way out of an overlap: of object 2 in the world.
+/// Holds a way out of an overlap: of object 2 in the world.
 template <typename S>
 struct WayOut {
   fcl::Vector3<S> point, translation;

@@ -48,8 +48,8 @@ S distanceSolids(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<
                  const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
                  fcl::DistanceResult<S>& result);
 
-/// The same for a marked model and one of FCL's nine shapes. The translation is the shortest found,
-/// and proven to part them.
+/// Answers the same for a marked model and one of FCL's nine shapes. The translation is the
+/// shortest found, and proven to part them.
 template <typename S>
 std::size_t collideSolidShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                               const fcl::CollisionGeometry<S>& shape,

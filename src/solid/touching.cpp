@@ -10,7 +10,7 @@
 namespace kios {
 namespace {
 
-/// The side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
+/// Returns the side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
 template <typename Corners>
 int sideOf(const TriangleVertices<double>& plane, int num_triangles, const Corners& corners_of) {
   int side = 0;

@@ -9,8 +9,8 @@
 
 namespace kios {
 
-/// The vertices of a mesh, equal ones as one, and the edges between them. On a convex one a walk
-/// uphill along edges ends at the farthest vertex.
+/// Holds the vertices of a mesh, equal ones as one, and the edges between them. On a convex one a
+/// walk uphill along edges ends at the farthest vertex.
 class VertexGraph {
  public:
   VertexGraph() = default;
@@ -21,7 +21,7 @@ class VertexGraph {
 
   bool empty() const { return points_.empty(); }
   const fcl::Vector3d& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
-  /// A vertex with no neighbour that is farther along n, reached from `start`.
+  /// Returns a vertex with no neighbour that is farther along n, reached from `start`.
   int climb(const fcl::Vector3d& n, int start) const;
 
  private:

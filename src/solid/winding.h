@@ -7,11 +7,11 @@
 
 namespace kios {
 
-/// The direction of the rays that count: along no edge or face of ordinary meshes, so that the
-/// exact stages are rarely needed.
+/// Returns the direction of the rays that count: along no edge or face of ordinary meshes, so that
+/// the exact stages are rarely needed.
 inline fcl::Vector3d windingDirection() { return {0.36602540378443865, 0.61803398874989485, 1}; }
 
-/// Where a point lies relative to a closed oriented mesh.
+/// Says where a point lies relative to a closed oriented mesh.
 struct PointPlace {
   bool on_surface;
   int winding;  ///< the number of times that the mesh winds round the point, off the surface
@@ -19,7 +19,7 @@ struct PointPlace {
   bool inside() const { return on_surface || winding > 0; }
 };
 
-/// Exact, for a point in the model's frame; one ray through the model's tree.
+/// Decides exactly, for a point in the model's frame; one ray through the model's tree.
 template <typename S>
 PointPlace placeOf(const fcl::Vector3d& point, const Model<S>& model, SearchCounts& counts);
 

@@ -50,7 +50,7 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
       e[c] = third ? edge[2][c][i] : (second ? edge[1][c][i] : edge[0][c][i]);
       h[c] = third ? -edge[1][c][i] : (second ? -edge[0][c][i] : -edge[2][c][i]);
     }
-    // Of a point h and e are 0.
+    // If the triangle is a point, h and e are 0.
     const double along = (h[0] * e[0] + h[1] * e[1] + h[2] * e[2]) / (longest > 0 ? longest : 1.0);
     for (int c = 0; c < 3; ++c) h[c] -= along * e[c];
     const double height = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];

@@ -16,17 +16,16 @@
 // roundings of terms whose absolute values add up to m err by n u m; every constant leaves room for
 // the second order.
 //
-//   quantity                                  bound           derivation
-//   length from coordinates R x + T - c       sumError        11 u the coordinates, 12 u root and
-//   sums bound of two volumes at a pose            volumeError     sumError of all lengths that
-//   enter point in the common frame                 frameError      12.2 u |x|_1 + 8.7 u |T|_2
-//   stretch of a rotation that is none        stretchOf       |E1| and |E2|, known to 3 u a term
-//   bound of spheres in float lanes           laneError       16 roundings, and as many again
-//   bound of boxes in float lanes             boxError        96 roundings, and a third more
-//   distance of two triangles                 triangleError   16 eps, by the kernel's contract
-//   distance of two features                  featureError    32 u each
-//   length between a shape and a triangle     solidError      5 roundings a coordinate, and the
-//   kernels
+//   quantity                                 bound           derivation
+//   length from coordinates R x + T - c      sumError        11 u in, 12 u of root and sums
+//   bound of two volumes at a pose           volumeError     sumError of all lengths that enter
+//   point in the common frame                frameError      12.2 u |x|_1 + 8.7 u |T|_2
+//   stretch of a rotation that is none       stretchOf       |E1| and |E2|, known to 3 u a term
+//   bound of spheres in float lanes          laneError       16 roundings, and as many again
+//   bound of boxes in float lanes            boxError        96 roundings, and a third more
+//   distance of two triangles                triangleError   16 eps, by the kernel's contract
+//   distance of two features                 featureError    32 u each
+//   length between a shape and a triangle    solidError      5 roundings a coordinate, the kernels'
 //
 // A test measures how much of each bound rounding takes (test/volume/error_bounds_test.cpp).
 

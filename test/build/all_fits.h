@@ -9,7 +9,7 @@
 
 namespace kios::test {
 
-/// Every method with every choice of k, own and shared radii, and two other angles.
+/// Returns every method with every choice of k, own and shared radii, and two other angles.
 inline std::vector<FitOptions> allFits() {
   std::vector<FitOptions> fits;
   for (const auto method :

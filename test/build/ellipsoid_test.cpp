@@ -26,7 +26,7 @@ PointLanes lanesOf(const Points<double>& points) {
 
 Vec pointOf(const PointLanes& lanes, int i) { return {lanes.x()[i], lanes.y()[i], lanes.z()[i]}; }
 
-/// The corners of an octahedron (6) or a cube (8) on the unit sphere.
+/// Returns the corners of an octahedron (6) or a cube (8) on the unit sphere.
 Points<double> regularPoints(int corners) {
   Points<double> points;
   for (int i = 0; i < corners; ++i) {

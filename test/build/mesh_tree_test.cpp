@@ -164,7 +164,7 @@ TEST(MeshTreeFit, IsNearlyAsTightAsTheTunedFit) {
   expect("large", large, 1.02, 1.1);
 }
 
-/// Triangles that are hard to divide. `count` is for the large ones.
+/// Returns triangles that are hard to divide. `count` is for the large ones.
 std::vector<NamedMesh> hardMeshes(int count) {
   std::vector<NamedMesh> meshes = {{"one triangle again and again", repeated(count)}};
   scenes::Mesh concentric;

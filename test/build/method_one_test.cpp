@@ -28,8 +28,8 @@ FitOptions optionsOf(FitMethod method, SphereCount count, bool shared = false) {
   return options;
 }
 
-/// Points whose smallest enclosing ellipsoid has the semi-axes `half` along the columns of R: the
-/// six poles and random points of its surface.
+/// Returns points whose smallest enclosing ellipsoid has the semi-axes `half` along the columns of
+/// R: the six poles and random points of its surface.
 Points<double> ellipsoidPoints(Random& random, const Vec& half, const fcl::Matrix3d& R,
                                const Vec& center) {
   Points<double> points;
@@ -142,7 +142,7 @@ TEST(FitOptions, KIsChosenAsAsked) {
   }
 }
 
-/// The distance of S0's centre to the far side of cap i.
+/// Returns the distance of S0's centre to the far side of cap i.
 double farSide(const kIOSd& v, int i) { return capRadius(v, i) - capOffset(v, i).norm(); }
 
 TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {

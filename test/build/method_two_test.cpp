@@ -80,7 +80,7 @@ Published published(const Points<double>& points) {
   return v;
 }
 
-/// A box of half extents 1, b, c with distinct variances, filled with points on its faces.
+/// Returns a box of half extents 1, b, c with distinct variances, filled with points on its faces.
 Points<double> boxPoints(Random& random, int n, double b, double c) {
   Points<double> points(n);
   for (int i = 0; i < n; ++i) {

@@ -14,7 +14,8 @@ namespace {
 
 using Vec = fcl::Vector3<long double>;
 
-/// The minimal enclosing ball, by Welzl's algorithm, in coordinates relative to the first point.
+/// Holds the minimal enclosing ball, by Welzl's algorithm, in coordinates relative to the first
+/// point.
 class MinimalBall {
  public:
   template <typename S>
@@ -63,7 +64,8 @@ class MinimalBall {
   long double squared_ = -1;
 };
 
-/// The minimal enclosing circle of a triangle: on the longest edge, or the circumcircle if acute.
+/// Returns the minimal enclosing circle of a triangle: on the longest edge, or the circumcircle if
+/// acute.
 template <typename S>
 long double minimalCircle(const Points<S>& t) {
   const Vec p[3] = {t[0].template cast<long double>(), t[1].template cast<long double>(),
@@ -87,7 +89,7 @@ class Tightness : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(Tightness, Scalars);
 
-/// A triangle of size 1, `thin` high, its apex at `along` the longest edge.
+/// Returns a triangle of size 1, `thin` high, its apex at `along` the longest edge.
 Points<double> thinTriangle(double along, double thin, int apex) {
   Points<double> t(3);
   t[apex] << along, thin, 0;

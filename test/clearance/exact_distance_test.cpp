@@ -20,7 +20,7 @@ class ExactPair : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(ExactPair, Scalars);
 
-/// The mean of the points around v's S0: inside all spheres.
+/// Returns the mean of the points around v's S0: inside all spheres.
 template <typename S>
 Real3 middleOf(const Points<S>& points, const kIOS<S>& v) {
   Real3 sum = Real3::Zero();
@@ -34,7 +34,8 @@ Real3 middleOf(const Points<S>& points, const kIOS<S>& v) {
 template <typename S>
 constexpr double kUnderflow = 256.0 * std::numeric_limits<S>::denorm_min();
 
-/// The length that errors are relative to: the size of the pair, and the rounding of translations.
+/// Returns the length that errors are relative to: the size of the pair, and the rounding of
+/// translations.
 template <typename S>
 Real scaleOf(const HardPair<S>& pair) {
   return pair.reaches() + 1e14L * pair.rounding() * pair.magnitude();

@@ -23,7 +23,7 @@ fcl::Matrix3d turned(const fcl::Vector3d& w, const fcl::Matrix3d& R) {
   return fcl::AngleAxisd(angle, w / angle).toRotationMatrix() * R;
 }
 
-/// A pair of fitted volumes of size about 1, apart.
+/// Holds a pair of fitted volumes of size about 1, apart.
 struct OrdinaryPair {
   explicit OrdinaryPair(Random& random) {
     const auto draw = [&random] {
@@ -119,7 +119,7 @@ TEST(ExactGradient, IsContinuousAlongRandomPaths) {
   EXPECT_GT(paths, 45);
 }
 
-/// Largest change of the slope of f from one step to the next on [-range, range].
+/// Returns the largest change of the slope of f from one step to the next on [-range, range].
 double largestJump(const std::function<double(double)>& slope, double range, int steps) {
   double largest = 0, before = slope(-range);
   for (int s = 1; s <= steps; ++s) {

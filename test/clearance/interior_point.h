@@ -15,7 +15,7 @@ using Real = long double;
 using Real3 = Eigen::Matrix<Real, 3, 1>;
 using Real33 = Eigen::Matrix<Real, 3, 3>;
 
-/// A volume's spheres exactly as stored, around its own S0.
+/// Holds a volume's spheres exactly as stored, around its own S0.
 struct StoredBalls {
   struct Sphere {
     Real3 c;
@@ -31,7 +31,7 @@ struct StoredBalls {
       spheres.push_back({Real3(s.offset[0], s.offset[1], s.offset[2]), s.radius});
     }
   }
-  /// max |x - c| - r, x relative to S0's centre.
+  /// Returns max |x - c| - r, x relative to S0's centre.
   Real outside(const Real3& x) const {
     Real worst = -1e300L;
     for (const Sphere& s : spheres) worst = std::max(worst, (x - s.c).norm() - s.r);
@@ -46,8 +46,9 @@ struct Bracket {
   Real3 x, y;
 };
 
-/// The log-barrier method in long double on min |x - (R w + d)|^2 subject to the spheres: general
-/// convex optimisation, which knows nothing of circles, vertices or slabs. x and w start inside.
+/// Returns the log-barrier method in long double on min |x - (R w + d)|^2 subject to the spheres:
+/// general convex optimisation, which knows nothing of circles, vertices or slabs. x and w start
+/// inside.
 inline Bracket interiorPointDistance(const StoredBalls& a, const StoredBalls& b, const Real33& R,
                                      const Real3& d, Real3 x, Real3 w) {
   using Real6 = Eigen::Matrix<Real, 6, 1>;

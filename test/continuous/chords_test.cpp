@@ -45,7 +45,7 @@ class ChordsOf : public ::testing::TestWithParam<fcl::CCDMotionType> {
   }
 };
 
-/// A point of a body at a time, in the frame that is body A's at t.
+/// Returns a point of a body at a time, in the frame that is body A's at t.
 Vector3d placeAt(const continuous::Motion& body, const continuous::Motion& a, double t, double time,
                  const Vector3d& x) {
   return a.pose(t).inverse(Eigen::Isometry) * (body.pose(time) * x);

@@ -40,7 +40,7 @@ inline Transform3d at(double x, double y, double z, double angle = 0,
   return X;
 }
 
-/// FCL's own pose at t, by its own object.
+/// Returns FCL's own pose at t, by its own object.
 inline Transform3d poseAt(const fcl::MotionBased& motion, double t) {
   Transform3d X;
   motion.integrate(t);
@@ -60,7 +60,7 @@ struct Sampling {
     return fcl::collide(&first, poseAt(motion1, t), &second, poseAt(motion2, t),
                         fcl::CollisionRequestd(), contacts) > 0;
   }
-  /// The first of n + 1 times at which they touch; 2 if there is none.
+  /// Returns the first of n + 1 times at which they touch; 2 if there is none.
   double firstOf(int n) const {
     for (int k = 0; k <= n; ++k) {
       if (touchAt(1.0 * k / n)) return 1.0 * k / n;
@@ -74,7 +74,7 @@ struct Sampling {
   }
 };
 
-/// FCL's motion between two poses; splines in de Boor points, as its constructor is empty.
+/// Returns FCL's motion between two poses; splines in de Boor points, as its constructor is empty.
 inline Motion motionOf(fcl::CCDMotionType type, const Transform3d& X_0, const Transform3d& X_1) {
   switch (type) {
     case fcl::CCDM_TRANS:
@@ -135,7 +135,7 @@ inline fcl::ContinuousCollisionResultd askBoth(const fcl::CollisionGeometryd& a,
   return forth;
 }
 
-/// The outcomes of random motions, of which some must hit and others miss.
+/// Holds the outcomes of random motions, of which some must hit and others miss.
 struct Outcomes {
   int hits = 0, queries = 0;
   ContinuousCounts counts;

@@ -13,7 +13,7 @@ namespace {
 
 class RandomMotions : public ::testing::TestWithParam<fcl::CCDMotionType> {};
 
-/// A motion of the type that rushes through about where the other object is.
+/// Returns a motion of the type that rushes through about where the other object is.
 Motion randomMotion(fcl::CCDMotionType type, double spread, std::mt19937_64& random,
                     const Vector3d& offset) {
   std::uniform_real_distribution<double> u(-1, 1);

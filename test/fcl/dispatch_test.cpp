@@ -64,7 +64,7 @@ std::map<std::string, Geometry> othersThanKios() {
   return others;
 }
 
-/// True for shapes and octrees, which all queries serve.
+/// Returns true for shapes and octrees, which all queries serve.
 bool isServed(const fcl::CollisionGeometryd& other) {
   return other.getObjectType() == fcl::OT_OCTREE ||
          (other.getObjectType() == fcl::OT_GEOM && other.getNodeType() != fcl::GEOM_TRIANGLE);

@@ -15,7 +15,7 @@
 namespace kios::testing {
 namespace {
 
-/// The mesh and the poses with coordinates that floats hold.
+/// Returns the mesh and the poses with coordinates that floats hold.
 Mesh inFloats(Mesh mesh) {
   for (Vector3d& p : mesh.vertices) p = p.cast<float>().cast<double>();
   return mesh;
@@ -34,7 +34,7 @@ std::vector<Frame> floatFrames(int count, double spread, std::uint64_t seed) {
 /// The tolerance for answers about objects of extent `size` about the origin.
 double tolerance(double size) { return 128 * 0x1p-23 * size; }
 
-/// A pair of float models, and the oracle over their vertices.
+/// Holds a pair of float models, and the oracle over their vertices.
 struct FloatPair {
   FloatPair(const Mesh& mesh_a_, const Mesh& mesh_b_)
       : mesh_a(inFloats(mesh_a_)),

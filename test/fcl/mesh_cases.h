@@ -32,14 +32,15 @@ using Pairs = scenes::MeshOracle::Pairs;
 
 inline constexpr std::size_t kAllContacts = std::numeric_limits<std::size_t>::max();
 
-/// Two meshes, each to be posed at random within [-spread, spread]^3, so that some poses touch.
+/// Holds two meshes, each to be posed at random within [-spread, spread]^3, so that some poses
+/// touch.
 struct MeshCase {
   const char* name;
   Mesh a, b;
   double spread;
 };
 
-/// Meshes in general position with edges of at least 1e-2.
+/// Returns meshes in general position with edges of at least 1e-2.
 inline std::vector<MeshCase> meshCases() {
   using namespace scenes;
   const Mesh triangle = singleTriangle({0.3, 0.1, -0.2}, {-0.4, 0.7, 0.1}, {0.2, -0.5, 0.6});
@@ -66,7 +67,7 @@ inline std::vector<Frame> randomFrames(int count, double spread, std::uint64_t s
   return frames;
 }
 
-/// The larger extent of the two, by which errors are measured.
+/// Returns the larger extent of the two, by which errors are measured.
 inline double sizeOf(const Mesh& a, const Mesh& b) { return std::max(extent(a), extent(b)); }
 
 inline std::shared_ptr<Modeld> kiosModel(const Mesh& mesh) {
@@ -85,7 +86,7 @@ inline std::array<Vector3d, 3> corners(const Mesh& mesh, std::intptr_t triangle)
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// Distance of p to the triangle, both in the world frame.
+/// Returns the distance of p to the triangle, both in the world frame.
 inline double distanceToTriangle(const Vector3d& p, const Transform3d& X_WT, const Mesh& mesh,
                                  std::intptr_t triangle) {
   const scenes::ExactPoint point = p.cast<long double>();
@@ -98,7 +99,7 @@ inline double distanceToTriangle(const Vector3d& p, const Transform3d& X_WT, con
   return static_cast<double>(scenes::triangleDistance(placed, {point, point, point}));
 }
 
-/// The triangle pairs that contacts name, ascending, each once.
+/// Returns the triangle pairs that contacts name, ascending, each once.
 template <typename S>
 Pairs contactPairs(const fcl::CollisionResult<S>& result) {
   std::set<std::pair<int, int>> pairs;
@@ -109,7 +110,7 @@ Pairs contactPairs(const fcl::CollisionResult<S>& result) {
   return {pairs.begin(), pairs.end()};
 }
 
-/// The triangles of B in A's frame, as the library places them.
+/// Returns the triangles of B in A's frame, as the library places them.
 inline std::vector<TriangleVertices<double>> placed(const Mesh& b, const Frame& frame) {
   const RelativePose<double> X_AB(frame.X_WA, frame.X_WB);
   std::vector<TriangleVertices<double>> triangles;
@@ -120,7 +121,7 @@ inline std::vector<TriangleVertices<double>> placed(const Mesh& b, const Frame& 
   return triangles;
 }
 
-/// The library's triangle kernels over all pairs of triangles, without a tree.
+/// Returns the library's triangle kernels over all pairs of triangles, without a tree.
 inline double leafDistance(const Mesh& a, const Mesh& b, const Frame& frame) {
   const auto triangles_b = placed(b, frame);
   double best = std::numeric_limits<double>::max();
@@ -144,7 +145,7 @@ inline Pairs leafPairs(const Mesh& a, const Mesh& b, const Frame& frame) {
   return pairs;
 }
 
-/// The answer of FCL's triangle routine for a pair that meets, in A's frame.
+/// Holds the answer of FCL's triangle routine for a pair that meets, in A's frame.
 struct FclContact {
   std::array<Vector3d, 3> points;  ///< FCL's routine writes up to 3
   unsigned int num_points = 0;

@@ -24,7 +24,8 @@ using CellTriangle = std::pair<std::intptr_t, int>;
 
 constexpr double kOccupied = 0.9, kUncertain = 0.6, kFree = 0.1;
 
-/// Random cells of `kinds`: occupied, uncertain and free ones. Some are merged to larger cells.
+/// Returns random cells of `kinds`: occupied, uncertain and free ones. Some are merged to larger
+/// cells.
 std::shared_ptr<octomap::OcTree> randomTree(double resolution, int cells, std::uint64_t seed,
                                             bool occupied_only) {
   auto tree = std::make_shared<octomap::OcTree>(resolution);
@@ -47,7 +48,7 @@ std::shared_ptr<octomap::OcTree> randomTree(double resolution, int cells, std::u
   return tree;
 }
 
-/// A leaf of the octree, its query cell id, and its box in the octree's frame.
+/// Holds a leaf of the octree, its query cell id, and its box in the octree's frame.
 struct Leaf {
   std::intptr_t id;
   Vector3d center, half;
@@ -64,7 +65,7 @@ std::vector<Leaf> occupiedLeaves(const fcl::OcTree<S>& octree, const octomap::Oc
   return leaves;
 }
 
-/// Distance of a triangle and a full box, both in the box's frame.
+/// Returns the distance of a triangle and a full box, both in the box's frame.
 Real boxDistance(const ExactPoint& half, const ExactTriangle& t) {
   for (const ExactPoint& p : t) {
     if ((p.cwiseAbs() - half).maxCoeff() <= 0) return 0;

@@ -15,8 +15,8 @@ namespace kios::testing {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-/// A geometry of every kind that a mesh over k-IOS may meet, by name, all about the origin and of
-/// size 1: the nine shapes, a mesh and an octree.
+/// Returns a geometry of every kind that a mesh over k-IOS may meet, by name, all about the origin
+/// and of size 1: the nine shapes, a mesh and an octree.
 inline std::map<std::string, Geometry> partners() {
   std::map<std::string, Geometry> all;
   scenes::Random random(3);

@@ -36,7 +36,7 @@ void checkRefused(const char* what, const Call& call) {
   }
 }
 
-/// A unit square at the origin, normal to x.
+/// Returns a unit square at the origin, normal to x.
 template <typename S>
 std::shared_ptr<kios::Model<S>> square() {
   using V = fcl::Vector3<S>;

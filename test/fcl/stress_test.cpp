@@ -27,7 +27,7 @@ struct SoupPair {
   std::vector<Vector3d> a, b;  // three a triangle
 };
 
-/// The first triangles of `count` pairs of a class, and the second ones, as two soups.
+/// Returns the first triangles of `count` pairs of a class, and the second ones, as two soups.
 SoupPair soups(std::size_t class_index, std::size_t count, std::uint64_t seed) {
   SoupPair soups;
   for (const auto& pair : scenes::trianglePairs(class_index, count, seed)) {

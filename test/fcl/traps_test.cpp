@@ -11,7 +11,7 @@
 namespace kios::testing {
 namespace {
 
-/// Ordinary and degenerate.
+/// Returns both ordinary and degenerate.
 std::map<std::string, Mesh> meshes() {
   using namespace scenes;
   std::map<std::string, Mesh> all = {

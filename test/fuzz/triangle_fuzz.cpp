@@ -22,7 +22,7 @@ class Bytes {
   /// 0 at the end.
   std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
 
-  /// A double of any bits.
+  /// Returns a double of any bits.
   double raw() {
     std::uint64_t bits = 0;
     for (int i = 0; i < 8; ++i) bits = bits << 8 | byte();
@@ -36,7 +36,7 @@ class Bytes {
   std::size_t size_, at_ = 0;
 };
 
-/// Coordinates at most 1e300, the range of the contract.
+/// Returns coordinates at most 1e300, the range of the contract.
 double inRange(double v) {
   if (!std::isfinite(v)) return 0;
   return std::abs(v) <= 1e300 ? v : std::ldexp(v, -40);

@@ -15,7 +15,7 @@ Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Transla
 
 Geometry box(double x, double y, double z) { return modelOf(scenes::subdividedBox({x, y, z}, 2)); }
 
-/// A mesh that slides along x, and an obstacle at the origin.
+/// Returns a mesh that slides along x, and an obstacle at the origin.
 RobotCase slider(const Geometry& obstacle, bool carried) {
   RobotCase robot;
   Joint joint;

@@ -23,7 +23,7 @@ Joint joint(JointType type, const Vector3d& place, const Vector3d& axis) {
 
 Geometry box(double x, double y, double z) { return modelOf(scenes::subdividedBox({x, y, z}, 2)); }
 
-/// A box that slides along x, one unit of q a metre.
+/// Returns a box that slides along x, one unit of q a metre.
 RobotCase slider(const Geometry& body) {
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0}));
@@ -154,7 +154,7 @@ TEST(CheckMotion, SharedJointsCancel) {
   EXPECT_NEAR(ask(robot, q0, q1, true).to, 0.5, 1e-4);
 }
 
-/// Shapes as links, and as obstacles.
+/// Returns shapes as links, and as obstacles.
 std::vector<Geometry> shapes() {
   return {std::make_shared<fcl::Sphered>(0.12),
           std::make_shared<fcl::Capsuled>(0.05, 0.4),

@@ -63,7 +63,7 @@ struct LineWorld {
     robot.addBody(-1, modelOf(mesh));
   }
 
-  /// The first s in [0, 1] of all pairs of a mover and an obstacle; 2 if there is none.
+  /// Returns the first s in [0, 1] of all pairs of a mover and an obstacle; 2 if there is none.
   double first() const {
     double least = 2;
     for (std::size_t i = 0; i < movers.size(); ++i) {
@@ -76,7 +76,7 @@ struct LineWorld {
     }
     return least;
   }
-  /// The least distance of any pair at s; 0 or less in contact.
+  /// Returns the least distance of any pair at s; 0 or less in contact.
   double gapAt(double s) const {
     double least = 1e9;
     for (std::size_t i = 0; i < movers.size(); ++i) {

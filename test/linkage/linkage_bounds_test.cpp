@@ -23,7 +23,7 @@ Mesh linkMesh(Random& random) {
   return mesh;
 }
 
-/// Two chains on a stem of joints that carry both.
+/// Holds two chains on a stem of joints that carry both.
 struct TwoChains {
   RobotCase robot;
   Mesh meshes[2];

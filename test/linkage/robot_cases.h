@@ -51,7 +51,7 @@ inline Joints between(const Joints& q0, const Joints& q1, double s) {
   return s == 1 ? q1 : Joints(q0 + s * (q1 - q0));
 }
 
-/// A linkage and all that was put into it.
+/// Holds a linkage and all that was put into it.
 struct RobotCase {
   struct Body {
     int link;
@@ -81,7 +81,7 @@ struct RobotCase {
     return bodies[a].link != bodies[b].link && allowed.count(std::minmax(a, b)) == 0;
   }
 
-  /// Poses of all bodies at q, each rounded once.
+  /// Returns poses of all bodies at q, each rounded once.
   std::vector<Transform3d> poses(const Joints& q) const {
     using Matrix = Eigen::Matrix<long double, 3, 3>;
     using Vector = Eigen::Matrix<long double, 3, 1>;
@@ -125,7 +125,7 @@ struct RobotCase {
     return result;
   }
 
-  /// fcl::collide, or fcl::distance <= separation.
+  /// Returns the answer of fcl::collide, or fcl::distance <= separation.
   bool meet(int a, const Transform3d& X_WA, int b, const Transform3d& X_WB,
             double separation) const {
     const auto *first = bodies[a].geometry.get(), *second = bodies[b].geometry.get();

@@ -18,7 +18,7 @@ Geometry meshBox(const Vector3d& size, bool solid) {
   return model;
 }
 
-/// A box with a cavity, or with another box in it, beside it or around it: two components.
+/// Returns a box with a cavity, or with another box in it, beside it or around it: two components.
 Geometry twoBoxes(const Vector3d& outer, const Vector3d& inner, const Vector3d& place,
                   bool cavity) {
   Mesh mesh = scenes::subdividedBox(outer, 1), second = scenes::subdividedBox(inner, 1);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kPi = 3.141592653589793;
 
-/// A ring around z, its wall from the radius `inner` of the faces within to `outer` of the corners
-/// without.
+/// Returns a ring around z, its wall from the radius `inner` of the faces within to `outer` of the
+/// corners without.
 Mesh ring(double inner, double outer, double height, int n) {
   Mesh mesh;
   for (int i = 0; i < n; ++i) {
@@ -35,7 +35,7 @@ Mesh ring(double inner, double outer, double height, int n) {
   return mesh;
 }
 
-/// A prism about z, `radius` to its corners, which are turned by `turn` of a side.
+/// Returns a prism about z, `radius` to its corners, which are turned by `turn` of a side.
 Mesh rod(double radius, double height, int n, double turn) {
   Mesh mesh;
   mesh.vertices = {{0, 0, -0.5 * height}, {0, 0, 0.5 * height}};
@@ -56,7 +56,7 @@ Mesh rod(double radius, double height, int n, double turn) {
   return mesh;
 }
 
-/// Part of a sphere's mesh, from the polar angle `from` on.
+/// Returns a part of a sphere's mesh, from the polar angle `from` on.
 Mesh bowl(double radius, double from, int n, int rows) {
   Mesh mesh;
   for (int i = 0; i <= rows; ++i) {
@@ -80,7 +80,7 @@ Mesh bowl(double radius, double from, int n, int rows) {
   return mesh;
 }
 
-/// A body on joints about, or along, `axes` through the origin of a frame that is anywhere.
+/// Returns a body on joints about, or along, `axes` through the origin of a frame that is anywhere.
 RobotCase fitted(const Geometry& body, const Geometry& around, JointType type,
                  const std::vector<Vector3d>& axes, bool turned) {
   RobotCase robot;
@@ -125,7 +125,7 @@ TEST(TightFits, ARodSlidesThroughARing) {
       const RobotCase robot = fitted(peg, hole, JointType::kPrismatic, {{0, 0, 1}}, turned);
       expectClear(robot, Joints::Constant(1, 0.5), 300);
       if (clearance > 1e-7) expectClear(robot, Joints::Constant(1, 0.5), 300, 0.5 * clearance);
-      // The same the other way about, and as a shape.
+      // It holds the other way about, too, and for a shape.
       expectClear(fitted(hole, peg, JointType::kPrismatic, {{0, 0, 1}}, turned),
                   Joints::Constant(1, 0.5), 300);
       expectClear(fitted(std::make_shared<fcl::Cylinderd>(0.01, 2), hole, JointType::kPrismatic,

@@ -18,7 +18,7 @@ using fcl::Vector3d;
 using Vertices = std::vector<Vector3d>;
 using Triangles = std::vector<fcl::Triangle>;
 
-/// A sheet of 2 n n triangles, curved by `bend`.
+/// Returns a sheet of 2 n n triangles, curved by `bend`.
 Vertices sheet(int n, double bend) {
   Vertices vertices;
   for (int i = 0; i <= n; ++i) {

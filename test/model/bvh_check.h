@@ -62,7 +62,7 @@ std::vector<fcl::BVNode<kIOS<S>>> nodesOf(const Model<S>& model) {
   return {&model.getBV(0), &model.getBV(0) + model.getNumBVs()};
 }
 
-/// Equal topology, and volumes that are equal bit by bit.
+/// Asks for equal topology, and volumes that are equal bit by bit.
 template <typename S>
 bool sameTree(const Model<S>& a, const std::vector<fcl::BVNode<kIOS<S>>>& b) {
   return a.getNumBVs() == static_cast<int>(b.size()) &&

@@ -17,7 +17,7 @@ namespace {
 
 class LentVolumes : public ::testing::Test {
  protected:
-  /// Whether a build of this mesh would find volumes to copy.
+  /// Returns whether a build of this mesh would find volumes to copy.
   static bool areLent(const Mesh& mesh) {
     const std::size_t n = mesh.triangles.size();
     std::vector<fcl::BVNode<kIOSd>> nodes(2 * n - 1);

@@ -29,7 +29,7 @@ std::shared_ptr<Model<S>> loaded(const Bytes& bytes) {
   return load<S>(bytes.data(), bytes.size());
 }
 
-/// What load() says of the bytes; empty if it takes them.
+/// Returns what load() says of the bytes; empty if it takes them.
 template <typename S = double>
 std::string refusal(const Bytes& bytes) {
   try {
@@ -40,7 +40,7 @@ std::string refusal(const Bytes& bytes) {
   return "";
 }
 
-/// The bytes with the hash that belongs to them.
+/// Returns the bytes with the hash that belongs to them.
 Bytes rehashed(Bytes bytes) {
   constexpr std::size_t kHash = 24;
   for (std::size_t i = 0; i < 16; ++i) bytes.at(kHash + i) = 0;

@@ -12,7 +12,7 @@
 namespace kios::testing {
 namespace {
 
-/// A volume around all that the test's models ever are.
+/// Returns a volume around all that the test's models ever are.
 kIOSd reach() {
   std::vector<Vector3d> box;
   for (int i = 0; i < 8; ++i) {
@@ -36,7 +36,7 @@ class DerivedFitter final : public fcl::detail::BVFitter<kIOSd> {
   const kIOSd volume_ = reach();
 };
 
-/// The same by FCL's interface alone.
+/// Does so by FCL's interface alone.
 class PlainFitter final : public fcl::detail::BVFitterBase<kIOSd> {
  public:
   explicit PlainFitter(int least) : least_(least) {}

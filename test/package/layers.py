@@ -28,7 +28,7 @@ faults = []
 
 
 def layer(path):
-    """Of a file named relative to its include directory; None if that isn't ours."""
+    """Returns the layer of a file by its path in an include directory; None if that isn't ours."""
     parts = path.removeprefix("fcl_kios/").split("/")
     for room, headers in MOVED.items():
         if "/".join(parts) in headers:

@@ -33,8 +33,8 @@ std::shared_ptr<kios::Modeld> box(double half) {
 
 extern "C" {
 
-/// The distance of two cubes of edge 2 whose centres lie `shift` apart along x; below 0 if anything
-/// else is wrong.
+/// Returns the distance of two cubes of edge 2 whose centres lie `shift` apart along x; below 0 if
+/// anything else is wrong.
 double plugin_distance(double shift) {
   const auto a = box(1), b = box(1);
   b->beginReplaceModel();

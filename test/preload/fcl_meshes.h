@@ -16,7 +16,7 @@ struct Soup {
   std::vector<fcl::Triangle> triangles;
 };
 
-/// Torus about z of so many squares, radii `size` and about 0.4 of it, with bumps.
+/// Returns a torus about z of so many squares, radii `size` and about 0.4 of it, with bumps.
 inline Soup torus(int around, int across, double size = 1) {
   const double pi = std::acos(-1);
   Soup soup;

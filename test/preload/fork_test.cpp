@@ -30,7 +30,7 @@ void resize(Model& model, const Soup& soup) {
   model.endUpdateModel(true, false);
 }
 
-/// The child's work: as often as it takes to have a twin of the changed model.
+/// Does the child's work: as often as it takes to have a twin of the changed model.
 bool answersAreRight(Model& a, const Model& b, unsigned seed) {
   const Soup smaller = torus(24, 16, 0.8);
   resize(a, smaller);

@@ -116,7 +116,7 @@ void askOthers() {
   }
 }
 
-/// What a program does to its models between queries.
+/// Says what a program does to its models between queries.
 template <typename BV>
 void changeModels(const std::string& name) {
   const Soup soup = torus(18, 12);

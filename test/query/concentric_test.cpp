@@ -56,7 +56,7 @@ Mesh centredSoup(Random& random, int count, double size, double spread) {
   return mesh;
 }
 
-/// Five triangles of size `part` on a line of length 2, `offset` from the mesh's origin.
+/// Returns five triangles of size `part` on a line of length 2, `offset` from the mesh's origin.
 Mesh dashedRod(Random& random, double part, const Vector3d& offset) {
   Mesh mesh;
   const auto add = [&](double x) {

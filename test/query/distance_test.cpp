@@ -22,7 +22,7 @@ struct Scene {
   std::vector<Poses<S>> poses;
 };
 
-/// Pairs on their way and at random poses; by the engine and in FCL's tree.
+/// Returns pairs on their way and at random poses; by the engine and in FCL's tree.
 template <typename S>
 std::vector<Scene<S>> scenesOf() {
   using namespace scenes;

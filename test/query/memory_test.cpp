@@ -39,7 +39,7 @@ void* call(void* ask) {
   return nullptr;
 }
 
-/// The bytes of a thread's stack that were written.
+/// Returns the bytes of a thread's stack that were written.
 std::size_t stackOfThread(const std::function<void()>& ask) {
   std::vector<std::uint64_t> stack(kStack / sizeof(std::uint64_t), kPaint);
   pthread_attr_t attributes;

@@ -27,7 +27,7 @@ fcl::Vector3<S> randomPoint(scenes::Random& random, double size) {
       .cast<S>();
 }
 
-/// The point as a mesh: a degenerate triangle, three times.
+/// Returns the point as a mesh: a degenerate triangle, three times.
 template <typename S>
 std::shared_ptr<Model<S>> pointModel(const fcl::Vector3<S>& p) {
   return makeModel<S>({p, p, p}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}});

@@ -36,7 +36,7 @@ std::shared_ptr<Model<S>> modelOf(const Mesh& mesh, bool own_fitter = true) {
   return model;
 }
 
-/// The mesh with vertices that S can hold.
+/// Returns the mesh with vertices that S can hold.
 template <typename S>
 Mesh rounded(Mesh mesh) {
   for (fcl::Vector3d& p : mesh.vertices) p = p.template cast<S>().template cast<double>();
@@ -52,7 +52,8 @@ inline fcl::Vector3d centreOf(const Mesh& mesh) {
   return (low + high) / 2;
 }
 
-/// Random poses, in S, at which both centres lie within `spread` of the origin or of each other.
+/// Holds random poses, in S, at which both centres lie within `spread` of the origin or of each
+/// other.
 template <typename S>
 struct Poses {
   fcl::Transform3<S> X_WA, X_WB;

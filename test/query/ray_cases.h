@@ -21,7 +21,7 @@ namespace kios::testing {
 template <typename S>
 const fcl::Transform3<S> kIdentity = fcl::Transform3<S>::Identity();
 
-/// A model that must be searched in FCL's tree.
+/// Returns a model that must be searched in FCL's tree.
 template <typename S>
 std::shared_ptr<Model<S>> unpreparedModel(const Mesh& mesh) {
   auto model = std::make_shared<Model<S>>();
@@ -37,7 +37,7 @@ struct ExactHit {
   scenes::RationalRayHit hit;
 };
 
-/// Every triangle that the ray meets, in the model's frame.
+/// Returns every triangle that the ray meets, in the model's frame.
 template <typename S>
 std::vector<ExactHit> bruteForce(const Model<S>& model, const Ray<S>& ray) {
   const scenes::RationalRay exact = {ray.origin.template cast<double>(),
@@ -113,7 +113,8 @@ void expectOnBoth(const Model<S>& model, const Ray<S>& ray, const RayHit<S>& hit
   EXPECT_LE((hit.point.template cast<long double>() - point).norm(), bound);
 }
 
-/// All queries against brute force, the model at the world's origin. Returns the number of hits.
+/// Asks all queries against brute force, the model at the world's origin. Returns the number of
+/// hits.
 template <typename S>
 std::size_t expectBruteForce(const Model<S>& model, const Ray<S>& ray) {
   SCOPED_TRACE(::testing::Message()
@@ -136,8 +137,8 @@ std::size_t expectBruteForce(const Model<S>& model, const Ray<S>& ray) {
   return hits.size();
 }
 
-/// Rays that are hard for a mesh: through its vertices and edges, along its edges, in its planes,
-/// from its points, and any.
+/// Holds rays that are hard for a mesh: through its vertices and edges, along its edges, in its
+/// planes, from its points, and any.
 template <typename S>
 class HardRays {
  public:

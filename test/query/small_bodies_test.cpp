@@ -16,7 +16,7 @@ using scenes::Random;
 
 Mesh box(const fcl::Vector3d& size) { return scenes::subdividedBox(size, 1); }
 
-/// Soups with needles, segments, points and repeated triangles among their triangles.
+/// Returns soups with needles, segments, points and repeated triangles among their triangles.
 Mesh nastySoup(int count, Random& random) {
   Mesh mesh =
       scenes::randomSoup(count, 0.5, 0.05, 1.5, static_cast<std::uint64_t>(random.uniform(0, 1e9)));
@@ -31,7 +31,7 @@ Mesh nastySoup(int count, Random& random) {
   return mesh;
 }
 
-/// Corners on a coarse grid, so that faces, edges and vertices meet exactly.
+/// Returns corners on a coarse grid, so that faces, edges and vertices meet exactly.
 Mesh gridSoup(int count, Random& random) {
   Mesh mesh;
   for (int i = 0; i < 3 * count; ++i) {
@@ -65,8 +65,8 @@ Mesh smallMesh(int kind, Random& random) {
   }
 }
 
-/// Poses in general position, on a grid (faces and edges parallel, or in one plane), and so that
-/// the bodies nearly touch; the two together far from the origin, or not.
+/// Returns poses in general position, on a grid (faces and edges parallel, or in one plane), and so
+/// that the bodies nearly touch; the two together far from the origin, or not.
 template <typename S>
 Poses<S> poseAt(int kind, double apart, Random& random) {
   const auto seed = static_cast<std::uint64_t>(random.uniform(0, 1e9));
@@ -110,7 +110,7 @@ struct BruteForce {
   std::vector<std::pair<int, int>> pairs;
 };
 
-/// A model that shares no tree with one of the same mesh.
+/// Returns a model that shares no tree with one of the same mesh.
 template <typename S>
 std::shared_ptr<Model<S>> another(Mesh mesh) {
   mesh.vertices.push_back(mesh.vertices.at(0));

@@ -18,7 +18,7 @@ namespace {
 constexpr double kSizes[] = {1e-30, 1e-60,  1e-75,  1e-77,  1e-79,  1e-81,
                              1e-90, 1e-120, 1e-150, 1e-155, 1e-162, 1e-200};
 
-/// Triangles far off in two corners, which give a mesh its size.
+/// Returns triangles far off in two corners, which give a mesh its size.
 Mesh withCorners(double z) {
   Mesh mesh;
   addTriangle(mesh, {1, 1, 1}, {1, 0.9, 1}, {0.9, 1, 1});

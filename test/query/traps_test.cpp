@@ -9,8 +9,8 @@
 namespace kios::testing {
 namespace {
 
-/// Poses of a second mesh whose centre lies at the first one's: inside, across, touching along an
-/// axis in parallel, near and far; and some where corners of triangles coincide.
+/// Returns poses of a second mesh whose centre lies at the first one's: inside, across, touching
+/// along an axis in parallel, near and far; and some where corners of triangles coincide.
 template <typename S>
 std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::uint64_t seed) {
   const double size = std::max(std::max(extent(a), extent(b)), 1e-6);

@@ -76,7 +76,7 @@ std::size_t below(Random& random, std::size_t n) {
   return n == 0 ? 0 : std::min(n - 1, static_cast<std::size_t>(random.unit() * n));
 }
 
-/// Elements and lines, words and numbers, bytes: dropped, doubled, swapped or replaced.
+/// Mangles elements and lines, words and numbers, bytes: dropped, doubled, swapped or replaced.
 std::string changed(std::string text, Random& random) {
   static const char* const kWords[] = {"nan",
                                        "inf",

@@ -89,7 +89,8 @@ TEST(LinkPairs, AllShapesAndJoints) {
   }
 }
 
-/// A ball on an arm of two joints swings past a ball: a gap of so much where they are nearest.
+/// Returns a ball on an arm of two joints swings past a ball: a gap of so much where they are
+/// nearest.
 Robot swinging(const Folder& folder, double gap) {
   const std::string far = std::to_string(1.0 + 0.2 + gap);
   return loadRobot(folder.write(

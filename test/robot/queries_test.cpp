@@ -31,7 +31,7 @@ std::shared_ptr<ObbModel> toObb(const Modeld& model) {
   return result;
 }
 
-/// The links' collision geometry as the test knows it, by FCL.
+/// Holds the links' collision geometry as the test knows it, by FCL.
 struct BruteForce {
   struct Body {
     std::string name;
@@ -68,8 +68,8 @@ struct BruteForce {
   }
 };
 
-/// Of a MotionBenchMaker robot: links whose meshes are named after them by hand, to be independent
-/// of the reader.
+/// Sets up a MotionBenchMaker robot: links whose meshes are named after them by hand, to be
+/// independent of the reader.
 BruteForce pandaByHand() {
   const std::string folder = mbmFolder("panda") + "/meshes/collision/";
   BruteForce brute;
@@ -130,7 +130,7 @@ TEST(RobotQueries, ThePandaAgreesWithBruteForceOverObbrss) {
   }
 }
 
-/// An arm of every joint with shapes and meshes around it.
+/// Returns an arm of every joint with shapes and meshes around it.
 Robot cluttered(const Folder& folder, int meshes = 4, int shapes = 4) {
   Robot robot = loadRobot(manyJoints(folder));
   Random random(5);
@@ -163,7 +163,8 @@ VectorXd free(const Robot& robot, Random& random) {
   return q;
 }
 
-/// The derivative by central differences, or nothing where the nearest pair changes on the way.
+/// Finds the derivative by central differences, or nothing where the nearest pair changes on the
+/// way.
 bool differences(const Robot& robot, const VectorXd& q, const RobotClearance& at, VectorXd& slope) {
   constexpr double kStep = 1e-5;
   slope.resize(q.size());

@@ -30,7 +30,7 @@ using fcl::Vector3d;
 using scenes::Random;
 namespace fs = std::filesystem;
 
-/// A folder that goes with the test.
+/// Holds a folder that goes with the test.
 class Folder {
  public:
   Folder() {
@@ -55,7 +55,7 @@ class Folder {
   fs::path path_;
 };
 
-/// The folder of a MotionBenchMaker robot, empty if there is none.
+/// Returns the folder of a MotionBenchMaker robot, empty if there is none.
 inline std::string mbmFolder(const std::string& robot) {
   const char* const data = std::getenv("KIOS_DATA");
   for (const fs::path& base :
@@ -83,7 +83,7 @@ inline Transform3d shifted(double x, double y, double z) {
   return Transform3d(Eigen::Translation3d(x, y, z));
 }
 
-/// A box of 12 triangles as an OBJ file, one face to a line.
+/// Returns a box of 12 triangles as an OBJ file, one face to a line.
 inline std::string boxObj(double x, double y, double z) {
   std::string text;
   for (int i = 0; i < 8; ++i) {
@@ -112,7 +112,7 @@ inline std::string joint(const std::string& name, const std::string& type,
          "'/><child link='" + child + "'/>" + inside + "</joint>\n";
 }
 
-/// An arm of shapes and meshes with every type of joint.
+/// Returns an arm of shapes and meshes with every type of joint.
 inline std::string manyJoints(const Folder& folder) {
   folder.write("meshes/rod.obj", boxObj(0.03, 0.02, 0.15));
   const std::string limit = "<limit lower='-2' upper='2.5' effort='1' velocity='1'/>";

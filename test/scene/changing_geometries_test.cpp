@@ -18,7 +18,7 @@ namespace {
 
 using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
-/// A geometry, and its n-th change.
+/// Holds a geometry, and its n-th change.
 struct Changing {
   std::string name;
   Geometry geometry;
@@ -26,7 +26,7 @@ struct Changing {
   bool remembered = true;  ///< its distances, as long as it doesn't change
 };
 
-/// A shape of the user's own, which depends on what no library can know.
+/// Holds a shape of the user's own, which depends on what no library can know.
 class Inflated final : public fcl::Sphered {
  public:
   using fcl::Sphered::Sphered;
@@ -84,7 +84,7 @@ class ChangingGeometries : public ::testing::TestWithParam<bool> {
   const std::shared_ptr<Modeld> mesh_ = kiosModel(scenes::icosphere(0.5, 2));
 };
 
-// Of one object alone, as its user keeps its boxes up to date, and without.
+// One object alone is asked about, as its user keeps its boxes up to date, and without.
 TEST_P(ChangingGeometries, ManagerQueriesSeeTheChange) {
   for (const Changing& c : changingGeometries()) {
     fcl::CollisionObjectd mesh(mesh_, away_), other(c.geometry);

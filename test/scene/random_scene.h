@@ -19,7 +19,7 @@
 
 namespace kios::testing {
 
-/// The spread of a scene's objects, their size, and their place in the world.
+/// Holds the spread of a scene's objects, their size, and their place in the world.
 struct SceneSettings {
   int objects = 8;
   double spread = 2;

@@ -81,7 +81,7 @@ void expectClearances(RandomScene& random, const Truth& truth, bool points) {
   }
 }
 
-/// A margin below, at, just above or far above a distance of the scene, or anything.
+/// Returns a margin below, at, just above or far above a distance of the scene, or anything.
 double anyMargin(RandomScene& random, const Truth& truth) {
   const double how = random.random().unit();
   if (how < 0.1) return 0;

@@ -14,7 +14,7 @@
 namespace kios::testing {
 namespace {
 
-/// The triangles below each node.
+/// Returns the triangles below each node.
 std::vector<std::vector<std::uint32_t>> contents(const engine::Tree& tree) {
   std::vector<std::vector<std::uint32_t>> below(tree.nodes.size());
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {  // children follow their parents
@@ -110,7 +110,7 @@ class Auditor final : public engine::Audit {
     }
   }
 
-  /// The triangles of a node, or one of a leaf that stands for it.
+  /// Returns the triangles of a node, or one of a leaf that stands for it.
   static std::vector<std::uint32_t> contentOf(
       std::uint32_t node, const engine::Tree& tree,
       const std::vector<std::vector<std::uint32_t>>& below) {

@@ -64,7 +64,7 @@ using Real = long double;
 using Vec = Eigen::Matrix<Real, 3, 1>;
 using Mat = Eigen::Matrix<Real, 3, 3>;
 
-/// What a box may contain: all p with |e_i . (p - c)| <= h_i for the axes as they are stored.
+/// Says what a box may contain: all p with |e_i . (p - c)| <= h_i for the axes as they are stored.
 class Content {
  public:
   explicit Content(const Box& box)
@@ -73,7 +73,7 @@ class Content {
         center_(box.x[kCenter], box.y[kCenter], box.z[kCenter]),
         half_(box.half[0], box.half[1], box.half[2]) {}
 
-  /// A point of the box, nearly the nearest to x.
+  /// Returns a point of the box, nearly the nearest to x.
   Vec towards(const Vec& x) const {
     const Vec at = axes_.transpose() * (x - center_);
     return center_ + dual_ * at.cwiseMax(-half_).cwiseMin(half_);
@@ -95,8 +95,8 @@ struct Nearest {
   Real distance;
 };
 
-/// Two points of the boxes, nearly the nearest: projections from one to the other. Whatever they
-/// are, no bound may exceed their distance.
+/// Returns two points of the boxes, nearly the nearest: projections from one to the other. Whatever
+/// they are, no bound may exceed their distance.
 Nearest nearest(const Content& a, const Content& b, const Mat& R, const Vec& t) {
   Vec q = R * b.center() + t, p;
   for (int i = 0; i < 400; ++i) {
@@ -106,7 +106,7 @@ Nearest nearest(const Content& a, const Content& b, const Mat& R, const Vec& t) 
   return {p, q, (q - p).norm()};
 }
 
-/// A number of any size in [least, most], by logarithms.
+/// Returns a number of any size in [least, most], by logarithms.
 double anySize(Random& random, double least, double most) {
   return std::exp(random.uniform(std::log(least), std::log(most)));
 }
@@ -137,7 +137,7 @@ Eigen::Vector3f anyHalf(Random& random, double size) {
   return half;
 }
 
-/// Axes along the first's, nearly so, or any.
+/// Returns axes along the first's, nearly so, or any.
 Eigen::Matrix3f anyAxes(Random& random, const Eigen::Matrix3f& near) {
   const double kind = random.unit();
   if (kind < 0.25) return near;
@@ -150,7 +150,7 @@ Eigen::Matrix3f anyAxes(Random& random, const Eigen::Matrix3f& near) {
   return engine::axesAlong(direction(random), direction(random));
 }
 
-/// The smallest reach that a tree with this box may have.
+/// Returns the smallest reach that a tree with this box may have.
 double reachOf(const Box& box) {
   return std::hypot(double{box.x[kCenter]}, double{box.y[kCenter]}, double{box.z[kCenter]}) +
          double{std::max({box.half[0], box.half[1], box.half[2]})};

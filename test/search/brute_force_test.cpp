@@ -39,7 +39,7 @@ class Searches {
  private:
   static constexpr double kEps = std::numeric_limits<S>::epsilon();
 
-  /// The distance if that is less than at_most, else at_most and no ids.
+  /// Returns the distance if that is less than at_most, else at_most and no ids.
   S distance(S at_most, TrianglePairIds& ids, double rel_err = 0, double abs_err = 0) const {
     engine::PairQuery query;
     query.rel_err = rel_err;

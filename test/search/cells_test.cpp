@@ -29,7 +29,8 @@ using Pairs = std::set<CellTriangle>;
 
 constexpr float kOccupied = 2, kUncertain = 0.5F, kFree = -1;
 
-/// An octree of which cells about a place are set: full blocks that merge, shells, single ones.
+/// Returns an octree of which cells about a place are set: full blocks that merge, shells, single
+/// ones.
 std::shared_ptr<octomap::OcTree> makeTree(double resolution, const Eigen::Vector3i& place,
                                           Random& random) {
   auto tree = std::make_shared<octomap::OcTree>(resolution);
@@ -94,8 +95,8 @@ Pairs contacts(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO, con
   return found;
 }
 
-/// Needles along the axes, whose spheres have no slack at the ends: these lie on the grid, near the
-/// cells and up to 1000 cells away.
+/// Returns needles along the axes, whose spheres have no slack at the ends: these lie on the grid,
+/// near the cells and up to 1000 cells away.
 Mesh longNeedles() {
   Mesh mesh;
   Random random(5);
@@ -108,7 +109,8 @@ Mesh longNeedles() {
   return mesh;
 }
 
-/// Meshes in units of cells: in general position, and with faces, edges and corners on the grid.
+/// Returns meshes in units of cells: in general position, and with faces, edges and corners on the
+/// grid.
 std::vector<NamedMesh> cases() {
   Mesh on_grid = transformed(scenes::subdividedBox({6, 6, 6}, 6), 1, {1, 0, 2});
   return {{"torus", transformed(scenes::bumpyTorus(200), 3, {0, 0, 0})},

@@ -11,8 +11,8 @@
 namespace kios::testing {
 namespace {
 
-/// A wedge hanging from the edge between p and q, turned about the edge so that the edge is what
-/// is nearest from above (below for `down` = -1).
+/// Returns a wedge hanging from the edge between p and q, turned about the edge so that the edge is
+/// what is nearest from above (below for `down` = -1).
 Mesh wedge(const fcl::Vector3d& p, const fcl::Vector3d& q, double down, Random& random) {
   const fcl::Vector3d third =
       p + random.uniform(-0.5, 1.5) * (q - p) +

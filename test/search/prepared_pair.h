@@ -21,7 +21,8 @@ engine::MeshView<S> viewOf(const Shape<S>& shape) {
           shape.triangles.size()};
 }
 
-/// The tree as prepared, or as refitted from where the mesh was before; nullptr if it can't be.
+/// Returns the tree as prepared, or as refitted from where the mesh was before; nullptr if it can't
+/// be.
 template <typename S>
 std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* before) {
   if (!before) return engine::prepare(viewOf(shape));
@@ -29,14 +30,14 @@ std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* befo
   return engine::refit(viewOf(shape), *tree) ? std::move(tree) : nullptr;
 }
 
-/// Two shapes with their trees, at a pose.
+/// Holds two shapes with their trees, at a pose.
 template <typename S>
 class PosedPair {
  public:
   explicit PosedPair(const Mesh& a, const Mesh& b, bool refitted = false)
       : a(a), b(b), tree_a(made(this->a, a, refitted)), tree_b(made(this->b, b, refitted)) {}
 
-  /// False if floats can't serve the pair there.
+  /// Returns false if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
     X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
     return engine::makeFramePair(*tree_a, *tree_b, *X_AB, frames_);

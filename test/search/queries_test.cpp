@@ -13,7 +13,7 @@ namespace {
 
 const Transform3d kHere = Transform3d::Identity();
 
-/// The distance, and that it was searched where it should be.
+/// Returns the distance, and that it was searched where it should be.
 double distanceOf(const Modeld& a, const Frame& frame, const Modeld& b, long long tree_searches,
                   const fcl::DistanceRequestd& request = fcl::DistanceRequestd()) {
   fcl::DistanceResultd result;

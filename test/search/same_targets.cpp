@@ -93,7 +93,7 @@ void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed
   }
 }
 
-/// FCL's shapes, of sizes about those of the mesh, and a floor.
+/// Returns FCL's shapes, of sizes about those of the mesh, and a floor.
 template <typename S>
 std::vector<std::shared_ptr<fcl::CollisionGeometry<S>>> shapes() {
   const auto points = std::make_shared<std::vector<fcl::Vector3<S>>>();

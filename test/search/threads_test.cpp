@@ -137,7 +137,7 @@ TEST_F(EngineThreads, RefittedCopiesAndQueriesDoNotMeet) {
   EXPECT_EQ(wrong, 0);
 }
 
-/// A tree that says what it was made from, of a content that no other has.
+/// Returns a tree that says what it was made from, of a content that no other has.
 engine::SharedTree marked(std::uint64_t stamp) {
   static std::atomic<std::uint64_t> contents{0};
   return engine::SharedTree({++contents, 0}, [&] {

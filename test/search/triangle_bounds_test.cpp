@@ -98,8 +98,8 @@ Real distanceToSegment(const Vec& p, const Vec& a, const Vec& b) {
   return (p - a - t * e).norm();
 }
 
-/// An upper bound of the distance of a point to a triangle: where the triangle is thick, that but
-/// for rounding.
+/// Returns an upper bound of the distance of a point to a triangle: where the triangle is thick,
+/// that but for rounding.
 Real distanceTo(const Vec& p, const FaceCorners& face) {
   const Vec a = face[0].cast<Real>(), b = face[1].cast<Real>(), c = face[2].cast<Real>();
   const Real by_edges = std::min(
@@ -119,7 +119,7 @@ double anySize(Random& random, double least, double most) {
   return std::exp(random.uniform(std::log(least), std::log(most)));
 }
 
-/// Triangles about `center`: of any shape, thin, and without an area or an extent.
+/// Returns triangles about `center`: of any shape, thin, and without an area or an extent.
 FaceCorners anyFace(Random& random, const fcl::Vector3d& center, double size) {
   const fcl::Vector3d p = center + size * inCube(random), e = size * inCube(random);
   const double kind = random.unit();
@@ -132,7 +132,7 @@ FaceCorners anyFace(Random& random, const fcl::Vector3d& center, double size) {
   return face;
 }
 
-/// A leaf of such triangles, whose corners are stored one by one.
+/// Returns a leaf of such triangles, whose corners are stored one by one.
 engine::Tree leafOf(const std::vector<FaceCorners>& faces) {
   engine::Tree tree;
   engine::LeafContent content;
@@ -151,7 +151,7 @@ engine::Tree leafOf(const std::vector<FaceCorners>& faces) {
   return tree;
 }
 
-/// A corner as stored.
+/// Returns a corner as stored.
 Vec stored(const engine::Tree& tree, std::size_t lane, std::size_t k) {
   const std::size_t i = 3 * lane + k;
   const engine::Lanes* const rows = &tree.lanes[tree.leaves[0].offset + 3 * (i / kLanes)];

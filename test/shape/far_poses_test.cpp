@@ -21,7 +21,7 @@ using fcl::Transform3d;
 using shape::Kind;
 using shape::Vec;
 
-/// FCL's shape of the sizes of a solid.
+/// Returns FCL's shape of the sizes of a solid.
 std::shared_ptr<fcl::CollisionGeometryd> shapeOf(const shape::Solid& s) {
   switch (s.kind) {
     case Kind::kBox:
@@ -35,7 +35,7 @@ std::shared_ptr<fcl::CollisionGeometryd> shapeOf(const shape::Solid& s) {
   }
 }
 
-/// A pose of both, by exact rotations: about an axis by right angles.
+/// Returns a pose of both, by exact rotations: about an axis by right angles.
 Transform3d farPose(SolidCases& cases) {
   Transform3d X = Transform3d::Identity();
   X.linear() << 0, -1, 0, 0, 0, 1, -1, 0, 0;

@@ -25,7 +25,7 @@ Vec randomPoint(scenes::Random& random, double half_width) {
           random.uniform(-half_width, half_width)};
 }
 
-/// Large, small, thin and degenerate ones, near the origin and away from it.
+/// Returns large, small, thin and degenerate ones, near the origin and away from it.
 Triangle randomTriangle(scenes::Random& random) {
   const Vec a = randomPoint(random, random.unit() < 0.8 ? 1.2 : 5);
   const double size = std::pow(10.0, random.uniform(-3, 0.5));

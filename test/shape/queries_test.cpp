@@ -19,7 +19,7 @@
 namespace kios::testing {
 namespace {
 
-/// A mesh and a shape of scalar S at poses of S, with the oracle over all triangles.
+/// Holds a mesh and a shape of scalar S at poses of S, with the oracle over all triangles.
 template <typename S>
 struct Scene {
   Mesh mesh;
@@ -61,7 +61,8 @@ struct Scene {
     return t;
   }
 
-  /// Distance by the oracle; triangles that a sphere around them keeps farther are skipped.
+  /// Returns the distance by the oracle; triangles that a sphere around them keeps farther are
+  /// skipped.
   Real distance() const {
     Real best = std::numeric_limits<Real>::max();
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A search that evaluates nothing: what matters doesn't change.
+/// Holds a search that evaluates nothing: what matters doesn't change.
 class Listener final : public engine::SolidEvaluator, public engine::SolidAudit {
  public:
   bool evaluate(std::uint32_t triangle, bool) override {
@@ -48,7 +48,7 @@ class Listener final : public engine::SolidEvaluator, public engine::SolidAudit 
   std::vector<std::uint32_t> evaluated, meeting;
 };
 
-/// What was counted over many searches.
+/// Says what was counted over many searches.
 struct Audited {
   int bounds = 0, wrong = 0, missed = 0, searches = 0, meeting = 0, apart = 0;
 };
@@ -162,7 +162,8 @@ class Auditor {
   double error_ = 0;
 };
 
-/// Points in heaps of eight: volumes of size 0, whose bounds are as wide as the pads let them be.
+/// Returns points in heaps of eight: volumes of size 0, whose bounds are as wide as the pads let
+/// them be.
 Mesh heaps(int count, std::uint64_t seed) {
   scenes::Random random(seed);
   std::vector<Mesh> parts;

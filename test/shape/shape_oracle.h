@@ -52,8 +52,8 @@ inline const char* nameOf(Shape shape) {
   return kNames[static_cast<int>(shape)];
 }
 
-/// Sizes by kind: box sides, ellipsoid radii, (radius, length), normal and offset. Those of half
-/// spaces and planes aside, all are floats.
+/// Holds sizes by kind: box sides, ellipsoid radii, (radius, length), normal and offset. Those of
+/// half spaces and planes aside, all are floats.
 struct ShapeSpec {
   Shape kind;
   fcl::Vector3d size;
@@ -61,7 +61,7 @@ struct ShapeSpec {
   scenes::Mesh hull;
 };
 
-/// Sizes in about [0.2, 1] times `scale` (a power of two), thin ones among them.
+/// Returns sizes in about [0.2, 1] times `scale` (a power of two), thin ones among them.
 inline ShapeSpec randomShape(Shape kind, scenes::Random& random, double scale = 1) {
   const auto length = [&] {
     return scale * float(random.unit() < 0.2 ? random.uniform(0.01, 0.1) : random.uniform(0.2, 1));
@@ -115,7 +115,7 @@ std::shared_ptr<fcl::CollisionGeometry<S>> makeShape(const ShapeSpec& spec) {
   }
 }
 
-/// Distance to a convex set in the (rho, z) half-plane: the cone's triangle.
+/// Returns the distance to a convex set in the (rho, z) half-plane: the cone's triangle.
 inline Real segmentDistance(Real x, Real y, Real ax, Real ay, Real bx, Real by) {
   const Real dx = bx - ax, dy = by - ay, squared = dx * dx + dy * dy;
   Real t = squared > 0 ? ((x - ax) * dx + (y - ay) * dy) / squared : 0;
@@ -191,7 +191,7 @@ inline Real level(const ShapeSpec& s, const ExactPoint& p, bool distance) {
   }
 }
 
-/// Least value of a convex function on a segment.
+/// Returns the least value of a convex function on a segment.
 template <typename F>
 Real goldenSection(const F& f, int steps) {
   const Real phi = (std::sqrt(Real(5)) - 1) / 2;
@@ -214,8 +214,8 @@ Real goldenSection(const F& f, int steps) {
   return least;
 }
 
-/// Least level (or distance) over a triangle in the shape's frame. Error: about 1e-16 of the
-/// extent.
+/// Returns the least level (or distance) over a triangle in the shape's frame. Error: about 1e-16
+/// of the extent.
 inline Real leastLevel(const ShapeSpec& s, const ExactTriangle& t, bool distance) {
   if (s.kind == Shape::kHalfspace || s.kind == Shape::kPlane) {
     const Real a = level(s, t[0], true), b = level(s, t[1], true), c = level(s, t[2], true);
@@ -232,7 +232,7 @@ inline Real leastLevel(const ShapeSpec& s, const ExactTriangle& t, bool distance
       kSteps);
 }
 
-/// Distance of the triangle and the full shape, 0 at overlap.
+/// Returns the distance of the triangle and the full shape, 0 at overlap.
 inline Real oracleDistance(const ShapeSpec& s, const ExactTriangle& t) {
   if (s.kind == Shape::kConvex) {  // that of its faces, unless a corner is inside
     Real least = std::max(Real(0), level(s, t[0], true));

@@ -45,7 +45,8 @@ class SolidCases {
     return s;
   }
 
-  /// Fat, thin, collinear, with two corners or all in one place or nearly; some across an axis.
+  /// Returns fat, thin, collinear, with two corners or all in one place or nearly; some across an
+  /// axis.
   shape::Triangle triangle(const shape::Vec& at, double size) {
     const shape::Vec a = vector();
     shape::Vec b = vector(), c = vector();
@@ -149,7 +150,7 @@ class SolidCases {
   std::vector<int> faces_;  ///< of the last convex shape
 };
 
-/// A bounded solid and a triangle near it, with the exact distance.
+/// Holds a bounded solid and a triangle near it, with the exact distance.
 struct NearPair {
   shape::Solid solid;
   shape::Triangle triangle;
@@ -230,7 +231,7 @@ inline NearPair nearPair(SolidCases& cases, shape::Kind kind, Size size) {
   return pair;
 }
 
-/// A needle that passes the solid with its inside: up to 1e6 of that long, about as wide.
+/// Returns a needle that passes the solid with its inside: up to 1e6 of that long, about as wide.
 inline NearPair nearNeedle(SolidCases& cases, shape::Kind kind) {
   NearPair pair;
   pair.solid = cases.solid(kind, Size::kPlain);

@@ -27,13 +27,13 @@ inline ExactTriangle exact(const shape::Triangle& t) {
   return {t[0].cast<Real>(), t[1].cast<Real>(), t[2].cast<Real>()};
 }
 
-/// Distance, and a point of the triangle and of the solid that realise it.
+/// Holds the distance, and a point of the triangle and of the solid that realise it.
 struct ExactNearest {
   Real distance = std::numeric_limits<Real>::infinity();
   ExactPoint on_triangle = ExactPoint::Zero(), on_shape = ExactPoint::Zero();
 };
 
-/// The surface of a sphere's, capsule's, box's or convex shape's core as triangles.
+/// Returns the surface of a sphere's, capsule's, box's or convex shape's core as triangles.
 inline std::vector<ExactTriangle> coreFaces(const shape::Solid& s) {
   const ExactPoint h = s.half.cast<Real>();
   std::vector<ExactTriangle> faces;
@@ -177,7 +177,7 @@ Real leastAt(const F& f, int steps) {
   return at;
 }
 
-/// Least value of a convex function of points over a triangle.
+/// Returns the least value of a convex function of points over a triangle.
 template <typename F>
 Real leastOver(const ExactTriangle& t, const F& f) {
   constexpr int kSteps = 64;
@@ -189,8 +189,8 @@ Real leastOver(const ExactTriangle& t, const F& f) {
   return inner(leastAt(inner, kSteps));
 }
 
-/// Least level of a cylinder, cone or ellipsoid over the triangle: negative where the inside is
-/// met.
+/// Returns the least level of a cylinder, cone or ellipsoid over the triangle: negative where the
+/// inside is met.
 inline Real leastPointLevel(const shape::Solid& s, const ExactTriangle& t) {
   const ExactPoint e = s.half.cast<Real>(), origin = ExactPoint::Zero();
   if (s.kind == shape::Kind::kEllipsoid && e.minCoeff() > 0) {  // a ball, in units of the radii
@@ -202,7 +202,7 @@ inline Real leastPointLevel(const shape::Solid& s, const ExactTriangle& t) {
   return leastOver(t, [&s](const ExactPoint& p) { return pointLevel(s, p); });
 }
 
-/// The point of a cylinder, cone or ellipsoid that is extreme along n.
+/// Returns the point of a cylinder, cone or ellipsoid that is extreme along n.
 inline ExactPoint exactSupport(const shape::Solid& s, const ExactPoint& n) {
   if (s.kind == shape::Kind::kEllipsoid) {
     const ExactPoint m = s.half.cast<Real>().cwiseProduct(n);
@@ -217,7 +217,7 @@ inline ExactPoint exactSupport(const shape::Solid& s, const ExactPoint& n) {
   return {n.x() * scale, n.y() * scale, n.z() >= 0 ? h : -h};
 }
 
-/// Distance of a triangle and a round shape that don't overlap.
+/// Returns the distance of a triangle and a round shape that don't overlap.
 inline ExactNearest roundDistance(const shape::Solid& s, const ExactTriangle& t) {
   ExactNearest best;
   const auto offer = [&](const ExactPoint& x) {
@@ -246,7 +246,7 @@ inline ExactNearest roundDistance(const shape::Solid& s, const ExactTriangle& t)
   return best;
 }
 
-/// The largest height of a point above a box's or hull's faces: negative inside.
+/// Holds the largest height of a point above a box's or hull's faces: negative inside.
 class FaceLevel {
  public:
   FaceLevel(const shape::Solid& s, const std::vector<ExactTriangle>& faces) {
@@ -291,8 +291,8 @@ class FaceLevel {
   Real thickness_;
 };
 
-/// Distance of a triangle and a face, both held by doubles. Their meeting is decided exactly,
-/// as long double can't for thin ones.
+/// Returns the distance of a triangle and a face, both held by doubles. Their meeting is decided
+/// exactly, as long double can't for thin ones.
 inline Real faceDistance(const shape::Triangle& t, const ExactTriangle& face) {
   const shape::Triangle f = {face[0].cast<double>(), face[1].cast<double>(),
                              face[2].cast<double>()};
@@ -301,7 +301,8 @@ inline Real faceDistance(const shape::Triangle& t, const ExactTriangle& face) {
   return d > 0 ? d : Real(triangleDistance(t, f).distance);
 }
 
-/// Nearest points of a triangle and a round solid; for others the distance to the core's surface.
+/// Returns nearest points of a triangle and a round solid; for others the distance to the core's
+/// surface.
 inline ExactNearest coreNearest(const shape::Solid& s, const shape::Triangle& triangle,
                                 const std::vector<ExactTriangle>& faces) {
   if (faces.empty()) return roundDistance(s, exact(triangle));

@@ -11,8 +11,8 @@ namespace {
 using scenes::ContainmentOracle;
 using scenes::Random;
 
-/// Points where verdicts are hard: near the surface, on its faces, edges and vertices, level with
-/// vertices, and anywhere.
+/// Returns points where verdicts are hard: near the surface, on its faces, edges and vertices,
+/// level with vertices, and anywhere.
 fcl::Vector3d hardPoint(const scenes::Mesh& mesh, double size, Random& random) {
   const auto pick = [&](std::size_t n) {
     return std::min(n - 1, static_cast<std::size_t>(random.unit() * static_cast<double>(n)));
@@ -47,7 +47,8 @@ fcl::Vector3d hardPoint(const scenes::Mesh& mesh, double size, Random& random) {
   }
 }
 
-/// Rounded through memory: g++ 12's vectoriser folds a round trip from double to float and back.
+/// Rounds through memory: g++ 12's vectoriser folds a round trip from double to float and
+/// back.
 template <typename S>
 fcl::Vector3<S> rounded(const fcl::Vector3d& p) {
   fcl::Vector3<S> r;

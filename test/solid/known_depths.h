@@ -13,14 +13,14 @@
 
 namespace kios::testing {
 
-/// max n x over a mesh's vertices at a pose.
+/// Returns max n x over a mesh's vertices at a pose.
 inline double extentAlong(const Mesh& mesh, const fcl::Transform3d& X, const fcl::Vector3d& n) {
   double most = -std::numeric_limits<double>::infinity();
   for (const fcl::Vector3d& p : mesh.vertices) most = std::max(most, n.dot(X * p));
   return most;
 }
 
-/// Distinct directions of a mesh's faces or edges at a pose.
+/// Returns distinct directions of a mesh's faces or edges at a pose.
 inline std::vector<fcl::Vector3d> directionsOf(const Mesh& mesh, const fcl::Transform3d& X,
                                                bool faces) {
   std::vector<fcl::Vector3d> directions;
@@ -45,9 +45,9 @@ inline std::vector<fcl::Vector3d> directionsOf(const Mesh& mesh, const fcl::Tran
   return directions;
 }
 
-/// Depth of two convex meshes, 0 if they are apart: the least extent of the set of differences
-/// along the normal of one of its faces, which is that of a face of either, or crosses an edge of
-/// each.
+/// Returns the depth of two convex meshes, 0 if they are apart: the least extent of the set of
+/// differences along the normal of one of its faces, which is that of a face of either, or crosses
+/// an edge of each.
 inline double convexDepth(const Mesh& a, const fcl::Transform3d& X_WA, const Mesh& b,
                           const fcl::Transform3d& X_WB) {
   double depth = std::numeric_limits<double>::infinity();
@@ -68,11 +68,11 @@ inline double convexDepth(const Mesh& a, const fcl::Transform3d& X_WA, const Mes
   return std::max(0.0, depth);
 }
 
-/// Axis-aligned boxes, whose union is a solid.
+/// Holds axis-aligned boxes, whose union is a solid.
 using Boxes = std::vector<Eigen::AlignedBox3d>;
 
-/// Depth of two unions of boxes: the point nearest to the origin outside the union of the open
-/// boxes of differences. Its coordinates are 0 or those of faces.
+/// Returns the depth of two unions of boxes: the point nearest to the origin outside the union of
+/// the open boxes of differences. Its coordinates are 0 or those of faces.
 inline double depthOfUnions(const Boxes& a, const Boxes& b) {
   Boxes differences;
   for (const auto& p : a) {

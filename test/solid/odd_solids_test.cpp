@@ -21,7 +21,7 @@ std::size_t contacts(const Modeld& a, const Modeld& b) {
   return fcl::collide(&a, kHere, &b, kHere, fcl::CollisionRequestd(), result);
 }
 
-/// A triangle that is a point.
+/// Returns a triangle that is a point.
 Mesh withPoint(Mesh mesh, std::size_t vertex) {
   mesh.triangles.emplace_back(vertex, vertex, vertex);
   return mesh;
@@ -46,7 +46,7 @@ TEST(OddSolids, PointsAmongTheTrianglesChangeNothing) {
   EXPECT_EQ(contacts(*stray_within, *around), 0u);
 }
 
-/// A prism over an L.
+/// Returns a prism over an L.
 Mesh prismL() {
   Mesh mesh;
   const double outline[6][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};

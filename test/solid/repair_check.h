@@ -28,7 +28,7 @@ inline RepairOptions filling(int edges) {
   return options;
 }
 
-/// Six times the signed volume.
+/// Returns six times the signed volume.
 inline double volumeOf(const std::vector<Vector3d>& v,
                        const std::vector<fcl::Triangle>& triangles) {
   double sum = 0;
@@ -36,7 +36,7 @@ inline double volumeOf(const std::vector<Vector3d>& v,
   return sum;
 }
 
-/// What is reported is what was done.
+/// Says what is reported is what was done.
 inline void expectHonest(const Mesh& mesh, const Repairedd& r) {
   ASSERT_EQ(r.vertex_of.size(), mesh.vertices.size());
   ASSERT_EQ(r.triangle_of.size(), r.triangles.size());

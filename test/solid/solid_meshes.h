@@ -23,7 +23,7 @@ inline Mesh flipped(Mesh mesh) {
   return mesh;
 }
 
-/// A shell about the origin: a ball with a concentric cavity.
+/// Returns a shell about the origin: a ball with a concentric cavity.
 inline Mesh shell(double outer, double inner, int subdivisions) {
   return scenes::merged(
       {scenes::icosphere(outer, subdivisions), flipped(scenes::icosphere(inner, subdivisions))});
@@ -48,7 +48,7 @@ fcl::Transform3<S> at(double x, double y, double z) {
   return X;
 }
 
-/// Convex and not, in one piece and in several, of extent about 1 to 5.
+/// Returns solids, convex and not, in one piece and in several, of extent about 1 to 5.
 inline std::vector<NamedMesh> solidMeshes() {
   using namespace scenes;
   return {{"box", subdividedBox({1, 2, 3}, 2)},

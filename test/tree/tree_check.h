@@ -40,14 +40,14 @@ Edge edgeOf(const TriangleVertices<S>& t, std::uint32_t k) {
   return std::minmax({coordinates(t[k]), coordinates(t[(k + 1) % 3])});
 }
 
-/// x^2 + y^2 + z^2 <= r^2 for sums of floats, without rounding.
+/// Returns x^2 + y^2 + z^2 <= r^2 for sums of floats, without rounding.
 inline bool inSphere(const Eigen::Vector3f& p, const Exact (&center)[3], const Exact& r) {
   Exact sum = 0;
   for (int c = 0; c < 3; ++c) sum += (p[c] - center[c]) * (p[c] - center[c]);
   return r >= 0 && sum <= r * r;
 }
 
-/// True if a node's five spheres hold the point.
+/// Returns true if a node's five spheres hold the point.
 inline bool spheresHold(const Node& node, const Eigen::Vector3f& p) {
   const auto sphere = [&](int row, int half, int sign) {
     Exact center[3] = {node.x[row], node.y[row], node.z[row]}, r = node.r[row];
@@ -76,7 +76,7 @@ inline double outside(const Box& box, const Eigen::Vector3f& p) {
   return worst;
 }
 
-/// How far the box's axes are from being orthonormal.
+/// Returns how far the box's axes are from being orthonormal.
 inline double skew(const Box& box) {
   double worst = 0;
   for (int i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ inline double skew(const Box& box) {
   return worst;
 }
 
-/// The greatest |centre| + |radius| of the node's spheres.
+/// Returns the greatest |centre| + |radius| of the node's spheres.
 inline double farthest(const Node& node) {
   using namespace engine;
   double result = 0;
@@ -135,7 +135,7 @@ class TreeOf {
  private:
   using Points = std::vector<Eigen::Vector3f>;
 
-  /// Depth in blocks, and the stored vertices below the node, which must lie within it.
+  /// Returns the depth in blocks, and the stored vertices below the node, which must lie within it.
   std::pair<int, Points> descend(std::uint32_t at, int level) {
     ++nodes_seen_;
     const Node& node = tree_.nodes[at];
@@ -208,12 +208,12 @@ class TreeOf {
   Point<S> cornerOf(FeatureId id, std::uint32_t step = 0) const {
     return shape_.corners(id.triangle())[(id.corner() + step) % 3];
   }
-  /// Relative to the origin, as the tree may store it.
+  /// Is relative to the origin, as the tree may store it.
   Eigen::Vector3d relative(const Point<S>& p) const {
     return p.template cast<double>() - Eigen::Map<const Eigen::Vector3d>(tree_.origin);
   }
 
-  /// A chunk's row of lane i.
+  /// Returns a chunk's row of lane i.
   float lane(std::size_t offset, int rows, std::uint32_t i, int row) const {
     return tree_
         .lanes[offset + i / kLanes * static_cast<std::uint32_t>(rows) +

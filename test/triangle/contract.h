@@ -21,7 +21,7 @@ namespace kios::testing {
 
 using scenes::TrianglePair;
 
-/// The pair with its coordinates rounded to S, as triangles of S and again of doubles.
+/// Holds the pair with its coordinates rounded to S, as triangles of S and again of doubles.
 template <typename S>
 struct RoundedPair {
   TriangleVertices<S> a, b;
@@ -47,7 +47,7 @@ struct RoundedPair {
   }
 };
 
-/// The pair in hex floats, to be pasted into a test.
+/// Returns the pair in hex floats, to be pasted into a test.
 inline std::string text(const TrianglePair& pair) {
   std::string out;
   for (const auto* corners : {&pair.a, &pair.b}) {
@@ -63,7 +63,7 @@ inline std::string text(const TrianglePair& pair) {
   return out + "}";
 }
 
-/// Errors in units of eps L, and the first promise that is broken, if any.
+/// Holds errors in units of eps L, and the first promise that is broken, if any.
 struct ContractResult {
   double distance_error = 0;      ///< of the distance
   double witness_error = 0;       ///< of |point_a - point_b|, and off the triangles
@@ -95,10 +95,10 @@ class ContractCheck {
     if (!kept && result_.broken.empty()) result_.broken = broken;
   }
 
-  /// 16 eps L, and the rounding of a result below the normal numbers.
+  /// Returns 16 eps L, and the rounding of a result below the normal numbers.
   long double distanceBound() const { return 16 * kEps * extent_ + kLeast; }
 
-  /// Points also suffer from the rounding of coordinates, which an offset makes large.
+  /// Returns points also suffer from the rounding of coordinates, which an offset makes large.
   long double pointBound() const {
     return distanceBound() + 2 * kEps * static_cast<long double>(magnitude(pair_.exact)) +
            4 * kLeast;

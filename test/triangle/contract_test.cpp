@@ -19,7 +19,7 @@ using Feature = TriangleFeature;
 
 const Corners kFloor = {Eigen::Vector3d(0, 0, 0), {4, 0, 0}, {0, 4, 0}};
 
-/// The vertices of t that the feature is made of, as a bit mask.
+/// Returns the vertices of t that the feature is made of, as a bit mask.
 int verticesOf(Feature feature, const std::array<int, 3>& order) {
   const int f = static_cast<int>(feature);
   if (f < 3) return 1 << order[f];

@@ -12,7 +12,7 @@ namespace {
 
 using scenes::ContainmentOracle;
 
-/// Inside, outside or on the surface, by a ray along `direction`.
+/// Returns inside, outside or on the surface, by a ray along `direction`.
 ContainmentOracle::Place placeOf(const Point<double>& p, const Point<double>& direction,
                                  const scenes::Mesh& mesh) {
   double largest = 0;
@@ -36,8 +36,8 @@ ContainmentOracle::Place placeOf(const Point<double>& p, const Point<double>& di
   return winding > 0 ? ContainmentOracle::Place::kInside : ContainmentOracle::Place::kOutside;
 }
 
-/// Two boxes on a grid, one with a cavity, so that rays along the axes and their diagonals meet
-/// vertices, run along edges and lie in faces.
+/// Returns two boxes on a grid, one with a cavity, so that rays along the axes and their diagonals
+/// meet vertices, run along edges and lie in faces.
 scenes::Mesh gridSolid() {
   scenes::Mesh cavity = scenes::subdividedBox({2, 2, 2}, 2);
   for (fcl::Triangle& t : cavity.triangles) t.set(t[0], t[2], t[1]);

@@ -24,7 +24,7 @@ using Corners = TriangleVertices<double>;
 
 constexpr double kMax = std::numeric_limits<double>::max();
 
-/// Half an ulp, but for the oracle's own last bits.
+/// Allows half an ulp, but for the oracle's own last bits.
 bool isNearest(double t, long double exact) {
   const double next = std::nextafter(std::abs(t), kMax);
   const auto half = 0.5L * (static_cast<long double>(next) - std::abs(t));
@@ -84,7 +84,7 @@ class RayTriangle : public ::testing::Test {
     const double x = random_.uniform(-size, size), y = random_.uniform(-size, size);
     return {x, y, random_.uniform(-size, size)};
   }
-  /// Coordinates -n to n.
+  /// Returns coordinates -n to n.
   Vector lattice(int n) {
     const auto coordinate = [&] { return std::floor(random_.uniform(-n, n + 1)); };
     const double x = coordinate(), y = coordinate();

@@ -30,7 +30,7 @@ namespace {
 using Exact = boost::multiprecision::cpp_bin_float_100;
 using ExactVector = std::array<Exact, 3>;
 
-/// The largest share of a bound that errors took.
+/// Holds the largest share of a bound that errors took.
 class Share {
  public:
   void add(double error, double bound) {

@@ -20,7 +20,7 @@ class HardPair {
   fcl::Matrix3<S> R = fcl::Matrix3<S>::Identity();
   fcl::Vector3<S> T = fcl::Vector3<S>::Zero();
 
-  /// True if all pairs of points are at least `bound` apart, R and T taken as exact.
+  /// Returns true if all pairs of points are at least `bound` apart, R and T taken as exact.
   bool distanceIsAtLeast(double bound) const {
     return allPairs([&](const auto& p, const auto& q) {
       long double y[3], error = 0;
@@ -50,7 +50,7 @@ class HardPair {
     return !distanceIsAtLeast(std::numeric_limits<double>::denorm_min());
   }
 
-  /// The largest |c_a - (R c_b + T)| - r_a - r_b of the spheres as stored, to 64 bits.
+  /// Returns the largest |c_a - (R c_b + T)| - r_a - r_b of the spheres as stored, to 64 bits.
   long double sphereSeparation() const {
     long double best = -std::numeric_limits<long double>::infinity();
     for (int j = 0; j < b.k(); ++j) {
@@ -75,11 +75,12 @@ class HardPair {
     return best;
   }
 
-  /// The length that roundings of a test are relative to.
+  /// Returns the length that roundings of a test are relative to.
   long double magnitude() const {
     return 2 * (norm1(a.center0) + norm1(b.center0) + norm1(T)) + reaches();
   }
-  /// Distance of the central spheres and the reaches: the size of the float lanes' numbers.
+  /// Returns the distance of the central spheres and the reaches: the size of the float lanes'
+  /// numbers.
   long double reaches() const {
     const fcl::Vector3<long double> d =
         R.template cast<long double>() * b.center0.template cast<long double>() +
@@ -88,7 +89,7 @@ class HardPair {
            std::ldexp(static_cast<long double>(b.reach), b.exponent);
   }
   long double rounding() const { return std::numeric_limits<S>::epsilon(); }
-  /// |R^T R - I|.
+  /// Returns |R^T R - I|.
   long double shear() const {
     const fcl::Matrix3<long double> M = R.template cast<long double>();
     return (M.transpose() * M - fcl::Matrix3<long double>::Identity()).norm() + 1e-14L;
@@ -127,7 +128,7 @@ class HardPair {
     moveBy(q, T, y, magnitude);
   }
 
-  /// True if |p - y| >= bound for certain, y having been summed from `magnitude` in N.
+  /// Returns true if |p - y| >= bound for certain, y having been summed from `magnitude` in N.
   template <typename N>
   static bool apart(const fcl::Vector3<S>& p, const N y[3], const N& magnitude, double bound) {
     if (!(bound > 0)) return true;

@@ -15,7 +15,7 @@
 
 namespace kios::test {
 
-/// The tuned fit.
+/// Returns the tuned fit.
 template <typename S>
 kIOS<S> fitted(const Points<S>& points) {
   kIOS<S> v;
@@ -49,7 +49,8 @@ struct StoredSphere {
     radius = i ? ldexp(T(v.cap_r[i - 1]), v.exponent) : T(v.radius0);
   }
 
-  /// |p - centre|, and in `error` the sum of the magnitudes that its rounding is relative to.
+  /// Returns |p - centre|, and in `error` the sum of the magnitudes that its rounding is relative
+  /// to.
   T distanceTo(const T p[3], T* error) const {
     T sum = 0;
     *error = 0;
@@ -64,7 +65,7 @@ struct StoredSphere {
   }
 };
 
-/// True if stored sphere i contains p + t, without rounding.
+/// Returns true if stored sphere i contains p + t, without rounding.
 template <typename S>
 bool sphereContains(const kIOS<S>& v, int i, const fcl::Vector3<S>& p,
                     const fcl::Vector3<S>& t = fcl::Vector3<S>::Zero()) {
@@ -82,7 +83,7 @@ bool sphereContains(const kIOS<S>& v, int i, const fcl::Vector3<S>& p,
   return sphere.distanceTo(q, &error) <= sphere.radius;
 }
 
-/// True if all spheres that k counts contain p, without rounding.
+/// Returns true if all spheres that k counts contain p, without rounding.
 template <typename S>
 bool containsExactly(const kIOS<S>& v, const fcl::Vector3<S>& p) {
   for (int i = 0; i < v.k(); ++i) {
@@ -161,7 +162,7 @@ std::string measureViolation(const kIOS<S>& v, const Points<S>& points) {
   return {};
 }
 
-/// Equal bit by bit, signs of zeros included.
+/// Asks whether they are equal bit by bit, signs of zeros included.
 template <typename S>
 bool bitwiseEqual(const kIOS<S>& a, const kIOS<S>& b) {
   const auto same = [](const auto& x, const auto& y) {

@@ -22,7 +22,8 @@ class FarApart : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(FarApart, Scalars);
 
-/// Two volumes of a sphere each, in poses that leave a given gap between them but for rounding.
+/// Holds two volumes of a sphere each, in poses that leave a given gap between them but for
+/// rounding.
 template <typename S>
 struct Spheres {
   /// Lengths are about `size`; rotations are sheared by up to `shear`.

@@ -17,7 +17,7 @@ using Points = std::vector<fcl::Vector3<S>>;
 
 inline int below(Random& random, int n) { return static_cast<int>(random.unit() * n); }
 
-/// The shapes of content that are hard for a fit, a merge or a bound, each posed on purpose.
+/// Names the shapes of content that are hard for a fit, a merge or a bound, each posed on purpose.
 enum class Shape {
   kRandom,
   kCoplanar,
@@ -44,7 +44,7 @@ inline fcl::Vector3d randomDirection(Random& random) {
   return randomRotation(random) * fcl::Vector3d::UnitX();
 }
 
-/// n points of a shape, of size about 1, around the origin.
+/// Returns n points of a shape, of size about 1, around the origin.
 inline Points<double> shapePoints(Random& random, Shape shape, int n) {
   const auto u = [&] { return random.uniform(-1, 1); };
   const double thin = std::pow(10.0, -random.uniform(0, 12)), size = random.uniform(0.1, 1);
@@ -96,7 +96,7 @@ inline Points<double> shapePoints(Random& random, Shape shape, int n) {
   return points;
 }
 
-/// Turned at random or not, shifted by `offset` sizes, scaled and rounded to S.
+/// Returns it turned at random or not, shifted by `offset` sizes, scaled and rounded to S.
 template <typename S>
 Points<S> place(Random& random, const Points<double>& points, double offset, double scale) {
   const fcl::Matrix3d R =
@@ -110,7 +110,7 @@ Points<S> place(Random& random, const Points<double>& points, double offset, dou
   return placed;
 }
 
-/// Sizes for which bounds are promised, the ordinary ones more often than the extreme ones.
+/// Returns sizes for which bounds are promised, the ordinary ones more often than the extreme ones.
 template <typename S>
 double randomScale(Random& random) {
   const bool is_double = sizeof(S) == sizeof(double);
@@ -128,18 +128,18 @@ double randomScale(Random& random) {
   }
 }
 
-/// Offsets of up to 1e12 sizes, or none.
+/// Returns offsets of up to 1e12 sizes, or none.
 inline double randomOffset(Random& random) {
   return random.unit() < 0.5 ? 0 : std::pow(10.0, random.uniform(-1, 12));
 }
 
-/// 1 to about 60 points, triangles (3) and pairs of triangles (6) most often.
+/// Returns 1 to about 60 points, triangles (3) and pairs of triangles (6) most often.
 inline int randomCount(Random& random) {
   const int kind = below(random, 10);
   return kind < 3 ? 3 : kind < 4 ? 6 : kind < 9 ? 1 + below(random, 16) : 1 + below(random, 60);
 }
 
-/// Any shape at any place and scale.
+/// Returns any shape at any place and scale.
 template <typename S>
 Points<S> hardPointSet(Random& random, int n) {
   const auto shape = static_cast<Shape>(below(random, kShapes));

@@ -17,7 +17,7 @@ class Witness : public testing::Test {};
 using Scalars = testing::Types<double, float>;
 TYPED_TEST_SUITE(Witness, Scalars);
 
-/// The distance of p to the nearest surface of a sphere of v, where v sits at (R, T).
+/// Returns the distance of p to the nearest surface of a sphere of v, where v sits at (R, T).
 template <typename S>
 long double offSurface(const kIOS<S>& v, const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T,
                        const fcl::Vector3<S>& p) {

@@ -9,7 +9,7 @@
 
 namespace kios {
 
-/// Work done by a continuous query.
+/// Counts the work done by a continuous query.
 struct ContinuousCounts {
   long long steps = 0;            ///< times at which a free interval was proven
   long long volume_tests = 0;     ///< pairs of volumes tested
@@ -17,9 +17,10 @@ struct ContinuousCounts {
   long long collision_tests = 0;  ///< exact collision queries at a single time
 };
 
-/// First contact of two moving objects, fcl::continuousCollide's answer, for times t in [0, 1] and
-/// FCL's four motions (docs/continuous.md). Served: two kIOS models; a kIOS model and one of FCL's
-/// nine shapes or an octree, in either order. Motions, models and their poses are only read.
+/// Finds the first contact of two moving objects, fcl::continuousCollide's answer, for times t in
+/// [0, 1] and FCL's four motions (docs/continuous.md). Served: two kIOS models; a kIOS model and
+/// one of FCL's nine shapes or an octree, in either order. Motions, models and their poses are only
+/// read.
 ///
 /// `result.is_collide == false` proves that they never touch. If it is true, time_of_contact is at
 /// most the time of the first contact, which lies at most request.toc_err later. A pair that comes
@@ -27,9 +28,9 @@ struct ContinuousCounts {
 /// steps below 2^-13) counts as contact too. contact_tf1 and contact_tf2 are the poses at
 /// time_of_contact, 1 if there is no contact, which is also what is returned.
 ///
-/// Of the request only toc_err and ccd_motion_type count: all solver types get this answer, which
-/// is what each of them promises, and num_max_iterations would make answers unsound. toc_err = 0
-/// is as fine as doubles allow.
+/// Only toc_err and ccd_motion_type of the request count: all solver types get this answer, which
+/// is what each of them promises, and num_max_iterations would make answers unsound. toc_err = 0 is
+/// as fine as doubles allow.
 ///
 /// Throws std::invalid_argument if a model is not a finished mesh, the pair is not served, a pose
 /// not rigid, a motion of another type or not finite, or toc_err NaN or negative. `counts`, if
@@ -38,7 +39,7 @@ double firstContact(const fcl::CollisionGeometryd& a, const fcl::MotionBased* mo
                     const fcl::CollisionGeometryd& b, const fcl::MotionBased* motion_b,
                     const fcl::ContinuousCollisionRequestd& request,
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts = nullptr);
-/// From pose to pose, by the motion that request.ccd_motion_type names.
+/// Moves the objects from pose to pose, by the motion that request.ccd_motion_type names.
 double firstContact(const fcl::CollisionGeometryd& a, const fcl::Transform3d& X_WA_begin,
                     const fcl::Transform3d& X_WA_end, const fcl::CollisionGeometryd& b,
                     const fcl::Transform3d& X_WB_begin, const fcl::Transform3d& X_WB_end,

@@ -14,30 +14,31 @@
 
 namespace kios {
 
-/// A pose that lies in memory alike whatever a program's flags are, as fcl::Transform3d doesn't;
-/// each converts to the other.
+/// Holds a pose that lies in memory alike whatever a program's flags are, as fcl::Transform3d
+/// doesn't; each converts to the other.
 using UnalignedPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
 enum class JointType { kFixed, kRevolute, kPrismatic };
 
-/// The joint that carries a link.
+/// Describes the joint that carries a link.
 struct Joint {
   JointType type = JointType::kFixed;
-  /// The joint in its parent link's frame: the link's frame where the coordinate is 0. Rigid; a
-  /// rotation that is off by more than rounding is replaced by its nearest quaternion's.
+  /// Places the joint in its parent link's frame: the link's frame where the coordinate is 0.
+  /// Rigid; a rotation that is off by more than rounding is replaced by its nearest quaternion's.
   UnalignedPose X_PJ = UnalignedPose::Identity();
-  /// In the joint's frame, of any length but 0, which is the radians or the models' units of length
-  /// that a unit of the coordinate means. Fixed joints don't read it.
+  /// Is a vector in the joint's frame: its direction is the joint's axis, and its length, which
+  /// isn't 0, says how many radians, or of the models' units of length, a unit of the coordinate
+  /// means. Fixed joints don't read it.
   fcl::Vector3d axis = fcl::Vector3d::UnitZ();
-  /// The coordinate of q that moves it; -1: the next one that no joint has. Joints may share one:
-  /// the joint stands at multiplier * q[coordinate] + offset, which is how one mimics another.
+  /// Is the coordinate of q that moves it; -1: the next one that no joint has. Joints may share
+  /// one: the joint stands at multiplier * q[coordinate] + offset, which is how one mimics another.
   /// Below 2^20, and what it stands at is finite for every q that is asked about.
   int coordinate = -1;
   double multiplier = 1, offset = 0;
 };
 
-/// Links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(v), J a
-/// rotation about the axis or a translation along it, v = multiplier * q_k + offset. It is built
+/// Holds links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(v), J
+/// a rotation about the axis or a translation along it, v = multiplier * q_k + offset. It is built
 /// once and then asked: const calls are safe from many threads, and the geometry of its bodies must
 /// stay as it was. It may be copied; copies share the geometry.
 class Linkage {
@@ -70,8 +71,8 @@ class Linkage {
   int links() const;
   int bodies() const;
 
-  /// The pose of a body in the world. Throws std::invalid_argument if there is no such body, or q
-  /// is not of size coordinates() or not finite.
+  /// Returns the pose of a body in the world. Throws std::invalid_argument if there is no such
+  /// body, or q is not of size coordinates() or not finite.
   fcl::Transform3d pose(int body, const Eigen::VectorXd& q) const;
 
   class Impl;  // hidden
@@ -89,11 +90,11 @@ enum class MotionVerdict {
 };
 
 struct MotionRequest {
-  /// A pair that is at most so far apart counts as in contact: clear means farther apart than this,
+  /// Counts a pair that is at most so far apart as in contact: clear means farther apart than this,
   /// all along. In the models' units, >= 0.
   double min_separation = 0;
-  /// Of the path's parameter, in [2^-40, 1]: where an interval this short can't be proven clear and
-  /// shows no contact, the answer is kUnresolved.
+  /// Is the shortest interval of the path's parameter that is looked at, in [2^-40, 1]: where an
+  /// interval this short can't be proven clear and shows no contact, the answer is kUnresolved.
   double resolution = 0x1p-20;
   /// If true, the earliest contact is asked for, else any, which takes less time.
   bool first_contact = false;
@@ -103,13 +104,13 @@ struct MotionRequest {
   long long max_queries = 1000000;
 };
 
-/// Work done by checkMotion.
+/// Counts the work done by checkMotion.
 struct MotionCounts {
   long long configurations = 0;  ///< for which the poses of all bodies were computed
   long long pairs = 0;           ///< of bodies that may be checked
   long long proven_at_once = 0;  ///< of these, by bounding volumes at one configuration
-  /// About a pair at a configuration, by volumes, slabs or the narrow phase. A search for slabs
-  /// between triangles counts as one for each hundred of its tests.
+  /// Counts questions about a pair at a configuration, by volumes, slabs or the narrow phase. A
+  /// search for slabs between triangles counts as one for each hundred of its tests.
   long long queries = 0;
   long long narrow_queries =
       0;  ///< of these: a pair at a configuration: farther apart than it may move?
@@ -118,10 +119,11 @@ struct MotionCounts {
 
 struct MotionAnswer {
   MotionVerdict verdict = MotionVerdict::kClear;
-  /// Of the path's parameter. kClear: [0, 1], which is proven. kContact: a configuration in contact
-  /// lies in [from, to], and to - from <= resolution; `to` is one. With first_contact all before
-  /// `from` is proven clear. kUnresolved: the interval that could not be decided. kBudgetSpent: an
-  /// interval that is not decided yet; with first_contact all before `from` is proven clear.
+  /// Are an interval of the path's parameter. kClear: [0, 1], which is proven. kContact: a
+  /// configuration in contact lies in [from, to], and to - from <= resolution; `to` is one. With
+  /// first_contact all before `from` is proven clear. kUnresolved: the interval that could not be
+  /// decided. kBudgetSpent: an interval that is not decided yet; with first_contact all before
+  /// `from` is proven clear.
   double from = 0, to = 1;
   int body_a = -1, body_b = -1;  ///< the pair in contact, or undecided; body_a < body_b
   MotionCounts counts;

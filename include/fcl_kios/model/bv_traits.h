@@ -14,14 +14,15 @@
 
 namespace kios {
 
-/// The volume in the frame that X maps to, as an oriented box along the caps' axes.
+/// Converts the volume, in the frame that X maps to, to an oriented box along the caps' axes.
 template <typename S>
 fcl::OBB<S> toOBB(const kIOS<S>& bv, const fcl::Transform3<S>& X);
-/// The box along the axes of the frame that X maps to: the intersection of the spheres' boxes.
+/// Returns the box along the axes of the frame that X maps to: the intersection of the spheres'
+/// boxes.
 template <typename S>
 fcl::AABB<S> toAABB(const kIOS<S>& bv, const fcl::Transform3<S>& X);
 
-/// FCL's shape for a cost source: the oriented box of a volume that sits at tf_bv.
+/// Makes FCL's shape for a cost source: the oriented box of a volume that sits at tf_bv.
 template <typename S>
 void constructBox(const kIOS<S>& bv, const fcl::Transform3<S>& tf_bv, fcl::Box<S>& box,
                   fcl::Transform3<S>& tf);
@@ -48,7 +49,7 @@ struct MakeParentRelativeRecurseImpl<S, kios::kIOS<S>> {
 
 namespace detail {
 
-/// fcl::fit() with a kIOS.
+/// Serves fcl::fit() with a kIOS.
 template <typename S>
 struct Fitter<S, kios::kIOS<S>> {
   static void fit(const Vector3<S>* const points, int n, kios::kIOS<S>& bv) {
@@ -56,7 +57,7 @@ struct Fitter<S, kios::kIOS<S>> {
   }
 };
 
-/// fcl::convertBV() from a kIOS, tight along its caps.
+/// Serves fcl::convertBV() from a kIOS, tight along its caps.
 template <typename S>
 class ConvertBVImpl<S, kios::kIOS<S>, AABB<S>> {
  public:

@@ -55,7 +55,8 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   friend kios::engine::TreeCache* kios::treesOf(const fcl::BVHModel<kios::kIOS<T>>&);
 
   const kios::FitOptions options_;
-  /// The trees that queries prepared of the models that share this fitter: a model and its copies.
+  /// Holds the trees that queries prepared of the models that share this fitter: a model and its
+  /// copies.
   const std::unique_ptr<kios::engine::TreeCache> trees_;
   const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };

@@ -16,9 +16,9 @@ void requireConvertible(fcl::BVHBuildState state, fcl::BVHModelType type, int nu
                         int num_bvs);
 }  // namespace detail
 
-/// A k-IOS model of a mesh over any other volume of FCL: the same vertices and triangles in the
-/// same order, user data, cost density and thresholds. The AABB is computed from the vertices, so
-/// that it is right even where the other's is stale (see bounds.h). Vertices are taken as they
+/// Makes a k-IOS model of a mesh over any other volume of FCL: the same vertices and triangles in
+/// the same order, user data, cost density and thresholds. The AABB is computed from the vertices,
+/// so that it is right even where the other's is stale (see bounds.h). Vertices are taken as they
 /// stand: those from before an update, and the splitter's method, stay behind. Throws
 /// std::invalid_argument for a point cloud, an empty or unfinished model, and as makeModel().
 template <typename BV>

@@ -11,7 +11,7 @@
 
 namespace kios {
 
-/// A mesh over k-IOS.
+/// Names a mesh over k-IOS.
 template <typename S>
 using Model = fcl::BVHModel<kIOS<S>>;
 using Modeld = Model<double>;

@@ -11,8 +11,9 @@
 
 namespace kios::detail {
 
-/// Upper bound, from the motion's current time until 1, of the speed along the world direction n
-/// of any point of the content of bv (in the body's frame). May be negative: all of it recedes.
+/// Returns an upper bound, from the motion's current time until 1, of the speed along the world
+/// direction n of any point of the content of bv (in the body's frame). May be negative: all of it
+/// recedes.
 double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
                   const fcl::MotionBase<double>& motion);
 

@@ -15,18 +15,20 @@ namespace kios {
 template <typename S>
 void prepare(const Model<S>& model);
 
-/// Bytes of the trees that were prepared of this model and of its copies, each tree once; trees
-/// that models of equal content share are counted in full.
+/// Returns the bytes of the trees that were prepared of this model and of its copies, each tree
+/// once; trees that models of equal content share are counted in full.
 template <typename S>
 std::size_t preparedBytes(const Model<S>& model);
 
-/// To be called after vertices were written without beginReplaceModel() or beginUpdateModel():
-/// refits the model's volumes and drops its prepared trees. Throws as validate().
+/// Makes a model right whose vertices were written without beginReplaceModel() or
+/// beginUpdateModel(): refits the model's volumes and drops its prepared trees. Throws as
+/// validate().
 template <typename S>
 void invalidate(Model<S>& model);
 
-/// The instruction set that searches: AVX3 (AVX-512), AVX2, SSE4, NEON, or EMU128 or SCALAR (plain
-/// C++). The environment variable FCL_KIOS_SIMD chooses one, for tests; answers don't depend on it.
+/// Names the instruction set that searches: AVX3 (AVX-512), AVX2, SSE4, NEON, or EMU128 or SCALAR
+/// (plain C++). The environment variable FCL_KIOS_SIMD chooses one, for tests; answers don't depend
+/// on it.
 const char* simdTarget();
 
 }  // namespace kios

@@ -14,37 +14,38 @@
 
 namespace kios {
 
-/// The triangles of an earlier answer, from which a search may start: the caller's, one for each
-/// pair of models. Any content is allowed; ids that a model doesn't have are ignored. An exact
+/// Names the triangles of an earlier answer, from which a search may start: the caller's, one for
+/// each pair of models. Any content is allowed; ids that a model doesn't have are ignored. An exact
 /// answer (both tolerances 0, no budget, not stopped by near_enough or far_enough) is bitwise the
 /// same with and without.
 struct WarmStart {
   int triangle_a = -1, triangle_b = -1;
 };
 
-/// Options of a distance query. The search stops as soon as one of these holds; the defaults ask
-/// for the exact distance. Lengths are in the models' units.
+/// Holds the options of a distance query. The search stops as soon as one of these holds; the
+/// defaults ask for the exact distance. Lengths are in the models' units.
 template <typename S>
 struct DistanceOptions {
   /// The distance may exceed the exact one by max(rel_err * exact, abs_err): either suffices. >= 0.
   S rel_err = 0, abs_err = 0;
-  /// The models are proven at least so far apart. Not NaN; nothing is looked at if <= 0.
+  /// Ends the search once the models are proven at least so far apart. Not NaN; nothing is looked
+  /// at if <= 0.
   S far_enough = std::numeric_limits<S>::infinity();
-  /// Two triangles at most so far apart are found. Not NaN.
+  /// Ends the search once two triangles at most so far apart are found. Not NaN.
   S near_enough = 0;
-  /// So many pairs of nodes were expanded. A larger budget never gives a larger distance or a
-  /// smaller lower bound; upper_bound may differ by its own rounding term. >= 0.
+  /// Ends the search after this many expanded pairs of nodes. A larger budget never gives a larger
+  /// distance or a smaller lower bound; upper_bound may differ by its own rounding term. >= 0.
   long long max_expansions = std::numeric_limits<long long>::max();
   /// If true, the nearest points of the answer are set.
   bool nearest_points = true;
-  /// Read at the start, and set to the answer's triangles if there are any. No other thread may use
-  /// it meanwhile.
+  /// Is read at the start, and set to the answer's triangles if there are any. No other thread may
+  /// use it meanwhile.
   WarmStart* warm_start = nullptr;
 };
 using DistanceOptionsd = DistanceOptions<double>;
 using DistanceOptionsf = DistanceOptions<float>;
 
-/// The reason why a search ended; if several hold, the first of them.
+/// Says why a search ended; if several hold, the first of them.
 enum class DistanceStop {
   kTolerance,  ///< the distance is as exact as the options want
   kFar,        ///< lower_bound >= far_enough
@@ -53,19 +54,20 @@ enum class DistanceStop {
                ///< within rounding of far_enough and nothing more was looked at
 };
 
-/// The answer of a distance query. In every case lower_bound <= exact distance <= upper_bound, for
-/// the models' vertices and poses as they are given, in the common frame of docs/guarantees.md.
+/// Holds the answer of a distance query. In every case lower_bound <= exact distance <=
+/// upper_bound, for the models' vertices and poses as they are given, in the common frame of
+/// docs/guarantees.md.
 template <typename S>
 struct DistanceAnswer {
-  /// Distance of the triangles below, right to 16 eps of their extent; 0 if and only if they
+  /// Is the distance of the triangles below, right to 16 eps of their extent; 0 if and only if they
   /// intersect. Infinity if no pair of triangles was looked at.
   S distance = std::numeric_limits<S>::infinity();
   S lower_bound = 0;  ///< proven; 0 at contact
-  /// `distance` with its own error and the common frame's; infinity if that is.
+  /// Is `distance` with its own error and the common frame's; infinity if that is.
   S upper_bound = std::numeric_limits<S>::infinity();
   int triangle_a = -1, triangle_b = -1;  ///< of the models; -1 if no pair was looked at
-  /// Nearest points of those triangles in the world frame; NaN if there are none, or none were
-  /// asked for.
+  /// Are the nearest points of those triangles in the world frame; NaN if there are none, or none
+  /// were asked for.
   fcl::Vector3<S> point_a = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
   fcl::Vector3<S> point_b = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
   DistanceStop stop = DistanceStop::kTolerance;
@@ -74,10 +76,11 @@ struct DistanceAnswer {
 using DistanceAnswerd = DistanceAnswer<double>;
 using DistanceAnswerf = DistanceAnswer<float>;
 
-/// Distance of two meshes at poses X_WA, X_WB in the world. Where both tolerances are 0 and nothing
-/// else stops the search, `distance` and the triangles are fcl::distance's. Safe from many threads.
-/// Throws std::invalid_argument if a model is not a finished mesh, a pose is not rigid, or an
-/// option is out of range. Source of the search: paper, Algorithm 2 and IV, best first.
+/// Finds the distance of two meshes at poses X_WA, X_WB in the world. Where both tolerances are 0
+/// and nothing else stops the search, `distance` and the triangles are fcl::distance's. Safe from
+/// many threads. Throws std::invalid_argument if a model is not a finished mesh, a pose is not
+/// rigid, or an option is out of range. Source of the search: paper, Algorithm 2 and IV, best
+/// first.
 template <typename S>
 DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                            const fcl::Transform3<S>& X_WB, const DistanceOptions<S>& options = {});

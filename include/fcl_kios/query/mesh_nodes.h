@@ -14,7 +14,8 @@
 
 namespace kios {
 
-/// Contacts and cost sources of two meshes; contacts are in the world frame, normals from A to B.
+/// Finds contacts and cost sources of two meshes; contacts are in the world frame, normals from A
+/// to B.
 template <typename S>
 class MeshCollisionTraversalNode : public fcl::detail::MeshCollisionTraversalNode<kIOS<S>> {
  public:
@@ -26,16 +27,16 @@ class MeshCollisionTraversalNode : public fcl::detail::MeshCollisionTraversalNod
 using MeshCollisionTraversalNoded = MeshCollisionTraversalNode<double>;
 using MeshCollisionTraversalNodef = MeshCollisionTraversalNode<float>;
 
-/// Distance of two meshes. `rel_err` and `abs_err` (initialize() takes them from the request) are
-/// honoured, either sufficing: d - d_exact <= max(rel_err * d_exact, abs_err). A finite
-/// result->min_distance on entry is an upper bound that the query need not beat. The result is
-/// updated once, in postprocess(), if a nearer pair was found.
+/// Finds the distance of two meshes. `rel_err` and `abs_err` (initialize() takes them from the
+/// request) are honoured, either sufficing: d - d_exact <= max(rel_err * d_exact, abs_err). A
+/// finite result->min_distance on entry is an upper bound that the query need not beat. The result
+/// is updated once, in postprocess(), if a nearer pair was found.
 template <typename S>
 class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<kIOS<S>> {
  public:
   void preprocess() override;
   void postprocess() override;
-  /// Signed lower bound: negative values order overlapping volumes, deepest first.
+  /// Returns a signed lower bound: negative values order overlapping volumes, deepest first.
   S BVTesting(int b1, int b2) const override;
   void leafTesting(int b1, int b2) const override;
   bool canStop(S bound) const override;
@@ -53,8 +54,8 @@ class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<
 using MeshDistanceTraversalNoded = MeshDistanceTraversalNode<double>;
 using MeshDistanceTraversalNodef = MeshDistanceTraversalNode<float>;
 
-/// FCL's signature, found by argument-dependent lookup. Throws std::invalid_argument if a model is
-/// not a finished mesh, a pose is not rigid, or an error bound is negative or NaN. Returns true.
+/// Has FCL's signature, found by argument-dependent lookup. Throws std::invalid_argument if a model
+/// is not a finished mesh, a pose is not rigid, or an error bound is negative or NaN. Returns true.
 template <typename S>
 bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& a,
                 const fcl::Transform3<S>& X_WA, const Model<S>& b, const fcl::Transform3<S>& X_WB,

@@ -13,12 +13,12 @@
 
 namespace kios {
 
-/// fcl::collide and fcl::distance of two meshes over k-IOS, with FCL's conventions for requests
-/// and results: poses X_WA and X_WB in the world, points and normals of results there too, lengths
-/// in the models' units. Collision is exact; distance is right to 16 eps of the extent of the
-/// nearest triangles, or to what the request allows (docs/guarantees.md). Safe from many threads.
-/// Source of the tests of volumes: paper, IV. Throw std::invalid_argument if a model is not a
-/// finished mesh, a pose is not rigid, or an error bound is negative or NaN.
+/// Answers fcl::collide and fcl::distance of two meshes over k-IOS, with FCL's conventions for
+/// requests and results: poses X_WA and X_WB in the world, points and normals of results there too,
+/// lengths in the models' units. Collision is exact; distance is right to 16 eps of the extent of
+/// the nearest triangles, or to what the request allows (docs/guarantees.md). Safe from many
+/// threads. Source of the tests of volumes: paper, IV. Throw std::invalid_argument if a model is
+/// not a finished mesh, a pose is not rigid, or an error bound is negative or NaN.
 ///
 /// A pair that the root volumes can't decide is searched in trees that the models prepare at their
 /// first such query and keep (see prepare()). Cost sources, models whose BVFitter is not ours, and

@@ -16,8 +16,9 @@
 
 namespace kios {
 
-/// The points origin + t direction, t_min <= t <= t_max. The direction need not be a unit vector: t
-/// counts directions, not lengths. t_max may be infinite, which means the largest finite S.
+/// Holds the points origin + t direction, t_min <= t <= t_max. The direction need not be a unit
+/// vector: t counts directions, not lengths. t_max may be infinite, which means the largest finite
+/// S.
 template <typename S>
 struct Ray {
   fcl::Vector3<S> origin = fcl::Vector3<S>::Zero();
@@ -59,15 +60,15 @@ enum class RaySide {
   kEdgeOn  ///< the ray lies in the triangle's plane, or the triangle is a segment or a point
 };
 
-/// A ray and a triangle.
+/// Says where a ray meets a triangle.
 template <typename S>
 struct RayHit {
-  /// The parameter at which the ray first meets the closed triangle: exact, rounded once to double
-  /// (and then to S). Triangles that are hit in one point have bitwise one t.
+  /// Is the parameter at which the ray first meets the closed triangle: exact, rounded once to
+  /// double (and then to S). Triangles that are hit in one point have bitwise one t.
   S t;
-  /// That point in the world, to 8 eps (S) of the triangle's coordinates there and in the model.
+  /// Is that point in the world, to 8 eps (S) of the triangle's coordinates there and in the model.
   fcl::Vector3<S> point;
-  /// Its barycentric coordinates: >= 0, each to 2^-50 (float: and one rounding).
+  /// Are its barycentric coordinates: >= 0, each to 2^-50 (float: and one rounding).
   fcl::Vector3<S> weights;
   int triangle;  ///< index in the model
   RaySide side;  ///< exact
@@ -75,8 +76,9 @@ struct RayHit {
 using RayHitd = RayHit<double>;
 using RayHitf = RayHit<float>;
 
-/// The first triangle that a ray meets: the hit with the least t, of equal ones the least triangle;
-/// none if the ray misses the model. X_WM is the model's pose in the world, the ray's frame.
+/// Finds the first triangle that a ray meets: the hit with the least t, of equal ones the least
+/// triangle; none if the ray misses the model. X_WM is the model's pose in the world, the ray's
+/// frame.
 ///
 /// Verdicts are exact, for the ray as mapped into the model's frame: origin to R^-1 (origin - T),
 /// direction to R^-1 direction, R as given. The identity maps exactly; other poses move a
@@ -97,8 +99,8 @@ template <typename S>
 bool anyHit(const Model<S>& model, const fcl::Transform3<S>& X_WM, const Ray<S>& ray,
             SearchCounts* counts = nullptr);
 
-/// Every triangle that the ray meets, once, by t and then by triangle; of more than `limit` the
-/// first.
+/// Lists every triangle that the ray meets, once, by t and then by triangle; of more than `limit`
+/// the first.
 template <typename S>
 std::vector<RayHit<S>> allHits(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                                const Ray<S>& ray,

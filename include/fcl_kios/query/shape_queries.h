@@ -13,7 +13,7 @@
 
 namespace kios {
 
-/// fcl::collide and fcl::distance of a mesh over k-IOS and one of FCL's nine shapes
+/// Answers fcl::collide and fcl::distance of a mesh over k-IOS and one of FCL's nine shapes
 /// (docs/shapes.md): poses X_WM of the mesh and X_WS of the shape in the world, results there too,
 /// with the mesh as object 1 whatever the order of FCL's call, as FCL does. The shape is full, the
 /// plane infinitely thin; distance at overlap is 0. No solver of FCL's is used, and the model is

@@ -14,10 +14,10 @@
 
 namespace kios {
 
-/// Scene queries over any broadphase manager of FCL: its distance callback, with a memory of the
-/// pairs from query to query, so that a pair which stood still or moved too little is not searched
-/// again. What the geometries are is looked at in each query: meshes over k-IOS by their root
-/// volumes, FCL's shapes by their sizes. Of others, octrees above all, nothing is remembered.
+/// Asks scene queries over any broadphase manager of FCL: its distance callback, with a memory of
+/// the pairs from query to query, so that a pair which stood still or moved too little is not
+/// searched again. What the geometries are is looked at in each query: meshes over k-IOS by their
+/// root volumes, FCL's shapes by their sizes. Of others, octrees above all, nothing is remembered.
 ///
 ///     kios::ManagerQueryd query;
 ///     query.findWithin(0.1);                       // or query.findClosest()
@@ -34,11 +34,11 @@ class ManagerQuery {
   /// Returns true if a query should look at the pair.
   using Filter = std::function<bool(const Object*, const Object*)>;
 
-  /// Two objects, as the manager ordered them.
+  /// Holds two objects, as the manager ordered them.
   struct Pair {
     const Object *a = nullptr, *b = nullptr;
     S distance = 0;  ///< fcl::distance(a, b), bit for bit
-    /// The triangles that realise the distance; -1 for geometries that have none.
+    /// Are the triangles that realise the distance; -1 for geometries that have none.
     std::intptr_t triangle_a = -1, triangle_b = -1;
   };
 
@@ -53,13 +53,13 @@ class ManagerQuery {
   void findClosest();
   void findWithin(S margin);
 
-  /// FCL's DistanceCallBack; `query` is a `ManagerQuery<S>` that was started. Throws
+  /// Is FCL's DistanceCallBack; `query` is a `ManagerQuery<S>` that was started. Throws
   /// std::invalid_argument as fcl::distance does.
   static bool callback(Object* o1, Object* o2, void* query, S& dist);
 
-  /// Of findClosest(): at most one.
+  /// Returns the pairs found: at most one of findClosest().
   const std::vector<Pair>& pairs() const;
-  /// Of the pairs that the manager came up with.
+  /// Counts how the pairs were dealt with that the manager came up with.
   const SceneCounts& counts() const;
 
  private:

@@ -15,10 +15,10 @@
 
 namespace kios {
 
-/// Distances in a scene of many objects over many frames. Answers equal fcl::distance over all
-/// admissible pairs, bit for bit, with the object of the smaller id as the first argument; ties go
-/// to the smallest ids. A query leaves out the pairs that it needn't look at, and counts() tells
-/// how many.
+/// Answers for the distances in a scene of many objects over many frames. Answers equal
+/// fcl::distance over all admissible pairs, bit for bit, with the object of the smaller id as the
+/// first argument; ties go to the smallest ids. A query leaves out the pairs that it needn't look
+/// at, and counts() tells how many.
 ///
 /// A pair is admissible unless it is excluded, refused by the filter, or both are obstacles. Two
 /// meshes over k-IOS are never asked twice at one relative pose, nor while their last proven
@@ -48,14 +48,14 @@ class SceneDistance {
   /// is no const use, and so has a shape of FCL's that changed. Throws std::invalid_argument if the
   /// geometry is null or an unfinished mesh, or the pose is not rigid.
   int add(std::shared_ptr<const Geometry> geometry, const Pose& X_W, Role role = Role::kBody);
-  /// The same, but the pose is read from the object at each query. It must outlive its stay here.
+  /// Adds an object whose pose is read from it at each query. It must outlive its stay here.
   int add(const fcl::CollisionObject<S>* object, Role role = Role::kBody);
   /// Throw std::invalid_argument if there is no such object; move() also if the pose is not rigid
   /// or not finite, or is read from an fcl::CollisionObject.
   void remove(int id);
   void move(int id, const Pose& X_W);
-  /// To be called after the local AABB of a geometry has grown that is neither a mesh over k-IOS
-  /// nor one of FCL's shapes or octrees.
+  /// Has to be called after the local AABB of a geometry has grown that is neither a mesh over
+  /// k-IOS nor one of FCL's shapes or octrees.
   void changed(int id);
   bool contains(int id) const;
   std::size_t size() const;  ///< number of objects
@@ -66,18 +66,18 @@ class SceneDistance {
   /// Replaces the filter; an empty one admits all.
   void setFilter(const Filter& filter);
 
-  /// The nearest admissible pair; none if there is no admissible pair.
+  /// Finds the nearest admissible pair; none if there is no admissible pair.
   std::optional<ScenePair<S>> closestPair(const SceneRequest& request = {});
-  /// All admissible pairs with distance <= margin, in ascending order of (a, b): those that touch,
-  /// for 0. Throws std::invalid_argument if margin is NaN.
+  /// Lists all admissible pairs with distance <= margin, in ascending order of (a, b): those that
+  /// touch, for 0. Throws std::invalid_argument if margin is NaN.
   std::vector<ScenePair<S>> pairsWithin(S margin, const SceneRequest& request = {});
-  /// The distance of every admissible pair, in ascending order of (a, b).
+  /// Lists the distance of every admissible pair, in ascending order of (a, b).
   std::vector<ScenePair<S>> clearances(const SceneRequest& request = {});
 
-  /// Counts of the last query.
+  /// Returns the counts of the last query.
   const SceneCounts& counts() const;
-  /// Pairs of which something is remembered: at most twice those that the last query came near,
-  /// plus 1024, and never more than kMaxRemembered.
+  /// Counts the pairs of which something is remembered: at most twice those that the last query
+  /// came near, plus 1024, and never more than kMaxRemembered.
   std::size_t rememberedPairs() const;
   enum : std::size_t { kMaxRemembered = std::size_t{1} << 18 };
   /// Forgets all that was learnt of pairs; answers don't depend on it.

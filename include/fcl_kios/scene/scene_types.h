@@ -12,7 +12,7 @@ namespace kios {
 /// Two obstacles are never asked about each other.
 enum class Role : std::uint8_t { kBody, kObstacle };
 
-/// Options of a scene query.
+/// Holds the options of a scene query.
 struct SceneRequest {
   bool nearest_points = false;  ///< sets ScenePair::nearest_a and nearest_b
   /// If false, pairsWithin() may report any distance of two points of the pair up to the margin,
@@ -20,14 +20,14 @@ struct SceneRequest {
   bool exact = true;
 };
 
-/// Two objects of a scene, a < b.
+/// Holds two objects of a scene, a < b.
 template <typename S>
 struct ScenePair {
   int a = -1, b = -1;  ///< ids
   S distance = 0;      ///< in the models' units; 0 at contact
-  /// The triangles that realise the distance; -1 for geometries that have none.
+  /// Are the triangles that realise the distance; -1 for geometries that have none.
   std::intptr_t triangle_a = -1, triangle_b = -1;
-  /// In the world; set if the request wants them.
+  /// Are in the world; set if the request wants them.
   fcl::Vector3<S> nearest_a = fcl::Vector3<S>::Zero(), nearest_b = fcl::Vector3<S>::Zero();
 };
 using ScenePaird = ScenePair<double>;
@@ -48,7 +48,7 @@ struct SceneCounts {
   long long proven_farther = 0;    ///< of those, proven farther than the query asked for
   SearchCounts search;             ///< the work of the narrow phase
 
-  /// Pairs that the narrow phase was spared.
+  /// Counts the pairs that the narrow phase was spared.
   long long skipped() const { return total - queried; }
 };
 

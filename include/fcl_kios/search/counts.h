@@ -4,7 +4,7 @@
 
 namespace kios {
 
-/// Work done by a search.
+/// Counts the work done by a search.
 struct SearchCounts {
   long long expansions = 0;     ///< nodes whose children were tested
   long long volume_tests = 0;   ///< children tested

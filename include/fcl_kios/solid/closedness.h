@@ -10,19 +10,19 @@
 
 namespace kios {
 
-/// An edge of a mesh that keeps it from being a solid.
+/// Names an edge of a mesh that keeps it from being a solid.
 template <typename S>
 struct FaultyEdge {
   int triangle = -1;  ///< the first one at the edge; -1: there is no such edge
-  /// The edge's ends in the model's frame, in that triangle's order.
+  /// Are the edge's ends in the model's frame, in that triangle's order.
   fcl::Vector3<S> from = fcl::Vector3<S>::Zero(), to = fcl::Vector3<S>::Zero();
 };
 
 using FaultyEdged = FaultyEdge<double>;
 using FaultyEdgef = FaultyEdge<float>;
 
-/// What a mesh must be to have an inside, vertices of equal coordinates taken as one. A triangle
-/// with two corners alike passes the edge between them once each way.
+/// Says what a mesh must be to have an inside, vertices of equal coordinates taken as one. A
+/// triangle with two corners alike passes the edge between them once each way.
 template <typename S>
 struct Closedness {
   /// There is an edge, and every edge belongs to an even number of triangles.
@@ -37,7 +37,7 @@ struct Closedness {
   int edges = 0;              ///< between distinct vertices
   int branching_edges = 0;    ///< of more than two triangles
   int first_inside_out = -1;  ///< a triangle of the first such component
-  /// The first edges that are open or misoriented, by triangle.
+  /// Lists the first edges that are open or misoriented, by triangle.
   std::array<FaultyEdge<S>, 3> first;
 
   bool isSolid() const { return closed && oriented; }
@@ -50,13 +50,13 @@ using Closednessf = Closedness<float>;
 /// std::invalid_argument if the model is not a finished mesh.
 template <typename S>
 Closedness<S> inspectClosedness(const Model<S>& model);
-/// The same for a mesh without a model, its indices in range and its vertices finite.
+/// Examines a mesh without a model, its indices in range and its vertices finite.
 template <typename S>
 Closedness<S> inspectClosedness(const std::vector<fcl::Vector3<S>>& vertices,
                                 const std::vector<fcl::Triangle>& triangles);
 
-/// What keeps a mesh from being a solid, as messages say it: the counts, and where the first three
-/// edges are. Empty if nothing does.
+/// Says what keeps a mesh from being a solid, as messages say it: the counts, and where the first
+/// three edges are. Empty if nothing does.
 template <typename S>
 std::string faultsOf(const Closedness<S>& closedness);
 

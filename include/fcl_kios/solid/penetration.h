@@ -9,32 +9,33 @@
 
 namespace kios {
 
-/// Options of penetration().
+/// Holds the options of penetration().
 struct PenetrationOptions {
   /// The search for a shorter way out, and for a higher lower bound, ends once upper <= (1 +
   /// rel_gap) lower. >= 0.
   double rel_gap = 0.04;
-  /// Or after so many tests of a translation. It finds one in any case. >= 0.
+  /// Ends the search after so many tests of a translation. It finds one in any case. >= 0.
   int max_tests = 48;
   /// If given, the work is added to it.
   SearchCounts* counts = nullptr;
 };
 
-/// A bracket of the length of the shortest translation that parts two solids.
+/// Brackets the length of the shortest translation that parts two solids.
 struct Penetration {
   double lower = 0;  ///< no shorter translation than this parts the interiors: proven
   double upper = 0;  ///< |translation|
-  /// Of solid 2, in the world: after it the surfaces are apart, neither solid is in the other, and
-  /// so the interiors are disjoint. Proven, and zero only if they are disjoint already.
+  /// Moves solid 2, in the world: after it the surfaces are apart, neither solid is in the other,
+  /// and so the interiors are disjoint. Proven, and zero only if they are disjoint already.
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  /// A point of solid 1's surface in the world that solid 2's surface all but touches after the
+  /// Is a point of solid 1's surface in the world that solid 2's surface all but touches after the
   /// translation. Zero if the interiors are disjoint already.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
 };
 
-/// How deep two solids at poses X_W1, X_W2 in the world overlap; {0, 0, 0} where their interiors
-/// are disjoint. Interiors that touch count as disjoint where a plane of a face at the contact
-/// parts the solids, in exact arithmetic; else the bracket of touching ones is that of rounding.
+/// Finds how deep two solids at poses X_W1, X_W2 in the world overlap; {0, 0, 0} where their
+/// interiors are disjoint. Interiors that touch count as disjoint where a plane of a face at the
+/// contact parts the solids, in exact arithmetic; else the bracket of touching ones is that of
+/// rounding.
 ///
 /// Both bounds hold for the models' vertices in the common frame of docs/guarantees.md. For two
 /// convex solids the bracket closes to rel_gap. For others `upper` is the least translation that a

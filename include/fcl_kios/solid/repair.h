@@ -10,7 +10,7 @@
 
 namespace kios {
 
-/// Options of repair().
+/// Holds the options of repair().
 struct RepairOptions {
   /// Vertices that are at most so far apart become one: the larger of the two counts, a part of the
   /// diagonal of the mesh's box, and a length in its units. 0 and 0: only equal ones. >= 0; a part
@@ -25,13 +25,13 @@ struct RepairOptions {
   enum : int { kMostHoleEdges = 256 };
 };
 
-/// A closed way along edges of one triangle each.
+/// Is a closed way along edges of one triangle each.
 struct Hole {
   std::vector<int> vertices;  ///< of the repaired mesh, in the order that a triangle would fill it
   double perimeter = 0;
 };
 
-/// A mesh, and all that repair() did to make it of another.
+/// Holds a mesh, and all that repair() did to make it of another.
 template <typename S>
 struct Repaired {
   std::vector<fcl::Vector3<S>> vertices;  ///< each one a vertex as it was given, bit for bit
@@ -79,7 +79,7 @@ template <typename S>
 Repaired<S> repair(const std::vector<fcl::Vector3<S>>& vertices,
                    const std::vector<fcl::Triangle>& triangles, const RepairOptions& options = {});
 
-/// What was changed and what is left, in one sentence or two.
+/// Says what was changed and what is left, in one sentence or two.
 template <typename S>
 std::string summaryOf(const Repaired<S>& repaired);
 

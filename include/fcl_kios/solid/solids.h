@@ -28,7 +28,7 @@ void markSolid(Model<S>& model);
 template <typename S>
 void unmarkSolid(Model<S>& model);
 
-/// True if the model is marked, and closed and oriented as it stands. Throws nothing.
+/// Returns true if the model is marked, and closed and oriented as it stands. Throws nothing.
 template <typename S>
 bool isSolid(const Model<S>& model);
 

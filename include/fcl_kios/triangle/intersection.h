@@ -6,16 +6,16 @@
 
 namespace kios {
 
-/// True if and only if the two closed triangles have a point in common: exact for every finite
-/// input, coplanar, touching and degenerate (segments, points) ones included. Evaluated with a
-/// static filter, floating-point expansions behind it, and integers where those could underflow.
+/// Returns true if and only if the two closed triangles have a point in common: exact for every
+/// finite input, coplanar, touching and degenerate (segments, points) ones included. Evaluated with
+/// a static filter, floating-point expansions behind it, and integers where those could underflow.
 /// S = double or float; coordinates in one frame.
 template <typename S>
 bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
 
-/// A point of the intersection of two triangles that intersect: the mean of the corners of their
-/// common segment or polygon, each rounded. Error: about 8 eps times the extent of the pair for
-/// crossing triangles, growing as they become parallel. Undefined if they don't intersect.
+/// Returns a point of the intersection of two triangles that intersect: the mean of the corners of
+/// their common segment or polygon, each rounded. Error: about 8 eps times the extent of the pair
+/// for crossing triangles, growing as they become parallel. Undefined if they don't intersect.
 template <typename S>
 Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
 

@@ -12,7 +12,8 @@ using Point = Eigen::Matrix<S, 3, 1>;
 using Pointd = Point<double>;
 using Pointf = Point<float>;
 
-/// A closed triangle by its vertices, in any order; it may degenerate to a segment or a point.
+/// Holds a closed triangle by its vertices, in any order; it may degenerate to a segment or a
+/// point.
 template <typename S>
 using TriangleVertices = std::array<Point<S>, 3>;
 using TriangleVerticesd = TriangleVertices<double>;

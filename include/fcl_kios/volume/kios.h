@@ -8,11 +8,22 @@
 
 namespace kios {
 
-/// k-IOS: the intersection of k spheres (k = 1, 3 or 5), each of which contains the whole content.
-/// Source: Zhang & Kim, "k-IOS: Intersection of Spheres for Efficient Proximity Query", III.
+/// Holds a k-IOS: the intersection of k spheres (k = 1, 3 or 5), each of which contains the whole
+/// content. Source: Zhang & Kim, "k-IOS: Intersection of Spheres for Efficient Proximity Query",
+/// III.
 ///
 /// Sphere 0 (S0) is the central sphere; spheres 1, 2 and 3, 4 are pairs of larger "caps" that cut
 /// S0 off along the smallest and the middle axis of the content. Units and frame are the model's.
+/// In section, along the smallest axis:
+/// @verbatim
+///             .-"""""""-.            S0
+///    ______.-'___________'-.______   part of sphere 2, whose centre lies far below
+///        .'    #########    '.
+///        |  ###############  |       the content lies in all spheres
+///        '.    #########    .'
+///    ------'-.-----------.-'------   part of sphere 1, whose centre lies far above
+///             '-._____.-'
+/// @endverbatim
 ///
 /// Every sphere contains the content in exact arithmetic: its radius is measured from the centre
 /// as stored and rounded outwards. Every bound that is derived from it is conservative in floating
@@ -27,17 +38,18 @@ class kIOS {
   // Static members would be unique symbols, which keep dlclose() from unloading the library.
   enum : int { kMaxSpheres = 5, kCaps = 4 };
 
-  /// Tests of a pair in one frame: paper, IV-A (Algorithm 1) and IV-B (Algorithm 2).
+  /// Tests a pair in one frame: paper, IV-A (Algorithm 1) and IV-B (Algorithm 2).
   bool overlap(const kIOS& other) const;
-  /// As overlap(other). `overlap_part` is not written: the intersection of two k-IOS is not one.
+  /// Does as overlap(other). `overlap_part` is not written: the intersection of two k-IOS is not
+  /// one.
   bool overlap(const kIOS& other, kIOS& overlap_part) const;
-  /// Lower bound of the distance of the contents, 0 when the volumes may overlap, the largest
-  /// finite S when one is empty. P and Q, if given, are the points of the sphere pair that attains
-  /// the bound (on this and on `other`, common frame); both are one point between the volumes when
-  /// the bound is 0, and unchanged when a volume is empty.
+  /// Returns a lower bound of the distance of the contents, 0 when the volumes may overlap, the
+  /// largest finite S when one is empty. P and Q, if given, are the points of the sphere pair that
+  /// attains the bound (on this and on `other`, common frame); both are one point between the
+  /// volumes when the bound is 0, and unchanged when a volume is empty.
   S distance(const kIOS& other, fcl::Vector3<S>* P = nullptr, fcl::Vector3<S>* Q = nullptr) const;
 
-  /// True if no sphere excludes p; never false for a point of the content.
+  /// Returns true if no sphere excludes p; never false for a point of the content.
   bool contain(const fcl::Vector3<S>& p) const;
 
   /// Grows the volume, if need be, so that it contains p as well. Throws std::invalid_argument if a
@@ -47,23 +59,25 @@ class kIOS {
   /// Encloses both contents. a + b and b + a are bitwise equal but for their stamps.
   kIOS operator+(const kIOS& other) const;
 
-  /// Centre of S0.
+  /// Returns the centre of S0.
   const fcl::Vector3<S>& center() const { return center0; }
-  /// Extents along x, y and z of the box around the intersection; they bound the content.
+  /// Are the extents along x, y and z of the box around the intersection; they bound the content.
   S width() const { return extent(0); }
   S height() const { return extent(1); }
   S depth() const { return extent(2); }
-  /// Upper bound of the volume: the smaller of the volumes of S0 and of the box of extents.
+  /// Returns an upper bound of the volume: the smaller of the volumes of S0 and of the box of
+  /// extents.
   S volume() const;
-  /// Squared diameter of S0, a squared length as AABB::size(); saturates at the largest finite S.
+  /// Returns the squared diameter of S0, a squared length as AABB::size(); saturates at the largest
+  /// finite S.
   S size() const;
 
-  /// Corners of the axis-aligned box around the intersection, rounded outwards.
+  /// Are the corners of the axis-aligned box around the intersection, rounded outwards.
   void bounds(fcl::Vector3<S>& lower, fcl::Vector3<S>& upper) const;
 
-  /// Number of spheres: 0 (empty), 1, 3 or 5.
+  /// Returns the number of spheres: 0 (empty), 1, 3 or 5.
   int k() const { return num_spheres; }
-  /// Sphere i of k: centre and radius rounded to S, outwards.
+  /// Returns sphere i of k: centre and radius rounded to S, outwards.
   fcl::Vector3<S> sphereCenter(int i) const;
   S sphereRadius(int i) const;
 
@@ -76,7 +90,7 @@ class kIOS {
   float cap_y[kCaps] = {};
   float cap_z[kCaps] = {};
   float cap_r[kCaps] = {};
-  /// Unlike that of any other fit or merge in this process; copies keep it. 0: empty.
+  /// Is unlike that of any other fit or merge in this process; copies keep it. 0: empty.
   std::uint64_t stamp = 0;
   float reach = 0;            ///< >= |offset| + radius of every sphere, units of 2^exponent.
   std::int16_t exponent = 0;  ///< 0 for radii in about [2^-30, 2^30].
@@ -89,7 +103,7 @@ class kIOS {
 using kIOSd = kIOS<double>;
 using kIOSf = kIOS<float>;
 
-/// The volume moved by t; its spheres grow by the rounding error of the moved centre.
+/// Returns the volume moved by t; its spheres grow by the rounding error of the moved centre.
 template <typename S>
 kIOS<S> translate(const kIOS<S>& bv, const fcl::Vector3<S>& t);
 

@@ -10,13 +10,13 @@ namespace kios::detail {
 // vectors, and where it can, as on ARM, Eigen fuses products with sums: answers would differ in
 // their last bits.
 
-/// a . b
+/// Returns a . b.
 template <typename S>
 S dot(const fcl::Vector3<S>& a, const fcl::Vector3<S>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// R x
+/// Returns R x.
 template <typename S>
 fcl::Vector3<S> rotate(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& x) {
   return {R(0, 0) * x[0] + R(0, 1) * x[1] + R(0, 2) * x[2],
@@ -24,7 +24,7 @@ fcl::Vector3<S> rotate(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& x) {
           R(2, 0) * x[0] + R(2, 1) * x[1] + R(2, 2) * x[2]};
 }
 
-/// X x
+/// Returns X x.
 template <typename S>
 fcl::Vector3<S> transform(const fcl::Transform3<S>& X, const fcl::Vector3<S>& x) {
   return rotate<S>(X.linear(), x) + X.translation();

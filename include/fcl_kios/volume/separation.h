@@ -12,7 +12,7 @@ class RelativePose;
 
 namespace detail {
 
-/// The parts of a pose that bounds need.
+/// Holds the parts of a pose that bounds need.
 struct PoseBounds {
   float R[3][3];   ///< rounded to float
   double T_norm1;  ///< |T|_1
@@ -23,30 +23,31 @@ const PoseBounds& boundsOf(const RelativePose<S>& X_AB);
 
 }  // namespace detail
 
-/// Pose of frame B in frame A, x_A = R x_B + T, with bounds of its errors, which are computed once.
+/// Holds the pose of frame B in frame A, x_A = R x_B + T, with bounds of its errors, which are
+/// computed once.
 template <typename S>
 class RelativePose {
  public:
   /// Throws std::invalid_argument if the pose is not finite or not rigid: the Frobenius norm of
   /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float), and a reflection is not rigid.
   RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
-  /// The pose x -> R_WA^T (R_WB x + (t_WB - t_WA)) of every query, for poses in a common frame W,
-  /// each of which must be rigid. A coordinate of a point is off by at most
-  /// 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T |t_WB - t_WA|), absolute values by entry, so
-  /// by 4 eps (|x|_1 + |t_WB - t_WA|) with room for rotations that aren't quite orthonormal.
+  /// Computes the pose x -> R_WA^T (R_WB x + (t_WB - t_WA)) of every query, for poses in a common
+  /// frame W, each of which must be rigid. A coordinate of a point is off by at most 3.5 eps
+  /// (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T |t_WB - t_WA|), absolute values by entry, so by 4
+  /// eps (|x|_1 + |t_WB - t_WA|) with room for rotations that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB);
   /// Takes rotations that were checked: `squared_errors` is at least the sum of the squares
   /// of their errors, |R^T R - I| each (Frobenius).
   RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
                double squared_errors);
 
-  /// A point of B in A.
+  /// Maps a point of B to A.
   fcl::Vector3<S> operator*(const fcl::Vector3<S>& x_B) const {
     return detail::rotate<S>(R_, x_B) + T_;
   }
-  /// The rotation as given, or R_WA^T R_WB.
+  /// Returns the rotation as given, or R_WA^T R_WB.
   const fcl::Matrix3<S>& R() const { return R_; }
-  /// The origin of B in A.
+  /// Returns the origin of B in A.
   const fcl::Vector3<S>& T() const { return T_; }
 
  private:
@@ -67,14 +68,14 @@ const PoseBounds& boundsOf(const RelativePose<S>& X_AB) {
 }
 }  // namespace detail
 
-/// Signed lower bound of the distance between the contents of a (in frame A) and of b (in frame
-/// B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame A.
-/// Once the bound of the central spheres exceeds `enough`, that is returned. An empty volume gives
-/// +infinity. Source: paper, Algorithm 2, kept signed so that deeper overlap orders first.
+/// Returns a signed lower bound of the distance between the contents of a (in frame A) and of b (in
+/// frame B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame
+/// A. Once the bound of the central spheres exceeds `enough`, that is returned. An empty volume
+/// gives +infinity. Source: paper, Algorithm 2, kept signed so that deeper overlap orders first.
 template <typename S>
 double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB, double enough);
 
-/// FCL's forms of the tests, found by argument-dependent lookup: b sits at (R, T) in a's frame,
+/// Are FCL's forms of the tests, found by argument-dependent lookup: b sits at (R, T) in a's frame,
 /// P and Q are in a's frame. As kIOS::overlap and kIOS::distance otherwise.
 template <typename S>
 bool overlap(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T, const kIOS<S>& a,

@@ -145,7 +145,8 @@ class PairList {
   }
 
  private:
-  /// Of these lanes; infinity elsewhere, where memory may hold anything, also what traps.
+  /// Loads the bounds of these lanes; infinity elsewhere, where memory may hold anything, also what
+  /// traps.
   V boundsAt(size_t i, uint32_t used) const {
     return hn::IfThenElse(hn::RebindMask(d, maskOf(used)), hn::LoadU(d, bounds_ + i),
                           hn::Set(d, std::numeric_limits<float>::infinity()));

@@ -57,7 +57,12 @@ struct Corners {
   Vec3 v[3];
 };
 
-/// Slabs between two sets of points, and pairs of the points: the best of each are kept.
+/// Keeps the best slab between two sets of points, and the best pair of the points:
+///
+///      .  . |              | .
+///     a    .|   -> along   |.    b
+///        .  |              |  . .
+///         top_a        bottom_b       |p - q| >= bottom_b - top_a for all p of a, q of b
 template <class HullA, class HullB>
 class Slabs {
  public:

@@ -151,8 +151,14 @@ class BoxedTriangles {
   BoxBlock boxes_[kKept];
 };
 
-/// Triangles as the planes that are stored for faces, one a lane or one in all lanes: the face's,
-/// and those of the prism that stands on its edges.
+/// Holds triangles as the planes that are stored for faces, one a lane or one in all lanes: the
+/// face's, and those of the prism that stands on its edges. In section:
+///
+///     :         :    . p
+///     :  prism  :    |      height above the plane of the face
+///     :         :    |
+///     +=========+----+
+///        face    beyond     |p - face|^2 >= height^2 + beyond^2
 struct Prisms {
   V3 normal[4];
   V offset[4];

@@ -11,12 +11,12 @@ namespace kios::inspect {
 
 using Color = std::array<std::uint8_t, 3>;  ///< sRGB
 
-/// One colour a node: hues go around the circle once, in the order of the content, so that a
+/// Gives one colour a node: hues go around the circle once, in the order of the content, so that a
 /// volume's parts have colours like its own; neighbours differ in lightness. `place`: which of its
 /// level's volumes it is.
 Color colorOf(const VolumeTree& tree, int node, std::size_t place);
 
-/// Colour of the first and the second mesh.
+/// Returns the colour of the first and the second mesh.
 Color meshColor(int which);
 
 }  // namespace kios::inspect

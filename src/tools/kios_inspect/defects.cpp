@@ -14,7 +14,7 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// For each vertex the number of its coordinates, from 0, in lexicographic order (-0 = +0).
+/// Returns for each vertex the number of its coordinates, from 0, in lexicographic order (-0 = +0).
 std::pair<std::vector<std::uint32_t>, std::size_t> weld(const Mesh& mesh,
                                                         const std::vector<bool>& used) {
   const auto less = [&](std::uint32_t a, std::uint32_t b) {
@@ -35,7 +35,7 @@ std::pair<std::vector<std::uint32_t>, std::size_t> weld(const Mesh& mesh,
   return {std::move(welded), order.empty() ? 0 : count + 1};
 }
 
-/// The height over the longest edge, in units of it; 0 if all corners coincide.
+/// Returns the height over the longest edge, in units of it; 0 if all corners coincide.
 double relativeHeight(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c) {
   const fcl::Vector3d edges[3] = {b - a, c - b, a - c};
   double longest = 0;

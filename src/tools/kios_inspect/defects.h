@@ -10,11 +10,11 @@
 
 namespace kios::inspect {
 
-/// A triangle whose height over its longest edge is below this part of that edge is a sliver.
+/// Is a triangle whose height over its longest edge is below this part of that edge is a sliver.
 constexpr double kSliverHeight = 1e-3;
 
-/// The oddities of a mesh. Queries answer exactly in spite of all; they cost time, or show that an
-/// exporter went wrong. Corners count as the same if their coordinates are equal.
+/// Holds the oddities of a mesh. Queries answer exactly in spite of all; they cost time, or show
+/// that an exporter went wrong. Corners count as the same if their coordinates are equal.
 struct Defects {
   std::size_t distinct_vertices = 0;  ///< by coordinates, of those that a triangle uses
   std::size_t unreferenced = 0;       ///< vertices that no triangle uses
@@ -29,8 +29,8 @@ struct Defects {
 
 Defects findDefects(const Mesh& mesh);
 
-/// A sentence for each thing that a user may want to repair; none for a clean mesh. An open mesh is
-/// no defect and has no sentence.
+/// Returns a sentence for each thing that a user may want to repair; none for a clean mesh. An open
+/// mesh is no defect and has no sentence.
 std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects);
 
 }  // namespace kios::inspect

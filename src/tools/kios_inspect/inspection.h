@@ -18,7 +18,7 @@
 
 namespace kios::inspect {
 
-/// A mesh, its model and its tree, and what there is to tell about them.
+/// Holds a mesh, its model and its tree, and what there is to tell about them.
 struct Inspection {
   std::string file;
   Mesh mesh;  ///< repaired, if that was asked for

@@ -104,14 +104,15 @@ void requireLevel(const Options& options, const std::vector<Inspection>& inspect
                    std::to_string(deepest) + ".");
 }
 
-/// The commonest reason why a file can't be written, before minutes of work.
+/// Refuses a missing folder, the commonest reason why a file can't be written, before minutes of
+/// work.
 void requireDirectory(const std::filesystem::path& file) {
   const std::filesystem::path parent = file.parent_path();
   if (file.empty() || parent.empty() || std::filesystem::is_directory(parent)) return;
   throw OutputError(file.string() + ": there is no directory " + parent.string() + ".");
 }
 
-/// The repaired mesh, every coordinate to its last digit.
+/// Returns the repaired mesh, every coordinate to its last digit.
 std::string toObj(const Repairedd& mesh) {
   std::string text = "# written by kios_inspect\n";
   char line[128];

@@ -10,8 +10,8 @@
 
 namespace kios::inspect {
 
-/// All meshes of a file in one frame: at least one triangle, indices in range, finite vertices.
-/// Units are the file's.
+/// Holds all meshes of a file in one frame: at least one triangle, indices in range, finite
+/// vertices. Units are the file's.
 struct Mesh {
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;
@@ -19,12 +19,12 @@ struct Mesh {
   std::size_t other_faces = 0;  ///< points and lines, left out
 };
 
-/// A file that can't be read, or whose content is not a mesh.
+/// Tells of a file that can't be read, or whose content is not a mesh.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that can't be written.
+/// Tells of a file that can't be written.
 struct OutputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -8,8 +8,8 @@
 
 namespace kios::inspect {
 
-/// All meshes of a file, each placed by the transforms of its scene. Throws InputError, with a
-/// sentence that names the file and what is wrong: missing, unreadable, no format that assimp
+/// Reads all meshes of a file, each placed by the transforms of its scene. Throws InputError, with
+/// a sentence that names the file and what is wrong: missing, unreadable, no format that assimp
 /// knows, no triangles, a vertex that is not finite.
 Mesh readMesh(const std::filesystem::path& file);
 

@@ -8,7 +8,7 @@
 
 namespace kios::inspect {
 
-/// The options of the command line.
+/// Holds the options of the command line.
 struct Options {
   std::vector<std::filesystem::path> meshes;  // one, or two for their distance
   std::string pose_a = "0,0,0", pose_b = "0,0,0";

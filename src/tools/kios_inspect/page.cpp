@@ -13,7 +13,7 @@
 namespace kios::inspect {
 namespace {
 
-/// Little-endian bytes in base64, as the page's script reads them.
+/// Returns little-endian bytes in base64, as the page's script reads them.
 template <typename T>
 std::string base64(const std::vector<T>& values) {
   static_assert(sizeof(T) == 4);
@@ -43,7 +43,7 @@ struct Ball {
   double radius;
 };
 
-/// The spheres of a volume relative to the centre of S0, exactly as the volume stores them.
+/// Returns the spheres of a volume relative to the centre of S0, exactly as the volume stores them.
 std::vector<Ball> ballsOf(const kIOSd& volume) {
   std::vector<Ball> balls = {{fcl::Vector3d::Zero(), volume.radius0}};
   for (int i = 0; i + 1 < volume.k(); ++i) {
@@ -56,8 +56,8 @@ std::vector<Ball> ballsOf(const kIOSd& volume) {
   return balls;
 }
 
-/// The page's units: each mesh about the middle of its box, lengths in parts of the largest mesh,
-/// so that floats serve wherever the meshes are and whatever their size.
+/// Holds the page's units: each mesh about the middle of its box, lengths in parts of the largest
+/// mesh, so that floats serve wherever the meshes are and whatever their size.
 struct Units {
   double scale = 1;
 
@@ -121,7 +121,7 @@ void addLevels(const Inspection& inspection, const Units& units, double budget, 
   }
 }
 
-/// A mesh of the scene in at most `budget` bytes, and sentences about what it leaves out.
+/// Returns a mesh of the scene in at most `budget` bytes, and sentences about what it leaves out.
 Json sceneMesh(const Inspection& inspection, const Units& units, double budget, Json& notes) {
   const std::string what = inspection.file + ": ";
   const std::string why = " left out, as the page would be too large: see --html-limit.";

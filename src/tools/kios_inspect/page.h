@@ -15,8 +15,8 @@ struct PageOptions {
   double limit_megabytes = 20;  ///< of meshes and volumes; the rest is left out
 };
 
-/// One self-contained HTML page that shows one or two meshes and the volumes of a level, with the
-/// statistics of report.h. It names what it leaves out: a mesh beyond half the limit, and the
+/// Makes one self-contained HTML page that shows one or two meshes and the volumes of a level, with
+/// the statistics of report.h. It names what it leaves out: a mesh beyond half the limit, and the
 /// deepest levels. `pair` may be null; with it, the meshes stand at its poses.
 std::string page(const std::vector<Inspection>& inspections, const PairQuery* pair,
                  const PageOptions& options);

@@ -14,7 +14,7 @@ namespace kios::inspect {
 /// quaternion's length within 1 % of 1.
 fcl::Transform3d parsePose(const std::string& text);
 
-/// Distance of two models at poses in the world, and its time.
+/// Holds the distance of two models at poses in the world, and its time.
 struct PairQuery {
   fcl::Transform3d X_WA, X_WB;
   DistanceAnswer<double> answer;
@@ -22,7 +22,7 @@ struct PairQuery {
   double median_seconds = 0, min_seconds = 0;  ///< of the repeats: the trees are prepared
 };
 
-/// `repeats` >= 1. Throws InputError where the library refuses the pair.
+/// Asks `repeats` >= 1 times. Throws InputError where the library refuses the pair.
 PairQuery queryPair(const Modeld& a, const fcl::Transform3d& X_WA, const Modeld& b,
                     const fcl::Transform3d& X_WB, int repeats);
 

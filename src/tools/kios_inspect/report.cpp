@@ -10,7 +10,7 @@
 namespace kios::inspect {
 namespace {
 
-/// printf into a string.
+/// Appends to a string as printf does.
 __attribute__((format(printf, 2, 3))) void print(std::string& out, const char* format, ...) {
   char line[512];
   va_list arguments;

@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 Json toJson(const Inspection& inspection);
 Json toJson(const PairQuery& query);
 
-/// The same for people.
+/// Writes the same for people.
 std::string toText(const Inspection& inspection);
 std::string toText(const PairQuery& query);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kDirections = 162;
 
-/// Directions spread evenly over the sphere, on a spiral of golden angles.
+/// Returns directions spread evenly over the sphere, on a spiral of golden angles.
 std::vector<fcl::Vector3d> spiral() {
   const double golden = (3 - std::sqrt(5.0)) * M_PI;
   std::vector<fcl::Vector3d> directions;

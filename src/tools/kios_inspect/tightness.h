@@ -13,16 +13,17 @@ namespace kios::inspect {
 /// centre of S0, low by at most 1e-5 of S0's radius.
 double support(const kIOSd& volume, const fcl::Vector3d& n);
 
-/// Slack of a volume in a direction: how far it reaches beyond its content there (difference of
-/// their support functions), in units of the content's size, the diagonal of its box. The bound
-/// that the volume gives for a distance is too low by about that much. Measured in 162 directions.
+/// Holds the slack of a volume in a direction: how far it reaches beyond its content there
+/// (difference of their support functions), in units of the content's size, the diagonal of its
+/// box. The bound that the volume gives for a distance is too low by about that much. Measured in
+/// 162 directions.
 struct Slack {
   double size = 0;           ///< of the content, in the file's units
   double mean = 0, max = 0;  ///< over directions
   double mean_s0 = 0;        ///< of sphere S0 alone, as if it were the volume
 };
 
-/// Slack of a node's volume; no slack if its content is a single point.
+/// Returns the slack of a node's volume; no slack if its content is a single point.
 Slack slackOf(const VolumeTree& tree, int node);
 
 /// Measures of the volumes of a level, those of VolumeTree::level().
@@ -35,7 +36,7 @@ struct LevelTightness {
   Slack slack;                        ///< means over them; `max` is the largest
 };
 
-/// `nodes`: a level's, all of them.
+/// Takes `nodes`: a level's, all of them.
 LevelTightness measure(const VolumeTree& tree, int level, const std::vector<int>& nodes);
 
 }  // namespace kios::inspect

@@ -8,7 +8,7 @@
 
 namespace kios::inspect {
 
-/// A model's tree of volumes together with what each node contains. Refers to the model.
+/// Holds a model's tree of volumes together with what each node contains. Refers to the model.
 class VolumeTree {
  public:
   /// The model must be finished.
@@ -19,13 +19,13 @@ class VolumeTree {
   bool isLeaf(int node) const { return model_->getBV(node).isLeaf(); }
   int depth() const { return depth_; }  ///< the deepest leaf's level; the root's is 0
 
-  /// The nodes at this level, and the leaves above it: together they contain the model. At most
-  /// 2^level, in the order of their content. The deepest level's beyond it.
+  /// Returns the nodes at this level, and the leaves above it: together they contain the model. At
+  /// most 2^level, in the order of their content. The deepest level's beyond it.
   std::vector<int> level(int level) const;
-  /// The next level, of a level's nodes.
+  /// Returns the next level, of a level's nodes.
   std::vector<int> deeper(const std::vector<int>& nodes) const;
 
-  /// Triangles in an order in which each node's are contiguous, and the node's part of it.
+  /// Returns triangles in an order in which each node's are contiguous, and the node's part of it.
   const std::vector<int>& triangles() const { return triangles_; }
   int first(int node) const { return first_[node]; }
   int last(int node) const { return first_[node] + count_[node]; }

@@ -26,7 +26,7 @@ typename Policy::Volume fitOf(const Policy& policy, const PointSet& points,
   return policy.fit(points.data(), static_cast<int>(points.size()), model);
 }
 
-/// The first sphere of v that doesn't contain p, as stored; -1 if there is none.
+/// Returns the first sphere of v that doesn't contain p, as stored; -1 if there is none.
 int excluding(const CapSpheres& v, const PackedPolicy::Shared& model, const fcl::Vector3d& p) {
   for (int i = 0; i <= v.caps; ++i) {
     const float o[3] = {i ? v.x[i - 1] : 0, i ? v.y[i - 1] : 0, i ? v.z[i - 1] : 0};
@@ -42,7 +42,8 @@ int excluding(const CapSpheres& v, const PackedPolicy::Shared& model, const fcl:
   return -1;
 }
 
-/// A set with a subset that is the content: models of one volume, of many, and much larger ones.
+/// Holds a set with a subset that is the content: models of one volume, of many, and much larger
+/// ones.
 struct Model {
   explicit Model(Random& random) {
     all = hardPointSet<double>(random, randomCount(random));

@@ -123,7 +123,7 @@ TEST(FixedDirections, FitIsThatOfTheTurnedContent) {
   }
 }
 
-/// Floats by hand: 4, and for each of `caps` its place and radius or a shared one.
+/// Returns floats by hand: 4, and for each of `caps` its place and radius or a shared one.
 std::size_t expectedFloats(int caps, int place, bool shared) {
   if (caps == 0) return 4;
   return shared ? 5 + caps * place : 4 + caps * (place + 1);

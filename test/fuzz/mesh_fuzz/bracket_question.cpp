@@ -80,7 +80,8 @@ class BracketQuestion {
   }
 
  private:
-  /// A length at which something happens: a distance of triangles, of vertices, give or take.
+  /// Returns a length at which something happens: a distance of triangles, of vertices, give or
+  /// take.
   S threshold() {
     if (chance(random_, 0.05)) return chance(random_, 0.5) ? S{0} : S{-1};
     if (chance(random_, 0.02)) return std::numeric_limits<S>::infinity();

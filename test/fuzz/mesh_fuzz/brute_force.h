@@ -36,7 +36,7 @@ TriangleVertices<S> placed(const TriangleVertices<S>& t, const RelativePose<S>& 
   return {X * t[0], X * t[1], X * t[2]};
 }
 
-/// All pairs of triangles of two meshes, in the frame of the first.
+/// Holds all pairs of triangles of two meshes, in the frame of the first.
 template <typename S>
 class BruteForce {
  public:
@@ -72,7 +72,7 @@ class BruteForce {
     return distances_[static_cast<std::size_t>(ids.first) * b_.size() +
                       static_cast<std::size_t>(ids.second)];
   }
-  /// L of the contract.
+  /// Returns L of the contract.
   double extentOf(const Ids& ids) const {
     return fuzz::extentOf(a_[static_cast<std::size_t>(ids.first)],
                           b_[static_cast<std::size_t>(ids.second)]);

@@ -61,7 +61,7 @@ class DistanceQuestion {
   }
 
  private:
-  /// An exact answer: the kernel's, for triangles that are as near as any.
+  /// Returns an exact answer: the kernel's, for triangles that are as near as any.
   static Verdict judge(S d, const std::pair<int, int>& ids, const BruteForce<S>& truth,
                        const std::string& call) {
     if (d != truth.distanceOf(ids)) {

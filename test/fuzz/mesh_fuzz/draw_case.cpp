@@ -29,7 +29,8 @@ const Question* drawQuestion(Random& random) {
   return &questions().back();
 }
 
-/// Lengths of metres and millimetres mostly; else any that engine and tree promise to serve.
+/// Returns lengths of metres and millimetres mostly; else any that engine and tree promise to
+/// serve.
 double drawScale(Random& random) {
   if (chance(random, 0.6)) return 1;
   if (chance(random, 0.5)) return power(random, -4, 4);

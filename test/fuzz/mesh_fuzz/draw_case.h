@@ -6,7 +6,7 @@
 
 namespace kios::fuzz {
 
-/// The case of a seed and an index. `only`: the question, if it isn't to be drawn.
+/// Returns the case of a seed and an index. `only`: the question, if it isn't to be drawn.
 Case drawCase(std::uint64_t seed, std::uint64_t index, const Question* only);
 
 }  // namespace kios::fuzz

@@ -57,11 +57,11 @@ struct Case {
 
 inline bool chance(Random& random, double p) { return random.unit() < p; }
 inline int below(Random& random, int n) { return scenes::integer(random, 0, n - 1); }
-/// 10^e, e uniform.
+/// Returns 10^e, e uniform.
 inline double power(Random& random, double low, double high) {
   return std::pow(10, random.uniform(low, high));
 }
-/// v moved by so many units in the last place.
+/// Returns v moved by so many units in the last place.
 template <typename S>
 S ulps(S v, int count) {
   const S to = std::copysign(std::numeric_limits<S>::infinity(), static_cast<S>(count));

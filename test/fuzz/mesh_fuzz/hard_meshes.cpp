@@ -25,7 +25,7 @@ int countOf(Random& random) {
   return 1 + static_cast<int>(60 * u * u * u);
 }
 
-/// A corner of a triangle near `at`, by a rule that all corners of a mesh share.
+/// Returns a corner of a triangle near `at`, by a rule that all corners of a mesh share.
 Mesh soup(Random& random, double size) {
   Mesh mesh;
   for (int i = countOf(random); i > 0; --i) {

@@ -10,17 +10,17 @@ namespace kios::fuzz {
 /// of specks, slivers, flat and degenerate ones, mixed scales, closed shapes, copies of triangles.
 Mesh hardMesh(Random& random);
 
-/// A relative of a mesh: it again, a smaller one about the same centre, turned inside out, noisy, a
-/// part of it.
+/// Returns a relative of a mesh: it again, a smaller one about the same centre, turned inside out,
+/// noisy, a part of it.
 Mesh relativeOf(const Mesh& mesh, Random& random);
 
 /// All vertices times `scale`, then moved by `offset`; rounded as doubles do.
 void place(Mesh& mesh, double scale, const Vector3d& offset);
 
-/// The middle of the mesh's box, rounded.
+/// Returns the middle of the mesh's box, rounded.
 Vector3d middleOf(const Mesh& mesh);
 
-/// The mesh of only these triangles, without the vertices that it then doesn't use.
+/// Returns the mesh of only these triangles, without the vertices that it then doesn't use.
 Mesh partOf(const Mesh& mesh, const std::vector<std::size_t>& triangles);
 
 }  // namespace kios::fuzz

@@ -31,7 +31,7 @@ Eigen::Matrix3d someRotation(Random& random) {
   }
 }
 
-/// A vertex, a point of an edge or of the face of one of the triangles.
+/// Returns a vertex, a point of an edge or of the face of one of the triangles.
 Vector3d someContent(const Mesh& mesh, Random& random) {
   const fcl::Triangle& t = mesh.triangles[below(random, static_cast<int>(mesh.triangles.size()))];
   const Vector3d &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];

@@ -42,7 +42,7 @@ struct Settings {
   std::set<const Question*> skip;
 };
 
-/// The case that a thread works on, to be reported if it crashes or hangs.
+/// Holds the case that a thread works on, to be reported if it crashes or hangs.
 struct Current {
   std::atomic<std::uint64_t> index{0};
   std::atomic<long long> since{0};  ///< milliseconds of processor time; 0 between cases

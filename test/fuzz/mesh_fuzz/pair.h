@@ -29,7 +29,7 @@ std::shared_ptr<Model<S>> modelOf(const Mesh& mesh, bool foreign) {
   return model;
 }
 
-/// The first two meshes of a case as models, at their poses of a frame.
+/// Holds the first two meshes of a case as models, at their poses of a frame.
 template <typename S>
 struct ModelPair {
   std::shared_ptr<Model<S>> A, B;
@@ -42,7 +42,7 @@ struct ModelPair {
         Y(c.pose(1, frame).template cast<S>()) {}
 };
 
-/// Numbers in decimal and, exactly, in hexadecimal.
+/// Holds numbers in decimal and, exactly, in hexadecimal.
 class Words {
  public:
   Words() { stream_.precision(9); }
@@ -61,7 +61,7 @@ class Words {
   std::ostringstream stream_;
 };
 
-/// As C++ takes it.
+/// Does as C++ takes it.
 template <typename T>
 std::string literal(T v) {
   std::ostringstream stream;
@@ -83,7 +83,7 @@ inline std::string text(const std::pair<int, int>& ids) {
   return "(" + std::to_string(ids.first) + ", " + std::to_string(ids.second) + ")";
 }
 
-/// Distance of a point and a triangle, both in the world, by the kernel.
+/// Returns the distance of a point and a triangle, both in the world, by the kernel.
 template <typename S>
 double distanceTo(const fcl::Vector3<S>& p, const TriangleVertices<S>& t,
                   const fcl::Transform3<S>& X_W) {

@@ -39,7 +39,7 @@ class RayQuestion {
   }
 
  private:
-  /// A point of the mesh, in its frame.
+  /// Returns a point of the mesh, in its frame.
   Vector3d content() {
     const auto& t =
         triangles_[static_cast<std::size_t>(below(random_, static_cast<int>(triangles_.size())))];

@@ -80,7 +80,7 @@ class SceneQuestion {
     }
   }
 
-  /// A length at which something happens.
+  /// Returns a length at which something happens.
   S threshold() {
     if (truth_.empty()) return 1;
     auto it = truth_.begin();

@@ -91,7 +91,7 @@ class ShapeQuestion {
     return spec;
   }
 
-  /// As the mesh, somewhere near, or with a gap between a corner and the shape's border.
+  /// Does as the mesh, somewhere near, or with a gap between a corner and the shape's border.
   void poseShape(const std::vector<TriangleVertices<double>>& triangles, double size) {
     Y_ = Transform3d::Identity();
     if (chance(random_, 0.6)) Y_.linear() = scenes::rotation(random_);
@@ -137,7 +137,7 @@ class ShapeQuestion {
     }
   }
 
-  /// Distance of a triangle and the hull's faces; 0 if a corner lies inside.
+  /// Returns the distance of a triangle and the hull's faces; 0 if a corner lies inside.
   static double toHull(const Corners& t, const Mesh& hull) {
     long double deepest = -1;
     double least = std::numeric_limits<double>::infinity();
@@ -153,14 +153,13 @@ class ShapeQuestion {
     return !flat && deepest < 0 ? 0 : least;
   }
 
-  /// The segment along z of that half length.
+  /// Returns the segment along z of that half length.
   static Corners pointSegment(double half) {
     const Vector3d top(0, 0, half);
     return {top, -top, -top};
   }
 
-  /// Right to 2^-48 L; `grown`: of the shape larger by so much (boxes, spheres,
-  /// capsules).
+  /// Is right to 2^-48 L; `grown`: of the shape larger by so much (boxes, spheres, capsules).
   double exactDistance(const Corners& t, double grown) const {
     const Vector3d& s = spec_.size;
     switch (spec_.kind) {

@@ -9,8 +9,8 @@ namespace kios::fuzz {
 /// Asks the case. What the library throws is a failure too: no case is one that it may refuse.
 Verdict ask(const Case& c);
 
-/// The smallest case found within `seconds` that fails as well: fewer triangles, frames and models,
-/// simple poses, short coordinates.
+/// Returns the smallest case found within `seconds` that fails as well: fewer triangles, frames and
+/// models, simple poses, short coordinates.
 Case shrunk(Case c, double seconds);
 
 }  // namespace kios::fuzz

@@ -56,8 +56,8 @@ inline std::filesystem::path writeObj(const std::string& name, const scenes::Mes
   return writeText(name, out.str());
 }
 
-/// A Collada scene that calls z up: the triangle (0,0,0) (1,0,0) (0,1,0), moved by 10 along x, and
-/// turned by 90 degrees about z and doubled below a node that is moved by 5 along z.
+/// Returns a Collada scene that calls z up: the triangle (0,0,0) (1,0,0) (0,1,0), moved by 10 along
+/// x, and turned by 90 degrees about z and doubled below a node that is moved by 5 along z.
 inline std::filesystem::path writeScene(const std::string& name) {
   return writeText(name, R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

@@ -19,7 +19,7 @@ fcl::Vector3d directionOf(std::mt19937& random) {
   return fcl::Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-/// Points in a box of these half extents, turned at random.
+/// Returns points in a box of these half extents, turned at random.
 Points pointsIn(const fcl::Vector3d& half, int count, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto turn = fcl::Quaterniond::FromTwoVectors(directionOf(random), directionOf(random));

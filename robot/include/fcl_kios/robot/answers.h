@@ -15,13 +15,14 @@
 
 namespace kios {
 
-/// Two that are in contact: links, obstacles or attached objects.
+/// Names two that are in contact: links, obstacles or attached objects.
 struct RobotContact {
   std::string a, b;
   int element_a = 0, element_b = 0;  ///< which of a link's or object's collision elements
-  /// Triangles of meshes that meet, cells of octrees; -1 for shapes.
+  /// Are the triangles of meshes that meet, cells of octrees; -1 for shapes.
   std::intptr_t id_a = -1, id_b = -1;
-  /// A point of the contact in the world; halfway between the nearest points where paddings touch.
+  /// Is a point of the contact in the world; halfway between the nearest points where paddings
+  /// touch.
   fcl::Vector3d point = fcl::Vector3d::Zero();
 };
 
@@ -34,27 +35,27 @@ struct ClearanceOptions {
   bool gradient = true;  ///< d clearance / dq is asked for
 };
 
-/// A clearance: the distance of a pair less both paddings.
+/// Holds a clearance: the distance of a pair less both paddings.
 struct RobotClearance {
   std::string a, b;                  ///< empty if there is no pair, or all are beyond far_enough
   int element_a = 0, element_b = 0;  ///< which of their collision elements
   double clearance = std::numeric_limits<double>::infinity();
-  /// Proven, but for the errors of docs/robot.md; of all pairs where the least was asked for.
+  /// Is proven, but for the errors of docs/robot.md; of all pairs where the least was asked for.
   double lower_bound = std::numeric_limits<double>::infinity();
-  /// Nearest points in the world; a common point of both at contact, if one is known.
+  /// Are the nearest points in the world; a common point of both at contact, if one is known.
   fcl::Vector3d point_a = fcl::Vector3d::Zero(), point_b = fcl::Vector3d::Zero();
   std::intptr_t id_a = -1, id_b = -1;  ///< their triangles, or cells of octrees; -1 for shapes
-  /// By coordinate: n^T (J_b - J_a), n the direction from a to b, of length 1. Where the nearest
-  /// pair of points is unique it is the derivative, else one of the generalised gradient. At
-  /// contact n is that in which the penetration's depth shrinks: of two marked solids, the shortest
-  /// way out that kios::penetration() finds, else the contact's normal. Empty if not asked for or
-  /// without a pair.
+  /// Holds, by coordinate, n^T (J_b - J_a), n the direction from a to b, of length 1. Where the
+  /// nearest pair of points is unique it is the derivative, else one of the generalised gradient.
+  /// At contact n is that in which the penetration's depth shrinks: of two marked solids, the
+  /// shortest way out that kios::penetration() finds, else the contact's normal. Empty if not asked
+  /// for or without a pair.
   Eigen::VectorXd gradient;
 };
 
-/// Of the distances less the paddings, with the pair's names: those in contact, or undecided.
-/// body_a and body_b are places in the order in which links, then attached objects and obstacles
-/// have collision elements.
+/// Holds the answer for distances less the paddings, with the pair's names: those in contact, or
+/// undecided. body_a and body_b are places in the order in which links, then attached objects and
+/// obstacles have collision elements.
 struct RobotMotion : MotionAnswer {
   std::string a, b;
 };
@@ -67,12 +68,12 @@ enum class PairVerdict {
 };
 
 struct PairOptions {
-  /// Boxes of configurations a pair that may be looked at.
+  /// Bounds the boxes of configurations a pair that may be looked at.
   long long max_boxes = 4000000;
   int threads = 0;  ///< 0: one a core
 };
 
-/// What two links can do within the limits of the joints between them.
+/// Says what two links can do within the limits of the joints between them.
 struct LinkPair {
   std::string a, b;
   PairVerdict verdict = PairVerdict::kOpen;
@@ -82,7 +83,7 @@ struct LinkPair {
   double seconds = 0;
 };
 
-/// The pairs that need no check, kAlways and kNever, as disable_collisions of an SRDF.
+/// Writes the pairs that need no check, kAlways and kNever, as disable_collisions of an SRDF.
 std::string toSrdf(const std::vector<LinkPair>& pairs);
 
 }  // namespace kios

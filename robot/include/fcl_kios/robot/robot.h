@@ -19,14 +19,14 @@
 namespace kios {
 
 struct RobotOptions {
-  /// The folder of each package that a mesh is named by (package://name/...). Others are looked for
-  /// in ROS_PACKAGE_PATH, then as share/name in AMENT_PREFIX_PATH, then from the URDF's own folder
-  /// and from those above it, with the package's name and without it.
+  /// Holds the folder of each package that a mesh is named by (package://name/...). Others are
+  /// looked for in ROS_PACKAGE_PATH, then as share/name in AMENT_PREFIX_PATH, then from the URDF's
+  /// own folder and from those above it, with the package's name and without it.
   std::map<std::string, std::string> packages;
   double padding = 0;  ///< of all links, metres, >= 0; see Robot::setPadding()
 };
 
-/// A robot, what is attached to it, and obstacles around it. It may be copied, copies share
+/// Holds a robot, what is attached to it, and obstacles around it. It may be copied, copies share
 /// geometry. Const calls are safe from many threads. Geometry must stay as it was when it was
 /// added.
 ///
@@ -45,25 +45,26 @@ class Robot {
   Robot& operator=(Robot other) noexcept;
   ~Robot();
 
-  /// The size of q: joints that move and mimic nobody, in the order of the URDF. A planar joint has
-  /// three coordinates (x, y, and the turn about its axis), a floating one six (x, y, z, roll,
-  /// pitch, yaw).
+  /// Returns the size of q: joints that move and mimic nobody, in the order of the URDF. A planar
+  /// joint has three coordinates (x, y, and the turn about its axis), a floating one six (x, y, z,
+  /// roll, pitch, yaw).
   int coordinates() const;
-  /// Names by coordinate: a joint's own, or e.g. base/yaw.
+  /// Are names by coordinate: a joint's own, or e.g. base/yaw.
   const std::vector<std::string>& joints() const;
   const std::vector<std::string>& links() const;  ///< in the order of the URDF
-  /// Limits by coordinate; infinite for continuous joints, planar and floating ones. Those of
+  /// Are limits by coordinate; infinite for continuous joints, planar and floating ones. Those of
   /// joints that mimic one are taken into account.
   const Eigen::VectorXd& lower() const;
   const Eigen::VectorXd& upper() const;
-  /// A group state of the SRDF, those of one name in several groups together. A coordinate that it
-  /// doesn't name is 0, or the limit next to it.
+  /// Returns a group state of the SRDF, those of one name in several groups together. A coordinate
+  /// that it doesn't name is 0, or the limit next to it.
   Eigen::VectorXd state(const std::string& name) const;
   std::vector<std::string> states() const;  ///< names of the group states
-  /// The frame of a link or of an attached object in the world, which is the root link's frame.
+  /// Returns the frame of a link or of an attached object in the world, which is the root link's
+  /// frame.
   fcl::Transform3d pose(const std::string& link, const Eigen::VectorXd& q) const;
 
-  /// Served are finished meshes over k-IOS, FCL's nine shapes and octrees.
+  /// Adds an obstacle: a finished mesh over k-IOS, one of FCL's nine shapes, or an octree.
   void addObstacle(const std::string& name, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
                    const fcl::Transform3d& X_W = fcl::Transform3d::Identity());
   /// Reads MoveIt's PlanningScene in YAML: obstacles, attached objects, allowed pairs. Objects of
@@ -80,16 +81,16 @@ class Robot {
               const std::vector<std::string>& touch_links = {});
   void allow(const std::string& a, const std::string& b, bool allowed = true);
   bool allowed(const std::string& a, const std::string& b) const;
-  /// Of a link, an attached object or an obstacle: what is nearer than the paddings of both is in
-  /// contact. Exact: a distance less the paddings, no mesh is grown. Metres, >= 0; obstacles and
-  /// attached objects begin with 0.
+  /// Sets the padding of a link, an attached object or an obstacle: what is nearer than the
+  /// paddings of both is in contact. Exact: a distance less the paddings, no mesh is grown. Metres,
+  /// >= 0; obstacles and attached objects begin with 0.
   void setPadding(const std::string& name, double metres);
 
-  /// A pair in contact, or none. Exact for meshes; docs/robot.md says what holds for shapes.
+  /// Finds a pair in contact, or none. Exact for meshes; docs/robot.md says what holds for shapes.
   std::optional<RobotContact> contact(const Eigen::VectorXd& q) const;
-  /// The pair of least clearance: distance less paddings, 0 less paddings at contact.
+  /// Finds the pair of least clearance: distance less paddings, 0 less paddings at contact.
   RobotClearance clearance(const Eigen::VectorXd& q, const ClearanceOptions& options = {}) const;
-  /// All pairs of names whose clearance is at most `within`, the least first.
+  /// Lists all pairs of names whose clearance is at most `within`, the least first.
   std::vector<RobotClearance> clearances(const Eigen::VectorXd& q, double within) const;
   /// Is the straight path in joint space clear? As kios::checkMotion(), which proves it, of the
   /// distances less the paddings.
@@ -105,7 +106,7 @@ class Robot {
   std::vector<RobotMotion> checkMotions(const Eigen::MatrixXd& q0, const Eigen::MatrixXd& q1,
                                         const MotionRequest& request = {}, int threads = 0) const;
 
-  /// What every pair of links can do within the joints' limits, whatever is allowed, without
+  /// Says what every pair of links can do within the joints' limits, whatever is allowed, without
   /// paddings, obstacles and attached objects. Links without geometry have no pairs.
   std::vector<LinkPair> linkPairs(const PairOptions& options = {}) const;
 

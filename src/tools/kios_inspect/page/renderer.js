@@ -249,7 +249,7 @@ class Renderer {
     const views = this.meshes.map((mesh) => multiply(camera.view, mesh.matrix));
     if (shown.mesh) this.meshes.forEach((m, i) => this.drawMesh(m, views[i], camera, shown));
     if (shown.volumes) {
-      // Of volumes only what is in front of all others is blended: no order is needed.
+      // Only the foremost volume of a pixel is blended: no order is needed.
       const {program, uniforms} = this.volumeProgram;
       gl.useProgram(program);
       gl.uniform1f(uniforms.pixel, camera.pixel);
