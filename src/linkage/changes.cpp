@@ -10,26 +10,17 @@
 #include <fcl/geometry/shape/convex.h>
 #include "linkage/link_tree.h"
 #include "model/kios_model.h"
-#include "shape/shape_solid.h"
+#include "model/shape_values.h"
 
 namespace kios {
 namespace articulated {
 namespace {
 
-bool samePoints(const fcl::Convexd& convex, const shape::Solid& solid) {
-  return convex.getVertices() == solid.points && convex.getFaces().data() == solid.faces &&
-         convex.getFaceCount() == solid.num_faces;
-}
-
-/// True if toSolid() would give the same solid, bit by bit.
-bool sameShape(const fcl::CollisionGeometryd& geometry, const shape::Solid& solid) {
-  if (solid.kind == shape::Kind::kConvex) {
-    return samePoints(static_cast<const fcl::Convexd&>(geometry), solid);
-  }
-  const shape::Solid now = toSolid(geometry);
-  return now.half == solid.half && now.radius == solid.radius &&
-         now.half_length == solid.half_length && now.normal == solid.normal &&
-         now.offset == solid.offset;
+/// The solid refers to a convex shape's faces where they lay.
+bool sameShape(const BodyData& body) {
+  if (!hasShapeValues(*body.geometry, body.shape_values)) return false;
+  return body.solid.kind != shape::Kind::kConvex ||
+         static_cast<const fcl::Convexd&>(*body.geometry).getFaces().data() == body.solid.faces;
 }
 
 [[noreturn]] void refuse(const char* what, std::size_t id) {
@@ -44,7 +35,7 @@ void BodyData::requireUnchanged(std::size_t id) const {
   if (kind == BodyKind::kMesh) {
     requireFinished(*model);
     if (model->getBV(0).bv.stamp != stamp || model->vertices != vertices) refuse("mesh", id);
-  } else if (kind == BodyKind::kShape && !sameShape(*geometry, solid)) {
+  } else if (kind == BodyKind::kShape && !sameShape(*this)) {
     refuse("shape", id);
   }
   if (geometry->isOccupied() != occupied) refuse("occupancy", id);

@@ -15,6 +15,7 @@
 #endif
 #include "continuous/motion.h"
 #include "model/kios_model.h"
+#include "model/shape_values.h"
 #include "shape/shape_solid.h"
 #include "volume/rounding.h"
 
@@ -141,6 +142,7 @@ Hull measure(BodyData& body) {
   if (isShape(geometry)) {
     body.kind = BodyKind::kShape;
     body.solid = toSolid(geometry);
+    body.shape_values = shapeValues(geometry);
     body.bounded = body.solid.bounded();
     return hullOf(body.solid);
   }

@@ -124,8 +124,8 @@ void measure(Body<S>& body) {
   } else {
     // As fcl::CollisionObject does at its construction.
     const_cast<fcl::CollisionGeometry<S>&>(*body.geometry).computeLocalAABB();
-    updateShapeValues(*body.geometry, body.shape_values);
-    body.shape = !body.shape_values.empty();
+    body.shape = isShapeOfFcl(*body.geometry);
+    if (body.shape) body.shape_values = shapeValues(*body.geometry);
     body.sphere = sphereOf(*body.geometry);
     body.num_caps = 0;
   }
@@ -170,7 +170,7 @@ void renew(Body<S>& body) {
 
 template <typename S>
 void renewIfChanged(Body<S>& body) {
-  if (body.shape && !updateShapeValues(*body.geometry, body.shape_values)) measure(body);
+  if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) measure(body);
 }
 
 template void place(Body<double>&, std::shared_ptr<const fcl::CollisionGeometry<double>>,
