@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "query/mesh_pair.h"
 #include "shape/triangle_shape.h"
 #include "volume/balls.h"
+#include "volume/errors.h"
 
 namespace kios::continuous {
 namespace {
@@ -50,8 +50,7 @@ MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_
       solids_(std::move(solids)),
       touching_(std::move(touching)),
       reach_(reachOf(solids_) + continuous::reachOf(mesh)) {
-  if (reach_ <= 0x1p300) return;
-  throw std::invalid_argument("fcl_kios: a mesh or shape is too large for continuous collision.");
+  if (!(reach_ <= 0x1p300)) refuse("a mesh or shape is too large for continuous collision.");
 }
 
 bool MovingMeshAndSolids::touching(double t) {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "linkage/shape_gap.h"
@@ -14,6 +13,7 @@
 #include "query/mesh_and_other.h"
 #include "query/pair_search.h"
 #include "solid/solid_queries.h"
+#include "volume/errors.h"
 
 namespace kios::articulated {
 namespace {
@@ -70,8 +70,7 @@ void BodyQueries::requireServed(int a, int b) const {
     refusePair("checkMotion", *first.geometry, *second.geometry);
   }
   if (!first.bounded && !second.bounded) {
-    throw std::invalid_argument(
-        "fcl_kios: half-spaces and planes are not checked against each other; allow the pair.");
+    refuse("half-spaces and planes are not checked against each other; allow the pair.");
   }
 }
 

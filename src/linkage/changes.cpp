@@ -4,13 +4,12 @@
 // What became of a linkage's geometry since it was measured.
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include <fcl/geometry/shape/convex.h>
 #include "linkage/link_tree.h"
 #include "model/kios_model.h"
 #include "model/shape_values.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace articulated {
@@ -23,10 +22,9 @@ bool sameShape(const BodyData& body) {
          static_cast<const fcl::Convexd&>(*body.geometry).getFaces().data() == body.solid.faces;
 }
 
-[[noreturn]] void refuse(const char* what, std::size_t id) {
-  throw std::invalid_argument(std::string("fcl_kios: the ") + what + " of body " +
-                              std::to_string(id) +
-                              " was changed since it was added; build the linkage anew.");
+void requireSame(bool same, const char* what, std::size_t id) {
+  if (same) return;
+  refuse("the ", what, " of body ", id, " was changed since it was added; build the linkage anew.");
 }
 
 }  // namespace
@@ -34,11 +32,11 @@ bool sameShape(const BodyData& body) {
 void BodyData::requireUnchanged(std::size_t id) const {
   if (kind == BodyKind::kMesh) {
     requireFinished(*model);
-    if (model->getBV(0).bv.stamp != stamp || model->vertices != vertices) refuse("mesh", id);
-  } else if (kind == BodyKind::kShape && !sameShape(*this)) {
-    refuse("shape", id);
+    requireSame(model->getBV(0).bv.stamp == stamp && model->vertices == vertices, "mesh", id);
+  } else if (kind == BodyKind::kShape) {
+    requireSame(sameShape(*this), "shape", id);
   }
-  if (geometry->isOccupied() != occupied) refuse("occupancy", id);
+  requireSame(geometry->isOccupied() == occupied, "occupancy", id);
 }
 
 bool BodyData::holdsCells() const {

@@ -4,23 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include "query/bracket.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <typename T>
-void require(bool valid, const char* name, T value, const char* range) {
-  if (valid) return;
-  std::ostringstream message;
-  message << "fcl_kios: " << name << " is " << value << ", but must be " << range << ".";
-  throw std::invalid_argument(message.str());
-}
 
 template <typename S>
 void requireValid(const DistanceOptions<S>& o) {

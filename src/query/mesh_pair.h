@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <sstream>
-#include <stdexcept>
 
 #include <fcl/narrowphase/collision_request.h>
 #include <fcl/narrowphase/collision_result.h>
@@ -12,20 +10,15 @@
 #include "fcl_kios/model/model.h"
 #include "query/pair_frame.h"
 #include "query/triangle_contact.h"
+#include "volume/errors.h"
 
 namespace kios {
 
 /// Throws std::invalid_argument if an error bound is negative or NaN.
 template <typename S>
 void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
-  const auto require = [](const char* name, S value) {
-    if (value >= 0) return;
-    std::ostringstream message;
-    message << "fcl_kios: DistanceRequest::" << name << " is " << value << ", but must be >= 0.";
-    throw std::invalid_argument(message.str());
-  };
-  require("rel_err", request.rel_err);
-  require("abs_err", request.abs_err);
+  require(request.rel_err >= 0, "DistanceRequest::rel_err", request.rel_err, ">= 0");
+  require(request.abs_err >= 0, "DistanceRequest::abs_err", request.abs_err, ">= 0");
 }
 
 /// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two

@@ -3,11 +3,11 @@
 #include "scene/body.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "model/kios_model.h"
 #include "model/shape_values.h"
+#include "volume/errors.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 #include "volume/stamp.h"
@@ -16,10 +16,6 @@ namespace kios::scene {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("fcl_kios: " + what);
-}
 
 /// The square of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
 template <typename S>

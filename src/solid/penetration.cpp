@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "solid/ball_pairs.h"
@@ -17,6 +15,7 @@
 #include "solid/minkowski_hull.h"
 #include "solid/solid_pair.h"
 #include "solid/touching.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
@@ -24,13 +23,8 @@ namespace {
 using Vec = fcl::Vector3d;
 
 void requireValid(const PenetrationOptions& options) {
-  const auto refuse = [](const char* name, double value) {
-    std::ostringstream message;
-    message << "fcl_kios: PenetrationOptions::" << name << " is " << value << ", but must be >= 0.";
-    throw std::invalid_argument(message.str());
-  };
-  if (!(options.rel_gap >= 0)) refuse("rel_gap", options.rel_gap);
-  if (options.max_tests < 0) refuse("max_tests", options.max_tests);
+  require(options.rel_gap >= 0, "PenetrationOptions::rel_gap", options.rel_gap, ">= 0");
+  require(options.max_tests >= 0, "PenetrationOptions::max_tests", options.max_tests, ">= 0");
 }
 
 template <typename S>

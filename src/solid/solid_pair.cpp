@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include "fcl_kios/triangle/intersection.h"
@@ -12,6 +11,7 @@
 #include "query/pair_search.h"
 #include "solid/containment.h"
 #include "solid/nearest_surface.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
@@ -46,8 +46,7 @@ SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const
   size_ = double{frame_.rootA().radius0} + double{frame_.rootB().radius0};
   rounding_ = frame_.distanceError(size_);
   if (!(size_ >= 0x1p-300 && size_ <= 0x1p300)) {  // lengths are squared
-    throw std::invalid_argument(
-        "fcl_kios: solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
+    refuse("solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
   }
 }
 

@@ -50,5 +50,9 @@ inline float roundDown<float>(double v) {
 /// Largest coordinate whose differences and sums of a few stay finite in S.
 template <typename S>
 constexpr double kMaxCoordinate = sizeof(S) == sizeof(double) ? 0x1p1000 : 0x1p120;
+/// For messages.
+template <typename S>
+constexpr const char* kCoordinateRange = sizeof(S) == sizeof(double) ? "finite, and at most 2^1000"
+                                                                     : "finite, and at most 2^120";
 
 }  // namespace kios
