@@ -12,11 +12,10 @@
 #include "fcl_kios/build/fit.h"
 #include "model/kios_model.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename S>
 std::vector<kIOS<S>> levelOf(const Model<S>& model, int level) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "clearance/exact_pair.h"
 #include "clearance/nearest_pair.h"
@@ -15,8 +14,6 @@
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename S>
 const RelativePose<S>& identityPose() {

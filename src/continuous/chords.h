@@ -3,9 +3,9 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
 #include "continuous/relative_motion.h"
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 
@@ -61,10 +61,9 @@ class Chords {
   /// chords the gap is concave, so that it is least at an end.
   bool slabStays(const RelativeVelocities& v, const Triangles& triangles, int part,
                  const Eigen::Vector3d& n) const {
-    const double infinity = std::numeric_limits<double>::infinity();
-    double gap = infinity, length = 0, change_a = 0, change_b = 0;
+    double gap = kInfinity, length = 0, change_a = 0, change_b = 0;
     for (int i = part; i <= part + 1; ++i) {
-      double high = -infinity, low = infinity;
+      double high = -kInfinity, low = kInfinity;
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector3d &x = triangles.of_a[i][k], &y = triangles.of_b[i][k];
         high = std::max(high, n.dot(x));

@@ -3,20 +3,18 @@
 #include "continuous/mesh_and_solids.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "query/mesh_pair.h"
 #include "shape/triangle_shape.h"
 #include "volume/balls.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The spheres of a node in the shape's frame; returns how many.
 int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers, double* radii) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "continuous/heights.h"
@@ -15,13 +14,12 @@
 #include "query/mesh_pair.h"
 #include "solid/solid_queries.h"
 #include "volume/balls.h"
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Directions of a triangle's edges and of its normal.
 struct Edges {

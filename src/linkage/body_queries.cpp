@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "linkage/shape_gap.h"
@@ -14,11 +13,11 @@
 #include "query/pair_search.h"
 #include "solid/solid_queries.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Of the distance that a query finds. Halving an interval costs as much as closing a bracket.
 constexpr double kRelErr = 1;
 

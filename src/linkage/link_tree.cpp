@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fcl/config.h>
@@ -27,7 +26,6 @@ using articulated::CarriedBody;
 using articulated::LinkData;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = 0x1p300;  // of coordinates and lengths, so that no product overflows
 
 void requireTranslation(const Vector3d& t, const char* what) {

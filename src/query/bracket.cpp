@@ -3,15 +3,12 @@
 #include "query/bracket.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "query/pair_search.h"
 #include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Sets what was proven, with all rounding paid for.
 template <typename S>

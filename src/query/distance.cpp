@@ -7,11 +7,10 @@
 
 #include "query/bracket.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename S>
 void requireValid(const DistanceOptions<S>& o) {

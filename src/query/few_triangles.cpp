@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "query/near_pairs.h"
 #include "query/unprepared.h"
 #include "volume/lanes.h"
+#include "volume/rounding.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -19,7 +19,6 @@ namespace kios {
 namespace {
 
 constexpr int kMost = 32, kVeryFewPairs = 64;  // of areFew() and areVeryFew()
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// By axis: where a box begins, and where it ends, negated; or the other way round.
 struct Sides {

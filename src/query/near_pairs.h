@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "model/prepared.h"
 #include "query/pair_frame.h"
 #include "search/mesh_search.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -64,7 +64,6 @@ class NearPairs {
     return distance < kInfinity ? distance + 8 * frame_.kernelError(distance) : kInfinity;
   }
 
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const PairFrame<S>& frame_;
   std::vector<Found> near_;
   double best_ = kInfinity, prune_at_;

@@ -13,6 +13,7 @@
 #include "query/octree_collision.h"
 #include "query/posed_solid.h"
 #include "shape/triangle_shape.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -76,7 +77,7 @@ class OctreePair {
     const shape::Solid box = boxOf(cell.box, center);
     Ball balls[kIOS<S>::kMaxSpheres];
     const int k = posed_.placeSpheres(model_.getBV(node).bv, balls);
-    double best = -std::numeric_limits<double>::infinity();
+    double best = -kInfinity;
     for (int i = 0; i < k; ++i) {
       const shape::Vec c(balls[i].x, balls[i].y, balls[i].z);
       best = std::max(best, shape::pointBound(box, c - center) - balls[i].r);
@@ -183,7 +184,7 @@ class OctreeDistance : OctreePair<S> {
   const fcl::DistanceRequest<S>& request_;
   fcl::DistanceResult<S>& result_;
   std::vector<Pair> waiting_;
-  double best_ = std::numeric_limits<double>::infinity(), prune_at_ = best_;
+  double best_ = kInfinity, prune_at_ = best_;
   int nearest_id_ = -1;
   Cell<S> nearest_cell_ = {nullptr, {}};
   shape::Vec on_cell_, on_triangle_;

@@ -3,7 +3,6 @@
 #include "query/pair_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "model/prepared.h"
@@ -11,6 +10,7 @@
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -19,8 +19,6 @@ using engine::PairAnswer;
 using engine::PairQuery;
 using engine::SearchEnd;
 using engine::TrianglePairIds;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Two models with their trees, which stay in use while it lives.
 template <typename S>

@@ -3,12 +3,12 @@
 #include "query/ray_walk.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "model/prepared.h"
 #include "search/search.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -70,7 +70,7 @@ void RayWalk<S>::walkFCLTree(double enter) {
 template <typename S>
 bool RayWalk<S>::reaches(int node, double& enter, double& exit) const {
   return rayInterval(model_.getBV(node).bv, line_, enter, exit) && exit >= ray_.t_min &&
-         enter <= std::nextafter(last_, std::numeric_limits<double>::infinity());
+         enter <= std::nextafter(last_, kInfinity);
 }
 
 template class RayWalk<double>;

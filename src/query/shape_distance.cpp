@@ -17,8 +17,6 @@
 namespace kios {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Search for the triangle nearest to a solid: the least id of those whose computed distance is
 /// bitwise the least. That does not depend on which are evaluated, and in which order, as long as
 /// all are that may be as near: distances of single triangles are kept apart from the bounds that
@@ -110,7 +108,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
   void lowerTo(double distance) {
     best_ = distance;
     limit_ = engine::pruneAt(distance, rel_err_, abs_err_);
-    prune_at = limit_ < 0x1p127 ? roundUpFloat(limit_) : std::numeric_limits<float>::infinity();
+    prune_at = limit_ < 0x1p127 ? roundUpFloat(limit_) : kInfinityFloat;
   }
 
   /// In the tree of volumes, the nearer child first, until so many tests were made, of which a

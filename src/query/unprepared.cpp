@@ -10,14 +10,13 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "query/near_pairs.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
 using engine::PairAnswer;
 using engine::TrianglePairIds;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What the trees of two models let a walk spend.
 template <typename S>

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -34,7 +34,7 @@ Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Vec& along) {
     const fcl::Vector3<S>& v = vertices[i];
     heights[i] = along[0] * double{v[0]} + along[1] * double{v[1]} + along[2] * double{v[2]};
   }
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -kInfinity;
   for (int i = 0; i < n; ++i) most = heights[i] > most ? heights[i] : most;
   int at = 0;
   while (at + 1 < n && !(heights[at] == most)) ++at;

@@ -15,8 +15,6 @@
 namespace kios::scene {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// The square of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
 template <typename S>
 double requireRigid(const fcl::Transform3<S>& X) {

@@ -14,11 +14,10 @@
 #include "solid/containment.h"
 #include "solid/solid_mark.h"
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// |t_b - t_a|_1, which bounds the translation between the bodies' frames.
 template <typename S>

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
 #include "query/pair_frame.h"
 #include "scene/body.h"
 #include "scene/pair_memory.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 
@@ -52,7 +52,7 @@ class BodyPair {
   /// True if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
   /// The narrow phase computes at least this, wherever the bodies are.
-  double least() const { return meshes() ? 0 : -std::numeric_limits<double>::infinity(); }
+  double least() const { return meshes() ? 0 : -kInfinity; }
   /// An answer with these triangles, if that proves that the narrow phase's is at most the limit.
   Answer nearby(double limit) const;
 

@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "scene/scene.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The largest number below x.
 template <typename S>

@@ -3,7 +3,6 @@
 #include "search/mesh_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "fcl_kios/triangle/intersection.h"
@@ -14,9 +13,7 @@
 namespace kios::engine {
 namespace {
 
-float upToFloat(double v) {
-  return v < 0x1p127 ? roundUpFloat(v) : std::numeric_limits<float>::infinity();
-}
+float upToFloat(double v) { return v < 0x1p127 ? roundUpFloat(v) : kInfinityFloat; }
 
 float downToFloat(double v) {
   if (v < 0) return -1;
@@ -191,8 +188,8 @@ class NearestEvaluator final : public ExactEvaluator {
   const PairQuery& query_;
   const bool
       by_faces_;  ///< triangles are evaluated at once, so that no step makes the answer worse
-  double best_ = std::numeric_limits<double>::infinity();  ///< of ids_
-  double least_ = std::numeric_limits<double>::infinity();
+  double best_ = kInfinity;  ///< of ids_
+  double least_ = kInfinity;
   TrianglePairIds ids_, faces_;  ///< the nearest; those evaluated as faces
   TriangleDistance<S> of_faces_;
   bool ended_near_ = false;
@@ -280,8 +277,7 @@ TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const 
     return own[static_cast<std::size_t>(at)];
   };
   const PairQuery query;
-  const double infinity = std::numeric_limits<double>::infinity();  // no two edges share their ends
-  NearestEvaluator<S> evaluator(Corners<S>(a, b, X_AB), infinity, query);
+  NearestEvaluator<S> evaluator(Corners<S>(a, b, X_AB), kInfinity, query);
   for (const TrianglePairIds& ids : pairs) {
     const OwnFeatures of_a = ownOf(triangles_a, own_a, ids.a),
                       of_b = ownOf(triangles_b, own_b, ids.b);

@@ -8,6 +8,7 @@
 #include "fcl_kios/search/counts.h"
 #include "search/frame_pair.h"
 #include "tree/tree.h"
+#include "volume/rounding.h"
 
 // The types that the SIMD traversals share with the exact stage.
 
@@ -37,10 +38,10 @@ class ExactEvaluator {
   /// nearer than keep_to.
   virtual void offer(float upper_bound) = 0;
 
-  float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far
-                                                            ///< apart don't matter
-  float keep_to = std::numeric_limits<float>::infinity();   ///< feature pairs at most so far apart
-                                                            ///< are candidates
+  float prune_at = kInfinityFloat;  ///< node and leaf pairs at least so far
+                                    ///< apart don't matter
+  float keep_to = kInfinityFloat;   ///< feature pairs at most so far apart
+                                    ///< are candidates
 
  protected:
   ~ExactEvaluator() = default;
@@ -66,10 +67,10 @@ class Audit {
 
 /// When a search that brackets the distance may end, and what it proved.
 struct Bracket {
-  float near_enough = -std::numeric_limits<float>::infinity();  ///< a pair so near ends it
+  float near_enough = -kInfinityFloat;  ///< a pair so near ends it
   long long max_expansions = std::numeric_limits<long long>::max();
   /// All that was not evaluated is at least so far apart.
-  float proven = -std::numeric_limits<float>::infinity();
+  float proven = -kInfinityFloat;
   bool out_of_budget = false;
 };
 

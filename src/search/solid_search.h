@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "fcl_kios/search/counts.h"
 #include "tree/tree.h"
+#include "volume/rounding.h"
 
 // The types that the SIMD search for the triangles nearest to a solid shares with the exact stage.
 
@@ -15,7 +15,7 @@ namespace kios::engine {
 /// {n x <= offset} contains the solid: n has length 1 in the solid's frame.
 struct FloatSlab {
   float n[3] = {};
-  float offset = std::numeric_limits<float>::infinity();
+  float offset = kInfinityFloat;
 };
 
 /// A solid in a tree's frame, by which points and boxes are told apart from it. Its box contains

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "fcl_kios/volume/rigid.h"
 #include "volume/balls.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -34,14 +34,14 @@ double heightOf(const kIOS<S>& bv, const fcl::Vector3d& n, double length) {
 template <typename S>
 FarthestVertex farthestAlong(const Model<S>& model, const fcl::Vector3d& n) {
   const double length = n.norm();
-  FarthestVertex best = {-1, -std::numeric_limits<double>::infinity()};
+  FarthestVertex best = {-1, -kInfinity};
   struct Waiting {
     double height;
     int node;
   };
   std::vector<Waiting> waiting;
   waiting.reserve(64);
-  waiting.push_back({std::numeric_limits<double>::infinity(), 0});
+  waiting.push_back({kInfinity, 0});
   while (!waiting.empty()) {
     const Waiting at = waiting.back();
     waiting.pop_back();

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include "query/ray_walk.h"
 #include "solid/extent_along.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
 using Vec = fcl::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A polytope whose faces are triangles of points, wound outwards.
 class Polytope {

@@ -11,6 +11,7 @@
 #include "query/ray_walk.h"
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -64,7 +65,7 @@ NearPoint nearestOnTriangle(const fcl::Vector3d& p, const TriangleVertices<doubl
     const double height = n.dot(w) / square;
     return {std::abs(height) * std::sqrt(square), p - height * n};
   }
-  NearPoint best = {std::numeric_limits<double>::infinity(), t[0]};
+  NearPoint best = {kInfinity, t[0]};
   for (int k = 0; k < 3; ++k) {
     const fcl::Vector3d q = nearestOnSegment(p, t[k], t[k == 2 ? 0 : k + 1]);
     const double distance = (p - q).norm();
@@ -86,7 +87,7 @@ template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
                               double enough, double least) {
   NearestSurface best;
-  double left_out = std::numeric_limits<double>::infinity(), prune_at = enough;
+  double left_out = kInfinity, prune_at = enough;
   struct Waiting {
     double bound;
     int node;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "solid/solid_pair.h"
 #include "solid/touching.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -67,7 +67,7 @@ class PenetrationQuery {
   Exit leaveHulls(const Differences<S>& differences, const std::vector<Vec>& directions) {
     constexpr std::size_t kFew = 3;
     Vec best = Vec::UnitX();
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {
       const Vec n = (pair_.R_WA().transpose() * directions[i]).normalized();
       const double height = differences.height(n);

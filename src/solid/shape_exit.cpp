@@ -18,6 +18,7 @@
 #include "shape/solid.h"
 #include "solid/extent_along.h"
 #include "solid/nearest_surface.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -46,7 +47,7 @@ class ShapeExit {
 
   Penetration run() {
     Vec best = Vec::Zero();
-    double length = std::numeric_limits<double>::infinity();
+    double length = kInfinity;
     const std::vector<Vec> directions = this->directions();
     for (const Vec& n : directions) {
       const double exit = exitAlong(n);

@@ -7,7 +7,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
@@ -86,7 +85,6 @@ Box boxOf(const Eigen::Matrix3f& axes, const Extents& e, const Eigen::Vector3f& 
 }  // namespace
 
 Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
   const double square = first.dot(first), square_b = second.dot(second);

@@ -11,6 +11,9 @@ namespace kios {
 constexpr double kUlpDouble = 0x1p-53;
 constexpr double kUlpFloat = 0x1p-24;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kInfinityFloat = std::numeric_limits<float>::infinity();
+
 // Outward rounding by arithmetic alone: a comparison of a double with its float round trip may be
 // folded away by g++ 12's vectoriser, a product can't.
 

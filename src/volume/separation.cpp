@@ -17,8 +17,6 @@
 namespace kios {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Centre of b's S0 relative to a's, in A, with the bound of every double rounding of a test.
 struct Offset {
   double x, y, z;

@@ -32,7 +32,7 @@ struct Corners {
   HWY_NOINLINE Vec3 from(Vec3 p) const {
     const Vec3 e[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     Vec3 best = {};
-    float least = std::numeric_limits<float>::infinity();
+    float least = kInfinityFloat;
     const auto offer = [&](Vec3 way) {
       const float square = dot(way, way);
       best = square < least ? way : best;
@@ -63,8 +63,8 @@ class Slabs {
  public:
   Slabs(const HullA& a, const HullB& b, float distance, Bracketed& out)
       : a_(a), b_(b), distance_(distance), out_(out) {
-    out.lower = -std::numeric_limits<float>::infinity();
-    out.upper = std::numeric_limits<float>::infinity();
+    out.lower = -kInfinityFloat;
+    out.upper = kInfinityFloat;
   }
 
   /// Tries a direction. True if it proves the sets at least `distance` apart; out.slab is not set

@@ -61,8 +61,7 @@ HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad
   const V h = faces.height(l, x, y, z);
   const V inside = hn::Min(hn::Min(faces.inside(0, l, x, y, z), faces.inside(1, l, x, y, z)),
                            faces.inside(2, l, x, y, z));
-  return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h),
-                        hn::Set(d, std::numeric_limits<float>::infinity()));
+  return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h), hn::Set(d, kInfinityFloat));
 }
 
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
@@ -115,7 +114,7 @@ class LeafDistances {
 
   V edgeRows(float shortest) {
     const V least_square = hn::Set(d, shortest * shortest);
-    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = hn::Set(d, kInfinityFloat);
     alignas(32) float inverse_a[kMaxLeafFeatures], square_a[kMaxLeafFeatures];
     for (int c = 0; c < edges_a_.chunks(); ++c) {
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -146,7 +145,7 @@ class LeafDistances {
   }
 
   V faceRow(const Row& row, const LeafView& on, Vec3 point, V minus_pad) {
-    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = hn::Set(d, kInfinityFloat);
     for (size_t l = 0; l < kLanes; l += step()) {
       const V square = faceDistances(Faces{on.faces}, l, point, minus_pad);
       hn::Store(square, d, squares_[rows_].v + l);
