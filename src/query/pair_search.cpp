@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/prepared.h"
+#include "model/walk.h"
 #include "query/unprepared.h"
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
@@ -73,57 +74,47 @@ class TreeSearch {
 
   PairAnswer<S> run() {
     if (begin()) return result_;
-    bool done = false;
     long long left = query_.max_expansions;
-    push(0, 0, -kInfinity);
-    while (!done && !waiting_.empty()) {
-      const Pair at = best_first_ ? waiting_.front() : waiting_.back();
-      if (at.bound >= prune_at_) {
-        if (best_first_) break;
-        left_out_ = std::min(left_out_, at.bound);
-        waiting_.pop_back();
-        continue;
-      }
+    const auto skip = [this](const NodePair& at) {
+      if (!(at.bound >= prune_at_)) return false;
+      left_out_ = std::min(left_out_, at.bound);
+      return true;
+    };
+    const auto visit = [&](const NodePair& at, const auto& add) {
       const auto &node_a = frame_.a.getBV(at.node_a), &node_b = frame_.b.getBV(at.node_b);
-      const bool leaves = node_a.isLeaf() && node_b.isLeaf();
-      if (!leaves && left-- == 0) {
-        result_.end = SearchEnd::kBudget;
-        break;
-      }
-      if (best_first_) std::pop_heap(waiting_.begin(), waiting_.end());
-      waiting_.pop_back();
-      if (leaves) {
+      if (node_a.isLeaf() && node_b.isLeaf()) {
         ++counts_.leaf_pairs;
-        done = evaluate({node_a.primitiveId(), node_b.primitiveId()}, at.bound);
-        continue;
+        return evaluate({node_a.primitiveId(), node_b.primitiveId()}, at.bound);
+      }
+      if (left-- == 0) {
+        result_.end = SearchEnd::kBudget;
+        left_out_ = std::min(left_out_, at.bound);
+        return true;
       }
       ++counts_.expansions;
       counts_.volume_tests += 2;
-      const std::size_t before = waiting_.size();
       if (node_b.isLeaf() || (!node_a.isLeaf() && node_a.bv.size() > node_b.bv.size())) {
-        push(node_a.leftChild(), at.node_b, at.bound);
-        push(node_a.rightChild(), at.node_b, at.bound);
+        add(bounded(node_a.leftChild(), at.node_b, at.bound));
+        add(bounded(node_a.rightChild(), at.node_b, at.bound));
       } else {
-        push(at.node_a, node_b.leftChild(), at.bound);
-        push(at.node_a, node_b.rightChild(), at.bound);
+        add(bounded(at.node_a, node_b.leftChild(), at.bound));
+        add(bounded(at.node_a, node_b.rightChild(), at.bound));
       }
-      if (!best_first_ && waiting_.size() == before + 2 &&
-          waiting_.back().bound > waiting_[before].bound) {
-        std::swap(waiting_.back(), waiting_[before]);
-      }
-    }
+      return false;
+    };
+    const std::vector<NodePair> rest =
+        walkNearestFirst(bounded(0, 0, -kInfinity), skip, visit, query_.hasBudget());
     // Any pair that intersects is an answer, but which one is given must not depend on the start.
     if (offered_ && result_.found() && result_.nearest.distance == 0) return cold();
-    for (const Pair& pair : waiting_) left_out_ = std::min(left_out_, pair.bound);
+    for (const NodePair& pair : rest) left_out_ = std::min(left_out_, pair.bound);
     result_.least_other = std::max(0.0, left_out_);
     return result_;
   }
 
  private:
-  struct Pair {
+  struct NodePair {
     double bound;
     int node_a, node_b;
-    bool operator<(const Pair& o) const { return bound > o.bound; }  // the least comes first
   };
 
   /// From the triangles of query_.start; true to end the search. An exact answer only learns of
@@ -150,16 +141,10 @@ class TreeSearch {
     return TreeSearch(frame_, query, counts_).run();
   }
 
-  void push(int node_a, int node_b, double parent) {
+  NodePair bounded(int node_a, int node_b, double parent) const {
     const double own =
         separation(frame_.a.getBV(node_a).bv, frame_.b.getBV(node_b).bv, frame_.X_AB, prune_at_);
-    const double bound = std::max(own, parent);
-    if (bound >= prune_at_) {
-      left_out_ = std::min(left_out_, bound);
-      return;
-    }
-    waiting_.push_back({bound, node_a, node_b});
-    if (best_first_) std::push_heap(waiting_.begin(), waiting_.end());
+    return {std::max(own, parent), node_a, node_b};
   }
 
   /// Triangles in volumes that are at least `bound` apart. True to end the search.
@@ -185,8 +170,6 @@ class TreeSearch {
   const PairFrame<S>& frame_;
   const PairQuery& query_;
   SearchCounts& counts_;
-  const bool best_first_ = query_.hasBudget();
-  std::vector<Pair> waiting_;  ///< a stack; a heap if best_first_
   double prune_at_;
   double left_out_ = kInfinity;  ///< least bound of the pairs left out
   bool offered_ = false;         ///< the start lowered prune_at_

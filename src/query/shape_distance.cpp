@@ -6,6 +6,7 @@
 
 #include "fcl_kios/query/shape_queries.h"
 #include "model/prepared.h"
+#include "model/walk.h"
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
 #include "search/pair_query.h"
@@ -76,12 +77,6 @@ class NearestTriangle final : public engine::SolidEvaluator {
   const shape::TriangleShapeDistance& nearest() const { return nearest_; }
 
  private:
-  /// A node of the model's tree that waits.
-  struct Waiting {
-    int node;
-    double bound;
-  };
-
   bool leftOut(double bound) const { return std::max(bound, 0.0) >= limit_ + slack_; }
 
   double boundOf(int node) {
@@ -114,29 +109,23 @@ class NearestTriangle final : public engine::SolidEvaluator {
   /// In the tree of volumes, the nearer child first, until so many tests were made, of which a
   /// triangle's counts as four. Returns their number.
   long long walk(double root, long long most) {
-    std::vector<Waiting> waiting;
-    waiting.reserve(64);
-    waiting.push_back({0, root});
     long long tests = 1;
-    while (!waiting.empty() && best_ > 0 && tests < most) {
-      const Waiting next = waiting.back();
-      waiting.pop_back();
-      if (leftOut(next.bound)) continue;
-      const auto& node = model_.getBV(next.node);
+    const auto skip = [this](const BoundedNode& at) { return leftOut(at.bound); };
+    const auto visit = [&](const BoundedNode& at, const auto& add) {
+      const auto& node = model_.getBV(at.node);
       if (node.isLeaf()) {
         ++counts_.leaf_kernels;
         tests += 4;
         test(node.primitiveId());
-        continue;
+      } else {
+        tests += 2;
+        add({boundOf(node.rightChild()), node.rightChild()});
+        add({boundOf(node.leftChild()), node.leftChild()});
       }
-      tests += 2;
-      Waiting near = {node.leftChild(), boundOf(node.leftChild())};
-      Waiting far = {node.rightChild(), boundOf(node.rightChild())};
-      if (far.bound < near.bound) std::swap(near, far);
-      waiting.push_back(far);
-      waiting.push_back(near);
-    }
-    return waiting.empty() || best_ <= 0 ? std::min(tests, most - 1) : tests;
+      return best_ <= 0 || tests >= most;
+    };
+    const bool ended = walkNearestFirst(BoundedNode{root, 0}, skip, visit).empty() || best_ <= 0;
+    return ended ? std::min(tests, most - 1) : tests;
   }
 
   const Model<S>& model_;

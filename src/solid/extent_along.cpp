@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "fcl_kios/volume/rigid.h"
+#include "model/walk.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 
@@ -35,33 +34,24 @@ template <typename S>
 FarthestVertex farthestAlong(const Model<S>& model, const fcl::Vector3d& n) {
   const double length = n.norm();
   FarthestVertex best = {-1, -kInfinity};
-  struct Waiting {
-    double height;
-    int node;
+  const auto bounded = [&](int node) {
+    return BoundedNode{-heightOf(model.getBV(node).bv, n, length), node};
   };
-  std::vector<Waiting> waiting;
-  waiting.reserve(64);
-  waiting.push_back({kInfinity, 0});
-  while (!waiting.empty()) {
-    const Waiting at = waiting.back();
-    waiting.pop_back();
-    if (at.height <= best.height) continue;
+  const auto skip = [&best](const BoundedNode& at) { return !(-at.bound > best.height); };
+  walkNearestFirst(BoundedNode{-kInfinity, 0}, skip, [&](const BoundedNode& at, const auto& add) {
     const auto& node = model.getBV(at.node);
-    if (node.isLeaf()) {
-      const fcl::Triangle& ids = model.tri_indices[node.primitiveId()];
-      for (int k = 0; k < 3; ++k) {
-        const double height =
-            detail::dot<double>(n, model.vertices[ids[k]].template cast<double>());
-        if (height > best.height) best = {static_cast<int>(ids[k]), height};
-      }
-      continue;
+    if (!node.isLeaf()) {
+      add(bounded(node.leftChild()));
+      add(bounded(node.rightChild()));
+      return false;
     }
-    Waiting low = {heightOf(model.getBV(node.leftChild()).bv, n, length), node.leftChild()};
-    Waiting high = {heightOf(model.getBV(node.rightChild()).bv, n, length), node.rightChild()};
-    if (low.height > high.height) std::swap(low, high);
-    if (low.height > best.height) waiting.push_back(low);
-    if (high.height > best.height) waiting.push_back(high);
-  }
+    const fcl::Triangle& ids = model.tri_indices[node.primitiveId()];
+    for (int k = 0; k < 3; ++k) {
+      const double height = detail::dot<double>(n, model.vertices[ids[k]].template cast<double>());
+      if (height > best.height) best = {static_cast<int>(ids[k]), height};
+    }
+    return false;
+  });
   return best;
 }
 
