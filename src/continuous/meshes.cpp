@@ -81,8 +81,8 @@ double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
   for (const Modeld* model : {&a_, &b_}) {
     engine::TreeCache* const trees = treesOf(*model);
     if (!trees) return 0;
-    trees->spend(more);
-    paid &= trees->testsToSpare(static_cast<std::size_t>(model->num_tris)) == 0;
+    trees->budget.charge(more);
+    paid &= trees->budget.remaining(static_cast<std::size_t>(model->num_tris)) == 0;
   }
   if (!paid) return 0;
   const PairFrame<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));

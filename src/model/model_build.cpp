@@ -168,7 +168,7 @@ bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& t
   }
   lendVolumes(content, model.nodes, model.primitives);
   trees.noteBuilt(model.nodes[0].bv.stamp);
-  if (engine::SharedTree::isHeld(content)) trees.spareNothing();
+  if (engine::SharedTree::isHeld(content)) trees.budget.exhaust();
   return true;
 }
 

@@ -18,21 +18,21 @@ namespace {
 using engine::PairAnswer;
 using engine::TrianglePairIds;
 
-/// What the trees of two models let a walk spend.
+/// Holds what the trees of two models let a walk take.
 template <typename S>
 class Allowance {
  public:
   explicit Allowance(const PairFrame<S>& frame)
       : trees_a_(treesOf(frame.a)), trees_b_(treesOf(frame.b)) {
     if (!trees_a_ || !trees_b_) return;
-    tests_ = std::max(trees_a_->testsToSpare(static_cast<std::size_t>(frame.a.num_tris)),
-                      trees_b_->testsToSpare(static_cast<std::size_t>(frame.b.num_tris)));
+    tests_ = std::max(trees_a_->budget.remaining(static_cast<std::size_t>(frame.a.num_tris)),
+                      trees_b_->budget.remaining(static_cast<std::size_t>(frame.b.num_tris)));
   }
 
   long long tests() const { return tests_; }
-  void spend(long long tests) const {
-    trees_a_->spend(tests);
-    if (trees_b_ != trees_a_) trees_b_->spend(tests);
+  void charge(long long tests) const {
+    trees_a_->budget.charge(tests);
+    if (trees_b_ != trees_a_) trees_b_->budget.charge(tests);
   }
 
  private:
@@ -146,7 +146,7 @@ std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<S>& 
   if (allowance.tests() == 0) return std::nullopt;
   TouchWalk<S> walk(frame, limit, allowance.tests());
   walk.run();
-  allowance.spend(walk.tests());
+  allowance.charge(walk.tests());
   walk.countIn(counts);
   if (walk.found.size() < limit && walk.gaveUp()) return std::nullopt;
   ++counts.tree_searches;
@@ -161,7 +161,7 @@ std::optional<PairAnswer<S>> nearestUnprepared(const PairFrame<S>& frame, double
   if (allowance.tests() == 0) return std::nullopt;
   NearWalk<S> walk(frame, far_enough, allowance.tests());
   walk.run();
-  allowance.spend(walk.tests());
+  allowance.charge(walk.tests());
   walk.countIn(counts);
   const bool done = walk.pairs().touching() ? namesFirstTouching(frame) : !walk.gaveUp();
   if (!done) return std::nullopt;

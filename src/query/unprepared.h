@@ -11,7 +11,7 @@
 #include "search/pair_query.h"
 
 // Queries of models that nobody prepared. They walk FCL's trees for as long as it hasn't paid to
-// prepare both models: see TreeCache::testsToSpare(). Where nothing is returned, the engine is to
+// prepare both models: see TreeCache::budget(). Where nothing is returned, the engine is to
 // answer.
 
 namespace kios {
