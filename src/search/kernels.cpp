@@ -18,7 +18,7 @@
 #include "search/cell_search.h"
 #include "search/ray_search.h"
 #include "search/search.h"
-#include "search/simd/targets.h"
+#include "volume/simd_targets.h"
 #include "search/solid_search.h"
 #include "tree/compress_table.h"
 

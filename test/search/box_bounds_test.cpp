@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "search/frame_pair.h"
-#include "search/simd/targets.h"
+#include "volume/simd_targets.h"
 #include "shapes.h"
 #include "tree/node_layout.h"
 #include "tree/prepare.h"

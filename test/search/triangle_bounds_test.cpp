@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "search/search.h"
-#include "search/simd/targets.h"
+#include "volume/simd_targets.h"
 #include "shapes.h"
 #include "tree/compress_table.h"
 #include "tree/leaf_layout.h"
