@@ -11,7 +11,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "model/prepared.h"
 #include "query/bracket.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "solid/solid_queries.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
@@ -85,7 +85,7 @@ double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
     paid &= trees->budget.remaining(static_cast<std::size_t>(model->num_tris)) == 0;
   }
   if (!paid) return 0;
-  const PairFrame<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));
+  const MeshPair<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));
   engine::PairQuery query;
   query.rel_err = 0.05;
   query.start = nearest_;

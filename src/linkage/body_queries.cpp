@@ -164,8 +164,8 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
     return collideSolids(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                          fcl::CollisionRequestd(), contacts) > 0;
   }
-  const PairFrame<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
-                                path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
+  const MeshPair<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
+                               path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
   SearchCounts counts;
   std::vector<engine::TrianglePairIds> found;
   searchContacts(frame, 1, found, counts);
@@ -188,8 +188,8 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
                                 double roots) const {
   const int a = pair.a, b = pair.b;
   const double pad = path_.pad(a, b);
-  const PairFrame<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
-                                path_.rotationSquare(a) + path_.rotationSquare(b));
+  const MeshPair<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
+                               path_.rotationSquare(a) + path_.rotationSquare(b));
   engine::PairQuery query;
   query.rel_err = kRelErr;
   query.near_enough = min_separation_;

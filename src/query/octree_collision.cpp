@@ -11,7 +11,7 @@
 #include "model/prepared.h"
 #include "query/cell_tree.h"
 #include "query/cell_walk.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "query/posed_solid.h"
 #include "search/cell_search.h"
 #include "search/search.h"

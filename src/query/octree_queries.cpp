@@ -9,7 +9,7 @@
 
 #include "model/walk.h"
 #include "query/collide_with.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "query/octree_collision.h"
 #include "query/posed_solid.h"
 #include "shape/triangle_shape.h"

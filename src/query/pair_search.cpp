@@ -26,7 +26,7 @@ template <typename S>
 class EnginePair {
  public:
   /// Pairs at least `far_enough` apart don't matter. Nothing is prepared in vain.
-  EnginePair(const PairFrame<S>& frame, double far_enough)
+  EnginePair(const MeshPair<S>& frame, double far_enough)
       : frame_(frame),
         tree_a_(tooFar() ? engine::TreeCache::Use() : preparedTree(frame.a)),
         tree_b_(tree_a_ ? preparedTree(frame.b) : engine::TreeCache::Use()) {
@@ -57,7 +57,7 @@ class EnginePair {
     return error_bounds::laneError(apart) > std::min<double>(a.radius0, b.radius0);
   }
 
-  const PairFrame<S>& frame_;
+  const MeshPair<S>& frame_;
   const engine::TreeCache::Use tree_a_, tree_b_;
   engine::FramePair frames_;
   bool usable_ = false;
@@ -69,7 +69,7 @@ class EnginePair {
 template <typename S>
 class TreeSearch {
  public:
-  TreeSearch(const PairFrame<S>& frame, const PairQuery& query, SearchCounts& counts)
+  TreeSearch(const MeshPair<S>& frame, const PairQuery& query, SearchCounts& counts)
       : frame_(frame), query_(query), counts_(counts), prune_at_(query.far_enough) {}
 
   PairAnswer<S> run() {
@@ -167,7 +167,7 @@ class TreeSearch {
     return true;
   }
 
-  const PairFrame<S>& frame_;
+  const MeshPair<S>& frame_;
   const PairQuery& query_;
   SearchCounts& counts_;
   double prune_at_;
@@ -179,7 +179,7 @@ class TreeSearch {
 }  // namespace
 
 template <typename S>
-PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
+PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
                             SearchCounts& counts) {
   if (const EnginePair<S> engine(frame, query.far_enough); engine) {
     if (engine.isFar(query.far_enough)) {
@@ -204,7 +204,7 @@ PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
 // least a quarter of the root volume's radius, as the content reaches farther from any point, and
 // hardly ever above 64 times that, which is for the caps of flat content.
 template <typename S>
-bool engineServes(const PairFrame<S>& frame) {
+bool engineServes(const MeshPair<S>& frame) {
   const kIOS<S>&a = frame.rootA(), &b = frame.rootB();
   if (!treesOf(frame.a) || !treesOf(frame.b) || a.stamp == 0 || b.stamp == 0) return false;
   const double radius_a = a.radius0, radius_b = b.radius0, least = std::min(radius_a, radius_b) / 4;
@@ -223,7 +223,7 @@ bool engineServes(const PairFrame<S>& frame) {
 }
 
 template <typename S>
-bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
+bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
                     std::vector<TrianglePairIds>& found, SearchCounts& counts) {
   const EnginePair<S> engine(frame, 0);
   if (!engine) return false;
@@ -232,10 +232,10 @@ bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
   return true;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                     \
-  template PairAnswer<S> searchNearest(const PairFrame<S>&, const PairQuery&, SearchCounts&);   \
-  template bool engineServes(const PairFrame<S>&);                                              \
-  template bool searchContacts(const PairFrame<S>&, std::size_t, std::vector<TrianglePairIds>&, \
+#define KIOS_INSTANTIATE(S)                                                                    \
+  template PairAnswer<S> searchNearest(const MeshPair<S>&, const PairQuery&, SearchCounts&);   \
+  template bool engineServes(const MeshPair<S>&);                                              \
+  template bool searchContacts(const MeshPair<S>&, std::size_t, std::vector<TrianglePairIds>&, \
                                SearchCounts&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

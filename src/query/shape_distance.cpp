@@ -8,7 +8,7 @@
 #include "model/prepared.h"
 #include "model/walk.h"
 #include "query/float_solid.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "search/pair_query.h"
 #include "search/search.h"
 #include "shape/shape_solid.h"

@@ -53,7 +53,7 @@ Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Vec& along) {
 // root volumes need not hold, are computed worse, but those of triangles make the heights as large
 // as they must be whatever others add. NaN proves nothing.
 template <typename S>
-bool verticesApart(const PairFrame<S>& frame, double margin) {
+bool verticesApart(const MeshPair<S>& frame, double margin) {
   const Model<S>&a = frame.a, &b = frame.b;
   if (std::max(a.num_vertices, b.num_vertices) > kMostVertices) return false;
   const kIOS<S>&root_a = frame.rootA(), &root_b = frame.rootB();
@@ -89,7 +89,7 @@ bool verticesApart(const PairFrame<S>& frame, double margin) {
   return false;
 }
 
-template bool verticesApart(const PairFrame<double>&, double);
-template bool verticesApart(const PairFrame<float>&, double);
+template bool verticesApart(const MeshPair<double>&, double);
+template bool verticesApart(const MeshPair<float>&, double);
 
 }  // namespace kios

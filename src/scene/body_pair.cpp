@@ -35,7 +35,7 @@ double norm1(const fcl::Vector3<S>& v) {
 }
 
 template <typename S>
-PairFrame<S> frameOf(const Body<S>& a, const Body<S>& b) {
+MeshPair<S> frameOf(const Body<S>& a, const Body<S>& b) {
   return {*a.model, a.X_W, *b.model, b.X_W, a.rotation_square + b.rotation_square};
 }
 
@@ -51,7 +51,7 @@ BodyPair<S>::BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, Pa
       proof_(lasting() ? memory.find(id_a, a, id_b, b) : nullptr) {}
 
 template <typename S>
-const PairFrame<S>& BodyPair<S>::frame() const {
+const MeshPair<S>& BodyPair<S>::frame() const {
   if (!frame_) frame_.emplace(frameOf(a_, b_));
   return *frame_;
 }

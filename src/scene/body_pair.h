@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 #include "scene/body.h"
 #include "scene/pair_memory.h"
 #include "volume/rounding.h"
@@ -61,7 +61,7 @@ class BodyPair {
   bool lasting() const { return a_.watched() && b_.watched(); }
   bool meshes() const { return a_.model && b_.model; }
   /// The frame of two meshes, made at its first use.
-  const PairFrame<S>& frame() const;
+  const MeshPair<S>& frame() const;
   double afterMotion(double moved, double T_norm1) const;
   /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
@@ -76,7 +76,7 @@ class BodyPair {
   const Body<S>&a_, &b_;
   PairMemory<S>& memory_;
   const Proof<S>* proof_;
-  mutable std::optional<PairFrame<S>> frame_;
+  mutable std::optional<MeshPair<S>> frame_;
 };
 
 /// The points that realise a pair's distance, in the world.

@@ -32,7 +32,7 @@ class CommonCenter {
   // for inverseError(): if b's surface is farther than that, both are on one side. R shrinks no
   // distance by more than the same share of it, which is within the error, too.
   Balls at(const Vec& c, double least) {
-    const PairFrame<S>& frame = pair_.frame();
+    const MeshPair<S>& frame = pair_.frame();
     Balls balls;
     const Vec y = toB(frame.X_AB, c);
     // No surface lies within the balls of the last point in both.

@@ -234,7 +234,7 @@ Exit goAlong(SolidPair<S>& pair, const Vec& n, double length, double reach) {
 // From b's centre c beyond a's, at the origin: |c + length n| = size.
 template <typename S>
 Exit leaveRoots(SolidPair<S>& pair, const Vec& direction) {
-  const PairFrame<S>& frame = pair.frame();
+  const MeshPair<S>& frame = pair.frame();
   const Vec a = frame.rootA().center0.template cast<double>(),
             b = frame.rootB().center0.template cast<double>();
   const Vec n = direction.normalized(), c = pair.R_WA() * (pair.R_AB() * b + pair.T_AB() - a);

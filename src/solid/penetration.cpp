@@ -34,7 +34,7 @@ class PenetrationQuery {
       : pair_(pair), options_(options) {}
 
   Penetration run() {
-    const PairFrame<S>& frame = pair_.frame();
+    const MeshPair<S>& frame = pair_.frame();
     const Convexity &shape_a = pair_.stateA().convexity(frame.a),
                     &shape_b = pair_.stateB().convexity(frame.b);
     const bool convex = shape_a.convex && shape_b.convex;
@@ -116,7 +116,7 @@ class PenetrationQuery {
   // The vertices of both hulls lie within `moved` of points of the solids, whose hulls are in the
   // solids: see Convexity. So does each difference of two vertices.
   double lowerOfHulls(double lower) const {
-    const PairFrame<S>& frame = pair_.frame();
+    const MeshPair<S>& frame = pair_.frame();
     return inWorld(lower - pair_.stateA().convexity(frame.a).moved -
                    1.01 * pair_.stateB().convexity(frame.b).moved - pair_.rounding());
   }
@@ -144,7 +144,7 @@ Penetration penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
   SearchCounts unused;
   SearchCounts& counts = options.counts ? *options.counts : unused;
   SolidPair<S> pair(solid1, X_W1, solid2, X_W2, counts);
-  const PairFrame<S>& frame = pair.frame();
+  const MeshPair<S>& frame = pair.frame();
   if (frame.rootBound(0) > 0) return {};
   if (!surfacesMeet(frame, counts) && !containedPoint(frame, counts)) return {};
   return PenetrationQuery<S>(pair, options).run();

@@ -51,7 +51,7 @@ SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const
 }
 
 template <typename S>
-PairFrame<S> SolidPair<S>::moved(const Vec& translation) const {
+MeshPair<S> SolidPair<S>::moved(const Vec& translation) const {
   fcl::Transform3<S> X_WB = X_WB_;
   X_WB.translation() += translation.template cast<S>();
   return {a_, X_WA_, b_, X_WB};
@@ -60,7 +60,7 @@ PairFrame<S> SolidPair<S>::moved(const Vec& translation) const {
 template <typename S>
 bool SolidPair<S>::seemsApart(const Vec& translation) {
   ++tests_;
-  const PairFrame<S> frame = moved(translation);
+  const MeshPair<S> frame = moved(translation);
   return !surfacesMeet(frame, counts_) && !containedPoint(frame, counts_);
 }
 
@@ -74,7 +74,7 @@ double SolidPair<S>::wayBetween(const Vec& from, const Vec& to) const {
 template <typename S>
 typename SolidPair<S>::Test SolidPair<S>::test(const Vec& translation, double reach) {
   ++tests_;
-  const PairFrame<S> moved = this->moved(translation);
+  const MeshPair<S> moved = this->moved(translation);
   Test result;
   engine::PairQuery query;
   query.rel_err = 0.1;
