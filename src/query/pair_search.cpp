@@ -34,7 +34,7 @@ class EnginePair {
     usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
     if (!usable_) return;
     if (far_enough < kInfinity) apart_ = engine::rootBound(*tree_a_, *tree_b_, pose);
-    if (!isFar(far_enough)) engine::makeFramePair(pose, frames_);
+    if (!isFar(far_enough)) engine::makeFloatFrame(pose, frames_);
   }
 
   /// False if FCL's tree must do.
@@ -49,8 +49,8 @@ class EnginePair {
   }
 
  private:
-  /// True if the models are so far apart for their size that makeFramePair() would refuse them: its
-  /// pad would be as large as the smaller model's radius.
+  /// True if the models are so far apart for their size that makeFloatFrame() would refuse them:
+  /// its pad would be as large as the smaller model's radius.
   bool tooFar() const {
     const kIOS<S>&a = frame_.rootA(), &b = frame_.rootB();
     const double apart = (frame_.X_AB * b.center0 - a.center0).template cast<double>().norm();
@@ -59,7 +59,7 @@ class EnginePair {
 
   const MeshPair<S>& frame_;
   const engine::TreeCache::Use tree_a_, tree_b_;
-  engine::FramePair frames_;
+  engine::FloatFrame frames_;
   bool usable_ = false;
   double apart_ = -kInfinity;  ///< lower bound of the distance
 };
@@ -200,7 +200,7 @@ PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
   return TreeSearch<S>(frame, query, counts).run();
 }
 
-// The tests of preparedTree() and makeFramePair() with room for what a tree's reach may be: at
+// The tests of preparedTree() and makeFloatFrame() with room for what a tree's reach may be: at
 // least a quarter of the root volume's radius, as the content reaches farther from any point, and
 // hardly ever above 64 times that, which is for the caps of flat content.
 template <typename S>

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "fcl_kios/search/counts.h"
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 #include "tree/tree.h"
 #include "volume/rounding.h"
 
@@ -81,7 +81,7 @@ struct SolidSearch;
 struct Search {
   const Tree& a;
   const Tree& b;
-  const FramePair& frames;
+  const FloatFrame& frames;
   ExactEvaluator& evaluator;
   SearchCounts& counts;
   Audit* audit = nullptr;

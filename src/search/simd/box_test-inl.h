@@ -78,7 +78,7 @@ struct AxisGaps {
 };
 
 /// Two boxes a lane, compared along directions. Lower bounds of the distances of their contents,
-/// which say nothing where they aren't positive; frame_pair.h derives the pads.
+/// which say nothing where they aren't positive; float_frame.h derives the pads.
 struct BoxPairs {
   BoxPairs(const BoxLanes& box_a, const BoxLanes& box_b, float pad)
       : a(box_a),

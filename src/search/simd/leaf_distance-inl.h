@@ -71,7 +71,7 @@ class LeafDistances {
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
 
   /// The least of them. Features that the slab proves farther than `distance` are left out.
-  float compute(const Points& vertices_b, const FramePair& frames, const Slab& slab,
+  float compute(const Points& vertices_b, const FloatFrame& frames, const Slab& slab,
                 float distance) {
     const Vec3 w = slab.along.w;
     const float thickness = distance * slab.along.length;
@@ -214,7 +214,7 @@ class LeafDistances {
 /// Evaluates all features of two leaves that may be nearest.
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const LeafView& b,
                                   const Slab& slab, float bound) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   ExactEvaluator& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
@@ -227,7 +227,7 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const
 }
 
 HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;
@@ -263,7 +263,7 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
 }
 
 HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;

@@ -267,7 +267,7 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const L
 /// the planes of the slab, so that edges beyond can't.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
                            const Points& vertices_b, const Slab& slab) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   long long& exact = search.counts.exact;
   const Vec3 w = slab.along.w;
   const float thickness = frames.pad * slab.along.length;
