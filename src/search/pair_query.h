@@ -36,7 +36,7 @@ struct PairQuery {
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
   /// The search of exact answers is then as fast as that of brackets.
-  bool isNearlyExact() const { return rel_err <= 0.01 && abs_err == 0; }
+  bool usesExactSearch() const { return rel_err <= 0.01 && abs_err == 0; }
   bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
   bool endsEarly() const { return near_enough > 0 || hasBudget(); }
   double pruneAt(double distance) const { return engine::pruneAt(distance, rel_err, abs_err); }

@@ -107,7 +107,7 @@ class BracketSearch {
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
     bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
-    const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.keep_to;
+    const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.candidate_limit;
     if (nearer) {
       search_.evaluator.offer(pair.upper);
       best_ = pair.vertices;
@@ -119,7 +119,7 @@ class BracketSearch {
       return false;
     }
     // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
-    const bool ends = nearer && search_.evaluator.keep_to <= bracket_.near_enough;
+    const bool ends = nearer && search_.evaluator.candidate_limit <= bracket_.near_enough;
     if (nearer && (ends || budgeted()) && evaluateVertices()) return true;
     // A pair that may be nearer than its own upper bound is evaluated at once, so that better ones
     // come early, and what overlaps, as it may touch.
@@ -140,10 +140,10 @@ class BracketSearch {
 
   /// True to end the search.
   bool evaluateFeatures(const Bracketed& pair, float bound) {
-    const float known = search_.evaluator.keep_to;
+    const float known = search_.evaluator.candidate_limit;
     const bool done = nearestOfLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b),
                                       pair.slab, bound);
-    if (search_.evaluator.keep_to < known) offered_ = false;
+    if (search_.evaluator.candidate_limit < known) offered_ = false;
     // Features of them that were not evaluated are not nearer than either.
     if (!done) current_ = std::max(bound, search_.evaluator.prune_at);
     lowerTo(search_.evaluator.prune_at);

@@ -94,8 +94,8 @@ class LeafDistances {
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
-  /// Evaluates everything that may be within evaluator.keep_to, the nearest by float first.
-  bool evaluateNear(float least, float pad, ExactEvaluator& evaluator, long long& exact) const {
+  /// Evaluates everything that may be within evaluator.candidate_limit, the nearest by float first.
+  bool evaluateNear(float least, float pad, RefineCallback& evaluator, long long& exact) const {
     if (!(least <= squaredLimit(evaluator, pad))) return false;
     if (evaluateRows(least, true, pad, evaluator, exact)) return true;
     // Where an error is allowed, features that are nearly as near as the nearest are left out.
@@ -155,12 +155,12 @@ class LeafDistances {
     return least;
   }
 
-  static float squaredLimit(const ExactEvaluator& evaluator, float pad) {
-    const float reach = evaluator.keep_to + pad;
+  static float squaredLimit(const RefineCallback& evaluator, float pad) {
+    const float reach = evaluator.candidate_limit + pad;
     return reach * reach;
   }
 
-  bool evaluateRows(float least, bool nearest, float pad, ExactEvaluator& evaluator,
+  bool evaluateRows(float least, bool nearest, float pad, RefineCallback& evaluator,
                     long long& exact) const {
     float limit = squaredLimit(evaluator, pad);
     for (int r = 0; r < rows_; ++r) {
@@ -215,14 +215,15 @@ class LeafDistances {
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const LeafView& b,
                                   const Slab& slab, float bound) {
   const FloatFrame& frames = search.frames;
-  ExactEvaluator& evaluator = search.evaluator;
+  RefineCallback& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   // Only what overlaps can cross.
   if (bound <= 0 && edgesCross(search, a, b, vertices_b, slab)) return true;
   LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, frames, slab, evaluator.keep_to + frames.pad);
+  const float least =
+      distances.compute(vertices_b, frames, slab, evaluator.candidate_limit + frames.pad);
   return distances.evaluateNear(least, frames.pad, evaluator, search.counts.exact);
 }
 
