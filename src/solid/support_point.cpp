@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "solid/extent_along.h"
+#include "solid/support_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -31,9 +31,9 @@ double heightOf(const kIOS<S>& bv, const fcl::Vector3d& n, double length) {
 }  // namespace
 
 template <typename S>
-FarthestVertex farthestAlong(const Model<S>& model, const fcl::Vector3d& n) {
+SupportPoint supportPoint(const Model<S>& model, const fcl::Vector3d& n) {
   const double length = n.norm();
-  FarthestVertex best = {-1, -kInfinity};
+  SupportPoint best = {-1, -kInfinity};
   const auto bounded = [&](int node) {
     return BoundedNode{-heightOf(model.getBV(node).bv, n, length), node};
   };
@@ -55,7 +55,7 @@ FarthestVertex farthestAlong(const Model<S>& model, const fcl::Vector3d& n) {
   return best;
 }
 
-template FarthestVertex farthestAlong(const Model<double>&, const fcl::Vector3d&);
-template FarthestVertex farthestAlong(const Model<float>&, const fcl::Vector3d&);
+template SupportPoint supportPoint(const Model<double>&, const fcl::Vector3d&);
+template SupportPoint supportPoint(const Model<float>&, const fcl::Vector3d&);
 
 }  // namespace kios
