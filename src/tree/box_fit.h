@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tree/quick_fit.h"
+#include "tree/moment_fit.h"
 #include "tree/tree.h"
 
 namespace kios::engine {

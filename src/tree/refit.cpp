@@ -7,8 +7,8 @@
 
 #include "tree/box_fit.h"
 #include "tree/leaf_layout.h"
+#include "tree/moment_fit.h"
 #include "tree/node_layout.h"
-#include "tree/quick_fit.h"
 
 namespace kios::engine {
 namespace {
@@ -110,7 +110,7 @@ class Refit {
     }
     Box* box = tree_.boxes.empty() ? nullptr : &tree_.boxes[n];
     if (!box && n == 0) box = &tree_.root_box;
-    quickFit(&chunks_[range.begin], range.end - range.begin, moments, node, box);
+    momentFit(&chunks_[range.begin], range.end - range.begin, moments, node, box);
     if (tree_.boxes.empty()) node.flat = 0;  // no search has its box
     tree_.reach = std::max(tree_.reach, reachOf(node));
     if (!node.isLeaf()) fillBlock(node);

@@ -18,9 +18,9 @@
 
 #include "search/float_frame.h"
 #include "shapes.h"
+#include "tree/moment_fit.h"
 #include "tree/node_layout.h"
 #include "tree/prepare.h"
-#include "tree/quick_fit.h"
 #include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE

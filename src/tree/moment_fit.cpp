@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/quick_fit.h"
+#include "tree/moment_fit.h"
 
 #include "tree/node_layout.h"
 
@@ -211,8 +211,8 @@ Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t
   return boxOf(axes, e, e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high)));
 }
 
-void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
-              Box* box) {
+void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
+               Box* box) {
   const Eigen::Matrix3f axes = principalAxes(moments);
   const Extents e = extentsAlong(axes, chunks, num_chunks);
   const Eigen::Vector3f half = 0.5F * (e.high - e.low);
