@@ -35,13 +35,13 @@ class Chords {
 
   /// How far a path leaves its chord, rounding included: of a point with at most this acceleration
   /// and at most so far from its body's origin.
-  double bulge(double acceleration, double distance) const {
-    return bulge_ * acceleration + rounding_ * distance + 0.5 * pad_;
+  double sagitta(double acceleration, double distance) const {
+    return sagitta_ * acceleration + rounding_ * distance + 0.5 * pad_;
   }
   /// A ball during a part: as if it moved on the chord within a time of 1.
   static MovingBall alongChord(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                               double radius, double bulge) {
-    return {from, radius, to - from, 2 * bulge};
+                               double radius, double sagitta) {
+    return {from, radius, to - from, 2 * sagitta};
   }
 
   /// Two polygons, their vertices at the ends of the parts.
@@ -78,13 +78,13 @@ class Chords {
       change_b = std::max(change_b, v.b().accelerationAlong(n, triangles.of_b[0][k], 0));
     }
     return gap >
-           (bulge_ * (change_a + change_b) + rounding_ * length + pad_ + v.pad()) * (1 + 0x1p-48);
+           (sagitta_ * (change_a + change_b) + rounding_ * length + pad_ + v.pad()) * (1 + 0x1p-48);
   }
 
  private:
   double duration_ = -1;
   Place of_a_[kParts + 1], of_b_[kParts + 1];  // at the ends of the parts
-  double bulge_ = 0;     ///< a path leaves its chord by at most so much of its acceleration
+  double sagitta_ = 0;   ///< a path leaves its chord by at most so much of its acceleration
   double rounding_ = 0;  ///< of a place, for a unit of the distance from the body's origin
   double pad_ = 0;       ///< of two places, beside that and RelativeVelocities::pad()
 };

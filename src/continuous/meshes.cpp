@@ -154,20 +154,20 @@ bool MovingMeshes::nodesStayApart(NodePair pair, const RelativeVelocities& v) co
   place(0);
   place(kEnds - 1);
   const double far_a = a.center0.lpNorm<1>() + a.radius0, far_b = b.center0.lpNorm<1>() + b.radius0;
-  const double bulge_a = chords_.bulge(v.a().acceleration(a.center0), far_a),
-               bulge_b = chords_.bulge(v.b().acceleration(center_b), far_b);
-  // By one chord first: it bulges by the square of the number of parts.
+  const double sagitta_a = chords_.sagitta(v.a().acceleration(a.center0), far_a),
+               sagitta_b = chords_.sagitta(v.b().acceleration(center_b), far_b);
+  // By one chord first: its sagitta is that of a part times the square of their number.
   constexpr double kWhole = Chords::kParts * Chords::kParts;
-  if (v.apart(Chords::alongChord(centers_a[0], centers_a[kEnds - 1], a.radius0, kWhole * bulge_a),
-              Chords::alongChord(centers_b[0], centers_b[kEnds - 1], b.radius0, kWhole * bulge_b),
+  if (v.apart(Chords::alongChord(centers_a[0], centers_a[kEnds - 1], a.radius0, kWhole * sagitta_a),
+              Chords::alongChord(centers_b[0], centers_b[kEnds - 1], b.radius0, kWhole * sagitta_b),
               1)) {
     return true;
   }
   for (int i = 1; i < kEnds - 1; ++i) place(i);
   unsigned int open = 0;
   for (int i = 0; i < Chords::kParts; ++i) {
-    if (v.apart(Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, bulge_a),
-                Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, bulge_b), 1)) {
+    if (v.apart(Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, sagitta_a),
+                Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, sagitta_b), 1)) {
       continue;
     }
     open |= 1U << i;
@@ -176,27 +176,27 @@ bool MovingMeshes::nodesStayApart(NodePair pair, const RelativeVelocities& v) co
   if (a.k() == 1 && b.k() == 1) return false;
   const double reach_a = scaled(double{a.reach}, a.exponent),
                reach_b = scaled(double{b.reach}, b.exponent);
-  const double caps_bulge_a =
-      chords_.bulge(v.a().acceleration(a.center0, reach_a), far_a + 2 * reach_a);
-  const double caps_bulge_b =
-      chords_.bulge(v.b().acceleration(center_b, reach_b), far_b + 2 * reach_b);
+  const double caps_sagitta_a =
+      chords_.sagitta(v.a().acceleration(a.center0, reach_a), far_a + 2 * reach_a);
+  const double caps_sagitta_b =
+      chords_.sagitta(v.b().acceleration(center_b, reach_b), far_b + 2 * reach_b);
   const auto capsAlong = [](const kIOSd& bv, const Chords::Place& from, const Vector3d& center_from,
-                            const Chords::Place& to, const Vector3d& center_to, double bulge) {
+                            const Chords::Place& to, const Vector3d& center_to, double sagitta) {
     FourBalls caps;
     caps.radius = capsOf(bv, from.R, center_from, caps.center);
     capsOf(bv, to.R, center_to, caps.velocity);
     for (int c = 0; c < 3; ++c) caps.velocity[c] -= caps.center[c];
-    caps.acceleration = Eigen::Array4d::Constant(2 * bulge);
+    caps.acceleration = Eigen::Array4d::Constant(2 * sagitta);
     return caps;
   };
   for (int i = 0; i < Chords::kParts; ++i) {
     if ((open >> i & 1U) == 0) continue;
     const FourBalls caps_a = capsAlong(a, chords_.ofA(i), centers_a[i], chords_.ofA(i + 1),
-                                       centers_a[i + 1], caps_bulge_a),
+                                       centers_a[i + 1], caps_sagitta_a),
                     caps_b = capsAlong(b, chords_.ofB(i), centers_b[i], chords_.ofB(i + 1),
-                                       centers_b[i + 1], caps_bulge_b);
-    if (!capsApart(a.k(), Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, bulge_a),
-                   caps_a, Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, bulge_b),
+                                       centers_b[i + 1], caps_sagitta_b);
+    if (!capsApart(a.k(), Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, sagitta_a),
+                   caps_a, Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, sagitta_b),
                    caps_b, v, 1)) {
       return false;
     }
