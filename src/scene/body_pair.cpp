@@ -73,7 +73,7 @@ double BodyPair<S>::afterMotion(double moved, double T_norm1) const {
 }
 
 template <typename S>
-PairBound BodyPair<S>::know(double limit) const {
+PairBound BodyPair<S>::cachedLowerBound(double limit) const {
   using Source = PairBound::Source;
   PairBound known = {-kInfinity, Source::kNothing, false};
   const auto raise = [&](double bound, Source source) {

@@ -29,7 +29,7 @@ class BodyPair {
   BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
 
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
-  PairBound know(double limit) const;
+  PairBound cachedLowerBound(double limit) const;
 
   /// The answer of the narrow phase.
   struct Answer {
@@ -41,7 +41,7 @@ class BodyPair {
   /// is false, for any that is at most that.
   Answer search(double limit, bool exact, SearchCounts& counts);
 
-  /// The last search's or the proof's answer, where know() said that it is exact.
+  /// The last search's or the proof's answer, where cachedLowerBound() said that it is exact.
   Answer proven(double limit) const;
 
   /// The distance of the triangles of the last proof, which lie somewhere near; +infinity if there
@@ -52,7 +52,7 @@ class BodyPair {
   /// True if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
   /// The narrow phase computes at least this, wherever the bodies are.
-  double least() const { return meshes() ? 0 : -kInfinity; }
+  double lowerBound() const { return meshes() ? 0 : -kInfinity; }
   /// An answer with these triangles, if that proves that the narrow phase's is at most the limit.
   Answer nearby(double limit) const;
 

@@ -106,11 +106,11 @@ class ManagerQuery<S>::Impl {
 
   typename scene::BodyPair<S>::Answer answerOf(scene::BodyPair<S>& pair, double limit) {
     using Source = scene::PairBound::Source;
-    if (pair.least() > limit) {
+    if (pair.lowerBound() > limit) {
       ++counts.ties;
       return {};
     }
-    const scene::PairBound known = pair.know(limit);
+    const scene::PairBound known = pair.cachedLowerBound(limit);
     if (known.exact) {
       ++counts.still;
       return pair.proven(limit);
