@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "paper/packing_tests.h"
-#include "search/simd/targets.h"
+#include "volume/simd_targets.h"
 #include "volume/lanes.h"
 
 #undef HWY_TARGET_INCLUDE

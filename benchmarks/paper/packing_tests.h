@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 #include "tree/tree.h"
 
 namespace kios::paper {

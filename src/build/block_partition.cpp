@@ -10,13 +10,13 @@
 
 #include "build/four_axes.h"
 #include "build/mesh.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
 
 using lanes::Float4;
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kBins = 16;
 constexpr int kSweep = 32;  ///< up to so many triangles all splits along two axes are tried
 /// A part of a frame's triangles so small gets a frame of its own, if it is no leaf.
@@ -32,7 +32,8 @@ float leavesOf(int n) {
 
 }  // namespace
 
-LaneBox::LaneBox() : low(lanes::broadcast(kInfinity)), high(lanes::broadcast(-kInfinity)) {}
+LaneBox::LaneBox()
+    : low(lanes::broadcast(kInfinityFloat)), high(lanes::broadcast(-kInfinityFloat)) {}
 
 void BlockPartition::start(const Corners* triangles, int n) {
   const auto count = static_cast<std::size_t>(n);
@@ -130,7 +131,7 @@ CutPlane BlockPartition::bestBin(const std::uint32_t* items, int n, float weight
   Float4 scale = {};
   for (int axis = 0; axis < 3; ++axis) {
     scale[axis] = extent[axis] > 0 ? kBins * (1 - 1e-5F) / extent[axis] : 0;
-    if (!(scale[axis] < kInfinity)) scale[axis] = 0;
+    if (!(scale[axis] < kInfinityFloat)) scale[axis] = 0;
   }
   for (int i = 0; i < n; ++i) {
     const Item& item = items_[items[i]];
@@ -145,7 +146,7 @@ CutPlane BlockPartition::bestBin(const std::uint32_t* items, int n, float weight
     return leavesOf(weight == 1 ? of : static_cast<int>(weight * static_cast<float>(of)));
   };
   CutPlane best;
-  float best_cost = kInfinity;
+  float best_cost = kInfinityFloat;
   for (int axis = 0; axis < 3; ++axis) {
     if (scale[axis] == 0) continue;
     float suffix[kBins];
@@ -176,7 +177,7 @@ void BlockPartition::sortByHeight(const std::uint32_t* items, int n, int axis,
   using lanes::Int4;
   Float4 heights[kSweep / 4];
   for (int i = 0; i < n; ++i) heights[i / 4][i % 4] = items_[items[i]].center[axis];
-  for (int i = n; i % 4 != 0; ++i) heights[i / 4][i % 4] = kInfinity;
+  for (int i = n; i % 4 != 0; ++i) heights[i / 4][i % 4] = kInfinityFloat;
   for (int i = 0; i < n; ++i) {
     const float height = heights[i / 4][i % 4];
     Int4 below = {}, at = {0, 1, 2, 3};
@@ -201,7 +202,7 @@ int BlockPartition::sweep(std::uint32_t* items, int n) const {
   for (int i = 1; i < n; ++i) {
     sizes[i] = n > kLeafTriangles ? leavesOf(i) : static_cast<float>(i);
   }
-  float best_cost = kInfinity;
+  float best_cost = kInfinityFloat;
   int best_left = n / 2;
   std::uint32_t best[kSweep];
   std::copy_n(items, n, best);

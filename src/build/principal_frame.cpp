@@ -5,11 +5,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "build/four_axes.h"
 #include "fcl_kios/volume/rigid.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -62,7 +62,7 @@ Eigen::Matrix3f axesOf(const PointLanes& points) {
 Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b) {
   constexpr float kTiny = 1e-30F;  // squared; the caller's units make the longest length about 1
   const float square_a = detail::dot<float>(a, a), square_b = detail::dot<float>(b, b);
-  const bool usable = square_a > kTiny && square_a < std::numeric_limits<float>::infinity();
+  const bool usable = square_a > kTiny && square_a < kInfinityFloat;
   const Eigen::Vector3f e0 =
       usable ? Eigen::Vector3f(a / std::sqrt(square_a)) : Eigen::Vector3f::UnitX();
   b -= detail::dot<float>(e0, b) * e0;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "build/recenter.h"
+#include "volume/rounding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kios {
 namespace {
@@ -60,7 +60,7 @@ class CoreSet {
   /// Takes (cu, cv) and the support n, i, j if no other constraint exceeds n's value there.
   bool accept(const Weighted& n, double cu, double cv, int i, int j) {
     const double reached = value(n, cu, cv), limit = reached * (1 + 1e-9);
-    if (!(reached < std::numeric_limits<double>::infinity())) return false;
+    if (!(reached < kInfinity)) return false;
     for (int o = 0; o < size; ++o) {
       if (o != i && o != j && value(support[o], cu, cv) > limit) return false;
     }
@@ -92,7 +92,7 @@ void recenterInPlane(const PointLanes& points, int height_axis, float center[3],
   CoreSet core;
   for (int i = 0; i < support.size; ++i) core.add(constraint(support.index[i]));
   float c[3] = {center[0], center[1], center[2]};
-  double best = std::numeric_limits<double>::infinity();
+  double best = kInfinity;
   for (int round = 0; round < kRounds; ++round) {
     if (core.size > 0) {
       c[iu] = static_cast<float>(core.u);

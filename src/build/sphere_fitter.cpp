@@ -5,35 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "build/ellipsoid_frame.h"
 #include "build/measure.h"
 #include "build/triangle_fit.h"
 #include "volume/assemble.h"
 #include "volume/balls.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
-template <typename S>
-[[noreturn]] void refuse(const fcl::Vector3<S>& p) {
-  std::ostringstream message;
-  message << "fcl_kios: vertex (" << p[0] << ", " << p[1] << ", " << p[2]
-          << ") is not finite or above "
-          << kMaxCoordinate<S> << " in magnitude; the model stays unfinished.";
-  throw std::invalid_argument(message.str());
-}
-
 /// Throws for the first point that can't be bounded.
 template <typename S>
 void requireUsable(const fcl::Vector3<S>* points, int n) {
   for (int i = 0; i < n; ++i) {
+    const fcl::Vector3<S>& p = points[i];
     bool usable = true;
-    for (int c = 0; c < 3; ++c) usable &= std::abs(double{points[i][c]}) <= kMaxCoordinate<S>;
-    if (!usable) refuse(points[i]);
+    for (int c = 0; c < 3; ++c) usable &= std::abs(double{p[c]}) <= kMaxCoordinate<S>;
+    if (usable) continue;
+    refuse("vertex (", p[0], ", ", p[1], ", ", p[2], ") is not finite or above ", kMaxCoordinate<S>,
+           " in magnitude; the model stays unfinished.");
   }
 }
 
@@ -168,9 +161,7 @@ typename SphereFitter<S>::Placement SphereFitter<S>::placement(const fcl::Vector
 void requireUsable(const FitOptions& options) {
   constexpr double kLeast = 1.0 / 256, kHalfPi = 1.5707963267948966;
   if (options.angle >= kLeast && options.angle < kHalfPi) return;
-  std::ostringstream message;
-  message << "fcl_kios: the angle of a fit must be in [1/256, pi/2), not " << options.angle << ".";
-  throw std::invalid_argument(message.str());
+  refuse("the angle of a fit must be in [1/256, pi/2), not ", options.angle, ".");
 }
 
 template <typename S>

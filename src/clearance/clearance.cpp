@@ -6,25 +6,21 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "clearance/exact_pair.h"
 #include "fcl_kios/build/fit.h"
 #include "model/kios_model.h"
+#include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 template <typename S>
 std::vector<kIOS<S>> levelOf(const Model<S>& model, int level) {
   requireFinished(model);
-  if (level < 0) {
-    throw std::invalid_argument(
-        "fcl_kios: the level of a cover must be 0 or more, the root's is 0.");
-  }
+  if (level < 0) refuse("the level of a cover must be 0 or more, the root's is 0.");
   std::vector<int> nodes = {0};
   for (int depth = 0; depth < level; ++depth) {
     std::vector<int> next;
@@ -91,8 +87,7 @@ class TriangleParts {
   static constexpr int kDeepest = 64;
 
   [[noreturn]] static void refuseSmall() {
-    throw std::invalid_argument(
-        "fcl_kios: a cover of so small a size would take more than 2^20 volumes.");
+    refuse("a cover of so small a size would take more than 2^20 volumes.");
   }
 
   /// The middles are rounded, each by half a unit in the last place, and the next ones inherit
@@ -120,7 +115,7 @@ class TriangleParts {
 template <typename S>
 std::vector<kIOS<S>> volumesOfSize(const Model<S>& model, double size) {
   requireFinished(model);
-  if (!(size > 0)) throw std::invalid_argument("fcl_kios: the size of a cover must be positive.");
+  if (!(size > 0)) refuse("the size of a cover must be positive.");
   std::vector<kIOS<S>> volumes;
   TriangleParts<S> parts(size, volumes);
   std::vector<int> nodes = {0};
@@ -152,9 +147,9 @@ struct Cover<S>::Parts {
 template <typename S>
 Cover<S>::Cover(std::vector<kIOS<S>> volumes) {
   auto parts = std::make_unique<Parts>();
-  if (volumes.empty()) throw std::invalid_argument("fcl_kios: a cover needs a volume.");
+  if (volumes.empty()) refuse("a cover needs a volume.");
   for (const kIOS<S>& volume : volumes) {
-    if (volume.k() == 0) throw std::invalid_argument("fcl_kios: a volume of a cover is empty.");
+    if (volume.k() == 0) refuse("a volume of a cover is empty.");
     parts->bodies.emplace_back(volume);
   }
   parts->volumes = std::move(volumes);
@@ -246,9 +241,7 @@ Clearance minimumClearance(const Cover<S>& a, const Cover<S>& b, const RelativeP
 template <typename S>
 Clearance smoothClearance(const Cover<S>& a, const Cover<S>& b, const RelativePose<S>& X_AB,
                           double beta) {
-  if (!(beta > 0) || !std::isfinite(beta)) {
-    throw std::invalid_argument("fcl_kios: beta must be positive and finite.");
-  }
+  if (!(beta > 0) || !std::isfinite(beta)) refuse("beta must be positive and finite.");
   constexpr double kNegligible = 60;
   const CoverPairs<S> all(a, b, X_AB);
   Clearance result;

@@ -4,19 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "clearance/exact_pair.h"
 #include "clearance/nearest_pair.h"
 #include "volume/assemble.h"
 #include "volume/error_bounds.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename S>
 const RelativePose<S>& identityPose() {
@@ -83,8 +80,7 @@ template <typename S>
 ExactDistance nearestPoint(const kIOS<S>& volume, const fcl::Vector3<S>& point) {
   for (int c = 0; c < 3; ++c) {
     if (!(std::abs(double{point[c]}) <= kMaxCoordinate<S>)) {
-      throw std::invalid_argument(
-          "fcl_kios: a point is NaN, infinite or too large for its distance to be bounded.");
+      refuse("a point is NaN, infinite or too large for its distance to be bounded.");
     }
   }
   kIOS<S> ball;

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "clearance/simplex.h"
 #include "volume/rounding.h"
@@ -124,7 +123,7 @@ Pair::Slab Pair::widest(Slab best) {
 
 /// From the sphere of a to the sphere of b that are farthest apart: separation()'s pair.
 Vector3d Pair::farthestSpheres() const {
-  double farthest = -std::numeric_limits<double>::infinity();
+  double farthest = -kInfinity;
   Vector3d direction = Vector3d::UnitX();
   for (int j = 0; j < b_.spheres(); ++j) {
     const Vector3d c = offset_ + unit_b_ * (R_ * b_.sphere(j).c);
@@ -192,7 +191,7 @@ Pair::Slab Pair::search(Slab best, NearestPair& result) {
 NearestPair Pair::solve() {
   NearestPair result;
   result.exponent = exponent_;
-  result.upper = std::numeric_limits<double>::infinity();
+  result.upper = kInfinity;
   Slab best = slab(farthestSpheres());
   if (best.height > 0) best = widest(best);
   if (!(best.height > 0 && best.tangential().norm() <= converged())) best = search(best, result);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clearance/simplex.h"
+#include "volume/rounding.h"
 
 #include <Eigen/QR>
-#include <limits>
 
 namespace kios::exact {
 
@@ -23,7 +23,7 @@ void Simplex::add(const Vector3d& x, const Vector3d& y) {
 // Takes the nearest of the 15 faces whose weights are >= 0: every such combination is a point of
 // the hull, so that rounding costs iterations, but never the truth of p and q.
 void Simplex::findNearest() {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   std::array<double, 4> best = {};
   for (int face = 1; face < 1 << size_; ++face) {
     int corner[4], corners = 0;

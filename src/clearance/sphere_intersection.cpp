@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "volume/rounding.h"
 
@@ -49,7 +48,7 @@ template SphereIntersection::SphereIntersection(const kIOS<double>&);
 template SphereIntersection::SphereIntersection(const kIOS<float>&);
 
 double SphereIntersection::violation(const Vector3d& x) const {
-  double worst = -std::numeric_limits<double>::infinity();
+  double worst = -kInfinity;
   for (int i = 0; i < spheres_; ++i) {
     worst = std::max(worst, (x - sphere_[i].c).norm() - sphere_[i].r);
   }
@@ -130,9 +129,9 @@ void SphereIntersection::addVertex(int i, int j, int k, Vector3d x) {
 // differ by as little: the least violated is taken.
 SphereIntersection::Extreme SphereIntersection::support(const Vector3d& v) const {
   Extreme best;
-  best.violation = std::numeric_limits<double>::infinity();
+  best.violation = kInfinity;
   const auto better = [&](const Vector3d& x) {
-    double outside = -std::numeric_limits<double>::infinity();
+    double outside = -kInfinity;
     for (int i = 0; i < spheres_; ++i) {
       outside = std::max(outside, (x - sphere_[i].c).norm() - sphere_[i].r);
       if (!(outside < best.violation)) return false;

@@ -1,21 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous/advance.h"
+#include "volume/errors.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace kios::continuous {
 
 FirstContact advance(MovingPair& pair, double toc_err, ContinuousCounts& counts) {
-  if (!(toc_err >= 0)) {
-    std::ostringstream message;
-    message << "fcl_kios: ContinuousCollisionRequest::toc_err is " << toc_err
-            << ", but must be >= 0.";
-    throw std::invalid_argument(message.str());
-  }
+  require(toc_err >= 0, "ContinuousCollisionRequest::toc_err", toc_err, ">= 0");
   constexpr long long kMostSteps = 20000;
   constexpr double kSmall = 0.25, kShort = 0x1p-13;  // there are few longer steps
   const double tolerance = std::clamp(toc_err, 0x1p-48, 1.0);

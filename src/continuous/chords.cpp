@@ -25,7 +25,7 @@ void Chords::set(const RelativeMotion& motion, double t, double h) {
   // The last place is not before t + h. Times round by u, and so parts of the time by a few u of 1,
   // which velocities multiply: that is below the rounding of places.
   const double part = h / kParts + 0x1p-50;
-  bulge_ = 0.125 * part * part * (1 + 0x1p-40);
+  sagitta_ = 0.125 * part * part * (1 + 0x1p-40);
   rounding_ = motion.turnRounding() + 128 * kUlpDouble;
   pad_ = 256 * kUlpDouble * lengths;
 }

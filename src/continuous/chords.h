@@ -3,9 +3,9 @@
 #pragma once
 
 #include <array>
-#include <limits>
 
 #include "continuous/relative_motion.h"
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 
@@ -35,13 +35,13 @@ class Chords {
 
   /// Returns how far a path leaves its chord, rounding included: of a point with at most this
   /// acceleration and at most so far from its body's origin.
-  double bulge(double acceleration, double distance) const {
-    return bulge_ * acceleration + rounding_ * distance + 0.5 * pad_;
+  double sagitta(double acceleration, double distance) const {
+    return sagitta_ * acceleration + rounding_ * distance + 0.5 * pad_;
   }
   /// Returns a ball during a part: as if it moved on the chord within a time of 1.
   static MovingBall alongChord(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                               double radius, double bulge) {
-    return {from, radius, to - from, 2 * bulge};
+                               double radius, double sagitta) {
+    return {from, radius, to - from, 2 * sagitta};
   }
 
   /// Two polygons, their vertices at the ends of the parts.
@@ -61,10 +61,9 @@ class Chords {
   /// Along the chords the gap is concave, so that it is least at an end.
   bool slabStays(const RelativeVelocities& v, const Triangles& triangles, int part,
                  const Eigen::Vector3d& n) const {
-    const double infinity = std::numeric_limits<double>::infinity();
-    double gap = infinity, length = 0, change_a = 0, change_b = 0;
+    double gap = kInfinity, length = 0, change_a = 0, change_b = 0;
     for (int i = part; i <= part + 1; ++i) {
-      double high = -infinity, low = infinity;
+      double high = -kInfinity, low = kInfinity;
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector3d &x = triangles.of_a[i][k], &y = triangles.of_b[i][k];
         high = std::max(high, n.dot(x));
@@ -79,13 +78,13 @@ class Chords {
       change_b = std::max(change_b, v.b().accelerationAlong(n, triangles.of_b[0][k], 0));
     }
     return gap >
-           (bulge_ * (change_a + change_b) + rounding_ * length + pad_ + v.pad()) * (1 + 0x1p-48);
+           (sagitta_ * (change_a + change_b) + rounding_ * length + pad_ + v.pad()) * (1 + 0x1p-48);
   }
 
  private:
   double duration_ = -1;
   Place of_a_[kParts + 1], of_b_[kParts + 1];  // at the ends of the parts
-  double bulge_ = 0;     ///< a path leaves its chord by at most so much of its acceleration
+  double sagitta_ = 0;   ///< a path leaves its chord by at most so much of its acceleration
   double rounding_ = 0;  ///< of a place, for a unit of the distance from the body's origin
   double pad_ = 0;       ///< of two places, beside that and RelativeVelocities::pad()
 };

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous/fcl_motion.h"
+#include "volume/errors.h"
 
 #include <boost/core/demangle.hpp>
-#include <stdexcept>
-#include <string>
 #include <typeinfo>
 
 #include <fcl/math/motion/interp_motion.h>
@@ -61,9 +60,7 @@ Motion of(const fcl::SplineMotion<double>& m) {
 }  // namespace
 
 Motion motionOf(const fcl::MotionBase<double>* motion) {
-  if (!motion) {
-    throw std::invalid_argument("fcl_kios: continuousCollide needs a motion for each object.");
-  }
+  if (!motion) refuse("continuousCollide needs a motion for each object.");
   const std::type_info& type = typeid(*motion);
   const auto as = [&](auto* tag) { return static_cast<decltype(tag)>(motion); };
   if (type == typeid(fcl::TranslationMotion<double>)) {
@@ -78,10 +75,8 @@ Motion motionOf(const fcl::MotionBase<double>* motion) {
   if (type == typeid(fcl::SplineMotion<double>)) {
     return of(*as(static_cast<const fcl::SplineMotion<double>*>(nullptr)));
   }
-  throw std::invalid_argument("fcl_kios: continuousCollide can't bound the motion " +
-                              boost::core::demangle(type.name()) +
-                              "; use fcl::TranslationMotion, InterpMotion, ScrewMotion or "
-                              "SplineMotion.");
+  refuse("continuousCollide can't bound the motion ", boost::core::demangle(type.name()),
+         "; use fcl::TranslationMotion, InterpMotion, ScrewMotion or SplineMotion.");
 }
 
 Motion motionBetween(const Transform3d& X_0, const Transform3d& X_1, fcl::CCDMotionType type) {
@@ -95,7 +90,7 @@ Motion motionBetween(const Transform3d& X_0, const Transform3d& X_1, fcl::CCDMot
     case fcl::CCDM_SPLINE:
       return Motion::spline(X_0, X_1);
   }
-  throw std::invalid_argument("fcl_kios: ContinuousCollisionRequest::ccd_motion_type is unknown.");
+  refuse("ContinuousCollisionRequest::ccd_motion_type is unknown.");
 }
 
 }  // namespace kios::continuous

@@ -4,11 +4,7 @@
 
 #include <fcl/narrowphase/continuous_collision_request.h>
 #include "continuous/motion.h"
-
-namespace fcl {
-template <typename S>
-class MotionBase;
-}
+#include "fcl_kios/fcl_own.h"
 
 namespace kios::continuous {
 

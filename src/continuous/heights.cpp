@@ -38,7 +38,7 @@ bool Heights::below(const Modeld& model, int node, const Height& limit, int& mos
   }
   const kIOSd& bv = entry.bv;
   const double at = n_[0].dot(bv.center0) + offset_[0],
-               end = n_[1].dot(bv.center0) + offset_[1] + bulge(bv.center0, bv.radius0);
+               end = n_[1].dot(bv.center0) + offset_[1] + sagitta(bv.center0, bv.radius0);
   if (at + length_[0] * bv.radius0 <= limit.start && end + length_[1] * bv.radius0 <= limit.end) {
     return true;
   }

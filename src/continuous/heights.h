@@ -21,14 +21,14 @@ class Heights {
   };
   /// Returns the height of a point of the body, in its own frame.
   Height of(const Eigen::Vector3d& y) const {
-    return {n_[0].dot(y) + offset_[0], n_[1].dot(y) + offset_[1] + bulge(y, 0)};
+    return {n_[0].dot(y) + offset_[0], n_[1].dot(y) + offset_[1] + sagitta(y, 0)};
   }
   /// Returns true if all triangles under a node of the body's tree are proven to stay as low, at
   /// the start and at the end. Gives up after `most` nodes, which is then set to 0 or less.
   bool below(const Modeld& model, int node, const Height& limit, int& most) const;
 
  private:
-  double bulge(const Eigen::Vector3d& y, double radius) const {
+  double sagitta(const Eigen::Vector3d& y, double radius) const {
     if (!accelerates_) return 0;
     return half_square_ * field_.accelerationAlong(direction_, R_ * y + T_, radius);
   }

@@ -3,21 +3,19 @@
 #include "continuous/mesh_and_solids.h"
 
 #include <algorithm>
-#include <limits>
-#include <stdexcept>
 #include <utility>
 
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "shape/triangle_shape.h"
 #include "volume/balls.h"
+#include "volume/errors.h"
+#include "volume/rounding.h"
 #include "volume/unit_vector.h"
 
 namespace kios::continuous {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The spheres of a node in the shape's frame; returns how many.
 int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers, double* radii) {
@@ -51,8 +49,7 @@ MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_
       solids_(std::move(solids)),
       touching_(std::move(touching)),
       reach_(reachOf(solids_) + continuous::reachOf(mesh)) {
-  if (reach_ <= 0x1p300) return;
-  throw std::invalid_argument("fcl_kios: a mesh or shape is too large for continuous collision.");
+  if (!(reach_ <= 0x1p300)) refuse("a mesh or shape is too large for continuous collision.");
 }
 
 bool MovingMeshAndSolids::touching(double t) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "continuous/heights.h"
@@ -12,17 +11,16 @@
 #include "fcl_kios/triangle/distance.h"
 #include "model/prepared.h"
 #include "query/bracket.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "solid/solid_queries.h"
 #include "volume/balls.h"
+#include "volume/rounding.h"
 #include "volume/unit_vector.h"
 
 namespace kios::continuous {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Holds the directions of a triangle's edges and of its normal.
 struct Edges {
@@ -84,11 +82,11 @@ double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
   for (const Modeld* model : {&a_, &b_}) {
     engine::TreeCache* const trees = treesOf(*model);
     if (!trees) return 0;
-    trees->spend(more);
-    paid &= trees->testsToSpare(static_cast<std::size_t>(model->num_tris)) == 0;
+    trees->budget.charge(more);
+    paid &= trees->budget.remaining(static_cast<std::size_t>(model->num_tris)) == 0;
   }
   if (!paid) return 0;
-  const PairFrame<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));
+  const MeshPair<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));
   engine::PairQuery query;
   query.rel_err = 0.05;
   query.start = nearest_;
@@ -157,20 +155,20 @@ bool MovingMeshes::nodesStayApart(NodePair pair, const RelativeVelocities& v) co
   place(0);
   place(kEnds - 1);
   const double far_a = a.center0.lpNorm<1>() + a.radius0, far_b = b.center0.lpNorm<1>() + b.radius0;
-  const double bulge_a = chords_.bulge(v.a().acceleration(a.center0), far_a),
-               bulge_b = chords_.bulge(v.b().acceleration(center_b), far_b);
-  // By one chord first: it bulges by the square of the number of parts.
+  const double sagitta_a = chords_.sagitta(v.a().acceleration(a.center0), far_a),
+               sagitta_b = chords_.sagitta(v.b().acceleration(center_b), far_b);
+  // By one chord first: its sagitta is that of a part times the square of their number.
   constexpr double kWhole = Chords::kParts * Chords::kParts;
-  if (v.apart(Chords::alongChord(centers_a[0], centers_a[kEnds - 1], a.radius0, kWhole * bulge_a),
-              Chords::alongChord(centers_b[0], centers_b[kEnds - 1], b.radius0, kWhole * bulge_b),
+  if (v.apart(Chords::alongChord(centers_a[0], centers_a[kEnds - 1], a.radius0, kWhole * sagitta_a),
+              Chords::alongChord(centers_b[0], centers_b[kEnds - 1], b.radius0, kWhole * sagitta_b),
               1)) {
     return true;
   }
   for (int i = 1; i < kEnds - 1; ++i) place(i);
   unsigned int open = 0;
   for (int i = 0; i < Chords::kParts; ++i) {
-    if (v.apart(Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, bulge_a),
-                Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, bulge_b), 1)) {
+    if (v.apart(Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, sagitta_a),
+                Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, sagitta_b), 1)) {
       continue;
     }
     open |= 1U << i;
@@ -179,27 +177,27 @@ bool MovingMeshes::nodesStayApart(NodePair pair, const RelativeVelocities& v) co
   if (a.k() == 1 && b.k() == 1) return false;
   const double reach_a = scaled(double{a.reach}, a.exponent),
                reach_b = scaled(double{b.reach}, b.exponent);
-  const double caps_bulge_a =
-      chords_.bulge(v.a().acceleration(a.center0, reach_a), far_a + 2 * reach_a);
-  const double caps_bulge_b =
-      chords_.bulge(v.b().acceleration(center_b, reach_b), far_b + 2 * reach_b);
+  const double caps_sagitta_a =
+      chords_.sagitta(v.a().acceleration(a.center0, reach_a), far_a + 2 * reach_a);
+  const double caps_sagitta_b =
+      chords_.sagitta(v.b().acceleration(center_b, reach_b), far_b + 2 * reach_b);
   const auto capsAlong = [](const kIOSd& bv, const Chords::Place& from, const Vector3d& center_from,
-                            const Chords::Place& to, const Vector3d& center_to, double bulge) {
+                            const Chords::Place& to, const Vector3d& center_to, double sagitta) {
     FourBalls caps;
     caps.radius = capsOf(bv, from.R, center_from, caps.center);
     capsOf(bv, to.R, center_to, caps.velocity);
     for (int c = 0; c < 3; ++c) caps.velocity[c] -= caps.center[c];
-    caps.acceleration = Eigen::Array4d::Constant(2 * bulge);
+    caps.acceleration = Eigen::Array4d::Constant(2 * sagitta);
     return caps;
   };
   for (int i = 0; i < Chords::kParts; ++i) {
     if ((open >> i & 1U) == 0) continue;
     const FourBalls caps_a = capsAlong(a, chords_.ofA(i), centers_a[i], chords_.ofA(i + 1),
-                                       centers_a[i + 1], caps_bulge_a),
+                                       centers_a[i + 1], caps_sagitta_a),
                     caps_b = capsAlong(b, chords_.ofB(i), centers_b[i], chords_.ofB(i + 1),
-                                       centers_b[i + 1], caps_bulge_b);
-    if (!capsApart(a.k(), Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, bulge_a),
-                   caps_a, Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, bulge_b),
+                                       centers_b[i + 1], caps_sagitta_b);
+    if (!capsApart(a.k(), Chords::alongChord(centers_a[i], centers_a[i + 1], a.radius0, sagitta_a),
+                   caps_a, Chords::alongChord(centers_b[i], centers_b[i + 1], b.radius0, sagitta_b),
                    caps_b, v, 1)) {
       return false;
     }

@@ -3,9 +3,9 @@
 #include "continuous/motion.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
+#include "volume/errors.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 
@@ -250,8 +250,8 @@ void Motion::check() const {
     size = T0_.norm() + velocity_.norm() + std::abs(angle_) * (1 + arm_.norm()) + axis_.norm();
   }
   if (size <= 0x1p400) return;  // so that no product overflows; NaN fails
-  throw std::invalid_argument(
-      "fcl_kios: a motion is not finite or too large to be bounded; FCL 0.7 leaves members of "
+  refuse(
+      "a motion is not finite or too large to be bounded; FCL 0.7 leaves members of "
       "InterpMotion(tf1, tf2, O) and SplineMotion(tf1, tf2) uninitialised, use another constructor "
       "or the form with two poses.");
 }

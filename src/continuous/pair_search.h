@@ -8,6 +8,7 @@
 #include "continuous/advance.h"
 #include "continuous/relative_motion.h"
 #include "fcl_kios/model/model.h"
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 
@@ -61,7 +62,7 @@ class PairSearch : public MovingPair {
  private:
   static constexpr long long kLeastBudget = 1000;
   long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
-  double end_ = 1, most_turn_ = std::numeric_limits<double>::infinity();
+  double end_ = 1, most_turn_ = kInfinity;
   long long most_tests_ = std::numeric_limits<long long>::max();
   double window_ = 1, last_step_ = 1;
   // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.

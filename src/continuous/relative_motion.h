@@ -6,6 +6,7 @@
 
 #include "continuous/motion.h"
 #include "fcl_kios/volume/separation.h"
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 
@@ -117,7 +118,6 @@ template <typename VerticesA, typename VerticesB>
 double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a,
                                     const VerticesB& b, double enough) const {
   const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double closing = n.dot(a_.linear - b_.linear);
   double at_a[3], speed_a[3], at_b[3], speed_b[3], acceleration_a = 0, acceleration_b = 0;
   double high_a = -kInfinity, low_b = kInfinity;
@@ -169,7 +169,7 @@ double RelativeVelocities::solidSlabTime(const Eigen::Vector3d& n, const Support
                                          const Eigen::Vector3d& center, double reach,
                                          const Vertices& b, double pad) const {
   const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
-  double low_b = std::numeric_limits<double>::infinity(), speed_b = low_b, acceleration_b = 0;
+  double low_b = kInfinity, speed_b = low_b, acceleration_b = 0;
   for (const Eigen::Vector3d& x : b) {
     low_b = std::min(low_b, n.dot(x));
     speed_b = std::min(speed_b, turn_b.dot(x - b_.origin));

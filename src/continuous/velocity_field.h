@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include "volume/rounding.h"
 
 namespace kios::continuous {
 
@@ -71,7 +71,7 @@ inline double closingTime(double gap, double speed, double acceleration) {
   } else if (acceleration > 0) {
     s = (root - speed) / acceleration;
   } else {
-    return std::numeric_limits<double>::infinity();
+    return kInfinity;
   }
   return s * (1 - 0x1p-49);
 }

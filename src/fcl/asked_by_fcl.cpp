@@ -5,9 +5,9 @@
 // ask for its type tells that a file called them, and not our overloads.
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
 
 #include "fcl_kios/model/model.h"
+#include "volume/errors.h"
 
 #if defined(__linux__)
 #include <dlfcn.h>
@@ -69,9 +69,9 @@ bool isQueryOfFcl(const void*) { return false; }
 
 #endif
 
-[[noreturn]] void refuse() {
-  throw std::invalid_argument(
-      "fcl_kios: FCL's own fcl::collide, fcl::distance or fcl::continuousCollide was asked about a "
+[[noreturn]] void refuseQueryOfFcl() {
+  refuse(
+      "FCL's own fcl::collide, fcl::distance or fcl::continuousCollide was asked about a "
       "mesh over kios::kIOS, which it doesn't know. The file that asked was compiled without "
       "fcl_kios/overloads.h: link the CMake target fcl_kios::force_include to it, or compile it "
       "with "
@@ -86,12 +86,12 @@ namespace fcl {
 
 template <>
 OBJECT_TYPE BVHModel<kios::kIOS<double>>::getObjectType() const {
-  if (kios::isQueryOfFcl(KIOS_CALLER)) kios::refuse();
+  if (kios::isQueryOfFcl(KIOS_CALLER)) kios::refuseQueryOfFcl();
   return OT_BVH;
 }
 template <>
 OBJECT_TYPE BVHModel<kios::kIOS<float>>::getObjectType() const {
-  if (kios::isQueryOfFcl(KIOS_CALLER)) kios::refuse();
+  if (kios::isQueryOfFcl(KIOS_CALLER)) kios::refuseQueryOfFcl();
   return OT_BVH;
 }
 

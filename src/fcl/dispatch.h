@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sstream>
-#include <stdexcept>
-
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 #include "fcl_kios/fcl_own.h"
@@ -13,6 +10,7 @@
 #include "model/kios_model.h"
 #include "query/mesh_and_other.h"
 #include "solid/solid_queries.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -21,13 +19,11 @@ namespace kios {
 template <typename S>
 void requireRelativeError(const fcl::DistanceRequest<S>& request) {
   if (!(request.rel_err >= 1)) return;  // the query refuses negative values and NaN
-  std::ostringstream message;
-  message << "fcl_kios: DistanceRequest::rel_err is " << request.rel_err
-          << ", but must be below 1: fcl::DistanceRequest takes (enable_nearest_points, "
-             "enable_signed_distance, rel_err, abs_err, distance_tolerance, gjk_solver_type); set "
-             "its members by name, rel_err = 0 for exact distances (kios::distance() takes larger "
-             "errors).";
-  throw std::invalid_argument(message.str());
+  refuse(
+      "DistanceRequest::rel_err is ", request.rel_err,
+      ", but must be below 1: fcl::DistanceRequest takes (enable_nearest_points, "
+      "enable_signed_distance, rel_err, abs_err, distance_tolerance, gjk_solver_type); set its "
+      "members by name, rel_err = 0 for exact distances (kios::distance() takes larger errors).");
 }
 
 template <typename S>

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include <stdexcept>
-
 #include "fcl_kios/overloads.h"
 #include "model/kios_model.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -11,7 +10,7 @@ bool holdsModel(const fcl::CollisionGeometry<double>* geometry) { return asModel
 bool holdsModel(const fcl::CollisionGeometry<float>* geometry) { return asModel(geometry); }
 
 void detail::requireObjects(const void* object1, const void* object2) {
-  if (!object1 || !object2) throw std::invalid_argument("fcl_kios: a collision object is null.");
+  if (!object1 || !object2) refuse("a collision object is null.");
 }
 
 }  // namespace kios

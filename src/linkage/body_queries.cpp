@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "linkage/shape_gap.h"
@@ -14,11 +12,12 @@
 #include "query/mesh_and_other.h"
 #include "query/pair_search.h"
 #include "solid/solid_queries.h"
+#include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // This is the error allowed to a query of the distance. Halving an interval costs as much as
 // closing a bracket.
 constexpr double kRelErr = 1;
@@ -71,8 +70,7 @@ void BodyQueries::requireServed(int a, int b) const {
     refusePair("checkMotion", *first.geometry, *second.geometry);
   }
   if (!first.bounded && !second.bounded) {
-    throw std::invalid_argument(
-        "fcl_kios: half-spaces and planes are not checked against each other; allow the pair.");
+    refuse("half-spaces and planes are not checked against each other; allow the pair.");
   }
 }
 
@@ -167,8 +165,8 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
     return collideSolids(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                          fcl::CollisionRequestd(), contacts) > 0;
   }
-  const PairFrame<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
-                                path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
+  const MeshPair<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
+                               path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
   SearchCounts counts;
   std::vector<engine::TrianglePairIds> found;
   searchContacts(frame, 1, found, counts);
@@ -191,8 +189,8 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
                                 double roots) const {
   const int a = pair.a, b = pair.b;
   const double pad = path_.pad(a, b);
-  const PairFrame<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
-                                path_.rotationSquare(a) + path_.rotationSquare(b));
+  const MeshPair<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
+                               path_.rotationSquare(a) + path_.rotationSquare(b));
   engine::PairQuery query;
   query.rel_err = kRelErr;
   query.near_enough = min_separation_;

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
-
 #include "linkage/configuration.h"
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 
@@ -23,7 +22,7 @@ struct Nearness {
   double apart = 0;
   bool contact = false;  ///< confirmed by the static query
   /// The width of a slab across the pair's direction, if one was found.
-  double slab = -std::numeric_limits<double>::infinity();
+  double slab = -kInfinity;
 };
 
 /// The static queries about two bodies of a linkage at a configuration of a path, a < b. Asks by

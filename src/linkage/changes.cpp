@@ -4,38 +4,27 @@
 // What became of a linkage's geometry since it was measured.
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include <fcl/geometry/shape/convex.h>
 #include "linkage/link_tree.h"
 #include "model/kios_model.h"
-#include "shape/shape_solid.h"
+#include "model/shape_values.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace articulated {
 namespace {
 
-bool samePoints(const fcl::Convexd& convex, const shape::Solid& solid) {
-  return convex.getVertices() == solid.points && convex.getFaces().data() == solid.faces &&
-         convex.getFaceCount() == solid.num_faces;
+/// The solid refers to a convex shape's faces where they lay.
+bool sameShape(const BodyData& body) {
+  if (!hasShapeValues(*body.geometry, body.shape_values)) return false;
+  return body.solid.kind != shape::Kind::kConvex ||
+         static_cast<const fcl::Convexd&>(*body.geometry).getFaces().data() == body.solid.faces;
 }
 
-/// True if toSolid() would give the same solid, bit by bit.
-bool sameShape(const fcl::CollisionGeometryd& geometry, const shape::Solid& solid) {
-  if (solid.kind == shape::Kind::kConvex) {
-    return samePoints(static_cast<const fcl::Convexd&>(geometry), solid);
-  }
-  const shape::Solid now = toSolid(geometry);
-  return now.half == solid.half && now.radius == solid.radius &&
-         now.half_length == solid.half_length && now.normal == solid.normal &&
-         now.offset == solid.offset;
-}
-
-[[noreturn]] void refuse(const char* what, std::size_t id) {
-  throw std::invalid_argument(std::string("fcl_kios: the ") + what + " of body " +
-                              std::to_string(id) +
-                              " was changed since it was added; build the linkage anew.");
+void requireSame(bool same, const char* what, std::size_t id) {
+  if (same) return;
+  refuse("the ", what, " of body ", id, " was changed since it was added; build the linkage anew.");
 }
 
 }  // namespace
@@ -43,11 +32,11 @@ bool sameShape(const fcl::CollisionGeometryd& geometry, const shape::Solid& soli
 void BodyData::requireUnchanged(std::size_t id) const {
   if (kind == BodyKind::kMesh) {
     requireFinished(*model);
-    if (model->getBV(0).bv.stamp != stamp || model->vertices != vertices) refuse("mesh", id);
-  } else if (kind == BodyKind::kShape && !sameShape(*geometry, solid)) {
-    refuse("shape", id);
+    requireSame(model->getBV(0).bv.stamp == stamp && model->vertices == vertices, "mesh", id);
+  } else if (kind == BodyKind::kShape) {
+    requireSame(sameShape(*this), "shape", id);
   }
-  if (geometry->isOccupied() != occupied) refuse("occupancy", id);
+  requireSame(geometry->isOccupied() == occupied, "occupancy", id);
 }
 
 bool BodyData::holdsCells() const {

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkage/configuration.h"
+#include "volume/errors.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 namespace kios::articulated {
 namespace {
@@ -21,16 +20,10 @@ void requireCoordinates(const Eigen::VectorXd& q, int size, const char* name) {
   if (q.size() == size && (size == 0 || q.lpNorm<Eigen::Infinity>() <= 0x1p300) && q.allFinite()) {
     return;
   }
-  std::ostringstream message;
   if (q.size() != size) {
-    message << "fcl_kios: " << name << " has " << q.size() << " coordinates, but the linkage "
-            << size << ".";
-  } else if (!q.allFinite()) {
-    message << "fcl_kios: a coordinate of " << name << " is NaN or infinite.";
-  } else {
-    message << "fcl_kios: a coordinate of " << name << " is too large.";
+    refuse(name, " has ", q.size(), " coordinates, but the linkage ", size, ".");
   }
-  throw std::invalid_argument(message.str());
+  refuse("a coordinate of ", name, q.allFinite() ? " is too large." : " is NaN or infinite.");
 }
 
 }  // namespace

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include <fcl/config.h>
@@ -15,7 +12,9 @@
 #endif
 #include "continuous/motion.h"
 #include "model/kios_model.h"
+#include "model/shape_values.h"
 #include "shape/shape_solid.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -27,16 +26,11 @@ using articulated::CarriedBody;
 using articulated::LinkData;
 using Eigen::Vector3d;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kLargest = 0x1p300;  // of coordinates and lengths, so that no product overflows
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("fcl_kios: " + what);
-}
 
 void requireTranslation(const Vector3d& t, const char* what) {
   if (!(t.lpNorm<1>() <= kLargest)) {
-    refuse(std::string("the translation of the ") + what + " is NaN, infinite or too large.");
+    refuse("the translation of the ", what, " is NaN, infinite or too large.");
   }
 }
 
@@ -141,6 +135,7 @@ Hull measure(BodyData& body) {
   if (isShape(geometry)) {
     body.kind = BodyKind::kShape;
     body.solid = toSolid(geometry);
+    body.shape_values = shapeValues(geometry);
     body.bounded = body.solid.bounded();
     return hullOf(body.solid);
   }
@@ -153,9 +148,9 @@ Hull measure(BodyData& body) {
   }
 #endif
   const bool mesh = geometry.getObjectType() == fcl::OT_BVH;
-  refuse("a body of a linkage can't be a " + typeName(geometry) +
-         (mesh ? "; convert it by kios::toKIOS(model)."
-               : "; replace it by a mesh, built by kios::makeModel()."));
+  refuse("a body of a linkage can't be a ", typeName(geometry),
+         mesh ? "; convert it by kios::toKIOS(model)."
+              : "; replace it by a mesh, built by kios::makeModel().");
 }
 
 /// Sets what bounds the content, whose hull in the geometry's frame is given.
@@ -203,8 +198,8 @@ bool turns(const std::vector<LinkData>& links, int link) {
 int Linkage::Impl::addLink(int parent, const Joint& joint) {
   const int link = static_cast<int>(links.size());
   if (parent < -1 || parent >= link) {
-    refuse("a link's parent must be -1, the world, or a link that was added before, but is " +
-           std::to_string(parent) + ".");
+    refuse("a link's parent must be -1, the world, or a link that was added before, but is ",
+           parent, ".");
   }
   LinkData data;
   data.parent = parent;
@@ -232,8 +227,8 @@ int Linkage::Impl::addLink(int parent, const Joint& joint) {
       data.axis = (joint.axis / unit).normalized();
       constexpr int kMost = 1 << 20;
       if (joint.coordinate < -1 || joint.coordinate >= kMost) {
-        refuse("a joint's coordinate must be -1, the next one, or below 2^20, but is " +
-               std::to_string(joint.coordinate) + ".");
+        refuse("a joint's coordinate must be -1, the next one, or below 2^20, but is ",
+               joint.coordinate, ".");
       }
       constexpr double kLargestFactor = 0x1p100;
       if (!(std::abs(joint.multiplier) <= kLargestFactor &&
@@ -257,8 +252,8 @@ int Linkage::Impl::addLink(int parent, const Joint& joint) {
 int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
                            const fcl::Transform3d& X_LB) {
   if (link < -1 || link >= static_cast<int>(links.size())) {
-    refuse("a body's link must be -1, an obstacle, or one that was added before, but is " +
-           std::to_string(link) + ".");
+    refuse("a body's link must be -1, an obstacle, or one that was added before, but is ", link,
+           ".");
   }
   if (!geometry) refuse("the geometry of a body of a linkage is null.");
   BodyData body;
@@ -321,8 +316,7 @@ void Linkage::Impl::addPairs(int body) {
 void Linkage::Impl::allow(int a, int b) {
   const int count = static_cast<int>(bodies.size());
   if (a < 0 || b < 0 || a >= count || b >= count) {
-    refuse("a pair of bodies is allowed of which one was not added: " + std::to_string(a) +
-           " and " + std::to_string(b) + ".");
+    refuse("a pair of bodies is allowed of which one was not added: ", a, " and ", b, ".");
   }
   if (bodies[a].carried < bodies[b].carried) std::swap(a, b);
   if (a == b || bodies[a].carried < 0) return;

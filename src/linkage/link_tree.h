@@ -62,6 +62,7 @@ struct BodyData {
   /// State of a mesh when it was added.
   std::uint64_t stamp = 0;
   const void* vertices = nullptr;
+  std::vector<double> shape_values;  ///< likewise of a shape; see model/shape_values.h
 #if FCL_HAVE_OCTOMAP
   OccupiedBox cells;  ///< of an octree, when its content was measured
 #endif

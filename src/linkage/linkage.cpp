@@ -2,25 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/linkage/linkage.h"
 
-#include <sstream>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "linkage/motion_search.h"
+#include "volume/errors.h"
 
 namespace kios {
-namespace {
-
-void require(bool valid, const char* name, double value, const char* range) {
-  if (valid) return;
-  std::ostringstream message;
-  message << "fcl_kios: MotionRequest::" << name << " is " << value << ", but must be " << range
-          << ".";
-  throw std::invalid_argument(message.str());
-}
-
-}  // namespace
 
 Linkage::Linkage() : impl_(std::make_unique<Impl>()) {}
 Linkage::~Linkage() = default;
@@ -45,21 +32,19 @@ int Linkage::links() const { return static_cast<int>(impl_->links.size()); }
 int Linkage::bodies() const { return static_cast<int>(impl_->bodies.size()); }
 
 fcl::Transform3d Linkage::pose(int body, const Eigen::VectorXd& q) const {
-  if (body < 0 || body >= bodies()) {
-    throw std::invalid_argument("fcl_kios: the linkage has no body " + std::to_string(body) + ".");
-  }
+  if (body < 0 || body >= bodies()) refuse("the linkage has no body ", body, ".");
   const articulated::Path path(*impl_, q, q);
   return articulated::Configuration(path, 1).pose(body);
 }
 
 MotionAnswer checkMotion(const Linkage& linkage, const Eigen::VectorXd& q0,
                          const Eigen::VectorXd& q1, const MotionRequest& request) {
-  require(request.min_separation >= 0 && request.min_separation <= 0x1p300, "min_separation",
-          request.min_separation, "finite and >= 0");
-  require(request.resolution >= 0x1p-40 && request.resolution <= 1, "resolution",
+  require(request.min_separation >= 0 && request.min_separation <= 0x1p300,
+          "MotionRequest::min_separation", request.min_separation, "finite and >= 0");
+  require(request.resolution >= 0x1p-40 && request.resolution <= 1, "MotionRequest::resolution",
           request.resolution, "in [2^-40, 1]");
-  require(request.max_queries >= 0, "max_queries", static_cast<double>(request.max_queries),
-          ">= 0");
+  require(request.max_queries >= 0, "MotionRequest::max_queries",
+          static_cast<double>(request.max_queries), ">= 0");
   const auto impl = linkage.impl().current();
   const articulated::Path path(*impl, q0, q1);
   return articulated::MotionSearch(path, request).run();

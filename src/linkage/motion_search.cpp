@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "solid/solid_mark.h"
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kCached = 16;
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 // Root volumes that prove so much of an interval spare it a query.

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "linkage/body_queries.h"
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 
@@ -57,7 +57,6 @@ class NearPairs {
   template <typename Visit>
   void forEach(const Path& path, const Configuration& c, double distance, double time,
                std::size_t most, const Visit& visit) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const Linkage::Impl& linkage = path.linkage();
     const ObstacleTree& obstacles = linkage.obstacle_tree.of(linkage.obstacles);
     balls_.clear();

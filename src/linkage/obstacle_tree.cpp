@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include "volume/rounding.h"
@@ -32,7 +31,7 @@ int ObstacleTree::build(std::vector<ObstacleBox>& boxes, std::size_t begin, std:
     double longest = -1;
     int axis = 0;
     for (int i = 0; i < 3; ++i) {
-      double low = std::numeric_limits<double>::infinity(), high = -low;
+      double low = kInfinity, high = -low;
       for (std::size_t b = range.first; b < range.second; ++b) {
         low = std::min(low, middle(boxes[b], i));
         high = std::max(high, middle(boxes[b], i));
@@ -67,7 +66,7 @@ int ObstacleTree::build(std::vector<ObstacleBox>& boxes, std::size_t begin, std:
     const bool used =
         lane < static_cast<int>(parts.size()) && parts[lane].first < parts[lane].second;
     for (int i = 0; i < 3; ++i) {
-      double low = std::numeric_limits<double>::infinity(), high = -low;
+      double low = kInfinity, high = -low;
       for (std::size_t b = used ? parts[lane].first : 0; used && b < parts[lane].second; ++b) {
         low = std::min(low, boxes[b].low[i]);
         high = std::max(high, boxes[b].high[i]);

@@ -5,15 +5,15 @@
 #include <fcl/config.h>
 
 #if FCL_HAVE_OCTOMAP
-#include <limits>
 
 #include <fcl/geometry/octree/octree.h>
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 
 /// A box around an octree's occupied cells, in its frame; low > high if there are none.
 struct OccupiedBox {
-  fcl::Vector3d low = fcl::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  fcl::Vector3d low = fcl::Vector3d::Constant(kInfinity);
   fcl::Vector3d high = -low;
 
   bool empty() const { return !(low.x() <= high.x()); }

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 #include "fcl_kios/fcl_own.h"
 #include "shape/gjk.h"
+#include "volume/rounding.h"
 
 namespace kios::articulated {
 namespace {
@@ -26,7 +26,7 @@ double supportIn(const BodyData& body, const Transform3d& X, const Vector3d& n) 
 double slab(const BodyData& a, const Transform3d& X_WA, const BodyData& b, const Transform3d& X_WB,
             const Vector3d& n) {
   const double length = n.norm();
-  if (!(length > 0)) return -std::numeric_limits<double>::infinity();
+  if (!(length > 0)) return -kInfinity;
   const Vector3d unit = n / length;
   return -supportIn(b, X_WB, -unit) - supportIn(a, X_WA, unit);
 }
@@ -52,8 +52,7 @@ Vector3d fromCore(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
   for (int i = 0; i < count; ++i) {
     core[i] = X_WB.linear().transpose() * (X_WA * ends[i] - X_WB.translation());
   }
-  const shape::CoreDistance nearest =
-      shape::gjkDistance(b.solid, core, count, std::numeric_limits<double>::infinity());
+  const shape::CoreDistance nearest = shape::gjkDistance(b.solid, core, count, kInfinity);
   return X_WB.linear() * (nearest.on_core - nearest.point);
 }
 
@@ -76,7 +75,7 @@ double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
                 const Transform3d& X_WB, Vector3d* direction) {
   if (!a.bounded) return gapFromPlane(a, X_WA, b, X_WB);
   if (!b.bounded) return gapFromPlane(b, X_WB, a, X_WA);
-  double gap = -std::numeric_limits<double>::infinity();
+  double gap = -kInfinity;
   const auto attempt = [&](const Vector3d& n) {
     const double along = slab(a, X_WA, b, X_WB, n);
     if (!(along > gap)) return;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkage/support.h"
+#include "volume/rounding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kios::articulated {
 namespace {
@@ -17,7 +17,7 @@ double farthest(const std::vector<double> (&p)[3], const Vector3d& n) {
   const double *x = p[0].data(), *y = p[1].data(), *z = p[2].data();
   constexpr std::size_t kLanes = 8;
   double most[kLanes];
-  std::fill_n(most, kLanes, -std::numeric_limits<double>::infinity());
+  std::fill_n(most, kLanes, -kInfinity);
   for (std::size_t i = 0; i < count; i += kLanes) {
     for (std::size_t k = 0; k < kLanes; ++k) {
       const double height = n.x() * x[i + k] + n.y() * y[i + k] + n.z() * z[i + k];

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "volume/balls.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -19,7 +20,7 @@ void boxAlong(const kIOS<S>& bv, const Eigen::Matrix3d& axes, Eigen::Vector3d& c
   Ball balls[kIOS<S>::kMaxSpheres];
   const int k = toBalls(bv, {0, 0, 0}, 0, balls);
   for (int c = 0; c < 3; ++c) {
-    double low = -std::numeric_limits<double>::infinity(), high = -low;
+    double low = -kInfinity, high = -low;
     for (int i = 0; i < k; ++i) {
       const double h = axes.col(c).dot(Eigen::Vector3d(balls[i].x, balls[i].y, balls[i].z));
       low = std::max(low, h - balls[i].r);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "build/sphere_fitter.h"
 #include "model/tree_build.h"
 #include "tree/tree_cache.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -35,9 +35,8 @@ class BuildsByThread {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto mine = find();
     if (mine != builds_.end()) return *mine->second;
-    throw std::logic_error(
-        "fcl_kios: this BVFitter or BVSplitter was not set; set() it in the same thread before "
-        "use.");
+    refuse<std::logic_error>(
+        "this BVFitter or BVSplitter was not set; set() it in the same thread before use.");
   }
 
   void end() {

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <typeinfo>
 
 #include "fcl_kios/model/model.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -15,7 +15,7 @@ namespace detail {
 /// asModel() of what is no Model<S> itself, but may be derived from it.
 template <typename S>
 [[gnu::noinline]] const Model<S>* asDerivedModel(const fcl::CollisionGeometry<S>* geometry) {
-  if (!geometry) throw std::invalid_argument("fcl_kios: a collision geometry is null.");
+  if (!geometry) refuse("a collision geometry is null.");
   if (geometry->getNodeType() != fcl::BV_UNKNOWN || geometry->getObjectType() != fcl::OT_BVH) {
     return nullptr;
   }
@@ -47,11 +47,9 @@ template <typename S>
 [[noreturn]] void refusePair(const char* query, const fcl::CollisionGeometry<S>& o1,
                              const fcl::CollisionGeometry<S>& o2) {
   const bool models = o1.getObjectType() == fcl::OT_BVH && o2.getObjectType() == fcl::OT_BVH;
-  throw std::invalid_argument(std::string("fcl_kios: ") + query + " of " + typeName(o1) + " and " +
-                              typeName(o2) + " is not supported" +
-                              (models
-                                   ? "; convert the other model by kios::toKIOS(model)."
-                                   : "; replace the other by a mesh, built by kios::makeModel()."));
+  refuse(query, " of ", typeName(o1), " and ", typeName(o2), " is not supported",
+         models ? "; convert the other model by kios::toKIOS(model)."
+                : "; replace the other by a mesh, built by kios::makeModel().");
 }
 
 }  // namespace kios

@@ -4,12 +4,11 @@
 
 #include <cmath>
 #include <new>
-#include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include "fcl_kios/model/convert.h"
 #include "model/kios_model.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
@@ -33,17 +32,11 @@ const char* stateName(fcl::BVHBuildState state) {
   }
 }
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("fcl_kios: " + what);
-}
-
 template <typename S>
 void requireVertices(const fcl::Vector3<S>* vertices, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     if (vertices[i].allFinite()) continue;
-    std::ostringstream message;
-    message << "vertex " << i << " (" << vertices[i].transpose() << ") is not finite.";
-    refuse(message.str());
+    refuse("vertex ", i, " (", vertices[i].transpose(), ") is not finite.");
   }
 }
 
@@ -51,10 +44,8 @@ void requireIndices(const fcl::Triangle* triangles, std::size_t n, std::size_t n
   for (std::size_t i = 0; i < n; ++i) {
     for (int corner = 0; corner < 3; ++corner) {
       if (triangles[i][corner] < num_vertices) continue;
-      std::ostringstream message;
-      message << "triangle " << i << " refers to vertex " << triangles[i][corner]
-              << ", but there are " << num_vertices << ".";
-      refuse(message.str());
+      refuse("triangle ", i, " refers to vertex ", triangles[i][corner], ", but there are ",
+             num_vertices, ".");
     }
   }
 }
@@ -71,23 +62,18 @@ bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
                                    const char* remedy) {
   const bool processed =
       state == fcl::BVH_BUILD_STATE_PROCESSED || state == fcl::BVH_BUILD_STATE_UPDATED;
-  std::ostringstream message;
-  message << what << ": ";
-  if (!processed) {
-    message << "it is " << stateName(state) << ".";
-  } else if (type == fcl::BVH_MODEL_POINTCLOUD) {
-    message << "it is a point cloud, and triangles are needed.";
-  } else {
-    message << "it has " << num_tris << " triangles but a tree of " << num_bvs
-            << " nodes; geometry was added after it was built: " << remedy << ".";
+  if (!processed) refuse(what, ": it is ", stateName(state), ".");
+  if (type == fcl::BVH_MODEL_POINTCLOUD) {
+    refuse(what, ": it is a point cloud, and triangles are needed.");
   }
-  refuse(message.str());
+  refuse(what, ": it has ", num_tris, " triangles but a tree of ", num_bvs,
+         " nodes; geometry was added after it was built: ", remedy, ".");
 }
 
 /// FCL's build calls throw for some of their arrays and return this for others.
 void requireBuilt(int status) {
   if (status == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (status != fcl::BVH_OK) throw std::logic_error("fcl_kios: FCL refused to build a new model.");
+  if (status != fcl::BVH_OK) refuse<std::logic_error>("FCL refused to build a new model.");
 }
 
 }  // namespace

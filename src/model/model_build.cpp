@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The members of fcl::BVHModel that build and refit trees over k-IOS.
-#include <sstream>
 #include <stdexcept>
 #include <typeinfo>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "model/prepared.h"
 #include "model/tree_build.h"
 #include "tree/tree_cache.h"
+#include "volume/errors.h"
 #include "volume/stamp.h"
 
 namespace kios {
@@ -168,7 +168,7 @@ bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& t
   }
   lendVolumes(content, model.nodes, model.primitives);
   trees.noteBuilt(model.nodes[0].bv.stamp);
-  if (engine::SharedTree::isHeld(content)) trees.spareNothing();
+  if (engine::SharedTree::isHeld(content)) trees.budget.exhaust();
   return true;
 }
 
@@ -180,10 +180,8 @@ void requireIndices(const Model<S>& model) {
     const fcl::Triangle& t = model.tri_indices[i];
     const std::size_t largest = std::max({t[0], t[1], t[2]});
     if (largest < end) continue;
-    std::ostringstream message;
-    message << "fcl_kios: triangle " << i << " refers to vertex " << largest << ", but there are "
-            << end << "; build the model anew from beginModel().";
-    throw std::invalid_argument(message.str());
+    refuse("triangle ", i, " refers to vertex ", largest, ", but there are ", end,
+           "; build the model anew from beginModel().");
   }
 }
 

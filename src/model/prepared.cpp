@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/prepared.h"
 
-#include <stdexcept>
 #include <typeinfo>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "search/search.h"
 #include "tree/prepare.h"
 #include "tree/refit.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -74,8 +74,9 @@ void invalidate(Model<S>& model) {
     failed |= model.replaceSubModel(vertices);
     failed |= model.endReplaceModel(true, true);
   }
-  if (failed != fcl::BVH_OK)
-    throw std::logic_error("fcl_kios: FCL refused to refit a finished model.");
+  if (failed != fcl::BVH_OK) {
+    refuse<std::logic_error>("FCL refused to refit a finished model.");
+  }
   if (engine::TreeCache* const trees = treesOf(model)) trees->drop(model.vertices);
 }
 

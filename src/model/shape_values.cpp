@@ -20,104 +20,57 @@
 namespace kios {
 namespace {
 
-/// Compares values one by one with those that are known, and puts them in their place.
-template <typename S>
-class Comparison {
- public:
-  explicit Comparison(std::vector<S>& values) : values_(values) {}
-
-  void take(S value) {
-    if (next_ < values_.size() && (values_[next_] == value || bothNaN(values_[next_], value))) {
-      ++next_;
-      return;
-    }
-    same_ = false;
-    if (next_ < values_.size()) {
-      values_[next_] = value;
-    } else {
-      values_.push_back(value);
-    }
-    ++next_;
-  }
-  void take(const fcl::Vector3<S>& v) {
+/// Calls take(v) with every value, in one order.
+template <typename S, typename Take>
+void takeValues(const fcl::CollisionGeometry<S>& geometry, const Take& take) {
+  const auto takeAll = [&](const fcl::Vector3<S>& v) {
     for (int i = 0; i < 3; ++i) take(v[i]);
-  }
-  bool finish() {
-    same_ &= next_ == values_.size() && next_ > 0;
-    values_.resize(next_);
-    return same_;
-  }
-
- private:
-  static bool bothNaN(S a, S b) { return std::isnan(a) && std::isnan(b); }
-
-  std::vector<S>& values_;
-  std::size_t next_ = 0;
-  bool same_ = true;
-};
-
-/// The geometry, if it is of just that class: one that is derived from it may depend on more.
-template <typename Shape, typename S>
-const Shape* exactly(const fcl::CollisionGeometry<S>& geometry) {
-  return typeid(geometry) == typeid(Shape) ? static_cast<const Shape*>(&geometry) : nullptr;
-}
-
-template <typename S>
-void takeValues(const fcl::CollisionGeometry<S>& geometry, Comparison<S>& values) {
+  };
+  const auto takePlane = [&](const auto& plane) {
+    takeAll(plane.n);
+    take(plane.d);
+  };
+  const auto takeRound = [&](const auto& round) {
+    take(round.radius);
+    take(round.lz);
+  };
   switch (geometry.getNodeType()) {
     case fcl::GEOM_BOX:
-      if (const auto* s = exactly<fcl::Box<S>>(geometry)) values.take(s->side);
+      takeAll(static_cast<const fcl::Box<S>&>(geometry).side);
       break;
     case fcl::GEOM_SPHERE:
-      if (const auto* s = exactly<fcl::Sphere<S>>(geometry)) values.take(s->radius);
+      take(static_cast<const fcl::Sphere<S>&>(geometry).radius);
       break;
     case fcl::GEOM_ELLIPSOID:
-      if (const auto* s = exactly<fcl::Ellipsoid<S>>(geometry)) values.take(s->radii);
+      takeAll(static_cast<const fcl::Ellipsoid<S>&>(geometry).radii);
       break;
     case fcl::GEOM_CAPSULE:
-      if (const auto* s = exactly<fcl::Capsule<S>>(geometry)) {
-        values.take(s->radius);
-        values.take(s->lz);
-      }
+      takeRound(static_cast<const fcl::Capsule<S>&>(geometry));
       break;
     case fcl::GEOM_CONE:
-      if (const auto* s = exactly<fcl::Cone<S>>(geometry)) {
-        values.take(s->radius);
-        values.take(s->lz);
-      }
+      takeRound(static_cast<const fcl::Cone<S>&>(geometry));
       break;
     case fcl::GEOM_CYLINDER:
-      if (const auto* s = exactly<fcl::Cylinder<S>>(geometry)) {
-        values.take(s->radius);
-        values.take(s->lz);
-      }
+      takeRound(static_cast<const fcl::Cylinder<S>&>(geometry));
       break;
-    case fcl::GEOM_CONVEX:
-      if (const auto* s = exactly<fcl::Convex<S>>(geometry)) {
-        values.take(static_cast<S>(s->getFaceCount()));
-        for (const fcl::Vector3<S>& v : s->getVertices()) values.take(v);
-        for (const int i : s->getFaces()) values.take(static_cast<S>(i));
-        values.take(s->getInteriorPoint());
-      }
+    case fcl::GEOM_CONVEX: {
+      const auto& convex = static_cast<const fcl::Convex<S>&>(geometry);
+      take(static_cast<S>(convex.getFaceCount()));
+      for (const fcl::Vector3<S>& v : convex.getVertices()) takeAll(v);
+      for (const int i : convex.getFaces()) take(static_cast<S>(i));
+      takeAll(convex.getInteriorPoint());
       break;
+    }
     case fcl::GEOM_PLANE:
-      if (const auto* s = exactly<fcl::Plane<S>>(geometry)) {
-        values.take(s->n);
-        values.take(s->d);
-      }
+      takePlane(static_cast<const fcl::Plane<S>&>(geometry));
       break;
     case fcl::GEOM_HALFSPACE:
-      if (const auto* s = exactly<fcl::Halfspace<S>>(geometry)) {
-        values.take(s->n);
-        values.take(s->d);
-      }
+      takePlane(static_cast<const fcl::Halfspace<S>&>(geometry));
       break;
     case fcl::GEOM_TRIANGLE:
-      if (const auto* s = exactly<fcl::TriangleP<S>>(geometry)) {
-        values.take(s->a);
-        values.take(s->b);
-        values.take(s->c);
-      }
+      takeAll(static_cast<const fcl::TriangleP<S>&>(geometry).a);
+      takeAll(static_cast<const fcl::TriangleP<S>&>(geometry).b);
+      takeAll(static_cast<const fcl::TriangleP<S>&>(geometry).c);
       break;
     default:
       break;
@@ -127,13 +80,40 @@ void takeValues(const fcl::CollisionGeometry<S>& geometry, Comparison<S>& values
 }  // namespace
 
 template <typename S>
-bool updateShapeValues(const fcl::CollisionGeometry<S>& geometry, std::vector<S>& values) {
-  Comparison<S> comparison(values);
-  takeValues(geometry, comparison);
-  return comparison.finish();
+bool isShapeOfFcl(const fcl::CollisionGeometry<S>& geometry) {
+  const std::type_info& type = typeid(geometry);
+  return type == typeid(fcl::Box<S>) || type == typeid(fcl::Sphere<S>) ||
+         type == typeid(fcl::Ellipsoid<S>) || type == typeid(fcl::Capsule<S>) ||
+         type == typeid(fcl::Cone<S>) || type == typeid(fcl::Cylinder<S>) ||
+         type == typeid(fcl::Convex<S>) || type == typeid(fcl::Plane<S>) ||
+         type == typeid(fcl::Halfspace<S>) || type == typeid(fcl::TriangleP<S>);
 }
 
-template bool updateShapeValues(const fcl::CollisionGeometry<double>&, std::vector<double>&);
-template bool updateShapeValues(const fcl::CollisionGeometry<float>&, std::vector<float>&);
+template <typename S>
+std::vector<S> shapeValues(const fcl::CollisionGeometry<S>& geometry) {
+  std::vector<S> values;
+  takeValues(geometry, [&values](S value) { values.push_back(value); });
+  return values;
+}
+
+template <typename S>
+bool hasShapeValues(const fcl::CollisionGeometry<S>& geometry, const std::vector<S>& values) {
+  std::size_t next = 0;
+  bool same = true;
+  takeValues(geometry, [&](S value) {
+    same = same && next < values.size() &&
+           (values[next] == value || (std::isnan(values[next]) && std::isnan(value)));
+    ++next;
+  });
+  return same && next == values.size();
+}
+
+#define KIOS_INSTANTIATE(S)                                              \
+  template bool isShapeOfFcl(const fcl::CollisionGeometry<S>&);          \
+  template std::vector<S> shapeValues(const fcl::CollisionGeometry<S>&); \
+  template bool hasShapeValues(const fcl::CollisionGeometry<S>&, const std::vector<S>&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
 
 }  // namespace kios

@@ -8,13 +8,19 @@
 
 namespace kios {
 
-/// All that the distances to one of FCL's shapes depend on but its pose: its sizes, or the vertices
-/// and faces of a convex. A caller may change them in place at any time, and nothing tells so.
-///
-/// Returns true if `values` are still the shape's; else writes them. Of a class that
-/// isn't one of FCL's own nothing is known, nor of octrees, which take up measurements, and meshes
-/// over other volumes: false, and no values.
+/// True for objects of one of FCL's own classes of shapes. Of a class derived from one, FCL's
+/// answers may depend on more than shapeValues().
 template <typename S>
-bool updateShapeValues(const fcl::CollisionGeometry<S>& geometry, std::vector<S>& values);
+bool isShapeOfFcl(const fcl::CollisionGeometry<S>& geometry);
+
+/// Returns all that the distances to a shape depend on but its pose: its sizes, or the vertices and
+/// faces of a convex. A caller may change them in place at any time, and nothing tells so. Empty
+/// for what is no shape by its node type.
+template <typename S>
+std::vector<S> shapeValues(const fcl::CollisionGeometry<S>& geometry);
+
+/// True if shapeValues() would return just these values.
+template <typename S>
+bool hasShapeValues(const fcl::CollisionGeometry<S>& geometry, const std::vector<S>& values);
 
 }  // namespace kios

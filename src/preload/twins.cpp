@@ -14,10 +14,13 @@
 #include <vector>
 
 #include "fcl_kios/model/prepare.h"
-#include "preload/fingerprint.h"
+#include "tree/fingerprint.h"
 
 namespace kios::preload {
 namespace {
+
+using engine::Fingerprint;
+using engine::fingerprint;
 
 /// Returns bytes that twins may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
 std::size_t limitOfEnvironment() {

@@ -3,7 +3,6 @@
 #include "query/bracket.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "query/pair_search.h"
 #include "volume/rounding.h"
@@ -11,11 +10,9 @@
 namespace kios {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Sets what was proven, with all rounding paid for.
 template <typename S>
-void setBounds(const PairFrame<S>& frame, const engine::PairAnswer<S>& found,
+void setBounds(const MeshPair<S>& frame, const engine::PairAnswer<S>& found,
                DistanceAnswer<S>& answer) {
   double lower = found.least_other;
   if (found.least_evaluated < kInfinity) {
@@ -37,7 +34,7 @@ void setBounds(const PairFrame<S>& frame, const engine::PairAnswer<S>& found,
 }  // namespace
 
 template <typename S>
-DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query) {
+DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const engine::PairQuery& query) {
   DistanceAnswer<S> answer;
   if (query.far_enough <= 0) {
     answer.stop = DistanceStop::kFar;
@@ -56,7 +53,7 @@ DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQ
 }
 
 template <typename S>
-DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query,
+DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const engine::PairQuery& query,
                                   double roots) {
   DistanceAnswer<S> answer;
   answer.lower_bound = roundDown<S>(std::max(0.0, roots));
@@ -86,9 +83,9 @@ DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQ
   return answer;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                  \
-  template DistanceAnswer<S> bracketDistance(const PairFrame<S>&, const engine::PairQuery&); \
-  template DistanceAnswer<S> bracketDistance(const PairFrame<S>&, const engine::PairQuery&, double);
+#define KIOS_INSTANTIATE(S)                                                                 \
+  template DistanceAnswer<S> bracketDistance(const MeshPair<S>&, const engine::PairQuery&); \
+  template DistanceAnswer<S> bracketDistance(const MeshPair<S>&, const engine::PairQuery&, double);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -3,18 +3,18 @@
 #pragma once
 
 #include "fcl_kios/query/distance.h"
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 
 namespace kios {
 
 /// The answer of kios::distance(), but for the nearest points: in A's frame, set if a pair was
 /// found.
 template <typename S>
-DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query);
+DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const engine::PairQuery& query);
 
 /// Answers for root volumes that were tested: they prove `roots`, which is below far_enough > 0.
 template <typename S>
-DistanceAnswer<S> bracketDistance(const PairFrame<S>& frame, const engine::PairQuery& query,
+DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const engine::PairQuery& query,
                                   double roots);
 
 }  // namespace kios

@@ -4,23 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include "query/bracket.h"
+#include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <typename T>
-void require(bool valid, const char* name, T value, const char* range) {
-  if (valid) return;
-  std::ostringstream message;
-  message << "fcl_kios: " << name << " is " << value << ", but must be " << range << ".";
-  throw std::invalid_argument(message.str());
-}
 
 template <typename S>
 void requireValid(const DistanceOptions<S>& o) {
@@ -50,7 +40,7 @@ template <typename S>
 DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                            const fcl::Transform3<S>& X_WB, const DistanceOptions<S>& options) {
   requireValid(options);
-  const PairFrame<S> frame(a, X_WA, b, X_WB);
+  const MeshPair<S> frame(a, X_WA, b, X_WB);
   DistanceAnswer<S> answer = bracketDistance(frame, queryOf(options));
   if (answer.triangle_a < 0) return answer;
   if (options.warm_start) *options.warm_start = {answer.triangle_a, answer.triangle_b};
@@ -71,7 +61,7 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
                 const fcl::Transform3<S>& X_WB, std::common_type_t<S> t,
                 std::common_type_t<DistanceAnswer<S>>* certificate, WarmStart* warm_start) {
   require(!std::isnan(t), "the distance asked for", t, "a number");
-  const PairFrame<S> frame(a, X_WA, b, X_WB);
+  const MeshPair<S> frame(a, X_WA, b, X_WB);
   DistanceAnswer<S> unused;
   DistanceAnswer<S>& answer = certificate ? *certificate : unused;
   answer = DistanceAnswer<S>();

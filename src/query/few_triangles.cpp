@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "query/near_pairs.h"
 #include "query/unprepared.h"
 #include "volume/lanes.h"
+#include "volume/rounding.h"
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -19,7 +19,6 @@ namespace kios {
 namespace {
 
 constexpr int kMost = 32, kVeryFewPairs = 64;  // of areFew() and areVeryFew()
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// By axis: where a box begins, and where it ends, negated; or the other way round.
 struct Sides {
@@ -78,7 +77,7 @@ bool apart(const Sides& lower, const Sides& upper) {
 
 // Coordinates are those that the triangles' own test sees, so boxes need no pad.
 template <typename S>
-std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<S>& frame, std::size_t limit,
+std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame, std::size_t limit,
                                                        SearchCounts& counts) {
   std::vector<engine::TrianglePairIds> found;
   Box boxes_a[kMost], all_a;
@@ -123,7 +122,7 @@ std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<S>& frame
 // All boxes are tested, then triangles by the distance of their boxes. What is left out is farther
 // than NearPairs' allowance for rounding, which is far more than that of boxes.
 template <typename S>
-engine::PairAnswer<S> nearestOfFew(const PairFrame<S>& frame, double far_enough,
+engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
                                    SearchCounts& counts) {
   struct Bounded {
     double bound;
@@ -165,11 +164,11 @@ engine::PairAnswer<S> nearestOfFew(const PairFrame<S>& frame, double far_enough,
   return answer;
 }
 
-template engine::PairAnswer<double> nearestOfFew(const PairFrame<double>&, double, SearchCounts&);
-template engine::PairAnswer<float> nearestOfFew(const PairFrame<float>&, double, SearchCounts&);
-template std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<double>&,
+template engine::PairAnswer<double> nearestOfFew(const MeshPair<double>&, double, SearchCounts&);
+template engine::PairAnswer<float> nearestOfFew(const MeshPair<float>&, double, SearchCounts&);
+template std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<double>&,
                                                                 std::size_t, SearchCounts&);
-template std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<float>&,
-                                                                std::size_t, SearchCounts&);
+template std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<float>&, std::size_t,
+                                                                SearchCounts&);
 
 }  // namespace kios

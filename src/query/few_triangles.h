@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 #include "search/pair_query.h"
 
 namespace kios {
@@ -29,13 +29,13 @@ bool areVeryFew(const Model<S>& a, const Model<S>& b) {
 /// Returns up to `limit` pairs of few triangles that intersect, all of them if there are no more,
 /// by ids.
 template <typename S>
-std::vector<engine::TrianglePairIds> intersectingOfFew(const PairFrame<S>& frame, std::size_t limit,
+std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame, std::size_t limit,
                                                        SearchCounts& counts);
 
 /// Returns the nearest of very few triangles that the engine serves, of those nearer than
 /// `far_enough`, as searchNearest() names them for exact queries; not found if there are none.
 template <typename S>
-engine::PairAnswer<S> nearestOfFew(const PairFrame<S>& frame, double far_enough,
+engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
                                    SearchCounts& counts);
 
 }  // namespace kios

@@ -9,7 +9,7 @@
 
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "volume/rounding.h"
 
 namespace kios {

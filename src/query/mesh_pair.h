@@ -3,52 +3,96 @@
 #pragma once
 
 #include <algorithm>
-#include <sstream>
-#include <stdexcept>
 
-#include <fcl/narrowphase/collision_request.h>
-#include <fcl/narrowphase/collision_result.h>
-#include <fcl/narrowphase/distance_request.h>
 #include "fcl_kios/model/model.h"
-#include "query/pair_frame.h"
-#include "query/triangle_contact.h"
+#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/volume/separation.h"
+#include "model/kios_model.h"
+#include "search/pair_query.h"
+#include "volume/error_bounds.h"
 
 namespace kios {
 
-/// Throws std::invalid_argument if an error bound is negative or NaN.
 template <typename S>
-void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
-  const auto require = [](const char* name, S value) {
-    if (value >= 0) return;
-    std::ostringstream message;
-    message << "fcl_kios: DistanceRequest::" << name << " is " << value << ", but must be >= 0.";
-    throw std::invalid_argument(message.str());
-  };
-  require("rel_err", request.rel_err);
-  require("abs_err", request.abs_err);
+TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
+  const fcl::Triangle& t = model.tri_indices[triangle];
+  return {model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]};
 }
 
-/// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
-/// contacts, as many as the request leaves room for.
-template <typename S>
-void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p, const Model<S>& b,
-                 int id_b, const TriangleVertices<S>& q, const fcl::Transform3<S>& X_WA,
-                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  const std::size_t room =
-      request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
-  if (!request.enable_contact) {
-    const fcl::Vector3<S> unset = fcl::Vector3<S>::Zero();  // FCL leaves it uninitialised
-    if (room > 0) {
-      result.addContact(fcl::Contact<S>(&a, &b, id_a, id_b, unset, unset, S(0)));
-    }
-    return;
-  }
-  const TriangleContact<S> contact = triangleContact(p, q);
-  for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
-    result.addContact(
-        fcl::Contact<S>(&a, &b, id_a, id_b, detail::transform<S>(X_WA, contact.points[i]),
-                        detail::rotate<S>(X_WA.linear(), contact.normal), contact.depth));
-  }
+template <typename S, typename Pose>
+TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
+  return {X * t[0], X * t[1], X * t[2]};
 }
+
+/// Two meshes at a pose, in the common frame of all queries about them, which is A's. It is built
+/// once a query and handed down: models and poses are checked here and nowhere below, and the
+/// rounding errors of this pair's distances are bounded here. The models must outlive it.
+template <typename S>
+class MeshPair {
+ public:
+  /// Throws std::invalid_argument if a model is not a finished mesh or a pose is not rigid.
+  MeshPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+           const fcl::Transform3<S>& X_WB)
+      : a(a), b(b), X_AB((requireFinished(a), requireFinished(b), X_WA), X_WB) {}
+  /// For models and rotations that were checked; see RelativePose.
+  MeshPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+           const fcl::Transform3<S>& X_WB, double squared_errors)
+      : a(a), b(b), X_AB(X_WA, X_WB, squared_errors) {}
+
+  const Model<S>&a, &b;
+  const RelativePose<S> X_AB;
+
+  const kIOS<S>& rootA() const { return a.getBV(0).bv; }
+  const kIOS<S>& rootB() const { return b.getBV(0).bv; }
+  /// separation() of the root volumes.
+  double rootBound(double stop_above) const {
+    return separation(rootA(), rootB(), X_AB, stop_above);
+  }
+
+  TriangleVertices<S> triangleA(int id) const { return cornersOf(a, id); }
+  TriangleVertices<S> triangleB(int id) const { return transformed(cornersOf(b, id), X_AB); }
+  bool exist(const engine::TrianglePairIds& ids) const {
+    return ids.a >= 0 && ids.a < a.num_tris && ids.b >= 0 && ids.b < b.num_tris;
+  }
+  TriangleDistance<S> distanceOf(const engine::TrianglePairIds& ids) const {
+    return triangleDistance(triangleA(ids.a), triangleB(ids.b));
+  }
+
+  /// Bounds the error of the computed distance of any two triangles against the exact one in this
+  /// frame as it is stored, if either is at most d.
+  double kernelError(double d) const {
+    return error_bounds::triangleError<S>(
+               error_bounds::extentOf(d, rootA().radius0, rootB().radius0)) +
+           kLeast;
+  }
+  /// Bounds the error against the distance in the exact common frame.
+  double distanceError(double d) const {
+    const kIOS<S>& root = rootB();
+    return kernelError(d) + frameError(norm1(root.center0) + 1.8 * double{root.radius0});
+  }
+  /// Bounds it for these two triangles, which are smaller than the models.
+  double distanceErrorOf(const engine::TrianglePairIds& ids) const {
+    const auto p = triangleA(ids.a), local = cornersOf(b, ids.b), q = triangleB(ids.b);
+    double largest = 0;
+    fcl::Vector3<S> low = p[0], high = p[0];
+    for (int k = 0; k < 3; ++k) {
+      low = low.cwiseMin(p[k]).cwiseMin(q[k]);
+      high = high.cwiseMax(p[k]).cwiseMax(q[k]);
+      largest = std::max(largest, norm1(local[k]));
+    }
+    const double extent = (high - low).template cast<double>().stableNorm();
+    return error_bounds::triangleError<S>(1.01 * extent) + frameError(largest) + kLeast;
+  }
+
+ private:
+  static constexpr double kLeast = std::numeric_limits<S>::min();  // results round absolutely below
+
+  static double norm1(const fcl::Vector3<S>& v) {
+    return v.template cast<double>().template lpNorm<1>();
+  }
+  double frameError(double norm1) const {
+    return error_bounds::frameError<S>(norm1, detail::boundsOf(X_AB).T_norm1);
+  }
+};
 
 }  // namespace kios

@@ -12,7 +12,7 @@
 #include "fcl_kios/query/mesh_nodes.h"
 #include "model/kios_model.h"
 #include "query/few_triangles.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "query/pair_search.h"
 #include "query/unprepared.h"
 #include "query/vertices_apart.h"
@@ -23,7 +23,7 @@ namespace {
 
 /// By FCL's traversal, for cost sources and models that the engine can't serve.
 template <typename S>
-[[gnu::noinline]] void collideByFCL(const PairFrame<S>& frame, const fcl::Transform3<S>& X_WA,
+[[gnu::noinline]] void collideByFCL(const MeshPair<S>& frame, const fcl::Transform3<S>& X_WA,
                                     const fcl::Transform3<S>& X_WB,
                                     const fcl::CollisionRequest<S>& request,
                                     fcl::CollisionResult<S>& result, SearchCounts& counts) {
@@ -35,7 +35,7 @@ template <typename S>
 
 /// collideMeshes() of models that may touch, for all that farApart() can tell.
 template <typename S>
-[[gnu::noinline]] void collideNear(const PairFrame<S>& frame, const fcl::Transform3<S>& X_WA,
+[[gnu::noinline]] void collideNear(const MeshPair<S>& frame, const fcl::Transform3<S>& X_WA,
                                    const fcl::Transform3<S>& X_WB,
                                    const fcl::CollisionRequest<S>& request,
                                    fcl::CollisionResult<S>& result, SearchCounts& counts) {
@@ -70,7 +70,7 @@ template <typename S>
 
 /// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough.
 template <typename S>
-engine::PairAnswer<S> nearestOf(const PairFrame<S>& frame, const engine::PairQuery& query,
+engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame, const engine::PairQuery& query,
                                 SearchCounts& counts) {
   if (frame.a.num_tris == 1 && frame.b.num_tris == 1) {
     engine::PairAnswer<S> answer;
@@ -99,8 +99,8 @@ std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, con
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
   if (done || !farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, 0)) {
-    const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where farApart() can't
-    if (request.num_max_contacts == 0) {                         // FCL's warning and answer
+    const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where farApart() can't
+    if (request.num_max_contacts == 0) {                        // FCL's warning and answer
       std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
       return 0;
     }
@@ -128,7 +128,7 @@ S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<
       return result.min_distance;
     }
   }
-  const PairFrame<S> frame(a, X_WA, b, X_WB, squared_errors);
+  const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);
   const bool far = bounded && (frame.rootBound(query.far_enough) >= query.far_enough ||
                                verticesApart(frame, query.far_enough));
   if (far || request.isSatisfied(result)) return result.min_distance;

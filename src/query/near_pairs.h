@@ -3,12 +3,12 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "model/prepared.h"
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 #include "search/mesh_search.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -19,7 +19,7 @@ template <typename S>
 class NearPairs {
  public:
   /// Pairs as far as `far_enough` don't matter.
-  NearPairs(const PairFrame<S>& frame, double far_enough)
+  NearPairs(const MeshPair<S>& frame, double far_enough)
       : frame_(frame), prune_at_(withRounding(far_enough)) {}
 
   /// Pairs farther than this don't matter.
@@ -64,8 +64,7 @@ class NearPairs {
     return distance < kInfinity ? distance + 8 * frame_.kernelError(distance) : kInfinity;
   }
 
-  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const PairFrame<S>& frame_;
+  const MeshPair<S>& frame_;
   std::vector<Found> near_;
   double best_ = kInfinity, prune_at_;
 };

@@ -11,7 +11,7 @@
 #include "model/prepared.h"
 #include "query/cell_tree.h"
 #include "query/cell_walk.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "query/posed_solid.h"
 #include "search/cell_search.h"
 #include "search/search.h"
@@ -59,10 +59,10 @@ class OctreeCollision final : engine::CellSide {
     if (start_.empty()) return;
     engine::TreeCache* const trees = treesOf(model_);
     const long long spare =
-        trees ? trees->testsToSpare(static_cast<std::size_t>(model_.num_tris)) : 0;
+        trees ? trees->budget.remaining(static_cast<std::size_t>(model_.num_tris)) : 0;
     if (spare > 0) {
       const long long left = walk(2 * spare);  // in four lanes, they take half of the time
-      trees->spend(spare - left / 2);
+      trees->budget.charge(spare - left / 2);
       // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
       // the model.
       const bool verdict = request_.num_max_contacts == 1 && !request_.enable_contact;

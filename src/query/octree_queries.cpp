@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
+#include "model/walk.h"
 #include "query/collide_with.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "query/octree_collision.h"
 #include "query/posed_solid.h"
 #include "shape/triangle_shape.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -76,7 +77,7 @@ class OctreePair {
     const shape::Solid box = boxOf(cell.box, center);
     Ball balls[kIOS<S>::kMaxSpheres];
     const int k = posed_.placeSpheres(model_.getBV(node).bv, balls);
-    double best = -std::numeric_limits<double>::infinity();
+    double best = -kInfinity;
     for (int i = 0; i < k; ++i) {
       const shape::Vec c(balls[i].x, balls[i].y, balls[i].z);
       best = std::max(best, shape::pointBound(box, c - center) - balls[i].r);
@@ -114,12 +115,14 @@ class OctreeDistance : OctreePair<S> {
     }
     const Cell<S> root = this->root();
     if (!root.node || !this->octree_.isNodeOccupied(root.node)) return;
-    waiting_.push_back({root, 0, this->bound(root, 0)});
-    while (!waiting_.empty() && best_ > 0) {
-      const Pair pair = waiting_.back();
-      waiting_.pop_back();
-      if (std::max(pair.bound, 0.0) < prune_at_) expand(pair);
-    }
+    if (!(best_ > 0)) return;
+    const auto skip = [this](const CellAndNode& pair) {
+      return !(std::max(pair.bound, 0.0) < prune_at_);
+    };
+    walkNearestFirst(bounded(root, 0), skip, [this](const CellAndNode& pair, const auto& add) {
+      expand(pair, add);
+      return !(best_ > 0);
+    });
     if (nearest_id_ < 0) return;
     const S distance = this->posed_.fromUnits(best_);
     if (!(distance < result_.min_distance)) return;
@@ -132,7 +135,7 @@ class OctreeDistance : OctreePair<S> {
   }
 
  private:
-  struct Pair {
+  struct CellAndNode {
     Cell<S> cell;
     int node;
     double bound;
@@ -143,28 +146,25 @@ class OctreeDistance : OctreePair<S> {
     prune_at_ = engine::pruneAt(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
   }
 
-  void push(const Cell<S>& cell, int node) {
-    if (!cell.node || !this->octree_.isNodeOccupied(cell.node)) return;
-    const double bound = this->bound(cell, node);
-    if (std::max(bound, 0.0) < prune_at_) waiting_.push_back({cell, node, bound});
+  CellAndNode bounded(const Cell<S>& cell, int node) const {
+    return {cell, node, this->bound(cell, node)};
   }
 
-  void expand(const Pair& pair) {
+  template <typename Add>
+  void expand(const CellAndNode& pair, const Add& add) {
     const auto& node = this->model_.getBV(pair.node);
     const bool divides_cell = !this->isLeaf(pair.cell) && this->dividesCell(pair.cell, pair.node);
-    if (!divides_cell && node.isLeaf()) {
-      test(pair.cell, node.primitiveId());
-      return;
-    }
-    const auto first = static_cast<std::ptrdiff_t>(waiting_.size());
     if (divides_cell) {
-      for (unsigned int i = 0; i < 8; ++i) push(this->child(pair.cell, i), pair.node);
+      for (unsigned int i = 0; i < 8; ++i) {
+        const Cell<S> cell = this->child(pair.cell, i);
+        if (cell.node && this->octree_.isNodeOccupied(cell.node)) add(bounded(cell, pair.node));
+      }
+    } else if (node.isLeaf()) {
+      test(pair.cell, node.primitiveId());
     } else {
-      push(pair.cell, node.leftChild());
-      push(pair.cell, node.rightChild());
+      add(bounded(pair.cell, node.leftChild()));
+      add(bounded(pair.cell, node.rightChild()));
     }
-    std::sort(waiting_.begin() + first, waiting_.end(),
-              [](const Pair& a, const Pair& b) { return a.bound > b.bound; });
   }
 
   void test(const Cell<S>& cell, int id) {
@@ -182,8 +182,7 @@ class OctreeDistance : OctreePair<S> {
 
   const fcl::DistanceRequest<S>& request_;
   fcl::DistanceResult<S>& result_;
-  std::vector<Pair> waiting_;
-  double best_ = std::numeric_limits<double>::infinity(), prune_at_ = best_;
+  double best_ = kInfinity, prune_at_ = best_;
   int nearest_id_ = -1;
   Cell<S> nearest_cell_ = {nullptr, {}};
   shape::Vec on_cell_, on_triangle_;

@@ -4,14 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "model/prepared.h"
+#include "model/walk.h"
 #include "query/unprepared.h"
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -21,14 +22,12 @@ using engine::PairQuery;
 using engine::SearchEnd;
 using engine::TrianglePairIds;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Two models with their trees, which stay in use while it lives.
 template <typename S>
 class EnginePair {
  public:
   /// Pairs at least `far_enough` apart don't matter. Nothing is prepared in vain.
-  EnginePair(const PairFrame<S>& frame, double far_enough)
+  EnginePair(const MeshPair<S>& frame, double far_enough)
       : frame_(frame),
         tree_a_(tooFar() ? engine::TreeCache::Use() : preparedTree(frame.a)),
         tree_b_(tree_a_ ? preparedTree(frame.b) : engine::TreeCache::Use()) {
@@ -36,7 +35,7 @@ class EnginePair {
     usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
     if (!usable_) return;
     if (far_enough < kInfinity) apart_ = engine::rootBound(*tree_a_, *tree_b_, pose);
-    if (!isFar(far_enough)) engine::makeFramePair(pose, frames_);
+    if (!isFar(far_enough)) engine::makeFloatFrame(pose, frames_);
   }
 
   /// False if FCL's tree must do.
@@ -51,17 +50,17 @@ class EnginePair {
   }
 
  private:
-  /// True if the models are so far apart for their size that makeFramePair() would refuse them: its
-  /// pad would be as large as the smaller model's radius.
+  /// True if the models are so far apart for their size that makeFloatFrame() would refuse them:
+  /// its pad would be as large as the smaller model's radius.
   bool tooFar() const {
     const kIOS<S>&a = frame_.rootA(), &b = frame_.rootB();
     const double apart = (frame_.X_AB * b.center0 - a.center0).template cast<double>().norm();
     return error_bounds::laneError(apart) > std::min<double>(a.radius0, b.radius0);
   }
 
-  const PairFrame<S>& frame_;
+  const MeshPair<S>& frame_;
   const engine::TreeCache::Use tree_a_, tree_b_;
-  engine::FramePair frames_;
+  engine::FloatFrame frames_;
   bool usable_ = false;
   double apart_ = -kInfinity;  ///< lower bound of the distance
 };
@@ -71,62 +70,52 @@ class EnginePair {
 template <typename S>
 class TreeSearch {
  public:
-  TreeSearch(const PairFrame<S>& frame, const PairQuery& query, SearchCounts& counts)
+  TreeSearch(const MeshPair<S>& frame, const PairQuery& query, SearchCounts& counts)
       : frame_(frame), query_(query), counts_(counts), prune_at_(query.far_enough) {}
 
   PairAnswer<S> run() {
     if (begin()) return result_;
-    bool done = false;
     long long left = query_.max_expansions;
-    push(0, 0, -kInfinity);
-    while (!done && !waiting_.empty()) {
-      const Pair at = best_first_ ? waiting_.front() : waiting_.back();
-      if (at.bound >= prune_at_) {
-        if (best_first_) break;
-        left_out_ = std::min(left_out_, at.bound);
-        waiting_.pop_back();
-        continue;
-      }
+    const auto skip = [this](const NodePair& at) {
+      if (!(at.bound >= prune_at_)) return false;
+      left_out_ = std::min(left_out_, at.bound);
+      return true;
+    };
+    const auto visit = [&](const NodePair& at, const auto& add) {
       const auto &node_a = frame_.a.getBV(at.node_a), &node_b = frame_.b.getBV(at.node_b);
-      const bool leaves = node_a.isLeaf() && node_b.isLeaf();
-      if (!leaves && left-- == 0) {
-        result_.end = SearchEnd::kBudget;
-        break;
-      }
-      if (best_first_) std::pop_heap(waiting_.begin(), waiting_.end());
-      waiting_.pop_back();
-      if (leaves) {
+      if (node_a.isLeaf() && node_b.isLeaf()) {
         ++counts_.leaf_pairs;
-        done = evaluate({node_a.primitiveId(), node_b.primitiveId()}, at.bound);
-        continue;
+        return evaluate({node_a.primitiveId(), node_b.primitiveId()}, at.bound);
+      }
+      if (left-- == 0) {
+        result_.end = SearchEnd::kBudget;
+        left_out_ = std::min(left_out_, at.bound);
+        return true;
       }
       ++counts_.expansions;
       counts_.volume_tests += 2;
-      const std::size_t before = waiting_.size();
       if (node_b.isLeaf() || (!node_a.isLeaf() && node_a.bv.size() > node_b.bv.size())) {
-        push(node_a.leftChild(), at.node_b, at.bound);
-        push(node_a.rightChild(), at.node_b, at.bound);
+        add(bounded(node_a.leftChild(), at.node_b, at.bound));
+        add(bounded(node_a.rightChild(), at.node_b, at.bound));
       } else {
-        push(at.node_a, node_b.leftChild(), at.bound);
-        push(at.node_a, node_b.rightChild(), at.bound);
+        add(bounded(at.node_a, node_b.leftChild(), at.bound));
+        add(bounded(at.node_a, node_b.rightChild(), at.bound));
       }
-      if (!best_first_ && waiting_.size() == before + 2 &&
-          waiting_.back().bound > waiting_[before].bound) {
-        std::swap(waiting_.back(), waiting_[before]);
-      }
-    }
+      return false;
+    };
+    const std::vector<NodePair> rest =
+        walkNearestFirst(bounded(0, 0, -kInfinity), skip, visit, query_.hasBudget());
     // Any pair that intersects is an answer, but which one is given must not depend on the start.
     if (offered_ && result_.found() && result_.nearest.distance == 0) return cold();
-    for (const Pair& pair : waiting_) left_out_ = std::min(left_out_, pair.bound);
+    for (const NodePair& pair : rest) left_out_ = std::min(left_out_, pair.bound);
     result_.least_other = std::max(0.0, left_out_);
     return result_;
   }
 
  private:
-  struct Pair {
+  struct NodePair {
     double bound;
     int node_a, node_b;
-    bool operator<(const Pair& o) const { return bound > o.bound; }  // the least comes first
   };
 
   /// From the triangles of query_.start; true to end the search. An exact answer only learns of
@@ -153,16 +142,10 @@ class TreeSearch {
     return TreeSearch(frame_, query, counts_).run();
   }
 
-  void push(int node_a, int node_b, double parent) {
+  NodePair bounded(int node_a, int node_b, double parent) const {
     const double own =
         separation(frame_.a.getBV(node_a).bv, frame_.b.getBV(node_b).bv, frame_.X_AB, prune_at_);
-    const double bound = std::max(own, parent);
-    if (bound >= prune_at_) {
-      left_out_ = std::min(left_out_, bound);
-      return;
-    }
-    waiting_.push_back({bound, node_a, node_b});
-    if (best_first_) std::push_heap(waiting_.begin(), waiting_.end());
+    return {std::max(own, parent), node_a, node_b};
   }
 
   /// Triangles in volumes that are at least `bound` apart. True to end the search.
@@ -185,11 +168,9 @@ class TreeSearch {
     return true;
   }
 
-  const PairFrame<S>& frame_;
+  const MeshPair<S>& frame_;
   const PairQuery& query_;
   SearchCounts& counts_;
-  const bool best_first_ = query_.hasBudget();
-  std::vector<Pair> waiting_;  ///< a stack; a heap if best_first_
   double prune_at_;
   double left_out_ = kInfinity;  ///< least bound of the pairs left out
   bool offered_ = false;         ///< the start lowered prune_at_
@@ -218,7 +199,7 @@ double leastReach(const Model<S>& model) {
 }  // namespace
 
 template <typename S>
-PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
+PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
                             SearchCounts& counts) {
   if (const EnginePair<S> engine(frame, query.far_enough); engine) {
     if (engine.isFar(query.far_enough)) {
@@ -239,10 +220,10 @@ PairAnswer<S> searchNearest(const PairFrame<S>& frame, const PairQuery& query,
   return TreeSearch<S>(frame, query, counts).run();
 }
 
-// The tests of preparedTree() and makeFramePair() with room for what a tree's reach may be: hardly
+// The tests of preparedTree() and makeFloatFrame() with room for what a tree's reach may be: hardly
 // ever above 64 times the root volumes' radii, which is for the caps of flat content.
 template <typename S>
-bool engineServes(const PairFrame<S>& frame) {
+bool engineServes(const MeshPair<S>& frame) {
   const kIOS<S>&a = frame.rootA(), &b = frame.rootB();
   if (!treesOf(frame.a) || !treesOf(frame.b) || a.stamp == 0 || b.stamp == 0) return false;
   const double least = std::min(leastReach(frame.a), leastReach(frame.b));
@@ -261,7 +242,7 @@ bool engineServes(const PairFrame<S>& frame) {
 }
 
 template <typename S>
-bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
+bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
                     std::vector<TrianglePairIds>& found, SearchCounts& counts) {
   const EnginePair<S> engine(frame, 0);
   if (!engine) return false;
@@ -270,10 +251,10 @@ bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
   return true;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                     \
-  template PairAnswer<S> searchNearest(const PairFrame<S>&, const PairQuery&, SearchCounts&);   \
-  template bool engineServes(const PairFrame<S>&);                                              \
-  template bool searchContacts(const PairFrame<S>&, std::size_t, std::vector<TrianglePairIds>&, \
+#define KIOS_INSTANTIATE(S)                                                                    \
+  template PairAnswer<S> searchNearest(const MeshPair<S>&, const PairQuery&, SearchCounts&);   \
+  template bool engineServes(const MeshPair<S>&);                                              \
+  template bool searchContacts(const MeshPair<S>&, std::size_t, std::vector<TrianglePairIds>&, \
                                SearchCounts&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

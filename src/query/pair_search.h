@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 #include "search/pair_query.h"
 
 // The two searches about a pair of meshes, behind every call that asks for a distance or a first
@@ -18,17 +18,17 @@ namespace kios {
 /// The nearest triangles. Throws nothing of its own, as the pair was checked when its frame was
 /// built.
 template <typename S>
-engine::PairAnswer<S> searchNearest(const PairFrame<S>& frame, const engine::PairQuery& query,
+engine::PairAnswer<S> searchNearest(const MeshPair<S>& frame, const engine::PairQuery& query,
                                     SearchCounts& counts);
 
 /// True only if the engine serves the pair, told without its trees; false says nothing.
 template <typename S>
-bool engineServes(const PairFrame<S>& frame);
+bool engineServes(const MeshPair<S>& frame);
 
 /// Up to `limit` pairs of triangles that intersect, by ids. False if the engine can't serve the
 /// pair; `found` is then as it was.
 template <typename S>
-bool searchContacts(const PairFrame<S>& frame, std::size_t limit,
+bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
                     std::vector<engine::TrianglePairIds>& found, SearchCounts& counts);
 
 }  // namespace kios

@@ -10,6 +10,7 @@
 #include "fcl_kios/volume/separation.h"
 #include "shape/gjk.h"
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -116,8 +117,7 @@ double PosedSolid<S>::convexBound(const kIOS<S>& bv, double enough, const Ball& 
   const shape::Vec p(central.x, central.y, central.z);
   const double by_box = (p - p.cwiseMax(low_).cwiseMin(high_)).norm() - central.r;
   if (by_box > enough) return by_box;
-  const shape::CoreDistance core =
-      shape::gjkDistance(solid_, &p, 1, std::numeric_limits<double>::infinity(), kSteps);
+  const shape::CoreDistance core = shape::gjkDistance(solid_, &p, 1, kInfinity, kSteps);
   double best = core.lower - central.r;
   const shape::Vec way = core.point - core.on_core;
   const double length = way.norm();

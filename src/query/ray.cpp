@@ -5,38 +5,29 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include "fcl_kios/volume/separation.h"
 #include "model/kios_model.h"
 #include "query/ray_walk.h"
 #include "triangle/ray_triangle.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
 namespace {
-
-template <typename T>
-[[noreturn]] void refuse(const char* what, const T& value, const char* must) {
-  std::ostringstream message;
-  message << "fcl_kios: the ray's " << what << " is " << value << ", but must be " << must << ".";
-  throw std::invalid_argument(message.str());
-}
 
 template <typename S>
 void requireValid(const Ray<S>& ray) {
   const auto inRange = [](const fcl::Vector3<S>& v) {
     return v.allFinite() && double{v.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>;
   };
-  constexpr const char* range =
-      sizeof(S) == sizeof(double) ? "finite, and at most 2^1000" : "finite, and at most 2^120";
-  if (!inRange(ray.origin)) refuse("origin", ray.origin.transpose(), range);
-  if (!inRange(ray.direction)) refuse("direction", ray.direction.transpose(), range);
-  if (ray.direction.isZero(0)) refuse("direction", "zero", "another");
-  if (!std::isfinite(ray.t_min)) refuse("t_min", ray.t_min, "finite");
-  if (std::isnan(ray.t_max)) refuse("t_max", ray.t_max, "a number or infinity");
-  if (ray.t_min > ray.t_max) refuse("t_max", ray.t_max, "at least t_min");
+  constexpr const char* kRange = kCoordinateRange<S>;
+  require(inRange(ray.origin), "the ray's origin", ray.origin.transpose(), kRange);
+  require(inRange(ray.direction), "the ray's direction", ray.direction.transpose(), kRange);
+  require(!ray.direction.isZero(0), "the ray's direction", "zero", "another");
+  require(std::isfinite(ray.t_min), "the ray's t_min", ray.t_min, "finite");
+  require(!std::isnan(ray.t_max), "the ray's t_max", ray.t_max, "a number or infinity");
+  require(!(ray.t_min > ray.t_max), "the ray's t_max", ray.t_max, "at least t_min");
 }
 
 /// The ray in a frame at R, T in its own. Directions are enlarged first if need be, so that turning

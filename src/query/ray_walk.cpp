@@ -3,12 +3,13 @@
 #include "query/ray_walk.h"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "model/prepared.h"
+#include "model/walk.h"
 #include "search/search.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -38,39 +39,28 @@ void RayWalk<S>::endAt(double t) {
 template <typename S>
 void RayWalk<S>::walkFCLTree(double enter) {
   ++counts_.tree_searches;
-  struct Waiting {
-    double enter;
-    int node;
-  };
-  std::vector<Waiting> waiting = {{enter, 0}};
-  while (!waiting.empty()) {
-    const Waiting at = waiting.back();
-    waiting.pop_back();
-    if (at.enter > last_) continue;
+  const auto skip = [this](const BoundedNode& at) { return at.bound > last_; };
+  walkNearestFirst(BoundedNode{enter, 0}, skip, [&](const BoundedNode& at, const auto& add) {
     const auto& node = model_.getBV(at.node);
     if (node.isLeaf()) {
       ++counts_.leaf_pairs;
-      if (this->evaluate(static_cast<std::uint32_t>(node.primitiveId()))) return;
-      continue;
+      return this->evaluate(static_cast<std::uint32_t>(node.primitiveId()));
     }
     ++counts_.expansions;
     counts_.volume_tests += 2;
-    Waiting children[2] = {{0, node.leftChild()}, {0, node.rightChild()}};
-    double exit;
-    const bool left = reaches(children[0].node, children[0].enter, exit);
-    const bool right = reaches(children[1].node, children[1].enter, exit);
-    const bool left_first = !right || (left && children[0].enter <= children[1].enter);
-    if (left_first) std::swap(children[0], children[1]);  // the nearest last
-    if (left_first ? right : left) waiting.push_back(children[0]);
-    if (left_first ? left : right) waiting.push_back(children[1]);
-  }
+    for (const int child : {node.rightChild(), node.leftChild()}) {
+      double from, to;
+      if (reaches(child, from, to)) add({from, child});
+    }
+    return false;
+  });
 }
 
 /// A hit's t is rounded, so that it may lie beyond the exact one by half an ulp.
 template <typename S>
 bool RayWalk<S>::reaches(int node, double& enter, double& exit) const {
   return rayInterval(model_.getBV(node).bv, line_, enter, exit) && exit >= ray_.t_min &&
-         enter <= std::nextafter(last_, std::numeric_limits<double>::infinity());
+         enter <= std::nextafter(last_, kInfinity);
 }
 
 template class RayWalk<double>;

@@ -6,8 +6,9 @@
 
 #include "fcl_kios/query/shape_queries.h"
 #include "model/prepared.h"
+#include "model/walk.h"
 #include "query/float_solid.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "search/pair_query.h"
 #include "search/search.h"
 #include "shape/shape_solid.h"
@@ -16,8 +17,6 @@
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Search for the triangle nearest to a solid: the least id of those whose computed distance is
 /// bitwise the least. That does not depend on which are evaluated, and in which order, as long as
@@ -42,11 +41,12 @@ class NearestTriangle final : public engine::SolidEvaluator {
     const double root = boundOf(0);
     if (leftOut(root)) return;
     engine::TreeCache* const trees = treesOf(model_);
-    const long long spare = trees ? trees->testsToSpare(static_cast<std::size_t>(model_.num_tris))
-                                  : std::numeric_limits<long long>::max();
+    const long long spare = trees
+                                ? trees->budget.remaining(static_cast<std::size_t>(model_.num_tris))
+                                : std::numeric_limits<long long>::max();
     if (spare > 0) {
       const long long tests = walk(root, spare);
-      if (trees) trees->spend(tests);
+      if (trees) trees->budget.charge(tests);
       if (tests < spare && best_ > 0) {
         ++counts_.tree_searches;
         return;
@@ -78,12 +78,6 @@ class NearestTriangle final : public engine::SolidEvaluator {
   const shape::TriangleShapeDistance& nearest() const { return nearest_; }
 
  private:
-  /// A node of the model's tree that waits.
-  struct Waiting {
-    int node;
-    double bound;
-  };
-
   bool leftOut(double bound) const { return std::max(bound, 0.0) >= limit_ + slack_; }
 
   double boundOf(int node) {
@@ -110,35 +104,29 @@ class NearestTriangle final : public engine::SolidEvaluator {
   void lowerTo(double distance) {
     best_ = distance;
     limit_ = engine::pruneAt(distance, rel_err_, abs_err_);
-    prune_at = limit_ < 0x1p127 ? roundUpFloat(limit_) : std::numeric_limits<float>::infinity();
+    prune_at = limit_ < 0x1p127 ? roundUpFloat(limit_) : kInfinityFloat;
   }
 
   /// In the tree of volumes, the nearer child first, until so many tests were made, of which a
   /// triangle's counts as four. Returns their number.
   long long walk(double root, long long most) {
-    std::vector<Waiting> waiting;
-    waiting.reserve(64);
-    waiting.push_back({0, root});
     long long tests = 1;
-    while (!waiting.empty() && best_ > 0 && tests < most) {
-      const Waiting next = waiting.back();
-      waiting.pop_back();
-      if (leftOut(next.bound)) continue;
-      const auto& node = model_.getBV(next.node);
+    const auto skip = [this](const BoundedNode& at) { return leftOut(at.bound); };
+    const auto visit = [&](const BoundedNode& at, const auto& add) {
+      const auto& node = model_.getBV(at.node);
       if (node.isLeaf()) {
         ++counts_.leaf_kernels;
         tests += 4;
         test(node.primitiveId());
-        continue;
+      } else {
+        tests += 2;
+        add({boundOf(node.rightChild()), node.rightChild()});
+        add({boundOf(node.leftChild()), node.leftChild()});
       }
-      tests += 2;
-      Waiting near = {node.leftChild(), boundOf(node.leftChild())};
-      Waiting far = {node.rightChild(), boundOf(node.rightChild())};
-      if (far.bound < near.bound) std::swap(near, far);
-      waiting.push_back(far);
-      waiting.push_back(near);
-    }
-    return waiting.empty() || best_ <= 0 ? std::min(tests, most - 1) : tests;
+      return best_ <= 0 || tests >= most;
+    };
+    const bool ended = walkNearestFirst(BoundedNode{root, 0}, skip, visit).empty() || best_ <= 0;
+    return ended ? std::min(tests, most - 1) : tests;
   }
 
   const Model<S>& model_;

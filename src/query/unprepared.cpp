@@ -10,6 +10,7 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "query/near_pairs.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -17,23 +18,21 @@ namespace {
 using engine::PairAnswer;
 using engine::TrianglePairIds;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// What the trees of two models let a walk spend.
+/// Holds what the trees of two models let a walk take.
 template <typename S>
 class Allowance {
  public:
-  explicit Allowance(const PairFrame<S>& frame)
+  explicit Allowance(const MeshPair<S>& frame)
       : trees_a_(treesOf(frame.a)), trees_b_(treesOf(frame.b)) {
     if (!trees_a_ || !trees_b_) return;
-    tests_ = std::max(trees_a_->testsToSpare(static_cast<std::size_t>(frame.a.num_tris)),
-                      trees_b_->testsToSpare(static_cast<std::size_t>(frame.b.num_tris)));
+    tests_ = std::max(trees_a_->budget.remaining(static_cast<std::size_t>(frame.a.num_tris)),
+                      trees_b_->budget.remaining(static_cast<std::size_t>(frame.b.num_tris)));
   }
 
   long long tests() const { return tests_; }
-  void spend(long long tests) const {
-    trees_a_->spend(tests);
-    if (trees_b_ != trees_a_) trees_b_->spend(tests);
+  void charge(long long tests) const {
+    trees_a_->budget.charge(tests);
+    if (trees_b_ != trees_a_) trees_b_->budget.charge(tests);
   }
 
  private:
@@ -45,7 +44,7 @@ class Allowance {
 template <typename S, class Walk>
 class TreeWalk {
  public:
-  TreeWalk(const PairFrame<S>& frame, long long limit) : frame_(frame), limit_(limit) {}
+  TreeWalk(const MeshPair<S>& frame, long long limit) : frame_(frame), limit_(limit) {}
 
   /// A test of triangles takes as long as four of volumes.
   long long tests() const { return volume_tests_ + 4 * leaf_tests_; }
@@ -84,7 +83,7 @@ class TreeWalk {
     return gaveUp();
   }
 
-  const PairFrame<S>& frame_;
+  const MeshPair<S>& frame_;
 
  private:
   const long long limit_;
@@ -96,7 +95,7 @@ class TouchWalk : public TreeWalk<S, TouchWalk<S>> {
   using Base = TreeWalk<S, TouchWalk<S>>;
 
  public:
-  TouchWalk(const PairFrame<S>& frame, std::size_t most, long long limit)
+  TouchWalk(const MeshPair<S>& frame, std::size_t most, long long limit)
       : Base(frame, limit), most_(most) {}
 
   void run() { this->visit(0, 0, -kInfinity); }
@@ -121,7 +120,7 @@ class NearWalk : public TreeWalk<S, NearWalk<S>> {
   using Base = TreeWalk<S, NearWalk<S>>;
 
  public:
-  NearWalk(const PairFrame<S>& frame, double far_enough, long long limit)
+  NearWalk(const MeshPair<S>& frame, double far_enough, long long limit)
       : Base(frame, limit), pairs_(frame, far_enough) {}
 
   /// Where triangles touch, the walk ends with TouchWalk's first: bounds that exceed 0 differ, but
@@ -140,14 +139,14 @@ class NearWalk : public TreeWalk<S, NearWalk<S>> {
 }  // namespace
 
 template <typename S>
-std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<S>& frame,
+std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<S>& frame,
                                                             std::size_t limit,
                                                             SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
   TouchWalk<S> walk(frame, limit, allowance.tests());
   walk.run();
-  allowance.spend(walk.tests());
+  allowance.charge(walk.tests());
   walk.countIn(counts);
   if (walk.found.size() < limit && walk.gaveUp()) return std::nullopt;
   ++counts.tree_searches;
@@ -156,13 +155,13 @@ std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<S>& 
 }
 
 template <typename S>
-std::optional<PairAnswer<S>> nearestUnprepared(const PairFrame<S>& frame, double far_enough,
+std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame, double far_enough,
                                                SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
   NearWalk<S> walk(frame, far_enough, allowance.tests());
   walk.run();
-  allowance.spend(walk.tests());
+  allowance.charge(walk.tests());
   walk.countIn(counts);
   const bool done = walk.pairs().touching() ? namesFirstTouching(frame) : !walk.gaveUp();
   if (!done) return std::nullopt;
@@ -170,22 +169,22 @@ std::optional<PairAnswer<S>> nearestUnprepared(const PairFrame<S>& frame, double
 }
 
 template <typename S>
-TrianglePairIds firstTouching(const PairFrame<S>& frame, SearchCounts& counts) {
+TrianglePairIds firstTouching(const MeshPair<S>& frame, SearchCounts& counts) {
   TouchWalk<S> walk(frame, 1, std::numeric_limits<long long>::max());
   walk.run();
   walk.countIn(counts);
   return walk.found.at(0);
 }
 
-template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<double>&,
+template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<double>&,
                                                                      std::size_t, SearchCounts&);
-template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const PairFrame<float>&,
+template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<float>&,
                                                                      std::size_t, SearchCounts&);
-template std::optional<PairAnswer<double>> nearestUnprepared(const PairFrame<double>&, double,
+template std::optional<PairAnswer<double>> nearestUnprepared(const MeshPair<double>&, double,
                                                              SearchCounts&);
-template std::optional<PairAnswer<float>> nearestUnprepared(const PairFrame<float>&, double,
+template std::optional<PairAnswer<float>> nearestUnprepared(const MeshPair<float>&, double,
                                                             SearchCounts&);
-template TrianglePairIds firstTouching(const PairFrame<double>&, SearchCounts&);
-template TrianglePairIds firstTouching(const PairFrame<float>&, SearchCounts&);
+template TrianglePairIds firstTouching(const MeshPair<double>&, SearchCounts&);
+template TrianglePairIds firstTouching(const MeshPair<float>&, SearchCounts&);
 
 }  // namespace kios

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -34,7 +34,7 @@ Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Vec& along) {
     const fcl::Vector3<S>& v = vertices[i];
     heights[i] = along[0] * double{v[0]} + along[1] * double{v[1]} + along[2] * double{v[2]};
   }
-  double most = -std::numeric_limits<double>::infinity();
+  double most = -kInfinity;
   for (int i = 0; i < n; ++i) most = heights[i] > most ? heights[i] : most;
   int at = 0;
   while (at + 1 < n && !(heights[at] == most)) ++at;
@@ -53,7 +53,7 @@ Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Vec& along) {
 // root volumes need not hold, are computed worse, but those of triangles make the heights as large
 // as they must be whatever others add. NaN proves nothing.
 template <typename S>
-bool verticesApart(const PairFrame<S>& frame, double margin) {
+bool verticesApart(const MeshPair<S>& frame, double margin) {
   const Model<S>&a = frame.a, &b = frame.b;
   if (std::max(a.num_vertices, b.num_vertices) > kMostVertices) return false;
   const kIOS<S>&root_a = frame.rootA(), &root_b = frame.rootB();
@@ -91,7 +91,7 @@ bool verticesApart(const PairFrame<S>& frame, double margin) {
   return false;
 }
 
-template bool verticesApart(const PairFrame<double>&, double);
-template bool verticesApart(const PairFrame<float>&, double);
+template bool verticesApart(const MeshPair<double>&, double);
+template bool verticesApart(const MeshPair<float>&, double);
 
 }  // namespace kios

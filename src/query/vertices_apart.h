@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 
 namespace kios {
 
@@ -10,6 +10,6 @@ namespace kios {
 /// common frame, more than `margin` >= 0 apart; false says nothing. Planes are tried in a few
 /// directions, and only for models of few vertices, whose trees and preparation would take longer.
 template <typename S>
-bool verticesApart(const PairFrame<S>& frame, double margin);
+bool verticesApart(const MeshPair<S>& frame, double margin);
 
 }  // namespace kios

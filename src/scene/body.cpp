@@ -3,23 +3,17 @@
 #include "scene/body.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "model/kios_model.h"
 #include "model/shape_values.h"
+#include "volume/errors.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 #include "volume/stamp.h"
 
 namespace kios::scene {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("fcl_kios: " + what);
-}
 
 /// Returns the square of the Frobenius norm of R^T R - I. Throws if the pose can't be queried.
 template <typename S>
@@ -124,8 +118,8 @@ void measure(Body<S>& body) {
   } else {
     // As fcl::CollisionObject does at its construction.
     const_cast<fcl::CollisionGeometry<S>&>(*body.geometry).computeLocalAABB();
-    updateShapeValues(*body.geometry, body.shape_values);
-    body.shape = !body.shape_values.empty();
+    body.shape = isShapeOfFcl(*body.geometry);
+    if (body.shape) body.shape_values = shapeValues(*body.geometry);
     body.sphere = sphereOf(*body.geometry);
     body.num_caps = 0;
   }
@@ -170,7 +164,7 @@ void renew(Body<S>& body) {
 
 template <typename S>
 void renewIfChanged(Body<S>& body) {
-  if (body.shape && !updateShapeValues(*body.geometry, body.shape_values)) measure(body);
+  if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) measure(body);
 }
 
 template void place(Body<double>&, std::shared_ptr<const fcl::CollisionGeometry<double>>,

@@ -14,11 +14,10 @@
 #include "solid/containment.h"
 #include "solid/solid_mark.h"
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns |t_b - t_a|_1, which bounds the translation between the bodies' frames.
 template <typename S>
@@ -36,7 +35,7 @@ double norm1(const fcl::Vector3<S>& v) {
 }
 
 template <typename S>
-PairFrame<S> frameOf(const Body<S>& a, const Body<S>& b) {
+MeshPair<S> frameOf(const Body<S>& a, const Body<S>& b) {
   return {*a.model, a.X_W, *b.model, b.X_W, a.rotation_square + b.rotation_square};
 }
 
@@ -52,7 +51,7 @@ BodyPair<S>::BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, Pa
       proof_(lasting() ? memory.find(id_a, a, id_b, b) : nullptr) {}
 
 template <typename S>
-const PairFrame<S>& BodyPair<S>::frame() const {
+const MeshPair<S>& BodyPair<S>::frame() const {
   if (!frame_) frame_.emplace(frameOf(a_, b_));
   return *frame_;
 }
@@ -74,7 +73,7 @@ double BodyPair<S>::afterMotion(double moved, double T_norm1) const {
 }
 
 template <typename S>
-PairBound BodyPair<S>::know(double limit) const {
+PairBound BodyPair<S>::cachedLowerBound(double limit) const {
   using Source = PairBound::Source;
   PairBound known = {-kInfinity, Source::kNothing, false};
   const auto raise = [&](double bound, Source source) {

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 #include "scene/body.h"
 #include "scene/pair_memory.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 
@@ -29,7 +29,7 @@ class BodyPair {
   BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
 
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
-  PairBound know(double limit) const;
+  PairBound cachedLowerBound(double limit) const;
 
   /// Holds the answer of the narrow phase.
   struct Answer {
@@ -41,7 +41,8 @@ class BodyPair {
   /// is false, for any that is at most that.
   Answer search(double limit, bool exact, SearchCounts& counts);
 
-  /// Returns the last search's or the proof's answer, where know() said that it is exact.
+  /// Returns the last search's or the proof's answer, where cachedLowerBound() said that it is
+  /// exact.
   Answer proven(double limit) const;
 
   /// Returns the distance of the triangles of the last proof, which lie somewhere near; +infinity
@@ -52,7 +53,7 @@ class BodyPair {
   /// Returns true if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
   /// The narrow phase computes at least this, wherever the bodies are.
-  double least() const { return meshes() ? 0 : -std::numeric_limits<double>::infinity(); }
+  double lowerBound() const { return meshes() ? 0 : -kInfinity; }
   /// Returns an answer with these triangles, if that proves that the narrow phase's is at most the
   /// limit.
   Answer nearby(double limit) const;
@@ -62,7 +63,7 @@ class BodyPair {
   bool lasting() const { return a_.watched() && b_.watched(); }
   bool meshes() const { return a_.model && b_.model; }
   /// Returns the frame of two meshes, made at its first use.
-  const PairFrame<S>& frame() const;
+  const MeshPair<S>& frame() const;
   double afterMotion(double moved, double T_norm1) const;
   /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
@@ -78,7 +79,7 @@ class BodyPair {
   const Body<S>&a_, &b_;
   PairMemory<S>& memory_;
   const Proof<S>* proof_;
-  mutable std::optional<PairFrame<S>> frame_;
+  mutable std::optional<MeshPair<S>> frame_;
 };
 
 /// Finds the points that realise a pair's distance, in the world.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "fcl_kios/scene/scene_distance.h"
 #include "model/kios_model.h"
 #include "scene/body_pair.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -106,11 +106,11 @@ class ManagerQuery<S>::Impl {
 
   typename scene::BodyPair<S>::Answer answerOf(scene::BodyPair<S>& pair, double limit) {
     using Source = scene::PairBound::Source;
-    if (pair.least() > limit) {
+    if (pair.lowerBound() > limit) {
       ++counts.ties;
       return {};
     }
-    const scene::PairBound known = pair.know(limit);
+    const scene::PairBound known = pair.cachedLowerBound(limit);
     if (known.exact) {
       ++counts.still;
       return pair.proven(limit);
@@ -161,7 +161,7 @@ void ManagerQuery<S>::findClosest() {
 
 template <typename S>
 void ManagerQuery<S>::findWithin(S margin) {
-  if (!(margin == margin)) throw std::invalid_argument("fcl_kios: a margin is NaN.");
+  if (!(margin == margin)) refuse("a margin is NaN.");
   impl_->start(false, std::nextafter(margin, std::numeric_limits<S>::infinity()));
 }
 

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/motion_bound.h"
+#include "volume/rounding.h"
 
 #include <cmath>
-#include <limits>
 
 namespace kios::scene {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Covers the roundings below: at most 20, each 2^-53 of terms that are summed by their magnitudes.
 constexpr double kRelative = 0x1p-48;
 // Covers squares that underflow, which lose less than 2^-537 sqrt(9) each.

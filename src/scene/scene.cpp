@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "model/kios_model.h"
+#include "volume/errors.h"
 
 namespace kios::scene {
 namespace {
@@ -70,9 +68,7 @@ void Scene<S>::unwatch(const Model<S>* model) {
 
 template <typename S>
 Body<S>& Scene<S>::body(int id) {
-  if (!contains(id)) {
-    throw std::invalid_argument("fcl_kios: the scene has no object " + std::to_string(id) + ".");
-  }
+  if (!contains(id)) refuse("the scene has no object ", id, ".");
   return bodies_[id];
 }
 
@@ -81,8 +77,7 @@ void Scene<S>::exclude(int a, int b, bool excluded) {
   body(a);
   body(b);
   if (a == b) {
-    throw std::invalid_argument("fcl_kios: the object " + std::to_string(a) +
-                                " makes no pair with itself, which could be excluded.");
+    refuse("the object ", a, " makes no pair with itself, which could be excluded.");
   }
   if (excluded) {
     excluded_.insert(keyOf(a, b));

@@ -3,11 +3,10 @@
 #include "fcl_kios/scene/scene_distance.h"
 
 #include <algorithm>
-#include <sstream>
-#include <stdexcept>
 #include <utility>
 
 #include "scene/scene.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -33,7 +32,7 @@ int SceneDistance<S>::add(std::shared_ptr<const Geometry> geometry, const Pose& 
 
 template <typename S>
 int SceneDistance<S>::add(const fcl::CollisionObject<S>* object, Role role) {
-  if (!object) throw std::invalid_argument("fcl_kios: an object added to a scene is null.");
+  if (!object) refuse("an object added to a scene is null.");
   scene::Body<S> body;
   scene::place<S>(body, object->collisionGeometry(), object->getTransform());
   body.followed = object;
@@ -50,8 +49,7 @@ template <typename S>
 void SceneDistance<S>::move(int id, const Pose& X_W) {
   scene::Body<S>& body = impl_->body(id);
   if (body.followed) {
-    throw std::invalid_argument(
-        "fcl_kios: the pose of an object added as an fcl::CollisionObject is read from that.");
+    refuse("the pose of an object added as an fcl::CollisionObject is read from that.");
   }
   scene::move(body, X_W);
 }
@@ -89,7 +87,7 @@ std::optional<ScenePair<S>> SceneDistance<S>::closestPair(const SceneRequest& re
 
 template <typename S>
 std::vector<ScenePair<S>> SceneDistance<S>::pairsWithin(S margin, const SceneRequest& request) {
-  if (!(margin == margin)) throw std::invalid_argument("fcl_kios: a margin is NaN.");
+  if (!(margin == margin)) refuse("a margin is NaN.");
   return impl_->pairsWithin(margin, request);
 }
 

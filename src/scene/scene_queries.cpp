@@ -5,11 +5,10 @@
 #include <limits>
 
 #include "scene/scene.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Returns the largest number below x.
 template <typename S>
@@ -213,13 +212,13 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
     }
     BodyPair<S> pair = pairOf(next.a, next.b);
     const double matters = found && best < ids ? below(nearest.distance) : limit;
-    if (pair.least() > matters) {
+    if (pair.lowerBound() > matters) {
       ++counts.ties;
       continue;
     }
     Answer answer;
     if (next.source == PairBound::Source::kNothing) {
-      const PairBound known = pair.know(matters);
+      const PairBound known = pair.cachedLowerBound(matters);
       if (known.exact) {
         ++counts.still;
         answer = pair.proven(matters);
@@ -266,11 +265,11 @@ std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& re
       return;
     }
     BodyPair<S> pair = pairOf(a, b);
-    if (pair.least() > limit) {
+    if (pair.lowerBound() > limit) {
       ++counts.ties;
       return;
     }
-    const PairBound known = pair.know(limit);
+    const PairBound known = pair.cachedLowerBound(limit);
     Answer answer;
     if (known.exact) {
       ++counts.still;

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "fcl_kios/search/counts.h"
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 #include "tree/tree.h"
 
 // The types that the SIMD search for triangles that touch cells of an octree shares with the exact
@@ -46,7 +46,7 @@ struct Cell {
 /// What touches lies within S of the origin, so that all of the mesh is within h + 2 S of the
 /// cube's centre c in each coordinate, and |c| <= h + S.
 /// - The cube: c and h are integers times a unit that is rounded: 2 u (h + S), and 2 u h.
-/// - Vertices as stored in float, and moved: 9 u S (search/frame_pair.h).
+/// - Vertices as stored in float, and moved: 9 u S (search/float_frame.h).
 /// - Spheres: centres as middle +- half, moved: 10 u S. Differences with c, then with g: 2 u (h +
 ///   2 S) + u h. Squares, sums and the comparison with r^2: 4 u times a distance that is at most
 ///   S + r. What vanishes below 2^-126 makes a distance shorter, and r^2 below that belongs to an r

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/feature_distance.h"
+#include "volume/rounding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kios::engine {
 namespace {
@@ -96,7 +96,7 @@ FeatureDistance faceDistance(const Vec& point, const Vec (&face)[3]) {
   s += removePart(edge, square, residual);
   const double side = s - c * foot;
   const bool inside = height2 > 0 && c >= 0 && side >= 0 && side + c <= 1;
-  return {inside ? residual.norm() : std::numeric_limits<double>::infinity(), extent};
+  return {inside ? residual.norm() : kInfinity, extent};
 }
 
 }  // namespace kios::engine

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +18,7 @@
 #include "search/cell_search.h"
 #include "search/ray_search.h"
 #include "search/search.h"
-#include "search/simd/targets.h"
+#include "volume/simd_targets.h"
 #include "search/solid_search.h"
 #include "tree/compress_table.h"
 
@@ -62,6 +61,7 @@
 #include "search/simd/bracket_search-inl.h"
 //
 #include "search/simd/cells-inl.h"
+#include "volume/errors.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -284,8 +284,7 @@ const Kernels& choose() {
     }
     available += std::string(" ") + target.kernels.target;
   }
-  throw std::invalid_argument("fcl_kios: FCL_KIOS_SIMD=" + std::string(wanted) +
-                              " is not available on this machine; these are:" + available + ".");
+  refuse("FCL_KIOS_SIMD=", wanted, " is not available on this machine; these are:", available, ".");
 }
 
 }  // namespace

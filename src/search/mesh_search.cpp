@@ -3,7 +3,6 @@
 #include "search/mesh_search.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "fcl_kios/triangle/intersection.h"
@@ -14,9 +13,7 @@
 namespace kios::engine {
 namespace {
 
-float upToFloat(double v) {
-  return v < 0x1p127 ? roundUpFloat(v) : std::numeric_limits<float>::infinity();
-}
+float upToFloat(double v) { return v < 0x1p127 ? roundUpFloat(v) : kInfinityFloat; }
 
 float downToFloat(double v) {
   if (v < 0) return -1;
@@ -74,7 +71,7 @@ TrianglePairIds idsOf(const Candidate& c) {
 }
 
 template <typename S>
-class NearestEvaluator final : public ExactEvaluator {
+class NearestEvaluator final : public RefineCallback {
  public:
   /// Extents of edges are at most four times the scale.
   NearestEvaluator(const Corners<S>& corners, double scale, const PairQuery& query)
@@ -82,7 +79,7 @@ class NearestEvaluator final : public ExactEvaluator {
         query_(query),
         by_faces_(query.hasBudget()),
         least_shared_(featureError<S>(4 * scale)) {
-    prune_at = keep_to = upToFloat(query.far_enough);
+    prune_at = candidate_limit = upToFloat(query.far_enough);
   }
 
   bool evaluate(const Candidate& c) override {
@@ -112,8 +109,8 @@ class NearestEvaluator final : public ExactEvaluator {
   }
 
   void offer(float upper_bound) override {
-    if (!(upper_bound < keep_to)) return;
-    keep_to = upper_bound;
+    if (!(upper_bound < candidate_limit)) return;
+    candidate_limit = upper_bound;
     prune_at =
         std::min(prune_at, offers_stand ? upToFloat(query_.pruneAt(upper_bound)) : upper_bound);
   }
@@ -183,7 +180,7 @@ class NearestEvaluator final : public ExactEvaluator {
   /// Called when a pair at this distance was found, or when no farther one is asked for.
   void lowerTo(double distance) {
     best_ = distance;
-    keep_to = std::min(keep_to, upToFloat(distance));
+    candidate_limit = std::min(candidate_limit, upToFloat(distance));
     prune_at = std::min(prune_at, upToFloat(query_.pruneAt(distance)));
   }
 
@@ -191,8 +188,8 @@ class NearestEvaluator final : public ExactEvaluator {
   const PairQuery& query_;
   const bool
       by_faces_;  ///< triangles are evaluated at once, so that no step makes the answer worse
-  double best_ = std::numeric_limits<double>::infinity();  ///< of ids_
-  double least_ = std::numeric_limits<double>::infinity();
+  double best_ = kInfinity;  ///< of ids_
+  double least_ = kInfinity;
   TrianglePairIds ids_, faces_;  ///< the nearest; those evaluated as faces
   TriangleDistance<S> of_faces_;
   bool ended_near_ = false;
@@ -241,11 +238,11 @@ std::vector<int> trianglesOf(const std::vector<TrianglePairIds>& pairs,
 }
 
 template <typename S>
-class IntersectionEvaluator final : public ExactEvaluator {
+class IntersectionEvaluator final : public RefineCallback {
  public:
   IntersectionEvaluator(const PreparedPair<S>& pair, std::size_t limit)
       : corners_(pair), limit_(limit) {
-    prune_at = keep_to = 0;
+    prune_at = candidate_limit = 0;
   }
 
   bool evaluate(const Candidate& c) override {
@@ -280,8 +277,7 @@ TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const 
     return own[static_cast<std::size_t>(at)];
   };
   const PairQuery query;
-  const double infinity = std::numeric_limits<double>::infinity();  // no two edges share their ends
-  NearestEvaluator<S> evaluator(Corners<S>(a, b, X_AB), infinity, query);
+  NearestEvaluator<S> evaluator(Corners<S>(a, b, X_AB), kInfinity, query);
   for (const TrianglePairIds& ids : pairs) {
     const OwnFeatures of_a = ownOf(triangles_a, own_a, ids.a),
                       of_b = ownOf(triangles_b, own_b, ids.b);
@@ -310,7 +306,7 @@ PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& que
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
-  const bool exact = query.isNearlyExact() && !query.endsEarly();
+  const bool exact = query.usesExactSearch() && !query.endsEarly();
   evaluator.offers_stand = !exact;
   bool offered = false, done = false;
   if (exists(query.start, pair)) {

@@ -26,7 +26,7 @@ template <typename S>
 struct PreparedPair {
   PreparedMesh<S> a, b;
   const RelativePose<S>& X_AB;
-  FramePair frames;
+  FloatFrame frames;
   Audit* audit = nullptr;
 };
 

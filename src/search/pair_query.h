@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fcl_kios/triangle/distance.h"
+#include "volume/rounding.h"
 
 // The question about the distance of two meshes, and its answer: the same for both kinds of trees.
 
@@ -28,14 +29,14 @@ inline double pruneAt(double distance, double rel_err, double abs_err) {
 /// the exact distance.
 struct PairQuery {
   double rel_err = 0, abs_err = 0;
-  double near_enough = 0;                                       ///< a pair so near ends the search
-  double far_enough = std::numeric_limits<double>::infinity();  ///< pairs so far don't matter
+  double near_enough = 0;         ///< a pair so near ends the search
+  double far_enough = kInfinity;  ///< pairs so far don't matter
   long long max_expansions = std::numeric_limits<long long>::max();
   TrianglePairIds start;  ///< triangles to begin with, if any; exact answers don't depend on them
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
   /// The search of exact answers is then as fast as that of brackets.
-  bool isNearlyExact() const { return rel_err <= 0.01 && abs_err == 0; }
+  bool usesExactSearch() const { return rel_err <= 0.01 && abs_err == 0; }
   bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
   bool endsEarly() const { return near_enough > 0 || hasBudget(); }
   double pruneAt(double distance) const { return engine::pruneAt(distance, rel_err, abs_err); }
@@ -56,10 +57,10 @@ struct PairAnswer {
   TrianglePairIds ids;               ///< none if no pair was looked at
   TriangleDistance<S> nearest = {};  ///< of ids, in A's frame
   /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
-  double least_evaluated = std::numeric_limits<double>::infinity();
+  double least_evaluated = kInfinity;
   double least_other = 0;  ///< proven of all pairs that were not evaluated
   /// Proven of those that were, if their volumes told more than their distances.
-  double proven_evaluated = -std::numeric_limits<double>::infinity();
+  double proven_evaluated = -kInfinity;
   SearchEnd end = SearchEnd::kDone;
 
   bool found() const { return ids.a >= 0; }

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/root_bound.h"
+#include "volume/rounding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace kios::engine {
 namespace {
@@ -54,7 +54,7 @@ double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X) {
     by_b += square(std::abs(apart) - (b.half[j] + reach + X.box_pad));
   }
   if (by_a > 0 || by_b > 0) return std::sqrt(std::max(by_a, by_b));
-  double widest = -std::numeric_limits<double>::infinity();
+  double widest = -kInfinity;
   for (int j = 0; j < 3; ++j) {
     const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
     for (int i = 0; i < 3; ++i) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 
 namespace kios::engine {
 

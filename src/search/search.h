@@ -6,8 +6,9 @@
 #include <limits>
 
 #include "fcl_kios/search/counts.h"
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 #include "tree/tree.h"
+#include "volume/rounding.h"
 
 // The types that the SIMD traversals share with the exact stage.
 
@@ -29,21 +30,21 @@ struct Candidate {
 };
 
 /// The exact side of a search.
-class ExactEvaluator {
+class RefineCallback {
  public:
   /// Evaluates a candidate, which may lower the bounds below. Returns true to end the search.
   virtual bool evaluate(const Candidate& candidate) = 0;
   /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is
-  /// nearer than keep_to.
+  /// nearer than candidate_limit.
   virtual void offer(float upper_bound) = 0;
 
-  float prune_at = std::numeric_limits<float>::infinity();  ///< node and leaf pairs at least so far
-                                                            ///< apart don't matter
-  float keep_to = std::numeric_limits<float>::infinity();   ///< feature pairs at most so far apart
-                                                            ///< are candidates
+  float prune_at = kInfinityFloat;         ///< node and leaf pairs at least so far
+                                           ///< apart don't matter
+  float candidate_limit = kInfinityFloat;  ///< feature pairs at most so far apart
+                                           ///< are candidates
 
  protected:
-  ~ExactEvaluator() = default;
+  ~RefineCallback() = default;
 };
 
 /// Where the leaf of one tree is much larger than a node of the other, its triangles take its
@@ -66,10 +67,10 @@ class Audit {
 
 /// When a search that brackets the distance may end, and what it proved.
 struct Bracket {
-  float near_enough = -std::numeric_limits<float>::infinity();  ///< a pair so near ends it
+  float near_enough = -kInfinityFloat;  ///< a pair so near ends it
   long long max_expansions = std::numeric_limits<long long>::max();
   /// All that was not evaluated is at least so far apart.
-  float proven = -std::numeric_limits<float>::infinity();
+  float proven = -kInfinityFloat;
   bool out_of_budget = false;
 };
 
@@ -80,8 +81,8 @@ struct SolidSearch;
 struct Search {
   const Tree& a;
   const Tree& b;
-  const FramePair& frames;
-  ExactEvaluator& evaluator;
+  const FloatFrame& frames;
+  RefineCallback& evaluator;
   SearchCounts& counts;
   Audit* audit = nullptr;
   Bracket* bracket = nullptr;  ///< of Kernels::bracket
@@ -90,8 +91,8 @@ struct Search {
 /// The traversals of one instruction set.
 struct Kernels {
   const char* target;
-  /// Every feature pair that may be nearer than evaluator.keep_to, and every edge and face that may
-  /// cross, is evaluated.
+  /// Every feature pair that may be nearer than evaluator.candidate_limit, and every edge and face
+  /// that may cross, is evaluated.
   void (*distance)(const Search& search);
   /// Feature pairs that may be nearer than evaluator.prune_at are evaluated, and one of the nearest
   /// that were offered; may end early, and tells what was proven.

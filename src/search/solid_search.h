@@ -3,10 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include "fcl_kios/search/counts.h"
 #include "tree/tree.h"
+#include "volume/rounding.h"
 
 // The types that the SIMD search for the triangles nearest to a solid shares with the exact stage.
 
@@ -15,7 +15,7 @@ namespace kios::engine {
 /// {n x <= offset} contains the solid: n has length 1 in the solid's frame.
 struct FloatSlab {
   float n[3] = {};
-  float offset = std::numeric_limits<float>::infinity();
+  float offset = kInfinityFloat;
 };
 
 /// A solid in a tree's frame, by which points and boxes are told apart from it. Its box contains
@@ -36,9 +36,9 @@ struct FloatSlab {
 ///   slab: n rounded 2 u reach, n x 4 u reach, the offset u S;
 /// - margin and radius are subtracted: 3 u S.
 /// All in all below 40 u S. `pad` has 64 u S, which also covers the rounding of thresholds.
-/// - the double rounding of the posed points, in both ways of posing them: below, as frame_pair.h;
+/// - the double rounding of the posed points, in both ways of posing them: below, as float_frame.h;
 /// - R is a rotation only to `stretch`: 2 stretch S.
-/// Boxes: the solid's box as the box that is moved in frame_pair.h, by one rounding of R, and the
+/// Boxes: the solid's box as the box that is moved in float_frame.h, by one rounding of R, and the
 /// nodes' as those that stand still: `box_pad` has its 128 u S in the place of 64.
 struct FloatSolid {
   enum class Form : std::uint8_t {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "shape/convex_faces.h"
 #include "shape/features.h"
@@ -12,6 +11,7 @@
 #include "shape/nearest_point.h"
 #include "shape/polygon.h"
 #include "shape/triangle_shape.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
@@ -54,9 +54,7 @@ class Exit {
   }
 
  private:
-  static bool isLength(double length) {
-    return length > 0 && length < std::numeric_limits<double>::infinity();
-  }
+  static bool isLength(double length) { return length > 0 && length < kInfinity; }
   void take(const Vec& n, double depth, double length) {
     if (!(depth < depth_ * length)) return;
     depth_ = depth / length;
@@ -71,7 +69,7 @@ class Exit {
   const bool box_, symmetric_;
   const double margin_;
   Vec normal_ = Vec::UnitZ();
-  double depth_ = std::numeric_limits<double>::infinity();
+  double depth_ = kInfinity;
 };
 
 /// Descent on the sphere of directions, by steps that shrink: 2^-7 rad is the last.
@@ -89,7 +87,6 @@ void descend(Exit& exit) {
 
 /// A point of both; for a capsule the pair of nearest points of its segment and the triangle.
 CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   CoreDistance core = {};
   if (s.kind == Kind::kBox) {
     Polygon polygon(t);
@@ -154,11 +151,11 @@ bool boxContact(const Solid& s, const Triangle& t, TriangleShapeContact& contact
   Polygon polygon(t);
   for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, s.half[axis]);
   if (polygon.size == 0) return false;
-  contact = {polygon.middle(), Vec::UnitZ(), std::numeric_limits<double>::infinity()};
+  contact = {polygon.middle(), Vec::UnitZ(), kInfinity};
   // Depths along n and -n, of length `length`, of a box that reaches as far as `reach`.
   const auto offer = [&](double x, double y, double z, double length, double reach, double low,
                          double high) {
-    if (!(length > 0 && length < std::numeric_limits<double>::infinity())) return;
+    if (!(length > 0 && length < kInfinity)) return;
     const double depth = (reach + std::min(-low, high)) / length;
     if (!(depth < contact.depth)) return;
     contact.depth = depth;

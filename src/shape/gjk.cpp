@@ -8,12 +8,12 @@
 #include <limits>
 
 #include "fcl_kios/triangle/distance.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Points of hull - core with what they are made of; the nearest is sum weight y.
 struct Simplex {

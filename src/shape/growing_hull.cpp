@@ -3,12 +3,12 @@
 #include "shape/growing_hull.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 #include "fcl_kios/triangle/distance.h"
 #include "shape/hull.h"
 #include "shape/nearest_point.h"
+#include "volume/rounding.h"
 #include "volume/unit_vector.h"
 
 namespace kios::shape {
@@ -58,7 +58,7 @@ const Vec* farthestBeyond(const Solid& s, const Vec& x, const Vec& n, double err
 
 TriangleShapeDistance distanceToPoints(const Solid& s, const Triangle& t) {
   TriangleShapeDistance best;
-  best.distance = best.lower = std::numeric_limits<double>::infinity();
+  best.distance = best.lower = kInfinity;
   std::vector<Vec> chosen = {coreSupport(s, t[0] - s.points[0])};
   Vec n = Vec::Zero();
   const double size = sizeOf(t) + s.reach();

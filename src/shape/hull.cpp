@@ -3,13 +3,13 @@
 #include "shape/hull.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "shape/growing_hull.h"
 #include "triangle/common_point.h"
 #include "triangle/predicates.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
@@ -116,7 +116,7 @@ bool meetsHull(const Solid& s, const Triangle& t, Vec* common) {
 
 TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t, double within) {
   TriangleShapeDistance best;
-  best.distance = best.lower = std::numeric_limits<double>::infinity();
+  best.distance = best.lower = kInfinity;
   // Upper bounds of distances are off by less than this.
   const double slack = 0x1p-46 * (sizeOf(t) + s.reach());
   const Vec low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
@@ -158,7 +158,7 @@ CoreDistance closedBracket(const Solid& s, const Triangle& t, double enough,
 Vec leastFaceExit(const Solid& s, const Triangle& t) {
   const Vec middle = middleOf(s);
   Vec best = Vec::UnitZ();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   anyFace(s, [&](const Triangle& face) {
     Vec n = (face[1] - face[0]).cross(face[2] - face[0]);
     if (n.dot(middle - face[0]) > 0) n = -n;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "shape/convex_faces.h"
 #include "shape/features.h"
@@ -13,11 +12,10 @@
 #include "shape/hull.h"
 #include "shape/polygon.h"
 #include "triangle/expansion.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The normal of a triangle with edges e, as the cross product of the two shorter ones: of a
 /// needle's long edges it would have no digits. `accurate` says that it has nearly all: the sine of

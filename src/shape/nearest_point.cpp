@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "triangle/expansion.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
@@ -175,7 +175,7 @@ NearestPoint nearestPoint(const Solid& s, const Vec& p) {
 
 TriangleShapeDistance distanceByFeatures(const Solid& s, const Triangle& t) {
   TriangleShapeDistance best;
-  best.distance = best.lower = std::numeric_limits<double>::infinity();
+  best.distance = best.lower = kInfinity;
   for (int i = 0; i < 3; ++i) {
     offer(t, s, t[i], best);
     offerEdge(t, s, t[i], t[(i + 1) % 3], best);

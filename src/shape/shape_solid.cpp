@@ -3,8 +3,6 @@
 #include "shape/shape_solid.h"
 
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -15,6 +13,7 @@
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -23,16 +22,10 @@ namespace {
 using shape::Kind;
 using shape::Solid;
 
-[[noreturn]] void refuse(const char* shape, const std::string& what) {
-  throw std::invalid_argument(std::string("fcl_kios: the fcl::") + shape + " " + what);
-}
-
 template <typename S>
 double size(const char* shape, const char* name, S value) {
   if (value >= 0 && double{value} <= kMaxCoordinate<S>) return value;
-  std::ostringstream message;
-  message << "has " << name << " " << value << ", which must be finite and not negative.";
-  refuse(shape, message.str());
+  refuse("the fcl::", shape, " has ", name, " ", value, ", which must be finite and not negative.");
 }
 
 /// Half-space or plane {n x <= or = d}, whatever the length of n.
@@ -40,11 +33,14 @@ template <typename S, typename Shape>
 void setPlane(const char* name, const Shape& plane, Solid& solid) {
   const Point<double> n = plane.n.template cast<double>();
   const double length = n.stableNorm();
-  if (!(length > 0 && length <= kMaxCoordinate<S>)) refuse(name, "has a normal of no direction.");
+  if (!(length > 0 && length <= kMaxCoordinate<S>)) {
+    refuse("the fcl::", name, " has a normal of no direction.");
+  }
   solid.normal = n / length;
   solid.offset = plane.d / length;
-  if (!(std::abs(solid.offset) <= kMaxCoordinate<S>))
-    refuse(name, "has an offset that is not finite.");
+  if (!(std::abs(solid.offset) <= kMaxCoordinate<S>)) {
+    refuse("the fcl::", name, " has an offset that is not finite.");
+  }
 }
 
 template <typename Shape>
@@ -55,11 +51,11 @@ void setRound(const char* name, const Shape& shape, Solid& solid) {
 
 template <typename S>
 void setConvex(const fcl::Convex<S>& convex, Solid& solid) {
-  if (convex.getVertices().empty()) refuse("Convex", "has no vertices.");
+  if (convex.getVertices().empty()) refuse("the fcl::Convex has no vertices.");
   solid.points.reserve(convex.getVertices().size());
   for (const fcl::Vector3<S>& p : convex.getVertices()) {
     if (!(double{p.template lpNorm<Eigen::Infinity>()} <= kMaxCoordinate<S>) || p.hasNaN()) {
-      refuse("Convex", "has a vertex that is not finite.");
+      refuse("the fcl::Convex has a vertex that is not finite.");
     }
     solid.points.push_back(p.template cast<double>());
   }
@@ -133,7 +129,7 @@ Solid toSolid(const fcl::CollisionGeometry<S>& geometry) {
       setPlane<S>("Plane", static_cast<const fcl::Plane<S>&>(geometry), solid);
       break;
     default:
-      throw std::invalid_argument("fcl_kios: the geometry is none of FCL's nine shapes.");
+      refuse("the geometry is none of FCL's nine shapes.");
   }
   return solid;
 }

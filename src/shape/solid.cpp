@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "shape/gjk.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double radial(const Vec& p) { return std::sqrt(p.x() * p.x() + p.y() * p.y()); }
 

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "solid/containment.h"
 #include "solid/nearest_surface.h"
 #include "solid/winding.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -32,7 +32,7 @@ class CommonCenter {
   // for inverseError(): if b's surface is farther than that, both are on one side. R shrinks no
   // distance by more than the same share of it, which is within the error, too.
   Balls at(const Vec& c, double least) {
-    const PairFrame<S>& frame = pair_.frame();
+    const MeshPair<S>& frame = pair_.frame();
     Balls balls;
     const Vec y = toB(frame.X_AB, c);
     // No surface lies within the balls of the last point in both.
@@ -41,7 +41,7 @@ class CommonCenter {
     balls.in_b = moved < radius_b_ || placeOf(y, frame.b, pair_.counts()).inside();
     if (!balls.in_a || !balls.in_b) return balls;
     constexpr double kCoarse = 0.02;
-    constexpr double kFar = std::numeric_limits<double>::infinity();
+    constexpr double kFar = kInfinity;
     const NearestSurface a =
         nearestSurface(frame.a, c, kCoarse, kFar, known_ ? least - 1.03 * radius_b_ - moved : 0);
     const NearestSurface b =
@@ -64,7 +64,7 @@ class CommonCenter {
   std::pair<Vec, double> highest(const Vec& c, double reach) const {
     const auto nearest = [](const std::vector<Vec>& points, const Vec& p, Vec& away) {
       away.setZero();
-      double least = std::numeric_limits<double>::infinity();
+      double least = kInfinity;
       for (const Vec& q : points) {
         const double square = (p - q).squaredNorm();
         if (!(square < least)) continue;

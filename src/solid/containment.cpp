@@ -17,7 +17,7 @@ namespace {
 
 /// Finds the place of p, in a's frame, in b as posed there: by all of b's triangles.
 template <typename S>
-bool liesInPosed(const fcl::Vector3d& p, const PairFrame<S>& frame) {
+bool liesInPosed(const fcl::Vector3d& p, const MeshPair<S>& frame) {
   const double largest = p.cwiseAbs().maxCoeff() + 2 * largestOf(frame.b);
   const RayCrossing ray(p, windingDirection(), largest);
   int winding = 0;
@@ -43,7 +43,7 @@ bool liesInPosed(const fcl::Vector3d& p, const PairFrame<S>& frame) {
 }  // namespace
 
 template <typename S>
-bool surfacesMeet(const PairFrame<S>& frame, SearchCounts& counts) {
+bool surfacesMeet(const MeshPair<S>& frame, SearchCounts& counts) {
   if (frame.rootBound(0) > 0) return false;
   std::vector<engine::TrianglePairIds> found;
   if (searchContacts(frame, 1, found, counts)) return !found.empty();
@@ -66,7 +66,7 @@ double inverseError(const RelativePose<S>& X_AB, double norm1) {
 }
 
 template <typename S>
-std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>& frame, SearchCounts& counts) {
+std::optional<fcl::Vector3d> containedPoint(const MeshPair<S>& frame, SearchCounts& counts) {
   for (const auto& component : requireSolid(frame.b)->components()) {
     const fcl::Vector3d p = (frame.X_AB * frame.b.vertices[component[0]]).template cast<double>();
     if (placeOf(p, frame.a, counts).inside()) return p;
@@ -94,10 +94,10 @@ std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>& frame, SearchCou
 }
 
 #define KIOS_INSTANTIATE(S)                                                 \
-  template bool surfacesMeet(const PairFrame<S>&, SearchCounts&);           \
+  template bool surfacesMeet(const MeshPair<S>&, SearchCounts&);            \
   template fcl::Vector3d toB(const RelativePose<S>&, const fcl::Vector3d&); \
   template double inverseError(const RelativePose<S>&, double);             \
-  template std::optional<fcl::Vector3d> containedPoint(const PairFrame<S>&, SearchCounts&);
+  template std::optional<fcl::Vector3d> containedPoint(const MeshPair<S>&, SearchCounts&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/LU>
-#include <sstream>
-#include <stdexcept>
 
 #include "fcl_kios/solid/solids.h"
 #include "fcl_kios/volume/separation.h"
 #include "solid/solid_mark.h"
 #include "solid/winding.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -16,13 +15,8 @@ template <typename S>
 bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
               const fcl::Vector3<std::common_type_t<S>>& point) {
   checkSolid(solid);
-  if (!(point.allFinite() && double{point.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>)) {
-    std::ostringstream message;
-    message << "fcl_kios: the point is " << point.transpose()
-            << ", but must be finite, and at most "
-            << (sizeof(S) == sizeof(double) ? "2^1000." : "2^120.");
-    throw std::invalid_argument(message.str());
-  }
+  require(point.allFinite() && double{point.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>,
+          "the point", point.transpose(), kCoordinateRange<S>);
   const RelativePose<S> rigid(X_WM.linear(), X_WM.translation());  // or it throws
   const fcl::Matrix3d inverse = X_WM.linear().template cast<double>().inverse();
   const fcl::Vector3d from =

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/exit_search.h"
+#include "volume/errors.h"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -229,13 +229,13 @@ Exit goAlong(SolidPair<S>& pair, const Vec& n, double length, double reach) {
     const auto test = pair.test(x, reach);
     if (test.apart) return {x, x.norm(), test.on_a};
   }
-  throw std::logic_error("fcl_kios: no translation parts the hulls of two solids.");
+  refuse<std::logic_error>("no translation parts the hulls of two solids.");
 }
 
 // From b's centre c beyond a's, at the origin: |c + length n| = size.
 template <typename S>
 Exit leaveRoots(SolidPair<S>& pair, const Vec& direction) {
-  const PairFrame<S>& frame = pair.frame();
+  const MeshPair<S>& frame = pair.frame();
   const Vec a = frame.rootA().center0.template cast<double>(),
             b = frame.rootB().center0.template cast<double>();
   const Vec n = direction.normalized(), c = pair.R_WA() * (pair.R_AB() * b + pair.T_AB() - a);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/hole_filling.h"
+#include "volume/rounding.h"
 
 #include <Eigen/Geometry>
-#include <limits>
 #include <utility>
 
 namespace kios {
@@ -34,7 +34,7 @@ std::vector<std::array<int, 3>> fillHole(const std::vector<fcl::Vector3d>& corne
   for (std::size_t span = 2; span < n; ++span) {
     for (std::size_t i = 0; i + span < n; ++i) {
       const std::size_t j = i + span;
-      double best = std::numeric_limits<double>::infinity();
+      double best = kInfinity;
       for (std::size_t m = i + 1; m < j; ++m) {
         const double sum = least[i * n + m] + least[m * n + j] + area(i, m, j);
         if (!(sum < best)) continue;

@@ -3,11 +3,11 @@
 #include "solid/inner_balls.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <Eigen/Geometry>
 #include "solid/nearest_surface.h"
 #include "solid/winding.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -17,7 +17,7 @@ using Vec = fcl::Vector3d;
 /// Holds a place of the surface.
 struct Sample {
   Vec point, inwards;
-  double gap = std::numeric_limits<double>::infinity();  ///< to the nearest ball
+  double gap = kInfinity;  ///< to the nearest ball
 };
 
 template <typename S>

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include "query/ray_walk.h"
-#include "solid/extent_along.h"
+#include "solid/support_point.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
 using Vec = fcl::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Holds a polytope whose faces are triangles of points, wound outwards.
 class Polytope {
@@ -184,13 +182,13 @@ typename Differences<S>::Point Differences<S>::farthest(const Vec& n, const Poin
   Point point = near;
   Vec p, q;
   if (graph_a_.empty()) {
-    p = a_.vertices[farthestAlong(a_, n).vertex].template cast<double>();
+    p = a_.vertices[supportPoint(a_, n).vertex].template cast<double>();
   } else {
     point.a = graph_a_.climb(n, near.a);
     p = graph_a_.point(point.a);
   }
   if (graph_b_.empty()) {
-    q = b_.vertices[farthestAlong<S>(b_, -inB(n)).vertex].template cast<double>();
+    q = b_.vertices[supportPoint<S>(b_, -inB(n)).vertex].template cast<double>();
   } else {
     point.b = graph_b_.climb(-inB(n), near.b);
     q = graph_b_.point(point.b);
@@ -201,8 +199,8 @@ typename Differences<S>::Point Differences<S>::farthest(const Vec& n, const Poin
 
 template <typename S>
 double Differences<S>::height(const Vec& n) const {
-  const Vec p = a_.vertices[farthestAlong(a_, n).vertex].template cast<double>();
-  const Vec q = b_.vertices[farthestAlong<S>(b_, -inB(n)).vertex].template cast<double>();
+  const Vec p = a_.vertices[supportPoint(a_, n).vertex].template cast<double>();
+  const Vec q = b_.vertices[supportPoint<S>(b_, -inB(n)).vertex].template cast<double>();
   return n.dot(p - inA(q)) + 2 * error_;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/near_weld.h"
+#include "volume/errors.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <stdexcept>
 #include <unordered_map>
 
 namespace kios {
@@ -97,9 +97,7 @@ NearWeld weldNear(const std::vector<fcl::Vector3<S>>& vertices, const std::vecto
   }
   if (box.isEmpty()) return weld;
   double side = box.sizes().maxCoeff();
-  if (!std::isfinite(side)) {
-    throw std::invalid_argument("fcl_kios: a mesh is too large to be repaired.");
-  }
+  if (!std::isfinite(side)) refuse("a mesh is too large to be repaired.");
   weld.tolerance =
       std::max(absolute, relative * side * (box.sizes() / (side > 0 ? side : 1)).norm());
   if (!(side > 0)) side = 1;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "fcl_kios/triangle/distance.h"
+#include "model/walk.h"
 #include "query/ray_walk.h"
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -64,7 +64,7 @@ NearPoint nearestOnTriangle(const fcl::Vector3d& p, const TriangleVertices<doubl
     const double height = n.dot(w) / square;
     return {std::abs(height) * std::sqrt(square), p - height * n};
   }
-  NearPoint best = {std::numeric_limits<double>::infinity(), t[0]};
+  NearPoint best = {kInfinity, t[0]};
   for (int k = 0; k < 3; ++k) {
     const fcl::Vector3d q = nearestOnSegment(p, t[k], t[k == 2 ? 0 : k + 1]);
     const double distance = (p - q).norm();
@@ -86,47 +86,33 @@ template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
                               double enough, double least) {
   NearestSurface best;
-  double left_out = std::numeric_limits<double>::infinity(), prune_at = enough;
-  struct Waiting {
-    double bound;
-    int node;
+  double left_out = kInfinity, prune_at = enough;
+  const auto bounded = [&](int node) {
+    return BoundedNode{distanceOf(model.getBV(node).bv, p, prune_at), node};
   };
-  std::vector<Waiting> waiting;
-  waiting.reserve(64);
-  waiting.push_back({distanceOf(model.getBV(0).bv, p, prune_at), 0});
-  const auto push = [&](const Waiting& item) {
-    if (item.bound < prune_at) {
-      waiting.push_back(item);
-    } else {
-      left_out = std::min(left_out, item.bound);
-    }
+  const auto skip = [&](const BoundedNode& at) {
+    if (at.bound < prune_at) return false;
+    left_out = std::min(left_out, at.bound);
+    return true;
   };
-  while (!waiting.empty()) {
-    const Waiting at = waiting.back();
-    waiting.pop_back();
-    if (at.bound >= prune_at) {
-      left_out = std::min(left_out, at.bound);
-      continue;
-    }
+  walkNearestFirst(bounded(0), skip, [&](const BoundedNode& at, const auto& add) {
     const auto& node = model.getBV(at.node);
     if (!node.isLeaf()) {
-      Waiting near = {distanceOf(model.getBV(node.leftChild()).bv, p, prune_at), node.leftChild()};
-      Waiting far = {distanceOf(model.getBV(node.rightChild()).bv, p, prune_at), node.rightChild()};
-      if (far.bound < near.bound) std::swap(near, far);
-      push(far);
-      push(near);
-      continue;
+      add(bounded(node.rightChild()));
+      add(bounded(node.leftChild()));
+      return false;
     }
     const fcl::Triangle& ids = model.tri_indices[node.primitiveId()];
     TriangleVertices<double> corners;
     for (int k = 0; k < 3; ++k) corners[k] = model.vertices[ids[k]].template cast<double>();
     const NearPoint near = nearestOnTriangle(p, corners);
-    if (!(near.distance < best.upper)) continue;
+    if (!(near.distance < best.upper)) return false;
     best.upper = near.distance;
     best.point = near.at;
-    if (best.upper < least) return best;
     prune_at = std::min(prune_at, best.upper * (1 - rel_err));
-  }
+    return best.upper < least;
+  });
+  if (best.upper < least) return best;
   best.lower = std::max(0.0, std::min(left_out, best.upper) - surfaceError(model, p));
   return best;
 }

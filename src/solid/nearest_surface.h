@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <limits>
-
 #include "fcl_kios/model/model.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
 /// Holds the surface of a model about a point.
 struct NearestSurface {
-  double lower = 0;  ///< no point of the surface is nearer: rounding is paid for
-  double upper = std::numeric_limits<double>::infinity();  ///< distance of `point`; infinite: none
+  double lower = 0;          ///< no point of the surface is nearer: rounding is paid for
+  double upper = kInfinity;  ///< distance of `point`; infinite: none
   fcl::Vector3d point = fcl::Vector3d::Zero();
 };
 
@@ -20,8 +19,7 @@ struct NearestSurface {
 /// then 0.
 template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
-                              double enough = std::numeric_limits<double>::infinity(),
-                              double least = 0);
+                              double enough = kInfinity, double least = 0);
 
 /// Returns what `lower` pays for rounding.
 template <typename S>

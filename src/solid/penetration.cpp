@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <sstream>
-#include <stdexcept>
 #include <vector>
 
 #include "solid/ball_pairs.h"
@@ -17,6 +14,8 @@
 #include "solid/minkowski_hull.h"
 #include "solid/solid_pair.h"
 #include "solid/touching.h"
+#include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -24,13 +23,8 @@ namespace {
 using Vec = fcl::Vector3d;
 
 void requireValid(const PenetrationOptions& options) {
-  const auto refuse = [](const char* name, double value) {
-    std::ostringstream message;
-    message << "fcl_kios: PenetrationOptions::" << name << " is " << value << ", but must be >= 0.";
-    throw std::invalid_argument(message.str());
-  };
-  if (!(options.rel_gap >= 0)) refuse("rel_gap", options.rel_gap);
-  if (options.max_tests < 0) refuse("max_tests", options.max_tests);
+  require(options.rel_gap >= 0, "PenetrationOptions::rel_gap", options.rel_gap, ">= 0");
+  require(options.max_tests >= 0, "PenetrationOptions::max_tests", options.max_tests, ">= 0");
 }
 
 template <typename S>
@@ -40,7 +34,7 @@ class PenetrationQuery {
       : pair_(pair), options_(options) {}
 
   Penetration run() {
-    const PairFrame<S>& frame = pair_.frame();
+    const MeshPair<S>& frame = pair_.frame();
     const Convexity &shape_a = pair_.stateA().convexity(frame.a),
                     &shape_b = pair_.stateB().convexity(frame.b);
     const bool convex = shape_a.convex && shape_b.convex;
@@ -73,7 +67,7 @@ class PenetrationQuery {
   Exit leaveHulls(const Differences<S>& differences, const std::vector<Vec>& directions) {
     constexpr std::size_t kFew = 3;
     Vec best = Vec::UnitX();
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {
       const Vec n = (pair_.R_WA().transpose() * directions[i]).normalized();
       const double height = differences.height(n);
@@ -122,7 +116,7 @@ class PenetrationQuery {
   // The vertices of both hulls lie within `moved` of points of the solids, whose hulls are in the
   // solids: see Convexity. So does each difference of two vertices.
   double lowerOfHulls(double lower) const {
-    const PairFrame<S>& frame = pair_.frame();
+    const MeshPair<S>& frame = pair_.frame();
     return inWorld(lower - pair_.stateA().convexity(frame.a).moved -
                    1.01 * pair_.stateB().convexity(frame.b).moved - pair_.rounding());
   }
@@ -150,7 +144,7 @@ Penetration penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
   SearchCounts unused;
   SearchCounts& counts = options.counts ? *options.counts : unused;
   SolidPair<S> pair(solid1, X_W1, solid2, X_W2, counts);
-  const PairFrame<S>& frame = pair.frame();
+  const MeshPair<S>& frame = pair.frame();
   if (frame.rootBound(0) > 0) return {};
   if (!surfacesMeet(frame, counts) && !containedPoint(frame, counts)) return {};
   return PenetrationQuery<S>(pair, options).run();

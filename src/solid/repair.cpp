@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "solid/face_set.h"
 #include "solid/hole_filling.h"
 #include "solid/near_weld.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
@@ -19,31 +19,20 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 void requireValid(const RepairOptions& options) {
-  const auto refuse = [](const char* name, double value, const char* must) {
-    std::ostringstream message;
-    message << "fcl_kios: RepairOptions::" << name << " is " << value << ", but must be " << must
-            << ".";
-    throw std::invalid_argument(message.str());
-  };
-  if (!(options.relative_weld >= 0 && options.relative_weld < 1)) {
-    refuse("relative_weld", options.relative_weld, ">= 0 and < 1");
-  }
-  if (!(options.absolute_weld >= 0)) refuse("absolute_weld", options.absolute_weld, ">= 0");
-  if (options.max_hole_edges < 0 || options.max_hole_edges > RepairOptions::kMostHoleEdges) {
-    refuse("max_hole_edges", options.max_hole_edges, "from 0 to 256");
-  }
-  if (!(options.max_hole_perimeter >= 0)) {
-    refuse("max_hole_perimeter", options.max_hole_perimeter, ">= 0");
-  }
+  require(options.relative_weld >= 0 && options.relative_weld < 1, "RepairOptions::relative_weld",
+          options.relative_weld, ">= 0 and < 1");
+  require(options.absolute_weld >= 0, "RepairOptions::absolute_weld", options.absolute_weld,
+          ">= 0");
+  require(options.max_hole_edges >= 0 && options.max_hole_edges <= RepairOptions::kMostHoleEdges,
+          "RepairOptions::max_hole_edges", options.max_hole_edges, "from 0 to 256");
+  require(options.max_hole_perimeter >= 0, "RepairOptions::max_hole_perimeter",
+          options.max_hole_perimeter, ">= 0");
 }
 
 /// Returns the vertices that triangles use.
 template <typename S>
 std::vector<bool> usedVertices(const std::vector<fcl::Vector3<S>>& vertices,
                                const std::vector<fcl::Triangle>& triangles) {
-  const auto refuse = [](std::ostringstream& message) {
-    throw std::invalid_argument(message.str());
-  };
   std::vector<bool> used(vertices.size(), false);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -52,14 +41,11 @@ std::vector<bool> usedVertices(const std::vector<fcl::Vector3<S>>& vertices,
         used[v] = true;
         continue;
       }
-      std::ostringstream message;
-      message << "fcl_kios: triangle " << t << " refers to vertex " << v;
       if (v >= vertices.size()) {
-        message << ", but there are " << vertices.size() << ".";
-      } else {
-        message << " (" << vertices[v].transpose() << "), which is not finite.";
+        refuse("triangle ", t, " refers to vertex ", v, ", but there are ", vertices.size(), ".");
       }
-      refuse(message);
+      refuse("triangle ", t, " refers to vertex ", v, " (", vertices[v].transpose(),
+             "), which is not finite.");
     }
   }
   return used;

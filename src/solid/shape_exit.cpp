@@ -16,8 +16,9 @@
 #include "query/ray_walk.h"
 #include "shape/shape_solid.h"
 #include "shape/solid.h"
-#include "solid/extent_along.h"
 #include "solid/nearest_surface.h"
+#include "solid/support_point.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -46,7 +47,7 @@ class ShapeExit {
 
   Penetration run() {
     Vec best = Vec::Zero();
-    double length = std::numeric_limits<double>::infinity();
+    double length = kInfinity;
     const std::vector<Vec> directions = this->directions();
     for (const Vec& n : directions) {
       const double exit = exitAlong(n);
@@ -92,7 +93,7 @@ class ShapeExit {
   /// Returns the way by which b leaves the model's hull along n, in the world.
   double exitAlong(const Vec& n) const {
     const double shape = shape::extentAlong(solid_, inShape(-n)) - n.dot(t_WS_ - t_WM_);
-    return farthestAlong<S>(model_, R_WM_.transpose() * n).height + shape;
+    return supportPoint<S>(model_, R_WM_.transpose() * n).height + shape;
   }
 
   std::vector<Vec> directions() const {

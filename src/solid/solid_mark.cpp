@@ -3,21 +3,17 @@
 #include "solid/solid_mark.h"
 
 #include <stdexcept>
-#include <string>
 #include <typeinfo>
 
 #include "fcl_kios/solid/solids.h"
 #include "model/kios_model.h"
 #include "model/prepared.h"
 #include "solid/components.h"
+#include "volume/errors.h"
 #include "volume/stamp.h"
 
 namespace kios {
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("fcl_kios: " + what);
-}
 
 /// The cache that holds the model's mark, of no other model: copies share theirs until one of them
 /// is marked or unmarked.

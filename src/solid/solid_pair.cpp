@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include <Eigen/Geometry>
 #include "fcl_kios/triangle/intersection.h"
@@ -12,6 +11,7 @@
 #include "query/pair_search.h"
 #include "solid/containment.h"
 #include "solid/nearest_surface.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
@@ -46,13 +46,12 @@ SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const
   size_ = double{frame_.rootA().radius0} + double{frame_.rootB().radius0};
   rounding_ = frame_.distanceError(size_);
   if (!(size_ >= 0x1p-300 && size_ <= 0x1p300)) {  // lengths are squared
-    throw std::invalid_argument(
-        "fcl_kios: solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
+    refuse("solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
   }
 }
 
 template <typename S>
-PairFrame<S> SolidPair<S>::moved(const Vec& translation) const {
+MeshPair<S> SolidPair<S>::moved(const Vec& translation) const {
   fcl::Transform3<S> X_WB = X_WB_;
   X_WB.translation() += translation.template cast<S>();
   return {a_, X_WA_, b_, X_WB};
@@ -61,7 +60,7 @@ PairFrame<S> SolidPair<S>::moved(const Vec& translation) const {
 template <typename S>
 bool SolidPair<S>::seemsApart(const Vec& translation) {
   ++tests_;
-  const PairFrame<S> frame = moved(translation);
+  const MeshPair<S> frame = moved(translation);
   return !surfacesMeet(frame, counts_) && !containedPoint(frame, counts_);
 }
 
@@ -75,7 +74,7 @@ double SolidPair<S>::wayBetween(const Vec& from, const Vec& to) const {
 template <typename S>
 typename SolidPair<S>::Test SolidPair<S>::test(const Vec& translation, double reach) {
   ++tests_;
-  const PairFrame<S> moved = this->moved(translation);
+  const MeshPair<S> moved = this->moved(translation);
   Test result;
   engine::PairQuery query;
   query.rel_err = 0.1;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
-#include "query/pair_frame.h"
+#include "query/mesh_pair.h"
 #include "search/pair_query.h"
 #include "solid/solid_mark.h"
 
@@ -52,7 +52,7 @@ class SolidPair {
   /// other, and its radius too; found by exitDirections() if no surfaces meet.
   const std::vector<fcl::Vector3d>& walls() const { return walls_; }
 
-  const PairFrame<S>& frame() const { return frame_; }
+  const MeshPair<S>& frame() const { return frame_; }
   const SolidState<S>& stateA() const { return *state_a_; }
   const SolidState<S>& stateB() const { return *state_b_; }
   /// Returns b's pose in a, in double.
@@ -67,12 +67,12 @@ class SolidPair {
   SearchCounts& counts() { return counts_; }
 
  private:
-  PairFrame<S> moved(const fcl::Vector3d& translation) const;
+  MeshPair<S> moved(const fcl::Vector3d& translation) const;
 
   const Model<S>&a_, &b_;
   const fcl::Transform3<S>&X_WA_, &X_WB_;
   SearchCounts& counts_;
-  const PairFrame<S> frame_;
+  const MeshPair<S> frame_;
   const std::shared_ptr<const SolidState<S>> state_a_, state_b_;
   const fcl::Matrix3d R_WA_;
   const fcl::Vector3d t_WA_;

@@ -90,7 +90,7 @@ S signedDistance(const fcl::CollisionGeometry<S>& o1, const fcl::CollisionGeomet
 template <typename S>
 std::optional<fcl::Vector3<S>> containedInWorld(const Model<S>& a, const fcl::Transform3<S>& X_WA,
                                                 const Model<S>& b, const fcl::Transform3<S>& X_WB) {
-  const PairFrame<S> frame(a, X_WA, b, X_WB);
+  const MeshPair<S> frame(a, X_WA, b, X_WB);
   SearchCounts unused;
   if (frame.rootBound(0) > 0) return std::nullopt;
   const auto point = containedPoint(frame, unused);

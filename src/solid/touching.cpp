@@ -45,7 +45,7 @@ template <typename S>
 bool partedByFace(SolidPair<S>& pair, double length) {
   constexpr double kRoundings = 1 << 12;
   if (!(length <= kRoundings * pair.rounding())) return false;
-  const PairFrame<S>& frame = pair.frame();
+  const MeshPair<S>& frame = pair.frame();
   std::vector<engine::TrianglePairIds> found;
   constexpr std::size_t kContacts = 16;
   if (!searchContacts(frame, kContacts, found, pair.counts())) return false;

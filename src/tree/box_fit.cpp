@@ -75,8 +75,35 @@ double surface(const Box& box) {
 
 }  // namespace
 
-bool fitBoxes(const std::vector<PointChunk>& chunks, const std::vector<ChunkRange>& of_node,
-              Tree& tree) {
+// Nodes lie before their children.
+TreePoints::TreePoints(const Tree& tree) : ranges_(tree.nodes.size()) {
+  chunks_.reserve(2 * tree.leaves.size());
+  std::vector<Range> of_leaf(tree.leaves.size());
+  for (std::size_t l = 0; l < tree.leaves.size(); ++l) {
+    const Leaf& leaf = tree.leaves[l];
+    of_leaf[l].begin = chunks_.size();
+    for (int i = 0; i < leaf.num_vertices; i += kLanes) {
+      const Lanes* const rows = &tree.lanes[leaf.offset + 3 * (i / kLanes)];
+      chunks_.push_back({rows[0], rows[1], rows[2]});
+    }
+    of_leaf[l].end = chunks_.size();
+  }
+  for (std::size_t n = tree.nodes.size(); n-- > 0;) {
+    const Node& node = tree.nodes[n];
+    if (node.isLeaf()) {
+      ranges_[n] = of_leaf[node.leaf()];
+      continue;
+    }
+    ranges_[n] = ranges_[node.first_child];
+    for (int i = 1; i < tree.children[static_cast<std::size_t>(node.child)].count; ++i) {
+      const Range& of_child = ranges_[node.first_child + i];
+      ranges_[n].begin = std::min(ranges_[n].begin, of_child.begin);
+      ranges_[n].end = std::max(ranges_[n].end, of_child.end);
+    }
+  }
+}
+
+bool fitBoxes(const TreePoints& points, Tree& tree) {
   std::vector<Content> contents(tree.nodes.size());
   bool any_flat = false;
   for (std::size_t n = tree.nodes.size(); n-- > 0;) {  // children lie behind their parents
@@ -94,9 +121,8 @@ bool fitBoxes(const std::vector<PointChunk>& chunks, const std::vector<ChunkRang
       if (surface(box) < surface(best)) best = box;
     };
     consider(alongModel(content));
-    const ChunkRange range = of_node[n];
-    consider(boxAround(axesAlong(content.edge, content.normal), &chunks[range.begin],
-                       range.end - range.begin));
+    consider(boxAround(axesAlong(content.edge, content.normal), points.chunksOf(n),
+                       points.numChunks(n)));
     node.flat = isFlat(best);
     any_flat |= node.flat != 0;
   }

@@ -5,21 +5,32 @@
 #include <cstddef>
 #include <vector>
 
-#include "tree/quick_fit.h"
+#include "tree/moment_fit.h"
 #include "tree/tree.h"
 
 namespace kios::engine {
 
-/// The points of a node among the chunks of its tree.
-struct ChunkRange {
-  std::size_t begin = 0, end = 0;
+/// The points of a tree's leaves in chunks, one leaf after the other, and those of each node.
+class TreePoints {
+ public:
+  explicit TreePoints(const Tree& tree);
+
+  const PointChunk* chunksOf(std::size_t node) const { return &chunks_[ranges_[node].begin]; }
+  std::size_t numChunks(std::size_t node) const { return ranges_[node].end - ranges_[node].begin; }
+
+ private:
+  struct Range {
+    std::size_t begin, end;
+  };
+
+  std::vector<PointChunk> chunks_;
+  std::vector<Range> ranges_;  ///< by node
 };
 
 /// Completes the boxes of a tree that has one for each node: of that box, the one along the model's
 /// axes and the one along the longest edge and the normal of the node's largest triangle the one of
 /// least surface stays. Marks the nodes that are flat, and writes the boxes of the blocks. Returns
 /// whether any node is flat.
-bool fitBoxes(const std::vector<PointChunk>& chunks, const std::vector<ChunkRange>& of_node,
-              Tree& tree);
+bool fitBoxes(const TreePoints& points, Tree& tree);
 
 }  // namespace kios::engine

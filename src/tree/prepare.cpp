@@ -9,9 +9,9 @@
 #include "build/principal_frame.h"
 #include "tree/box_fit.h"
 #include "tree/leaf_layout.h"
+#include "tree/moment_fit.h"
 #include "tree/node_layout.h"
 #include "tree/ownership.h"
-#include "tree/quick_fit.h"
 #include "tree/weld.h"
 #include "tree/wide_tree.h"
 #include "volume/balls.h"
@@ -153,48 +153,22 @@ class Preparation {
 
   /// All volumes, bottom-up: nodes lie before their children.
   void placeVolumes() {
-    std::vector<PointChunk> chunks;
-    std::vector<ChunkRange> of_leaf(tree_->leaves.size());
-    chunks.reserve(2 * tree_->leaves.size());
-    for (std::size_t l = 0; l < tree_->leaves.size(); ++l) {
-      const Leaf& leaf = tree_->leaves[l];
-      of_leaf[l].begin = chunks.size();
-      for (int i = 0; i < leaf.num_vertices; i += kLanes) {
-        const Lanes* const rows = &tree_->lanes[leaf.offset + 3 * (i / kLanes)];
-        chunks.push_back({rows[0], rows[1], rows[2]});
-      }
-      of_leaf[l].end = chunks.size();
-    }
-    std::vector<ChunkRange> below(tree_->nodes.size());
+    const TreePoints points(*tree_);
     tree_->boxes.resize(tree_->nodes.size());
     bool any_flat = false;
     for (std::size_t n = tree_->nodes.size(); n-- > 0;) {
       constexpr std::size_t kAhead = 4;
       if (n >= kAhead) __builtin_prefetch(&volumes_[of_node_[n - kAhead]].bv.cap_x);
       Node& node = tree_->nodes[n];
-      if (node.isLeaf()) {
-        below[n] = of_leaf[node.leaf()];
-      } else {
-        const Children children = tree_->children[static_cast<std::size_t>(node.child)];
-        Block& block = tree_->blocks[static_cast<std::size_t>(node.child)];
-        below[n] = below[node.first_child];
-        for (int lane = 0; lane < kLanes; ++lane) {
-          const bool used = lane < children.count;
-          const std::size_t c = node.first_child + (used ? lane : 0);
-          writeLane(tree_->nodes[c], lane, block);
-          if (!used) continue;
-          below[n].begin = std::min(below[n].begin, below[c].begin);
-          below[n].end = std::max(below[n].end, below[c].end);
-        }
-      }
-      place(volumes_[of_node_[n]].bv, &chunks[below[n].begin], below[n].end - below[n].begin, node,
+      if (!node.isLeaf()) fillBlock(node, *tree_);
+      place(volumes_[of_node_[n]].bv, points.chunksOf(n), points.numChunks(n), node,
             tree_->boxes[n]);
       any_flat |= node.flat != 0;
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
     tree_->root_box = tree_->boxes[0];
     tree_->box_blocks.resize(any_flat ? tree_->blocks.size() : 0);
-    if (any_flat && fitBoxes(chunks, below, *tree_)) {
+    if (any_flat && fitBoxes(points, *tree_)) {
       tree_->root_box = tree_->boxes[0];
       return;
     }

@@ -7,8 +7,8 @@
 
 #include "tree/box_fit.h"
 #include "tree/leaf_layout.h"
+#include "tree/moment_fit.h"
 #include "tree/node_layout.h"
-#include "tree/quick_fit.h"
 
 namespace kios::engine {
 namespace {
@@ -24,15 +24,14 @@ class Refit {
   bool run() {
     if (!sameTopology()) return false;
     moveOrigin();
-    ranges_.resize(tree_.nodes.size());
     moments_.resize(tree_.nodes.size());
-    chunks_.reserve(3 * tree_.leaves.size());
     placeLeaves();
+    const TreePoints points(tree_);
     // Nodes lie before their children.
     tree_.reach = 0;
-    for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n);
+    for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n, points);
     if (!tree_.boxes.empty()) {
-      fitBoxes(chunks_, ranges_, tree_);  // none need be flat now
+      fitBoxes(points, tree_);  // none need be flat now
       tree_.root_box = tree_.boxes[0];
     }
     measureLeaves(tree_);
@@ -67,7 +66,6 @@ class Refit {
   void placeLeaves() {
     Eigen::Vector3f vertices[kMaxLeafFeatures];
     FaceCorners faces[kLeafTriangles];
-    leaf_ranges_.resize(tree_.leaves.size());
     leaf_moments_.resize(tree_.leaves.size());
     for (std::size_t l = 0; l < tree_.leaves.size(); ++l) {
       Leaf& leaf = tree_.leaves[l];
@@ -79,57 +77,32 @@ class Refit {
         }
       }
       placeLeaf(vertices, faces, leaf, tree_);
-      leaf_ranges_[l].begin = chunks_.size();
-      const Lanes* const lanes = &tree_.lanes[leaf.offset];
-      for (int i = 0; i < leaf.num_vertices; i += kLanes) {
-        const Lanes* const rows = lanes + 3 * (i / kLanes);
-        chunks_.push_back({rows[0], rows[1], rows[2]});
-      }
-      leaf_ranges_[l].end = chunks_.size();
       leaf_moments_[l] = momentsOf(vertices, leaf.num_vertices);
     }
   }
 
-  void fit(std::size_t n) {
+  void fit(std::size_t n, const TreePoints& points) {
     Node& node = tree_.nodes[n];
-    ChunkRange& range = ranges_[n];
     Moments& moments = moments_[n];
     if (node.isLeaf()) {
-      range = leaf_ranges_[node.leaf()];
       moments = leaf_moments_[node.leaf()];
     } else {
-      const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
-      range = ranges_[node.first_child];
       moments = moments_[node.first_child];
-      for (int i = 1; i < count; ++i) {
-        const ChunkRange& of_child = ranges_[node.first_child + i];
-        range.begin = std::min(range.begin, of_child.begin);
-        range.end = std::max(range.end, of_child.end);
-        moments.add(moments_[node.first_child + i]);
-      }
+      const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
+      for (int i = 1; i < count; ++i) moments.add(moments_[node.first_child + i]);
     }
     Box* box = tree_.boxes.empty() ? nullptr : &tree_.boxes[n];
     if (!box && n == 0) box = &tree_.root_box;
-    quickFit(&chunks_[range.begin], range.end - range.begin, moments, node, box);
+    momentFit(points.chunksOf(n), points.numChunks(n), moments, node, box);
     if (tree_.boxes.empty()) node.flat = 0;  // no search has its box
     tree_.reach = std::max(tree_.reach, reachOf(node));
-    if (!node.isLeaf()) fillBlock(node);
-  }
-
-  void fillBlock(const Node& node) {
-    Block& block = tree_.blocks[static_cast<std::size_t>(node.child)];
-    const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      writeLane(tree_.nodes[node.first_child + (lane < count ? lane : 0)], lane, block);
-    }
+    if (!node.isLeaf()) fillBlock(node, tree_);
   }
 
   const MeshView<S> mesh_;
   Tree& tree_;
   Eigen::Vector3d origin_;
-  std::vector<PointChunk> chunks_;
-  std::vector<ChunkRange> leaf_ranges_, ranges_;  ///< by leaf, by node
-  std::vector<Moments> leaf_moments_, moments_;   ///< likewise
+  std::vector<Moments> leaf_moments_, moments_;  ///< by leaf, by node
 };
 
 }  // namespace

@@ -32,7 +32,7 @@ TreeCache::Use TreeCache::findOrMake(const TreeKey& key, const Make& make) {
   const std::lock_guard<std::mutex> lock(making_);
   if (Use found = find(key); found.isKnown()) return found;
   SharedTree tree = make(earlierState(key));
-  made_.store(true, std::memory_order_relaxed);
+  budget.exhaust();
   // A slot with an outdated state of the same vertices is taken first, then an empty slot.
   for (const void* const vertices : {key.vertices, static_cast<const void*>(nullptr)}) {
     for (Cell& cell : cells_) {
@@ -80,15 +80,6 @@ bool TreeCache::isBuilt(std::uint64_t root_stamp) const {
     if (stamp.load(std::memory_order_relaxed) == root_stamp) return root_stamp != 0;
   }
   return false;
-}
-
-long long TreeCache::testsToSpare(std::size_t num_triangles) const {
-  // A test takes 50 ns; a tree 0.2 us a triangle, and the first of them 2 us.
-  constexpr long long kTestsATriangle = 4, kTestsATree = 32;
-  if (made_.load(std::memory_order_relaxed)) return 0;
-  constexpr long long kMost = 1 << 28;  // FCL's nodes count in ints
-  const long long price = kTestsATree + kTestsATriangle * static_cast<long long>(num_triangles);
-  return std::max(0LL, std::min(price, kMost) - spent_.load(std::memory_order_relaxed));
 }
 
 std::size_t TreeCache::bytes() {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 
+#include "tree/build_budget.h"
 #include "tree/shared_tree.h"
 
 namespace kios::engine {
@@ -41,6 +42,8 @@ class TreeCache {
   };
   /// Written only while nobody uses a model that shares this cache.
   std::unique_ptr<Attachment> attachment;
+  /// Counts what queries that can do without a tree may spend; exhausted as soon as one was made.
+  BuildBudget budget;
 
   /// A tree in use. Empty if there is none.
   class Use {
@@ -80,15 +83,6 @@ class TreeCache {
   void noteBuilt(std::uint64_t root_stamp);
   bool isBuilt(std::uint64_t root_stamp) const;
 
-  /// Tests of volumes that queries which can do without a tree may make, before it would have paid
-  /// to make one for so many triangles: so that at most twice the work is done that was needed. 0
-  /// as soon as a tree was made, or spareNothing() was called.
-  long long testsToSpare(std::size_t num_triangles) const;
-  /// To be called where making a tree costs next to nothing: an equal one is held elsewhere.
-  void spareNothing() { made_.store(true, std::memory_order_relaxed); }
-  /// To be called with what a query that did without has made.
-  void spend(long long tests) { spent_.fetch_add(tests, std::memory_order_relaxed); }
-
   /// Bytes of the trees held, each once; those included that other caches hold too.
   std::size_t bytes();
 
@@ -111,8 +105,6 @@ class TreeCache {
   std::array<Cell, 8> cells_;
   std::array<std::atomic<std::uint64_t>, 8> built_{};
   std::atomic<unsigned int> num_built_{0};
-  std::atomic<bool> made_{false};    ///< any tree, ever
-  std::atomic<long long> spent_{0};  ///< tests
   std::mutex making_;
   std::size_t next_ = 0;  ///< to be replaced, where no cell is free
 };

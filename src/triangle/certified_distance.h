@@ -3,9 +3,9 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 
 #include "triangle/pair.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -47,7 +47,7 @@ class CertifiedDistance {
   const TrianglePair& pair_;
   const double tolerance_;  ///< of the certificate
   const double least_;      ///< nearer pairs are left to the exact predicates
-  double nearest_square_ = std::numeric_limits<double>::infinity();
+  double nearest_square_ = kInfinity;
   Vec e_[3], f_[3];
   double ee_[3], ff_[3], per_ee_[3], per_ff_[3];
   int order_p_[3], order_q_[3];

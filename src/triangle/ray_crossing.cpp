@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
-#include <limits>
 
 #include "triangle/determinant.h"
 #include "triangle/integer.h"
 #include "triangle/ray_triangle.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -116,7 +116,7 @@ Crossing RayCrossing::cross(const TriangleVertices<double>& corners) const {
 }
 
 Crossing RayCrossing::crossExactly(const Scaled& t, const TriangleVertices<double>& corners) const {
-  double least = std::numeric_limits<double>::infinity(), largest = 0;
+  double least = kInfinity, largest = 0;
   const auto widen = [&](double v) {
     if (v != 0) least = std::min(least, std::abs(v));
     largest = std::max(largest, std::abs(v));

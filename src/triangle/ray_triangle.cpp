@@ -3,9 +3,9 @@
 #include "triangle/ray_triangle.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "triangle/determinant.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -55,7 +55,7 @@ ExactRay::ExactRay(const GivenRay& ray, double largest) : given_(ray) {
   const double scale = std::ldexp(1.0, turn);
   unit_ = std::ldexp(1.0, unit);
   shift_ = turn - ray.exponent - unit;
-  least_ = std::numeric_limits<double>::infinity();
+  least_ = kInfinity;
   largest_ = 0;
   for (int c = 0; c < 3; ++c) {
     origin_[c] = ray.origin[c] * unit_;

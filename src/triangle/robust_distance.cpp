@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "triangle/pair.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -267,7 +267,7 @@ class RobustDistance {
   double ee_[3], ff_[3];
   Vec between_[3][3];  ///< from p_[i] to q_[j]
   double squares_[3][3];
-  double square_ = std::numeric_limits<double>::infinity();  ///< of the best distance
+  double square_ = kInfinity;  ///< of the best distance
   PairDistance best_ = {};
 };
 

@@ -75,12 +75,12 @@ double stretchOf(double squared_errors) {
 }
 
 /// Bounds the error of a bound computed in float lanes, `scale` the sum of all lengths that enter:
-/// 16 roundings of 2^-24 at most (volume/separation.cpp and search/frame_pair.h count them), and as
-/// much again.
+/// 16 roundings of 2^-24 at most (volume/separation.cpp and search/float_frame.h count them), and
+/// as much again.
 inline double laneError(double scale) { return 0x1p-19 * scale; }
 
 /// Bounds that of a bound of boxes in float lanes: at most 96 roundings of 2^-24, which
-/// search/frame_pair.h counts (test/search/box_bounds_test.cpp measures them), and a third more.
+/// search/float_frame.h counts (test/search/box_bounds_test.cpp measures them), and a third more.
 inline double boxError(double scale) { return 4 * laneError(scale); }
 
 /// Bounds that of the distance of two triangles: the kernel promises 16 eps of their extent, the

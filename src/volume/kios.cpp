@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "volume/assemble.h"
 #include "volume/balls.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -58,9 +58,7 @@ template <typename S>
 kIOS<S>& kIOS<S>::operator+=(const fcl::Vector3<S>& p) {
   for (int c = 0; c < 3; ++c) {
     if (!(std::abs(double{p[c]}) <= kMaxCoordinate<S>)) {
-      throw std::invalid_argument(
-          "fcl_kios: a kIOS can't contain a point that is NaN, infinite or "
-          "too large.");
+      refuse("a kIOS can't contain a point that is NaN, infinite or too large.");
     }
   }
   if (k() > 0 && exclusion(*this, p) <= 1 - 16 * kUlpDouble) return *this;

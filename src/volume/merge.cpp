@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "fcl_kios/volume/kios.h"
 #include "volume/assemble.h"
@@ -89,7 +88,7 @@ class Content {
   }
   /// The content lies within these distances of four points, but for the pad.
   Float4 radiusFrom(Float4 x, Float4 y, Float4 z) const {
-    Float4 least = broadcast(std::numeric_limits<float>::infinity());
+    Float4 least = broadcast(kInfinityFloat);
     for (const LaneBall& s : balls_) {
       const Float4 dx = x - s.x, dy = y - s.y, dz = z - s.z;
       least = lanes::min(least, lanes::sqrt(dx * dx + dy * dy + dz * dz) + s.r);
@@ -98,7 +97,7 @@ class Content {
   }
   /// The content lies about below these heights along four directions.
   Float4 heightAlong(Float4 x, Float4 y, Float4 z) const {
-    Float4 least = broadcast(std::numeric_limits<float>::infinity());
+    Float4 least = broadcast(kInfinityFloat);
     for (const LaneBall& s : balls_) least = lanes::min(least, x * s.x + y * s.y + z * s.z + s.r);
     return least;
   }
@@ -162,8 +161,7 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   Content from_a(a, merged.center0, exponent), from_b(b, merged.center0, exponent);
   // Sums of a length with four roundings and a radius with one, in double: below 16 u.
   const double scaled_r0 = std::max(from_a.radius(), from_b.radius()) * (1 + 16 * kUlpDouble);
-  merged.radius0 = roundUp<S>(std::nextafter(scaled(scaled_r0 + 0x1p-900, exponent),
-                                             std::numeric_limits<double>::infinity()));
+  merged.radius0 = roundUp<S>(std::nextafter(scaled(scaled_r0 + 0x1p-900, exponent), kInfinity));
   merged.exponent = static_cast<std::int16_t>(capExponent(merged.radius0));
   if (merged.exponent != exponent) {
     exponent = merged.exponent;

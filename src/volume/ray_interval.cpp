@@ -4,17 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "volume/balls.h"
 #include "volume/rounding.h"
 
 namespace kios {
-namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 RayLine::RayLine(const fcl::Vector3d& origin, const fcl::Vector3d& direction, int exponent)
     : origin_(origin) {

@@ -11,6 +11,9 @@ namespace kios {
 constexpr double kUlpDouble = 0x1p-53;
 constexpr double kUlpFloat = 0x1p-24;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kInfinityFloat = std::numeric_limits<float>::infinity();
+
 // Outward rounding by arithmetic alone: a comparison of a double with its float round trip may be
 // folded away by g++ 12's vectoriser, a product can't.
 
@@ -50,5 +53,9 @@ inline float roundDown<float>(double v) {
 /// Largest coordinate whose differences and sums of a few stay finite in S.
 template <typename S>
 constexpr double kMaxCoordinate = sizeof(S) == sizeof(double) ? 0x1p1000 : 0x1p120;
+/// For messages.
+template <typename S>
+constexpr const char* kCoordinateRange = sizeof(S) == sizeof(double) ? "finite, and at most 2^1000"
+                                                                     : "finite, and at most 2^120";
 
 }  // namespace kios

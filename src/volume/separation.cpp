@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
-#include <string>
 
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
+#include "volume/errors.h"
 #include "volume/far_apart.h"
 #include "volume/lanes.h"
 #include "volume/rotation.h"
@@ -18,8 +16,6 @@
 
 namespace kios {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Centre of b's S0 relative to a's, in A, with the bound of every double rounding of a test.
 struct Offset {
@@ -170,14 +166,13 @@ const RelativePose<S>& identityPose() {
 }  // namespace
 
 void refuseRotation(const char* what, double error, double allowed) {
-  std::ostringstream message;
-  message << "fcl_kios: the " << what << " is not rigid: ";
   if (error <= allowed) {
-    message << "it is a reflection (det R < 0); mirror the vertices of the mesh instead.";
-  } else {
-    message << "|R^T R - I| = " << error << ", at most " << allowed << " is allowed.";
+    refuse("the ", what,
+           " is not rigid: it is a reflection (det R < 0); mirror the vertices of the mesh "
+           "instead.");
   }
-  throw std::invalid_argument(message.str());
+  refuse("the ", what, " is not rigid: |R^T R - I| = ", error, ", at most ", allowed,
+         " is allowed.");
 }
 
 template <typename S>
@@ -193,8 +188,7 @@ void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& 
 namespace {
 
 [[noreturn]] void refuseTranslation(const char* what) {
-  throw std::invalid_argument(std::string("fcl_kios: the ") + what +
-                              " is NaN, infinite or too large to be bounded.");
+  refuse("the ", what, " is NaN, infinite or too large to be bounded.");
 }
 
 /// The one to blame is the one that is wrong by itself.

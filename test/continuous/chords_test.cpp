@@ -51,7 +51,7 @@ Vector3d placeAt(const continuous::Motion& body, const continuous::Motion& a, do
   return a.pose(t).inverse(Eigen::Isometry) * (body.pose(time) * x);
 }
 
-TEST_P(ChordsOf, PathsStayWithinTheirBulge) {
+TEST_P(ChordsOf, PathsStayWithinTheirSagitta) {
   Random random;
   double tightest = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -66,7 +66,7 @@ TEST_P(ChordsOf, PathsStayWithinTheirBulge) {
       const auto& body = of_a ? a : b;
       const auto& field = of_a ? v.a() : v.b();
       const double acceleration = field.acceleration(of_a ? x : Vector3d(v.pose() * x));
-      const double bulge = chords.bulge(acceleration, x.lpNorm<1>()) + v.pad();
+      const double sagitta = chords.sagitta(acceleration, x.lpNorm<1>()) + v.pad();
       for (int part = 0; part < Chords::kParts; ++part) {
         const auto& from = of_a ? chords.ofA(part) : chords.ofB(part);
         const auto& to = of_a ? chords.ofA(part + 1) : chords.ofB(part + 1);
@@ -74,8 +74,8 @@ TEST_P(ChordsOf, PathsStayWithinTheirBulge) {
         const double s = random(0.3, 0.7), time = t + h * (part + s) / Chords::kParts;
         const Vector3d place = placeAt(body, a, t, time, x);
         const double off = (place - begin - s * (end - begin)).norm();
-        ASSERT_LE(off, bulge) << i;
-        if (bulge > 1e-6) tightest = std::max(tightest, off / bulge);
+        ASSERT_LE(off, sagitta) << i;
+        if (sagitta > 1e-6) tightest = std::max(tightest, off / sagitta);
       }
     }
   }

@@ -16,12 +16,12 @@
 #include <utility>
 #include <vector>
 
-#include "search/frame_pair.h"
-#include "search/simd/targets.h"
+#include "search/float_frame.h"
 #include "shapes.h"
+#include "tree/moment_fit.h"
 #include "tree/node_layout.h"
 #include "tree/prepare.h"
-#include "tree/quick_fit.h"
+#include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/box_bounds_test.cpp"
@@ -209,9 +209,9 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
       X_AB.translation() += ((gap * size - found.distance) * along).cast<double>();
     }
   }
-  engine::FramePair frames;
+  engine::FloatFrame frames;
   const RelativePose<double> pose(fcl::Transform3d::Identity(), X_AB);
-  if (!engine::makeFramePair(a, b, pose, frames)) return;
+  if (!engine::makeFloatFrame(a, b, pose, frames)) return;
   const Mat R = pose.R().cast<Real>();
   const Vec t = pose.T().cast<Real>();
   for (const bool contact : {false, true}) {

@@ -13,7 +13,7 @@
 #include "scenes/motions.h"
 #include "scenes/shapes.h"
 #include "scenes/triangle_families.h"
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 
 namespace kios::testing {
 namespace {
@@ -28,10 +28,10 @@ struct Tally {
 };
 
 void expectKept(const Modeld& a, const Modeld& b, const Transform3d& X, Tally& tally) {
-  const PairFrame<double> frame(a, Transform3d::Identity(), b, X);
-  engine::FramePair pair;
+  const MeshPair<double> frame(a, Transform3d::Identity(), b, X);
+  engine::FloatFrame pair;
   const auto tree_a = preparedTree(a), tree_b = preparedTree(b);
-  const bool served = tree_a && tree_b && engine::makeFramePair(*tree_a, *tree_b, frame.X_AB, pair);
+  const bool served = tree_a && tree_b && engine::makeFloatFrame(*tree_a, *tree_b, frame.X_AB, pair);
   if (!engineServes(frame)) {
     ++tally.refused;
     return;

@@ -40,7 +40,7 @@ class PosedPair {
   /// Returns false if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
     X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
-    return engine::makeFramePair(*tree_a, *tree_b, *X_AB, frames_);
+    return engine::makeFloatFrame(*tree_a, *tree_b, *X_AB, frames_);
   }
   engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
     return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, frames_, audit};
@@ -61,7 +61,7 @@ class PosedPair {
     auto tree = treeOf(shape, refitted ? &before : nullptr);
     return tree ? std::move(tree) : engine::prepare(viewOf(shape));
   }
-  engine::FramePair frames_;
+  engine::FloatFrame frames_;
 };
 
 }  // namespace kios::testing

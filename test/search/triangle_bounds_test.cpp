@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "search/search.h"
-#include "search/simd/targets.h"
 #include "shapes.h"
 #include "tree/compress_table.h"
 #include "tree/leaf_layout.h"
+#include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/triangle_bounds_test.cpp"
@@ -49,7 +49,7 @@ namespace kios::engine::HWY_NAMESPACE {
 void boxes(const Tree& tree, BoxBlock& out) { boxTriangles(LeafView(tree, tree.leaves[0]), out); }
 
 /// Bounds without a pad of the distance of a point of the other frame to each triangle.
-void pointMoved(const Tree& tree, const FramePair& frames, const float* point, float* out) {
+void pointMoved(const Tree& tree, const FloatFrame& frames, const float* point, float* out) {
   const Vec3 p = moved(frames.a_from_b, vec3(point));
   const V3 at = {hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)};
   for (size_t l = 0; l < kLanes; l += step()) {
@@ -58,7 +58,7 @@ void pointMoved(const Tree& tree, const FramePair& frames, const float* point, f
 }
 
 /// Bounds them where the triangles are moved.
-void trianglesMoved(const Tree& tree, const FramePair& frames, const float* point, float* out) {
+void trianglesMoved(const Tree& tree, const FloatFrame& frames, const float* point, float* out) {
   const V3 at = {hn::Set(d, point[0]), hn::Set(d, point[1]), hn::Set(d, point[2])};
   const LeafView leaf(tree, tree.leaves[0]);
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
@@ -68,7 +68,7 @@ void trianglesMoved(const Tree& tree, const FramePair& frames, const float* poin
   }
 }
 
-float padOfPrisms(const FramePair& frames) { return prismPad(frames); }
+float padOfPrisms(const FloatFrame& frames) { return prismPad(frames); }
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -238,9 +238,9 @@ TEST_P(TriangleBounds, PrismsAreBelowTheDistance) {
           }
           X_AB.translation() = face[0] + s * (face[1] - face[0]) + t * (face[2] - face[0]) +
                                gap * size * inCube(random) - X_AB.linear() * point.cast<double>();
-          engine::FramePair frames;
+          engine::FloatFrame frames;
           const RelativePose<double> pose(fcl::Transform3d::Identity(), X_AB);
-          if (!engine::makeFramePair(a, b, pose, frames)) continue;
+          if (!engine::makeFloatFrame(a, b, pose, frames)) continue;
           const Vec p = pose.R().cast<Real>() * point.cast<Real>() + pose.T().cast<Real>();
           const float pad = HWY_DYNAMIC_DISPATCH(engine::padOfPrisms)(frames);
           for (const bool move_point : {false, true}) {

@@ -11,7 +11,7 @@
 
 #include "fcl/mesh_cases.h"
 #include "fcl_kios/model/prepare.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "query/posed_solid.h"
 #include "shape/convex_faces.h"
 #include "shape/shape_oracle.h"

@@ -15,7 +15,7 @@
 #include "fcl/mesh_cases.h"
 #include "model/prepared.h"
 #include "query/float_solid.h"
-#include "query/mesh_pair.h"
+#include "query/mesh_contacts.h"
 #include "scenes/cad_shapes.h"
 #include "search/search.h"
 #include "shape/shape_oracle.h"

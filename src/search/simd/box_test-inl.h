@@ -78,7 +78,7 @@ struct AxisGaps {
 };
 
 /// Two boxes a lane, compared along directions. Lower bounds of the distances of their contents,
-/// which say nothing where they aren't positive; frame_pair.h derives the pads.
+/// which say nothing where they aren't positive; float_frame.h derives the pads.
 struct BoxPairs {
   BoxPairs(const BoxLanes& box_a, const BoxLanes& box_b, float pad)
       : a(box_a),
@@ -111,7 +111,7 @@ struct BoxPairs {
   /// The widest gap along a product of an axis of a and one of b. None of these directions is
   /// longer than 1, so that the gaps are bounds as they are.
   V acrossEdges() const {
-    V widest = hn::Set(d, -std::numeric_limits<float>::infinity());
+    V widest = hn::Set(d, -kInfinityFloat);
     const V twice = hn::Add(padding, padding);
     const auto across = [&](V t1, V t2, V h1, V h2, V c1, V c2, V abs_c1, V abs_c2, V reach) {
       const V apart = hn::Sub(hn::Mul(t2, c1), hn::Mul(t1, c2));

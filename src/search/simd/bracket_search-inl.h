@@ -42,7 +42,6 @@ class BracketSearch {
   }
 
  private:
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr size_t kBatch = 4;
   static constexpr float kWave = 0.125F;
   static constexpr uint32_t kMaxWaiting = 256;
@@ -63,10 +62,10 @@ class BracketSearch {
     Descent descent(expander_, budget_);
     budget_ -= static_cast<long long>(descent.steps());
     in_flight_ = descent.leastPassed();
-    current_ = descent.lost() ? kInfinity : descent.end().bound;
+    current_ = descent.lost() ? kInfinityFloat : descent.end().bound;
     if (descent.atLeaves() && leaves(descent.end())) return true;
     descent.spread(frontier_);
-    in_flight_ = current_ = kInfinity;
+    in_flight_ = current_ = kInfinityFloat;
     return false;
   }
 
@@ -87,7 +86,7 @@ class BracketSearch {
       for (size_t i = 0; i < n; ++i) in_flight_ = std::min(in_flight_, batch[i].bound);
       budget_ -= static_cast<long long>(n);
       expander_.expand<true>(batch, n, frontier_);
-      in_flight_ = kInfinity;
+      in_flight_ = kInfinityFloat;
       return false;
     }
     frontier_.nextWave(prune_at_, kWave);
@@ -98,7 +97,7 @@ class BracketSearch {
   bool current(const PairList::Entry& entry, const Look& look) {
     current_ = entry.bound;
     if (look()) return true;
-    current_ = kInfinity;
+    current_ = kInfinityFloat;
     return false;
   }
 
@@ -108,7 +107,7 @@ class BracketSearch {
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
     bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
-    const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.keep_to;
+    const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.candidate_limit;
     if (nearer) {
       search_.evaluator.offer(pair.upper);
       best_ = pair.vertices;
@@ -120,7 +119,7 @@ class BracketSearch {
       return false;
     }
     // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
-    const bool ends = nearer && search_.evaluator.keep_to <= bracket_.near_enough;
+    const bool ends = nearer && search_.evaluator.candidate_limit <= bracket_.near_enough;
     if (nearer && (ends || budgeted()) && evaluateVertices()) return true;
     // A pair that may be nearer than its own upper bound is evaluated at once, so that better ones
     // come early, and what overlaps, as it may touch.
@@ -141,10 +140,10 @@ class BracketSearch {
 
   /// True to end the search.
   bool evaluateFeatures(const Bracketed& pair, float bound) {
-    const float known = search_.evaluator.keep_to;
+    const float known = search_.evaluator.candidate_limit;
     const bool done = nearestOfLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b),
                                       pair.slab, bound);
-    if (search_.evaluator.keep_to < known) offered_ = false;
+    if (search_.evaluator.candidate_limit < known) offered_ = false;
     // Features of them that were not evaluated are not nearer than either.
     if (!done) current_ = std::max(bound, search_.evaluator.prune_at);
     lowerTo(search_.evaluator.prune_at);
@@ -176,9 +175,9 @@ class BracketSearch {
   Leaves leaves_a_, leaves_b_;
   Frontier frontier_;
   long long budget_;
-  float prune_at_ = kInfinity;
-  float in_flight_ = kInfinity;  ///< least bound of what is being expanded
-  float current_ = -kInfinity;   ///< bound of what is at hand
+  float prune_at_ = kInfinityFloat;
+  float in_flight_ = kInfinityFloat;  ///< least bound of what is being expanded
+  float current_ = -kInfinityFloat;   ///< bound of what is at hand
   LastLeaves last_;
   VertexPair best_;
   bool offered_ = false;  ///< whether they are the upper bound

@@ -89,7 +89,7 @@ HWY_INLINE V widestGap(const V3 (&e)[3], const V3& half, const V3& c, V g) {
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) size[j][i] = hn::Abs(axis[j][i]);
   }
-  V widest = hn::Set(d, -std::numeric_limits<float>::infinity());
+  V widest = hn::Set(d, -kInfinityFloat);
   const auto note = [&](V middle, V own, V reach) {
     widest = hn::Max(widest, hn::Sub(hn::Abs(middle), hn::Add(own, reach)));
   };
@@ -118,7 +118,7 @@ HWY_INLINE V widestGap(const V3 (&e)[3], const V3& half, const V3& c, V g) {
 /// the least half size of such a cube that a corner or the middle of an edge lies in.
 HWY_INLINE V widestGap(const MovedTriangles& t, size_t l, const float (&c)[3], V g, V& depth) {
   V v[3][3], e[3][3], n[3];
-  V widest = hn::Set(d, -std::numeric_limits<float>::infinity());
+  V widest = hn::Set(d, -kInfinityFloat);
   const auto note = [&](V low, V high, V reach) {
     widest = hn::Max(widest, hn::Sub(hn::Max(low, hn::Neg(high)), reach));
   };
@@ -340,7 +340,7 @@ class CellTraversal {
     }
     if (near == 0) return;
     size_t nearest = size_;
-    float least = std::numeric_limits<float>::infinity();
+    float least = kInfinityFloat;
     for (; near != 0; near &= near - 1) {
       const uint32_t lane = firstOf(near);
       if (from_middle[lane] < least) {
@@ -368,7 +368,7 @@ class CellTraversal {
     const V inner = hn::Set(d, half * (1 - 0x1p-20F) - frame_.pad);
     uint32_t apart = 0, sure = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
-      V depth = hn::Set(d, std::numeric_limits<float>::infinity());
+      V depth = hn::Set(d, kInfinityFloat);
       apart |= apartBits(widestGap(placed, l, c, g, depth)) << l;
       sure |= bitsOf(hn::Lt(depth, inner)) << l;
     }

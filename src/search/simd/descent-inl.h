@@ -35,7 +35,6 @@ class Descent {
   }
 
  private:
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr size_t kMaxSteps = 32;  ///< more than most trees are deep
 
   /// False if no child is near enough.
@@ -50,7 +49,7 @@ class Descent {
     taken_[steps_++] = 0;
     if (e.near == 0) return false;
     uint32_t nearest = firstOf(e.near);
-    float second = kInfinity;
+    float second = kInfinityFloat;
     for (uint32_t left = e.near & (e.near - 1); left != 0; left &= left - 1) {
       const uint32_t lane = firstOf(left);
       const bool nearer = e.bounds[lane] < e.bounds[nearest];
@@ -67,8 +66,8 @@ class Descent {
   Expansion path_[kMaxSteps];
   uint32_t taken_[kMaxSteps];
   size_t steps_ = 0;
-  PairList::Entry end_ = {-kInfinity, {0, 0}};
-  float passed_ = kInfinity;
+  PairList::Entry end_ = {-kInfinityFloat, {0, 0}};
+  float passed_ = kInfinityFloat;
   bool at_leaves_ = false;
 };
 

@@ -123,7 +123,7 @@ class PairList {
 
   /// The least bound of all; infinity if empty.
   float least() const {
-    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = hn::Set(d, kInfinityFloat);
     for (size_t i = 0; i < size_; i += step()) {
       least = hn::Min(least, boundsAt(i, (1U << std::min(size_ - i, step())) - 1));
     }
@@ -149,7 +149,7 @@ class PairList {
   /// traps.
   V boundsAt(size_t i, uint32_t used) const {
     return hn::IfThenElse(hn::RebindMask(d, maskOf(used)), hn::LoadU(d, bounds_ + i),
-                          hn::Set(d, std::numeric_limits<float>::infinity()));
+                          hn::Set(d, kInfinityFloat));
   }
 
   HWY_NOINLINE void grow(size_t capacity) {
@@ -181,7 +181,7 @@ class PairList {
 /// Those apart wait for their turn in waves, the nearest first.
 class Frontier {
  public:
-  Frontier() { hn::Store(hn::Set(d, kInfinity), d, least_); }
+  Frontier() { hn::Store(hn::Set(d, kInfinityFloat), d, least_); }
 
   PairList inner;    ///< at hand: pairs of nodes not both of which are leaves
   PairList leaves;   ///< at hand: pairs of leaves
@@ -230,13 +230,13 @@ class Frontier {
   /// dropped. False if that is all.
   bool nextWave(float prune_at, float share) {
     const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
-    hn::Store(hn::Set(d, kInfinity), d, least_);
+    hn::Store(hn::Set(d, kInfinityFloat), d, least_);
     if (!(least < prune_at)) {  // also where nothing is left: infinities aren't subtracted
       for (PairList* const list : {&apart_inner_, &apart_leaves_, &apart_bounded_}) list->clear();
       return false;
     }
     const float at_most =
-        prune_at < kInfinity ? least + share * (prune_at - least) : (1 + share / 4) * least;
+        prune_at < kInfinityFloat ? least + share * (prune_at - least) : (1 + share / 4) * least;
     const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
     const auto take = [&](PairList& apart, PairList& at_hand) {
       at_hand.reserve(apart.size());
@@ -255,8 +255,6 @@ class Frontier {
   }
 
  private:
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
   /// That some lanes of what is apart have these bounds.
   void note(uint32_t lanes, V bounds) {
     const auto apart = hn::RebindMask(d, maskOf(lanes));

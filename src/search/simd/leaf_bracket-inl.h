@@ -28,11 +28,11 @@ struct Corners {
   ///
   /// It leads to a combination of the corners with weights that add up to 1 but for 2 u, so its
   /// length is an upper bound to the pad: with edges up to 2 S long, weights, products and sums
-  /// cost 12 u S, the points 9 u S, square and root 3 u S (u and S as in frame_pair.h).
+  /// cost 12 u S, the points 9 u S, square and root 3 u S (u and S as in float_frame.h).
   HWY_NOINLINE Vec3 from(Vec3 p) const {
     const Vec3 e[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     Vec3 best = {};
-    float least = std::numeric_limits<float>::infinity();
+    float least = kInfinityFloat;
     const auto offer = [&](Vec3 way) {
       const float square = dot(way, way);
       best = square < least ? way : best;
@@ -68,8 +68,8 @@ class Slabs {
  public:
   Slabs(const HullA& a, const HullB& b, float distance, Bracketed& out)
       : a_(a), b_(b), distance_(distance), out_(out) {
-    out.lower = -std::numeric_limits<float>::infinity();
-    out.upper = std::numeric_limits<float>::infinity();
+    out.lower = -kInfinityFloat;
+    out.upper = kInfinityFloat;
   }
 
   /// Tries a direction. True if it proves the sets at least `distance` apart; out.slab is not set
@@ -146,7 +146,7 @@ struct LastLeaves {
   Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
 };
 
-HWY_INLINE void finishBracket(const FramePair& frames, LastLeaves& last, Bracketed& out) {
+HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracketed& out) {
   if (out.slab.apart) return;
   last.along = out.slab.along;
   out.vertices.nodes = out.nodes;
@@ -159,7 +159,7 @@ HWY_INLINE void finishBracket(const FramePair& frames, LastLeaves& last, Bracket
 HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
                                 LastLeaves& last, Bracketed& out) {
   const LeafView a(search.a, leaf_a);
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   const float distance = search.evaluator.prune_at + frames.pad;
   if (last.b.leaf != &leaf_b) last.b.move(LeafView(search.b, leaf_b), frames.a_from_b);
   betweenHulls(a.vertices, last.b.vertices, [&](const auto& hull_a, const auto& hull_b) {
@@ -174,7 +174,7 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
 template <bool kTriangleOfA>
 HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a, const LeafView& b,
                                   LastLeaves& last, Bracketed& out) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   const float distance = search.evaluator.prune_at + frames.pad;
   const uint32_t node = isTriangle(out.nodes.b) ? out.nodes.b : 0;  // all share one leaf
   if (last.b.leaf != &b.leaf || last.triangle != node) last.b.move(b, frames.a_from_b);

@@ -61,8 +61,7 @@ HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad
   const V h = faces.height(l, x, y, z);
   const V inside = hn::Min(hn::Min(faces.inside(0, l, x, y, z), faces.inside(1, l, x, y, z)),
                            faces.inside(2, l, x, y, z));
-  return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h),
-                        hn::Set(d, std::numeric_limits<float>::infinity()));
+  return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h), hn::Set(d, kInfinityFloat));
 }
 
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
@@ -72,7 +71,7 @@ class LeafDistances {
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
 
   /// The least of them. Features that the slab proves farther than `distance` are left out.
-  float compute(const Points& vertices_b, const FramePair& frames, const Slab& slab,
+  float compute(const Points& vertices_b, const FloatFrame& frames, const Slab& slab,
                 float distance) {
     const Vec3 w = slab.along.w;
     const float thickness = distance * slab.along.length;
@@ -95,8 +94,8 @@ class LeafDistances {
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
-  /// Evaluates everything that may be within evaluator.keep_to, the nearest by float first.
-  bool evaluateNear(float least, float pad, ExactEvaluator& evaluator, long long& exact) const {
+  /// Evaluates everything that may be within evaluator.candidate_limit, the nearest by float first.
+  bool evaluateNear(float least, float pad, RefineCallback& evaluator, long long& exact) const {
     if (!(least <= squaredLimit(evaluator, pad))) return false;
     if (evaluateRows(least, true, pad, evaluator, exact)) return true;
     // Where an error is allowed, features that are nearly as near as the nearest are left out.
@@ -115,7 +114,7 @@ class LeafDistances {
 
   V edgeRows(float shortest) {
     const V least_square = hn::Set(d, shortest * shortest);
-    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = hn::Set(d, kInfinityFloat);
     alignas(32) float inverse_a[kMaxLeafFeatures], square_a[kMaxLeafFeatures];
     for (int c = 0; c < edges_a_.chunks(); ++c) {
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -146,7 +145,7 @@ class LeafDistances {
   }
 
   V faceRow(const Row& row, const LeafView& on, Vec3 point, V minus_pad) {
-    V least = hn::Set(d, std::numeric_limits<float>::infinity());
+    V least = hn::Set(d, kInfinityFloat);
     for (size_t l = 0; l < kLanes; l += step()) {
       const V square = faceDistances(Faces{on.faces}, l, point, minus_pad);
       hn::Store(square, d, squares_[rows_].v + l);
@@ -156,12 +155,12 @@ class LeafDistances {
     return least;
   }
 
-  static float squaredLimit(const ExactEvaluator& evaluator, float pad) {
-    const float reach = evaluator.keep_to + pad;
+  static float squaredLimit(const RefineCallback& evaluator, float pad) {
+    const float reach = evaluator.candidate_limit + pad;
     return reach * reach;
   }
 
-  bool evaluateRows(float least, bool nearest, float pad, ExactEvaluator& evaluator,
+  bool evaluateRows(float least, bool nearest, float pad, RefineCallback& evaluator,
                     long long& exact) const {
     float limit = squaredLimit(evaluator, pad);
     for (int r = 0; r < rows_; ++r) {
@@ -215,20 +214,21 @@ class LeafDistances {
 /// Evaluates all features of two leaves that may be nearest.
 HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const LeafView& b,
                                   const Slab& slab, float bound) {
-  const FramePair& frames = search.frames;
-  ExactEvaluator& evaluator = search.evaluator;
+  const FloatFrame& frames = search.frames;
+  RefineCallback& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
   VertexRows moved_b;
   const Points vertices_b = moveVertices(b, frames.a_from_b, moved_b);
   // Only what overlaps can cross.
   if (bound <= 0 && edgesCross(search, a, b, vertices_b, slab)) return true;
   LeafDistances distances(a, b);
-  const float least = distances.compute(vertices_b, frames, slab, evaluator.keep_to + frames.pad);
+  const float least =
+      distances.compute(vertices_b, frames, slab, evaluator.candidate_limit + frames.pad);
   return distances.evaluateNear(least, frames.pad, evaluator, search.counts.exact);
 }
 
 HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;
@@ -264,7 +264,7 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
 }
 
 HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;

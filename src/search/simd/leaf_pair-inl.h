@@ -244,7 +244,7 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
 /// faces.
 template <bool kEdgesOfA>
 HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const LeafView& faces,
-                            float pad, ExactEvaluator& evaluator, long long& exact) {
+                            float pad, RefineCallback& evaluator, long long& exact) {
   const uint32_t used = (1U << faces.leaf.num_faces) - 1;
   for (int i = 0; i < some.count; ++i) {
     const Points chunk = {some.rows + 6 * (i / kLanes), 1};
@@ -267,7 +267,7 @@ HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const L
 /// the planes of the slab, so that edges beyond can't.
 HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
                            const Points& vertices_b, const Slab& slab) {
-  const FramePair& frames = search.frames;
+  const FloatFrame& frames = search.frames;
   long long& exact = search.counts.exact;
   const Vec3 w = slab.along.w;
   const float thickness = frames.pad * slab.along.length;

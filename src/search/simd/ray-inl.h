@@ -22,7 +22,7 @@ class RayTraversal {
       waiting = more.data();
     }
     size_t n = 0;
-    waiting[n++] = {-std::numeric_limits<float>::infinity(), 0};
+    waiting[n++] = {-kInfinityFloat, 0};
     while (n > 0) {
       const Entry at = waiting[--n];
       if (at.enter > search_.evaluator.end) continue;
@@ -73,7 +73,7 @@ class RayTraversal {
     const V y = hn::Sub(set(ray_.origin[1]), load(block.y[kCenter], l));
     const V z = hn::Sub(set(ray_.origin[2]), load(block.z[kCenter], l));
     const V pad = set(ray_.pad), least = set(0x1p-60F);
-    V low = set(-std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+    V low = set(-kInfinityFloat), high = hn::Neg(low);
     for (int axis = kAxes; axis < kAxes + 3; ++axis) {
       const V ex = load(block.x[axis], l), ey = load(block.y[axis], l), ez = load(block.z[axis], l);
       const V at = dot(ex, ey, ez, x, y, z), slope = alongRay(ex, ey, ez);
@@ -103,7 +103,7 @@ class RayTraversal {
     uint32_t near = 0;
     const V pad = set(ray_.pad), begin = set(ray_.begin), end = set(search_.evaluator.end);
     for (size_t l = 0; l < kLanes; l += step()) {
-      V low = set(-std::numeric_limits<float>::infinity()), high = hn::Neg(low), h2 = high;
+      V low = set(-kInfinityFloat), high = hn::Neg(low), h2 = high;
       clip(load(block.x[kCentral], l), load(block.y[kCentral], l), load(block.z[kCentral], l),
            load(block.r[kCentral], l), low, high, h2);
       for (const int middle : {int{kMiddle2}, int{kMiddle1}}) {

@@ -17,7 +17,7 @@ class SolidTraversal {
 
   void run() {
     const bool leaf = tree_.nodes[0].isLeaf();
-    (leaf ? frontier_.leaves : frontier_.inner).push(-kInfinity, {0, 0});
+    (leaf ? frontier_.leaves : frontier_.inner).push(-kInfinityFloat, {0, 0});
     if (!contact_ && descend()) return;
     for (;;) {
       while (!frontier_.leaves.empty()) {
@@ -36,7 +36,6 @@ class SolidTraversal {
   }
 
  private:
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   static constexpr float kWave = 0.5F;
 
   V pad() const { return hn::Set(d, search_.solid.pad); }
@@ -75,7 +74,7 @@ class SolidTraversal {
     lookAt(view, values);
     if (bounds_.tellsDistance()) return false;
     Triangles triangles;
-    boundByVertices(view, values, -kInfinity, triangles);
+    boundByVertices(view, values, -kInfinityFloat, triangles);
     boundByBoxes(view, triangles);
     if (triangles.near == 0) return false;
     uint32_t nearest = firstOf(triangles.near);
@@ -137,7 +136,7 @@ class SolidTraversal {
 
   /// Writes these rows, and offers the nearest vertex.
   void lookAt(const LeafView& view, Lanes* values) {
-    V least = hn::Set(d, kInfinity);
+    V least = hn::Set(d, kInfinityFloat);
     for (int c = 0; c < view.vertices.chunks; ++c) {
       const Lanes* const rows = view.vertices.rows + 3 * c;
       Lanes* const to = values + kRows * c;

@@ -80,7 +80,7 @@ class SolidBounds {
   V spheresOverPlanes(const Block& block, size_t l, V bounds) const {
     const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
                   load(block.z[kCentral], l)};
-    V highest = hn::Set(d, -std::numeric_limits<float>::infinity());
+    V highest = hn::Set(d, -kInfinityFloat);
     for (int i = 0; i < solid_.num_planes; ++i) {
       const FloatSlab& plane = solid_.planes[i];
       highest = hn::Max(highest, hn::Sub(dot(vec(plane.n), c), set(plane.offset)));
@@ -88,7 +88,7 @@ class SolidBounds {
     return hn::Max(bounds, hn::Sub(highest, hn::Add(load(block.r[kCentral], l), set(solid_.pad))));
   }
   V trianglesOverPlanes(const V3 (&p)[3], V bounds) const {
-    V highest = hn::Set(d, -std::numeric_limits<float>::infinity());
+    V highest = hn::Set(d, -kInfinityFloat);
     for (int i = 0; i < solid_.num_planes; ++i) {
       const FloatSlab& plane = solid_.planes[i];
       const V3 n = vec(plane.n);

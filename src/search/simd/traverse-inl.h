@@ -150,8 +150,7 @@ class Expander {
 
   void pushRoots(Frontier& frontier) const {
     const bool leaves = trees_[0]->nodes[0].isLeaf() && trees_[1]->nodes[0].isLeaf();
-    (leaves ? frontier.leaves : frontier.inner)
-        .push(-std::numeric_limits<float>::infinity(), {0, 0});
+    (leaves ? frontier.leaves : frontier.inner).push(-kInfinityFloat, {0, 0});
   }
 
   bool areLeaves(Pair at) const {
@@ -248,7 +247,7 @@ class Expander {
     }
     testLeaf(e);
     endTest(e);
-    if (!(search_.evaluator.prune_at < std::numeric_limits<float>::infinity())) return;
+    if (!(search_.evaluator.prune_at < kInfinityFloat)) return;
     tighten(e);
     if (2 * hwy::PopCount(e.near) <= e.children.count) return;
     std::swap(e.parent, e.other);

@@ -6,7 +6,7 @@ HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
 // Bounds of single triangles, which stand for a node where a leaf is split. Notation and model of
-// error are those of frame_pair.h: u = 2^-24, S the sum of the lengths.
+// error are those of float_frame.h: u = 2^-24, S the sum of the lengths.
 
 HWY_INLINE V3 cross(const V3& a, const V3& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
@@ -107,8 +107,8 @@ HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
 /// The pad of bounds by a triangle's box, twice that of nodes' boxes: 256 u S, and twice that along
 /// products of axes.
 ///
-/// The counts of frame_pair.h, with axes that are off by 8 u in place of 1 u, and g = 8 sqrt(3) * 2
-/// u < 28 u for the Gram matrix of the three:
+/// The counts of float_frame.h, with axes that are off by 8 u in place of 1 u, and g = 8 sqrt(3) *
+/// 2 u < 28 u for the Gram matrix of the three:
 /// - dual axes: g |h| <= 49 u r in place of 6 u r; a moved axis as a direction, off by 19 u in
 /// place
 ///   of 12 u; the root of a sum of squares, g / 2; the box's moved axes, 12 u more of |h'|. That is
@@ -117,7 +117,7 @@ HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
 ///   u each in place of 2 u: 28 u of h_i, 84 u r more; C is off by 7 u more an entry, and so four
 ///   factors of minors and one element, 35 u of 2.5 r', 88 u more; dual and moved axes as above.
 ///   48, 180 and 22 u become at most 340 u.
-HWY_INLINE float trianglePad(const FramePair& frames) { return 2 * frames.box_pad; }
+HWY_INLINE float trianglePad(const FloatFrame& frames) { return 2 * frames.box_pad; }
 
 /// The boxes of the triangles of the leaves that were asked for last.
 class BoxedTriangles {
@@ -201,7 +201,7 @@ HWY_INLINE Prisms movedPrism(const LeafView& leaf, uint32_t lane, const FloatPos
 ///
 /// A height above the face, or beyond an edge, is off by 16 u S at most:
 /// - where the point is moved, 9 u S for it, 5 u S for products and sums, 2 u S for the stored
-///   plane and vertices (frame_pair.h);
+///   plane and vertices (float_frame.h);
 /// - where the planes are, 7 u of the lengths that a normal is multiplied with (4 u a coordinate),
 ///   3 u for either product, 2 u S for sums, 2 u S stored: 14 u S.
 /// The root of the sum of two squares is off by sqrt(2) as much, 23 u S; planes at right angles but
@@ -210,7 +210,7 @@ HWY_INLINE Prisms movedPrism(const LeafView& leaf, uint32_t lane, const FloatPos
 /// A rotation that is one but for E, |E| <= 2 stretch, takes a normal to R n, where the plane's
 /// is R^-T n: 2 stretch S off, times sqrt(2); bounds in the other frame scale by 1 + stretch. That
 /// is 3.9 stretch S, of the 4 that two pads hold.
-HWY_INLINE float prismPad(const FramePair& frames) { return 2 * frames.pad; }
+HWY_INLINE float prismPad(const FloatFrame& frames) { return 2 * frames.pad; }
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

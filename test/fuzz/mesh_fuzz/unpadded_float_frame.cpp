@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Takes the place of src/search/frame_pair.cpp in mesh_fuzz_unpadded: float bounds pay nothing for
+// Takes the place of src/search/float_frame.cpp in mesh_fuzz_unpadded: float bounds pay nothing for
 // their rounding, which the fuzzer must notice.
 
 #define makeTreePose makePaddedTreePose
-#include "search/frame_pair.cpp"
+#include "search/float_frame.cpp"
 #undef makeTreePose
 
 namespace kios::engine {

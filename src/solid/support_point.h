@@ -7,13 +7,13 @@
 namespace kios {
 
 /// Holds the vertex of a model that lies farthest along a direction.
-struct FarthestVertex {
+struct SupportPoint {
   int vertex = -1;
   double height = 0;  ///< n . vertex; no vertex is higher by more than 2^-47 |n| largestOf(model)
 };
 
 /// Takes n in the model's frame, not zero. Branch and bound in the model's tree.
 template <typename S>
-FarthestVertex farthestAlong(const Model<S>& model, const fcl::Vector3d& n);
+SupportPoint supportPoint(const Model<S>& model, const fcl::Vector3d& n);
 
 }  // namespace kios

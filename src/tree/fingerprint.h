@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace kios::preload {
+namespace kios::engine {
 
 /// Stands for the content of two arrays of fixed lengths. Each 4 KiB give two sums of products with
 /// keys of their own (NH of UMAC, Black et al. 1999), and a polynomial modulo 2^61 - 1 runs over
@@ -17,9 +17,8 @@ struct Fingerprint {
   bool operator==(const Fingerprint& o) const { return first == o.first && second == o.second; }
 };
 
-/// Hashes two arrays of so many bytes, multiples of 8. Reads them once, about as fast as memory
-/// allows.
+/// Returns that of two arrays of so many bytes. Reads them once, about as fast as memory allows.
 Fingerprint fingerprint(const void* one, std::size_t one_bytes, const void* other,
                         std::size_t other_bytes);
 
-}  // namespace kios::preload
+}  // namespace kios::engine

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/fingerprint.h"
+#include "tree/fingerprint.h"
 
 #include <chrono>
 #include <cstring>
@@ -8,25 +8,25 @@
 #include <numeric>
 #include <random>
 
-#include "search/simd/targets.h"
+#include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "preload/fingerprint.cpp"
+#define HWY_TARGET_INCLUDE "tree/fingerprint.cpp"
 #include <hwy/foreach_target.h>  // NOLINT(llvm-include-order)
 #include <hwy/highway.h>         // NOLINT(llvm-include-order)
 
 HWY_BEFORE_NAMESPACE();
-namespace kios::preload::HWY_NAMESPACE {
+namespace kios::engine::HWY_NAMESPACE {
 
 /// Adds to sums[k], for each 64 bits of data, the product of their two halves, each with its half
-/// of key k added modulo 2^32; modulo 2^64. Bytes are a multiple of 8.
+/// of key k added modulo 2^32; modulo 2^64. Bytes that lack at the end count as zeros.
 void addProducts(const uint8_t* HWY_RESTRICT data, size_t bytes, const uint8_t* HWY_RESTRICT key0,
                  const uint8_t* HWY_RESTRICT key1, uint64_t* HWY_RESTRICT sums) {
 #if HWY_TARGET == HWY_SCALAR
   for (size_t i = 0; i < bytes; i += 8) {
-    uint32_t x[2], k[2];
+    uint32_t x[2] = {}, k[2];
     const uint8_t* const keys[2] = {key0, key1};
-    std::memcpy(x, data + i, 8);
+    std::memcpy(x, data + i, bytes - i < 8 ? bytes - i : 8);
     for (int s = 0; s < 2; ++s) {
       std::memcpy(k, keys[s] + i, 8);
       sums[s] += uint64_t{x[0] + k[0]} * uint64_t{x[1] + k[1]};
@@ -70,11 +70,11 @@ void addProducts(const uint8_t* HWY_RESTRICT data, size_t bytes, const uint8_t* 
 #endif
 }
 
-}  // namespace kios::preload::HWY_NAMESPACE
+}  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace kios::preload {
+namespace kios::engine {
 namespace {
 
 HWY_EXPORT(addProducts);
@@ -154,5 +154,5 @@ Fingerprint fingerprint(const void* one, std::size_t one_bytes, const void* othe
   return {polynomials[0], polynomials[1]};
 }
 
-}  // namespace kios::preload
+}  // namespace kios::engine
 #endif  // HWY_ONCE

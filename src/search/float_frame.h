@@ -62,7 +62,7 @@ struct FloatPose {
 ///   42 u (h'_1 + h'_2), in all 110 u r'; products and sums 4 u r'.
 /// These are 48 u of the reach that stands still, 180 u of that which moves, and 22 u |t|: below
 /// 192 u S, for which twice the pad is taken.
-struct FramePair {
+struct FloatFrame {
   FloatPose a_from_b, b_from_a;
   float pad;
   float box_pad;
@@ -80,10 +80,10 @@ struct TreePose {
 /// both models. The exact search of layer 1 then does.
 template <typename S>
 bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out);
-void makeFramePair(const TreePose& X_AB, FramePair& out);
+void makeFloatFrame(const TreePose& X_AB, FloatFrame& out);
 
 /// Both at once.
 template <typename S>
-bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out);
+bool makeFloatFrame(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FloatFrame& out);
 
 }  // namespace kios::engine

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tree/quick_fit.h"
+#include "tree/moment_fit.h"
 
 #include "tree/node_layout.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
@@ -86,7 +85,6 @@ Box boxOf(const Eigen::Matrix3f& axes, const Extents& e, const Eigen::Vector3f& 
 }  // namespace
 
 Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
   const double square = first.dot(first), square_b = second.dot(second);
@@ -213,8 +211,8 @@ Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t
   return boxOf(axes, e, e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high)));
 }
 
-void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
-              Box* box) {
+void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
+               Box* box) {
   const Eigen::Matrix3f axes = principalAxes(moments);
   const Extents e = extentsAlong(axes, chunks, num_chunks);
   const Eigen::Vector3f half = 0.5F * (e.high - e.low);

@@ -44,7 +44,7 @@ Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t
 /// of the box, in two passes. Less tight than SphereFitter by some percent, and several times as
 /// fast. Every sphere (a cap is middle +- half, in exact arithmetic) and the box enclose the
 /// points.
-void quickFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
-              Box* box);
+void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
+               Box* box);
 
 }  // namespace kios::engine

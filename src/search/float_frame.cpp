@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "search/frame_pair.h"
+#include "search/float_frame.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -45,7 +45,7 @@ bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, Tre
 
 // The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by
 // 3 stretch S: far below a rounding in float, which the counts have room for, if the stretch is.
-void makeFramePair(const TreePose& X_AB, FramePair& out) {
+void makeFloatFrame(const TreePose& X_AB, FloatFrame& out) {
   constexpr double kRigid = 0x1p-30;
   Eigen::Matrix3d inverse;
   if (X_AB.stretch <= kRigid) {
@@ -61,16 +61,16 @@ void makeFramePair(const TreePose& X_AB, FramePair& out) {
 }
 
 template <typename S>
-bool makeFramePair(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FramePair& out) {
+bool makeFloatFrame(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FloatFrame& out) {
   TreePose pose;
   if (!makeTreePose(a, b, X_AB, pose)) return false;
-  makeFramePair(pose, out);
+  makeFloatFrame(pose, out);
   return true;
 }
 
 #define KIOS_INSTANTIATE(S)                                                                \
   template bool makeTreePose(const Tree&, const Tree&, const RelativePose<S>&, TreePose&); \
-  template bool makeFramePair(const Tree&, const Tree&, const RelativePose<S>&, FramePair&);
+  template bool makeFloatFrame(const Tree&, const Tree&, const RelativePose<S>&, FloatFrame&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/fingerprint.h"
+#include "tree/fingerprint.h"
 
 #include <cstring>
 #include <random>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-namespace kios::preload {
+namespace kios::engine {
 namespace {
 
 using Words = std::vector<std::uint64_t>;
@@ -43,6 +43,22 @@ TEST(Fingerprint, EveryWordCounts) {
         ASSERT_FALSE(of(one, other) == before) << n << " words, at " << &word - words->data();
         word ^= bit;
       }
+    }
+  }
+}
+
+// Lengths that no word divides: those of floats.
+TEST(Fingerprint, EveryByteCounts) {
+  std::mt19937_64 random(3);
+  for (const std::size_t n : kLengths) {
+    for (std::size_t bytes = 8 * n + 1; bytes < 8 * n + 8; ++bytes) {
+      Words words = randomWords(n + 1, random);
+      auto* const at = reinterpret_cast<unsigned char*>(words.data());
+      const Fingerprint before = fingerprint(at, bytes, nullptr, 0);
+      at[bytes] ^= 1;  // beyond the end
+      EXPECT_EQ(fingerprint(at, bytes, nullptr, 0), before);
+      at[bytes - 1] ^= 1;
+      EXPECT_FALSE(fingerprint(at, bytes, nullptr, 0) == before) << bytes;
     }
   }
 }
@@ -86,4 +102,4 @@ TEST(Fingerprint, NoTwoLikeArraysAgree) {
 }
 
 }  // namespace
-}  // namespace kios::preload
+}  // namespace kios::engine

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+
+#include <fcl/narrowphase/collision_request.h>
+#include <fcl/narrowphase/collision_result.h>
+#include <fcl/narrowphase/distance_request.h>
+#include "fcl_kios/model/model.h"
+#include "query/mesh_pair.h"
+#include "query/triangle_contact.h"
+#include "volume/errors.h"
+
+namespace kios {
+
+/// Throws std::invalid_argument if an error bound is negative or NaN.
+template <typename S>
+void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
+  require(request.rel_err >= 0, "DistanceRequest::rel_err", request.rel_err, ">= 0");
+  require(request.abs_err >= 0, "DistanceRequest::abs_err", request.abs_err, ">= 0");
+}
+
+/// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
+/// contacts, as many as the request leaves room for.
+template <typename S>
+void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p, const Model<S>& b,
+                 int id_b, const TriangleVertices<S>& q, const fcl::Transform3<S>& X_WA,
+                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  const std::size_t room =
+      request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
+  if (!request.enable_contact) {
+    const fcl::Vector3<S> unset = fcl::Vector3<S>::Zero();  // FCL leaves it uninitialised
+    if (room > 0) {
+      result.addContact(fcl::Contact<S>(&a, &b, id_a, id_b, unset, unset, S(0)));
+    }
+    return;
+  }
+  const TriangleContact<S> contact = triangleContact(p, q);
+  for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
+    result.addContact(
+        fcl::Contact<S>(&a, &b, id_a, id_b, detail::transform<S>(X_WA, contact.points[i]),
+                        detail::rotate<S>(X_WA.linear(), contact.normal), contact.depth));
+  }
+}
+
+}  // namespace kios
