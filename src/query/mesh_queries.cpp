@@ -33,13 +33,22 @@ template <typename S>
   fcl::detail::collide(&node);
 }
 
+/// Returns true if one model is so much larger than the other, as a floor than a link, that its
+/// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
+template <typename S>
+bool areUnlike(const MeshPair<S>& frame) {
+  constexpr S kMuch = 16;
+  const S a = frame.rootA().radius0, b = frame.rootB().radius0;
+  return a > kMuch * b || b > kMuch * a;
+}
+
 /// collideMeshes() of models that may touch, for all that farApart() can tell.
 template <typename S>
 [[gnu::noinline]] void collideNear(const MeshPair<S>& frame, const fcl::Transform3<S>& X_WA,
                                    const fcl::Transform3<S>& X_WB,
                                    const fcl::CollisionRequest<S>& request,
                                    fcl::CollisionResult<S>& result, SearchCounts& counts) {
-  if (frame.rootBound(0) > 0) return;
+  if (!areUnlike(frame) && frame.rootBound(0) > 0) return;
   if (verticesApart(frame, 0)) return;
   const Model<S>&a = frame.a, &b = frame.b;
   const bool occupied = a.isOccupied() && b.isOccupied();
