@@ -48,14 +48,15 @@ template <typename S>
                                    const fcl::Transform3<S>& X_WB,
                                    const fcl::CollisionRequest<S>& request,
                                    fcl::CollisionResult<S>& result, SearchCounts& counts) {
-  if (!areUnlike(frame) && frame.rootBound(0) > 0) return;
-  if (verticesApart(frame, 0)) return;
   const Model<S>&a = frame.a, &b = frame.b;
+  const bool few = areFew(a, b);
+  if ((few || !areUnlike(frame)) && frame.rootBound(0) > 0) return;
+  if (verticesApart(frame, 0)) return;
   const bool occupied = a.isOccupied() && b.isOccupied();
   if (occupied && !request.enable_cost) {
     const std::size_t room = request.num_max_contacts - result.numContacts();
     std::vector<engine::TrianglePairIds> found;
-    if (areFew(a, b)) {
+    if (few) {
       found = intersectingOfFew(frame, room, counts);
     } else {
       // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
