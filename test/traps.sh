@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: traps.sh PROGRAM...
-# Runs the programs' traps_test.cpp with each instruction set of this machine and build but the best, with which
-# their own tests run.
+# Runs the programs' traps_test.cpp with each instruction set of this machine and build but the best,
+# with which their own tests run.
 set -eu
 failed=0
 ran=0
