@@ -22,11 +22,11 @@ using scenes::Random;
 
 /// Holds a mesh in the precision of a query.
 template <typename S>
-struct Shape {
+struct MeshIn {
   std::vector<fcl::Vector3<S>> vertices;
   std::vector<fcl::Triangle> triangles;
 
-  explicit Shape(const Mesh& mesh) : triangles(mesh.triangles) {
+  explicit MeshIn(const Mesh& mesh) : triangles(mesh.triangles) {
     for (const fcl::Vector3d& p : mesh.vertices) vertices.push_back(p.template cast<S>());
   }
   TriangleVertices<S> corners(std::size_t t) const {

@@ -7,7 +7,7 @@
 
 #include "fcl_kios/build/fit.h"
 
-namespace kios::test {
+namespace kios::testing {
 
 /// Returns every method with every choice of k, own and shared radii, and two other angles.
 inline std::vector<FitOptions> allFits() {
@@ -42,4 +42,4 @@ inline std::string nameOf(const FitOptions& options) {
          std::to_string(options.angle);
 }
 
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -11,7 +11,7 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 template <typename S>
@@ -54,8 +54,8 @@ class Checker {
 };
 
 template <typename S>
-class FitContainment : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class FitContainment : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(FitContainment, Scalars);
 
 TYPED_TEST(FitContainment, HardSetsOfAnyShapePlaceAndScale) {
@@ -143,4 +143,4 @@ TYPED_TEST(FitContainment, RadiusStaysNearTheContentsSize) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -8,10 +8,8 @@
 #include "build/enclosing_ellipsoid.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
-
-using Vec = Eigen::Vector3d;
 
 PointLanes lanesOf(const Points<double>& points) {
   PointLanes lanes;
@@ -24,16 +22,19 @@ PointLanes lanesOf(const Points<double>& points) {
   return lanes;
 }
 
-Vec pointOf(const PointLanes& lanes, int i) { return {lanes.x()[i], lanes.y()[i], lanes.z()[i]}; }
+fcl::Vector3d pointOf(const PointLanes& lanes, int i) {
+  return {lanes.x()[i], lanes.y()[i], lanes.z()[i]};
+}
 
 /// Returns the corners of an octahedron (6) or a cube (8) on the unit sphere.
 Points<double> regularPoints(int corners) {
   Points<double> points;
   for (int i = 0; i < corners; ++i) {
     if (corners == 6) {
-      points.push_back((i % 2 ? 1 : -1) * Vec::Unit(i / 2));
+      points.push_back((i % 2 ? 1 : -1) * fcl::Vector3d::Unit(i / 2));
     } else {
-      points.push_back(Vec(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1) / std::sqrt(3.0));
+      points.push_back(fcl::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1) /
+                       std::sqrt(3.0));
     }
   }
   return points;
@@ -42,15 +43,15 @@ Points<double> regularPoints(int corners) {
 TEST(Ellipsoid, OfAnAffineImageOfARegularSolidIsTheImageOfItsSphere) {
   Random random(1);
   for (int set = 0; set < 500; ++set) {
-    const Vec half(1, random.uniform(0.3, 0.9), std::pow(10, -random.uniform(0.6, 2)));
+    const fcl::Vector3d half(1, random.uniform(0.3, 0.9), std::pow(10, -random.uniform(0.6, 2)));
     const Eigen::Matrix3d R = randomRotation(random);
-    const Vec center(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const fcl::Vector3d center(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     Points<double> points = regularPoints(set % 2 ? 6 : 8);
     // Points inside change nothing.
     for (int i = 0; i < set % 50; ++i) {
       points.push_back(0.9 * random.unit() * randomDirection(random));
     }
-    for (Vec& p : points) p = center + R * half.cwiseProduct(p);
+    for (fcl::Vector3d& p : points) p = center + R * half.cwiseProduct(p);
     const EnclosingEllipsoid e = smallestEllipsoid(lanesOf(points), 1e-4);
     ASSERT_EQ(e.rank, 3);
     ASSERT_LE(e.gap, 1e-4);
@@ -72,7 +73,7 @@ std::string wrong(const EnclosingEllipsoid& e, const PointLanes& lanes) {
   }
   // Containment within the affine hull; across it the points lie within what counts as flat.
   for (int i = 0; i < lanes.size(); ++i) {
-    const Vec x = e.axes.transpose() * (pointOf(lanes, i) - e.center);
+    const fcl::Vector3d x = e.axes.transpose() * (pointOf(lanes, i) - e.center);
     double sum = 0;
     for (int k = 0; k < e.rank; ++k) sum += x[k] * x[k] / (e.half[k] * e.half[k]);
     // Coordinates relative to the centre are known to 1e-15 of their size.
@@ -118,7 +119,7 @@ TEST(Ellipsoid, IsCertifiedOnHardSets) {
   Random random(2);
   int ranks[4] = {};
   for (int set = 0; set < 20'000; ++set) {
-    const auto shape = static_cast<Shape>(below(random, kShapes));
+    const auto shape = static_cast<PointShape>(below(random, kPointShapes));
     const PointLanes lanes =
         lanesOf(place<double>(random, shapePoints(random, shape, randomCount(random)), 0, 1));
     const EnclosingEllipsoid e = smallestEllipsoid(lanes, 1e-3);
@@ -133,7 +134,7 @@ TEST(Ellipsoid, IsCertifiedOnHardSets) {
 TEST(Ellipsoid, IsCertifiedOnLargeSets) {
   Random random(3);
   for (int set = 0; set < 60; ++set) {
-    const auto shape = static_cast<Shape>(set % kShapes);
+    const auto shape = static_cast<PointShape>(set % kPointShapes);
     const PointLanes lanes =
         lanesOf(place<double>(random, shapePoints(random, shape, 500 + below(random, 3000)), 0, 1));
     const EnclosingEllipsoid e = smallestEllipsoid(lanes, 1e-3);
@@ -153,7 +154,7 @@ TEST(Ellipsoid, OfATriangleIsSteiners) {
   EXPECT_NEAR(e.half[0], 3, 1e-5);
   EXPECT_NEAR(e.half[1], 1, 1e-5);
   EXPECT_EQ(e.half[2], 0);
-  EXPECT_LT((e.center - Vec(0, 0, 5)).norm(), 1e-5);
+  EXPECT_LT((e.center - fcl::Vector3d(0, 0, 5)).norm(), 1e-5);
   EXPECT_EQ(e.weights.size(), 3U);
 }
 
@@ -163,13 +164,13 @@ TEST(Ellipsoid, OfASegmentAndOfAPoint) {
   EXPECT_EQ(segment.rank, 1);
   EXPECT_NEAR(segment.half[0], 3, 1e-5);
   EXPECT_EQ(segment.half[1], 0);
-  EXPECT_LT((segment.center - Vec(1, 2, 2)).norm(), 1e-5);
+  EXPECT_LT((segment.center - fcl::Vector3d(1, 2, 2)).norm(), 1e-5);
 
   const EnclosingEllipsoid point = smallestEllipsoid(lanesOf({{1, 2, 3}, {1, 2, 3}}), 1e-6);
   EXPECT_EQ(point.rank, 0);
-  EXPECT_EQ(point.half, Vec(0, 0, 0));
-  EXPECT_EQ(point.center, Vec(1, 2, 3));
+  EXPECT_EQ(point.half, fcl::Vector3d(0, 0, 0));
+  EXPECT_EQ(point.center, fcl::Vector3d(1, 2, 3));
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

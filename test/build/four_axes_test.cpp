@@ -10,7 +10,7 @@
 
 #include "scenes/random.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 Scatter scatterOf(const Eigen::Matrix3d& m) {
@@ -60,4 +60,4 @@ TEST(FourAxes, AnyMatrixGivesOrthonormalAxes) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

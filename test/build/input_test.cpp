@@ -11,7 +11,7 @@
 #include "together.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 template <typename S>
@@ -67,7 +67,7 @@ TYPED_TEST(FitInput, CoordinatesThatAreNotFiniteAreRefusedByName) {
   const char* const names[] = {"nan", "inf", "-inf"};
   for (int n = 1; n < 40; ++n) {
     for (int i = 0; i < 9; ++i) {
-      auto points = place<S>(random, shapePoints(random, Shape::kRandom, n), 0, 1);
+      auto points = place<S>(random, shapePoints(random, PointShape::kRandom, n), 0, 1);
       points[below(random, n)][i % 3] = bad[i / 3];
       for (const FitOptions& options : kFits) {
         const std::string message = refusal(points, options);
@@ -141,4 +141,4 @@ TYPED_TEST(FitInput, ThreadsFitAlike) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

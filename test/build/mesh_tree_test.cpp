@@ -25,7 +25,7 @@ struct Built {
   std::vector<unsigned int> primitives;
   bool whole;
 
-  explicit Built(const Shape<S>& shape)
+  explicit Built(const MeshIn<S>& shape)
       : nodes(2 * shape.triangles.size() - 1), primitives(shape.triangles.size()) {
     whole = engine::buildVolumes(viewOf(shape), nodes.data(), primitives.data());
   }
@@ -69,12 +69,12 @@ int expectOrder(const Built<S>& built) {
 }
 
 template <typename S>
-void expectContained(const Shape<S>& shape, const Built<S>& built) {
+void expectContained(const MeshIn<S>& shape, const Built<S>& built) {
   int outside = 0;
   for (const auto& node : built.nodes) {
     for (int i = 0; i < node.num_primitives; ++i) {
       for (const auto& p : shape.corners(built.primitives[node.first_primitive + i])) {
-        outside += !test::containsExactly(node.bv, p) || !node.bv.contain(p);
+        outside += !testing::containsExactly(node.bv, p) || !node.bv.contain(p);
       }
     }
   }
@@ -107,7 +107,7 @@ TYPED_TEST(MeshTree, EveryVolumeHoldsItsVertices) {
   meshes.push_back({"details of three sizes", detail});
   for (const NamedMesh& named : meshes) {
     SCOPED_TRACE(named.name + ", " + std::to_string(named.mesh.triangles.size()));
-    const Shape<S> shape(named.mesh);
+    const MeshIn<S> shape(named.mesh);
     const Built<S> built(shape);
     ASSERT_TRUE(built.whole);
     expectOrder(built);
@@ -120,7 +120,7 @@ TYPED_TEST(MeshTree, WhatItCantServeIsRefused) {
   const S none = std::numeric_limits<S>::quiet_NaN(), huge = std::numeric_limits<S>::infinity();
   const S far = sizeof(S) == sizeof(double) ? S(1e200) : S(1e25F);
   for (const S bad : {none, huge, -huge, far}) {
-    Shape<S> shape(scenes::bumpyTorus(300));
+    MeshIn<S> shape(scenes::bumpyTorus(300));
     shape.vertices[17][1] = bad;
     EXPECT_FALSE(Built<S>(shape).whole);
   }
@@ -128,7 +128,7 @@ TYPED_TEST(MeshTree, WhatItCantServeIsRefused) {
 
 /// Over a tree, radii are hardly larger than those of the tuned fit of the same points.
 TEST(MeshTreeFit, IsNearlyAsTightAsTheTunedFit) {
-  const Shape<double> shape(scenes::bumpyTorus(6000));
+  const MeshIn<double> shape(scenes::bumpyTorus(6000));
   const Built<double> built(shape);
   struct Sum {
     double s0 = 0, cap = 0, worst = 0;
@@ -209,7 +209,7 @@ TYPED_TEST(MeshTree, NoMeshIsDeep) {
   for (const int count : {1000, 100000}) {
     for (const NamedMesh& named : hardMeshes(count)) {
       SCOPED_TRACE(named.name);
-      const Shape<S> shape(named.mesh);
+      const MeshIn<S> shape(named.mesh);
       const Built<S> built(shape);
       ASSERT_TRUE(built.whole);
       const int deepest = expectOrder(built);

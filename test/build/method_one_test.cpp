@@ -10,10 +10,8 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
-
-using Vec = fcl::Vector3d;
 
 kIOSd fitWith(const Points<double>& points, const FitOptions& options) {
   kIOSd v;
@@ -30,30 +28,31 @@ FitOptions optionsOf(FitMethod method, SphereCount count, bool shared = false) {
 
 /// Returns points whose smallest enclosing ellipsoid has the semi-axes `half` along the columns of
 /// R: the six poles and random points of its surface.
-Points<double> ellipsoidPoints(Random& random, const Vec& half, const fcl::Matrix3d& R,
-                               const Vec& center) {
+Points<double> ellipsoidPoints(Random& random, const fcl::Vector3d& half, const fcl::Matrix3d& R,
+                               const fcl::Vector3d& center) {
   Points<double> points;
   for (int i = 0; i < 60; ++i) {
-    const Vec unit = i < 6 ? Vec((i % 2 ? 1 : -1) * Vec::Unit(i / 2)) : randomDirection(random);
+    const fcl::Vector3d unit = i < 6 ? fcl::Vector3d((i % 2 ? 1 : -1) * fcl::Vector3d::Unit(i / 2))
+                                     : randomDirection(random);
     points.push_back(center + R * half.cwiseProduct(unit));
   }
   return points;
 }
 
-Vec capOffset(const kIOSd& v, int i) {
-  return std::ldexp(1.0, v.exponent) * Vec(v.cap_x[i], v.cap_y[i], v.cap_z[i]);
+fcl::Vector3d capOffset(const kIOSd& v, int i) {
+  return std::ldexp(1.0, v.exponent) * fcl::Vector3d(v.cap_x[i], v.cap_y[i], v.cap_z[i]);
 }
 double capRadius(const kIOSd& v, int i) { return std::ldexp(double{v.cap_r[i]}, v.exponent); }
 
 TEST(MethodOne, PutsSpheresWhereThePaperDoes) {
   Random random(1);
   for (int set = 0; set < 1'000; ++set) {
-    const Vec half(1, random.uniform(0.35, 0.62), random.uniform(0.05, 0.33));
+    const fcl::Vector3d half(1, random.uniform(0.35, 0.62), random.uniform(0.05, 0.33));
     const fcl::Matrix3d R = randomRotation(random);
-    const Vec center = 10 * randomDirection(random);
+    const fcl::Vector3d center = 10 * randomDirection(random);
     const double scale = std::pow(10, random.uniform(-6, 6));
     auto points = ellipsoidPoints(random, half, R, center);
-    for (Vec& p : points) p *= scale;
+    for (fcl::Vector3d& p : points) p *= scale;
     const kIOSd v = fitWith(points, FitMethod::kMethodI);
     ASSERT_EQ(v.k(), 5);
     // The volume of the ellipsoid is within 0.15 %, an axis within a few per mille.
@@ -63,8 +62,8 @@ TEST(MethodOne, PutsSpheresWhereThePaperDoes) {
     const double r1 = scale / half[2];         // a^2 / c
     for (int i = 0; i < 4; ++i) {
       const int axis = i < 2 ? 2 : 1;
-      const Vec along = R.col(axis) * (r1 - scale * half[axis]);
-      const Vec o = capOffset(v, i);
+      const fcl::Vector3d along = R.col(axis) * (r1 - scale * half[axis]);
+      const fcl::Vector3d o = capOffset(v, i);
       ASSERT_LT(std::min((o - along).norm(), (o + along).norm()), 0.05 * r1) << "set " << set;
       // Measured: at most the radius that encloses the ellipsoid, and no less than the pole's.
       ASSERT_LE(capRadius(v, i), r1 * 1.02) << "set " << set;
@@ -80,8 +79,8 @@ TEST(MethodOne, FlatContentHasFiniteSpheresThatCutItOff) {
   Random random(2);
   for (int set = 0; set < 300; ++set) {
     const auto points = place<double>(
-        random, shapePoints(random, set % 2 ? Shape::kCoplanar : Shape::kTriangle, 12), set % 3,
-        1e3);
+        random, shapePoints(random, set % 2 ? PointShape::kCoplanar : PointShape::kTriangle, 12),
+        set % 3, 1e3);
     const kIOSd v = fitWith(points, FitMethod::kMethodI);
     if (v.k() == 1) continue;
     for (int i = 0; i < v.k() - 1; ++i) {
@@ -100,7 +99,7 @@ TEST(MethodOne, FlatContentHasFiniteSpheresThatCutItOff) {
 TEST(MethodOne, AtAnAngleIsMethodOneUnlessFlat) {
   Random random(6);
   for (int set = 0; set < 200; ++set) {
-    const Vec half(1, 0.6, random.uniform(0.52, 0.6));
+    const fcl::Vector3d half(1, 0.6, random.uniform(0.52, 0.6));
     const auto points = ellipsoidPoints(random, half, randomRotation(random), {0, 0, 0});
     ASSERT_TRUE(bitwiseEqual(fitWith(points, FitMethod::kMethodI),
                              fitWith(points, FitMethod::kMethodIAtAngle)));
@@ -114,7 +113,7 @@ TEST(FitOptions, KIsChosenAsAsked) {
   Random random(3);
   // Half extents, and k of the published methods by ratio.
   const struct {
-    Vec half;
+    fcl::Vector3d half;
     int k;
   } cases[] = {{{1, 0.9, 0.8}, 1}, {{1, 0.8, 0.5}, 3}, {{1, 0.5, 0.4}, 5}, {{1, 0.3, 0.01}, 5}};
   for (const auto& box : cases) {
@@ -136,7 +135,7 @@ TEST(FitOptions, KIsChosenAsAsked) {
   for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
     EXPECT_EQ(fitWith(ball, optionsOf(method, SphereCount::kByGain)).k(), 1);
   }
-  const Points<double> point(3, Vec(1, 2, 3));
+  const Points<double> point(3, fcl::Vector3d(1, 2, 3));
   for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
     EXPECT_EQ(fitWith(point, optionsOf(FitMethod::kMethodI, count)).k(), 1);
   }
@@ -149,7 +148,7 @@ TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {
   Random random(4);
   int larger = 0;
   for (int set = 0; set < 500; ++set) {
-    const auto points = place<double>(random, shapePoints(random, Shape::kRandom, 30), 1, 1);
+    const auto points = place<double>(random, shapePoints(random, PointShape::kRandom, 30), 1, 1);
     for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
       const kIOSd own = fitWith(points, optionsOf(method, SphereCount::kAll));
       const kIOSd shared = fitWith(points, optionsOf(method, SphereCount::kAll, true));
@@ -161,10 +160,10 @@ TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {
         larger += capRadius(shared, i) > 1.01 * capRadius(own, i);
         // Moved along the axis by what it gained, and so ends where it did.
         const double gained = capRadius(shared, i) - capRadius(own, i);
-        const Vec way = capOffset(shared, i) - capOffset(own, i);
+        const fcl::Vector3d way = capOffset(shared, i) - capOffset(own, i);
         ASSERT_NEAR(way.norm(), gained, 1e-4 * largest) << "set " << set;
         // Near a cube a published centre may lie on the wrong side of S0's.
-        const Vec axis = capOffset(own, i) - capOffset(own, i ^ 1);
+        const fcl::Vector3d axis = capOffset(own, i) - capOffset(own, i ^ 1);
         if (fitWith(points, method).k() == 5) {
           ASSERT_GE(way.dot(axis.normalized()), 0.9 * gained - 1e-4 * largest) << "set " << set;
         }
@@ -195,4 +194,4 @@ TEST(FitOptions, ASmallerAngleGivesLargerAndFlatterCaps) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -11,28 +11,26 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
-
-using Vec = fcl::Vector3d;
 
 struct Published {
   int k;
   double a, b, c, r0, r1;
-  Vec o, e1, e2;
-  Vec center[5];
+  fcl::Vector3d o, e1, e2;
+  fcl::Vector3d center[5];
   double radius[5];
 };
 
-double farthest(const Points<double>& points, const Vec& from) {
+double farthest(const Points<double>& points, const fcl::Vector3d& from) {
   double r = 0;
-  for (const Vec& p : points) r = std::max(r, (p - from).norm());
+  for (const fcl::Vector3d& p : points) r = std::max(r, (p - from).norm());
   return r;
 }
 
 /// The centre o +- height e, moved outwards by r1 - r', or with the radius r' if that is larger.
-void placeCap(const Points<double>& points, const Vec& o, const Vec& outwards, double height,
-              double r1, Vec& center, double& radius) {
+void placeCap(const Points<double>& points, const fcl::Vector3d& o, const fcl::Vector3d& outwards,
+              double height, double r1, fcl::Vector3d& center, double& radius) {
   center = o + height * outwards;
   const double measured = farthest(points, center);
   radius = std::max(r1, measured);
@@ -41,17 +39,17 @@ void placeCap(const Points<double>& points, const Vec& o, const Vec& outwards, d
 
 Published published(const Points<double>& points) {
   Published v;
-  Vec mean = Vec::Zero();
-  for (const Vec& p : points) mean += p / static_cast<double>(points.size());
+  fcl::Vector3d mean = fcl::Vector3d::Zero();
+  for (const fcl::Vector3d& p : points) mean += p / static_cast<double>(points.size());
   fcl::Matrix3d covariance = fcl::Matrix3d::Zero();
-  for (const Vec& p : points) covariance += (p - mean) * (p - mean).transpose();
+  for (const fcl::Vector3d& p : points) covariance += (p - mean) * (p - mean).transpose();
   const fcl::Matrix3d axes =
       Eigen::SelfAdjointEigenSolver<fcl::Matrix3d>(covariance).eigenvectors();
   std::array<std::pair<double, int>, 3> half;
   v.o.setZero();
   for (int i = 0; i < 3; ++i) {
     double low = 1e300, high = -1e300;
-    for (const Vec& p : points) {
+    for (const fcl::Vector3d& p : points) {
       low = std::min(low, axes.col(i).dot(p));
       high = std::max(high, axes.col(i).dot(p));
     }
@@ -74,7 +72,7 @@ Published published(const Points<double>& points) {
   const double height2 = v.r1 * std::cos(angle) - v.c;
   const double height1 = std::sqrt(v.r1 * v.r1 - (v.a * v.a + v.c * v.c)) - v.b;
   for (int i = 1; i < v.k; ++i) {
-    const Vec outwards = (i % 2 ? 1 : -1) * (i <= 2 ? v.e2 : v.e1);
+    const fcl::Vector3d outwards = (i % 2 ? 1 : -1) * (i <= 2 ? v.e2 : v.e1);
     placeCap(points, v.o, outwards, i <= 2 ? height2 : height1, v.r1, v.center[i], v.radius[i]);
   }
   return v;
@@ -102,10 +100,11 @@ kIOSd methodTwo(const Points<double>& points) {
   return v;
 }
 
-Vec centerOf(const kIOSd& v, int i) {
+fcl::Vector3d centerOf(const kIOSd& v, int i) {
   return i == 0 ? v.center0
-                : Vec(v.center0 + std::ldexp(1.0, v.exponent) *
-                                      Vec(v.cap_x[i - 1], v.cap_y[i - 1], v.cap_z[i - 1]));
+                : fcl::Vector3d(v.center0 +
+                                std::ldexp(1.0, v.exponent) *
+                                    fcl::Vector3d(v.cap_x[i - 1], v.cap_y[i - 1], v.cap_z[i - 1]));
 }
 double radiusOf(const kIOSd& v, int i) {
   return i == 0 ? v.radius0 : std::ldexp(double{v.cap_r[i - 1]}, v.exponent);
@@ -118,8 +117,8 @@ TEST(MethodTwo, IsThePapersConstruction) {
     const double b = random.uniform(0.2, 0.95), c = b * random.uniform(0.05, 0.9);
     auto points = place<double>(random, boxPoints(random, 12 + below(random, 40), b, c), 0, 1);
     const double scale = std::pow(10.0, random.uniform(-6, 6));
-    const Vec shift = 10 * randomDirection(random);
-    for (Vec& p : points) p = scale * (p + shift);
+    const fcl::Vector3d shift = 10 * randomDirection(random);
+    for (fcl::Vector3d& p : points) p = scale * (p + shift);
 
     const Published expected = published(points);
     const double size = expected.r0;
@@ -188,4 +187,4 @@ TEST(MethodTwo, CapsOfOneRadius) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

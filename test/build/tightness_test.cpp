@@ -9,10 +9,10 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
-using Vec = fcl::Vector3<long double>;
+using ExactVector = fcl::Vector3<long double>;
 
 /// Holds the minimal enclosing ball, by Welzl's algorithm, in coordinates relative to the first
 /// point.
@@ -23,13 +23,13 @@ class MinimalBall {
     for (const auto& p : points) {
       points_.push_back(p.template cast<long double>() - points[0].template cast<long double>());
     }
-    std::vector<Vec> support;
+    std::vector<ExactVector> support;
     extend(points_.size(), support);
   }
   double radius() const { return static_cast<double>(std::sqrt(squared_)); }
 
  private:
-  void extend(std::size_t n, std::vector<Vec>& support) {
+  void extend(std::size_t n, std::vector<ExactVector>& support) {
     ballThrough(support);
     if (support.size() == 4) return;
     for (std::size_t i = 0; i < n; ++i) {
@@ -40,14 +40,14 @@ class MinimalBall {
     }
   }
   /// The least ball with all of the support on its boundary.
-  void ballThrough(const std::vector<Vec>& support) {
+  void ballThrough(const std::vector<ExactVector>& support) {
     if (support.empty()) {
       squared_ = -1;
       center_.setZero();
       return;
     }
     const int n = static_cast<int>(support.size()) - 1;
-    Vec offset = Vec::Zero();
+    ExactVector offset = ExactVector::Zero();
     if (n > 0) {
       Eigen::Matrix<long double, 3, Eigen::Dynamic> edges(3, n);
       for (int i = 0; i < n; ++i) edges.col(i) = support[i + 1] - support[0];
@@ -59,8 +59,8 @@ class MinimalBall {
     squared_ = offset.squaredNorm();
   }
 
-  std::vector<Vec> points_;
-  Vec center_ = Vec::Zero();
+  std::vector<ExactVector> points_;
+  ExactVector center_ = ExactVector::Zero();
   long double squared_ = -1;
 };
 
@@ -68,10 +68,10 @@ class MinimalBall {
 /// acute.
 template <typename S>
 long double minimalCircle(const Points<S>& t) {
-  const Vec p[3] = {t[0].template cast<long double>(), t[1].template cast<long double>(),
-                    t[2].template cast<long double>()};
+  const ExactVector p[3] = {t[0].template cast<long double>(), t[1].template cast<long double>(),
+                            t[2].template cast<long double>()};
   long double edge[3] = {(p[2] - p[1]).norm(), (p[2] - p[0]).norm(), (p[1] - p[0]).norm()};
-  const long double area2 = Vec(p[1] - p[0]).cross(Vec(p[2] - p[0])).norm();
+  const long double area2 = ExactVector(p[1] - p[0]).cross(ExactVector(p[2] - p[0])).norm();
   std::sort(edge, edge + 3);
   if (edge[0] * edge[0] + edge[1] * edge[1] <= edge[2] * edge[2]) return edge[2] / 2;
   return std::max(edge[2] / 2, edge[0] * edge[1] * edge[2] / (2 * area2));
@@ -85,8 +85,8 @@ kIOS<S> fitted(const Points<S>& points, FitMethod method = FitMethod::kTuned) {
 }
 
 template <typename S>
-class Tightness : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class Tightness : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(Tightness, Scalars);
 
 /// Returns a triangle of size 1, `thin` high, its apex at `along` the longest edge.
@@ -123,7 +123,8 @@ TYPED_TEST(Tightness, RandomSetsGetAlmostTheirMinimalBall) {
   int above = 0;
   const int sets = 3'000;
   for (int set = 0; set < sets; ++set) {
-    const Shape shapes[] = {Shape::kRandom, Shape::kCoplanar, Shape::kTwoClusters, Shape::kLattice};
+    const PointShape shapes[] = {PointShape::kRandom, PointShape::kCoplanar,
+                                 PointShape::kTwoClusters, PointShape::kLattice};
     const auto points =
         place<S>(random, shapePoints(random, shapes[set % 4], 4 + below(random, 57)), 0, 1);
     const double minimal = MinimalBall(points).radius();
@@ -189,4 +190,4 @@ TEST(TightnessOfMethods, TunedVolumesAreFlatterThanPublished) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

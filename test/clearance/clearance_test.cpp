@@ -17,18 +17,12 @@
 #include "scenes/shapes.h"
 #include "volume/point_sets.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
-fcl::Matrix3d turned(const fcl::Vector3d& w, const fcl::Matrix3d& R) {
-  const double angle = w.norm();
-  if (angle == 0) return R;
-  return fcl::AngleAxisd(angle, w / angle).toRotationMatrix() * R;
-}
-
 template <typename S>
-class ClearanceOf : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class ClearanceOf : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(ClearanceOf, Scalars);
 
 TYPED_TEST(ClearanceOf, BoundsTheDistanceOfTheMeshes) {
@@ -205,4 +199,4 @@ TYPED_TEST(ClearanceOf, CoversOfSizeSeeGapsBesideLongTriangles) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

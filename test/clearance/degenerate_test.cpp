@@ -12,7 +12,7 @@
 #include "volume/assemble.h"
 #include "volume/exact_pairs.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 struct Cap {
@@ -195,4 +195,4 @@ TEST(ExactDegenerate, RefusesPointsThatAreNone) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

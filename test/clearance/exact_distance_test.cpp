@@ -8,16 +8,15 @@
 #include <gtest/gtest.h>
 
 #include "clearance/interior_point.h"
+#include "not_finite.h"
 #include "volume/exact_pairs.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 template <typename S>
-class ExactPair : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class ExactPair : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(ExactPair, Scalars);
 
 /// Returns the mean of the points around v's S0: inside all spheres.
@@ -174,8 +173,8 @@ kIOSd placed(kIOSd v, double scale, const fcl::Vector3d& by) {
 TEST(ExactDistance, HoldsAtAnyScaleAndOffset) {
   Random random(15);
   for (int i = 0; i < 500; ++i) {
-    const kIOSd a = fitted(shapePoints(random, Shape::kRandom, 4 + i % 6));
-    const kIOSd b = fitted(shapePoints(random, Shape::kRandom, 4 + i % 6));
+    const kIOSd a = fitted(shapePoints(random, PointShape::kRandom, 4 + i % 6));
+    const kIOSd b = fitted(shapePoints(random, PointShape::kRandom, 4 + i % 6));
     const fcl::Matrix3d R = randomRotation(random);
     const fcl::Vector3d T = random.uniform(1, 3) * randomDirection(random);
     const fcl::Vector3d zero = fcl::Vector3d::Zero();
@@ -225,4 +224,4 @@ TYPED_TEST(ExactPair, OneFrameAndEmpty) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -14,20 +14,14 @@
 #include "scenes/shapes.h"
 #include "volume/exact_pairs.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
-
-fcl::Matrix3d turned(const fcl::Vector3d& w, const fcl::Matrix3d& R) {
-  const double angle = w.norm();
-  if (angle == 0) return R;
-  return fcl::AngleAxisd(angle, w / angle).toRotationMatrix() * R;
-}
 
 /// Holds a pair of fitted volumes of size about 1, apart.
 struct OrdinaryPair {
   explicit OrdinaryPair(Random& random) {
     const auto draw = [&random] {
-      const auto shape = static_cast<Shape>(below(random, kShapes));
+      const auto shape = static_cast<PointShape>(below(random, kPointShapes));
       return fitted(place<double>(random, shapePoints(random, shape, 3 + below(random, 8)), 0, 1));
     };
     a = draw();
@@ -206,8 +200,8 @@ TEST(ExactGradient, IsContinuousWhereOthersJump) {
 TEST(ExactGradient, IsContinuousAcrossTheFeatures) {
   Random random(34);
   for (int i = 0; i < 40; ++i) {
-    const kIOSd a = fitted(shapePoints(random, Shape::kTriangle, 3)),
-                b = fitted(shapePoints(random, Shape::kSliver, 6));
+    const kIOSd a = fitted(shapePoints(random, PointShape::kTriangle, 3)),
+                b = fitted(shapePoints(random, PointShape::kSliver, 6));
     const fcl::Matrix3d R = randomRotation(random);
     const fcl::Vector3d e = randomDirection(random), f = randomDirection(random).cross(e);
     if (!(f.norm() > 0.1)) continue;
@@ -237,4 +231,4 @@ TEST(ExactGradient, IsContinuousAcrossTheFeatures) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

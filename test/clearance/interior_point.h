@@ -9,7 +9,7 @@
 
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 
 using Real = long double;
 using Real3 = Eigen::Matrix<Real, 3, 1>;
@@ -124,4 +124,4 @@ inline Bracket interiorPointDistance(const StoredBalls& a, const StoredBalls& b,
   return best;
 }
 
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -6,7 +6,6 @@
 #include "continuous/chords.h"
 
 #include <cmath>
-#include <random>
 
 #include "continuous/fcl_motion.h"
 #include "continuous/moving_meshes.h"
@@ -18,30 +17,16 @@ using continuous::Chords;
 using continuous::RelativeMotion;
 using continuous::RelativeVelocities;
 
-struct Random {
-  std::mt19937_64 engine{97};
-  double operator()(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  }
-  Vector3d point(double far) {
-    return {(*this)(-far, far), (*this)(-far, far), (*this)(-far, far)};
-  }
-};
-
 class ChordsOf : public ::testing::TestWithParam<fcl::CCDMotionType> {
  protected:
-  continuous::Motion randomMotion(Random& random) const {
+  continuous::Motion randomMotion(RandomPoses& random) const {
     if (GetParam() == fcl::CCDM_SPLINE) {
       const fcl::SplineMotion<double> spline(random.point(3), random.point(3), random.point(3),
                                              random.point(3), random.point(9), random.point(9),
                                              random.point(9), random.point(9));
       return continuous::motionOf(&spline);
     }
-    const auto pose = [&random] {
-      const Vector3d p = random.point(2);
-      return at(p.x(), p.y(), p.z(), random(-3.1, 3.1), random.point(1));
-    };
-    return continuous::motionBetween(pose(), pose(), GetParam());
+    return continuous::motionBetween(random.pose(2), random.pose(2), GetParam());
   }
 };
 
@@ -52,7 +37,7 @@ Vector3d placeAt(const continuous::Motion& body, const continuous::Motion& a, do
 }
 
 TEST_P(ChordsOf, PathsStayWithinTheirSagitta) {
-  Random random;
+  RandomPoses random(97);
   double tightest = 0;
   for (int i = 0; i < 3000; ++i) {
     const auto a = randomMotion(random), b = randomMotion(random);
@@ -85,7 +70,7 @@ TEST_P(ChordsOf, PathsStayWithinTheirSagitta) {
 // Both sides of a slab are looked at as vertices at random times: a slab that lasts holds them
 // apart. Its time is about as long as the slab does last.
 TEST_P(ChordsOf, SlabsLast) {
-  Random random;
+  RandomPoses random(97);
   double sum = 0, truth = 0;
   int lasting = 0;
   for (int i = 0; i < 6000; ++i) {

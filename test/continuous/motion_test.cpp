@@ -6,7 +6,6 @@
 #include "continuous/fcl_motion.h"
 
 #include <cmath>
-#include <random>
 
 #include "continuous/moving_meshes.h"
 
@@ -15,23 +14,9 @@ namespace {
 
 using continuous::VelocityField;
 
-struct Random {
-  std::mt19937_64 engine{41};
-  double operator()(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine);
-  }
-  Vector3d point(double far) {
-    return {(*this)(-far, far), (*this)(-far, far), (*this)(-far, far)};
-  }
-  Transform3d pose(double far) {
-    const Vector3d p = point(far);
-    return at(p.x(), p.y(), p.z(), (*this)(-3.1, 3.1), point(1));
-  }
-};
-
 class Motions : public ::testing::TestWithParam<fcl::CCDMotionType> {
  protected:
-  Motion randomMotion(Random& random) const {
+  Motion randomMotion(RandomPoses& random) const {
     if (GetParam() == fcl::CCDM_SPLINE) {
       if (random(0, 1) < 0.3) {  // about one axis
         const Vector3d axis(0.25, -0.5, 1);
@@ -56,7 +41,7 @@ class Motions : public ::testing::TestWithParam<fcl::CCDMotionType> {
 };
 
 TEST_P(Motions, PosesAreThoseOfFcl) {
-  Random random;
+  RandomPoses random(41);
   for (int i = 0; i < 200; ++i) {
     const Motion fcl_motion = randomMotion(random);
     const Transform3d before = poseAt(*fcl_motion, random(0, 1));
@@ -75,7 +60,7 @@ TEST_P(Motions, PosesAreThoseOfFcl) {
 // Every point's displacement keeps to velocity and acceleration, in every direction, on every
 // window; and its speed to the largest speed.
 TEST_P(Motions, BoundsHold) {
-  Random random;
+  RandomPoses random(41);
   double tightest = 0;
   for (int i = 0; i < 4000; ++i) {
     const Motion fcl_motion = randomMotion(random);
@@ -107,7 +92,7 @@ TEST_P(Motions, BoundsHold) {
 }
 
 TEST_P(Motions, FromPoseToPose) {
-  Random random;
+  RandomPoses random(41);
   for (int i = 0; i < 500; ++i) {
     Transform3d X_0 = random.pose(3), X_1 = random.pose(3);
     if (i % 5 == 1) X_1.linear() = X_0.linear();

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,22 @@ inline Transform3d at(double x, double y, double z, double angle = 0,
   X.translation() = Vector3d(x, y, z);
   return X;
 }
+
+struct RandomPoses {
+  std::mt19937_64 engine;
+
+  explicit RandomPoses(std::uint64_t seed) : engine(seed) {}
+  double operator()(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  }
+  Vector3d point(double far) {
+    return {(*this)(-far, far), (*this)(-far, far), (*this)(-far, far)};
+  }
+  Transform3d pose(double far) {
+    const Vector3d p = point(far);
+    return at(p.x(), p.y(), p.z(), (*this)(-3.1, 3.1), point(1));
+  }
+};
 
 /// Returns FCL's own pose at t, by its own object.
 inline Transform3d poseAt(const fcl::MotionBased& motion, double t) {

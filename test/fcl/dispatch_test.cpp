@@ -71,8 +71,8 @@ bool isServed(const fcl::CollisionGeometryd& other) {
 }
 
 // The call throws, and says which query it was and what the two types were.
-void expectRefused(const std::function<void()>& call, const std::string& query,
-                   const std::string& other) {
+void expectBothNamed(const std::function<void()>& call, const std::string& query,
+                     const std::string& other) {
   try {
     call();
     ADD_FAILURE() << query << " of kIOS and " << other << " was not refused";
@@ -96,22 +96,22 @@ TEST_F(Dispatch, PairsWithAnythingElseAreRefusedInBothOrders) {
       fcl::DistanceResultd distance;
       fcl::ContinuousCollisionResultd moving;
       const fcl::ContinuousCollisionRequestd moving_request;
-      expectRefused([&] { fcl::collide(g1, kHere, g2, kThere, {}, contacts); }, "collide", name);
-      expectRefused([&] { fcl::collide(&o1, &o2, {}, contacts); }, "collide", name);
+      expectBothNamed([&] { fcl::collide(g1, kHere, g2, kThere, {}, contacts); }, "collide", name);
+      expectBothNamed([&] { fcl::collide(&o1, &o2, {}, contacts); }, "collide", name);
       const fcl::DistanceRequestd request;
-      expectRefused([&] { fcl::distance(g1, kHere, g2, kThere, request, distance); }, "distance",
-                    name);
-      expectRefused([&] { fcl::distance(&o1, &o2, request, distance); }, "distance", name);
-      expectRefused(
+      expectBothNamed([&] { fcl::distance(g1, kHere, g2, kThere, request, distance); }, "distance",
+                      name);
+      expectBothNamed([&] { fcl::distance(&o1, &o2, request, distance); }, "distance", name);
+      expectBothNamed(
           [&] {
             fcl::continuousCollide(g1, kHere, kThere, g2, kHere, kThere, moving_request, moving);
           },
           "continuousCollide", name);
-      expectRefused(
+      expectBothNamed(
           [&] { fcl::continuousCollide(&o1, kThere, &o2, kThere, moving_request, moving); },
           "continuousCollide", name);
       fcl::TranslationMotiond motion(kHere, kThere);
-      expectRefused(
+      expectBothNamed(
           [&] { fcl::continuousCollide(g1, &motion, g2, &motion, moving_request, moving); },
           "continuousCollide", name);
       EXPECT_EQ(contacts.numContacts(), 0u);
@@ -247,7 +247,7 @@ TEST_F(Dispatch, NullIsRefused) {
   const fcl::DistanceRequestd request;
   const fcl::ContinuousCollisionRequestd moving_request;
   const auto expectNull = [](const std::function<void()>& call, const std::string& what) {
-    testing::expectRefused(call, what);
+    expectRefused(call, what);
   };
   for (const auto* first : {none, static_cast<const fcl::CollisionGeometryd*>(model_.get())}) {
     const auto* second = first ? none : model_.get();

@@ -14,22 +14,22 @@ namespace {
 
 constexpr double kTolerance = 1e-12;  // of the size
 
-struct Answer {
+struct ReturnedDistance {
   double returned;
   fcl::DistanceResultd result;
 };
 
-Answer query(const Modeld& a, const Modeld& b, const Frame& frame,
-             fcl::GJKSolverType solver = fcl::GST_LIBCCD) {
+ReturnedDistance query(const Modeld& a, const Modeld& b, const Frame& frame,
+                       fcl::GJKSolverType solver = fcl::GST_LIBCCD) {
   fcl::DistanceRequestd request(true);
   request.gjk_solver_type = solver;
-  Answer answer;
+  ReturnedDistance answer;
   answer.returned = fcl::distance(&a, frame.X_WA, &b, frame.X_WB, request, answer.result);
   return answer;
 }
 
 // |p0 - p1| is the distance, and each point lies on the triangle that the result names.
-void expectWitness(const Answer& answer, const Mesh& a, const Mesh& b, const Frame& frame,
+void expectWitness(const ReturnedDistance& answer, const Mesh& a, const Mesh& b, const Frame& frame,
                    const Modeld* model_a, const Modeld* model_b, double tolerance) {
   const fcl::DistanceResultd& result = answer.result;
   EXPECT_EQ(result.o1, model_a);
@@ -55,14 +55,14 @@ void expectAgreesWithOracle(const MeshCase& pair, const std::vector<Frame>& fram
   for (const Frame& frame : frames) {
     const double exact = oracle.distance(frame.X_WA, frame.X_WB);
     apart += exact > 0;
-    const Answer ab = query(*model_a, *model_b, frame);
+    const ReturnedDistance ab = query(*model_a, *model_b, frame);
     EXPECT_EQ(ab.returned, ab.result.min_distance);
     EXPECT_NEAR(ab.returned, exact, kTolerance * size);
     EXPECT_EQ(ab.returned == 0, exact == 0);
     expectWitness(ab, pair.a, pair.b, frame, model_a.get(), model_b.get(), witness_tolerance);
 
     const Frame swapped{frame.X_WB, frame.X_WA};
-    const Answer ba = query(*model_b, *model_a, swapped);
+    const ReturnedDistance ba = query(*model_b, *model_a, swapped);
     EXPECT_NEAR(ba.returned, exact, kTolerance * size);
     EXPECT_EQ(ba.returned == 0, exact == 0);
     expectWitness(ba, pair.b, pair.a, swapped, model_b.get(), model_a.get(), witness_tolerance);
@@ -92,7 +92,7 @@ TEST(Distance, NestedMeshesDoNotMeet) {
   for (const Frame& frame : randomFrames(20, 0.3, 13)) {
     const double exact = oracle.distance(frame.X_WA, frame.X_WB);
     ASSERT_GT(exact, 0.5);
-    const Answer answer = query(*model_inner, *model_outer, frame);
+    const ReturnedDistance answer = query(*model_inner, *model_outer, frame);
     EXPECT_NEAR(answer.returned, exact, 1e-12);
     expectWitness(answer, inner, outer, frame, model_inner.get(), model_outer.get(), 1e-12);
   }
@@ -105,15 +105,15 @@ TEST(Distance, ObjectsGeometriesAndSolversAgreeBitwise) {
   for (const Frame& frame : randomFrames(40, 2 * pair.spread, 14)) {
     object_a.setTransform(frame.X_WA);
     object_b.setTransform(frame.X_WB);
-    const Answer expected = query(*model_a, *model_b, frame);
+    const ReturnedDistance expected = query(*model_a, *model_b, frame);
     for (const auto solver : {fcl::GST_LIBCCD, fcl::GST_INDEP}) {
-      const Answer again = query(*model_a, *model_b, frame, solver);
+      const ReturnedDistance again = query(*model_a, *model_b, frame, solver);
       fcl::DistanceRequestd request(true);
       request.gjk_solver_type = solver;
       fcl::DistanceResultd result;
       const double returned = fcl::distance(&object_a, &object_b, request, result);
-      const Answer objects{returned, result};
-      for (const Answer* answer : {&again, &objects}) {
+      const ReturnedDistance objects{returned, result};
+      for (const ReturnedDistance* answer : {&again, &objects}) {
         EXPECT_EQ(answer->returned, expected.returned);
         EXPECT_EQ(answer->result.min_distance, expected.result.min_distance);
         EXPECT_EQ(answer->result.b1, expected.result.b1);

@@ -88,15 +88,15 @@ Real boxDistance(const ExactPoint& half, const ExactTriangle& t) {
 }
 
 /// All that meets, and the least distance.
-struct Answer {
+struct OctreeAnswer {
   std::set<CellTriangle> meeting;
   Real distance = std::numeric_limits<Real>::max();
 };
 
 template <typename S>
-Answer bruteForce(const std::vector<Leaf>& leaves, const fcl::Transform3<S>& X_WO, const Mesh& mesh,
-                  const fcl::Transform3<S>& X_WM) {
-  Answer answer;
+OctreeAnswer bruteForce(const std::vector<Leaf>& leaves, const fcl::Transform3<S>& X_WO,
+                        const Mesh& mesh, const fcl::Transform3<S>& X_WM) {
+  OctreeAnswer answer;
   const auto R_WO = X_WO.linear().template cast<Real>();
   const auto R_WM = X_WM.linear().template cast<Real>();
   for (std::size_t j = 0; j < mesh.triangles.size(); ++j) {
@@ -142,7 +142,7 @@ TYPED_TEST(Octree, EqualsBruteForce) {
       const Vector3d offset = i % 5 == 4 && kDouble ? Vector3d(1e9, -1e9, 3e8) : Vector3d(0, 0, 0);
       const Frame frame = randomFrames(1, i % 2 == 0 ? 0.6 : 2, 30 + i, offset).front();
       const fcl::Transform3<S> X_WO(frame.X_WA.cast<S>()), X_WM(frame.X_WB.cast<S>());
-      const Answer expected = bruteForce(leaves, X_WO, mesh, X_WM);
+      const OctreeAnswer expected = bruteForce(leaves, X_WO, mesh, X_WM);
       const fcl::CollisionGeometry<S>*o = &octree, *m = model.get();
 
       for (const bool turned : {false, true}) {

@@ -12,12 +12,10 @@
 
 #include "fcl/expect_refused.h"
 #include "fcl/mesh_cases.h"
+#include "not_finite.h"
 
 namespace kios::testing {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Refused : public ::testing::Test {
  protected:

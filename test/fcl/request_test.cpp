@@ -13,13 +13,12 @@
 
 #include "fcl/expect_refused.h"
 #include "fcl/mesh_cases.h"
+#include "not_finite.h"
 
 namespace kios::testing {
 namespace {
 
 constexpr double kMax = std::numeric_limits<double>::max();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 fcl::DistanceRequestd withErrors(double rel_err, double abs_err) {
   fcl::DistanceRequestd request(true);

@@ -19,9 +19,7 @@
 namespace kios::testing {
 namespace {
 
-using fcl::Transform3d;
-using fcl::Vector3d;
-using Pairs = std::set<std::pair<int, int>>;
+using PairSet = std::set<std::pair<int, int>>;
 
 struct SoupPair {
   std::vector<Vector3d> a, b;  // three a triangle
@@ -46,7 +44,7 @@ std::shared_ptr<Modeld> modelOf(const std::vector<Vector3d>& corners) {
 struct BruteForce {
   double distance = std::numeric_limits<double>::max();
   double extent = 0;  // of everything, in the common frame
-  Pairs hits;
+  PairSet hits;
 };
 
 BruteForce bruteForce(const Modeld& a, const Transform3d& X_WA, const Modeld& b,
@@ -87,7 +85,7 @@ void expectBruteForce(const std::shared_ptr<Modeld>& a, const Transform3d& X_WA,
   fcl::CollisionResultd contacts;
   const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), true);
   fcl::collide(a.get(), X_WA, b.get(), X_WB, request, contacts);
-  Pairs hits;
+  PairSet hits;
   for (std::size_t i = 0; i < contacts.numContacts(); ++i) {
     hits.emplace(contacts.getContact(i).b1, contacts.getContact(i).b2);
     EXPECT_TRUE(contacts.getContact(i).normal.allFinite());

@@ -14,21 +14,21 @@ namespace {
 
 constexpr int kThreads = 8;
 
-struct Answer {
+struct PairAnswer {
   double distance = -1;
   std::intptr_t b1 = -1, b2 = -1;
   Vector3d p0 = Vector3d::Zero(), p1 = Vector3d::Zero();
   Pairs pairs;
-  bool operator==(const Answer& other) const {
+  bool operator==(const PairAnswer& other) const {
     return distance == other.distance && b1 == other.b1 && b2 == other.b2 && p0 == other.p0 &&
            p1 == other.p1 && pairs == other.pairs;
   }
 };
 
-Answer ask(const Modeld& a, const Modeld& b, const Frame& frame) {
+PairAnswer ask(const Modeld& a, const Modeld& b, const Frame& frame) {
   fcl::DistanceResultd distance;
   fcl::CollisionResultd contacts;
-  Answer answer;
+  PairAnswer answer;
   answer.distance =
       fcl::distance(&a, frame.X_WA, &b, frame.X_WB, fcl::DistanceRequestd(true), distance);
   answer.b1 = distance.b1;
@@ -44,7 +44,7 @@ Answer ask(const Modeld& a, const Modeld& b, const Frame& frame) {
 TEST(Threads, SharedModelsAnswerAsInOneThread) {
   const Mesh mesh_a = scenes::bumpyTorus(2000), mesh_b = scenes::bumpyTorus(1200);
   const auto frames = randomFrames(80, 1.5, 111);
-  std::vector<Answer> expected;
+  std::vector<PairAnswer> expected;
   {
     const auto a = kiosModel(mesh_a), b = kiosModel(mesh_b);
     for (const Frame& frame : frames) expected.push_back(ask(*a, *b, frame));
@@ -64,7 +64,7 @@ TEST(Threads, QueriesAndBuildsOfOtherModelsDoNotMeet) {
   const Mesh mesh = scenes::bumpyTorus(1000);
   const auto shared = kiosModel(mesh);
   const auto frames = randomFrames(20, 1.5, 112);
-  std::vector<Answer> expected;
+  std::vector<PairAnswer> expected;
   for (const Frame& frame : frames) expected.push_back(ask(*shared, *shared, frame));
   std::atomic<int> wrong{0};
   together(kThreads, [&](int t) {

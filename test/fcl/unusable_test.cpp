@@ -15,12 +15,10 @@
 #include "fcl/expect_refused.h"
 #include "fcl/managers.h"
 #include "fcl/partners.h"
+#include "not_finite.h"
 
 namespace kios::testing {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Unusable : public ::testing::Test {
  protected:

@@ -11,19 +11,15 @@
 namespace kios::testing {
 namespace {
 
-Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Translation3d(x, y, z)); }
-
-Geometry box(double x, double y, double z) { return modelOf(scenes::subdividedBox({x, y, z}, 2)); }
-
 /// Returns a mesh that slides along x, and an obstacle at the origin.
-RobotCase slider(const Geometry& obstacle, bool carried) {
+RobotCase slider(const BodyGeometry& obstacle, bool carried) {
   RobotCase robot;
   Joint joint;
   joint.type = JointType::kPrismatic;
   joint.axis = Vector3d::UnitX();
   robot.addLink(-1, joint);
-  robot.addBody(0, carried ? obstacle : box(0.2, 0.2, 0.2));
-  robot.addBody(-1, carried ? box(0.2, 0.2, 0.2) : obstacle);
+  robot.addBody(0, carried ? obstacle : boxOf(0.2, 0.2, 0.2));
+  robot.addBody(-1, carried ? boxOf(0.2, 0.2, 0.2) : obstacle);
   return robot;
 }
 
@@ -131,7 +127,7 @@ TEST(ChangedGeometry, AnEmptyOctreeMayGetCells) {
   const auto cells = std::make_shared<octomap::OcTree>(0.1);
   const auto octree = std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells));
   RobotCase robot = slider(octree, false);
-  const int second = robot.addBody(0, box(0.1, 0.1, 0.1), at(0, 2, 0));
+  const int second = robot.addBody(0, boxOf(0.1, 0.1, 0.1), shifted(0, 2, 0));
   robot.allow(second, 1);
   EXPECT_EQ(ask(robot, -5, 5).verdict, MotionVerdict::kClear);
   cells->updateNode(point(0.05, 2.05, 0.05), true);

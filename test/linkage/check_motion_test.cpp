@@ -11,20 +11,8 @@
 namespace kios::testing {
 namespace {
 
-Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Translation3d(x, y, z)); }
-
-Joint joint(JointType type, const Vector3d& place, const Vector3d& axis) {
-  Joint result;
-  result.type = type;
-  result.X_PJ.translation() = place;
-  result.axis = axis;
-  return result;
-}
-
-Geometry box(double x, double y, double z) { return modelOf(scenes::subdividedBox({x, y, z}, 2)); }
-
 /// Returns a box that slides along x, one unit of q a metre.
-RobotCase slider(const Geometry& body) {
+RobotCase slider(const BodyGeometry& body) {
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0}));
   robot.addBody(0, body);
@@ -42,9 +30,9 @@ MotionAnswer ask(const RobotCase& robot, const Joints& q0, const Joints& q1, boo
 Joints one(double x) { return Joints::Constant(1, x); }
 
 TEST(CheckMotion, FirstContactsOfASliderAreAtTheirTimes) {
-  RobotCase robot = slider(box(1, 1, 1));
-  robot.addBody(-1, box(1, 1, 1), at(5, 0.3, 0.2));
-  robot.addBody(-1, box(1, 1, 1), at(8, 0.3, 0.2));
+  RobotCase robot = slider(boxOf(1, 1, 1));
+  robot.addBody(-1, boxOf(1, 1, 1), shifted(5, 0.3, 0.2));
+  robot.addBody(-1, boxOf(1, 1, 1), shifted(8, 0.3, 0.2));
   for (const double separation : {0.0, 0.25}) {
     const MotionAnswer first = ask(robot, one(0), one(10), true, separation);
     ASSERT_EQ(first.verdict, MotionVerdict::kContact);
@@ -71,8 +59,8 @@ TEST(CheckMotion, FirstContactsOfASliderAreAtTheirTimes) {
 // Plates of a millionth, and triangles of no thickness at all, which a path crosses in an instant.
 TEST(CheckMotion, NothingIsTooThin) {
   for (const double thick : {1e-2, 1e-4, 1e-5}) {
-    RobotCase robot = slider(box(thick, 1, 1));
-    robot.addBody(-1, box(thick, 0.9, 0.9), at(0.71828182845, 0.01, 0.02));
+    RobotCase robot = slider(boxOf(thick, 1, 1));
+    robot.addBody(-1, boxOf(thick, 0.9, 0.9), shifted(0.71828182845, 0.01, 0.02));
     for (const bool first : {false, true}) {
       const MotionAnswer answer = ask(robot, one(0), one(1), first);
       ASSERT_EQ(answer.verdict, MotionVerdict::kContact) << thick;
@@ -83,7 +71,7 @@ TEST(CheckMotion, NothingIsTooThin) {
   for (const double turn : {0.0, 1e-3}) {
     const Mesh triangle = scenes::singleTriangle({0, -1, -1}, {0, 1, -1}, {0, 0, 1});
     RobotCase robot = slider(modelOf(triangle));
-    Transform3d X = at(0.71828182845, 0.01, 0.02);
+    Transform3d X = shifted(0.71828182845, 0.01, 0.02);
     X.linear() = Eigen::AngleAxisd(turn, Vector3d(0, 1, 1).normalized()).matrix();
     robot.addBody(-1, modelOf(triangle), X);
     const MotionAnswer answer = ask(robot, one(0), one(1), true);
@@ -93,8 +81,8 @@ TEST(CheckMotion, NothingIsTooThin) {
   // A rod's tip passes a needle at 1/300 of the turn.
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
-  robot.addBody(0, box(2, 1e-3, 1e-3), at(1, 0, 0));
-  robot.addBody(-1, box(1e-3, 1e-3, 1), at(1.9 * std::cos(1.234), 1.9 * std::sin(1.234), 0));
+  robot.addBody(0, boxOf(2, 1e-3, 1e-3), shifted(1, 0, 0));
+  robot.addBody(-1, boxOf(1e-3, 1e-3, 1), shifted(1.9 * std::cos(1.234), 1.9 * std::sin(1.234), 0));
   EXPECT_EQ(robot.firstSample(one(0), one(3), 400), 2) << "samples find it, so this shows nothing";
   const MotionAnswer answer = ask(robot, one(0), one(3));
   ASSERT_EQ(answer.verdict, MotionVerdict::kContact);
@@ -105,24 +93,24 @@ TEST(CheckMotion, NothingIsTooThin) {
 // A box that slides along a face needs few queries however near it is, as its slab doesn't shrink.
 TEST(CheckMotion, SlidingAlongAFace) {
   for (const double gap : {1e-1, 1e-3, 1e-6, 1e-9}) {
-    RobotCase robot = slider(box(0.1, 0.1, 0.1));
-    robot.addBody(-1, box(4, 1, 0.1), at(0, 0, -0.1 - gap));
+    RobotCase robot = slider(boxOf(0.1, 0.1, 0.1));
+    robot.addBody(-1, boxOf(4, 1, 0.1), shifted(0, 0, -0.1 - gap));
     const MotionAnswer answer = ask(robot, one(-1.5), one(1.5));
     EXPECT_EQ(answer.verdict, MotionVerdict::kClear) << gap;
     EXPECT_LE(answer.counts.narrow_queries, 10) << gap;
     EXPECT_EQ(ask(robot, one(-1.5), one(1.5), false, 1.01 * gap).verdict, MotionVerdict::kContact);
     EXPECT_EQ(ask(robot, one(-1.5), one(1.5), true, 1.01 * gap).verdict, MotionVerdict::kContact);
   }
-  RobotCase robot = slider(box(0.125, 0.125, 0.125));
-  robot.addBody(-1, box(4, 1, 0.125), at(0, 0, -0.125));  // touching all along
+  RobotCase robot = slider(boxOf(0.125, 0.125, 0.125));
+  robot.addBody(-1, boxOf(4, 1, 0.125), shifted(0, 0, -0.125));  // touching all along
   EXPECT_EQ(ask(robot, one(-1.5), one(1.5)).verdict, MotionVerdict::kContact);
   EXPECT_EQ(ask(robot, one(-1.5), one(1.5), true).from, 0);
 }
 
 // The end touches in a face, exactly; and an ulp before it.
 TEST(CheckMotion, PosesThatTouch) {
-  RobotCase robot = slider(box(1, 1, 1));
-  robot.addBody(-1, box(1, 1, 1), at(5, 0, 0));
+  RobotCase robot = slider(boxOf(1, 1, 1));
+  robot.addBody(-1, boxOf(1, 1, 1), shifted(5, 0, 0));
   EXPECT_EQ(ask(robot, one(0), one(4)).verdict, MotionVerdict::kContact);
   EXPECT_EQ(ask(robot, one(4), one(0)).verdict, MotionVerdict::kContact);
   const MotionAnswer first = ask(robot, one(0), one(4), true);
@@ -142,8 +130,8 @@ TEST(CheckMotion, SharedJointsCancel) {
   robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
   robot.addLink(0, joint(JointType::kPrismatic, {10, 0, 0}, {0, 1, 0}));
   robot.addLink(0, joint(JointType::kPrismatic, {10, 0, 0}, {0, 1, 0}));
-  robot.addBody(1, box(1, 1, 1));
-  robot.addBody(2, box(1, 1, 1), at(0, 1.01, 0));
+  robot.addBody(1, boxOf(1, 1, 1));
+  robot.addBody(2, boxOf(1, 1, 1), shifted(0, 1.01, 0));
   Joints q0 = Joints::Zero(3), q1 = Joints::Zero(3);
   q1[0] = 100;  // sixteen turns
   const MotionAnswer turned = ask(robot, q0, q1);
@@ -155,7 +143,7 @@ TEST(CheckMotion, SharedJointsCancel) {
 }
 
 /// Returns shapes as links, and as obstacles.
-std::vector<Geometry> shapes() {
+std::vector<BodyGeometry> shapes() {
   return {std::make_shared<fcl::Sphered>(0.12),
           std::make_shared<fcl::Capsuled>(0.05, 0.4),
           std::make_shared<fcl::Boxd>(0.1, 0.3, 0.2),
@@ -173,13 +161,13 @@ RobotCase shapeRobot(Random& random, bool meshes_too) {
     robot.addLink(i - 1, each);
     const bool mesh = meshes_too && i % 2 == 0;
     robot.addBody(i,
-                  mesh ? box(0.3, 0.1, 0.1) : all[static_cast<std::size_t>(random.uniform(0, 6))],
+                  mesh ? boxOf(0.3, 0.1, 0.1) : all[static_cast<std::size_t>(random.uniform(0, 6))],
                   randomPose(random, 0.1));
     if (i > 0) robot.allow(i - 1, i);
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     robot.addBody(-1, all[i], randomPose(random, 0.9));
-    if (meshes_too) robot.addBody(-1, box(0.2, 0.2, 0.02), randomPose(random, 0.9));
+    if (meshes_too) robot.addBody(-1, boxOf(0.2, 0.2, 0.02), randomPose(random, 0.9));
   }
   robot.addBody(-1, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -0.9));
   return robot;
@@ -207,7 +195,7 @@ TEST(CheckMotion, PlanesThatAreCarriedMustNotTurn) {
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {0, 0, 1}));
   robot.addBody(0, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0));
-  robot.addBody(-1, box(1, 1, 1), at(0, 0, 1));
+  robot.addBody(-1, boxOf(1, 1, 1), shifted(0, 0, 1));
   EXPECT_EQ(ask(robot, one(-1), one(0.4)).verdict, MotionVerdict::kClear);
   const MotionAnswer first = ask(robot, one(-1), one(1), true);
   EXPECT_EQ(first.verdict, MotionVerdict::kContact);
@@ -241,13 +229,13 @@ TEST(CheckMotion, OctreesAgreeWithDenseSampling) {
     RobotCase robot;
     for (int link = 0; link < 3; ++link) {
       robot.addLink(link - 1, joint(JointType::kRevolute, 0.4 * inBall(random), inBall(random)));
-      robot.addBody(link, box(0.3, 0.05, 0.05), randomPose(random, 0.1));
+      robot.addBody(link, boxOf(0.3, 0.05, 0.05), randomPose(random, 0.1));
       if (link > 0) robot.allow(link - 1, link);
     }
     robot.addBody(-1, std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree)),
                   randomPose(random, 0.2));
     robot.addBody(-1, std::make_shared<fcl::OcTreed>(0.1));  // which has no cells
-    robot.addBody(-1, std::make_shared<fcl::Sphered>(0.1), at(0, 0, 0.5));
+    robot.addBody(-1, std::make_shared<fcl::Sphered>(0.1), shifted(0, 0, 0.5));
     Joints q0(3), step(3);
     for (double& x : q0) x = random.uniform(-2, 2);
     for (double& x : step) x = random.uniform(-0.4, 0.4);
@@ -266,10 +254,10 @@ TEST(CheckMotion, OctreesAgreeWithDenseSampling) {
 TEST(CheckMotion, UnresolvedNamesTheInterval) {
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
-  robot.addBody(0, box(2, 0.1, 0.1), at(1, 0, 0));
+  robot.addBody(0, boxOf(2, 0.1, 0.1), shifted(1, 0, 0));
   // The tip's corner passes the plate a ten-millionth away, as it points along x.
   const double reach = std::hypot(2, 0.05);
-  robot.addBody(-1, box(0.1, 2, 0.1), at(reach + 0.05 + 1e-7, 0, 0));
+  robot.addBody(-1, boxOf(0.1, 2, 0.1), shifted(reach + 0.05 + 1e-7, 0, 0));
   MotionRequest request;
   request.resolution = 1.0 / 16;
   const MotionAnswer answer = checkMotion(robot.linkage, one(-0.5), one(0.5), request);

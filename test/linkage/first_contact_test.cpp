@@ -30,7 +30,7 @@ struct LineWorld {
       robot.addLink(-1, joint);
     }
   }
-  static Geometry plate(const Interval& x, bool shape, bool upright) {
+  static BodyGeometry plate(const Interval& x, bool shape, bool upright) {
     const Vector3d size(x.to - x.from, upright ? 0.2 : 1, upright ? 1 : 0.2);
     if (shape) return std::make_shared<fcl::Boxd>(size);
     return modelOf(scenes::subdividedBox(size, 1));

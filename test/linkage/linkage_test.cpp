@@ -5,27 +5,12 @@
 
 #include "fcl/expect_refused.h"
 #include "linkage/robot_cases.h"
+#include "not_finite.h"
 
 namespace kios::testing {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-Joint joint(JointType type, const Vector3d& at = Vector3d::Zero(),
-            const Vector3d& axis = Vector3d::UnitZ()) {
-  Joint result;
-  result.type = type;
-  result.X_PJ.translation() = at;
-  result.axis = axis;
-  return result;
-}
-
-Transform3d shifted(double x, double y, double z) {
-  return Transform3d(Eigen::Translation3d(x, y, z));
-}
-
-Geometry cube(double size = 1) { return modelOf(scenes::subdividedBox({size, size, size}, 1)); }
+BodyGeometry cube(double size = 1) { return modelOf(scenes::subdividedBox({size, size, size}, 1)); }
 
 TEST(Linkages, PosesAreThoseOfExactKinematics) {
   Random random(1);

@@ -89,8 +89,8 @@ TEST(LocalSlabsOf, RandomPairsAreApartAsFarAsTheyProve) {
   for (int i = 0; i < 1500; ++i) {
     RobotCase robot = randomChain(random, 1 + i % 4, 0.2);
     const bool shape = i % 5 == 0;
-    const Geometry obstacle = shape ? Geometry(std::make_shared<fcl::Capsuled>(0.05, 0.3))
-                                    : modelOf(scenes::subdividedBox({0.3, 0.2, 0.01}, 2));
+    const BodyGeometry obstacle = shape ? BodyGeometry(std::make_shared<fcl::Capsuled>(0.05, 0.3))
+                                        : modelOf(scenes::subdividedBox({0.3, 0.2, 0.01}, 2));
     const int b = robot.addBody(-1, obstacle, randomPose(random, 0.5));
     const int n = robot.linkage.coordinates(), a = random.unit() < 0.5 || b < 3 ? b - 1 : b - 3;
     const int c = a == b - 3 ? b - 1 : b;  // two links, or a link and the obstacle

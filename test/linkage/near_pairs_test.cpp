@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "linkage/robot_cases.h"
+#include "not_finite.h"
 
 namespace kios::testing {
 namespace {
@@ -19,7 +20,6 @@ using articulated::BallLanes;
 using articulated::ObstacleBox;
 using articulated::ObstacleTree;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kScales[] = {1e-30, 1e-18, 1e-3, 1, 1e6, 1e15, 1e30, 1e200};
 // Rounding alone makes a pair near: so much of its coordinates and of the distance.
 constexpr double kVain = 1e-5;
@@ -131,7 +131,7 @@ TEST(LazyObstacleTree, ThreadsGetOne) {
 
 // Obstacles that come after a path was asked about, and pairs that are allowed, in any order.
 TEST(NearPairs, AreThoseToBeChecked) {
-  const Geometry box = modelOf(scenes::subdividedBox({0.2, 0.2, 0.2}, 2));
+  const BodyGeometry box = modelOf(scenes::subdividedBox({0.2, 0.2, 0.2}, 2));
   const auto shifted = [](double x) {
     Transform3d X = Transform3d::Identity();
     X.translation().x() = x;

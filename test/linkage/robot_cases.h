@@ -28,9 +28,26 @@ using fcl::Vector3d;
 using scenes::Mesh;
 using scenes::Random;
 using Joints = Eigen::VectorXd;
-using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
+using BodyGeometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-inline Geometry modelOf(const Mesh& mesh) { return makeModel(mesh.vertices, mesh.triangles); }
+inline BodyGeometry modelOf(const Mesh& mesh) { return makeModel(mesh.vertices, mesh.triangles); }
+
+inline BodyGeometry boxOf(double x, double y, double z) {
+  return modelOf(scenes::subdividedBox({x, y, z}, 2));
+}
+
+inline Transform3d shifted(double x, double y, double z) {
+  return Transform3d(Eigen::Translation3d(x, y, z));
+}
+
+inline Joint joint(JointType type, const Vector3d& place = Vector3d::Zero(),
+                   const Vector3d& axis = Vector3d::UnitZ()) {
+  Joint result;
+  result.type = type;
+  result.X_PJ.translation() = place;
+  result.axis = axis;
+  return result;
+}
 
 inline Vector3d inBall(Random& random) {
   Vector3d v;
@@ -55,7 +72,7 @@ inline Joints between(const Joints& q0, const Joints& q1, double s) {
 struct RobotCase {
   struct Body {
     int link;
-    Geometry geometry;
+    BodyGeometry geometry;
     Transform3d X_LB;
   };
   Linkage linkage;
@@ -69,7 +86,7 @@ struct RobotCase {
     joints.push_back(joint);
     return linkage.addLink(parent, joint);
   }
-  int addBody(int link, Geometry geometry, const Transform3d& X_LB = Transform3d::Identity()) {
+  int addBody(int link, BodyGeometry geometry, const Transform3d& X_LB = Transform3d::Identity()) {
     bodies.push_back({link, geometry, X_LB});
     return linkage.addBody(link, std::move(geometry), X_LB);
   }

@@ -9,9 +9,7 @@
 namespace kios::testing {
 namespace {
 
-Transform3d at(double x, double y, double z) { return Transform3d(Eigen::Translation3d(x, y, z)); }
-
-Geometry meshBox(const Vector3d& size, bool solid) {
+BodyGeometry meshBox(const Vector3d& size, bool solid) {
   const Mesh mesh = scenes::subdividedBox(size, 2);
   const auto model = makeModel(mesh.vertices, mesh.triangles);
   if (solid) markSolid(*model);
@@ -19,8 +17,8 @@ Geometry meshBox(const Vector3d& size, bool solid) {
 }
 
 /// Returns a box with a cavity, or with another box in it, beside it or around it: two components.
-Geometry twoBoxes(const Vector3d& outer, const Vector3d& inner, const Vector3d& place,
-                  bool cavity) {
+BodyGeometry twoBoxes(const Vector3d& outer, const Vector3d& inner, const Vector3d& place,
+                      bool cavity) {
   Mesh mesh = scenes::subdividedBox(outer, 1), second = scenes::subdividedBox(inner, 1);
   const std::size_t first = mesh.vertices.size();
   for (const Vector3d& p : second.vertices) mesh.vertices.push_back(p + place);
@@ -32,14 +30,14 @@ Geometry twoBoxes(const Vector3d& outer, const Vector3d& inner, const Vector3d& 
   return model;
 }
 
-std::vector<Geometry> smallBodies(double size) {
+std::vector<BodyGeometry> smallBodies(double size) {
   return {meshBox({size, size, size}, true), std::make_shared<fcl::Sphered>(0.5 * size),
           std::make_shared<fcl::Capsuled>(0.3 * size, 0.4 * size),
           std::make_shared<fcl::Boxd>(size, size, size),
           std::make_shared<fcl::Coned>(0.4 * size, size)};
 }
 
-RobotCase slider(const Geometry& body, const Geometry& obstacle, bool swapped) {
+RobotCase slider(const BodyGeometry& body, const BodyGeometry& obstacle, bool swapped) {
   RobotCase robot;
   Joint joint;
   joint.type = JointType::kPrismatic;
@@ -72,7 +70,7 @@ void expectVerdicts(const RobotCase& robot, double from, double to, bool contact
 }
 
 TEST(MotionsOfSolids, WhatMovesWithinOneIsInContact) {
-  for (const Geometry& body : smallBodies(0.2)) {
+  for (const BodyGeometry& body : smallBodies(0.2)) {
     for (const bool swapped : {false, true}) {
       expectVerdicts(slider(body, meshBox({2, 2, 2}, true), swapped), -0.5, 0.5, true);
       expectVerdicts(slider(body, meshBox({2, 2, 2}, true), swapped), 1.2, 3, false);
@@ -82,23 +80,23 @@ TEST(MotionsOfSolids, WhatMovesWithinOneIsInContact) {
       expectVerdicts(slider(meshBox({2, 2, 2}, true), body, swapped), -0.5, 0.5, true);
     }
   }
-  for (const Geometry& body : smallBodies(0.2)) {  // a mesh that isn't marked has no inside
+  for (const BodyGeometry& body : smallBodies(0.2)) {  // a mesh that isn't marked has no inside
     expectVerdicts(slider(body, meshBox({2, 2, 2}, false), false), -0.5, 0.5, false);
   }
 }
 
 TEST(MotionsOfSolids, ComponentsAndCavities) {
-  for (const Geometry& body : smallBodies(0.2)) {
-    const Geometry hollow = twoBoxes({4, 4, 4}, {2, 2, 2}, Vector3d::Zero(), true);
+  for (const BodyGeometry& body : smallBodies(0.2)) {
+    const BodyGeometry hollow = twoBoxes({4, 4, 4}, {2, 2, 2}, Vector3d::Zero(), true);
     expectVerdicts(slider(body, hollow, false), -0.5, 0.5, false);
     expectVerdicts(slider(body, hollow, false), 1.2, 1.7, true);
-    const Geometry two = twoBoxes({1, 1, 1}, {1, 1, 1}, {5, 0, 0}, false);
+    const BodyGeometry two = twoBoxes({1, 1, 1}, {1, 1, 1}, {5, 0, 0}, false);
     expectVerdicts(slider(body, two, false), -0.2, 0.2, true);
     expectVerdicts(slider(body, two, true), 4.8, 5.2, true);
     expectVerdicts(slider(body, two, false), 1, 4, false);
   }
   // One component of the body that moves is in the obstacle, the other far from it.
-  const Geometry dumbbell = twoBoxes({0.2, 0.2, 0.2}, {0.2, 0.2, 0.2}, {0, 0, 5}, false);
+  const BodyGeometry dumbbell = twoBoxes({0.2, 0.2, 0.2}, {0.2, 0.2, 0.2}, {0, 0, 5}, false);
   expectVerdicts(slider(dumbbell, meshBox({2, 2, 2}, true), false), -0.5, 0.5, true);
 }
 
@@ -133,13 +131,13 @@ TEST(MotionsOfSolids, RandomPathsAgreeWithDenseSampling) {
 }
 
 TEST(MotionsOfSolids, ContinuousCollisionSeesThemToo) {
-  const Geometry solid = meshBox({2, 2, 2}, true), soup = meshBox({2, 2, 2}, false);
-  for (const Geometry& body : smallBodies(0.2)) {
+  const BodyGeometry solid = meshBox({2, 2, 2}, true), soup = meshBox({2, 2, 2}, false);
+  for (const BodyGeometry& body : smallBodies(0.2)) {
     for (const auto type : {fcl::CCDM_TRANS, fcl::CCDM_LINEAR, fcl::CCDM_SCREW, fcl::CCDM_SPLINE}) {
       for (const bool swapped : {false, true}) {
         fcl::ContinuousCollisionRequestd request;
         request.ccd_motion_type = type;
-        const auto ask = [&](const Geometry& obstacle, const Transform3d& from,
+        const auto ask = [&](const BodyGeometry& obstacle, const Transform3d& from,
                              const Transform3d& to) {
           fcl::ContinuousCollisionResultd result;
           const Transform3d still = Transform3d::Identity();
@@ -152,12 +150,12 @@ TEST(MotionsOfSolids, ContinuousCollisionSeesThemToo) {
           EXPECT_EQ(result.is_collide, time < 1);
           return time;
         };
-        EXPECT_EQ(ask(solid, at(-0.5, 0, 0), at(0.5, 0, 0)), 0);
-        EXPECT_EQ(ask(solid, at(0, 0, 0), at(0, 0, 0)), 0);
-        EXPECT_EQ(ask(solid, at(0, 0, 0), at(5, 0, 0)), 0);
-        EXPECT_EQ(ask(soup, at(-0.5, 0, 0), at(0.5, 0, 0)), 1);
-        EXPECT_EQ(ask(solid, at(1.5, 0, 0), at(5, 0, 0)), 1);
-        EXPECT_GT(ask(solid, at(5, 0, 0), at(0, 0, 0)), 0.5);
+        EXPECT_EQ(ask(solid, shifted(-0.5, 0, 0), shifted(0.5, 0, 0)), 0);
+        EXPECT_EQ(ask(solid, shifted(0, 0, 0), shifted(0, 0, 0)), 0);
+        EXPECT_EQ(ask(solid, shifted(0, 0, 0), shifted(5, 0, 0)), 0);
+        EXPECT_EQ(ask(soup, shifted(-0.5, 0, 0), shifted(0.5, 0, 0)), 1);
+        EXPECT_EQ(ask(solid, shifted(1.5, 0, 0), shifted(5, 0, 0)), 1);
+        EXPECT_GT(ask(solid, shifted(5, 0, 0), shifted(0, 0, 0)), 0.5);
       }
     }
   }

@@ -81,7 +81,7 @@ Mesh bowl(double radius, double from, int n, int rows) {
 }
 
 /// Returns a body on joints about, or along, `axes` through the origin of a frame that is anywhere.
-RobotCase fitted(const Geometry& body, const Geometry& around, JointType type,
+RobotCase fitted(const BodyGeometry& body, const BodyGeometry& around, JointType type,
                  const std::vector<Vector3d>& axes, bool turned) {
   RobotCase robot;
   Transform3d X = Transform3d::Identity();
@@ -119,8 +119,8 @@ void expectClear(const RobotCase& robot, const Joints& q1, long long most_querie
 TEST(TightFits, ARodSlidesThroughARing) {
   for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
     SCOPED_TRACE(clearance);
-    const Geometry hole = modelOf(ring(0.01 + clearance, 0.03, 0.1, 32));
-    const Geometry peg = modelOf(rod(0.01, 2, 32, 0.37));
+    const BodyGeometry hole = modelOf(ring(0.01 + clearance, 0.03, 0.1, 32));
+    const BodyGeometry peg = modelOf(rod(0.01, 2, 32, 0.37));
     for (const bool turned : {false, true}) {
       const RobotCase robot = fitted(peg, hole, JointType::kPrismatic, {{0, 0, 1}}, turned);
       expectClear(robot, Joints::Constant(1, 0.5), 300);
@@ -149,9 +149,9 @@ TEST(TightFits, ABallTurnsInItsSocket) {
   const std::vector<Vector3d> axes = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
   for (const double clearance : {1e-3, 1e-4, 1e-5}) {
     SCOPED_TRACE(clearance);
-    const Geometry socket = modelOf(bowl((0.02 + clearance) / 0.98, 0.35 * kPi, 24, 9));
-    for (const Geometry& ball :
-         {modelOf(bowl(0.02, 0, 24, 12)), Geometry(std::make_shared<fcl::Sphered>(0.02))}) {
+    const BodyGeometry socket = modelOf(bowl((0.02 + clearance) / 0.98, 0.35 * kPi, 24, 9));
+    for (const BodyGeometry& ball :
+         {modelOf(bowl(0.02, 0, 24, 12)), BodyGeometry(std::make_shared<fcl::Sphered>(0.02))}) {
       expectClear(fitted(ball, socket, JointType::kRevolute, axes, true), Joints::Constant(3, 0.3),
                   4000);
     }
@@ -161,8 +161,8 @@ TEST(TightFits, ABallTurnsInItsSocket) {
 // A square peg leaves its hole, in which it would stick if it turned.
 TEST(TightFits, APegThatSticksIsFound) {
   for (const double clearance : {1e-3, 1e-5}) {
-    const Geometry hole = modelOf(ring(0.01 + clearance, 0.03, 0.1, 4));
-    const Geometry peg = modelOf(rod(0.01 * std::sqrt(2.0), 0.3, 4, 0));
+    const BodyGeometry hole = modelOf(ring(0.01 + clearance, 0.03, 0.1, 4));
+    const BodyGeometry peg = modelOf(rod(0.01 * std::sqrt(2.0), 0.3, 4, 0));
     RobotCase robot;
     Joint joint;
     joint.type = JointType::kPrismatic;

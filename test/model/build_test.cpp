@@ -23,7 +23,7 @@ using fcl::detail::SplitMethodType;
 constexpr SplitMethodType kSplits[] = {fcl::detail::SPLIT_METHOD_MEAN,
                                        fcl::detail::SPLIT_METHOD_MEDIAN,
                                        fcl::detail::SPLIT_METHOD_BV_CENTER};
-const std::vector<FitOptions> kFits = test::allFits();
+const std::vector<FitOptions> kFits = testing::allFits();
 
 template <typename S>
 void fill(Model<S>& model, const Mesh& mesh) {

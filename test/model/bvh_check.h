@@ -48,7 +48,7 @@ void expectValidTree(const Model<S>& model) {
         const std::size_t id = model.tri_indices[triangle][corner];
         for (const auto* vertices : {model.vertices, model.prev_vertices}) {
           if (!vertices) continue;
-          outside += !test::containsExactly(bv, vertices[id]) || !bv.contain(vertices[id]);
+          outside += !testing::containsExactly(bv, vertices[id]) || !bv.contain(vertices[id]);
         }
       }
     }
@@ -68,7 +68,7 @@ bool sameTree(const Model<S>& a, const std::vector<fcl::BVNode<kIOS<S>>>& b) {
   return a.getNumBVs() == static_cast<int>(b.size()) &&
          std::equal(b.begin(), b.end(), &a.getBV(0), [](const auto& x, const auto& y) {
            return x.first_child == y.first_child && x.first_primitive == y.first_primitive &&
-                  x.num_primitives == y.num_primitives && test::bitwiseEqual(x.bv, y.bv);
+                  x.num_primitives == y.num_primitives && testing::bitwiseEqual(x.bv, y.bv);
          });
 }
 template <typename S>

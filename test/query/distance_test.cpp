@@ -59,7 +59,7 @@ std::vector<Scene<S>> scenesOf() {
 }
 
 template <typename S>
-bool same(const DistanceAnswer<S>& a, const DistanceAnswer<S>& b) {
+bool sameAnswer(const DistanceAnswer<S>& a, const DistanceAnswer<S>& b) {
   return a.distance == b.distance && a.triangle_a == b.triangle_a && a.triangle_b == b.triangle_b &&
          a.point_a == b.point_a && a.point_b == b.point_b && a.lower_bound == b.lower_bound &&
          a.upper_bound == b.upper_bound && a.stop == b.stop;
@@ -98,7 +98,7 @@ TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
         const auto warm = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
         ASSERT_EQ(start->triangle_a, cold.triangle_a);
         ASSERT_EQ(start->triangle_b, cold.triangle_b);
-        ASSERT_TRUE(same(warm, cold)) << warm.distance << " " << cold.distance;
+        ASSERT_TRUE(sameAnswer(warm, cold)) << warm.distance << " " << cold.distance;
         // Bounds that don't stop the search change nothing either, but what is proven.
         options.near_enough = S(0.5) * cold.distance;
         options.far_enough = 2 * cold.distance + S(1);

@@ -27,7 +27,7 @@ std::shared_ptr<Model<S>> unpreparedModel(const Mesh& mesh) {
   auto model = std::make_shared<Model<S>>();
   model->bv_fitter.reset(new scenes::ForeignFitter<kIOS<S>>());
   model->beginModel();
-  model->addSubModel(Shape<S>(mesh).vertices, mesh.triangles);
+  model->addSubModel(MeshIn<S>(mesh).vertices, mesh.triangles);
   EXPECT_EQ(model->endModel(), fcl::BVH_OK);
   return model;
 }

@@ -10,12 +10,11 @@
 #include <limits>
 
 #include "fcl/expect_refused.h"
+#include "not_finite.h"
 #include "robot/robot_files.h"
 
 namespace kios::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 using ObbModel = fcl::BVHModel<fcl::OBBRSSd>;

@@ -7,12 +7,11 @@
 #include <limits>
 
 #include "fcl/expect_refused.h"
+#include "not_finite.h"
 #include "robot/robot_files.h"
 
 namespace kios::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(RobotSurroundings, WhatIsAddedMovedAttachedAndRemoved) {
   const Folder folder;

@@ -16,7 +16,7 @@
 namespace kios::testing {
 
 template <typename S>
-engine::MeshView<S> viewOf(const Shape<S>& shape) {
+engine::MeshView<S> viewOf(const MeshIn<S>& shape) {
   return {shape.vertices.data(), shape.vertices.size(), shape.triangles.data(),
           shape.triangles.size()};
 }
@@ -24,7 +24,7 @@ engine::MeshView<S> viewOf(const Shape<S>& shape) {
 /// Returns the tree as prepared, or as refitted from where the mesh was before; nullptr if it can't
 /// be.
 template <typename S>
-std::unique_ptr<engine::Tree> treeOf(const Shape<S>& shape, const Shape<S>* before) {
+std::unique_ptr<engine::Tree> treeOf(const MeshIn<S>& shape, const MeshIn<S>* before) {
   if (!before) return engine::prepare(viewOf(shape));
   auto tree = engine::prepare(viewOf(*before));
   return engine::refit(viewOf(shape), *tree) ? std::move(tree) : nullptr;
@@ -50,14 +50,14 @@ class PosedPair {
     return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};
   }
 
-  const Shape<S> a, b;
+  const MeshIn<S> a, b;
   const std::unique_ptr<engine::Tree> tree_a, tree_b;
   std::unique_ptr<RelativePose<S>> X_AB;
 
  private:
-  static std::unique_ptr<engine::Tree> made(const Shape<S>& shape, const Mesh& mesh,
+  static std::unique_ptr<engine::Tree> made(const MeshIn<S>& shape, const Mesh& mesh,
                                             bool refitted) {
-    const Shape<S> before(swayed(mesh));
+    const MeshIn<S> before(swayed(mesh));
     auto tree = treeOf(shape, refitted ? &before : nullptr);
     return tree ? std::move(tree) : engine::prepare(viewOf(shape));
   }

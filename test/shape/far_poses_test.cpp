@@ -75,11 +75,9 @@ TEST_P(FarPoses, PromisesAreKept) {
   }
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Kind>& info) {
-  return info.param == Kind::kBox ? "box" : info.param == Kind::kSphere ? "sphere" : "capsule";
-}
 INSTANTIATE_TEST_SUITE_P(Kinds, FarPoses,
-                         ::testing::Values(Kind::kBox, Kind::kSphere, Kind::kCapsule), nameOfCase);
+                         ::testing::Values(Kind::kBox, Kind::kSphere, Kind::kCapsule),
+                         NameOfKind());
 
 #if FCL_HAVE_OCTOMAP
 // One cell, which isn't about the octree's origin.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "not_finite.h"
 #include "shape/shape_oracle.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
@@ -21,7 +22,6 @@ using shape::Solid;
 using shape::Triangle;
 using shape::Vec;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Shape kBounded[] = {Shape::kBox,  Shape::kSphere,   Shape::kEllipsoid, Shape::kCapsule,
                               Shape::kCone, Shape::kCylinder, Shape::kConvex};
 
@@ -165,8 +165,7 @@ TEST_P(HardCases, PointBoundsAreBounds) {
   }
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Shapes, HardCases, ::testing::ValuesIn(kBounded), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Shapes, HardCases, ::testing::ValuesIn(kBounded), NameOfShape());
 
 // Touching in coordinates that doubles hold: judged exactly.
 TEST(Touching, ClosedSetsMeet) {

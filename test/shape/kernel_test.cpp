@@ -8,8 +8,10 @@
 #include <cmath>
 #include <limits>
 
+#include "not_finite.h"
 #include "shape/shape_oracle.h"
 #include "shape/shape_solid.h"
+#include "shape/solid_oracle.h"
 #include "shape/triangle_shape.h"
 
 namespace kios::testing {
@@ -17,8 +19,6 @@ namespace {
 
 using shape::Triangle;
 using shape::Vec;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Vec randomPoint(scenes::Random& random, double half_width) {
   return {random.uniform(-half_width, half_width), random.uniform(-half_width, half_width),
@@ -35,10 +35,6 @@ Triangle randomTriangle(scenes::Random& random) {
   if (kind < 0.05) t[2] = t[1];
   if (kind < 0.02) t[1] = t[2] = t[0];
   return t;
-}
-
-ExactTriangle exact(const Triangle& t) {
-  return {t[0].cast<Real>(), t[1].cast<Real>(), t[2].cast<Real>()};
 }
 
 double extent(const Triangle& t, const shape::Solid& solid) {
@@ -78,8 +74,7 @@ TEST_P(Kernel, DistanceIsTheOracles) {
   EXPECT_EQ(band, 0);
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Shapes, Kernel, ::testing::ValuesIn(kShapes), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Shapes, Kernel, ::testing::ValuesIn(kShapes), NameOfShape());
 
 }  // namespace
 }  // namespace kios::testing

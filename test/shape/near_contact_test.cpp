@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "not_finite.h"
 #include "shape/solid_cases.h"
 
 namespace kios::testing {
@@ -20,15 +21,8 @@ using shape::Solid;
 using shape::Triangle;
 using shape::Vec;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Kind kKinds[] = {Kind::kSphere,    Kind::kCapsule,  Kind::kBox, Kind::kConvex,
                            Kind::kEllipsoid, Kind::kCylinder, Kind::kCone};
-
-const char* nameOf(Kind kind) {
-  constexpr const char* kNames[] = {"sphere",   "capsule", "box",   "ellipsoid",
-                                    "cylinder", "cone",    "convex"};
-  return kNames[static_cast<int>(kind)];
-}
 
 bool isRound(Kind kind) {
   return kind == Kind::kEllipsoid || kind == Kind::kCylinder || kind == Kind::kCone;
@@ -175,8 +169,7 @@ TEST_P(NearContact, PiercedFlatShapesAreMet) {
   EXPECT_GT(checked, 1500);
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Kind>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Kinds, NearContact, ::testing::ValuesIn(kKinds), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Kinds, NearContact, ::testing::ValuesIn(kKinds), NameOfKind());
 
 // A plate and a triangle beside it, in its plane or across.
 TEST(FlatConvex, NothingBesideIsMet) {

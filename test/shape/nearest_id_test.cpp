@@ -11,6 +11,7 @@
 
 #include "fcl/mesh_cases.h"
 #include "fcl_kios/model/prepare.h"
+#include "not_finite.h"
 #include "query/mesh_contacts.h"
 #include "query/posed_solid.h"
 #include "shape/convex_faces.h"
@@ -20,8 +21,6 @@
 
 namespace kios::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <typename S>
 struct Brute {
@@ -168,8 +167,7 @@ TEST_P(NearestId, IsTheLeastAroundAVertex) {
   EXPECT_GT(around, 10);
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Shapes, NearestId, ::testing::ValuesIn(kShapes), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Shapes, NearestId, ::testing::ValuesIn(kShapes), NameOfShape());
 
 }  // namespace
 }  // namespace kios::testing

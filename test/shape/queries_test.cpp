@@ -242,8 +242,7 @@ TEST_P(Queries, SolversAsArguments) {
   EXPECT_EQ(a.numContacts(), c.numContacts());
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Shapes, Queries, ::testing::ValuesIn(kShapes), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Shapes, Queries, ::testing::ValuesIn(kShapes), NameOfShape());
 
 }  // namespace
 }  // namespace kios::testing

@@ -155,8 +155,7 @@ TEST_P(Requests, CostSources) {
   EXPECT_GT(sources, 20u);
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Shapes, Requests, ::testing::ValuesIn(kShapes), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Shapes, Requests, ::testing::ValuesIn(kShapes), NameOfShape());
 
 // Meshes are soups: a shape strictly inside a closed mesh doesn't touch it. Shapes are full: a mesh
 // inside one does.

@@ -14,6 +14,7 @@
 
 #include "fcl/mesh_cases.h"
 #include "model/prepared.h"
+#include "not_finite.h"
 #include "query/float_solid.h"
 #include "query/mesh_contacts.h"
 #include "scenes/cad_shapes.h"
@@ -24,8 +25,6 @@
 
 namespace kios::testing {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Holds a search that evaluates nothing: what matters doesn't change.
 class Listener final : public engine::SolidEvaluator, public engine::SolidAudit {
@@ -272,8 +271,7 @@ TEST_P(SearchAudit, PadsAreNeeded) {
   EXPECT_GT(of_boxes.wrong, 0);
 }
 
-std::string nameOfCase(const ::testing::TestParamInfo<Shape>& info) { return nameOf(info.param); }
-INSTANTIATE_TEST_SUITE_P(Shapes, SearchAudit, ::testing::ValuesIn(kShapes), nameOfCase);
+INSTANTIATE_TEST_SUITE_P(Shapes, SearchAudit, ::testing::ValuesIn(kShapes), NameOfShape());
 
 }  // namespace
 }  // namespace kios::testing

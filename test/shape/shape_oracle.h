@@ -52,6 +52,13 @@ inline const char* nameOf(Shape shape) {
   return kNames[static_cast<int>(shape)];
 }
 
+struct NameOfShape {
+  template <typename Info>
+  std::string operator()(const Info& info) const {
+    return nameOf(info.param);
+  }
+};
+
 /// Holds sizes by kind: box sides, ellipsoid radii, (radius, length), normal and offset. Those of
 /// half spaces and planes aside, all are floats.
 struct ShapeSpec {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "scenes/random.h"
@@ -14,6 +15,19 @@
 // Solids and triangles of all the sizes and degeneracies that queries promise to serve.
 
 namespace kios::testing {
+
+inline const char* nameOf(shape::Kind kind) {
+  constexpr const char* kNames[] = {"sphere",   "capsule", "box",   "ellipsoid",
+                                    "cylinder", "cone",    "convex"};
+  return kNames[static_cast<int>(kind)];
+}
+
+struct NameOfKind {
+  template <typename Info>
+  std::string operator()(const Info& info) const {
+    return nameOf(info.param);
+  }
+};
 
 enum class Size {
   kPlain,  ///< lengths in [0.2, 1]

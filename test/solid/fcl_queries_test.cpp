@@ -15,6 +15,7 @@ namespace {
 
 using testing::at;
 using testing::flipped;
+using testing::kHere;
 using testing::modelOf;
 using testing::solidOf;
 
@@ -35,8 +36,6 @@ double distance(const Geometry& a, const fcl::Transform3d& X_WA, const Geometry&
   fcl::DistanceResultd unused;
   return fcl::distance(a.get(), X_WA, b.get(), X_WB, request, out ? *out : unused);
 }
-
-const fcl::Transform3d kHere = fcl::Transform3d::Identity();
 
 TEST(SolidQueries, AMeshInAMeshIsInContactWithIt) {
   const auto big = solidOf(scenes::icosphere(2, 2)), small = solidOf(scenes::icosphere(0.5, 1));

@@ -14,8 +14,6 @@
 namespace kios::testing {
 namespace {
 
-const fcl::Transform3d kHere = fcl::Transform3d::Identity();
-
 std::size_t contacts(const Modeld& a, const Modeld& b) {
   fcl::CollisionResultd result;
   return fcl::collide(&a, kHere, &b, kHere, fcl::CollisionRequestd(), result);

@@ -12,6 +12,8 @@
 
 namespace kios::testing {
 
+inline const fcl::Transform3d kHere = fcl::Transform3d::Identity();
+
 /// From the environment, for longer runs by hand.
 inline int casesOr(int usual) {
   const char* const value = std::getenv("KIOS_SOLID_CASES");

@@ -16,8 +16,6 @@
 namespace kios::testing {
 namespace {
 
-const fcl::Transform3d kHere = fcl::Transform3d::Identity();
-
 fcl::Transform3d turned(double angle, const fcl::Vector3d& axis, const fcl::Vector3d& translation) {
   fcl::Transform3d X = fcl::Transform3d::Identity();
   X.linear() = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();

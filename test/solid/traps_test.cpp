@@ -31,7 +31,7 @@ TYPED_TEST(SolidTraps, ContainmentAndPenetration) {
     for (int k = 0; k < 40; ++k) {
       fcl::Vector3<S> p = (3 * inCube(random)).template cast<S>();
       if (k == 0) p.setZero();
-      if (k % 4 == 1) p = Shape<S>(mesh_a).vertices[k % mesh_a.vertices.size()];
+      if (k % 4 == 1) p = MeshIn<S>(mesh_a).vertices[k % mesh_a.vertices.size()];
       flags.during(names + "contains", [&] { contains<S>(*a, here, p); });
     }
     auto poses = scenes::randomPoses(6, 1.5, i);

@@ -21,7 +21,7 @@ TYPED_TEST(RefittedTree, HoldsTheMesh) {
   int refitted = 0, all = 0;
   for (const NamedMesh& named : allMeshes<TypeParam>()) {
     SCOPED_TRACE(named.name);
-    const Shape<TypeParam> shape(named.mesh), before(swayed(named.mesh));
+    const MeshIn<TypeParam> shape(named.mesh), before(swayed(named.mesh));
     const auto tree = treeOf(shape, &before);
     ++all;
     if (!tree) continue;
@@ -34,11 +34,11 @@ TYPED_TEST(RefittedTree, HoldsTheMesh) {
 // Moves and turns in a row leave a tree as good as a new one, nearly.
 TYPED_TEST(RefittedTree, ManyTimes) {
   const Mesh mesh = scenes::bumpyTorus(2000);
-  const auto tree = engine::prepare(viewOf(Shape<TypeParam>(mesh)));
+  const auto tree = engine::prepare(viewOf(MeshIn<TypeParam>(mesh)));
   const double cost = tree->cost;
   for (int i = 0; i < 20; ++i) {
     const fcl::Transform3d X(Eigen::AngleAxisd(i, fcl::Vector3d(1, i, 2).normalized()));
-    const Shape<TypeParam> shape(swayed(scenes::moved(X, mesh)));
+    const MeshIn<TypeParam> shape(swayed(scenes::moved(X, mesh)));
     ASSERT_TRUE(engine::refit(viewOf(shape), *tree));
     EXPECT_LT(engine::searchCost(*tree), 1.25 * engine::prepare(viewOf(shape))->cost);
     EXPECT_EQ(tree->cost, cost);
@@ -56,11 +56,11 @@ TYPED_TEST(RefittedTree, BoxesOfFlatMeshes) {
                          scenes::boredBlock({0.4, 0.25, 0.03}, 0.03, 0.004, 0.05, 32),
                          scenes::sheet(2, 2, 8, 8, 0), scenes::subdividedBox({1, 1, 1e-3}, 4)};
   for (const Mesh& mesh : meshes) {
-    const auto tree = engine::prepare(viewOf(Shape<TypeParam>(mesh)));
+    const auto tree = engine::prepare(viewOf(MeshIn<TypeParam>(mesh)));
     ASSERT_FALSE(tree->boxes.empty());
     for (int i = 1; i < 6; ++i) {
       const fcl::Transform3d X(Eigen::AngleAxisd(i, fcl::Vector3d(1, i, 2).normalized()));
-      const Shape<TypeParam> shape(scenes::moved(X, mesh));
+      const MeshIn<TypeParam> shape(scenes::moved(X, mesh));
       ASSERT_TRUE(engine::refit(viewOf(shape), *tree));
       TreeOf<TypeParam>(shape, *tree).check();
       EXPECT_GE(2 * flatOf(*tree), flatOf(*engine::prepare(viewOf(shape))));
@@ -71,7 +71,7 @@ TYPED_TEST(RefittedTree, BoxesOfFlatMeshes) {
 TYPED_TEST(RefittedTree, RefusesAnotherMesh) {
   const Mesh torus = scenes::bumpyTorus(300), apart = scenes::soup(torus);
   const auto refits = [](const Mesh& before, const Mesh& after) {
-    const Shape<TypeParam> from(before), to(after);
+    const MeshIn<TypeParam> from(before), to(after);
     return treeOf(to, &from) != nullptr;
   };
   EXPECT_TRUE(refits(torus, torus));

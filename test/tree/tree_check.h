@@ -112,7 +112,7 @@ inline double farthest(const Node& node) {
 template <typename S>
 class TreeOf {
  public:
-  TreeOf(const Shape<S>& shape, const Tree& tree) : shape_(shape), tree_(tree) {}
+  TreeOf(const MeshIn<S>& shape, const Tree& tree) : shape_(shape), tree_(tree) {}
 
   void check() {
     ASSERT_FALSE(tree_.nodes.empty());
@@ -338,7 +338,7 @@ class TreeOf {
     }
   }
 
-  const Shape<S>& shape_;
+  const MeshIn<S>& shape_;
   const Tree& tree_;
   std::size_t nodes_seen_ = 0;
   std::vector<int> leaf_seen_;

@@ -21,7 +21,7 @@ TYPED_TEST_SUITE(PreparedTree, Scalars);
 TYPED_TEST(PreparedTree, HoldsTheMesh) {
   for (const NamedMesh& named : allMeshes<TypeParam>()) {
     SCOPED_TRACE(named.name);
-    const Shape<TypeParam> shape(named.mesh);
+    const MeshIn<TypeParam> shape(named.mesh);
     const auto tree = engine::prepare(viewOf(shape));
     TreeOf<TypeParam>(shape, *tree).check();
     const bool flat = std::any_of(tree->nodes.begin(), tree->nodes.end(),
@@ -38,9 +38,9 @@ TYPED_TEST(PreparedTree, DependsOnTheMeshAlone) {
   };
   for (const NamedMesh& named : unitMeshes()) {
     SCOPED_TRACE(named.name);
-    const Shape<TypeParam> shape(named.mesh), copy(named.mesh);
+    const MeshIn<TypeParam> shape(named.mesh), copy(named.mesh);
     const auto one = engine::prepare(viewOf(shape));
-    engine::prepare(viewOf(Shape<TypeParam>(scenes::icosphere(1, 2))));
+    engine::prepare(viewOf(MeshIn<TypeParam>(scenes::icosphere(1, 2))));
     const auto two = engine::prepare(viewOf(copy));
     EXPECT_TRUE(same(one->nodes, two->nodes) && same(one->blocks, two->blocks));
     EXPECT_TRUE(same(one->boxes, two->boxes) && same(one->box_blocks, two->box_blocks));
@@ -52,9 +52,9 @@ TYPED_TEST(PreparedTree, DependsOnTheMeshAlone) {
 // Vertices that no triangle uses change nothing, wherever they are.
 TYPED_TEST(PreparedTree, UnusedVerticesAreIgnored) {
   Mesh mesh = scenes::bumpyTorus(300);
-  const Shape<TypeParam> plain(mesh);
+  const MeshIn<TypeParam> plain(mesh);
   mesh.vertices.emplace_back(1e8, 0, 0);
-  const Shape<TypeParam> shape(mesh);
+  const MeshIn<TypeParam> shape(mesh);
   const auto tree = engine::prepare(viewOf(shape));
   TreeOf<TypeParam>(shape, *tree).check();
   EXPECT_EQ(tree->reach, engine::prepare(viewOf(plain))->reach);

@@ -7,7 +7,7 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 
 /// Two hard point sets, their volumes, a hard pose x_A = R x_B + T and the truth about them.
 template <typename S>
@@ -151,7 +151,8 @@ HardPair<S>::HardPair(Random& random) {
   const double offset = random.unit() < 0.7 ? 0 : randomOffset(random);
   const auto draw = [&](double factor) {
     const int n = random.unit() < 0.3 ? 1 + below(random, 2) : 3 + below(random, 6);
-    return place<S>(random, shapePoints(random, static_cast<Shape>(below(random, kShapes)), n),
+    return place<S>(random,
+                    shapePoints(random, static_cast<PointShape>(below(random, kPointShapes)), n),
                     offset, scale * factor);
   };
   points_a = draw(1);
@@ -196,4 +197,4 @@ HardPair<S>::HardPair(Random& random) {
   T = highest - R * lowest + (direction * gap).template cast<S>();
 }
 
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -13,7 +13,7 @@
 #include "fcl_kios/volume/kios.h"
 #include "volume/point_sets.h"
 
-namespace kios::test {
+namespace kios::testing {
 
 /// Returns the tuned fit.
 template <typename S>
@@ -173,4 +173,4 @@ bool bitwiseEqual(const kIOS<S>& a, const kIOS<S>& b) {
          same(a.reach, b.reach) && a.exponent == b.exponent && a.num_spheres == b.num_spheres;
 }
 
-}  // namespace kios::test
+}  // namespace kios::testing

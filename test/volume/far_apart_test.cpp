@@ -10,16 +10,15 @@
 #include <limits>
 
 #include "fcl_kios/volume/separation.h"
+#include "not_finite.h"
 #include "scenes/random.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 template <typename S>
-class FarApart : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class FarApart : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(FarApart, Scalars);
 
 /// Holds two volumes of a sphere each, in poses that leave a given gap between them but for
@@ -128,4 +127,4 @@ TYPED_TEST(FarApart, LeavesToTheCommonFrameWhatItCantBound) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

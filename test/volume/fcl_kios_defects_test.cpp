@@ -13,7 +13,7 @@
 #include "fcl_kios/volume/separation.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 using Vec = fcl::Vector3d;
@@ -25,13 +25,13 @@ Vec centralCenter(const kIOSd& v) { return v.center0; }
 Vec centralCenter(const FclKios& v) { return v.spheres[0].o; }
 
 template <typename BV>
-BV fitted(const Points<double>& points) {
+BV fittedAs(const Points<double>& points) {
   BV v;
   fit(points.data(), static_cast<int>(points.size()), v);
   return v;
 }
 
-using test::containsExactly;  // of ours; and likewise of FCL's
+using testing::containsExactly;  // of ours; and likewise of FCL's
 bool containsExactly(const FclKios& v, const Vec& p) {
   for (unsigned i = 0; i < v.num_spheres; ++i) {
     kIOSd sphere;
@@ -45,7 +45,7 @@ bool containsExactly(const FclKios& v, const Vec& p) {
 /// 1: two points 2 apart are merged into a ball of radius 1 in their middle, not of radius 2.
 template <typename BV>
 bool mergesTightly() {
-  const BV merged = fitted<BV>({Vec(-1, 0, 0)}) + fitted<BV>({Vec(1, 0, 0)});
+  const BV merged = fittedAs<BV>({Vec(-1, 0, 0)}) + fittedAs<BV>({Vec(1, 0, 0)});
   return centralRadius(merged) <= 1.001 && centralCenter(merged).norm() <= 1e-3;
 }
 TEST(FclKiosDefects, FclKiosDefect1_MergedRadiusIsADiameter) {
@@ -57,7 +57,7 @@ TEST(FclKiosDefects, FclKiosDefect1_MergedRadiusIsADiameter) {
 template <typename BV>
 bool staysTightOverFiveLevels() {
   std::vector<BV> level;
-  for (int i = 0; i < 32; ++i) level.push_back(fitted<BV>({Vec(i, 0, 0), Vec(i + 1, 0, 0)}));
+  for (int i = 0; i < 32; ++i) level.push_back(fittedAs<BV>({Vec(i, 0, 0), Vec(i + 1, 0, 0)}));
   for (; level.size() > 1; level.resize(level.size() / 2)) {
     for (std::size_t i = 0; i < level.size() / 2; ++i) level[i] = level[2 * i] + level[2 * i + 1];
   }
@@ -74,7 +74,7 @@ bool mergesContain() {
   Random random(2);
   for (int i = 0; i < 200; ++i) {
     const Vec p = 1000 * randomDirection(random), q = 1000 * randomDirection(random);
-    const BV merged = fitted<BV>({p}) + fitted<BV>({q});
+    const BV merged = fittedAs<BV>({p}) + fittedAs<BV>({q});
     if (!containsExactly(merged, p) || !containsExactly(merged, q)) return false;
   }
   return true;
@@ -87,8 +87,8 @@ TEST(FclKiosDefects, FclKiosDefect2_MergeRoundsToFloat) {
 /// 3: the witness points realise the distance, and are set also where it is 0.
 template <typename BV>
 bool witnessesRealiseTheDistance(const Vec& shift) {
-  const BV a = fitted<BV>({Vec(0, 0, 0), Vec(1, 0, 0), Vec(0, 1, 0)});
-  const BV b = fitted<BV>({Vec(0, 0, 0) + shift, Vec(1, 0, 0) + shift, Vec(0, 1, 0) + shift});
+  const BV a = fittedAs<BV>({Vec(0, 0, 0), Vec(1, 0, 0), Vec(0, 1, 0)});
+  const BV b = fittedAs<BV>({Vec(0, 0, 0) + shift, Vec(1, 0, 0) + shift, Vec(0, 1, 0) + shift});
   const double unset = std::numeric_limits<double>::quiet_NaN();
   Vec P(unset, unset, unset), Q = P;
   const double d = a.distance(b, &P, &Q);
@@ -108,8 +108,8 @@ bool translateMovesEverything() {
   const Vec t(10, 0, 0);
   Points<double> there;
   for (const Vec& p : triangle) there.push_back(p + t);
-  const BV here = fitted<BV>(triangle), moved = translate(here, t);
-  return moved.overlap(fitted<BV>(there)) && !moved.overlap(here);
+  const BV here = fittedAs<BV>(triangle), moved = translate(here, t);
+  return moved.overlap(fittedAs<BV>(there)) && !moved.overlap(here);
 }
 TEST(FclKiosDefects, FclKiosDefect4_TranslateDropsTheBox) {
   EXPECT_TRUE(translateMovesEverything<kIOSd>());
@@ -119,7 +119,7 @@ TEST(FclKiosDefects, FclKiosDefect4_TranslateDropsTheBox) {
 // 5: FCL declares overlap(Transform3, ...) and never defines it: a use of it does not link, which
 // no program can show of itself. Ours links, and agrees with the other forms.
 TEST(FclKiosDefects, FclKiosDefect5_OverlapOfTransformLinks) {
-  const auto a = fitted<kIOSd>({Vec(0, 0, 0), Vec(1, 0, 0), Vec(0, 1, 0)});
+  const auto a = fittedAs<kIOSd>({Vec(0, 0, 0), Vec(1, 0, 0), Vec(0, 1, 0)});
   fcl::Transform3d X = fcl::Transform3d::Identity();
   EXPECT_TRUE(overlap(X, a, a));
   X.translation() << 5, 0, 0;
@@ -136,7 +136,7 @@ bool sliversAreInside() {
     const Vec p = randomDirection(random), along = randomDirection(random);
     const Vec across = std::pow(10.0, -random.uniform(4, 16)) * randomDirection(random);
     const Points<double> sliver = {p, p + along, p + random.unit() * along + across};
-    const BV v = fitted<BV>(sliver);
+    const BV v = fittedAs<BV>(sliver);
     if (!std::isfinite(centralRadius(v))) return false;
     for (const Vec& q : sliver) {
       if (!containsExactly(v, q)) return false;
@@ -146,7 +146,7 @@ bool sliversAreInside() {
 }
 template <typename BV>
 bool obtuseTrianglesAreTight() {
-  const BV v = fitted<BV>({Vec(-1, 0, 0), Vec(1, 0, 0), Vec(0.2, 0.05, 0)});
+  const BV v = fittedAs<BV>({Vec(-1, 0, 0), Vec(1, 0, 0), Vec(0.2, 0.05, 0)});
   return centralRadius(v) <= 1.01;
 }
 TEST(FclKiosDefects, FclKiosDefect6_Slivers) {
@@ -161,8 +161,8 @@ template <typename BV>
 bool ordinarySetsAreContained(int n) {
   Random random(7);
   for (int i = 0; i < 300; ++i) {
-    const auto points = shapePoints(random, Shape::kRandom, n);
-    const BV v = fitted<BV>(points);
+    const auto points = shapePoints(random, PointShape::kRandom, n);
+    const BV v = fittedAs<BV>(points);
     for (const Vec& p : points) {
       if (!containsExactly(v, p)) return false;
     }
@@ -187,4 +187,4 @@ TEST(FclKiosDefects, FclKiosDefect25_DefaultIsEmpty) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -15,7 +15,7 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 static_assert(sizeof(fcl::BVNode<kIOSd>) <= 128, "two nodes in four cache lines");
@@ -23,16 +23,9 @@ static_assert(sizeof(fcl::BVNode<kIOSf>) <= sizeof(fcl::BVNode<kIOSd>), "smaller
 static_assert(sizeof(fcl::BVNode<kIOSd>) < sizeof(fcl::BVNode<fcl::kIOSd>) / 2, "defect 9 of FCL");
 
 template <typename S>
-class Kios : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class Kios : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(Kios, Scalars);
-
-template <typename S>
-kIOS<S> fitted(const Points<S>& points) {
-  kIOS<S> v;
-  fit(points.data(), static_cast<int>(points.size()), v);
-  return v;
-}
 
 // Whatever the memory held before: FCL's kIOS reads its uninitialised count here.
 TYPED_TEST(Kios, DefaultIsEmptyInAnyMemory) {
@@ -176,4 +169,4 @@ TYPED_TEST(Kios, ContainExcludesWhatASphereExcludes) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -10,12 +10,12 @@
 #include "fcl_kios/build/fit.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 template <typename S>
-class Merge : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class Merge : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(Merge, Scalars);
 
 /// Merges leaves of 1 to 3 points pairwise up to the root and checks every node on the way.
@@ -161,7 +161,7 @@ TYPED_TEST(Merge, HalvesOfASetGrowByHalfAtMost) {
   using S = TypeParam;
   Random random(5);
   for (int set = 0; set < 2'000; ++set) {
-    const auto shape = set % 2 ? Shape::kRandom : Shape::kCoplanar;
+    const auto shape = set % 2 ? PointShape::kRandom : PointShape::kCoplanar;
     auto points = place<S>(random, shapePoints(random, shape, 8 + below(random, 50)), 0, 1);
     std::sort(points.begin(), points.end(),
               [](const auto& p, const auto& q) { return p[0] < q[0]; });
@@ -209,4 +209,4 @@ TYPED_TEST(Merge, FlatPatchStaysFlat) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

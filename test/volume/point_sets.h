@@ -8,7 +8,7 @@
 #include <fcl/common/types.h>
 #include "scenes/random.h"
 
-namespace kios::test {
+namespace kios::testing {
 
 using scenes::Random;
 
@@ -18,7 +18,7 @@ using Points = std::vector<fcl::Vector3<S>>;
 inline int below(Random& random, int n) { return static_cast<int>(random.unit() * n); }
 
 /// Names the shapes of content that are hard for a fit, a merge or a bound, each posed on purpose.
-enum class Shape {
+enum class PointShape {
   kRandom,
   kCoplanar,
   kCollinear,
@@ -31,7 +31,7 @@ enum class Shape {
   kMixedMagnitudes,
   kAxis,  ///< on the coordinate axes, zeros of both signs
 };
-constexpr int kShapes = 11;
+constexpr int kPointShapes = 11;
 
 inline fcl::Matrix3d randomRotation(Random& random) {
   fcl::Quaterniond q(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
@@ -40,12 +40,19 @@ inline fcl::Matrix3d randomRotation(Random& random) {
   return q.normalized().toRotationMatrix();
 }
 
+/// R, then turned by |w| about w.
+inline fcl::Matrix3d turned(const fcl::Vector3d& w, const fcl::Matrix3d& R) {
+  const double angle = w.norm();
+  if (angle == 0) return R;
+  return fcl::AngleAxisd(angle, w / angle).toRotationMatrix() * R;
+}
+
 inline fcl::Vector3d randomDirection(Random& random) {
   return randomRotation(random) * fcl::Vector3d::UnitX();
 }
 
 /// Returns n points of a shape, of size about 1, around the origin.
-inline Points<double> shapePoints(Random& random, Shape shape, int n) {
+inline Points<double> shapePoints(Random& random, PointShape shape, int n) {
   const auto u = [&] { return random.uniform(-1, 1); };
   const double thin = std::pow(10.0, -random.uniform(0, 12)), size = random.uniform(0.1, 1);
   const fcl::Vector3d p0(u(), u(), u());
@@ -57,38 +64,38 @@ inline Points<double> shapePoints(Random& random, Shape shape, int n) {
     fcl::Vector3d& p = points[i];
     p << u(), u(), u();
     switch (shape) {
-      case Shape::kRandom:
+      case PointShape::kRandom:
         p = p.cwiseProduct(fcl::Vector3d(1, size, size * size));
         break;
-      case Shape::kCoplanar:
+      case PointShape::kCoplanar:
         p[2] = 0;
         break;
-      case Shape::kCollinear:
+      case PointShape::kCollinear:
         p[1] = p[2] = 0;
         break;
-      case Shape::kEqual:
+      case PointShape::kEqual:
         p = p0;
         break;
-      case Shape::kTwoClusters:
+      case PointShape::kTwoClusters:
         p = (i % 2 ? p0 : -p0) + thin * p;
         break;
-      case Shape::kSliver:
+      case PointShape::kSliver:
         if (i % 3 == 2) p[0] = 1 - thin * p[0];
         p = p.cwiseProduct(fcl::Vector3d(1, thin, thin * (n % 2 ? thin : size)));
         break;
-      case Shape::kNearSphere:
+      case PointShape::kNearSphere:
         p = p.normalized() * (1 + thin * u());
         break;
-      case Shape::kTriangle:
+      case PointShape::kTriangle:
         p << corner[i % 3][0], corner[i % 3][1], 0;
         break;
-      case Shape::kLattice:
+      case PointShape::kLattice:
         for (double& c : p) c = std::round(3 * c) / 4;
         break;
-      case Shape::kMixedMagnitudes:
+      case PointShape::kMixedMagnitudes:
         for (double& c : p) c *= std::pow(10.0, -random.uniform(0, 40));
         break;
-      case Shape::kAxis:
+      case PointShape::kAxis:
         for (int c = 0; c < 3; ++c) p[c] = c == i % 3 ? std::round(p[c]) : std::copysign(0.0, p[c]);
         break;
     }
@@ -142,9 +149,9 @@ inline int randomCount(Random& random) {
 /// Returns any shape at any place and scale.
 template <typename S>
 Points<S> hardPointSet(Random& random, int n) {
-  const auto shape = static_cast<Shape>(below(random, kShapes));
+  const auto shape = static_cast<PointShape>(below(random, kPointShapes));
   return place<S>(random, shapePoints(random, shape, n), randomOffset(random),
                   randomScale<S>(random));
 }
 
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -13,7 +13,7 @@
 #include "scenes/ray_oracle.h"
 #include "volume/point_sets.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 template <typename S>
@@ -114,7 +114,7 @@ TYPED_TEST(RayIntervalTest, TangentFromAfar) {
   for (int i = 0; i < 20000; ++i) {
     const int n = 3 + below(random, 6);
     Points<S> points;
-    for (const auto& p : shapePoints(random, Shape::kRandom, n)) {
+    for (const auto& p : shapePoints(random, PointShape::kRandom, n)) {
       points.push_back(on(p, grid).template cast<S>());
     }
     kIOS<S> bv;
@@ -249,4 +249,4 @@ TYPED_TEST(RayIntervalTest, BadRaysAreRefused) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -8,16 +8,15 @@
 #include <gtest/gtest.h>
 
 #include "fcl_kios/build/fit.h"
+#include "not_finite.h"
 #include "volume/exact_pairs.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 template <typename S>
-class Separation : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class Separation : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(Separation, Scalars);
 
 TYPED_TEST(Separation, NeverExceedsTheDistanceOfThePoints) {
@@ -153,4 +152,4 @@ TYPED_TEST(Separation, PairOfPosesMovesPointsAsDocumented) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

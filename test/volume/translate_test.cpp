@@ -8,12 +8,12 @@
 #include "fcl_kios/volume/separation.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 template <typename S>
-class Translate : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class Translate : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(Translate, Scalars);
 
 template <typename S>
@@ -63,7 +63,7 @@ TYPED_TEST(Translate, GrowsByTheRoundingOfTheCentreOnly) {
   using S = TypeParam;
   Random random(3);
   for (int set = 0; set < 5'000; ++set) {
-    const auto v = fitted(place<S>(random, shapePoints(random, Shape::kRandom, 12), 0, 1));
+    const auto v = fitted(place<S>(random, shapePoints(random, PointShape::kRandom, 12), 0, 1));
     const fcl::Vector3<S> t = randomShift(random, v);
     const auto moved = translate(v, t);
     const double ulp = std::numeric_limits<S>::epsilon() * moved.center0.template lpNorm<1>();
@@ -81,7 +81,7 @@ TYPED_TEST(Translate, BackAndForthAtFarOffsetsStaysSensible) {
   using S = TypeParam;
   Random random(4);
   const S far = sizeof(S) == sizeof(double) ? S(1e12) : S(1e4);
-  const auto points = place<S>(random, shapePoints(random, Shape::kRandom, 20), 0, 1);
+  const auto points = place<S>(random, shapePoints(random, PointShape::kRandom, 20), 0, 1);
   const auto v = fitted(points);
   auto moved = v;
   for (int i = 0; i < 10; ++i) {
@@ -104,7 +104,7 @@ TYPED_TEST(Translate, KeepsContainingWhereUnitsChange) {
   Random random(5);
   for (int set = 0; set < 2'000; ++set) {
     const double boundary = set % 2 ? 0x1p-30 : 0x1p30;
-    auto points = place<S>(random, shapePoints(random, Shape::kCoplanar, 9), 0, boundary);
+    auto points = place<S>(random, shapePoints(random, PointShape::kCoplanar, 9), 0, boundary);
     const auto first = fitted(points);
     const S to_boundary = static_cast<S>(boundary / first.radius0 * (1 - set * 1e-9 + 2e-6));
     for (auto& p : points) p *= to_boundary;
@@ -115,4 +115,4 @@ TYPED_TEST(Translate, KeepsContainingWhereUnitsChange) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -18,7 +18,7 @@ TYPED_TEST(VolumeTraps, FitsAndQueries) {
   Flags flags;
   std::vector<kIOS<S>> volumes;
   for (const auto& [name, mesh] : allMeshes<S>()) {
-    const Shape<S> shape(mesh);
+    const MeshIn<S> shape(mesh);
     for (const int n : {1, 2, 3, 6, static_cast<int>(shape.vertices.size())}) {
       for (const FitMethod method : {FitMethod::kTuned, FitMethod::kMethodI,
                                      FitMethod::kMethodIAtAngle, FitMethod::kMethodII}) {

@@ -9,12 +9,12 @@
 #include "fcl_kios/volume/separation.h"
 #include "volume/exact_pairs.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 template <typename S>
-class Witness : public testing::Test {};
-using Scalars = testing::Types<double, float>;
+class Witness : public ::testing::Test {};
+using Scalars = ::testing::Types<double, float>;
 TYPED_TEST_SUITE(Witness, Scalars);
 
 /// Returns the distance of p to the nearest surface of a sphere of v, where v sits at (R, T).
@@ -190,4 +190,4 @@ TYPED_TEST(Witness, PairsOfPosesThatAreNotRigidAreRefused) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

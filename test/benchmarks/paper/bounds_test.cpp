@@ -9,12 +9,12 @@
 #include <stdexcept>
 
 #include "benchmarks/paper/policies.h"
+#include "not_finite.h"
 #include "volume/exact_pairs.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 using PointSet = Points<double>;
 
 PackedPolicy::Shared shareOf(const PackedPolicy& policy, const PointSet& model) {
@@ -90,7 +90,7 @@ TEST(Variants, ContainsDeniesWhatIsOutside) {
     Random random(3);
     for (int set = 0; set < 30; ++set) {
       const PointSet points =
-          place<double>(random, shapePoints(random, Shape::kRandom, 20), 10, 1e3);
+          place<double>(random, shapePoints(random, PointShape::kRandom, 20), 10, 1e3);
       const auto model = policy.share(points.data(), 20);
       typename std::decay_t<decltype(policy)>::Store store;
       store.add(fitOf(policy, points, model));
@@ -152,7 +152,7 @@ TEST(Variants, BoundsOfSeparatedSetsAreTight) {
     const double scale = std::pow(10, random.uniform(-140, 140));
     const double offset = i % 2 ? 0 : std::pow(10, random.uniform(0, 6));
     const PointSet a =
-        place<double>(random, shapePoints(random, Shape::kRandom, 30), offset, scale);
+        place<double>(random, shapePoints(random, PointShape::kRandom, 30), offset, scale);
     PointSet b = a;
     const RelativePose<double> X(fcl::Matrix3d::Identity(),
                                  fcl::Vector3d(100 * scale * randomDirection(random)));
@@ -215,4 +215,4 @@ TEST(Variants, OptionsThatMeanNothingAreRefused) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -12,16 +12,11 @@
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 using scenes::Mesh;
-using Split = std::shared_ptr<const MeshSplit>;
 const std::vector<fcl::Vector3d> kAxes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
-Split splitOf(const Mesh& mesh) {
-  return std::make_shared<const MeshSplit>(mesh.vertices, mesh.triangles);
-}
 
 FitOptions options(SphereCount count, bool shared) {
   FitOptions result;
@@ -92,7 +87,7 @@ TEST(FixedDirections, BoundsTurnWithTheModel) {
 TEST(FixedDirections, FitIsThatOfTheTurnedContent) {
   Random random(3);
   for (int set = 0; set < 200; ++set) {
-    const Points<double> points = shapePoints(random, Shape::kRandom, 20);
+    const Points<double> points = shapePoints(random, PointShape::kRandom, 20);
     const fcl::Matrix3d G = randomRotation(random);
     Points<double> turned = points;
     for (auto& p : turned) p = G * p;
@@ -177,4 +172,4 @@ TEST(FloatsPerVolume, FallWithEachStepOfThePaper) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -2,17 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "build/all_fits.h"
 #include "paper/kios_policy.h"
+#include "paper/mesh_split.h"
 #include "paper/packed_policy.h"
+#include "scenes/mesh.h"
 #include "volume/exact_spheres.h"
 
-namespace kios::test {
+namespace kios::testing {
 
 using namespace paper;
+
+using Split = std::shared_ptr<const MeshSplit>;
+
+inline Split splitOf(const scenes::Mesh& mesh) {
+  return std::make_shared<const MeshSplit>(mesh.vertices, mesh.triangles);
+}
 
 /// Calls visit(name, policy) for kIOS with all fits and for all packed variants.
 template <typename Visit>
@@ -49,4 +58,4 @@ void forEachPolicy(Visit visit) {
   forEachPackedPolicy(visit);
 }
 
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -12,15 +12,10 @@
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
 
-namespace kios::test {
+namespace kios::testing {
 namespace {
 
 using scenes::Mesh;
-using Split = std::shared_ptr<const MeshSplit>;
-
-Split splitOf(const Mesh& mesh) {
-  return std::make_shared<const MeshSplit>(mesh.vertices, mesh.triangles);
-}
 
 template <typename Policy>
 VariantTree<Policy> treeOf(const Split& split, const Policy& policy) {
@@ -191,4 +186,4 @@ TEST(MeshSplit, RefusesWhatIsNoMesh) {
 }
 
 }  // namespace
-}  // namespace kios::test
+}  // namespace kios::testing

@@ -13,8 +13,6 @@
 namespace kios::scenes {
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 TEST(CadParts, ClosedAndWoundOutward) {
   for (const Mesh& mesh : cadParts()) {
     expectClosed(mesh);

@@ -14,8 +14,6 @@
 namespace kios::scenes {
 namespace {
 
-const double kPi = std::acos(-1.0);
-
 TEST(CadShapes, ClosedAndWoundOutward) {
   for (const Mesh& mesh : {stripCylinder(100, 0.6, 0.005), flangedCylinder(0.05, 0.2, 48),
                            boredBlock({0.2, 0.1, 0.08}, 0.01, 0.005, 0.03, 32)}) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -13,6 +14,8 @@
 // Checks that several tests of shapes make.
 
 namespace kios::scenes {
+
+inline const double kPi = std::acos(-1.0);
 
 inline double signedVolume(const Mesh& mesh) {
   double six_volumes = 0;

@@ -17,14 +17,18 @@ namespace kios::scenes {
 namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
-using Vector = std::array<Rational, 3>;
+using RationalVector = std::array<Rational, 3>;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
-Vector exact(const Eigen::Vector3d& p) { return {Rational(p[0]), Rational(p[1]), Rational(p[2])}; }
+RationalVector exact(const Eigen::Vector3d& p) {
+  return {Rational(p[0]), Rational(p[1]), Rational(p[2])};
+}
 
-Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Rational dot(const RationalVector& a, const RationalVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-Vector difference(const Vector& a, const Vector& b) {
+RationalVector difference(const RationalVector& a, const RationalVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
@@ -57,8 +61,8 @@ Rational squaredDistanceByActiveSets(const TrianglePair& pair) {
   std::optional<Rational> best;
   for (const auto& of_a : features) {
     for (const auto& of_b : features) {
-      const Vector origin = difference(exact(pair.b[of_b[0]]), exact(pair.a[of_a[0]]));
-      std::vector<Vector> columns;  // the difference is origin + sum x_i columns_i
+      const RationalVector origin = difference(exact(pair.b[of_b[0]]), exact(pair.a[of_a[0]]));
+      std::vector<RationalVector> columns;  // the difference is origin + sum x_i columns_i
       for (std::size_t i = 1; i < of_a.size(); ++i) {
         columns.push_back(difference(exact(pair.a[of_a[0]]), exact(pair.a[of_a[i]])));
       }
@@ -67,14 +71,14 @@ Rational squaredDistanceByActiveSets(const TrianglePair& pair) {
       }
       std::vector<std::vector<Rational>> m;
       std::vector<Rational> r;
-      for (const Vector& row : columns) {
+      for (const RationalVector& row : columns) {
         m.emplace_back();
-        for (const Vector& column : columns) m.back().push_back(dot(row, column));
+        for (const RationalVector& column : columns) m.back().push_back(dot(row, column));
         r.push_back(-dot(row, origin));
       }
       const auto x = solved(m, r);
       if (!x) continue;
-      Vector residual = origin;
+      RationalVector residual = origin;
       Rational sum_a = 0, sum_b = 0;
       bool feasible = true;
       for (std::size_t i = 0; i < x->size(); ++i) {
@@ -134,13 +138,13 @@ TEST(RationalOracle, AgreesWithActiveSetsOnTinyLattices) {
   }
 }
 
-const Corners kFloor = {Eigen::Vector3d(0, 0, 0), {4, 0, 0}, {0, 4, 0}};
+const Corners kFloorCorners = {Eigen::Vector3d(0, 0, 0), {4, 0, 0}, {0, 4, 0}};
 
 TEST(RationalOracle, KnownDistances) {
   const auto expectDistance = [](const Corners& b, long double distance) {
-    EXPECT_EQ(rationalDistance({kFloor, b}).distance, distance);
-    EXPECT_EQ(rationalDistance({b, kFloor}).distance, distance);
-    EXPECT_EQ(rationalDistance({kFloor, b}).intersect, distance == 0);
+    EXPECT_EQ(rationalDistance({kFloorCorners, b}).distance, distance);
+    EXPECT_EQ(rationalDistance({b, kFloorCorners}).distance, distance);
+    EXPECT_EQ(rationalDistance({kFloorCorners, b}).intersect, distance == 0);
   };
   expectDistance({{{1, 1, 2}, {1, 2, 5}, {2, 1, 5}}}, 2);         // vertex over face
   expectDistance({{{-3, -4, 0}, {-5, -9, 1}, {-5, -9, -1}}}, 5);  // vertex to vertex
@@ -157,7 +161,7 @@ TEST(RationalOracle, KnownDistances) {
 
 TEST(RationalOracle, AllScales) {
   for (const double unit : {0x1p-1074, 0x1p-1000, 0x1p-500, 1.0, 0x1p500, 0x1p1000}) {
-    TrianglePair pair = {kFloor, {{{1, 1, 2}, {1, 2, 5}, {2, 1, 5}}}};
+    TrianglePair pair = {kFloorCorners, {{{1, 1, 2}, {1, 2, 5}, {2, 1, 5}}}};
     for (Corners* corners : {&pair.a, &pair.b}) {
       for (Eigen::Vector3d& p : *corners) p *= unit;
     }
@@ -167,8 +171,8 @@ TEST(RationalOracle, AllScales) {
   // A gap of the least double over a face of size 1.
   const double least = 0x1p-1074;
   const Corners above = {{{1, 1, least}, {1, 2, 1}, {2, 1, 1}}};
-  EXPECT_EQ(rationalDistance({kFloor, above}).distance, least);
-  EXPECT_FALSE(rationalDistance({kFloor, above}).intersect);
+  EXPECT_EQ(rationalDistance({kFloorCorners, above}).distance, least);
+  EXPECT_FALSE(rationalDistance({kFloorCorners, above}).intersect);
 }
 
 }  // namespace

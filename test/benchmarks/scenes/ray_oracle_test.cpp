@@ -10,10 +10,9 @@
 namespace kios::scenes {
 namespace {
 
-using Vector = Eigen::Vector3d;
-
 constexpr double kMax = std::numeric_limits<double>::max();
-const std::array<Vector, 3> kTriangle = {Vector(0, 0, 1), Vector(4, 0, 1), Vector(0, 4, 1)};
+const std::array<Eigen::Vector3d, 3> kTriangle = {
+    Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(4, 0, 1), Eigen::Vector3d(0, 4, 1)};
 
 TEST(RayOracle, CrossesAFace) {
   const auto up = rationalRayHit({{1, 2, -1}, {0, 0, 4}, 0, kMax}, kTriangle);
@@ -33,7 +32,7 @@ TEST(RayOracle, CrossesAFace) {
 }
 
 TEST(RayOracle, IsClosed) {
-  const Vector up(0, 0, 1);
+  const Eigen::Vector3d up(0, 0, 1);
   const double beyond = std::nextafter(2.0, 3.0);
   EXPECT_TRUE(rationalRayHit({{2, 2, 0}, up, 0, kMax}, kTriangle));
   EXPECT_FALSE(rationalRayHit({{2, beyond, 0}, up, 0, kMax}, kTriangle));
@@ -57,7 +56,7 @@ TEST(RayOracle, InThePlane) {
 }
 
 TEST(RayOracle, SegmentsAndPoints) {
-  const Vector p(1, 0, 0), q(3, 0, 0), m(2, 0, 0);
+  const Eigen::Vector3d p(1, 0, 0), q(3, 0, 0), m(2, 0, 0);
   EXPECT_EQ(rationalRayHit({{2, -1, 0}, {0, 0.5, 0}, 0, kMax}, {p, m, q})->t, 2);
   EXPECT_EQ(rationalRayHit({{2, -1, 0}, {0, 0.5, 0}, 0, kMax}, {p, q, m})->t, 2);
   EXPECT_FALSE(rationalRayHit({{4, -1, 0}, {0, 0.5, 0}, 0, kMax}, {p, q, m}));
