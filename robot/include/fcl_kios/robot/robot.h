@@ -60,7 +60,10 @@ class Robot {
   /// doesn't name is 0, or the limit next to it.
   Eigen::VectorXd state(const std::string& name) const;
   std::vector<std::string> states() const;  ///< names of the group states
-  /// The frame of a link or of an attached object in the world, which is the root link's frame.
+  /// All that can be in contact: those of the links, then of what is attached and of obstacles.
+  std::vector<RobotElement> elements() const;
+  /// The frame of a link, an attached object or an obstacle in the world, which is the root link's
+  /// frame.
   fcl::Transform3d pose(const std::string& link, const Eigen::VectorXd& q) const;
 
   /// Served are finished meshes over k-IOS, FCL's nine shapes and octrees.
