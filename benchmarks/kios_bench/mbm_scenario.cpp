@@ -9,9 +9,11 @@
 #include <numeric>
 
 #include "fcl_kios/fcl_kios.h"
+#include "mbm_edges.h"
 #include "mbm_problems.h"
 #include "obbrss_cell.h"
 #include "rrt_connect.h"
+#include "sampled_edge.h"
 #include "scenario.h"
 
 namespace kios::bench {
@@ -20,30 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double kStep = 0.01;  // of samples, in the largest joint
 constexpr double kPi = 3.14159265358979323846;
 enum Way { kProven, kSampled, kObbrss, kWays };
 constexpr const char* kNames[kWays] = {"kios", "sampled_kios", "fcl_obbrss"};
-
-/// Samples in the order of OMPL's discrete validator: the end, then by halves. Returns the first
-/// that isn't free, or an empty vector.
-template <typename IsFree>
-VectorXd sampleInContact(const IsFree& is_free, const VectorXd& q0, const VectorXd& q1) {
-  if (!is_free(q1)) return q1;
-  const int steps =
-      static_cast<int>(std::ceil((q1 - q0).template lpNorm<Eigen::Infinity>() / kStep));
-  std::vector<std::pair<int, int>> waiting = {{1, steps - 1}};
-  for (std::size_t next = 0; next < waiting.size(); ++next) {
-    const auto [low, high] = waiting[next];
-    if (low > high) continue;
-    const int middle = (low + high) / 2;
-    VectorXd q = q0 + static_cast<double>(middle) / steps * (q1 - q0);
-    if (!is_free(q)) return q;
-    waiting.emplace_back(low, middle - 1);
-    waiting.emplace_back(middle + 1, high);
-  }
-  return {};
-}
 
 /// What one way made of the problems of one kind.
 struct Tally {
@@ -182,11 +163,11 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     const Tally& tally = kind.ways[way];
     if (tally.seconds.empty()) continue;
     const double middle = median(tally.seconds), average = mean(tally.seconds),
-                 sum = average * static_cast<double>(tally.seconds.size());
+                 sum = average * static_cast<double>(tally.seconds.size()),
+                 edges_per_second = static_cast<double>(tally.edges) / std::max(sum, 1e-9);
     std::printf("  %-14s %7zu %10.3f %10.3f %8.1f %8.1f %12.0f %10lld %7lld %9lld\n", kNames[way],
                 tally.solved.size(), 1e3 * middle, 1e3 * average, base / std::max(middle, 1e-9),
-                base_mean / std::max(average, 1e-9),
-                static_cast<double>(tally.edges) / std::max(sum, 1e-9), tally.free_edges,
+                base_mean / std::max(average, 1e-9), edges_per_second, tally.free_edges,
                 tally.wrong, tally.disputed);
     Row row;
     row.scenario = scenario;
@@ -199,7 +180,10 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     if (middle > 0 && base > 0) row.times.ratio_to_fcl_obbrss = base / middle;
     // The samples of a competitor miss contacts, which is no fault of ours.
     row.errors.wrong = static_cast<std::size_t>(tally.wrong);
-    row.pairs.total = tally.solved.size();
+    row.plans.solved = tally.solved.size();
+    row.plans.in_contact = static_cast<std::size_t>(kind.in_contact);
+    row.plans.mean_us = 1e6 * average;
+    row.plans.edges_per_second = edges_per_second;
     rows.push_back(row);
   }
   return rows;
@@ -213,10 +197,12 @@ void planAll(const std::string& name, const fs::path& folder, const Options& opt
   const Robot bare =
       loadRobot((folder / (name + ".urdf")).string(), (folder / (name + ".srdf")).string());
   std::printf("mbm/%s: loaded in %.1f ms\n", name.c_str(), 1e-3 * (nowMicroseconds() - begin));
+  std::fflush(stdout);
   std::map<std::string, Kind> kinds;
   Planning planning(bare, options);
   std::uint64_t seed = options.seed;
-  for (const Problem& problem : readProblems(unpacked.path() / "problems", bare, wanted)) {
+  const auto problems = readProblems(unpacked.path() / "problems", bare, wanted);
+  for (const Problem& problem : problems) {
     planning.solve(problem, seed++, kinds[problem.name.substr(0, problem.name.find('/'))]);
   }
   std::printf(
@@ -227,10 +213,11 @@ void planAll(const std::string& name, const fs::path& folder, const Options& opt
               "mean ms", "x", "x mean", "edges a s", "free edges", "contact", "disputed");
   Kind all;
   for (const auto& [kind_name, kind] : kinds) {
-    rowsOf("mbm/" + kind_name, kind, options.seed);
+    report.addUnprinted(rowsOf("mbm/" + kind_name, kind, options.seed));
     all.add(kind);
   }
   report.addUnprinted(rowsOf("mbm/" + name, all, options.seed));
+  measureQuestions(name, bare, problems, options, report);
 }
 
 }  // namespace
