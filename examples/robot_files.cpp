@@ -9,6 +9,7 @@
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
 #include <ompl/geometric/PathGeometric.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/util/Console.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -37,6 +38,7 @@ VectorXd configuration(const kios::Robot& robot, const std::string& text) {
 }
 
 int plan(const kios::Robot& robot, const VectorXd& from, const VectorXd& to) {
+  ompl::msg::setLogLevel(ompl::msg::LOG_NONE);  // stdout is the path's
   const int n = robot.coordinates();
   auto space = std::make_shared<ob::RealVectorStateSpace>();
   for (int i = 0; i < n; ++i) {
@@ -67,7 +69,7 @@ int plan(const kios::Robot& robot, const VectorXd& from, const VectorXd& to) {
     std::fprintf(stderr, "robot_planner: no path was found\n");
     return 1;
   }
-  const auto* path = problem->getSolutionPath()->as<og::PathGeometric>();
+  auto* const path = problem->getSolutionPath()->as<og::PathGeometric>();
   for (const ob::State* state : path->getStates()) {
     const VectorXd q = coordinates(*si, state);
     for (int i = 0; i < n; ++i) std::printf("%s%.6g", i > 0 ? "," : "", q[i]);
