@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # `cpack -G DEB`: the packages libfcl-kios<version>, the shared library, libfcl-kios-dev, and
-# libfcl-kios-preload, which programs that know FCL alone preload, and python3-fcl-kios, where that
-# is built. For a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
+# libfcl-kios-preload, which programs that know FCL alone preload, and python3-fcl-kios and
+# libfcl-kios-robot, where these are built. For a build that was configured with -DCMAKE_INSTALL_PREFIX=/usr (Debian's library directories).
 set(control_dir ${PROJECT_BINARY_DIR}/debian)
 set(so_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 set(runtime_package libfcl-kios${so_version})
@@ -69,6 +69,21 @@ if(TARGET fcl_kios_python)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
   set(CPACK_COMPONENT_PYTHON_DESCRIPTION
     "${text}\n.\nThis package holds the Python package fcl_kios, with python-fcl's names.")
+endif()
+if(TARGET fcl_kios_robot)
+  list(APPEND CPACK_COMPONENTS_ALL robot)
+  set(robot_package libfcl-kios-robot)
+  set(CPACK_DEBIAN_ROBOT_PACKAGE_NAME ${robot_package})
+  set(CPACK_DEBIAN_ROBOT_PACKAGE_SECTION libdevel)
+  # Its headers include the library's, and its CMake target finds theirs.
+  set(CPACK_DEBIAN_ROBOT_PACKAGE_DEPENDS "${dev_package} (= ${PROJECT_VERSION}-1)")
+  set(CPACK_DEBIAN_ROBOT_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR})
+  if(BUILD_SHARED_LIBS)
+    set(CPACK_DEBIAN_ROBOT_PACKAGE_CONTROL_EXTRA ${control_dir}/triggers)
+  endif()
+  set(CPACK_COMPONENT_ROBOT_DESCRIPTION
+    "${text}\n.\nThis package holds the addon that reads robots from URDF, SRDF and planning scenes.")
 endif()
 list(JOIN dev_depends ", " CPACK_DEBIAN_DEV_PACKAGE_DEPENDS)
 

@@ -3,14 +3,16 @@
 //
 // A six-axis arm reaches from one bay of a shelf into another, by OMPL's RRTConnect. Edges of the
 // tree are checked in two ways: proven as a whole by kios::checkMotion(), in the motion validator
-// below, and sampled by OMPL's discrete validator over FCL's OBBRSS with its dynamic AABB trees, at
-// OMPL's default of a hundredth of the space's extent and at 0.01 rad. Models are built in the time
-// that is measured, and nothing is prepared before. Then every edge of the sampled plans is
-// checked: some pass through the shelf between two samples.
+// of proving_validator.h, and sampled by OMPL's discrete validator over FCL's OBBRSS with its
+// dynamic AABB trees, at OMPL's default of a hundredth of the space's extent and at 0.01 rad.
+// Models are built in the time that is measured, and nothing is prepared before. Then every edge of
+// the sampled plans is checked: some pass through the shelf between two samples.
+//
+// With the addon fcl_kios::robot it also plans for a robot from its files (robot_files.cpp).
 //
 // usage: robot_planner [SEEDS]
+//        robot_planner URDF SRDF SCENE FROM TO     (SRDF and SCENE may be -, see robot_files.cpp)
 #include <fcl_kios/fcl_kios.h>
-#include <ompl/base/MotionValidator.h>
 #include <ompl/base/ScopedState.h>
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/terminationconditions/IterationTerminationCondition.h>
@@ -29,7 +31,10 @@
 #include <utility>
 #include <vector>
 
+#include "proving_validator.h"
 #include "shapes.h"
+
+int planFromFiles(int argc, char** argv);  // robot_files.cpp
 
 namespace {
 
@@ -117,43 +122,6 @@ kios::Linkage linkageOf(const std::vector<Part>& parts) {
   return linkage;
 }
 
-Eigen::VectorXd coordinates(const ob::State* state) {
-  const double* const values = state->as<Space::StateType>()->values;
-  return Eigen::Map<const Eigen::VectorXd>(values, kJoints);
-}
-
-bool isFree(const kios::Linkage& linkage, const ob::State* from, const ob::State* to) {
-  return checkMotion(linkage, coordinates(from), coordinates(to)).verdict ==
-         kios::MotionVerdict::kClear;
-}
-
-/// OMPL's question about an edge, answered by a proof.
-class ProvingValidator : public ob::MotionValidator {
- public:
-  ProvingValidator(const ob::SpaceInformationPtr& si, const kios::Linkage& linkage)
-      : ob::MotionValidator(si), linkage_(linkage) {}
-
-  bool checkMotion(const ob::State* from, const ob::State* to) const override {
-    return isFree(linkage_, from, to);
-  }
-  /// Also sets how far the path is clear: up to the first contact.
-  bool checkMotion(const ob::State* from, const ob::State* to,
-                   std::pair<ob::State*, double>& last_valid) const override {
-    kios::MotionRequest request;
-    request.first_contact = true;
-    const auto answer = kios::checkMotion(linkage_, coordinates(from), coordinates(to), request);
-    if (answer.verdict == kios::MotionVerdict::kClear) return true;
-    last_valid.second = answer.from;
-    if (last_valid.first) {
-      si_->getStateSpace()->interpolate(from, to, answer.from, last_valid.first);
-    }
-    return false;
-  }
-
- private:
-  const kios::Linkage& linkage_;
-};
-
 /// FCL's scene over OBBRSS, for one configuration at a time.
 class Sampler {
  public:
@@ -168,7 +136,7 @@ class Sampler {
   }
 
   bool isFree(const ob::State* state) {
-    const Eigen::VectorXd q = coordinates(state);
+    const double* const q = state->as<Space::StateType>()->values;
     fcl::Transform3d X[kJoints];
     for (int i = 0; i < kJoints; ++i) {
       X[i] = (i == 0 ? fcl::Transform3d::Identity() : X[i - 1]) *
@@ -222,9 +190,13 @@ Plan solve(const std::vector<Part>& parts, double step, unsigned seed) {
   const auto begin = Clock::now();
   if (step == 0) {
     linkage = std::make_unique<kios::Linkage>(linkageOf(parts));
+    const auto proof = [&](const auto& q0, const auto& q1, const auto& request) {
+      return checkMotion(*linkage, q0, q1, request);
+    };
+    const auto validator = std::make_shared<ProvingValidator>(si, proof);
     si->setStateValidityChecker(
-        [&](const ob::State* state) { return isFree(*linkage, state, state); });
-    si->setMotionValidator(std::make_shared<ProvingValidator>(si, *linkage));
+        [validator](const ob::State* state) { return validator->checkMotion(state, state); });
+    si->setMotionValidator(validator);
   } else {
     sampler = std::make_unique<Sampler>(parts);
     si->setStateValidityChecker([&](const ob::State* state) { return sampler->isFree(state); });
@@ -272,6 +244,9 @@ int touchingEdges(const kios::Linkage& linkage, const Plan& plan) {
 }  // namespace
 
 int main(int argc, char** argv) {
+#ifdef HAVE_ROBOT
+  if (argc > 2) return planFromFiles(argc, argv);
+#endif
   const int seeds = argc > 1 ? std::atoi(argv[1]) : 10;
   if (seeds < 1) {
     std::fprintf(stderr, "usage: robot_planner [SEEDS], at least 1\n");

@@ -134,11 +134,11 @@ int run(int argc, char** argv) {
   bool list = false;
   bool check_rows = false;
   app.add_option("scenario", wanted,
-                 "what to run: names of --list, world/SCENE, robots/ROBOT; 'generated' if none is "
-                 "named")
+                 "what to run: names of --list, world/SCENE, robots/ROBOT, mbm/ROBOT; 'generated' "
+                 "if none is named")
       ->check([&names](const std::string& name) {
         const std::string scenario = name.substr(0, name.find('/'));
-        const bool has_parts = scenario == "world" || scenario == "robots";
+        const bool has_parts = scenario == "world" || scenario == "robots" || scenario == "mbm";
         return CLI::IsMember(names)(has_parts ? scenario : name);
       });
   app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);

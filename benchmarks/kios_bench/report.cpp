@@ -119,6 +119,10 @@ std::string toJson(const Row& row) {
       {"total_pairs", orNull(row.pairs.total)},
       {"narrow_queries", orNull(row.pairs.narrow_queries)},
       {"prepared_models", orNull(row.pairs.prepared_models)},
+      {"solved", orNull(row.plans.solved)},
+      {"in_contact", orNull(row.plans.in_contact)},
+      {"mean_us", orNull(row.plans.mean_us)},
+      {"edges_per_second", orNull(row.plans.edges_per_second)},
       {"simd_target", orNull(row.simd_target)},
       {"seed", row.seed},
   };

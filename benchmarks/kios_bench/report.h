@@ -61,6 +61,13 @@ struct Pairs {
   MaybeCount prepared_models;
 };
 
+/// Counts planning problems, whose times are those of a plan: median, the budget where it ran out.
+struct Plans {
+  MaybeCount solved;
+  MaybeCount in_contact;  ///< problems whose start or goal is in contact, that nobody was asked
+  Maybe mean_us, edges_per_second;
+};
+
 /// Holds one measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
 struct Row {
   std::string scenario, query, bv;
@@ -77,6 +84,7 @@ struct Row {
   Volumes volumes;
   ToSsv to_ssv;
   Pairs pairs;
+  Plans plans;
   std::optional<std::string> simd_target;
 
   /// Returns a copy for a competitor, with its times.

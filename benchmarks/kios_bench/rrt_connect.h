@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace kios::bench {
@@ -13,15 +15,17 @@ using IsFreeEdge = std::function<bool(const Eigen::VectorXd& q0, const Eigen::Ve
 
 struct PlanRequest {
   Eigen::VectorXd start, goal, lower, upper;
-  double range = 1;  ///< of an edge, in joint space
-  double seconds = 2;
+  double range = 1;    ///< of an edge, in joint space
+  double seconds = 2;  ///< of this thread's CPU time
   std::uint64_t seed = 1;
 };
 
 struct Plan {
   std::vector<Eigen::VectorXd> path;  ///< from start to goal; empty if there is none
-  double seconds = 0;
-  long long edges = 0;  ///< that were asked about
+  double seconds = 0;                 ///< of CPU time
+  long long edges = 0;                ///< that were asked about
+  /// Those that were called free.
+  std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> free_edges;
 };
 
 /// RRT-Connect (Kuffner & LaValle 2000): two trees grow towards random configurations, and each

@@ -37,10 +37,17 @@ Cell::Cell(std::shared_ptr<const Arm> arm, const std::vector<Object>& objects,
   const int count = static_cast<int>(bodies_.size());
   among_.resize(static_cast<std::size_t>(carried_));
   around_.resize(static_cast<std::size_t>(carried_));
+  checked_.assign(static_cast<std::size_t>(carried_) * bodies_.size(), 0);
+  for (int b = carried_; b < count; ++b) {
+    const Body& body = bodies_[b];
+    middles_.push_back(body.X_LB * body.middle);
+    boxes_.add(body.X_LB, body.middle, body.half, body.padding);
+  }
   for (int a = 0; a < carried_; ++a) {
     for (int b = 0; b < count; ++b) {
       if (b >= a && b < carried_) continue;
       if (!checked(bodies_[a], bodies_[b], allowed)) continue;
+      checked_[static_cast<std::size_t>(a) * bodies_.size() + static_cast<std::size_t>(b)] = 1;
       (b < a ? among_ : around_)[static_cast<std::size_t>(a)].push_back(b);
     }
   }

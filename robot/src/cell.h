@@ -14,6 +14,7 @@
 #include "fcl_kios/linkage/linkage.h"
 #include "fcl_kios/robot/answers.h"
 #include "kinematic_tree.h"
+#include "near_lanes.h"
 
 namespace kios::robot {
 
@@ -72,11 +73,17 @@ class Cell {
   struct Placed;
 
   bool checked(const Body& a, const Body& b, const std::set<NamePair>& allowed) const;
+  bool isChecked(int carried, int other) const {
+    return checked_[static_cast<std::size_t>(carried) * bodies_.size() +
+                    static_cast<std::size_t>(other)] != 0;
+  }
   void addProofs();
   /// Bounds the distance of the ball of body a from the box of body b.
   double ballToBox(const Placed& placed, int a, int b) const;
   double boundOf(const Placed& placed, int a, int b) const;
-  bool findContact(const Eigen::VectorXd& q, RobotContact* contact) const;
+  bool findContact(Placed& placed, Pair& found) const;
+  /// With `contact`, it is filled in for a pair that is known to be near.
+  bool touch(const Placed& placed, int a, int b, RobotContact* contact) const;
   /// Pairs whose bound is at most `within`.
   void candidates(const Placed& placed, double within, std::vector<Candidate>& found) const;
   RobotClearance answer(const Placed& placed, const Candidate& pair, const Nearness& near,
@@ -90,6 +97,9 @@ class Cell {
   int carried_ = 0;                       ///< bodies that links carry; obstacles follow
   std::vector<std::vector<int>> among_;   ///< by carried body: carried ones before it to be checked
   std::vector<std::vector<int>> around_;  ///< by carried body: obstacles to be checked
+  std::vector<char> checked_;             ///< by carried body and body
+  std::vector<fcl::Vector3d> middles_;    ///< of obstacles, in the world
+  BoxLanes boxes_;                        ///< of obstacles
   std::vector<Proof> proofs_;
 };
 

@@ -23,76 +23,98 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// All bodies at a configuration. Its memory is the thread's, for the next query.
 struct Cell::Placed {
+  const Cell* cell = nullptr;
   std::vector<PlacedLink> links;
-  std::vector<Transform3d> poses;
+  std::vector<Transform3d> poses;  ///< of what links carry, as `centers`
   std::vector<Vector3d> centers;
   std::vector<Candidate> found;
+  BallLanes balls;
 
   static Placed& of(const Cell& cell, const Eigen::VectorXd& q) {
     static thread_local Placed placed;
+    placed.cell = &cell;
     cell.arm_->tree.place(q, placed.links);
-    const std::size_t count = cell.bodies_.size();
+    const auto count = static_cast<std::size_t>(cell.carried_);
     placed.poses.resize(count);
     placed.centers.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const Body& body = cell.bodies_[i];
-      placed.poses[i] = body.node < 0 ? body.X_LB : placed.links[body.node].pose(body.X_LB);
+      placed.poses[i] = placed.links[body.node].pose(body.X_LB);
       placed.centers[i] = placed.poses[i] * body.middle;
     }
     placed.found.clear();
     return placed;
   }
+  const Transform3d& pose(int i) const {
+    return i < cell->carried_ ? poses[i] : cell->bodies_[i].X_LB;
+  }
+  const Vector3d& center(int i) const {
+    return i < cell->carried_ ? centers[i] : cell->middles_[i - cell->carried_];
+  }
 };
 
 double Cell::ballToBox(const Placed& placed, int a, int b) const {
   const Body& box = bodies_[b];
-  const Vector3d p = placed.poses[b].linear().transpose() * (placed.centers[a] - placed.centers[b]);
+  const Vector3d p = placed.pose(b).linear().transpose() * (placed.center(a) - placed.center(b));
   const Vector3d out = (p.cwiseAbs() - box.half).cwiseMax(0.0);
   return out.norm() - bodies_[a].radius;
 }
 
 // Centres and boxes round by 2^-50 of their coordinates.
 double Cell::boundOf(const Placed& placed, int a, int b) const {
-  const Vector3d d = placed.centers[a] - placed.centers[b];
+  const Vector3d d = placed.center(a) - placed.center(b);
   double bound = std::max(ballToBox(placed, a, b), ballToBox(placed, b, a));
   bound = std::max(bound, d.norm() - bodies_[a].radius - bodies_[b].radius);
-  bound -= 0x1p-45 * (placed.centers[a].lpNorm<1>() + placed.centers[b].lpNorm<1>());
+  bound -= 0x1p-45 * (placed.center(a).lpNorm<1>() + placed.center(b).lpNorm<1>());
   // A half-space is without bounds, of which NaN may be left.
   return bound > 0 ? bound : 0;
 }
 
-bool Cell::findContact(const Eigen::VectorXd& q, RobotContact* contact) const {
-  const Placed& placed = Placed::of(*this, q);
+bool Cell::touch(const Placed& placed, int a, int b, RobotContact* contact) const {
+  const Body &first = bodies_[a], &second = bodies_[b];
+  const double separation = first.padding + second.padding;
+  return (contact || boundOf(placed, a, b) <= separation) &&
+         touching(first, placed.pose(a), second, placed.pose(b), separation, contact);
+}
+
+bool Cell::findContact(Placed& placed, Pair& found) const {
+  placed.balls.clear();
   for (int a = 0; a < carried_; ++a) {
-    for (const auto* others : {&among_[a], &around_[a]}) {
-      for (const int other : *others) {
-        const int i = std::min(a, other), j = std::max(a, other);
-        const Body &first = bodies_[i], &second = bodies_[j];
-        const double separation = first.padding + second.padding;
-        if (boundOf(placed, i, j) > separation) continue;
-        if (!touching(first, placed.poses[i], second, placed.poses[j], separation, contact)) {
-          continue;
-        }
-        if (contact) {
-          contact->a = names_[first.entity];
-          contact->b = names_[second.entity];
-          contact->element_a = first.element;
-          contact->element_b = second.element;
-        }
-        return true;
-      }
-    }
+    const Vector3d& center = placed.centers[a];
+    const double reach = bodies_[a].radius + bodies_[a].padding;
+    const auto carried = [&](std::size_t other) {
+      found = {static_cast<int>(other), a};
+      return isChecked(a, found.a) && touch(placed, found.a, found.b, nullptr);
+    };
+    const auto obstacle = [&](std::size_t other) {
+      found = {a, carried_ + static_cast<int>(other)};
+      return isChecked(a, found.b) && touch(placed, found.a, found.b, nullptr);
+    };
+    if (placed.balls.add(center, reach, carried)) return true;
+    if (boxes_.forNear(center, reach, obstacle)) return true;
   }
   return false;
 }
 
 std::optional<RobotContact> Cell::contact(const Eigen::VectorXd& q) const {
+  Placed& placed = Placed::of(*this, q);
+  Pair found{};
   RobotContact contact;
-  if (!findContact(q, nullptr) || !findContact(q, &contact)) return std::nullopt;
+  if (!findContact(placed, found)) return std::nullopt;
+  // Asked for its point, FCL may deny a contact of two shapes that barely touch.
+  touch(placed, found.a, found.b, &contact);
+  const Body &a = bodies_[found.a], &b = bodies_[found.b];
+  contact.a = names_[a.entity];
+  contact.b = names_[b.entity];
+  contact.element_a = a.element;
+  contact.element_b = b.element;
   return contact;
 }
 
-bool Cell::inContact(const Eigen::VectorXd& q) const { return findContact(q, nullptr); }
+bool Cell::inContact(const Eigen::VectorXd& q) const {
+  Pair found{};
+  return findContact(Placed::of(*this, q), found);
+}
 
 void Cell::candidates(const Placed& placed, double within, std::vector<Candidate>& found) const {
   for (int a = 0; a < carried_; ++a) {
@@ -130,7 +152,7 @@ void Cell::addGradient(const Placed& placed, const Body& a, const Body& b, Nearn
                        RobotClearance& answer) const {
   answer.gradient = Eigen::VectorXd::Zero(arm_->tree.coordinates());
   const auto poseOf = [&](const Body& body) -> const Transform3d& {
-    return placed.poses[static_cast<std::size_t>(&body - bodies_.data())];
+    return placed.pose(static_cast<int>(&body - bodies_.data()));
   };
   Vector3d n = near.point_b - near.point_a;
   const double length = n.norm();
@@ -165,8 +187,8 @@ RobotClearance Cell::clearance(const Eigen::VectorXd& q, const ClearanceOptions&
     const Body &a = bodies_[next.a], &b = bodies_[next.b];
     const double padding = a.padding + b.padding;
     const Nearness near =
-        distanceOf(a, placed.poses[next.a], b, placed.poses[next.b], options.rel_err,
-                   options.abs_err, enough < kInfinity ? enough + padding : enough);
+        distanceOf(a, placed.pose(next.a), b, placed.pose(next.b), options.rel_err, options.abs_err,
+                   enough < kInfinity ? enough + padding : enough);
     lower = std::min(lower, near.lower - padding);
     if (near.distance - padding < least && near.distance < kInfinity) {
       least = near.distance - padding;
@@ -201,7 +223,7 @@ std::vector<RobotClearance> Cell::clearances(const Eigen::VectorXd& q, double wi
     if (pair.bound > enough) continue;
     // What is as far as `within` counts, so that the threshold lies above it.
     const double far = enough < kInfinity ? (enough + padding) * (1 + 0x1p-40) + 0x1p-500 : enough;
-    const Nearness near = distanceOf(a, placed.poses[pair.a], b, placed.poses[pair.b], 0, 0, far);
+    const Nearness near = distanceOf(a, placed.pose(pair.a), b, placed.pose(pair.b), 0, 0, far);
     const double clearance = near.distance - padding;
     if (!(clearance <= within)) continue;
     if (known == least.end()) {

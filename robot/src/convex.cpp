@@ -3,7 +3,6 @@
 #include "convex.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +13,7 @@
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
+#include "shape/simplex.h"
 
 namespace kios::robot {
 namespace {
@@ -72,99 +72,6 @@ Vector3d supportOf(const fcl::CollisionGeometryd& shape, const Vector3d& n) {
   }
 }
 
-/// Points of a - b, with what they are made of; the nearest to the origin is sum weight y.
-struct Simplex {
-  int size = 0;
-  std::array<Vector3d, 4> y, on_a, on_b;
-  double weight[4] = {};
-};
-
-struct Nearest {
-  double squared = kInfinity;
-  Vector3d v = Vector3d::Zero();
-  double weight[4] = {};
-};
-
-void offer(const Simplex& s, const int* ids, const double* weights, int n, Nearest& best) {
-  Vector3d v = Vector3d::Zero();
-  for (int i = 0; i < n; ++i) v += weights[i] * s.y[ids[i]];
-  const double squared = v.squaredNorm();
-  if (!(squared < best.squared)) return;
-  best.squared = squared;
-  best.v = v;
-  std::fill_n(best.weight, 4, 0.0);
-  for (int i = 0; i < n; ++i) best.weight[ids[i]] = weights[i];
-}
-
-void offerSegment(const Simplex& s, int i, int j, Nearest& best) {
-  const Vector3d d = s.y[j] - s.y[i];
-  const double along = -s.y[i].dot(d), length = d.squaredNorm();
-  const double t = along <= 0 ? 0.0 : (along >= length ? 1.0 : along / length);
-  const int ids[2] = {i, j};
-  const double weights[2] = {1 - t, t};
-  offer(s, ids, weights, 2, best);
-}
-
-void offerTriangle(const Simplex& s, int i, int j, int k, Nearest& best) {
-  const Vector3d &a = s.y[i], u = s.y[j] - a, v = s.y[k] - a;
-  const double uu = u.squaredNorm();
-  const Vector3d w = uu > 0 ? Vector3d(v - (u.dot(v) / uu) * u) : Vector3d::Zero();
-  const double ww = w.squaredNorm();
-  if (ww > 0) {
-    const double t = -a.dot(w) / ww, r = -(a + t * v).dot(u) / uu;
-    if (r > 0 && t > 0 && r + t < 1) {
-      const int ids[3] = {i, j, k};
-      const double weights[3] = {1 - r - t, r, t};
-      offer(s, ids, weights, 3, best);
-      return;
-    }
-  }
-  offerSegment(s, i, j, best);
-  offerSegment(s, j, k, best);
-  offerSegment(s, k, i, best);
-}
-
-/// True if the origin lies in the tetrahedron.
-bool inside(const Simplex& s, double weights[4]) {
-  const Vector3d a = s.y[0] - s.y[3], b = s.y[1] - s.y[3], c = s.y[2] - s.y[3], o = -s.y[3];
-  const double volume = a.dot(b.cross(c));
-  if (!(std::abs(volume) > 16 * kEps * a.norm() * b.norm() * c.norm())) return false;
-  weights[0] = o.dot(b.cross(c)) / volume;
-  weights[1] = a.dot(o.cross(c)) / volume;
-  weights[2] = a.dot(b.cross(o)) / volume;
-  weights[3] = 1 - weights[0] - weights[1] - weights[2];
-  return *std::min_element(weights, weights + 4) >= 0;
-}
-
-Nearest nearestOf(const Simplex& s) {
-  Nearest best;
-  const int first[1] = {0};
-  const double one[1] = {1};
-  if (s.size == 1) offer(s, first, one, 1, best);
-  if (s.size == 2) offerSegment(s, 0, 1, best);
-  if (s.size == 3) offerTriangle(s, 0, 1, 2, best);
-  if (s.size == 4) {
-    if (inside(s, best.weight)) {
-      best.squared = 0;
-      return best;
-    }
-    for (int i = 0; i < 4; ++i) offerTriangle(s, i, (i + 1) % 4, (i + 2) % 4, best);
-  }
-  return best;
-}
-
-void reduce(const Nearest& best, Simplex& s) {
-  int kept = 0;
-  for (int i = 0; i < s.size; ++i) {
-    if (!(best.weight[i] > 0)) continue;
-    s.y[kept] = s.y[i];
-    s.on_a[kept] = s.on_a[i];
-    s.on_b[kept] = s.on_b[i];
-    s.weight[kept++] = best.weight[i];
-  }
-  s.size = kept;
-}
-
 }  // namespace
 
 Vector3d Convex::support(const Vector3d& n) const {
@@ -179,13 +86,10 @@ double Convex::margin() const {
 
 ConvexDistance convexDistance(const Convex& a, const Convex& b) {
   constexpr int kMostSteps = 256;
-  Simplex s;
+  shape::Simplex s;
   const auto add = [&](const Vector3d& v) {  // the extreme point of a - b against v
-    s.on_a[s.size] = a.support(-v);
-    s.on_b[s.size] = b.support(v);
-    s.y[s.size] = s.on_a[s.size] - s.on_b[s.size];
-    s.weight[s.size] = s.size == 0 ? 1.0 : 0.0;
-    return s.y[s.size++];
+    s.add(a.support(-v), b.support(v));
+    return s.y[s.size - 1];
   };
   Vector3d v = a.center() - b.center();
   if (v.isZero(0)) v = Vector3d::UnitX();
@@ -195,7 +99,7 @@ ConvexDistance convexDistance(const Convex& a, const Convex& b) {
   for (int step = 0; step < kMostSteps; ++step) {
     const double length = std::sqrt(squared);
     if (!(length > 0)) break;
-    const Simplex before = s;
+    const shape::Simplex before = s;
     const Vector3d y = add(v);
     lower = std::max(lower, v.dot(y) / length);
     size = std::max({size, s.on_a[s.size - 1].lpNorm<1>(), s.on_b[s.size - 1].lpNorm<1>()});
@@ -205,12 +109,12 @@ ConvexDistance convexDistance(const Convex& a, const Convex& b) {
       s = before;
       break;
     }
-    const Nearest best = nearestOf(s);
+    const shape::Nearest best = shape::nearest(s);
     if (!(best.squared < squared)) {
       s = before;
       break;
     }
-    reduce(best, s);
+    shape::reduce(best, s);
     squared = best.squared;
     v = best.v;
   }

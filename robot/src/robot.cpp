@@ -149,6 +149,24 @@ Eigen::VectorXd Robot::state(const std::string& name) const {
   return q;
 }
 
+std::vector<RobotElement> Robot::elements() const {
+  std::vector<RobotElement> all;
+  for (const robot::Body& body : impl_->arm->bodies) {
+    all.push_back({links()[static_cast<std::size_t>(body.entity)], body.element, false, false,
+                   body.geometry, body.X_LB});
+  }
+  for (const bool attached : {true, false}) {
+    for (const Object& object : impl_->objects) {
+      if ((object.link >= 0) != attached) continue;
+      int i = 0;
+      for (const robot::Element& element : object.elements) {
+        all.push_back({object.name, i++, !attached, attached, element.geometry, element.X});
+      }
+    }
+  }
+  return all;
+}
+
 fcl::Transform3d Robot::pose(const std::string& name, const Eigen::VectorXd& q) const {
   impl_->requireConfiguration(q, "q");
   const int entity = impl_->requireEntity(name);

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The blocks of docs/motions.md."""
+"""The blocks of docs/motions.md, and of plans in docs/robot.md."""
 from figures.rows import OBBRSS, grid, number, spec, time
 
 
@@ -40,3 +40,57 @@ def missed(rows):
             f"{total('frames', 'kios'):,} paths at random, samples over k-IOS on "
             f"{total('wrong_verdicts', 'sampled_kios')}, samples over OBBRSS on "
             f"{total('wrong_verdicts', OBBRSS)}")
+
+
+def mbm(rows):
+    """MotionBenchMaker's problems by robot and kind."""
+    columns = spec("""
+problems          | frames kios
+solved, proven    | solved kios
+median            | median_us kios
+samples, k-IOS    | median_us sampled_kios
+solved, OBBRSS    | solved fcl_obbrss
+median            | median_us fcl_obbrss
+mean, proven      | mean_us kios
+mean, OBBRSS      | mean_us fcl_obbrss
+contacts called free, OBBRSS | wrong_verdicts fcl_obbrss
+""")
+
+    def cell(line, column, _):
+        row = rows.find(line[0], "plan", column[1])
+        value = row[column[0]]
+        if not column[0].endswith("_us"):
+            return number(value)
+        base = rows.find(line[0], "plan")[column[0]]
+        return time(value) + (f" ({number(value / base)})" if column[1] == OBBRSS else "")
+    lines = [f"{label}, {kind.replace('_', ' ')} | mbm/{kind}_{robot}" if kind else
+             f"**{label}** | mbm/{robot}"
+             for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
+             for kind in ("bookshelf_small", "bookshelf_tall", "bookshelf_thin", "box", "cage",
+                          "table_pick", "table_under_pick", "")]
+    return grid("median and mean of a plan (OBBRSS / proven)", spec("\n".join(lines)), columns, cell)
+
+
+def mbm_contact(rows, robot):
+    """How many problems of a robot begin or end in contact."""
+    return number(rows.find(f"mbm/{robot}", "plan")["in_contact"])
+
+
+def mbm_questions(rows):
+    """What a question costs, by robot."""
+    kinds = [(f"a path of {length} rad a joint, {what}", f"{of}/{length} motion")
+             for what, of in (("free", "free"), ("not free", "blocked"))
+             for length in ("0.05", "0.2", "0.8")]
+    kinds += [("a configuration, in contact or not", "configurations collide"),
+              ("clearance and its gradient, free", "free gradient")]
+    columns = [(f"{label}{of}", ([robot, bv], {}))
+               for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
+               for bv, of in (("kios", ""), (OBBRSS, ", OBBRSS"))]
+
+    def cell(line, column, _):
+        own = f"mbm/{column[0]}/{line[0]}", line[1]
+        us = rows.find(*own, column[1])["median_us"]
+        return time(us) + ("" if column[1] == "kios" else
+                           f" ({number(us / rows.find(*own)['median_us'])})")
+    lines = [(label, (words.split(), {})) for label, words in kinds]
+    return grid("question", lines, columns, cell)

@@ -47,6 +47,10 @@ case ${5-} in
         fail "the Python package doesn't work"
       dpkg --purge python3-fcl-kios
     fi
+    if [[ -n $(find "$build_dir" -maxdepth 1 -name 'libfcl-kios-robot*.deb') ]]; then
+      "$source_dir/test/robot/use.sh" "$(mktemp -d)" /usr "$cmake" "$cxx" ""
+      dpkg --purge libfcl-kios-robot
+    fi
     dpkg --purge libfcl-kios-preload libfcl-kios-dev "libfcl-kios${version%.*}"
     left=$(find /usr \( -name '*fcl_kios*' -o -name '*fcl-kios*' \) -print)
     [[ -z $left ]] || fail "left after the packages were removed: $left"
@@ -59,6 +63,7 @@ rm -f "$build_dir"/*.deb
 debs=("$build_dir"/*.deb)
 expected=3
 if [[ -d $build_dir/python/fcl_kios ]]; then expected=4; fi
+if [[ -e $build_dir/robot/libfcl_kios_robot.so ]]; then expected=$((expected + 1)); fi
 ((${#debs[@]} == expected)) || fail "cpack made ${#debs[@]} packages: ${debs[*]}"
 for deb in "${debs[@]}"; do
   depends=$(dpkg-deb -f "$deb" Depends)

@@ -74,6 +74,61 @@ TEST(RobotSurroundings, WhatIsAddedMovedAttachedAndRemoved) {
       "toKIOS");
 }
 
+// A rod that the slide carries passes a post, which nothing but the rod can reach.
+TEST(RobotSurroundings, ProofsKnowWhatIsAttached) {
+  const Folder folder;
+  Robot robot = loadRobot(manyJoints(folder));
+  const VectorXd q0 = VectorXd::Zero(8);
+  VectorXd q1 = q0;
+  q1[3] = 1.2;  // the turret turns
+  const auto rod = std::make_shared<fcl::Capsuled>(0.02, 0.6);
+  const Transform3d across = shifted(0.35, 0, 0) * Eigen::AngleAxisd(1.5707963, Vector3d::UnitY());
+  const Vector3d tip = robot.pose("slide", q0) * Vector3d(0.55, 0, 0);
+  const double angle = 0.6;
+  const Vector3d met =
+      Eigen::AngleAxisd(angle, Vector3d::UnitZ()) * Vector3d(tip - Vector3d(0, 0, tip.z()));
+  robot.addObstacle("post", std::make_shared<fcl::Cylinderd>(0.03, 0.1),
+                    shifted(met.x(), met.y(), tip.z()));
+  EXPECT_EQ(robot.checkMotion(q0, q1).verdict, MotionVerdict::kClear);
+
+  Robot carrying = robot;
+  carrying.attach("rod", "slide", rod, across, {"left", "right", "lower"});
+  MotionRequest request;
+  request.first_contact = true;
+  const RobotMotion first = carrying.checkMotion(q0, q1, request);
+  ASSERT_EQ(first.verdict, MotionVerdict::kContact);
+  EXPECT_EQ(first.a + " " + first.b, "rod post");
+  // The rod of radius 0.02 meets the post of radius 0.03 before both are in line.
+  const auto angleAt = [&](double apart) {
+    double rest = 0;  // the rod lies beside the axis that it turns about
+    for (int i = 0; i < 50; ++i) {
+      rest = std::asin((apart + tip.y() * (1 - std::cos(rest))) / tip.x());
+    }
+    return angle - rest;
+  };
+  EXPECT_NEAR(first.to * q1[3], angleAt(0.05), 2e-6);
+  carrying.setPadding("rod", 0.04);
+  EXPECT_NEAR(carrying.checkMotion(q0, q1, request).to * q1[3], angleAt(0.09), 2e-6);
+  carrying.setPadding("post", 0.01);
+  EXPECT_NEAR(carrying.checkMotion(q0, q1, request).to * q1[3], angleAt(0.10), 2e-6);
+  carrying.setPadding("rod", 0);
+  carrying.setPadding("post", 0);
+  carrying.allow("rod", "post");
+  EXPECT_EQ(carrying.checkMotion(q0, q1).verdict, MotionVerdict::kClear);
+
+  // Touch links say it as well; and a second object meets the first.
+  carrying = robot;
+  carrying.attach("rod", "slide", rod, across, {"left", "right", "post"});
+  EXPECT_EQ(carrying.checkMotion(q0, q1).verdict, MotionVerdict::kClear);
+  carrying.attach("flag", "cart", rod,
+                  carrying.pose("cart", q0).inverse() * shifted(met.x(), met.y(), tip.z()),
+                  {"post"});
+  const RobotMotion both = carrying.checkMotion(q0, q1, request);
+  ASSERT_EQ(both.verdict, MotionVerdict::kContact);
+  EXPECT_EQ(both.a + " " + both.b, "rod flag");
+  EXPECT_NEAR(both.to * q1[3], angleAt(0.04), 2e-6);
+}
+
 // At overlap the gradient points the shortest way out of marked solids.
 TEST(RobotSurroundings, GradientsOfOverlapLeadOut) {
   const Folder folder;

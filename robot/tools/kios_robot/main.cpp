@@ -6,18 +6,23 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
+#include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fcl_kios/robot/robot.h"
+#include "show.h"
 
 namespace {
 
 using kios::Robot;
 
 struct Options {
-  std::string urdf, srdf, at, to;
+  std::string urdf, srdf, at, to, html;
   std::vector<std::string> scenes, packages;
   double padding = 0, within = 0.1, separation = 0;
   bool first = false, srdf_out = false;
@@ -134,6 +139,20 @@ int motion(const Robot& robot, const Options& options) {
   return 1;
 }
 
+int show(const Robot& robot, const Options& options) {
+  std::optional<Eigen::VectorXd> to;
+  if (!options.to.empty()) to = configuration(robot, options.to);
+  const std::string page =
+      kios::robot_tool::showPage(robot, std::filesystem::path(options.urdf).stem().string(),
+                                 configuration(robot, options.at), to, options.separation);
+  std::ofstream file(options.html, std::ios::binary);
+  if (!(file << page) || !file.flush()) {
+    throw std::runtime_error(options.html + ": the page can't be written.");
+  }
+  std::printf("%s: %.1f MB\n", options.html.c_str(), 1e-6 * static_cast<double>(page.size()));
+  return 0;
+}
+
 int pairs(const Robot& robot, const Options& options) {
   kios::PairOptions pair_options;
   pair_options.max_boxes = options.boxes;
@@ -195,6 +214,11 @@ int main(int argc, char** argv) {
   way->add_option("--to", options.to, at)->required();
   way->add_option("--separation", options.separation, "farther apart than this, metres");
   way->add_flag("--first", options.first, "asks for the earliest contact");
+  CLI::App* const page = add("show", "a page to look at: the robot, its obstacles, a path", show);
+  page->add_option("-q,--from,--at", options.at, at);
+  page->add_option("--to", options.to, "shows the straight path there");
+  page->add_option("--separation", options.separation, "of the path, metres");
+  page->add_option("--html", options.html, "the file to write")->required();
   CLI::App* const all = add("pairs", "settles every pair of links, by proof", pairs);
   all->add_flag("--to-srdf", options.srdf_out, "prints disable_collisions of an SRDF");
   all->add_option("--boxes", options.boxes, "a pair may take");

@@ -4,39 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "colors.h"
-#include "page_text.h"
 #include "report.h"
+#include "viewer/viewer.h"
 
 namespace kios::inspect {
 namespace {
-
-/// Returns little-endian bytes in base64, as the page's script reads them.
-template <typename T>
-std::string base64(const std::vector<T>& values) {
-  static_assert(sizeof(T) == 4);
-  static const char* const digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(4 * values.size() + 2);
-  for (const T& value : values) {
-    std::uint32_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<std::uint8_t>(bits >> (8 * i)));
-  }
-  const std::size_t length = bytes.size();
-  bytes.resize((length + 2) / 3 * 3);
-  std::string text;
-  text.reserve(bytes.size() / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const unsigned three = bytes[i] << 16 | bytes[i + 1] << 8 | bytes[i + 2];
-    for (int digit = 3; digit >= 0; --digit) text += digits[three >> (6 * digit) & 63];
-  }
-  std::fill(text.end() - static_cast<std::ptrdiff_t>(bytes.size() - length), text.end(), '=');
-  return text;
-}
 
 struct Ball {
   fcl::Vector3d center;
@@ -116,7 +90,7 @@ void addLevels(const Inspection& inspection, const Units& units, double budget, 
       units.append(inspection.tree->volume(nodes[i]), inspection,
                    colorOf(*inspection.tree, nodes[i], i), records);
     }
-    mesh["levels"].push_back(base64(records));
+    mesh["levels"].push_back(viewer::base64(records));
     mesh["volumes"].push_back(nodes.size());
   }
 }
@@ -130,12 +104,12 @@ Json sceneMesh(const Inspection& inspection, const Units& units, double budget, 
                                                   inspection.mesh.triangles.size());
   if (bytes <= budget / 2) {
     budget -= bytes;
-    mesh["positions"] = base64(units.positions(inspection));
+    mesh["positions"] = viewer::base64(units.positions(inspection));
     std::vector<std::uint32_t> corners;
     for (const fcl::Triangle& t : inspection.mesh.triangles) {
       for (int c = 0; c < 3; ++c) corners.push_back(static_cast<std::uint32_t>(t[c]));
     }
-    mesh["triangles"] = base64(corners);
+    mesh["triangles"] = viewer::base64(corners);
   } else {
     notes.push_back(what + "the mesh itself is" + why);
   }
@@ -158,10 +132,6 @@ int levelToLookAt(const Json& meshes) {
     }
   }
   return result;
-}
-
-void replace(std::string& text, const std::string& mark, const std::string& by) {
-  text.replace(text.find(mark), mark.size(), by);
 }
 
 }  // namespace
@@ -210,17 +180,8 @@ std::string page(const std::vector<Inspection>& inspections, const PairQuery* pa
         {"meshes", meshes},
         {"segment", pair ? Json{placed(pair->answer.point_a), placed(pair->answer.point_b)}
                          : Json(nullptr)}}}};
-  std::string data = content.dump(-1, ' ', false, Json::error_handler_t::replace);
-  // A file may be called </script>.
-  for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;) {
-    data.replace(at, 1, "\\u003c");
-  }
-
-  std::string html = kPageHtml;
-  replace(html, "@STYLE@", kPageStyle);
-  replace(html, "@SCRIPT@", std::string(kPageRenderer) + kPageScript);
-  replace(html, "@SCENE@", data);
-  return html;
+  return viewer::page(viewer::kPageText,
+                      content.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 }  // namespace kios::inspect

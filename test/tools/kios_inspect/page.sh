@@ -4,7 +4,7 @@
 #
 # usage: page.sh KIOS_INSPECT DIR
 # Pages of a generated mesh, and of two, one with a path that is markup, in headless Chromium:
-# see browser.py. Leaves their pictures in DIR; docs/images/inspect.png is DIR/knot.png. Skipped
+# see page.py. Leaves their pictures in DIR; docs/images/inspect.png is DIR/knot.png. Skipped
 # without Chromium or Python.
 set -euo pipefail
 
@@ -46,7 +46,7 @@ awk 'BEGIN {
 mkdir -p '<'
 cp knot.obj '</script><b>knot.obj'
 
-browse() { "$python" "$here/browser.py" "$chromium" "$@"; }
+browse() { "$python" "$here/page.py" "$chromium" "$@"; }
 echo "== one mesh"
 "$inspect" knot.obj --html knot.html
 browse knot.html knot.png --size 1100x640

@@ -5,15 +5,26 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include <fcl/common/types.h>
+#include <fcl/geometry/collision_geometry.h>
 #include "fcl_kios/linkage/linkage.h"
 
 // What a robot is asked for, and what it answers (robot.h).
 
 namespace kios {
+
+/// Holds a collision element of a link, an attached object or an obstacle.
+struct RobotElement {
+  std::string name;  ///< whose it is
+  int element = 0;   ///< which of its elements
+  bool obstacle = false, attached = false;
+  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  UnalignedPose X = UnalignedPose::Identity();  ///< in the frame that Robot::pose() gives
+};
 
 /// Names two that are in contact: links, obstacles or attached objects.
 struct RobotContact {

@@ -60,8 +60,11 @@ class Robot {
   /// that it doesn't name is 0, or the limit next to it.
   Eigen::VectorXd state(const std::string& name) const;
   std::vector<std::string> states() const;  ///< names of the group states
-  /// Returns the frame of a link or of an attached object in the world, which is the root link's
-  /// frame.
+  /// Returns all that can be in contact: those of the links, then of what is attached and of
+  /// obstacles.
+  std::vector<RobotElement> elements() const;
+  /// Returns the frame of a link, an attached object or an obstacle in the world, which is the root
+  /// link's frame.
   fcl::Transform3d pose(const std::string& link, const Eigen::VectorXd& q) const;
 
   /// Adds an obstacle: a finished mesh over k-IOS, one of FCL's nine shapes, or an octree.

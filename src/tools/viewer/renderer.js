@@ -239,7 +239,8 @@ class Renderer {
 
   /**
    * camera: {view: Mat, projection: Mat, pixel: size of a pixel at distance 1};
-   * shown: {level, opacity, volumes, mesh, edges, ink: colour of edges}.
+   * shown: {level, opacity, volumes, mesh, edges, segment}. Between pictures a page may set the
+   * matrix, the colour and `hidden` of a mesh, and the scene's segment.
    */
   draw(camera, shown) {
     const gl = this.gl, {width, height} = gl.canvas;
@@ -264,12 +265,12 @@ class Renderer {
       gl.disable(gl.BLEND);
       gl.disable(gl.CULL_FACE);
     }
-    if (this.scene.segment) this.drawSegment(camera, shown);
+    if (this.scene.segment && shown.segment) this.drawSegment(camera, shown);
     gl.bindVertexArray(null);
   }
 
   drawMesh(mesh, view, camera, shown) {
-    if (!mesh.faces) return;
+    if (!mesh.faces || mesh.hidden) return;
     const gl = this.gl, {program, uniforms} = this.meshProgram;
     gl.useProgram(program);
     gl.uniformMatrix4fv(uniforms.toView, false, view);

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drives pages of kios_inspect in headless Chromium, over its debugging pipe.
+"""Drives the tools' pages in headless Chromium, over its debugging pipe. A module of tests.
 
-usage: browser.py CHROMIUM PAGE.html PICTURE.png [--size WxH] [--dark] [--no-test]
+usage: TEST.py CHROMIUM PAGE.html PICTURE.png [--size WxH] [--dark] [--no-test]
 
-Draws the page, turns it with the mouse, zooms it with the wheel, steps through levels by keyboard
-and slider, and fails unless each changes the picture, the page asks nothing of the network, and the
-console stays free of errors. PICTURE.png is the page as it first looks; --no-test stops there.
+Draws the page and does what the test says, which turns it, zooms it and more. The test fails unless
+the page asks nothing of the network and the console stays free of errors. PICTURE.png is the page
+as it first looks; --no-test stops there.
 """
 import argparse
 import base64
@@ -27,7 +27,7 @@ class Browser:
     def __init__(self, program):
         to_browser, self.commands = os.pipe()
         self.answers, from_browser = os.pipe()
-        self.profile = tempfile.mkdtemp(prefix="kios_inspect_")
+        self.profile = tempfile.mkdtemp(prefix="kios_page_")
         command = [program, "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
                    "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                    "--ignore-gpu-blocklist", "--remote-debugging-pipe", "--no-first-run",
@@ -194,60 +194,58 @@ def differing(a, b):
     return count / (len(rows) * len(rows[0]) / size)
 
 
-def test(browser, first):
-    width, height = browser.value("[canvas.clientWidth, canvas.clientHeight]")
-    middle = (width / 2, height / 2)
-    failures = []
+class Requirements:
+    """What a test asks of the page in a browser, and what failed."""
 
-    def require(what, holds):
+    def __init__(self, browser, first):
+        self.browser = browser
+        self.width, height = browser.value("[canvas.clientWidth, canvas.clientHeight]")
+        self.middle = (self.width / 2, height / 2)
+        self.failures = []
+        self.start = view(first, self.width)
+
+    def require(self, what, holds):
         print("%s: %s" % (what, "ok" if holds else "FAILED"))
         if not holds:
-            failures.append(what)
+            self.failures.append(what)
 
-    def picture():
-        browser.value("document.activeElement.blur()")  # without the frame of what has the focus
-        return view(browser.screenshot(), width)
+    def picture(self):
+        self.browser.value("document.activeElement.blur()")  # without the frame of the focus
+        return view(self.browser.screenshot(), self.width)
 
-    start = view(first, width)
-    colors = {row[i:i + 3] for row in start[0] for i in range(0, len(row), start[1])}
-    require("the picture has %d colours" % len(colors), len(colors) > 200)
+    def changed(self, picture=None):
+        """The part of the view that differs from a picture, else from that at the start."""
+        return differing(picture or self.start, self.picture())
 
-    for key in "vm":
-        browser.key(key)
-    background = picture()
-    for key in "vm":
-        browser.key(key)
-    covered = differing(start, background)
-    require("mesh and volumes cover %.0f %% of the view" % (100 * covered), covered > 0.05)
-    require("what is hidden and shown again looks as before", differing(start, picture()) == 0)
+    def camera(self):
+        """Mouse, wheel, finger and R, which every page has."""
+        browser, middle = self.browser, self.middle
+        rows, size = self.start
+        colors = {row[i:i + 3] for row in rows for i in range(0, len(row), size)}
+        self.require("the picture has %d colours" % len(colors), len(colors) > 200)
+        browser.drag(middle, (middle[0] + 120, middle[1] + 40))
+        turned = self.picture()
+        self.require("a drag turns it", differing(self.start, turned) > 0.02)
+        browser.mouse("mouseWheel", *middle, deltaX=0, deltaY=300)
+        self.require("the wheel zooms", self.changed(turned) > 0.02)
+        before = browser.value("camera.rotation.join()")
+        browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
+        for kind, dx in (("touchStart", 0), ("touchMove", 30), ("touchMove", 60)):
+            browser.call("Input.dispatchTouchEvent", type=kind,
+                         touchPoints=[{"x": middle[0] + dx, "y": middle[1]}])
+        browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        browser.call("Emulation.setTouchEmulationEnabled", enabled=False)
+        self.require("a finger turns it", browser.value("camera.rotation.join()") != before)
+        browser.key("r")
+        self.require("R restores the view", self.changed() == 0)
 
-    browser.drag(middle, (middle[0] + 120, middle[1] + 40))
-    turned = picture()
-    require("a drag turns it", differing(start, turned) > 0.02)
-    browser.mouse("mouseWheel", *middle, deltaX=0, deltaY=300)
-    require("the wheel zooms", differing(turned, picture()) > 0.02)
-    browser.key("r")
-    require("R restores the view", differing(start, picture()) == 0)
-    level = browser.value("shown.level")
-    browser.key("[" if level > 0 else "]")
-    require("a key changes the level", browser.value("shown.level") != level and
-            differing(start, picture()) > 0.001)
-    browser.value("(() => { const s = document.getElementById('level'); s.value = s.max;"
-                  "s.dispatchEvent(new Event('input')); return 1; })()")
-    deepest = int(browser.value("document.getElementById('level').max"))
-    require("the slider reaches level %d" % deepest, browser.value("shown.level") == deepest and
-            differing(start, picture()) > 0.001)
-    before = browser.value("camera.rotation.join()")
-    browser.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=2)
-    for kind, dx in (("touchStart", 0), ("touchMove", 30), ("touchMove", 60)):
-        browser.call("Input.dispatchTouchEvent", type=kind,
-                     touchPoints=[{"x": middle[0] + dx, "y": middle[1]}])
-    browser.call("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
-    require("a finger turns it", browser.value("camera.rotation.join()") != before)
-    return failures
+    def slide(self, name, value):
+        self.browser.value("(() => { const s = document.getElementById('%s'); s.value = %s;"
+                           "s.dispatchEvent(new Event('input')); return 1; })()" % (name, value))
 
 
-def main():
+def run(test):
+    """test(Requirements) uses the page and notes what fails."""
     parser = argparse.ArgumentParser()
     parser.add_argument("chromium")
     parser.add_argument("page")
@@ -263,12 +261,11 @@ def main():
         first = browser.screenshot()
         with open(options.picture, "wb") as file:
             file.write(first)
-        failures = [] if options.no_test else test(browser, first)
-        failures += browser.complaints()
+        requirements = Requirements(browser, first)
+        if not options.no_test:
+            test(requirements)
+        failures = requirements.failures + browser.complaints()
     finally:
         browser.close()
     if failures:
         sys.exit("browser.py: " + "; ".join(failures))
-
-
-main()

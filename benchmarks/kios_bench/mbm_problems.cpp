@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mbm_problems.h"
+
+#include <unistd.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+namespace kios::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::VectorXd;
+
+Problem readProblem(const fs::path& scene, const fs::path& request, const Robot& robot) {
+  const YAML::Node root = YAML::LoadFile(request.string());
+  Problem problem;
+  problem.name = scene.parent_path().filename().string() + "/" + request.stem().string();
+  problem.scene = scene;
+  problem.start = problem.goal = VectorXd::Zero(robot.coordinates());
+  int found = 0;
+  const auto set = [&](VectorXd& q, const YAML::Node& name, const YAML::Node& value) {
+    const auto at = std::find(robot.joints().begin(), robot.joints().end(), name.as<std::string>());
+    if (at == robot.joints().end()) return;
+    q[at - robot.joints().begin()] = value.as<double>();
+    ++found;
+  };
+  const YAML::Node state = root["start_state"]["joint_state"];
+  for (std::size_t i = 0; i < state["name"].size(); ++i) {
+    set(problem.start, state["name"][i], state["position"][i]);
+  }
+  for (const YAML::Node& joint : root["goal_constraints"][0]["joint_constraints"]) {
+    set(problem.goal, joint["joint_name"], joint["position"]);
+  }
+  if (found != 2 * robot.coordinates()) {
+    throw std::runtime_error(request.string() + " doesn't name all joints once");
+  }
+  return problem;
+}
+
+}  // namespace
+
+std::vector<Problem> readProblems(const fs::path& folder, const Robot& robot, int wanted) {
+  std::vector<std::vector<fs::path>> kinds;
+  for (const auto& kind : fs::directory_iterator(folder)) {
+    kinds.emplace_back();
+    for (const auto& file : fs::directory_iterator(kind.path())) {
+      if (file.path().filename().string().rfind("scene", 0) == 0) {
+        kinds.back().push_back(file.path());
+      }
+    }
+    std::sort(kinds.back().begin(), kinds.back().end());
+  }
+  std::sort(kinds.begin(), kinds.end());
+  std::vector<Problem> problems;
+  const std::size_t all = 1 << 20, num_kinds = std::max<std::size_t>(1, kinds.size());
+  const std::size_t of_all = wanted > 0 ? static_cast<std::size_t>(wanted) : all;
+  const std::size_t of_kind = (of_all + num_kinds - 1) / num_kinds;
+  for (std::size_t i = 0; i < of_kind; ++i) {
+    bool any = false;
+    for (const auto& scenes : kinds) {
+      const std::size_t chosen = std::min(of_kind, scenes.size());
+      if (i >= chosen || problems.size() == of_all) continue;
+      any = true;
+      const fs::path& scene = scenes[i * scenes.size() / chosen];
+      const std::string number = scene.stem().string().substr(5);
+      problems.push_back(
+          readProblem(scene, scene.parent_path() / ("request" + number + ".yaml"), robot));
+    }
+    if (!any) break;
+  }
+  return problems;
+}
+
+Unpacked::Unpacked(const fs::path& archive) {
+  static int count = 0;
+  path_ = fs::temp_directory_path() /
+          ("kios_bench_" + std::to_string(getpid()) + "_" + std::to_string(count++));
+  fs::create_directories(path_);
+  const std::string command = "tar -xjf '" + archive.string() + "' -C '" + path_.string() + "'";
+  if (std::system(command.c_str()) != 0) {
+    throw std::runtime_error("tar couldn't unpack " + archive.string() + " (is bzip2 installed?)");
+  }
+}
+
+Unpacked::~Unpacked() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+}  // namespace kios::bench

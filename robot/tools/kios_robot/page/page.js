@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+
+const {frames, motion} = content;
+Object.assign(shown, {volumes: false, robot: true, obstacles: true, place: 0});
+const CONTACT = [222, 84, 72];
+const fields = {};
+
+// The first of the path's places that is in contact, or can't be told; -1 if there is none.
+const contactPlace = motion && motion.pair ?
+  frames.findIndex((frame) => frame.at === motion.to) : -1;
+
+// The panel.
+
+function describe() {
+  const panel = byId('panel');
+  document.title = content.title + ' · kios_robot';
+  add(panel, 'h1', content.title);
+  for (const note of content.notes) add(panel, 'p', note, 'faint');
+  if (motion) {
+    add(panel, 'h2', 'Motion');
+    if (motion.verdict === 'clear') {
+      add(panel, 'p', 'clear', 'big');
+      add(panel, 'p', 'Proven for every configuration of the path.', 'faint');
+    } else {
+      const where = `${(100 * motion.to).toFixed(3)} %`;
+      add(panel, 'p', motion.verdict, 'big');
+      add(panel, 'p', `${motion.pair.join(' and ')}, at ${where} of the path` +
+        (motion.verdict === 'contact' ? ', the first contact' : '') + '.', 'warning');
+    }
+  }
+  add(panel, 'h2', 'Clearance');
+  fields.clearance = add(panel, 'p', '', 'big');
+  fields.pair = add(panel, 'p', '');
+  add(panel, 'h2', 'Coordinates');
+  const rows = add(panel, 'dl');
+  fields.coordinates = content.joints.map((joint) => {
+    add(rows, 'dt', joint);
+    return add(rows, 'dd', '');
+  });
+  describeKeys(panel, [['[ ]', 'along the path'], ['C', 'first contact'],
+    ['M O N E', 'what is shown']]);
+}
+
+// Controls.
+
+function choosePlace(place) {
+  shown.place = Math.min(Math.max(place, 0), frames.length - 1);
+  const frame = frames[shown.place];
+  byId('path').value = shown.place;
+  byId('path-name').textContent = `${(100 * frame.at).toFixed(1)} % of the path`;
+  const poses = decode(frame.poses, Float32Array);
+  scene.meshes.forEach((mesh, i) => {
+    const touches = frame.contact && frame.nearest && frame.nearest.includes(mesh.name);
+    const drawn = renderer.meshes[i];
+    drawn.matrix = Array.from(poses.subarray(16 * i, 16 * i + 16));
+    drawn.color = (touches ? CONTACT : mesh.color).map((c) => c / 255);
+    drawn.hidden = mesh.obstacle ? !shown.obstacles : !shown.robot;
+  });
+  scene.segment = frame.segment || null;
+  fields.clearance.textContent = frame.contact ? 'contact' :
+    frame.nearest ? short(frame.clearance) + ' m' : 'no pair is checked';
+  fields.pair.textContent = frame.nearest ? frame.nearest.join(' and ') : '';
+  fields.coordinates.forEach((field, i) => {
+    field.textContent = short(frame.q[i]);
+  });
+  redraw();
+}
+
+function connectControls() {
+  const slider = byId('path'), update = () => choosePlace(shown.place);
+  slider.max = frames.length - 1;
+  slider.addEventListener('input', () => choosePlace(Number(slider.value)));
+  byId('path-row').hidden = frames.length === 1;
+  if (contactPlace >= 0) {
+    const first = byId('first');
+    first.hidden = byId('mark').hidden = false;
+    byId('mark').style.setProperty('--place', contactPlace / (frames.length - 1));
+    first.addEventListener('click', () => choosePlace(contactPlace));
+  }
+  connectBoxes(['obstacles', 'segment', 'edges']);
+  byId('show-mesh').addEventListener('change', (event) => {
+    shown.robot = event.target.checked;
+    update();
+  });
+  byId('show-obstacles').addEventListener('change', update);
+  connectKeys({
+    '[': () => choosePlace(shown.place - 1), ']': () => choosePlace(shown.place + 1),
+    c: () => contactPlace >= 0 && choosePlace(contactPlace),
+    m: () => byId('show-mesh').click(), o: () => byId('show-obstacles').click(),
+    n: () => byId('show-segment').click(), e: () => byId('show-edges').click()});
+  choosePlace(0);
+}
+
+describe();
+start(connectControls);

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace kios::viewer {
+
+// The files beside this one.
+extern const char* const kStyle;
+extern const char* const kRenderer;
+extern const char* const kViewer;
+
+}  // namespace kios::viewer

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# usage: page.sh KIOS_ROBOT DIR
+# Pages of an arm that swings into a post, one with a link whose name is markup, in headless
+# Chromium: see page.py. Leaves their pictures in DIR; docs/images/robot.png is DIR/arm.png. Skipped
+# without Chromium or Python.
+set -euo pipefail
+
+robot=$1 dir=$2
+here=$(cd "$(dirname "$0")" && pwd)
+chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
+python=$(command -v python3 || true)
+if [[ -z $chromium || -z $python ]]; then
+  echo "skipped: no chromium or no python3; Debian's packages are chromium and python3"
+  exit 77
+fi
+mkdir -p "$dir"
+cd "$dir"
+
+cat >arm.urdf <<'END'
+<robot name="arm">
+  <link name="base"><collision><geometry><cylinder radius="0.15" length="0.1"/></geometry></collision></link>
+  <link name="upper"><collision><origin xyz="0 0 0.2"/><geometry><capsule radius="0.06" length="0.3"/></geometry></collision></link>
+  <link name="lower"><collision><origin xyz="0 0 0.25"/><geometry><box size="0.07 0.09 0.3"/></geometry></collision></link>
+  <link name="tool"><collision><geometry><sphere radius="0.06"/></geometry></collision></link>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.12"/><axis xyz="0 0 1"/></joint>
+  <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0 0 0.45"/><axis xyz="0 1 0"/><limit lower="-2.5" upper="2.5"/></joint>
+  <joint name="hold" type="fixed"><parent link="lower"/><child link="tool"/><origin xyz="0 0 0.45"/></joint>
+</robot>
+END
+cat >scene.yaml <<'END'
+name: page
+world:
+  collision_objects:
+    - id: post
+      primitives: [{type: cylinder, dimensions: [1.48, 0.06]}]
+      primitive_poses: [{position: [0.32, 0.32, 0.16], orientation: [0, 0, 0, 1]}]
+    - id: table
+      primitives: [{type: box, dimensions: [1.2, 1.2, 0.04]}]
+      primitive_poses: [{position: [0, 0, -0.6], orientation: [0, 0, 0, 1]}]
+    - id: hat
+      primitives: [{type: cone, dimensions: [0.2, 0.1]}]
+      primitive_poses: [{position: [-0.4, 0.1, -0.48], orientation: [0, 0, 0, 1]}]
+END
+browse() { "$python" "$here/page.py" "$chromium" "$@"; }
+"$robot" show arm.urdf --scene scene.yaml --from=-0.6,1.3 --to=2,1.3 --html arm.html
+browse arm.html arm.png --size 1100x640
+echo "== dark, with markup"
+sed 's:"tool":"\&lt;/script\&gt;\&lt;b\&gt;tool":' arm.urdf >markup.urdf
+"$robot" show markup.urdf --scene scene.yaml --from=-0.6,1.3 --to=2,1.3 --html dark.html
+grep -q 'script>.b>tool' dark.html && exit 1
+browse dark.html dark.png --size 1100x640 --dark
+echo "== one configuration"
+"$robot" show arm.urdf --at=0.3,1 --html alone.html
+browse alone.html alone.png --size 1100x640 --no-test
