@@ -3,7 +3,7 @@
 #pragma once
 
 #include <memory>
-#include <new>
+
 #include <stdexcept>
 #include <type_traits>
 #include <typeinfo>
@@ -11,6 +11,7 @@
 #include <fcl/geometry/bvh/BV_node.h>
 #include <fcl/geometry/bvh/detail/BV_fitter_base.h>
 #include "fcl_kios/volume/kios.h"
+#include "model/memory_to_fill.h"
 
 namespace kios {
 
@@ -22,7 +23,7 @@ std::unique_ptr<fcl::BVNode<kIOS<S>>[]> nodesToFill(std::size_t n) {
   // As `delete[]` frees what `new[]` made of a type without a destructor.
   static_assert(std::is_trivially_destructible<Node>::value &&
                 alignof(Node) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-  return std::unique_ptr<Node[]>(static_cast<Node*>(::operator new[](n * sizeof(Node))));
+  return std::unique_ptr<Node[]>(static_cast<Node*>(memoryToFill(n * sizeof(Node))));
 }
 
 /// A finished tree in place of a fitter: endModel() moves it into the model, whose mesh it was
