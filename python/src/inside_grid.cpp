@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
-#include "fcl_kios/solid/closedness.h"
 #include "fcl_kios/solid/solids.h"
 
 namespace kios::python {
@@ -56,17 +56,18 @@ Range cellsOf(const Corners& t, const Vector3d& low, double cells_per_length,
 }  // namespace
 
 std::unique_ptr<const InsideGrid> InsideGrid::of(const Modeld& mesh) {
-  if (!inspectClosedness(mesh).isSolid()) return nullptr;
-  std::unique_ptr<InsideGrid> grid(new InsideGrid);
-  int most = 64;
-  while (!grid->layOut(mesh, most)) {
-    most /= 2;
-    if (most < 16) return nullptr;
-  }
   // A model of its own, as marks are shared with copies.
   const auto solid = makeModel<double>({mesh.vertices, mesh.vertices + mesh.num_vertices},
                                        {mesh.tri_indices, mesh.tri_indices + mesh.num_tris});
-  markSolid(*solid);
+  try {
+    markSolid(*solid);
+  } catch (const std::invalid_argument&) {  // it isn't closed
+    return nullptr;
+  }
+  std::unique_ptr<InsideGrid> grid(new InsideGrid);
+  for (int most = 64; !grid->layOut(mesh, most); most /= 2) {
+    if (most == 16) return nullptr;
+  }
   grid->markSurface(mesh);
   grid->markRest(*solid);
   return grid;

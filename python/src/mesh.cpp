@@ -77,8 +77,8 @@ const Modeld& Mesh::model() const {
 const InsideGrid* Mesh::gridFor(std::size_t n, const Mesh& other) const {
   const std::size_t poses = poses_.fetch_add(n, std::memory_order_relaxed) + n;
   const auto triangles = static_cast<std::size_t>(model_->num_tris + other.model_->num_tris);
-  // Found by trying: then it takes less time than the searches that it saves may have taken.
-  if (n < 64 || poses < 4096 + triangles / 4) return nullptr;
+  // By then searches have taken about as long as a grid does.
+  if (n < 64 || poses < 4096 + triangles / 3) return nullptr;
   std::call_once(grid_made_, [this] { grid_ = InsideGrid::of(*model_); });
   if (grid_) std::call_once(other.spread_made_, [&] { other.spread_.emplace(*other.model_); });
   return grid_.get();
