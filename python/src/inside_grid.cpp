@@ -209,13 +209,10 @@ SpreadVertices::SpreadVertices(const Modeld& mesh) {
     center_ += p / static_cast<double>(taken.size());
   }
   for (const Vector3d& p : taken) radius_ = std::max(radius_, 1.01 * (p - center_).norm());
-  constexpr std::size_t kAtOnce = InsideGrid::kAtOnce;
-  vertices_.resize((taken.size() + kAtOnce - 1) / kAtOnce);
-  for (std::size_t i = 0; i < vertices_.size() * kAtOnce; ++i) {
+  vertices_.resize((taken.size() + 3) / 4);
+  for (std::size_t i = 0; i < 4 * vertices_.size(); ++i) {
     const Vector3d& p = taken[std::min(i, taken.size() - 1)];
-    for (int c = 0; c < 3; ++c) {
-      vertices_[i / kAtOnce].at[c][i % kAtOnce] = static_cast<float>(p[c]);
-    }
+    for (int c = 0; c < 3; ++c) vertices_[i / 4].at[c][i % 4] = static_cast<float>(p[c]);
   }
 }
 
@@ -237,10 +234,7 @@ bool SpreadVertices::crosses(const InsideGrid& grid, const fcl::Transform3d& X) 
   for (const Points& p : vertices_) {
     Points moved;
     for (int c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < InsideGrid::kAtOnce; ++k) {
-        moved.at[c][k] =
-            turn(c, 0) * p.at[0][k] + turn(c, 1) * p.at[1][k] + turn(c, 2) * p.at[2][k] + shift[c];
-      }
+      moved.at[c] = turn(c, 0) * p.at[0] + turn(c, 1) * p.at[1] + turn(c, 2) * p.at[2] + shift[c];
     }
     met |= grid.cellsAt(moved);
     if ((met & kBoth) == kBoth) return true;

@@ -20,10 +20,11 @@ namespace kios::python {
 class InsideGrid {
  public:
   enum Cell : std::uint8_t { kSurface, kInside, kOutside };
-  /// Points in lengths of cells from the grid's corner, by coordinate: see toCells().
-  static constexpr std::size_t kAtOnce = 8;
+  /// Points by coordinate, four at once. In lengths of cells, from the grid's corner: see
+  /// toCells().
+  using Float4 __attribute__((vector_size(16))) = float;
   struct Points {
-    float at[3][kAtOnce];
+    Float4 at[3];
   };
 
   /// nullptr if the mesh has no inside, or its triangles are too long for a grid to be worth it.
@@ -32,16 +33,19 @@ class InsideGrid {
   /// The cells that points lie in, as bits 1 << Cell. They are right for all points that are within
   /// tolerance() of these. Beyond the grid all is outside, as its border is.
   unsigned int cellsAt(const Points& points) const {
-    float index[kAtOnce] = {};  // whole, below 2^24
+    using Int4 __attribute__((vector_size(16))) = int;
+    const Float4 zero = {};
+    Float4 index = zero;  // whole, below 2^24
     for (int c = 2; c >= 0; --c) {
-      const auto n = static_cast<float>(size_[c]);
-      for (std::size_t k = 0; k < kAtOnce; ++k) {
-        const float on_grid = std::min(std::max(points.at[c][k], 0.0F), n - 1);
-        index[k] = index[k] * n + static_cast<float>(static_cast<int>(on_grid));
-      }
+      const Float4 n = zero + static_cast<float>(size_[c]), last = n - 1.0F;
+      Float4 at = points.at[c];
+      at = at > zero ? at : zero;
+      at = at < last ? at : last;
+      index = index * n + __builtin_convertvector(__builtin_convertvector(at, Int4), Float4);
     }
+    const Int4 cells = __builtin_convertvector(index, Int4);
     unsigned int met = 0;
-    for (const float i : index) met |= 1U << cells_[static_cast<std::size_t>(static_cast<int>(i))];
+    for (int k = 0; k < 4; ++k) met |= 1U << cells_[static_cast<std::size_t>(cells[k])];
     return met;
   }
   /// Maps points from the mesh's frame to cells.
