@@ -227,8 +227,8 @@ def importing(repeats):
         return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
                                     check=True, env=os.environ).stdout)
 
-    code = ("import numpy, pickle, time; t = time.perf_counter(); import fcl_kios.fcl; "
-            "print(time.perf_counter() - t)")
+    code = (f"import numpy, pickle, time; now = time.{now.__name__}; t = now(); "
+            "import fcl_kios.fcl; print(now() - t)")
     return statistics.median(seconds(code) for _ in range(repeats)), None, None
 
 
