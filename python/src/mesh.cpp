@@ -74,6 +74,16 @@ const Modeld& Mesh::model() const {
   return *model_;
 }
 
+const InsideGrid* Mesh::gridFor(std::size_t n, const Mesh& other) const {
+  const std::size_t poses = poses_.fetch_add(n, std::memory_order_relaxed) + n;
+  const auto triangles = static_cast<std::size_t>(model_->num_tris + other.model_->num_tris);
+  // By then searches have taken about as long as a grid does.
+  if (n < 64 || poses < 4096 + triangles / 3) return nullptr;
+  std::call_once(grid_made_, [this] { grid_ = InsideGrid::of(*model_); });
+  if (grid_) std::call_once(other.spread_made_, [&] { other.spread_.emplace(*other.model_); });
+  return grid_.get();
+}
+
 void bindMesh(py::module_& m) {
   const py::none none;
   const auto threads = py::arg("threads") = none, progress = py::arg("progress") = none;

@@ -2,11 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "fcl_kios/model/model.h"
+#include "inside_grid.h"
 
 namespace kios::python {
 
@@ -24,10 +28,20 @@ class Mesh {
   }
   bool isSolid() const { return solid_; }
 
+  /// Counts n poses of `other`. Returns the grid for them where it is worth making one, else
+  /// nullptr. To be called without the GIL.
+  const InsideGrid* gridFor(std::size_t n, const Mesh& other) const;
+  /// To be called where `other` was given a grid.
+  const SpreadVertices& spreadVertices() const { return *spread_; }
+
  private:
   const std::shared_ptr<Modeld> model_;
   const bool solid_;
   mutable std::once_flag marked_;
+  mutable std::atomic<std::size_t> poses_{0};
+  mutable std::once_flag grid_made_, spread_made_;
+  mutable std::unique_ptr<const InsideGrid> grid_;
+  mutable std::optional<const SpreadVertices> spread_;
 };
 
 }  // namespace kios::python

@@ -11,6 +11,7 @@
 #include "fcl_kios/solid/penetration.h"
 #include "mesh_batches.h"
 #include "results.h"
+#include "without_gil.h"
 
 namespace kios::python {
 namespace {
@@ -22,6 +23,7 @@ struct Other {
     if (py::isinstance<Mesh>(other)) {
       const auto& mesh = other.cast<const Mesh&>();
       geometry = model = &mesh.model();
+      unchanging = &mesh;
       is_solid = mesh.isSolid();
       return;
     }
@@ -41,6 +43,7 @@ struct Other {
 
   const fcl::CollisionGeometryd* geometry;
   const Modeld* model = nullptr;
+  const Mesh* unchanging = nullptr;
   bool is_solid = false;
   std::optional<ReadingGeometry> reading;
 };
@@ -111,8 +114,16 @@ py::object collides(const Mesh& self, py::handle other, py::handle X_AB,
   auto hits = makeArray<bool>(poses.size);
   bool* const out = hits.mutable_data();
   prepareFor(poses.size, a, b);
-  runBatch(poses.size, options, "X_AB",
-           [&](std::size_t i) { out[i] = touch(a, b.geometry, poses[i]); });
+  const InsideGrid* grid = nullptr;
+  if (b.unchanging) {
+    const WithoutGil released;
+    grid = self.gridFor(poses.size, *b.unchanging);
+  }
+  const SpreadVertices* const spread = grid ? &b.unchanging->spreadVertices() : nullptr;
+  runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
+    const fcl::Transform3d X = poses[i];
+    out[i] = (spread && spread->crosses(*grid, X)) || touch(a, b.geometry, X);
+  });
   return orItem(hits, poses.single);
 }
 

@@ -63,7 +63,7 @@ def test_loading_is_faster_than_building():
     built = best(build)
     buffers = []
     stored = pickle.dumps(fcl_kios.Mesh(v, f), protocol=5, buffer_callback=buffers.append)
-    assert best(lambda: pickle.loads(stored, buffers=buffers)) < built / 8  # 1/15 if nothing else runs
+    assert best(lambda: pickle.loads(stored, buffers=buffers)) < built / 10  # 1/35 if nothing else runs
 
 
 def test_altered_bytes_are_refused(ball):

@@ -10,6 +10,7 @@
 #include "model/lent_volumes.h"
 #include "model/members.h"
 #include "model/prepared.h"
+#include "model/stored_tree.h"
 #include "model/tree_build.h"
 #include "tree/tree_cache.h"
 #include "volume/errors.h"
@@ -176,9 +177,9 @@ bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& t
 template <typename S>
 void requireIndices(const Model<S>& model) {
   const auto end = static_cast<std::size_t>(model.num_vertices);
+  const engine::MeshView<S> mesh = viewOf(model);
   for (int i = 0; i < model.num_tris; ++i) {
-    const fcl::Triangle& t = model.tri_indices[i];
-    const std::size_t largest = std::max({t[0], t[1], t[2]});
+    const std::size_t largest = std::max({mesh.index(i, 0), mesh.index(i, 1), mesh.index(i, 2)});
     if (largest < end) continue;
     refuse("triangle ", i, " refers to vertex ", largest, ", but there are ", end,
            "; build the model anew from beginModel().");
@@ -202,6 +203,10 @@ void makeRoom(const Members<S>& m) {
 template <typename S>
 int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
           SplitterBase<S>& splitter, engine::TreeCache* trees) {
+  if (StoredTree<S>::in(fitter)) {
+    model.nodes[0].bv.stamp = nextStamp();
+    return 2 * num_primitives - 1;
+  }
   for (int i = 0; i < num_primitives; ++i) model.primitives[i] = static_cast<unsigned int>(i);
   const auto* const own_fitter = exactly<Fitter<S>>(fitter);
   const auto* const own_splitter = exactly<Splitter<S>>(splitter);

@@ -8,6 +8,7 @@
 
 #include "model/lent_volumes.h"
 #include "model/members.h"
+#include "model/stored_tree.h"
 
 namespace kios {
 
@@ -98,8 +99,13 @@ int end(Members<S> m) {
   try {
     shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
     shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
-    replace(m.nodes, makeArray<fcl::BVNode<kIOS<S>>>(num_nodes));
-    replace(m.primitives, makeArray<unsigned int>(m.numPrimitives()));
+    if (StoredTree<S>* const stored = StoredTree<S>::in(*model.bv_fitter)) {
+      replace(m.nodes, std::move(stored->nodes));
+      replace(m.primitives, std::move(stored->primitives));
+    } else {
+      replace(m.nodes, makeArray<fcl::BVNode<kIOS<S>>>(num_nodes));
+      replace(m.primitives, makeArray<unsigned int>(m.numPrimitives()));
+    }
   } catch (const std::bad_alloc&) {
     return outOfMemory("endModel()");
   }

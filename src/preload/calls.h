@@ -76,8 +76,9 @@ struct Forks {
 };
 
 struct Opened {
-  const Calls* calls;
+  const Calls* calls;  ///< nullptr: this FCL can't be served
   Forks forks;
+  const char* difference;  ///< what of it is unlike libfcl.so.0.7 then
 };
 
 /// Is the type of the back's only symbol. Its calls throw nothing of their own.

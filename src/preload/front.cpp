@@ -89,18 +89,14 @@ const Calls& fclOf(const void* caller) {
   return known->calls;
 }
 
-/// The back's calls, opened at most once, if these are libfcl's and the mode isn't kOff.
+/// The back's calls, opened at most once, if these are libfcl's and the mode isn't kOff. Of several
+/// copies of libfcl the one that is asked first is served.
 const Calls* backOf(const Calls& fcl) {
   static bool opened = false;
   static const Calls* of_back = nullptr;
   static Start back;
   if (mode == Mode::kOff) return nullptr;
-  for (const void* const definition : {reinterpret_cast<const void*>(fcl.collide_objects),
-                                       reinterpret_cast<const void*>(fcl.collide),
-                                       reinterpret_cast<const void*>(fcl.distance_objects),
-                                       reinterpret_cast<const void*>(fcl.distance)}) {
-    if (!isOfLibfcl(definition)) return nullptr;
-  }
+  if (!isOfLibfcl(fcl)) return nullptr;
   if (!opened) {
     opened = true;
     back.fcl = fcl;
@@ -110,7 +106,7 @@ const Calls* backOf(const Calls& fcl) {
     of_back = now.calls;
     forks = now.forks;
   }
-  return of_back;
+  return std::memcmp(&back.fcl, &fcl, sizeof(Calls)) == 0 ? of_back : nullptr;
 }
 
 /// Whether the back is to be opened by now: for a few queries it doesn't pay.

@@ -3,6 +3,7 @@
 //
 // The back's entry: its four calls, of which the front chooses none and FCL's own all.
 #include "preload/back.h"
+#include "preload/layout.h"
 #include "preload/watch.h"
 
 namespace kios::preload {
@@ -112,8 +113,10 @@ constexpr Calls kWatched = {&collideObjectsWatched, &collideWatched, &distanceOb
 extern "C" __attribute__((visibility("default"))) kios::preload::Opened fcl_kios_preload_open(
     const kios::preload::Start* start) {
   using namespace kios::preload;
+  if (const char* const difference = differenceOf(start->fcl)) return {nullptr, {}, difference};
   back = new Back(*start);
-  if (start->mode != Mode::kVerify && start->mode != Mode::kStats) return {&kCalls, kForks};
+  if (start->mode != Mode::kVerify && start->mode != Mode::kStats)
+    return {&kCalls, kForks, nullptr};
   watch = new Watch(*back);
-  return {&kWatched, kForks};
+  return {&kWatched, kForks, nullptr};
 }

@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include <dlfcn.h>
+#include <elf.h>
+#include <link.h>
 
 #include "preload/names.h"
 
@@ -30,6 +32,37 @@ const char* fileOf(const void* address) {
 
 const void* here() { return reinterpret_cast<const void*>(&fileOf); }
 
+/// What the library that an address lies in is called in its own words; "" if nothing.
+const char* sonameOf(const void* address) {
+  Dl_info info;
+  void* map = nullptr;
+  if (!dladdr1(address, &info, &map, RTLD_DL_LINKMAP) || !map) return "";
+  const char* strings = nullptr;
+  std::size_t soname = 0;
+  for (const ElfW(Dyn)* entry = static_cast<const link_map*>(map)->l_ld;
+       entry && entry->d_tag != DT_NULL; ++entry) {
+    if (entry->d_tag == DT_STRTAB) strings = reinterpret_cast<const char*>(entry->d_un.d_ptr);
+    if (entry->d_tag == DT_SONAME) soname = entry->d_un.d_val;
+  }
+  return strings && soname != 0 ? strings + soname : "";
+}
+
+/// Whether a file or library is called as tools that bundle libraries call a copy of libfcl.so.0.7:
+/// libfcl-<hash>.so.0.7, or with more after a point.
+bool isNameOfCopy(const char* path) {
+  constexpr const char* kBefore = "libfcl-";
+  constexpr const char* kAfter = ".so.0.7";
+  const char* const slash = std::strrchr(path, '/');
+  const char* name = slash ? slash + 1 : path;
+  if (std::strncmp(name, kBefore, std::strlen(kBefore)) != 0) return false;
+  name += std::strlen(kBefore);
+  const std::size_t hash = std::strspn(name, "0123456789abcdef");
+  name += hash;
+  if (hash < 6 || std::strncmp(name, kAfter, std::strlen(kAfter)) != 0) return false;
+  name += std::strlen(kAfter);
+  return *name == '\0' || *name == '.';
+}
+
 void* find(const char* library, const char* name) {
   void* const handle = dlopen(library, RTLD_LAZY | RTLD_NOLOAD);
   return handle ? dlsym(handle, name) : nullptr;
@@ -37,8 +70,8 @@ void* find(const char* library, const char* name) {
 
 }  // namespace
 
-void say(const char* words, const char* more, const char* end) {
-  std::fprintf(stderr, "fcl_kios_preload: %s%s%s\n", words, more, end);
+void say(const char* words, const char* more, const char* end, const char* last) {
+  std::fprintf(stderr, "fcl_kios_preload: %s%s%s%s\n", words, more, end, last);
 }
 
 bool isGlobal(const char* name) { return dlsym(RTLD_NEXT, name) != nullptr; }
@@ -59,7 +92,19 @@ void* nextDefinition(const char* name, const void* caller) {
 
 bool isOfLibfcl(const void* definition) {
   const void* const in_libfcl = find(kLibfcl, KIOS_COLLIDE);
-  return in_libfcl && baseOf(definition) == baseOf(in_libfcl);
+  if (in_libfcl && baseOf(definition) == baseOf(in_libfcl)) return true;
+  return isNameOfCopy(fileOf(definition)) && isNameOfCopy(sonameOf(definition));
+}
+
+bool isOfLibfcl(const Calls& calls) {
+  const void* const base = baseOf(reinterpret_cast<const void*>(calls.collide));
+  for (const void* const definition : {reinterpret_cast<const void*>(calls.collide_objects),
+                                       reinterpret_cast<const void*>(calls.collide),
+                                       reinterpret_cast<const void*>(calls.distance_objects),
+                                       reinterpret_cast<const void*>(calls.distance)}) {
+    if (baseOf(definition) != base || !isOfLibfcl(definition)) return false;
+  }
+  return true;
 }
 
 void reportReach(Mode mode) {
@@ -116,7 +161,12 @@ Opened openBack(const Start& start) {
     say("nothing is done: ", why ? why : path);
     return {};
   }
-  return reinterpret_cast<Open>(open)(&start);
+  const Opened opened = reinterpret_cast<Open>(open)(&start);
+  if (opened.difference) {
+    say("nothing is done: ", fileOf(reinterpret_cast<const void*>(start.fcl.collide)),
+        " is no copy of libfcl.so.0.7 as it is built here; they differ in ", opened.difference);
+  }
+  return opened;
 }
 
 }  // namespace kios::preload

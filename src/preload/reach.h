@@ -16,15 +16,18 @@ void* nextDefinition(const char* name, const void* caller);
 /// Whether the definition is one for all callers, in the global scope.
 bool isGlobal(const char* name);
 
-/// Whether a definition of nextDefinition() is libfcl.so.0.7's.
+/// Whether a definition of nextDefinition() is libfcl.so.0.7's, or that of a copy which a package
+/// brings along: by the names of its file and itself, libfcl-<hash>.so.0.7*.
 bool isOfLibfcl(const void* definition);
+/// Whether all four are so, and in one library.
+bool isOfLibfcl(const Calls& calls);
 
 /// Says in one line on stderr if the queries of this program can't be answered; where the mode asks
 /// for reports, also if they can't be yet.
 void reportReach(Mode mode);
 
 /// Writes "fcl_kios_preload: " and the words on a line of stderr.
-void say(const char* words, const char* more = "", const char* end = "");
+void say(const char* words, const char* more = "", const char* end = "", const char* last = "");
 
 /// Returns what FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
 Mode modeOfEnvironment();

@@ -1,23 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A loaded model is the one that was saved; bytes that were cut off or altered are refused, and
-// those whose hash was computed anew make no query crash.
+// A loaded model is the one that was saved. Altered bytes: altered_storage_test.cpp.
 
 #include "fcl_kios/model/storage.h"
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <random>
 #include <string>
 
 #include "fcl/mesh_cases.h"
 #include "model/bvh_check.h"
 #include "model/deform.h"
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 namespace kios::testing {
 namespace {
@@ -38,16 +32,6 @@ std::string refusal(const Bytes& bytes) {
     return error.what();
   }
   return "";
-}
-
-/// Returns the bytes with the hash that belongs to them.
-Bytes rehashed(Bytes bytes) {
-  constexpr std::size_t kHash = 24;
-  for (std::size_t i = 0; i < 16; ++i) bytes.at(kHash + i) = 0;
-  const XXH128_hash_t hash = XXH3_128bits(bytes.data(), bytes.size());
-  std::memcpy(&bytes[kHash], &hash.low64, 8);
-  std::memcpy(&bytes[kHash + 8], &hash.high64, 8);
-  return bytes;
 }
 
 class Storage : public ::testing::Test {
@@ -121,19 +105,12 @@ TEST_F(Storage, RefusesTheUnfinished) {
   EXPECT_THROW(save(model), std::invalid_argument);
 }
 
-TEST_F(Storage, RefusesWhatWasCutOffOrAltered) {
+TEST_F(Storage, SaysWhatIsWrong) {
   const Bytes bytes = save(*other_);
   EXPECT_EQ(refusal(bytes), "");
   EXPECT_NE(refusal({}).find("cut off"), std::string::npos);
   for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
     EXPECT_NE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))), "") << size;
-  }
-  std::mt19937 random(1);
-  for (int i = 0; i < 10000; ++i) {
-    Bytes altered = bytes;
-    const std::size_t at = i < 800 ? static_cast<std::size_t>(i / 8) : random() % bytes.size();
-    altered[at] = static_cast<unsigned char>(altered[at] ^ (1U << (i % 8)));
-    ASSERT_NE(refusal(altered), "") << "byte " << at << ", bit " << i % 8;
   }
   Bytes newer = bytes;
   newer[8] = 2;
@@ -141,34 +118,6 @@ TEST_F(Storage, RefusesWhatWasCutOffOrAltered) {
   Bytes longer = bytes;
   longer.push_back(0);
   EXPECT_NE(refusal(longer), "");
-}
-
-TEST_F(Storage, NothingThatIsTakenCrashes) {
-  const Bytes bytes = save(*other_);
-  ASSERT_EQ(rehashed(bytes), bytes);
-  const auto partner = kiosModel(mesh_);
-  std::mt19937 random(2);
-  int taken = 0;
-  for (int i = 0; i < 3000; ++i) {
-    Bytes altered = bytes;
-    const std::size_t head = i % 2 == 0 ? 96 + 160 * 128 : bytes.size();
-    for (int k = 0; k < 1 + i % 3; ++k) {
-      altered[random() % head] = static_cast<unsigned char>(random() % 4 == 0 ? 255 : random());
-    }
-    altered = rehashed(altered);
-    try {
-      const auto model = loaded(altered);
-      ++taken;
-      for (std::size_t f = 0; f < 3; ++f) {
-        const Frame& frame = frames_[f];
-        distance(*model, frame.X_WA, *partner, frame.X_WB);
-        closerThan(*model, frame.X_WA, *model, frame.X_WB, 0.1);
-      }
-    } catch (const std::invalid_argument&) {
-      continue;
-    }
-  }
-  EXPECT_GT(taken, 100);
 }
 
 }  // namespace

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include <stdexcept>
+#include <type_traits>
+#include <typeinfo>
+
+#include <fcl/geometry/bvh/BV_node.h>
+#include <fcl/geometry/bvh/detail/BV_fitter_base.h>
+#include "fcl_kios/volume/kios.h"
+#include "model/memory_to_fill.h"
+
+namespace kios {
+
+/// Returns memory for nodes, which have any bytes until they are written: large trees take longer
+/// to clear than to copy.
+template <typename S>
+std::unique_ptr<fcl::BVNode<kIOS<S>>[]> nodesToFill(std::size_t n) {
+  using Node = fcl::BVNode<kIOS<S>>;
+  // As `delete[]` frees what `new[]` made of a type without a destructor.
+  static_assert(std::is_trivially_destructible<Node>::value &&
+                alignof(Node) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  return std::unique_ptr<Node[]>(static_cast<Node*>(memoryToFill(n * sizeof(Node))));
+}
+
+/// A finished tree in place of a fitter: endModel() moves it into the model, whose mesh it was
+/// checked to be of, and fits nothing.
+template <typename S>
+class StoredTree final : public fcl::detail::BVFitterBase<kIOS<S>> {
+ public:
+  explicit StoredTree(std::size_t num_triangles)
+      : nodes(nodesToFill<S>(2 * num_triangles - 1)), primitives(new unsigned int[num_triangles]) {}
+
+  /// That of a model; nullptr if its fitter is another one.
+  static StoredTree* in(fcl::detail::BVFitterBase<kIOS<S>>& fitter) {
+    return typeid(fitter) == typeid(StoredTree) ? static_cast<StoredTree*>(&fitter) : nullptr;
+  }
+
+  void set(fcl::Vector3<S>* /*vertices*/, fcl::Triangle* /*triangles*/,
+           fcl::BVHModelType /*type*/) override {}
+  void set(fcl::Vector3<S>* /*vertices*/, fcl::Vector3<S>* /*previous*/,
+           fcl::Triangle* /*triangles*/, fcl::BVHModelType /*type*/) override {}
+  kIOS<S> fit(unsigned int* /*primitives*/, int /*n*/) override {
+    throw std::logic_error("fcl_kios: a stored tree has no fit to make.");
+  }
+  void clear() override {}
+
+  std::unique_ptr<fcl::BVNode<kIOS<S>>[]> nodes;
+  std::unique_ptr<unsigned int[]> primitives;
+};
+
+}  // namespace kios
