@@ -155,6 +155,12 @@ class Configuration {
     const BodyData& body = bodyAt(id);
     return body.carried < 0 ? body.X_LB : placed_[body.carried].X;
   }
+  fcl::Transform3d linkPose(int link) const {
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    X.linear() = links_[link].R;
+    X.translation() = links_[link].t;
+    return X;
+  }
   /// Centre of a body's ball in the world.
   const Eigen::Vector3d& center(int id) const {
     const BodyData& body = bodyAt(id);

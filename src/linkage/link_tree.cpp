@@ -318,8 +318,9 @@ void Linkage::Impl::allow(int a, int b) {
   if (a < 0 || b < 0 || a >= count || b >= count) {
     refuse("a pair of bodies is allowed of which one was not added: ", a, " and ", b, ".");
   }
+  if (a == b) refuse("body ", a, " is allowed to touch itself, which is never checked.");
   if (bodies[a].carried < bodies[b].carried) std::swap(a, b);
-  if (a == b || bodies[a].carried < 0) return;
+  if (bodies[a].carried < 0) return;
   allowed_.emplace_back(a, b);
   CarriedBody& body = carried[bodies[a].carried];
   if (bodies[b].carried >= 0) {

@@ -37,6 +37,12 @@ fcl::Transform3d Linkage::pose(int body, const Eigen::VectorXd& q) const {
   return articulated::Configuration(path, 1).pose(body);
 }
 
+fcl::Transform3d Linkage::linkPose(int link, const Eigen::VectorXd& q) const {
+  if (link < 0 || link >= links()) refuse("the linkage has no link ", link, ".");
+  const articulated::Path path(*impl_, q, q);
+  return articulated::Configuration(path, 1).linkPose(link);
+}
+
 MotionAnswer checkMotion(const Linkage& linkage, const Eigen::VectorXd& q0,
                          const Eigen::VectorXd& q1, const MotionRequest& request) {
   require(request.min_separation >= 0 && request.min_separation <= 0x1p300,

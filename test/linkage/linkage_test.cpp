@@ -58,6 +58,12 @@ TEST(Linkages, CoordinatesBelongToJointsThatMove) {
   const Eigen::Vector2d q(0.5, 0.25);
   EXPECT_EQ(linkage.pose(0, q).translation(), Vector3d(0, 0, 1.5));
   EXPECT_EQ(linkage.pose(1, q).translation(), Vector3d(4, 0, 0));
+  Linkage probe = linkage;
+  for (int link = 0; link < linkage.links(); ++link) {
+    const int body = probe.addBody(link, std::make_shared<fcl::Sphered>(1));
+    EXPECT_EQ(linkage.linkPose(link, q).matrix(), probe.pose(body, q).matrix());
+  }
+  expectRefused([&] { linkage.linkPose(-1, q); }, "no link -1");
   // A joint that mimics the slider, and one that leaves a coordinate to nobody.
   Joint mimic = joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0});
   mimic.coordinate = 1;
@@ -99,6 +105,10 @@ TEST(Linkages, WhichPairsAreChecked) {
             MotionVerdict::kContact);
   const int fixed = linkage.addBody(1, cube(), shifted(0, 0, 3));
   EXPECT_EQ(verdict(linkage), MotionVerdict::kContact);  // of a fixed link and an obstacle
+  const MotionAnswer still = checkMotion(linkage, Joints::Ones(1), Joints::Ones(1));
+  EXPECT_EQ(still.verdict, MotionVerdict::kContact);  // of one configuration
+  EXPECT_EQ(std::pair(still.body_a, still.body_b), std::pair(std::min(wall, fixed), fixed));
+  expectRefused([&] { linkage.allow(wall, wall); }, "itself");
   linkage.allow(wall, fixed);
   linkage.allow(fixed, wall);
   linkage.allow(fixed, 3);

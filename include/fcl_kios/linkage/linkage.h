@@ -63,8 +63,8 @@ class Linkage {
   int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
               const fcl::Transform3d& X_LB = fcl::Transform3d::Identity());
 
-  /// This pair is never checked. Bodies of one link never are, nor are two obstacles. Throws
-  /// std::invalid_argument if there are no such bodies.
+  /// Takes the pair out: it is never checked. Bodies of one link never are, nor are two obstacles.
+  /// Throws std::invalid_argument if there are no such bodies, or they are one.
   void allow(int body_a, int body_b);
 
   int coordinates() const;  ///< the size of q: one more than the largest that a joint has
@@ -74,6 +74,8 @@ class Linkage {
   /// Returns the pose of a body in the world. Throws std::invalid_argument if there is no such
   /// body, or q is not of size coordinates() or not finite.
   fcl::Transform3d pose(int body, const Eigen::VectorXd& q) const;
+  /// Returns the pose of a link in the world: its frame is its joint's, moved. Throws as pose().
+  fcl::Transform3d linkPose(int link, const Eigen::VectorXd& q) const;
 
   class Impl;  // hidden
   const Impl& impl() const { return *impl_; }
@@ -100,7 +102,7 @@ struct MotionRequest {
   bool first_contact = false;
   /// Bounds the time that a call takes: MotionCounts::queries doesn't exceed it by more than the
   /// pairs that are near at the path's end, start and middle. Most paths take fewer than a
-  /// thousand; a query takes 1 to 100 us. >= 0.
+  /// thousand. >= 0.
   long long max_queries = 1000000;
 };
 
@@ -136,6 +138,8 @@ struct MotionAnswer {
 /// q0), and q1 at 1. Two shapes are posed as FCL poses them: a contact is what FCL's GJK says it
 /// is, while kClear is proven by a separating slab. Pairs of which one is not occupied are never in
 /// contact.
+///
+/// Where q0 = q1 this asks about one configuration: kContact names the two bodies.
 ///
 /// Throws std::invalid_argument if q0 or q1 is not of size coordinates() or not finite, an option
 /// is out of range, a body's mesh was changed since it was added, or a pair that moves can't be
