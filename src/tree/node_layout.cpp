@@ -69,17 +69,20 @@ void writeSpheres(const kIOS<float>& bv, Node& node) {
   }
 }
 
+void writeLane(const Node& node, int lane, Block& block) {
+  for (int row = 0; row < kSphereRows; ++row) {
+    block.x[row].v[lane] = node.x[row];
+    block.y[row].v[lane] = node.y[row];
+    block.z[row].v[lane] = node.z[row];
+    block.r[row].v[lane] = node.r[row];
+  }
+}
+
 void fillBlock(const Node& node, Tree& tree) {
   Block& block = tree.blocks[static_cast<std::size_t>(node.child)];
   const int count = tree.children[static_cast<std::size_t>(node.child)].count;
   for (int lane = 0; lane < kLanes; ++lane) {
-    const Node& child = tree.nodes[node.first_child + (lane < count ? lane : 0)];
-    for (int row = 0; row < kSphereRows; ++row) {
-      block.x[row].v[lane] = child.x[row];
-      block.y[row].v[lane] = child.y[row];
-      block.z[row].v[lane] = child.z[row];
-      block.r[row].v[lane] = child.r[row];
-    }
+    writeLane(tree.nodes[node.first_child + (lane < count ? lane : 0)], lane, block);
   }
 }
 

@@ -13,6 +13,9 @@ namespace kios::engine {
 /// whatever a kernel computes as middle +- half, in exact arithmetic, encloses that cap.
 void writeSpheres(const kIOS<float>& bv, Node& node);
 
+/// Copies a node's rows into a lane of a block.
+void writeLane(const Node& node, int lane, Block& block);
+
 /// Copies the rows of a node's children into the lanes of its block; the first one's where it has
 /// fewer.
 void fillBlock(const Node& node, Tree& tree);
