@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "paper/packing_tests.h"
-#include "volume/simd_targets.h"
 #include "volume/lanes.h"
+#include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "paper/packing_tests.cpp"

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "build/recenter.h"
-#include "volume/rounding.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "clearance/simplex.h"
-#include "volume/rounding.h"
 
 #include <Eigen/QR>
+
+#include "volume/rounding.h"
 
 namespace kios::exact {
 

@@ -34,8 +34,8 @@ std::vector<Item> walkNearestFirst(const Item& root, const Skip& skip, const Vis
     if (skip(item)) return;
     waiting.push_back(item);
     if (best_first) return std::push_heap(waiting.begin(), waiting.end(), farther);
-    for (std::size_t i = waiting.size() - 1;
-         i > first_child && farther(waiting[i], waiting[i - 1]); --i) {
+    for (std::size_t i = waiting.size() - 1; i > first_child && farther(waiting[i], waiting[i - 1]);
+         --i) {
       std::swap(waiting[i], waiting[i - 1]);
     }
   };

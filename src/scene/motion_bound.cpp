@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/motion_bound.h"
-#include "volume/rounding.h"
 
 #include <cmath>
+
+#include "volume/rounding.h"
 
 namespace kios::scene {
 namespace {

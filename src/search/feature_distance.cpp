@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/feature_distance.h"
-#include "volume/rounding.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/hole_filling.h"
-#include "volume/rounding.h"
 
 #include <Eigen/Geometry>
 #include <utility>
+
+#include "volume/rounding.h"
 
 namespace kios {
 
