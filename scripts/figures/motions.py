@@ -45,15 +45,15 @@ def missed(rows):
 def mbm(rows):
     """MotionBenchMaker's problems by robot and kind."""
     columns = spec("""
-problems          | frames kios
-solved, proven    | solved kios
-median            | median_us kios
-samples, k-IOS    | median_us sampled_kios
-solved, OBBRSS    | solved fcl_obbrss
-median            | median_us fcl_obbrss
-mean, proven      | mean_us kios
-mean, OBBRSS      | mean_us fcl_obbrss
-contacts called free, OBBRSS | wrong_verdicts fcl_obbrss
+problems               | frames kios
+proven: solved         | solved kios
+median                 | median_us kios
+mean                   | mean_us kios
+samples, k-IOS: median | median_us sampled_kios
+OBBRSS: solved         | solved fcl_obbrss
+median                 | median_us fcl_obbrss
+mean                   | mean_us fcl_obbrss
+contacts called free   | wrong_verdicts fcl_obbrss
 """)
 
     def cell(line, column, _):
@@ -68,7 +68,7 @@ contacts called free, OBBRSS | wrong_verdicts fcl_obbrss
              for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
              for kind in ("bookshelf_small", "bookshelf_tall", "bookshelf_thin", "box", "cage",
                           "table_pick", "table_under_pick", "")]
-    return grid("median and mean of a plan (OBBRSS / proven)", spec("\n".join(lines)), columns, cell)
+    return grid("problems", spec("\n".join(lines)), columns, cell)
 
 
 def mbm_contact(rows, robot):

@@ -129,6 +129,33 @@ TEST(RobotSurroundings, ProofsKnowWhatIsAttached) {
   EXPECT_NEAR(both.to * q1[3], angleAt(0.04), 2e-6);
 }
 
+// What is looked at in floats first is found where these hold few digits of a place, or none.
+TEST(RobotSurroundings, ContactsAreFoundFarFromTheOrigin) {
+  const Folder folder;
+  const Robot bare = loadRobot(
+      folder.write("r.urdf", "<robot name='r'>" + link("a") + link("b", "<box size='1 0.2 0.3'/>") +
+                                 joint("fly", "floating", "a", "b") + "</robot>"));
+  Random random(8);
+  for (const double far : {0.0, 1e3, 1e7, 1e10}) {
+    Robot robot = bare;
+    for (int i = 0; i < 9; ++i) {
+      const Vector3d place(far + random.uniform(-2, 2), random.uniform(-2, 2), 0);
+      robot.addObstacle("o" + std::to_string(i), std::make_shared<fcl::Boxd>(0.5, 0.3, 0.4),
+                        shifted(place.x(), place.y(), place.z()));
+    }
+    int touching = 0;
+    for (int i = 0; i < 200; ++i) {
+      VectorXd q = VectorXd::Zero(6);
+      q.head(3) = Vector3d(far + random.uniform(-2, 2), random.uniform(-2, 2), 0);
+      const bool contact = robot.contact(q).has_value();
+      EXPECT_EQ(contact, robot.clearance(q).clearance == 0) << far;
+      EXPECT_EQ(contact, robot.contacts(q)[0] != 0);
+      touching += contact ? 1 : 0;
+    }
+    EXPECT_GT(touching, 20);
+  }
+}
+
 // At overlap the gradient points the shortest way out of marked solids.
 TEST(RobotSurroundings, GradientsOfOverlapLeadOut) {
   const Folder folder;
