@@ -21,6 +21,7 @@
 #include "tree/moment_fit.h"
 #include "tree/node_layout.h"
 #include "tree/prepare.h"
+#include "volume/rounding.h"
 #include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -22,6 +22,7 @@
 #include "shapes.h"
 #include "tree/compress_table.h"
 #include "tree/leaf_layout.h"
+#include "volume/rounding.h"
 #include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
