@@ -167,7 +167,7 @@ TYPED_TEST(ClearanceOf, CoversOfSizeSeeGapsBesideLongTriangles) {
         RelativePose<S>(pose.linear().template cast<S>(), pose.translation().template cast<S>()));
   };
   EXPECT_EQ(clearance(Cover<S>(*a, 20), Cover<S>(*b, 20), X).value, 0);
-  for (const double size : {0.02, 0.01}) {
+  for (const double size : {0.04, 0.02}) {
     const auto cover_a = Cover<S>::ofSize(*a, size), cover_b = Cover<S>::ofSize(*b, size);
     for (int i = 0; i < cover_a.size(); ++i) {
       ASSERT_LE(2 * double{cover_a.volume(i).radius0}, size);
