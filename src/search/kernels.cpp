@@ -18,9 +18,9 @@
 #include "search/cell_search.h"
 #include "search/ray_search.h"
 #include "search/search.h"
-#include "volume/simd_targets.h"
 #include "search/solid_search.h"
 #include "tree/compress_table.h"
+#include "volume/simd_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/kernels.cpp"
