@@ -6,5 +6,9 @@
 // knows; to be included before its headers. SVE is not among them: the size of its vectors is known
 // at run time only, so that they can't be members or elements of arrays. Machines with SVE have
 // NEON. What AVX-512 gained later serves no kernel.
+#ifdef FCL_KIOS_FEW_TARGETS  // what sanitizers see is alike in all; they compile each in minutes
+#define HWY_DISABLED_TARGETS (~(HWY_AVX2 | HWY_NEON | HWY_EMU128))
+#else
 #define HWY_DISABLED_TARGETS \
   (~(HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON | HWY_EMU128 | HWY_SCALAR))
+#endif

@@ -155,7 +155,6 @@ TEST(NearPairs, AreThoseToBeChecked) {
   EXPECT_EQ(answer.body_b, near);
   robot.allow(near, a);
   robot.allow(a, near);
-  robot.allow(a, a);
   robot.allow(near, far);
   EXPECT_EQ(ask().counts.pairs, 4);
   EXPECT_EQ(ask().verdict, MotionVerdict::kClear);
