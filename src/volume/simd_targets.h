@@ -7,7 +7,7 @@
 // at run time only, so that they can't be members or elements of arrays. Machines with SVE have
 // NEON. What AVX-512 gained later serves no kernel.
 #ifdef FCL_KIOS_FEW_TARGETS  // what sanitizers see is alike in all; they compile each in minutes
-#define HWY_DISABLED_TARGETS (~(HWY_AVX2 | HWY_NEON | HWY_EMU128))
+#define HWY_DISABLED_TARGETS (~(HWY_AVX2 | HWY_NEON | HWY_EMU128 | HWY_SCALAR))
 #else
 #define HWY_DISABLED_TARGETS \
   (~(HWY_AVX3 | HWY_AVX2 | HWY_SSE4 | HWY_NEON | HWY_EMU128 | HWY_SCALAR))
