@@ -24,6 +24,10 @@ HWY_INLINE void move(const Box& box, const FloatPose& X, Box& out) {
 }
 
 struct V3 {
+  // The compiler's own constructors would not be of the instruction set that V's are.
+  HWY_INLINE V3() {}
+  HWY_INLINE V3(V x, V y, V z) : x(x), y(y), z(z) {}
+
   V x, y, z;
 };
 HWY_INLINE V dot(const V3& a, const V3& b) { return dot(a.x, a.y, a.z, b.x, b.y, b.z); }

@@ -160,6 +160,8 @@ class BoxedTriangles {
 ///     +=========+----+
 ///        face    beyond     |p - face|^2 >= height^2 + beyond^2
 struct Prisms {
+  HWY_INLINE Prisms() {}  // as V3's
+
   V3 normal[4];
   V offset[4];
 
