@@ -192,31 +192,37 @@ def a_million_poses(repeats):
     return compare(lambda: thing.collides(hand, poses), None, 1)
 
 
+def unpickled(n, repeats):
+    """Asks a part of n triangles for its first distance, unpickled or built."""
+    v, f = part(n)
+    probe = fcl_kios.Mesh(*part(200))
+    probe.prepare()
+    pose = shapes.translation(1.2, 0.1, 0.3)
+    buffers = []
+    stored = pickle.dumps(fcl_kios.Mesh(v, f), protocol=5, buffer_callback=buffers.append)
+    load = lambda: pickle.loads(stored, buffers=buffers).distance(probe, pose)
+    build = lambda: fcl_kios.Mesh(v, f).distance(probe, pose)
+    assert load() == build()
+    return compare(load, build, repeats)
+
+
 @row
 def unpickling(repeats):
-    """pickle.loads() of a mesh of 20,000 triangles, its buffer out of band as joblib's and Dask's
-    are, beside building and preparing it"""
-    v, f = part()
-    buffers = []
-    stored = pickle.dumps(fcl_kios.Mesh(v, f), protocol=5, buffer_callback=buffers.append)
-
-    def build():
-        fcl_kios.Mesh(v, f).prepare()
-
-    return compare(lambda: pickle.loads(stored, buffers=buffers), build, repeats)
+    """pickle.loads() of a mesh of 20,000 triangles and a first distance, its buffer out of band as
+    joblib's and Dask's are, beside building it and the same distance"""
+    return unpickled(20_000, repeats)
 
 
 @row
-def unpickling_half_a_million(repeats):
-    """the same of 500,000 triangles"""
-    v, f = part(500_000)
-    buffers = []
-    stored = pickle.dumps(fcl_kios.Mesh(v, f), protocol=5, buffer_callback=buffers.append)
+def unpickling_a_thousand(repeats):
+    """the same of 1,000 triangles"""
+    return unpickled(1000, 20 * repeats)  # as each is short
 
-    def build():
-        fcl_kios.Mesh(v, f).prepare()
 
-    return compare(lambda: pickle.loads(stored, buffers=buffers), build, min(repeats, 5))
+@row
+def unpickling_200_thousand(repeats):
+    """the same of 200,000 triangles"""
+    return unpickled(200_000, min(repeats, 5))
 
 
 @row
@@ -276,10 +282,11 @@ def main():
         from figures.measure import header, slim
 
         command = " ".join(["python/bench.py"] + ["--cpu"] * arguments.cpu
-                           + [f"--repeats {arguments.repeats}"])
+                           + [f"--repeats {arguments.repeats}", *arguments.rows])
         with open(arguments.json, "w") as file:
             file.writelines(json.dumps(m) + "\n"
-                            for m in [header(root, "python", command), *map(slim, measured)])
+                            for m in [header(root, pathlib.Path(arguments.json).stem, command),
+                                      *map(slim, measured)])
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@
 #include "allocations.h"
 #include "calls.h"
 #include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model/storage.h"
 #include "model/prepared.h"
 #include "scenario.h"
 #include "scenes/shapes.h"
@@ -29,11 +30,11 @@ constexpr char kReference[] = "fcl_obbrss";
 
 /// Says what is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kFirstQuery: endModel()
 /// and whether the last mesh and the first, side by side, touch. kAgain: as kPrepared, while equal
-/// models live.
-enum class Stage { kBuild, kPrepared, kFirstQuery, kAgain };
+/// models live. kLoaded: kios::load() of what kios::save() stored, in place of kPrepared.
+enum class Stage { kBuild, kPrepared, kFirstQuery, kAgain, kLoaded };
 
 const char* nameOf(Stage stage) {
-  constexpr const char* kNames[] = {"build", "prepared", "first_query", "again"};
+  constexpr const char* kNames[] = {"build", "prepared", "first_query", "again", "loaded"};
   return kNames[static_cast<int>(stage)];
 }
 
@@ -44,6 +45,8 @@ class Builder {
 
   /// Makes models of these meshes up to endModel(), and drops those before.
   virtual void begin(const Meshes& meshes) = 0;
+  /// Puts stored models in the place of those begun.
+  virtual void store(const Meshes& meshes) = 0;
   virtual void run(Stage stage) = 0;
 };
 
@@ -61,7 +64,26 @@ class BuilderOf final : public Builder {
     aside_ = meshes.empty() ? 0 : scenes::extent(meshes.front());
   }
 
+  void store(const Meshes& meshes) override {
+    models_.clear();
+    stored_.clear();
+    if constexpr (std::is_same_v<BV, kIOSd>) {
+      for (const scenes::Mesh& mesh : meshes) {
+        stored_.push_back(save(*makeModel(mesh.vertices, mesh.triangles)));
+      }
+    }
+  }
+
   void run(Stage stage) override {
+    if constexpr (std::is_same_v<BV, kIOSd>) {
+      if (stage == Stage::kLoaded) {
+        for (const auto& bytes : stored_) {
+          models_.push_back(load(bytes.data(), bytes.size()));
+          prepare(*models_.back());
+        }
+        return;
+      }
+    }
     for (const auto& model : models_) {
       model->endModel();
       if constexpr (std::is_same_v<BV, kIOSd>) {
@@ -79,6 +101,7 @@ class BuilderOf final : public Builder {
 
  private:
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
+  std::vector<std::vector<unsigned char>> stored_;
   double aside_ = 0;
 };
 
@@ -119,6 +142,7 @@ struct Entrant {
       equal->begin(meshes);
       equal->run(stage);
     }
+    if (stage == Stage::kLoaded) return builder->store(meshes);
     builder->begin(meshes);
   }
 };
@@ -128,9 +152,10 @@ std::vector<Entrant> entrants(const Options& options) {
   for (const Volume& volume : kVolumes) {
     const bool ours = volume.make == kVolumes[0].make;
     if (options.quick && !ours && std::string(volume.name) != kReference) continue;
-    for (const Stage stage : {Stage::kBuild, Stage::kPrepared, Stage::kFirstQuery, Stage::kAgain}) {
-      const bool sharing = stage == Stage::kPrepared || stage == Stage::kAgain;
-      if (sharing && !ours) continue;  // it would be kBuild
+    for (const Stage stage :
+         {Stage::kBuild, Stage::kPrepared, Stage::kFirstQuery, Stage::kAgain, Stage::kLoaded}) {
+      const bool any = stage == Stage::kBuild || stage == Stage::kFirstQuery;
+      if (!any && !ours) continue;  // it would be kBuild
       all.push_back(
           {volume.name, stage, volume.make(), stage == Stage::kAgain ? volume.make() : nullptr});
     }
@@ -142,7 +167,7 @@ std::vector<Entrant> entrants(const Options& options) {
 /// copies models by malloc, which isn't counted.
 Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles) {
   Volumes volumes;
-  if (entrant.stage == Stage::kFirstQuery) return volumes;
+  if (entrant.stage == Stage::kFirstQuery || entrant.stage == Stage::kLoaded) return volumes;
   const Meshes fresh = unlike(meshes);
   entrant.begin(fresh);
   entrant.builder->begin({});

@@ -147,7 +147,7 @@ int timeDistances(const Shapes& links) {
   Cell cell(links);
   double best = std::numeric_limits<double>::infinity(), sum = 0;
   constexpr int kFrames = 12, kRepeats = 6;
-  for (int repeat = 0; repeat < kRepeats; ++repeat) {  // twins are made in the first
+  for (int repeat = 0; repeat < kRepeats; ++repeat) {  // copies are made in the first
     std::mt19937 random(1);
     std::chrono::duration<double, std::nano> taken{0};
     sum = 0;

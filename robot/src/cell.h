@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "body.h"
+#include "box_lanes.h"
 #include "fcl_kios/linkage/linkage.h"
 #include "fcl_kios/robot/answers.h"
 #include "kinematic_tree.h"
-#include "near_lanes.h"
 
 namespace kios::robot {
 

@@ -10,6 +10,7 @@
 
 #include "cell.h"
 #include "pair_query.h"
+#include "volume/ball_lanes.h"
 
 namespace kios::robot {
 namespace {

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <limits>
 
+#include "volume/rotation.h"
+
 namespace kios::robot {
 namespace {
 
@@ -163,7 +165,7 @@ void KinematicTree::place(const Eigen::VectorXd& q, std::vector<PlacedLink>& pla
     if (joint.type == JointType::kPrismatic) {
       link.t += value * link.axis;
     } else {
-      link.R = (link.R * Eigen::AngleAxisd(value, node.axis).toRotationMatrix()).eval();
+      turnAbout(node.axis, value, link.R);
     }
   }
 }

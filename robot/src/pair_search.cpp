@@ -9,6 +9,7 @@
 #include <random>
 
 #include "pair_query.h"
+#include "volume/rotation.h"
 
 namespace kios::robot {
 namespace {
@@ -134,7 +135,7 @@ void PairSearch::place(const std::vector<double>& middle) {
     if (node.joint.type == JointType::kPrismatic) {
       link.t += value * link.axis;
     } else {
-      link.R = (link.R * Eigen::AngleAxisd(value, node.axis).toRotationMatrix()).eval();
+      turnAbout(node.axis, value, link.R);
     }
   }
   for (Side* side : {&a_, &b_}) {

@@ -31,7 +31,7 @@ RUNS = {  # scenario: options
     "continuous": "--frames 40 --repeats 5",
     "solids": "--repeats 5",
     "motions": "--frames 200 --repeats 3 --oracle 1000",
-    "mbm": f"--frames 140 {PAIR}",
+    "mbm": f"--frames 700 {PAIR}",
     "rays": "--frames 4096 --repeats 5",
     "paper": "--frames 20 --repeats 2",
     "fits": "--frames 100 --repeats 3",

@@ -62,7 +62,7 @@ def readme(rows):
     out = []
     for label, ((scenario, query, bv), settings) in README:
         # FCL has nothing to prepare, nor to share.
-        theirs = "build" if query in ("prepared", "again") else query
+        theirs = "build" if query in ("prepared", "again", "loaded") else query
         ours = rows.us(scenario, query, **settings)
         other = rows.us(scenario, theirs, bv, **settings)
         out.append([label, time(ours), time(other), OTHERS[bv], number(other / ours)])

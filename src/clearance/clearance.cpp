@@ -10,7 +10,6 @@
 
 #include "clearance/exact_pair.h"
 #include "fcl_kios/build/fit.h"
-#include "model/kios_model.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
 
@@ -19,7 +18,7 @@ namespace {
 
 template <typename S>
 std::vector<kIOS<S>> levelOf(const Model<S>& model, int level) {
-  requireFinished(model);
+  validate(model);
   if (level < 0) refuse("the level of a cover must be 0 or more, the root's is 0.");
   std::vector<int> nodes = {0};
   for (int depth = 0; depth < level; ++depth) {
@@ -114,7 +113,7 @@ class TriangleParts {
 
 template <typename S>
 std::vector<kIOS<S>> volumesOfSize(const Model<S>& model, double size) {
-  requireFinished(model);
+  validate(model);
   if (!(size > 0)) refuse("the size of a cover must be positive.");
   std::vector<kIOS<S>> volumes;
   TriangleParts<S> parts(size, volumes);

@@ -7,7 +7,6 @@
 
 #include "clearance/exact_pair.h"
 #include "clearance/nearest_pair.h"
-#include "volume/assemble.h"
 #include "volume/error_bounds.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
@@ -84,8 +83,7 @@ ExactDistance nearestPoint(const kIOS<S>& volume, const fcl::Vector3<S>& point) 
     }
   }
   kIOS<S> ball;
-  ball.center0 = point;
-  completeCaps(ball, 1);
+  ball += point;
   ExactDistance result = exactDistance(volume, ball);
   result.q = point.template cast<double>();
   if (!result.apart()) result.p = result.q;

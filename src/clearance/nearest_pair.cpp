@@ -9,20 +9,101 @@
 // spheres, circles and vertices which hold the support points.
 #include "clearance/nearest_pair.h"
 
+#include <Eigen/QR>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "clearance/simplex.h"
 #include "volume/rounding.h"
 
 namespace kios::exact {
 namespace {
 
-/// Both bodies in common units.
-class Pair {
+/// Holds up to four differences z = y - x of points x of a and y of b, as in the algorithm of
+/// Gilbert, Johnson and Keerthi. Their convex hull is part of the set of all differences, which
+/// contains the origin if and only if the bodies meet.
+class Simplex {
  public:
-  Pair(const SphereIntersection& a, const SphereIntersection& b, const Matrix3d& R,
-       const Vector3d& offset)
+  /// Drops what does not hold the nearest point first; a full simplex around the origin stays.
+  void add(const Vector3d& x, const Vector3d& y);
+
+  /// Returns p, and q: the point of the hull nearest to the origin is q - p, with p in a and q in
+  /// b.
+  const Vector3d& p() const { return p_; }
+  const Vector3d& q() const { return q_; }
+
+ private:
+  struct Point {
+    Vector3d x, y;
+    double weight;
+  };
+  void findNearest();
+
+  int size_ = 0;
+  std::array<Point, 4> point_;
+  Vector3d p_ = Vector3d::Zero(), q_ = Vector3d::Zero();
+};
+
+void Simplex::add(const Vector3d& x, const Vector3d& y) {
+  int kept = 0;
+  for (int i = 0; i < size_; ++i) {
+    if (point_[i].weight > 0) point_[kept++] = point_[i];
+  }
+  size_ = kept;
+  if (size_ == 4) return;
+  point_[size_++] = {x, y, 0};
+  findNearest();
+}
+
+// Takes the nearest of the 15 faces whose weights are >= 0: every such combination is a point of
+// the hull, so that rounding costs iterations, but never the truth of p and q.
+void Simplex::findNearest() {
+  double least = kInfinity;
+  std::array<double, 4> best = {};
+  for (int face = 1; face < 1 << size_; ++face) {
+    int corner[4], corners = 0;
+    for (int i = 0; i < size_; ++i) {
+      if (face & (1 << i)) corner[corners++] = i;
+    }
+    const Vector3d first = point_[corner[0]].y - point_[corner[0]].x;
+    std::array<double, 4> weight = {};
+    weight[corner[0]] = 1;
+    Vector3d nearest = first;
+    if (corners > 1) {
+      Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, 3> edges(3, corners - 1);
+      for (int i = 1; i < corners; ++i) {
+        edges.col(i - 1) = (point_[corner[i]].y - point_[corner[i]].x) - first;
+      }
+      const Eigen::ColPivHouseholderQR<decltype(edges)> factors(edges);
+      if (!(factors.maxPivot() > 0)) continue;  // one point, which is a face of its own
+      const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1> along = factors.solve(-first);
+      if (!along.allFinite()) continue;
+      nearest += edges * along;
+      for (int i = 1; i < corners; ++i) {
+        weight[corner[i]] = along[i - 1];
+        weight[corner[0]] -= along[i - 1];
+      }
+    }
+    bool inside = nearest.norm() < least;
+    for (int i = 0; i < corners; ++i) inside = inside && weight[corner[i]] >= 0;
+    if (!inside) continue;
+    least = nearest.norm();
+    best = weight;
+  }
+  p_.setZero();
+  q_.setZero();
+  for (int i = 0; i < size_; ++i) {
+    point_[i].weight = best[i];
+    p_ += best[i] * point_[i].x;
+    q_ += best[i] * point_[i].y;
+  }
+}
+
+/// Both bodies in common units.
+class VolumePair {
+ public:
+  VolumePair(const SphereIntersection& a, const SphereIntersection& b, const Matrix3d& R,
+             const Vector3d& offset)
       : a_(a), b_(b), R_(R) {
     const double reach_a = scaled(a.reach(), a.exponent());
     const double reach_b = scaled(b.reach(), b.exponent());
@@ -65,7 +146,7 @@ class Pair {
   int probes_ = 0;
 };
 
-Pair::Slab Pair::slab(const Vector3d& direction) {
+VolumePair::Slab VolumePair::slab(const Vector3d& direction) {
   ++probes_;
   Slab s;
   s.n = direction.normalized();
@@ -79,7 +160,7 @@ Pair::Slab Pair::slab(const Vector3d& direction) {
 
 // On the plane that touches the sphere of directions at n, -h has the Hessian H + h I, H >= 0 the
 // bodies' curvature. The step is exact for two spheres and for two vertices.
-Pair::Slab Pair::widest(Slab best) {
+VolumePair::Slab VolumePair::widest(Slab best) {
   const double rounding = 4 * kUlpDouble * size_;
   for (int iteration = 0; iteration < 60; ++iteration) {
     const Vector3d e0 = best.n.unitOrthogonal(), e1 = best.n.cross(e0);
@@ -122,7 +203,7 @@ Pair::Slab Pair::widest(Slab best) {
 }
 
 /// From the sphere of a to the sphere of b that are farthest apart: separation()'s pair.
-Vector3d Pair::farthestSpheres() const {
+Vector3d VolumePair::farthestSpheres() const {
   double farthest = -kInfinity;
   Vector3d direction = Vector3d::UnitX();
   for (int j = 0; j < b_.spheres(); ++j) {
@@ -141,14 +222,14 @@ Vector3d Pair::farthestSpheres() const {
 
 // n.offset, the sums and |n| - 1 round by less than 16 u of the size; n was only found in floating
 // point, but any n proves its slab.
-double Pair::provenHeight(const Slab& s) const {
+double VolumePair::provenHeight(const Slab& s) const {
   const double height = s.n.dot(offset_) - unit_a_ * a_.supportBound(s.n, s.on_a) -
                         unit_b_ * b_.supportBound(-(R_.transpose() * s.n), s.on_b);
   return height - 16 * kUlpDouble * size_ - 8 * kUlpDouble * std::abs(height);
 }
 
 /// True if p is in both bodies, but for rounding.
-bool Pair::inBoth(const Vector3d& p) const {
+bool VolumePair::inBoth(const Vector3d& p) const {
   const auto outside = [](const SphereIntersection& body, double unit, const Vector3d& x) {
     return unit > 0 ? unit * body.violation(x / unit) : x.norm();
   };
@@ -161,7 +242,7 @@ bool Pair::inBoth(const Vector3d& p) const {
 // The algorithm of Gilbert, Johnson and Keerthi converges for all convex bodies, if slowly where
 // these are round and close; it gives Newton's method new places to start from, and takes its
 // support points in turn.
-Pair::Slab Pair::search(Slab best, NearestPair& result) {
+VolumePair::Slab VolumePair::search(Slab best, NearestPair& result) {
   constexpr int kIterations = 100;
   Simplex simplex;
   Slab last = best;
@@ -188,7 +269,7 @@ Pair::Slab Pair::search(Slab best, NearestPair& result) {
   return best;
 }
 
-NearestPair Pair::solve() {
+NearestPair VolumePair::solve() {
   NearestPair result;
   result.exponent = exponent_;
   result.upper = kInfinity;
@@ -222,7 +303,7 @@ NearestPair Pair::solve() {
 
 NearestPair nearestPair(const SphereIntersection& a, const SphereIntersection& b, const Matrix3d& R,
                         const Vector3d& offset) {
-  return Pair(a, b, R, offset).solve();
+  return VolumePair(a, b, R, offset).solve();
 }
 
 }  // namespace kios::exact

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous/advance.h"
-#include "volume/errors.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include "volume/errors.h"
 
 namespace kios::continuous {
 

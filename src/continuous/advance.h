@@ -13,8 +13,8 @@ class MovingPair {
   /// Returns true if they touch at t; exact.
   virtual bool touching(double t) = 0;
   /// Returns a time h <= 1 - t such that they are proven apart from t to t + h: the longest one
-  /// that a search finds, or any of at least `enough` that costs less for its length.
-  virtual double apartFor(double t, double enough) = 0;
+  /// that a search finds, or any of at least `required` that costs less for its length.
+  virtual double apartFor(double t, double required) = 0;
 };
 
 /// First contact: `time` is at most the time of every contact.

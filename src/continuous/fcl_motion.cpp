@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous/fcl_motion.h"
-#include "volume/errors.h"
 
 #include <boost/core/demangle.hpp>
 #include <typeinfo>
@@ -10,6 +9,7 @@
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/spline_motion.h>
 #include <fcl/math/motion/translation_motion.h>
+#include "volume/errors.h"
 
 namespace kios::continuous {
 namespace {

@@ -25,8 +25,8 @@ Heights::Heights(const VelocityField& field, const Eigen::Matrix3d& R, const Vec
   for (int i = 0; i < 2; ++i) length_[i] = n_[i].norm() * (1 + 0x1p-48);
 }
 
-bool Heights::below(const Modeld& model, int node, const Height& limit, int& most) const {
-  if (--most <= 0) return false;
+bool Heights::below(const Modeld& model, int node, const Height& limit, int& nodes_left) const {
+  if (--nodes_left <= 0) return false;
   const auto& entry = model.getBV(node);
   if (entry.isLeaf()) {
     const fcl::Triangle& t = model.tri_indices[entry.primitiveId()];
@@ -51,8 +51,8 @@ bool Heights::below(const Modeld& model, int node, const Height& limit, int& mos
       return true;
     }
   }
-  return below(model, entry.leftChild(), limit, most) &&
-         below(model, entry.rightChild(), limit, most);
+  return below(model, entry.leftChild(), limit, nodes_left) &&
+         below(model, entry.rightChild(), limit, nodes_left);
 }
 
 }  // namespace kios::continuous

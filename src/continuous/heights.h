@@ -24,8 +24,8 @@ class Heights {
     return {n_[0].dot(y) + offset_[0], n_[1].dot(y) + offset_[1] + sagitta(y, 0)};
   }
   /// Returns true if all triangles under a node of the body's tree are proven to stay as low, at
-  /// the start and at the end. Gives up after `most` nodes, which is then set to 0 or less.
-  bool below(const Modeld& model, int node, const Height& limit, int& most) const;
+  /// the start and at the end. Gives up after `nodes_left` nodes, which is then 0 or less.
+  bool below(const Modeld& model, int node, const Height& limit, int& nodes_left) const;
 
  private:
   double sagitta(const Eigen::Vector3d& y, double radius) const {

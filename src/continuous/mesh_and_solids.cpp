@@ -31,9 +31,9 @@ int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers,
 }
 
 /// Returns the reach of the leaves, the solids that count.
-double reachOf(const std::vector<SolidNode>& solids) {
+double reachOf(const std::vector<ShapeNode>& solids) {
   double reach = 0;
-  for (const SolidNode& part : solids) {
+  for (const ShapeNode& part : solids) {
     if (part.count == 0) reach = std::max(reach, part.center.norm() + part.solid.reach());
   }
   return reach;
@@ -42,7 +42,7 @@ double reachOf(const std::vector<SolidNode>& solids) {
 }  // namespace
 
 MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion,
-                                         std::vector<SolidNode> solids, const Motion& solids_motion,
+                                         std::vector<ShapeNode> solids, const Motion& solids_motion,
                                          Touching touching, ContinuousCounts& counts)
     : PairSearch(solids_motion, reachOf(solids), mesh_motion, continuous::reachOf(mesh), counts),
       mesh_(mesh),
@@ -66,7 +66,7 @@ double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
 int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
   if (solids_.empty()) return 0;
   const auto& node = mesh_.getBV(pair.a);
-  const SolidNode& part = solids_[pair.b];
+  const ShapeNode& part = solids_[pair.b];
   int count = 0;
   if (part.count > 0 && (node.isLeaf() || part.solid.reach() > node.bv.radius0)) {
     for (int i = 0; i < part.count; ++i) parts[count++] = {pair.a, part.first + i};
@@ -77,7 +77,7 @@ int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodeP
   double gaps[kMostParts];
   for (int i = 0; i < count; ++i) {
     const kIOSd& bv = mesh_.getBV(parts[i].a).bv;
-    const SolidNode& solid = solids_[parts[i].b];
+    const ShapeNode& solid = solids_[parts[i].b];
     const double gap =
         shape::pointBound(solid.solid, v.pose() * bv.center0 - solid.center) - bv.radius0;
     int at = i;  // insertion sort
@@ -94,7 +94,7 @@ int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodeP
 bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
   if (solids_.empty() || solids_[pair.b].empty) return true;
   const kIOSd& bv = mesh_.getBV(pair.a).bv;
-  const SolidNode& part = solids_[pair.b];
+  const ShapeNode& part = solids_[pair.b];
   const shape::Solid& solid = part.solid;
   Vector3d centers[kIOSd::kMaxSpheres];
   double radii[kIOSd::kMaxSpheres];
@@ -129,7 +129,7 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
   return behindSlab(solid.normal) || behindSlab(-solid.normal);
 }
 
-double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
+double MovingMeshAndSolids::slabTime(const Vector3d& n, const ShapeNode& part,
                                      const std::array<Vector3d, 3>& corners,
                                      const RelativeVelocities& v, double duration) const {
   double low = kInfinity, speed = -kInfinity, change = 0;
@@ -155,11 +155,12 @@ double MovingMeshAndSolids::slabTime(const Vector3d& n, const SolidNode& part,
   return std::min(duration, time);
 }
 
-double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
-  if (solids_.empty() || solids_[pair.b].empty) return enough;
+double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v,
+                                        double required) {
+  if (solids_.empty() || solids_[pair.b].empty) return required;
   const auto& node = mesh_.getBV(pair.a);
   const auto corners = transformed(cornersOf(mesh_, node.primitiveId()), v.pose());
-  const SolidNode& part = solids_[pair.b];
+  const ShapeNode& part = solids_[pair.b];
   const shape::Solid& solid = part.solid;
   const auto nearest = shape::distance(
       solid, {corners[0] - part.center, corners[1] - part.center, corners[2] - part.center},
@@ -168,23 +169,24 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
   double best = 0;
   if (gap > 0) {
     const auto drift =
-        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.stretch()), enough);
-    best = std::min(enough, std::max(closingTime(gap, drift.speed, drift.change),
-                                     closingTime(gap, drift.most, 0)));
+        v.driftFromA(v.pose() * node.bv.center0, node.bv.radius0 * (1 + v.stretch()), required);
+    best = std::min(required, std::max(closingTime(gap, drift.speed, drift.change),
+                                       closingTime(gap, drift.most, 0)));
   }
   // As for two triangles: the slab that lasts longest need not be the widest one.
   const Vector3d witness = unitVector(nearest.on_triangle - nearest.on_shape);
   const auto attempt = [&](const Vector3d& normal) {
-    if (best >= enough || !(normal.squaredNorm() > 0)) return;
+    if (best >= required || !(normal.squaredNorm() > 0)) return;
     const Vector3d n = unitVector(normal);
-    const double time = slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), part, corners, v, enough);
+    const double time =
+        slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), part, corners, v, required);
     if (!(time > best)) return;
     best = time;
     slab_ = n.dot(witness) >= 0 ? n : Vector3d(-n);
   };
   if (!solid.bounded()) {
-    if (best < enough) best = std::max(best, slabTime(solid.normal, part, corners, v, enough));
-    if (best < enough) best = std::max(best, slabTime(-solid.normal, part, corners, v, enough));
+    if (best < required) best = std::max(best, slabTime(solid.normal, part, corners, v, required));
+    if (best < required) best = std::max(best, slabTime(-solid.normal, part, corners, v, required));
     return best;
   }
   attempt(witness);

@@ -10,8 +10,9 @@
 
 namespace kios::continuous {
 
-/// A node of a tree of solids: the first one is the root; `count` children from `first` on.
-struct SolidNode {
+/// Is a node of a tree of shapes, such as cells of an octree: the first one is the root; `count`
+/// children from `first` on.
+struct ShapeNode {
   shape::Solid solid;  ///< contains the children's
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   int first = 0, count = 0;
@@ -30,7 +31,7 @@ class MovingMeshAndSolids final : public PairSearch {
 
   /// No solids: nothing is touched. Throws std::invalid_argument if the model is not finished, or a
   /// solid is larger than 2^300.
-  MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion, std::vector<SolidNode> solids,
+  MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion, std::vector<ShapeNode> solids,
                       const Motion& solids_motion, Touching touching, ContinuousCounts& counts);
 
   bool touching(double t) override;
@@ -38,17 +39,17 @@ class MovingMeshAndSolids final : public PairSearch {
  private:
   // A node pair is a node of the mesh (a) and one of the solids (b).
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
-  double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
+  double leavesApart(NodePair pair, const RelativeVelocities& v, double required) override;
   int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
 
   double pad(const RelativeVelocities& v) const;
   /// Returns the time for which the slab across n between the solid and corners proves them apart.
-  double slabTime(const Eigen::Vector3d& n, const SolidNode& part,
+  double slabTime(const Eigen::Vector3d& n, const ShapeNode& part,
                   const std::array<Eigen::Vector3d, 3>& corners, const RelativeVelocities& v,
                   double duration) const;
 
   const Modeld& mesh_;
-  const std::vector<SolidNode> solids_;
+  const std::vector<ShapeNode> solids_;
   const Touching touching_;
   const double reach_;
   Eigen::Vector3d slab_ = Eigen::Vector3d::UnitZ();  ///< normal of the slab that did best of late

@@ -240,7 +240,7 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
   // Bounds how far a's points get along n, and b's against it.
   const auto parts = [&](const Vector3d& n) {
     const Heights of_a(v.a(), own, zero, n, duration), of_b(v.b(), R, T, -n, duration);
-    int most = order_ == Order::kLarger ? 48 : 512;
+    int nodes_left = order_ == Order::kLarger ? 48 : 512;
     Heights::Height limit = {-kInfinity, -kInfinity};
     const auto highest = [&limit](const Heights& heights, const Modeld& model, int triangle) {
       for (const Vector3d& corner : cornersOf(model, triangle)) {
@@ -250,10 +250,10 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     };
     if (a.isLeaf()) {
       highest(of_a, a_, a.primitiveId());
-      return of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, most);
+      return of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, nodes_left);
     }
     highest(of_b, b_, b.primitiveId());
-    return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, most);
+    return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, nodes_left);
   };
   const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
     const Edges edges(cornersOf(model, triangle));
@@ -288,26 +288,26 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
   return (a_.getBV(pair.a).isLeaf() || b_.getBV(pair.b).isLeaf()) && planeParts(pair, v, duration);
 }
 
-double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double enough) {
+double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double required) {
   const auto p = cornersOf(a_, a_.getBV(pair.a).primitiveId());
   const auto q = transformed(cornersOf(b_, b_.getBV(pair.b).primitiveId()), v.pose());
   const TriangleDistance<double> nearest = triangleDistance(p, q);
   if (!(nearest.distance > 0)) return 0;
-  if (useChords(v, enough) && leavesStayApart(pair, v)) return enough;
+  if (useChords(v, required) && leavesStayApart(pair, v)) return required;
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
   // The distance is off by 32 u of the pair's extent, which the pad for rounding covers.
   double best =
       v.apartTime(v.ballOfA(a.center0, a.radius0),
                   v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())), nearest.distance);
   const Vector3d witness = unitVector(nearest.point_b - nearest.point_a);
-  if (best < enough) best = std::max(best, v.slabTime(witness, p, q, enough));
+  if (best < required) best = std::max(best, v.slabTime(witness, p, q, required));
   // The slab that lasts longest need not be the widest one: a body that slides along a face stays
   // on its side of it, and a body that passes an edge stays on its side of a plane through the edge
   // and the velocity.
   const auto attempt = [&](const Vector3d& normal) {
-    if (best >= enough) return;
+    if (best >= required) return;
     const Vector3d n = unitVector(normal);
-    best = std::max(best, v.slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), p, q, enough));
+    best = std::max(best, v.slabTime(n.dot(witness) >= 0 ? n : Vector3d(-n), p, q, required));
   };
   const Edges edges_p(p), edges_q(q);
   attempt(edges_p.normal);

@@ -22,7 +22,7 @@ class MovingMeshes final : public PairSearch {
  private:
   double wholeApart(double t, const RelativeVelocities& v) override;
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
-  double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) override;
+  double leavesApart(NodePair pair, const RelativeVelocities& v, double required) override;
   int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
   bool changeOrder(double way, long long cost) override;
   void noteStep(double way, long long cost) override;

@@ -20,7 +20,7 @@ namespace {
 
 /// Finds the solids of a geometry that is no mesh; false if it can't be served.
 bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Modeld& mesh,
-              const Motion& mesh_motion, std::vector<SolidNode>& solids) {
+              const Motion& mesh_motion, std::vector<ShapeNode>& solids) {
   if (isShape(geometry)) {
     solids.resize(1);
     solids[0].solid = toSolid(geometry);
@@ -50,7 +50,7 @@ std::unique_ptr<PairSearch> movingPair(const CollisionGeometryd& a, const Motion
   const Motion &mesh_motion = mesh_a ? motion_a : motion_b, &motion = mesh_a ? motion_b : motion_a;
   const CollisionGeometryd& geometry = mesh_a ? b : a;
   requireFinished(mesh);
-  std::vector<SolidNode> solids;
+  std::vector<ShapeNode> solids;
   if (!solidsOf(geometry, motion, mesh, mesh_motion, solids)) {
     refusePair("continuousCollide", a, b);
   }

@@ -40,7 +40,7 @@ class Collector {
   Collector(const fcl::OcTree<double>& octree, std::vector<Sphere> swept)
       : octree_(octree), swept_(std::move(swept)) {}
 
-  std::vector<SolidNode> collect() {
+  std::vector<ShapeNode> collect() {
     const auto* root = octree_.getRoot();
     const fcl::AABB<double> box = octree_.getRootBV();
     if (root && matters(root, box)) {
@@ -53,8 +53,8 @@ class Collector {
  private:
   using Cell = fcl::OcTree<double>::OcTreeNode;
 
-  static SolidNode nodeOf(const fcl::AABB<double>& box) {
-    SolidNode node;
+  static ShapeNode nodeOf(const fcl::AABB<double>& box) {
+    ShapeNode node;
     node.solid.kind = shape::Kind::kBox;
     node.solid.half = 0.5 * (box.max_ - box.min_);
     node.center = 0.5 * (box.max_ + box.min_);
@@ -94,12 +94,12 @@ class Collector {
 
   const fcl::OcTree<double>& octree_;
   const std::vector<Sphere> swept_;
-  std::vector<SolidNode> nodes_;
+  std::vector<ShapeNode> nodes_;
 };
 
 }  // namespace
 
-std::vector<SolidNode> cellsNear(const fcl::OcTree<double>& octree, const Motion& octree_motion,
+std::vector<ShapeNode> cellsNear(const fcl::OcTree<double>& octree, const Motion& octree_motion,
                                  const Modeld& mesh, const Motion& mesh_motion) {
   const Vector3d corner = octree.getRootBV().max_;
   const RelativeMotion motion(octree_motion, mesh_motion, corner.norm(), reachOf(mesh));

@@ -14,7 +14,7 @@ namespace kios::continuous {
 
 /// Returns the occupied cells of an octree that the moving mesh may come near to, as a tree of
 /// boxes in the octree's frame. Occupied as in FCL's collision: every cell down to a leaf is.
-std::vector<SolidNode> cellsNear(const fcl::OcTree<double>& octree, const Motion& octree_motion,
+std::vector<ShapeNode> cellsNear(const fcl::OcTree<double>& octree, const Motion& octree_motion,
                                  const Modeld& mesh, const Motion& mesh_motion);
 
 }  // namespace kios::continuous

@@ -28,7 +28,7 @@ void PairSearch::setLimits(double end, long long most_tests) {
 // are tried. What the pair as a whole is proven apart for tells how long a step should be looked
 // for: more of it as long as that costs little. Where a search gets no farther than as many of
 // those short steps as it costs, some of them are taken instead, more each time.
-double PairSearch::apartFor(double t, double enough) {
+double PairSearch::apartFor(double t, double required) {
   if (motion_.still()) return 1;
   const double left = end_ - t;
   const double window = motion_.steady() ? left : std::min(left, window_);
@@ -37,7 +37,7 @@ double PairSearch::apartFor(double t, double enough) {
   const double whole = std::min(window, wholeApart(t, v));
   if (whole >= left) return left;
   constexpr double kShortest = 0x1p-13;  // so that steps stay few
-  if (spared_ > 0 && whole >= std::max(enough, kShortest)) {
+  if (spared_ > 0 && whole >= std::max(required, kShortest)) {
     --spared_;
     window_ = std::min(1.0, std::max(window_, 8 * whole));
     return whole;

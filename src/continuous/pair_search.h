@@ -21,7 +21,7 @@ double reachOf(const Modeld& model);
 /// detection of polygonal models" (2009).
 class PairSearch : public MovingPair {
  public:
-  double apartFor(double t, double enough) final;
+  double apartFor(double t, double required) final;
 
   /// For whoever takes single steps: none is looked for beyond `end`, none takes many more tests
   /// than `most_tests`, and all may be as long as they can, but for turns by more than an eighth of
@@ -44,8 +44,8 @@ class PairSearch : public MovingPair {
   virtual double wholeApart(double /*t*/, const RelativeVelocities& /*v*/) { return 0; }
   /// Returns true if the nodes' contents are proven apart for `duration`.
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
-  /// Time for which two leaves are proven apart; any time of at least `enough` will do.
-  virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double enough) = 0;
+  /// Time for which two leaves are proven apart; any time of at least `required` will do.
+  virtual double leavesApart(NodePair pair, const RelativeVelocities& v, double required) = 0;
   /// Goes on to another order in which pairs are split, if one may take fewer tests; `cost` was
   /// spent in vain on a step of length `way`.
   virtual bool changeOrder(double /*way*/, long long /*cost*/) { return false; }

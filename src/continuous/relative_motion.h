@@ -48,10 +48,10 @@ class RelativeVelocities {
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
   /// Returns the time for which no point of A's triangle reaches a point of B's, by the slab
   /// between them across n (of any length near 1); 0 if none is between them. Any time of at least
-  /// `enough`, which is at most the window, will do.
+  /// `required`, which is at most the window, will do.
   template <typename VerticesA, typename VerticesB>
   double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b,
-                  double enough) const;
+                  double required) const;
 
   /// Holds the motion of the points of a ball of B as seen from body A, which may turn, within
   /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
@@ -116,7 +116,7 @@ class RelativeMotion {
 // below it, and ends at a time for which the slab lasts.
 template <typename VerticesA, typename VerticesB>
 double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a,
-                                    const VerticesB& b, double enough) const {
+                                    const VerticesB& b, double required) const {
   const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
   const double closing = n.dot(a_.linear - b_.linear);
   double at_a[3], speed_a[3], at_b[3], speed_b[3], acceleration_a = 0, acceleration_b = 0;
@@ -142,7 +142,7 @@ double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a
   }
   const double acceleration = acceleration_a + acceleration_b;
   const double least = closingTime(gap, closing + (fastest_a - slowest_b), acceleration);
-  if (least >= enough) return least;
+  if (least >= required) return least;
   const auto leftAfter = [&](double s) {
     const double high =
         std::max({at_a[0] + s * speed_a[0], at_a[1] + s * speed_a[1], at_a[2] + s * speed_a[2]});
@@ -150,9 +150,9 @@ double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a
         std::min({at_b[0] + s * speed_b[0], at_b[1] + s * speed_b[1], at_b[2] + s * speed_b[2]});
     return low - high - s * (closing + 0.5 * s * acceleration) - pad_;
   };
-  double over = enough, left_over = leftAfter(over);
+  double over = required, left_over = leftAfter(over);
   const double slack = 0x1p-49 * (sizes + over * (speeds + over * acceleration));  // of leftAfter()
-  if (left_over > slack) return enough;
+  if (left_over > slack) return required;
   double time = least, left = leftAfter(least);
   for (int step = 0; step < 4 && left > slack; ++step) {
     const double next = time + (over - time) * (left - slack) / (left - left_over) * (1 - 0x1p-40);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "volume/rotation.h"
+
 namespace kios::articulated {
 
 using Eigen::Matrix3d;
@@ -37,7 +39,7 @@ void Chain::advance(Place& place, int link, double s) const {
   if (data.type == JointType::kPrismatic) {
     place.t += place.R * (value * data.axis);
   } else {
-    place.R = (place.R * Eigen::AngleAxisd(value, data.axis).toRotationMatrix()).eval();
+    turnAbout(data.axis, value, place.R);
   }
 }
 

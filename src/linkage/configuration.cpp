@@ -1,20 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "linkage/configuration.h"
-#include "volume/errors.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "volume/errors.h"
+#include "volume/rotation.h"
+
 namespace kios::articulated {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Matrix3d rotationAbout(const Vector3d& axis, double angle) {
-  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
 
 void requireCoordinates(const Eigen::VectorXd& q, int size, const char* name) {
   if (q.size() == size && (size == 0 || q.lpNorm<Eigen::Infinity>() <= 0x1p300) && q.allFinite()) {
@@ -39,10 +36,16 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
   };
   // By link: what prismatic joints add to lengths, and the rounding of angles and of lengths.
   std::vector<Sums> sums(linkage.links.size());
+  sweeps_.resize(linkage.links.size());
   for (std::size_t i = 0; i < linkage.links.size(); ++i) {
     const LinkData& link = linkage.links[i];
     Sums& sum = sums[i];
-    if (link.parent >= 0) sum = sums[link.parent];
+    Sweep& sweep = sweeps_[i];
+    if (link.parent >= 0) {
+      sum = sums[link.parent];
+      sweep = sweeps_[link.parent];
+    }
+    sweep.length = link.offsets + sum.travel;
     if (link.coordinate < 0) continue;
     const double a = q0[link.coordinate], b = q1[link.coordinate];
     const double most =
@@ -52,8 +55,11 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
     if (link.type == JointType::kPrismatic) {
       sum.travel += most * (1 + 0x1p-50);
       sum.shifts += kSlack * most;
+      sweep.slides += std::abs(rates_[i]);
     } else {
       sum.angles += kSlack * most;
+      sweep.turns += std::abs(rates_[i]);
+      sweep.arms += std::abs(rates_[i]) * sweep.length;
     }
   }
   shares_.resize(linkage.carried.size() + 1);
@@ -68,6 +74,19 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
     largest_level_ = std::max(largest_level_, share.level);
     share.slack = (sums[body.link].angles * share.length + sums[body.link].shifts) * (1 + 0x1p-50);
   }
+}
+
+// The sum of |w_i| (length of the body - length before joint i), as a share's length is that of all
+// offsets and travel and of the reach. Each sum rounds by less than u n of itself.
+double Path::swept(int body, int shared) const {
+  const auto& moving = linkage_.links[linkage_.bodies[body].link].moving;
+  if (moving.size() <= static_cast<std::size_t>(shared)) return 0;
+  const Sweep& all = sweeps_[moving.back()];
+  const Sweep none, &before = shared > 0 ? sweeps_[moving[shared - 1]] : none;
+  const Share& share = shares_[slot(body)];
+  return (all.turns - before.turns) * share.length - (all.arms - before.arms) +
+         (all.slides - before.slides) +
+         0x1p-48 * share.level * (all.turns * share.length + all.slides);
 }
 
 void Configuration::set(const Path& path, double s) {
@@ -92,7 +111,7 @@ void Configuration::set(const Path& path, double s) {
     if (link.type == JointType::kPrismatic) {
       placed.t += value * placed.axis;
     } else {
-      placed.R = (placed.R * rotationAbout(link.axis, value)).eval();
+      turnAbout(link.axis, value, placed.R);
     }
   }
   placed_.resize(path.linkage().carried.size());
@@ -116,34 +135,41 @@ void Configuration::addMotions(const BodyData& body, int id) const {
   const auto& links = path_->linkage().links;
   const auto& moving = links[body.link].moving;
   const PlacedLink& own = links_[body.link];
-  const Vector3d ends[2] = {own.t + own.R * body.content.ends[0],
-                            own.t + own.R * body.content.ends[1]};
-  const Vector3d& center = placed_[body.carried].center;
+  // Both ends of the capsule, one a lane.
+  using Eigen::Array2d;
+  const Vector3d first = own.t + own.R * body.content.ends[0],
+                 last = own.t + own.R * body.content.ends[1];
+  const Array2d x(first.x(), last.x()), y(first.y(), last.y()), z(first.z(), last.z());
   const double rounding = path_->axisRounding(id);
   // For the stretch of rotations that are ones to rounding, and for the sums.
   constexpr double kSums = 1 + 0x1p-30;
 
   BodyMotion* const motions = &motions_[body.first_motion];
   motions[moving.size()] = BodyMotion();
-  Vector3d turning = Vector3d::Zero(), velocities[2] = {turning, turning};
+  Vector3d turning = Vector3d::Zero();
+  Array2d vx = Array2d::Zero(), vy = vx, vz = vx;
   double most = 0, second = 0, third = 0, outer = 0, rates = 0;
   for (std::size_t i = moving.size(); i-- > 0;) {
     const int link = moving[i];
     const double rate = path_->rate(link), speed = std::abs(rate) * (1 + 0x1p-50);
     const Vector3d &axis = links_[link].axis, &origin = links_[link].t;
     if (speed > 0 && links[link].type == JointType::kPrismatic) {
-      velocities[0] += rate * axis;
-      velocities[1] += rate * axis;
+      vx += rate * axis.x();
+      vy += rate * axis.y();
+      vz += rate * axis.z();
       most += speed;
     } else if (speed > 0) {
-      const Vector3d arms[2] = {axis.cross(ends[0] - origin), axis.cross(ends[1] - origin)};
-      double away = std::sqrt(std::max(arms[0].squaredNorm(), arms[1].squaredNorm())) +
+      const Array2d dx = x - origin.x(), dy = y - origin.y(), dz = z - origin.z();
+      const Array2d arm_x = axis.y() * dz - axis.z() * dy, arm_y = axis.z() * dx - axis.x() * dz,
+                    arm_z = axis.x() * dy - axis.y() * dx;
+      double away = std::sqrt((arm_x * arm_x + arm_y * arm_y + arm_z * arm_z).maxCoeff()) +
                     body.content.capsule_radius;
-      away = std::min(away, axis.cross(center - origin).norm() + body.content.radius) + rounding;
+      away += rounding;
       if (link == body.link) away = std::min(away, body.own_radius);
       turning += rate * axis;
-      velocities[0] += rate * arms[0];
-      velocities[1] += rate * arms[1];
+      vx += rate * arm_x;
+      vy += rate * arm_y;
+      vz += rate * arm_z;
       second += speed * (speed * away + 2 * most);
       third += speed * (speed * most + 2 * outer);
       outer += speed * most;
@@ -152,8 +178,8 @@ void Configuration::addMotions(const BodyData& body, int id) const {
     }
     BodyMotion& motion = motions[i];
     motion.most = most * kSums;
-    motion.ends[0] = velocities[0];
-    motion.ends[1] = velocities[1];
+    motion.ends[0] = {vx[0], vy[0], vz[0]};
+    motion.ends[1] = {vx[1], vy[1], vz[1]};
     motion.swing = turning * body.content.capsule_radius;
     motion.rounding = 4 * rounding * rates + 0x1p-40 * most;
     motion.change[0] = second * kSums;

@@ -75,6 +75,10 @@ class Path {
   }
   /// A bound of the rounding of the distance of a body's content from an axis.
   double axisRounding(int body) const { return 0x1p-43 * shares_[slot(body)].level * length(body); }
+  /// >= the way of any point of a carried body in a unit of s, wherever on the path, seen from the
+  /// link that the first `shared` joints carry: rho_i <= the lengths from joint i to the body's
+  /// farthest point. Takes no configuration.
+  double swept(int body, int shared) const;
   /// >= the square of the Frobenius norm of E = R^T R - I of a body's pose.
   double rotationSquare(int body) const {
     const double error = 0x1p-44 * shares_[slot(body)].level;
@@ -84,6 +88,11 @@ class Path {
  private:
   struct Share {
     double length = 0, level = 2, slack = 0;  ///< the level is n + 2
+  };
+  /// Sums over the joints from the world to a link, itself included: how far they slide, how they
+  /// turn, and this times `length`, which is what lies before an axis: of offsets, and of travel.
+  struct Sweep {
+    double slides = 0, turns = 0, arms = 0, length = 0;
   };
   std::size_t slot(int body) const {
     const int after_obstacles = linkage_.bodies[body].carried + 1;
@@ -95,6 +104,7 @@ class Path {
   const Eigen::VectorXd &q0_, &q1_;
   std::vector<double> rates_;  // by link
   std::vector<Share> shares_;  // of all obstacles, then by carried body
+  std::vector<Sweep> sweeps_;  // by link
   double largest_level_ = 2;
 };
 

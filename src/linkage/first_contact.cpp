@@ -36,7 +36,9 @@ void MotionSearch::noteProven(int suspect, double from, double to) {
 
 void MotionSearch::lookForFirst(Task task) {
   using Outcome = Look::Outcome;
-  task.look_at = middleOf(task.from, task.to);
+  const double middle = middleOf(task.from, task.to);
+  if (middle != task.look_at) task.roots = -kInfinity;
+  task.look_at = middle;
   const Look result = look(task);
   switch (result.outcome) {
     case Outcome::kContact:

@@ -4,20 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "solid/solid_mark.h"
 #include "volume/rounding.h"
 
 namespace kios::articulated {
 namespace {
 
 constexpr std::size_t kCached = 16;
-constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 // Root volumes that prove so much of an interval spare it a query.
 constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
-constexpr std::size_t kMany = 8;
 // Looks at a pair before slabs between its triangles are tried.
 constexpr int kPatience = 40;
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
@@ -84,82 +80,6 @@ const Configuration& MotionSearch::at(double s) {
   return cache_[place];
 }
 
-// Most pairs are so far apart at the middle of the path that half of it doesn't bring them
-// together. A short path is seen through from its end, which was looked at.
-void MotionSearch::findSuspects() {
-  constexpr std::size_t kFew = 12;
-  std::vector<Pair>& pairs = scratch_->pairs;
-  const auto gather = [&](double s, double time, std::size_t most) {
-    pairs.clear();
-    scratch_->near_pairs.forEach(path_, at(s), request_.min_separation, time, most,
-                                 [&](const Pair& pair) { pairs.push_back(pair); });
-  };
-  found_at_ = 0.5;
-  if (looked_at_end_) {
-    gather(1, 1, kFew);
-    if (pairs.size() <= kFew) found_at_ = 1;
-  }
-  if (found_at_ != 1) {
-    gather(0.5, 0.5, kAll);
-    // Where much is left to be proven, a look for contacts costs little beside it.
-    constexpr std::size_t kMuch = 30;
-    if (looked_at_end_ && pairs.size() > kMuch && touchingAt(0.5)) return;
-  }
-  const Configuration& c = at(found_at_);
-  const double time = found_at_;
-  for (const Pair& pair : pairs) {
-    queries_.requireServed(pair.a, pair.b);
-    const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
-    const double moved = motion.during(time) + request_.min_separation;
-    const double roots = queries_.rootBound(pair, c, moved);
-    if (roots > moved) continue;
-    suspects_.push_back({pair, roots});
-    waiting_.push_back({static_cast<int>(suspects_.size()) - 1, 0, 1, found_at_, roots - moved});
-  }
-  counts_.proven_at_once = counts_.pairs - static_cast<long long>(suspects_.size());
-}
-
-// First the pairs whose volumes overlap most for their size: they are in contact more often than
-// not, and no slab is looked for between those that overlap deeply.
-bool MotionSearch::touchingAt(double s) {
-  constexpr double kDeep = -0.4;
-  const Configuration& c = at(s);
-  std::vector<Suspect>& near = scratch_->near;
-  near.clear();
-  const auto visit = [&](const Pair& pair) {
-    queries_.requireServed(pair.a, pair.b);
-    const double roots = queries_.rootBound(pair, c, 0);
-    if (roots <= 0)
-      near.push_back({pair, roots / std::max(queries_.smallerRadius(pair), 0x1p-500)});
-  };
-  scratch_->near_pairs.forEach(path_, c, 0, 0, kAll, visit);
-  std::sort(near.begin(), near.end(),
-            [](const Suspect& a, const Suspect& b) { return a.roots < b.roots; });
-  for (Suspect& suspect : near) {
-    ++counts_.queries;
-    if (suspect.roots > kDeep && queries_.slab(suspect.pair, c, 0) > 0) continue;
-    if (!queries_.touching(suspect.pair, c)) continue;
-    suspects_.assign(1, suspect);
-    end_ = {MotionVerdict::kContact, s, s, 0};
-    return true;
-  }
-  return false;
-}
-
-bool MotionSearch::containedAt(double s) {
-  if (!marksExist()) return false;
-  for (std::size_t i = 0; i < suspects_.size(); ++i) {
-    Pair& pair = suspects_[i].pair;
-    if (!queries_.areSolids(pair)) continue;
-    ++counts_.queries;
-    const Configuration& c = at(s);
-    if (queries_.slab(pair, c, 0) > 0 || !queries_.inContact(pair, c)) continue;
-    end_ = {MotionVerdict::kContact, s, s, static_cast<int>(i)};
-    return true;
-  }
-  return false;
-}
-
 MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart,
                                         const PairMotion& motion) const {
   using Outcome = Look::Outcome;
@@ -210,8 +130,7 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
   const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
   const double moved = motion.during(half), enough = request_.min_separation + moved;
-  const double roots =
-      s == found_at_ ? suspects_[task.suspect].roots : queries_.rootBound(pair, c, enough);
+  const double roots = task.roots > -kInfinity ? task.roots : queries_.rootBound(pair, c, enough);
   const double roots_left = roots - request_.min_separation;
   if (roots_left > moved || (roots_left > 0 && roots_left > kRootsShare * moved)) {
     return proven(task, s, roots, motion);
@@ -224,7 +143,7 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
     return before;
   }
   const bool splits = task.to - task.from > request_.resolution;
-  if (found_at_ == 1 && s == 1 && task.from == 0 && splits) {  // a query tells more in the middle
+  if (s == 1 && task.from == 0 && splits) {  // a query tells more in the middle
     if (before.outcome == Outcome::kPart) return before;
     return {Outcome::kPart, s, s, s, 0};
   }
@@ -364,12 +283,8 @@ MotionAnswer MotionSearch::run() {
   if (request_.first_contact) {
     findSuspects();
     if (!containedAt(0)) firstContact();
-  } else if (request_.min_separation > 0 || !touchingAt(1)) {
-    looked_at_end_ = !(request_.min_separation > 0);
-    findSuspects();
-    const bool look = suspects_.size() > kMany && !(request_.min_separation > 0);
-    const bool found = end_.suspect >= 0 || (!looked_at_end_ && containedAt(found_at_)) ||
-                       (look && (touchingAt(0.25) || touchingAt(0.75)));
+  } else if (request_.min_separation > 0 || !touchingAtEnd()) {
+    const bool found = (!suspected_ && findSuspects()) || (!looked_at_end_ && containedAt(0.5));
     if (!found) anyContact();
   }
   MotionAnswer answer;

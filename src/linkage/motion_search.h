@@ -14,7 +14,7 @@ namespace kios::articulated {
 /// A pair that its bounding volumes don't prove for the whole path at once.
 struct Suspect {
   Pair pair;
-  double roots;  ///< rootBound() where the suspects were found
+  double roots;  ///< rootBound() where it was found
   int looks = 0;
   double way = 0;          ///< how much of the path a query proves of late
   bool undecided = false;  ///< somewhere
@@ -25,9 +25,14 @@ struct Suspect {
 struct Task {
   int suspect;
   double from, to;
-  double look_at;          ///< in the interval
-  double margin = 0;       ///< distance less motion, by what is known of a configuration nearby
-  bool undecided = false;  ///< nothing can be proven of it
+  double look_at;             ///< in the interval
+  double margin = 0;          ///< distance less motion, by what is known of a configuration nearby
+  bool undecided = false;     ///< nothing can be proven of it
+  double roots = -kInfinity;  ///< rootBound() where it is looked at, if that is known
+};
+
+struct Interval {
+  double from, to;
 };
 
 /// The task whose distance falls short of its motion most comes first from a heap.
@@ -48,6 +53,7 @@ struct Scratch {
   std::vector<Suspect> suspects, near;
   std::vector<Pair> pairs;
   std::vector<Task> waiting;
+  std::vector<Interval> intervals;
   NearPairs near_pairs;
 };
 
@@ -79,8 +85,25 @@ class MotionSearch {
   };
 
   const Configuration& at(double s);
-  void findSuspects();
-  bool touchingAt(double s);
+  /// Gathers the pairs that aren't proven apart within `time` of s, until there are more than
+  /// `most`.
+  std::vector<Pair>& gather(double s, double time, std::size_t most);
+  /// True if no body moves far for its size.
+  bool isShort() const;
+  /// Finds the suspects, or a contact: true.
+  bool findSuspects();
+  /// Adds those of the pairs that root volumes at s don't prove clear from `from` to `to`.
+  void suspect(const std::vector<Pair>& pairs, double from, double s, double to);
+  void notProvenAtOnce(std::size_t count) {
+    counts_.proven_at_once = counts_.pairs - static_cast<long long>(count);
+  }
+  /// True if a contact is found at the end of the path. Finds the suspects of a short one too.
+  bool touchingAtEnd();
+  /// Those of the pairs whose root volumes overlap.
+  std::vector<Suspect>& overlapping(const std::vector<Pair>& pairs, double s);
+  /// Those of the suspects from `first` on.
+  std::vector<Suspect>& overlapping(std::size_t first);
+  bool touching(std::vector<Suspect>& near, double s);
   /// True if one of two solids lies in the other at s; only then it may do so where the surfaces
   /// are proven apart from s on, or up to s.
   bool containedAt(double s);
@@ -121,8 +144,7 @@ class MotionSearch {
     int rest = 0, pause = 0;  ///< looks to be spared after a search that didn't pay, and next time
   };
   std::vector<Local> local_;
-  bool looked_at_end_ = false;
-  double found_at_ = 0.5;  ///< the configuration in which suspects_ were found
+  bool looked_at_end_ = false, suspected_ = false;  ///< the suspects are found
   std::vector<Task>& waiting_;
   End end_;
   // These serve the search for the first contact: the earliest that is known, and the earliest

@@ -40,7 +40,16 @@ class ObstacleTree {
   /// Calls visit(body) for every box that is at most `far` from the point, and maybe for others
   /// that are farther by rounding alone.
   template <typename Visit>
-  void forNear(const fcl::Vector3d& center, double far, const Visit& visit) const;
+  void forNear(const fcl::Vector3d& center, double far, const Visit& visit) const {
+    walk(center, far, [&](int body) {
+      visit(body);
+      return false;
+    });
+  }
+  /// True if forNear() would visit any.
+  bool anyNear(const fcl::Vector3d& center, double far) const {
+    return walk(center, far, [](int /*body*/) { return true; });
+  }
 
  private:
   static constexpr int kLanes = 4;
@@ -51,6 +60,9 @@ class ObstacleTree {
   };
 
   int build(std::vector<ObstacleBox>& boxes, std::size_t begin, std::size_t end);
+  /// Until visit() returns true, which is returned.
+  template <typename Visit>
+  bool walk(const fcl::Vector3d& center, double far, const Visit& visit) const;
 
   std::vector<Node> nodes_;  // the root is the first one
 };
@@ -72,9 +84,9 @@ class LazyObstacleTree {
 };
 
 template <typename Visit>
-void ObstacleTree::forNear(const fcl::Vector3d& center, double far, const Visit& visit) const {
+bool ObstacleTree::walk(const fcl::Vector3d& center, double far, const Visit& visit) const {
   using lanes::Float4;
-  if (nodes_.empty()) return;
+  if (nodes_.empty()) return false;
   const FloatBall ball(center, far);
   const Float4 zero = lanes::broadcast(0), limit = lanes::broadcast(ball.limit);
   // A node leaves at most three others behind, and halving by counts makes no tree deeper than 16.
@@ -92,13 +104,14 @@ void ObstacleTree::forNear(const fcl::Vector3d& center, double far, const Visit&
     for (unsigned int near = ~lanes::bits(square > limit) & node.used; near != 0;
          near &= near - 1) {
       const int child = node.child[__builtin_ctz(near)];
-      if (child < 0) {
-        visit(~child);
-      } else {
+      if (child >= 0) {
         waiting[count++] = child;
+      } else if (visit(~child)) {
+        return true;
       }
     }
   }
+  return false;
 }
 
 }  // namespace kios::articulated

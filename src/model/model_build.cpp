@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "build/mesh_tree.h"
-#include "model/lent_volumes.h"
 #include "model/members.h"
 #include "model/prepared.h"
+#include "model/shared_volumes.h"
 #include "model/stored_tree.h"
 #include "model/tree_build.h"
 #include "tree/tree_cache.h"
@@ -97,9 +97,9 @@ struct UsersSteps {
 
 /// FCL's recursion: the same tree, nodes in the same order.
 template <typename S, typename Steps>
-class Division {
+class RecursiveBuild {
  public:
-  Division(const Arrays<S>& model, Steps& steps) : model_(model), steps_(steps) {}
+  RecursiveBuild(const Arrays<S>& model, Steps& steps) : model_(model), steps_(steps) {}
 
   /// Returns the number of nodes. A user's fitter may return a volume that it keeps, with its
   /// stamp, so that the root is stamped anew.
@@ -162,12 +162,12 @@ bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& t
   const engine::MeshView<S> mesh = {model.vertices, static_cast<std::size_t>(model.num_vertices),
                                     model.triangles, n};
   const engine::ContentHash content = engine::contentHash(mesh);
-  if (copyLentVolumes<S>(content, n, {model.nodes, model.primitives})) {
+  if (copySharedVolumes<S>(content, n, {model.nodes, model.primitives})) {
     model.nodes[0].bv.stamp = nextStamp();
   } else if (!engine::buildVolumes<S>(mesh, model.nodes, model.primitives)) {
     return false;
   }
-  lendVolumes(content, model.nodes, model.primitives);
+  shareVolumes(content, model.nodes, model.primitives);
   trees.noteBuilt(model.nodes[0].bv.stamp);
   if (engine::SharedTree::isHeld(content)) trees.budget.exhaust();
   return true;
@@ -189,7 +189,7 @@ void requireIndices(const Model<S>& model) {
 /// Makes room for a tree over all primitives, where geometry was added since there was one.
 template <typename S>
 void makeRoom(const Members<S>& m) {
-  withdrawVolumes(m.nodes);
+  releaseVolumes(m.nodes);
   m.num_nodes = 0;
   const int n = m.numNodes();
   if (n == 0) throw std::bad_alloc();
@@ -216,11 +216,11 @@ int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
       return 2 * num_primitives - 1;
     }
     OwnSteps<S> steps{model.build(), own_fitter->options(), own_splitter->method()};
-    return Division<S, OwnSteps<S>>(model, steps).run(num_primitives);
+    return RecursiveBuild<S, OwnSteps<S>>(model, steps).run(num_primitives);
   }
   UsersSteps<S> steps{Set<FitterBase<S>>(fitter, model.vertices, model.triangles, model.type),
                       Set<SplitterBase<S>>(splitter, model.vertices, model.triangles, model.type)};
-  return Division<S, UsersSteps<S>>(model, steps).run(num_primitives);
+  return RecursiveBuild<S, UsersSteps<S>>(model, steps).run(num_primitives);
 }
 
 template <typename S>
@@ -267,7 +267,7 @@ namespace fcl {
       const int failed = buildTree();                                                          \
       if (failed || !prev_vertices) return failed;                                             \
     }                                                                                          \
-    kios::withdrawVolumes(bvs);                                                                \
+    kios::releaseVolumes(bvs);                                                                 \
     const int failed = bottomup ? refitTree_bottomup() : refitTree_topdown();                  \
     bvs[0].bv.stamp = kios::nextStamp();                                                       \
     return failed;                                                                             \

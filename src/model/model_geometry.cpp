@@ -7,8 +7,8 @@
 #include <iostream>
 #include <new>
 
-#include "model/lent_volumes.h"
 #include "model/members.h"
+#include "model/shared_volumes.h"
 
 namespace kios {
 namespace {
@@ -74,8 +74,8 @@ int add(Members<S> m, const char* call, Span<fcl::Vector3<S>> vertices,
   } catch (const std::bad_alloc&) {
     return outOfMemory(call);
   }
-  // The tree is one of fewer primitives: it is withdrawn, until it is built or refitted.
-  if (m.num_nodes > 0) withdrawVolumes(m.nodes);
+  // The tree is one of fewer primitives: it is shared no more until it is built or refitted.
+  if (m.num_nodes > 0) releaseVolumes(m.nodes);
   m.num_nodes = 0;
   const auto offset = static_cast<std::size_t>(model.num_vertices);
   std::copy_n(vertices.first, vertices.count, model.vertices + offset);

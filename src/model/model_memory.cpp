@@ -6,8 +6,8 @@
 #include <iostream>
 #include <new>
 
-#include "model/lent_volumes.h"
 #include "model/members.h"
+#include "model/shared_volumes.h"
 #include "model/stored_tree.h"
 
 namespace kios {
@@ -45,14 +45,14 @@ void copy(const Model<S>& from, int num_vertices_given, const unsigned int* prim
   if (num_nodes == 0) return;
   replace(to.primitives, copyOf(primitives, (num_nodes + 1) / 2));
   replace(to.nodes, copyOf(nodes, num_nodes));
-  lendCopy(nodes, to.nodes, to.primitives);
+  shareCopy(nodes, to.nodes, to.primitives);
 }
 
 template <typename S>
 int begin(Members<S> m, int num_tris, int num_vertices) {
   Model<S>& model = m.model;
   const bool was_empty = model.build_state == fcl::BVH_BUILD_STATE_EMPTY;
-  withdrawVolumes(m.nodes);
+  releaseVolumes(m.nodes);
   model.build_state = fcl::BVH_BUILD_STATE_EMPTY;
   replace(model.vertices, {});
   replace(model.tri_indices, {});
@@ -95,7 +95,7 @@ int end(Members<S> m) {
   }
   const int num_nodes = m.numNodes();
   if (num_nodes == 0) return outOfMemory("endModel()");
-  withdrawVolumes(m.nodes);
+  releaseVolumes(m.nodes);
   try {
     shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
     shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
@@ -166,7 +166,7 @@ namespace fcl {
   }                                                                                                \
   template <>                                                                                      \
   BVHModel<kios::kIOS<S>>::~BVHModel() {                                                           \
-    kios::withdrawVolumes(bvs);                                                                    \
+    kios::releaseVolumes(bvs);                                                                     \
     delete[] vertices;                                                                             \
     delete[] tri_indices;                                                                          \
     delete[] prev_vertices;                                                                        \

@@ -14,6 +14,16 @@
 #include "volume/errors.h"
 
 namespace kios {
+namespace {
+
+template <typename S>
+engine::TreeKey keyOf(const Model<S>& model) {
+  const engine::MeshView<S> mesh = viewOf(model);
+  return {model.getBV(0).bv.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
+          mesh.num_triangles};
+}
+
+}  // namespace
 
 template <typename S>
 engine::TreeCache* treesOf(const Model<S>& model) {
@@ -33,8 +43,7 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
   const double radius = root.radius0;
   if (!(radius >= engine::kLeastReach && radius <= engine::kLargestReach)) return {};
   const engine::MeshView<S> mesh = viewOf(model);
-  const engine::TreeKey key = {root.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
-                               mesh.num_triangles};
+  const engine::TreeKey key = keyOf(model);
   if (engine::TreeCache::Use found = trees->find(key); found.isKnown()) return found;
   return trees->findOrMake(key, [&](engine::SharedTree old) {
     if (old && engine::refit(mesh, old.detach())) return old;
@@ -42,6 +51,23 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
       return trees->isBuilt(root.stamp) ? engine::prepare(mesh, &model.getBV(0))
                                         : engine::prepare(mesh);
     });
+  });
+}
+
+template <typename S>
+engine::SharedTree purelyPreparedTree(const Model<S>& model) {
+  const engine::TreeCache::Use kept = preparedTree(model);
+  if (!kept) return {};
+  // Nobody finds a refitted tree by its content.
+  const engine::MeshView<S> mesh = viewOf(model);
+  return {engine::contentHash(mesh), [&] { return engine::prepare(mesh, &model.getBV(0)); }};
+}
+
+template <typename S>
+void takePrepared(const Model<S>& model, std::unique_ptr<engine::Tree> tree) {
+  treesOf(model)->findOrMake(keyOf(model), [&](const engine::SharedTree& /*none*/) {
+    return engine::SharedTree(engine::contentHash(viewOf(model)),
+                              [&tree] { return std::move(tree); });
   });
 }
 
@@ -82,11 +108,13 @@ void invalidate(Model<S>& model) {
 
 const char* simdTarget() { return engine::kernels().target; }
 
-#define KIOS_INSTANTIATE(S)                                      \
-  template engine::TreeCache* treesOf(const Model<S>&);          \
-  template engine::TreeCache::Use preparedTree(const Model<S>&); \
-  template void prepare(const Model<S>&);                        \
-  template std::size_t preparedBytes(const Model<S>&);           \
+#define KIOS_INSTANTIATE(S)                                                   \
+  template engine::TreeCache* treesOf(const Model<S>&);                       \
+  template engine::TreeCache::Use preparedTree(const Model<S>&);              \
+  template engine::SharedTree purelyPreparedTree(const Model<S>&);            \
+  template void takePrepared(const Model<S>&, std::unique_ptr<engine::Tree>); \
+  template void prepare(const Model<S>&);                                     \
+  template std::size_t preparedBytes(const Model<S>&);                        \
   template void invalidate(Model<S>&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+
 #include "build/mesh.h"
 #include "fcl_kios/model/model.h"
 #include "tree/tree_cache.h"
@@ -16,6 +18,16 @@ engine::TreeCache* treesOf(const Model<S>& model);
 /// size is beyond the range of floats. The model must be finished.
 template <typename S>
 engine::TreeCache::Use preparedTree(const Model<S>& model);
+
+/// The tree that prepare() makes of the mesh of a model whose tree of volumes is the ordinary one;
+/// preparedTree() may have refitted that of an earlier state. The model is prepared then, too.
+template <typename S>
+engine::SharedTree purelyPreparedTree(const Model<S>& model);
+
+/// Gives a finished model the tree that prepare() would make of its mesh, unless others hold one
+/// of equal content, which then is taken.
+template <typename S>
+void takePrepared(const Model<S>& model, std::unique_ptr<engine::Tree> tree);
 
 template <typename S>
 engine::MeshView<S> viewOf(const Model<S>& model) {

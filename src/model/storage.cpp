@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/model/storage.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 
@@ -11,7 +12,8 @@
 namespace kios {
 namespace {
 
-using stored::Hash, stored::Header, stored::kMagic, stored::kVersion, stored::Layout, stored::Node;
+using stored::Hash, stored::Header, stored::kMagic, stored::kVersion, stored::Layout, stored::Node,
+    stored::PreparedValues;
 
 /// The members one by one: padding has any bytes, and stamps are the process's own.
 template <typename S>
@@ -52,8 +54,42 @@ std::shared_ptr<Model<S>> rebuilt(const Model<S>& model) {
   return copy;
 }
 
+void countPrepared(const engine::Tree& tree, Header& header) {
+  header.num_leaves = static_cast<std::uint32_t>(tree.leaves.size());
+  header.num_blocks = static_cast<std::uint32_t>(tree.children.size());
+  header.num_lanes = static_cast<std::uint32_t>(tree.lanes.size());
+  header.num_features = static_cast<std::uint32_t>(tree.features.size());
+  header.parts =
+      (tree.boxes.empty() ? 0 : Header::kBoxes) | (tree.corners.empty() ? 0 : Header::kCorners);
+}
+
+void store(const engine::Tree& tree, const Layout& at, unsigned char* bytes) {
+  PreparedValues values{};
+  std::copy_n(tree.origin, 3, values.origin);
+  values.cost = tree.cost;
+  values.reach = tree.reach;
+  values.mean_leaf = tree.mean_leaf;
+  values.widest_leaf = tree.widest_leaf;
+  values.root_box = tree.root_box;
+  std::memcpy(bytes + at.prepared, &values, sizeof(values));
+  const auto put = [bytes](const auto& array, std::uint64_t place) {
+    if (array.empty()) return;
+    std::memcpy(bytes + place, static_cast<const void*>(array.data()),
+                array.size() * sizeof(array[0]));
+  };
+  put(tree.nodes, at.prepared_nodes);
+  put(tree.boxes, at.boxes);
+  put(tree.children, at.children);
+  put(tree.leaves, at.leaves);
+  put(tree.lanes, at.lanes);
+  put(tree.features, at.features);
+  put(tree.corners, at.corners);
+}
+
+/// `prepared` may be nullptr.
 template <typename S>
-std::vector<unsigned char> write(const Model<S>& model, bool with_tree) {
+std::vector<unsigned char> write(const Model<S>& model, bool with_tree,
+                                 const engine::Tree* prepared) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   header.version = kVersion;
@@ -64,6 +100,7 @@ std::vector<unsigned char> write(const Model<S>& model, bool with_tree) {
   header.cost_density = model.cost_density;
   header.threshold_occupied = model.threshold_occupied;
   header.threshold_free = model.threshold_free;
+  if (prepared) countPrepared(*prepared, header);
   const Layout at = Layout::of(header, S());
   header.size = at.size;
   std::vector<unsigned char> bytes(at.size);
@@ -83,6 +120,7 @@ std::vector<unsigned char> write(const Model<S>& model, bool with_tree) {
       std::memcpy(&bytes[at.triangles + 12 * t + 4 * static_cast<std::size_t>(corner)], &vertex, 4);
     }
   }
+  if (prepared) store(*prepared, at, bytes.data());
   Hash hash(header);
   hash.add(&bytes[sizeof(header)], bytes.size() - sizeof(header));
   hash.writeTo(header);
@@ -95,9 +133,9 @@ std::vector<unsigned char> write(const Model<S>& model, bool with_tree) {
 template <typename S>
 std::vector<unsigned char> save(const Model<S>& model) {
   validate(model);
-  if (hasOrdinaryTree(model)) return write(model, true);
+  if (hasOrdinaryTree(model)) return write(model, true, purelyPreparedTree(model).get());
   const std::shared_ptr<Model<S>> ordinary = rebuilt(model);
-  return write(*ordinary, hasOrdinaryTree(*ordinary));
+  return write(*ordinary, hasOrdinaryTree(*ordinary), purelyPreparedTree(*ordinary).get());
 }
 
 template std::vector<unsigned char> save(const Modeld&);

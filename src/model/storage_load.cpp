@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <iterator>
 #include <limits>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "build/mesh_tree.h"
@@ -17,12 +20,13 @@
 #include "model/prepared.h"
 #include "model/stored_format.h"
 #include "model/stored_tree.h"
+#include "tree/adopt.h"
 
 namespace kios {
 namespace {
 
 using stored::Hash, stored::Header, stored::kMagic, stored::kVersion, stored::Layout, stored::Node,
-    stored::refuse;
+    stored::PreparedValues, stored::refuseStored;
 
 constexpr std::size_t kBlock = 16384;  ///< bytes that are hashed, then copied
 
@@ -31,30 +35,34 @@ template <typename S>
 Header readHeader(const unsigned char* bytes, std::size_t size) {
   Header header;
   if (size < sizeof(header) || std::memcmp(bytes, kMagic, sizeof(kMagic)) != 0) {
-    refuse(size < sizeof(header) ? "is cut off."
-                                 : "is none: it doesn't begin as kios::save() does.");
+    refuseStored(size < sizeof(header) ? "is cut off."
+                                       : "is none: it doesn't begin as kios::save() does.");
   }
   std::memcpy(&header, bytes, sizeof(header));
   if (header.version > kVersion) {
-    refuse("was written by a newer version of fcl_kios, in format " +
-           std::to_string(header.version) + "; this one reads up to " + std::to_string(kVersion) +
-           ".");
+    refuseStored("was written by a newer version of fcl_kios, in format " +
+                 std::to_string(header.version) + "; this one reads up to " +
+                 std::to_string(kVersion) + ".");
   }
-  if (header.size > size) refuse("is cut off.");
+  if (header.size > size) refuseStored("is cut off.");
   if (header.size < sizeof(header) || header.size != size || header.version == 0) {
-    refuse("was altered: its size is wrong.");
+    refuseStored("was altered: its size is wrong.");
   }
   if (header.scalar != sizeof(S)) {
-    if (header.scalar != 4 && header.scalar != 8) refuse("was altered: its scalar is none.");
-    refuse(header.scalar == 4 ? "is one of floats: load<float>() reads it."
-                              : "is one of doubles: load<double>() reads it.");
+    if (header.scalar != 4 && header.scalar != 8) refuseStored("was altered: its scalar is none.");
+    refuseStored(header.scalar == 4 ? "is one of floats: load<float>() reads it."
+                                    : "is one of doubles: load<double>() reads it.");
   }
   constexpr std::uint32_t kMost = std::numeric_limits<int>::max() / 2;
   const std::uint32_t n = header.num_triangles;
+  const bool may_be_prepared = header.version > 1 && header.num_nodes != 0;
+  const bool counts_prepared = (header.num_leaves | header.num_blocks | header.num_lanes |
+                                header.num_features | header.parts) != 0;
   if (n == 0 || n > kMost || header.num_vertices == 0 || header.num_vertices > kMost ||
       (header.num_nodes != 0 && header.num_nodes != 2 * n - 1) ||
-      Layout::of(header, S()).size != size) {
-    refuse("was altered: its counts are wrong.");
+      (counts_prepared && !(may_be_prepared && header.hasPrepared())) ||
+      header.parts > (Header::kBoxes | Header::kCorners) || Layout::of(header, S()).size != size) {
+    refuseStored("was altered: its counts are wrong.");
   }
   return header;
 }
@@ -147,7 +155,7 @@ class Reader {
       }
     }
     if (!sound || !check.isWhole() || !hasAll(tree->primitives.get())) {
-      refuse("was altered: its tree is none of its triangles.");
+      refuseStored("was altered: its tree is none of its triangles.");
     }
     hash_.add(bytes_ + at_.nodes + num_nodes * sizeof(Node<S>),
               at_.vertices - at_.nodes - num_nodes * sizeof(Node<S>));
@@ -157,21 +165,21 @@ class Reader {
   void vertices(fcl::Vector3<S>* to) {
     const std::size_t size = header_.num_vertices * sizeof(*to);
     auto* const copied = reinterpret_cast<unsigned char*>(to);
-    S poison[8] = {};  // NaN if a coordinate is not finite
+    // In integers, as floats would raise flags. All exponent bits are set where it is not finite.
+    using Bits = std::conditional_t<sizeof(S) == 8, std::uint64_t, std::uint32_t>;
+    constexpr Bits kExponent = sizeof(S) == 8 ? Bits(0x7FF0000000000000) : Bits(0x7F800000);
+    bool finite = true;
     for (std::size_t i = 0; i < size; i += kBlock) {
       const std::size_t count = std::min(kBlock, size - i);
       hash_.add(bytes_ + at_.vertices + i, count);
       std::memcpy(copied + i, bytes_ + at_.vertices + i, count);
-      S coordinates[kBlock / sizeof(S)];
-      std::memset(coordinates, 0, sizeof(coordinates));
+      Bits coordinates[kBlock / sizeof(S)];
       std::memcpy(coordinates, copied + i, count);
-      for (std::size_t k = 0; k < kBlock / sizeof(S); k += 8) {
-        for (std::size_t lane = 0; lane < 8; ++lane) poison[lane] += S(0) * coordinates[k + lane];
+      for (std::size_t k = 0; k < count / sizeof(S); ++k) {
+        finite &= (coordinates[k] & kExponent) != kExponent;
       }
     }
-    for (const S sum : poison) {
-      if (sum != 0) refuse("was altered: a vertex is not finite.");
-    }
+    if (!finite) refuseStored("was altered: a vertex is not finite.");
     hash_.add(bytes_ + at_.vertices + size, at_.triangles - at_.vertices - size);
   }
 
@@ -193,18 +201,83 @@ class Reader {
       std::memcpy(static_cast<void*>(to + t), widened, count * sizeof(*to));
     }
     if (largest >= header_.num_vertices) {
-      refuse("was altered: a triangle refers to a vertex that it doesn't have.");
+      refuseStored("was altered: a triangle refers to a vertex that it doesn't have.");
     }
     const std::uint64_t end = at_.triangles + header_.num_triangles * std::uint64_t{12};
-    hash_.add(bytes_ + end, at_.size - end);
+    hash_.add(bytes_ + end, at_.prepared - end);
+  }
+
+  /// The prepared tree as it is stored, not checked.
+  std::unique_ptr<engine::Tree> prepared() {
+    auto tree = std::make_unique<engine::Tree>();
+    PreparedValues values;
+    std::memcpy(&values, bytes_ + at_.prepared, sizeof(values));
+    hash_.add(&values, sizeof(values));
+    std::copy_n(values.origin, 3, tree->origin);
+    tree->cost = values.cost;
+    tree->reach = values.reach;
+    tree->mean_leaf = values.mean_leaf;
+    tree->widest_leaf = values.widest_leaf;
+    tree->root_box = values.root_box;
+    const std::uint64_t num_nodes = header_.preparedNodes();
+    copy(at_.prepared_nodes, num_nodes, at_.boxes, tree->nodes);
+    copy(at_.boxes, header_.parts & Header::kBoxes ? num_nodes : 0, at_.children, tree->boxes);
+    copy(at_.children, header_.num_blocks, at_.leaves, tree->children);
+    copy(at_.leaves, header_.num_leaves, at_.lanes, tree->leaves);
+    copy(at_.lanes, header_.num_lanes, at_.features, tree->lanes);
+    copy(at_.features, header_.num_features, at_.corners, tree->features);
+    copy(at_.corners, header_.parts & Header::kCorners ? header_.num_triangles : 0, at_.size,
+         tree->corners);
+    return tree;
   }
 
   /// To be called after all parts were read.
   void requireHash() const {
-    if (!hash_.isOf(header_)) refuse("was altered: its hash is wrong.");
+    if (!hash_.isOf(header_)) refuseStored("was altered: its hash is wrong.");
   }
 
  private:
+  /// Items of an array that lies anywhere, to be copied: a vector that is filled by them isn't
+  /// cleared first.
+  template <typename T>
+  struct Stored {
+    using iterator_category = std::forward_iterator_tag;
+    using value_type = T;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const T*;
+    using reference = T;
+
+    T operator*() const {
+      T item;
+      std::memcpy(static_cast<void*>(&item), at, sizeof(item));
+      return item;
+    }
+    Stored& operator++() {
+      at += sizeof(T);
+      return *this;
+    }
+    Stored operator++(int) { return {std::exchange(at, at + sizeof(T))}; }
+    bool operator==(const Stored& o) const { return at == o.at; }
+    bool operator!=(const Stored& o) const { return at != o.at; }
+
+    const unsigned char* at;
+  };
+
+  /// An array, with what pads it up to `end`.
+  template <typename Array>
+  void copy(std::uint64_t begin, std::uint64_t count, std::uint64_t end, Array& to) {
+    using T = typename Array::value_type;
+    to.reserve(count);
+    constexpr std::size_t kItems = kBlock / sizeof(T);
+    for (std::uint64_t i = 0; i < count; i += kItems) {
+      const std::uint64_t n = std::min<std::uint64_t>(kItems, count - i);
+      const unsigned char* const from = bytes_ + begin + i * sizeof(T);
+      hash_.add(from, n * sizeof(T));
+      to.insert(to.end(), Stored<T>{from}, Stored<T>{from + n * sizeof(T)});
+    }
+    hash_.add(bytes_ + begin + count * sizeof(T), end - begin - count * sizeof(T));
+  }
+
   void copyNodes(Node<S>* nodes, std::size_t first, std::size_t count) {
     const unsigned char* const from = bytes_ + at_.nodes + first * sizeof(Node<S>);
     hash_.add(from, count * sizeof(Node<S>));
@@ -235,7 +308,7 @@ class Reader {
 
 void requireBuilt(int status) {
   if (status == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (status != fcl::BVH_OK) throw std::logic_error("fcl_kios: FCL refused to build a new model.");
+  if (status != fcl::BVH_OK) refuse<std::logic_error>("FCL refused to build a new model.");
 }
 
 }  // namespace
@@ -254,9 +327,16 @@ std::shared_ptr<Model<S>> load(const void* bytes, std::size_t size) {
                                  static_cast<int>(header.num_vertices)));
   reader.vertices(model->vertices);
   reader.triangles(model->tri_indices);
-  reader.requireHash();
   model->num_vertices = static_cast<int>(header.num_vertices);
   model->num_tris = static_cast<int>(header.num_triangles);
+  std::unique_ptr<engine::Tree> prepared;
+  if (header.hasPrepared()) {
+    prepared = reader.prepared();
+    if (!engine::adopt(viewOf(*model), *prepared)) {
+      refuseStored("was altered: its prepared tree is none of its mesh.");
+    }
+  }
+  reader.requireHash();
   if (!tree) {
     requireBuilt(model->endModel());
     return model;
@@ -266,6 +346,7 @@ std::shared_ptr<Model<S>> load(const void* bytes, std::size_t size) {
   requireBuilt(model->endModel());
   model->bv_fitter = fitter;
   treesOf(*model)->noteBuilt(model->getBV(0).bv.stamp);
+  if (prepared) takePrepared(*model, std::move(prepared));
   return model;
 }
 

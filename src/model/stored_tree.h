@@ -3,8 +3,6 @@
 #pragma once
 
 #include <memory>
-
-#include <stdexcept>
 #include <type_traits>
 #include <typeinfo>
 
@@ -12,6 +10,7 @@
 #include <fcl/geometry/bvh/detail/BV_fitter_base.h>
 #include "fcl_kios/volume/kios.h"
 #include "model/memory_to_fill.h"
+#include "volume/errors.h"
 
 namespace kios {
 
@@ -44,7 +43,7 @@ class StoredTree final : public fcl::detail::BVFitterBase<kIOS<S>> {
   void set(fcl::Vector3<S>* /*vertices*/, fcl::Vector3<S>* /*previous*/,
            fcl::Triangle* /*triangles*/, fcl::BVHModelType /*type*/) override {}
   kIOS<S> fit(unsigned int* /*primitives*/, int /*n*/) override {
-    throw std::logic_error("fcl_kios: a stored tree has no fit to make.");
+    refuse<std::logic_error>("a stored tree has no fit to make.");
   }
   void clear() override {}
 

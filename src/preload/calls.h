@@ -8,9 +8,10 @@
 
 #include <fcl/common/types.h>
 
-// The preloaded library is in two parts. The front, which stands before libfcl in every process, is
-// small and depends on neither FCL nor fcl_kios, so that it changes nothing where there is no FCL.
-// The back answers; the front opens it at the first query of a process that has libfcl.
+// The preloaded library is in two parts. The interposer, which stands before libfcl in every
+// process, is small and depends on neither FCL nor fcl_kios, so that it changes nothing where there
+// is no FCL. The implementation answers; the interposer opens it at the first query of a process
+// that has libfcl.
 
 namespace fcl {
 template <typename S>
@@ -67,8 +68,8 @@ struct Start {
   const Fits* fits;
 };
 
-/// Says what the front calls around fork(): before it, and after it in both processes. The child
-/// has one thread, and so must find nothing that another one had taken.
+/// Says what the interposer calls around fork(): before it, and after it in both processes. The
+/// child has one thread, and so must find nothing that another one had taken.
 struct Forks {
   void (*before)();
   void (*in_parent)();
@@ -81,7 +82,7 @@ struct Opened {
   const char* difference;  ///< what of it is unlike libfcl.so.0.7 then
 };
 
-/// Is the type of the back's only symbol. Its calls throw nothing of their own.
+/// Is the type of the implementation's only symbol. Its calls throw nothing of their own.
 using Open = Opened (*)(const Start*);
 constexpr const char* kOpenName = "fcl_kios_preload_open";
 

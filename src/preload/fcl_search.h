@@ -6,7 +6,7 @@
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 #include "preload/calls.h"
-#include "preload/mesh.h"
+#include "preload/fcl_mesh.h"
 
 // FCL's own search of two of its meshes: its nodes, tests and order, as fcl::collide and
 // fcl::distance make them, but for an end after so much work. What ends by itself is FCL's answer

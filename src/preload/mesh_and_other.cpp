@@ -14,7 +14,7 @@
 #include <fcl/geometry/shape/sphere.h>
 #include "fcl_kios/query/octree_queries.h"
 #include "fcl_kios/query/shape_queries.h"
-#include "preload/back.h"
+#include "preload/implementation.h"
 
 namespace kios::preload {
 namespace {
@@ -29,7 +29,7 @@ double timeOfDistance(const Mesh& mesh) {
 /// comparison pays.
 constexpr double kAnyTime = 1e9;
 
-/// Does so for a verdict about a near pair: FCL's time less the twin's.
+/// Does so for a verdict about a near pair: FCL's time less the copy's.
 double timeToCompare(const Geometry& other) {
   switch (other.getNodeType()) {
     case fcl::GEOM_BOX:
@@ -99,7 +99,7 @@ RootBox rootOf(const Geometry* model) {
 
 /// Whether the shape is clear of the model's root volume, by more than FCL's solvers are inexact:
 /// FCL's volumes or solvers find no contact either.
-bool isAway(const Pair& pair) {
+bool isAway(const PosedPair& pair) {
   constexpr double kMargin = 1e-3;
   const RootBox root = rootOf(pair.a);
   const fcl::Vector3d center =
@@ -110,86 +110,88 @@ bool isAway(const Pair& pair) {
   return ((center.cwiseAbs() - root.half).array() > (1 + kMargin) * radius).any();
 }
 
-/// Calls ask(twin) with the mesh's current twin. False if there is none, or comparing it would take
+/// Calls ask(copy) with the mesh's current copy. False if there is none, or comparing it would take
 /// longer than that.
 template <typename Ask>
-bool askTwin(Back& back, const Mesh& mesh, double time_to_compare, double time_of_fcl,
-             const Ask& ask) {
+bool askCopy(Implementation& implementation, const Mesh& mesh, double time_to_compare,
+             double time_of_fcl, const Ask& ask) {
   const auto takesTooLong = [&](std::size_t bytes) {
-    return !back.always() && timeOfComparison(bytes) > time_to_compare;
+    return !implementation.always() && timeOfComparison(bytes) > time_to_compare;
   };
-  const bool may_trust = back.start.mode == Mode::kTrust;
+  const bool may_trust = implementation.start.mode == Mode::kTrust;
   if (!may_trust && takesTooLong(mesh.bytes())) return false;
-  if (back.always()) back.makeTwin(mesh);
+  if (implementation.always()) implementation.makeCopy(mesh);
   {
-    const Twins::Hold hold = back.twins.hold(mesh);
-    if (!hold) return false;
-    if (hold.hasTwin()) {
-      if (takesTooLong(hold.bytesToCompare())) return false;
-      if (hold.isCurrent()) {
-        ask(hold.twin());
+    const CopyCache::ModelLease lease = implementation.copies.lease(mesh);
+    if (!lease) return false;
+    if (lease.hasCopy()) {
+      if (takesTooLong(lease.bytesToCompare())) return false;
+      if (lease.isCurrent()) {
+        ask(lease.copy());
         return true;
       }
     }
   }
-  back.twins.pay(mesh, time_of_fcl);
+  implementation.copies.pay(mesh, time_of_fcl);
   return false;
 }
 
 }  // namespace
 
-By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
-                    CollisionResult& result) {
+By collideWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+                    const CollisionRequest& request, CollisionResult& result) {
   const bool octree = isOctree(*pair.b);
   if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   if (!octree && isAway(pair)) return By::kFclSearch;
   // Contacts are FCL's to list, after which a verdict was in vain.
-  if (wantsContacts(request) && !back.always()) return By::kHandedOn;
+  if (wantsContacts(request) && !implementation.always()) return By::kHandedOn;
   try {
     CollisionResult verdict;
-    const auto ask = [&](const Modeld& twin) {
+    const auto ask = [&](const Modeld& copy) {
       const CollisionRequest one(1, false);
       if (octree) {
-        collideOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA, one,
+        collideOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, copy, pair.X_WA, one,
                       verdict);
       } else {
-        collideShape(twin, pair.X_WA, *pair.b, pair.X_WB, one, verdict);
+        collideShape(copy, pair.X_WA, *pair.b, pair.X_WB, one, verdict);
       }
     };
-    if (!askTwin(back, mesh, timeToCompare(*pair.b), kCollideByFcl, ask)) return By::kHandedOn;
-    if (!verdict.isCollision()) return By::kTwins;
+    if (!askCopy(implementation, mesh, timeToCompare(*pair.b), kCollideByFcl, ask))
+      return By::kHandedOn;
+    if (!verdict.isCollision()) return By::kCopies;
     if (wantsContacts(request)) return By::kHandedOn;
     fcl::Contact<double> contact = verdict.getContact(0);
     (octree ? contact.o2 : contact.o1) = pair.a;
     result.addContact(contact);
-    return By::kTwins;
+    return By::kCopies;
   } catch (const std::exception&) {
     return By::kHandedOn;
   }
 }
 
-By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, DistanceResult& result) {
+By distanceToOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+                   DistanceResult& result) {
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   const bool octree = isOctree(*pair.b);
   try {
     DistanceResult found(result.min_distance);
-    const auto ask = [&](const Modeld& twin) {  // FCL gives nearest points, wanted or not
+    const auto ask = [&](const Modeld& copy) {  // FCL gives nearest points, wanted or not
       if (octree) {
-        distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, twin, pair.X_WA,
+        distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, copy, pair.X_WA,
                        exact(true), found);
       } else {
-        distanceShape(twin, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
+        distanceShape(copy, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
       }
     };
-    if (!askTwin(back, mesh, kAnyTime, timeOfDistance(mesh), ask)) return By::kHandedOn;
+    if (!askCopy(implementation, mesh, kAnyTime, timeOfDistance(mesh), ask)) return By::kHandedOn;
     // At overlap FCL gives what its solver does: -1, a depth.
     if (!(found.min_distance > 0)) return By::kHandedOn;
     if (found.min_distance < result.min_distance) {
       (octree ? found.o2 : found.o1) = pair.a;
       result = found;
     }
-    return By::kTwins;
+    return By::kCopies;
   } catch (const std::exception&) {
     return By::kHandedOn;
   }

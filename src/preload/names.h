@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// The symbols that the front defines in place of libfcl.so.0.7's, as the Itanium ABI mangles them.
-// test/preload/symbols.sh compares them with libfcl's.
+// The symbols that the interposer defines in place of libfcl.so.0.7's, as the Itanium ABI mangles
+// them. test/preload/symbols.sh compares them with libfcl's.
 
 // fcl::collide<double> and fcl::distance<double>.
 #define KIOS_COLLIDE_OBJECTS                                                            \

@@ -145,17 +145,17 @@ Mode modeOfEnvironment() {
   return Mode::kOff;
 }
 
-Opened openBack(const Start& start) {
-  // Beside this library: fcl_kios/libfcl_kios_preload_back.so.
+Opened openImplementation(const Start& start) {
+  // Beside this library: fcl_kios/libfcl_kios_preload_implementation.so.
   char path[PATH_MAX + 64];
   if (!realpath(fileOf(here()), path)) {
     say("nothing is done: this library's own place is not known.");
     return {};
   }
   char* const slash = std::strrchr(path, '/');
-  std::strcpy(slash ? slash + 1 : path, "fcl_kios/libfcl_kios_preload_back.so");
-  void* const back = dlopen(path, RTLD_LAZY | RTLD_LOCAL);  // half the time of RTLD_NOW
-  void* const open = back ? dlsym(back, kOpenName) : nullptr;
+  std::strcpy(slash ? slash + 1 : path, "fcl_kios/libfcl_kios_preload_implementation.so");
+  void* const library = dlopen(path, RTLD_LAZY | RTLD_LOCAL);  // half the time of RTLD_NOW
+  void* const open = library ? dlsym(library, kOpenName) : nullptr;
   if (!open) {
     const char* const why = dlerror();
     say("nothing is done: ", why ? why : path);

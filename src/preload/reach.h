@@ -32,7 +32,7 @@ void say(const char* words, const char* more = "", const char* end = "", const c
 /// Returns what FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
 Mode modeOfEnvironment();
 
-/// Opens the back; no calls, and says why, if it can't.
-Opened openBack(const Start& start);
+/// Opens the implementation; no calls, and says why, if it can't.
+Opened openImplementation(const Start& start);
 
 }  // namespace kios::preload

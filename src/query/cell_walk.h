@@ -125,7 +125,7 @@ class CellWalk {
     return (sum - s.cap_r2).maxCoeff() > 0;
   }
 
-  bool spend(int tests) {
+  bool charge(int tests) {
     counts_.volume_tests += tests;
     left_ -= tests;
     return left_ >= 0;
@@ -146,7 +146,7 @@ class CellWalk {
       return openCell(cell, id, spheres);
     }
     for (const int child : {node.leftChild(), node.rightChild()}) {
-      if (!spend(1)) return true;
+      if (!charge(1)) return true;
       Spheres placed;
       const auto matters = [&](const Spheres& s) { return !misses(cube, s); };
       if (place(child, placed, matters) && !missesCap(cube, placed) && visit(cell, child, placed)) {
@@ -157,7 +157,7 @@ class CellWalk {
   }
 
   bool openCell(const engine::Cell& cell, int id, const Spheres& s) {
-    if (!spend(4)) return true;
+    if (!charge(4)) return true;
     const auto q = static_cast<std::int32_t>(cell.half / 2U);
     const auto at = [&](std::int32_t units) { return unit_ * static_cast<Real>(units); };
     const Real x[2] = {at(cell.x - q), at(cell.x + q)}, y[2] = {at(cell.y - q), at(cell.y + q)},

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "fcl_kios/triangle/intersection.h"
-#include "query/near_pairs.h"
+#include "query/nearest_candidates.h"
 #include "query/unprepared.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
@@ -142,17 +142,17 @@ engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
       if (bounded[n].bound < bounded[least].bound) least = n;
     }
   }
-  NearPairs<S> pairs(frame, far_enough);
+  NearestCandidates<S> pairs(frame, far_enough);
   pairs.test(bounded[least].ids);
   bounded[least] = bounded[--n];
-  const double most = pairs.pruneAt();
+  const double most = pairs.cullDistance();
   const auto end = std::partition(bounded, bounded + n,
                                   [most](const Bounded& pair) { return pair.bound <= most; });
   std::sort(bounded, end);
   counts.leaf_pairs += num_a * num_b;
   ++counts.exact;
   for (const Bounded* pair = bounded; pair != end && !pairs.touching(); ++pair) {
-    if (pair->bound > pairs.pruneAt()) break;
+    if (pair->bound > pairs.cullDistance()) break;
     pairs.test(pair->ids);
     ++counts.exact;
   }

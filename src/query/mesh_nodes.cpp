@@ -75,7 +75,7 @@ template <typename S>
 void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
   best_ = prune_at_ = distance;
   if (!(distance < std::numeric_limits<S>::max())) return;  // no bound, and nothing found yet
-  prune_at_ = static_cast<S>(engine::pruneAt(distance, this->rel_err, this->abs_err));
+  prune_at_ = static_cast<S>(engine::cullDistance(distance, this->rel_err, this->abs_err));
 }
 
 template <typename S>

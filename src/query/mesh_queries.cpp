@@ -82,13 +82,15 @@ template <typename S>
 template <typename S>
 engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame, const engine::PairQuery& query,
                                 SearchCounts& counts) {
-  if (frame.a.num_tris == 1 && frame.b.num_tris == 1) {
+  // Almost any triangles are near enough where the error that is allowed is as large as a mesh.
+  const bool single = frame.a.num_tris == 1 && frame.b.num_tris == 1;
+  if (single || query.abs_err > std::min<double>(frame.rootA().radius0, frame.rootB().radius0)) {
     engine::PairAnswer<S> answer;
     answer.ids = {0, 0};
     answer.nearest = frame.distanceOf(answer.ids);
     ++counts.leaf_pairs;
     ++counts.exact;
-    return answer;
+    if (single || answer.nearest.distance <= query.abs_err) return answer;
   }
   if (query.isExact() && engineServes(frame)) {
     if (areVeryFew(frame.a, frame.b)) return nearestOfFew(frame, query.far_enough, counts);
@@ -133,7 +135,7 @@ S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<
   query.abs_err = request.abs_err;
   const bool bounded = result.min_distance < std::numeric_limits<S>::max();
   if (bounded) {  // as if a pair so far were found
-    query.far_enough = query.pruneAt(result.min_distance);
+    query.far_enough = query.cullDistance(result.min_distance);
     if (farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, query.far_enough)) {
       return result.min_distance;
     }

@@ -117,7 +117,7 @@ class OctreeDistance : OctreePair<S> {
     if (!root.node || !this->octree_.isNodeOccupied(root.node)) return;
     if (!(best_ > 0)) return;
     const auto skip = [this](const CellAndNode& pair) {
-      return !(std::max(pair.bound, 0.0) < prune_at_);
+      return !(std::max(pair.bound, 0.0) < cull_distance_);
     };
     walkNearestFirst(bounded(root, 0), skip, [this](const CellAndNode& pair, const auto& add) {
       expand(pair, add);
@@ -143,7 +143,8 @@ class OctreeDistance : OctreePair<S> {
 
   void lowerTo(double distance) {
     best_ = distance;
-    prune_at_ = engine::pruneAt(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
+    cull_distance_ =
+        engine::cullDistance(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
   }
 
   CellAndNode bounded(const Cell<S>& cell, int node) const {
@@ -171,7 +172,7 @@ class OctreeDistance : OctreePair<S> {
     ++this->counts_.leaf_kernels;
     shape::Vec center;
     const shape::Solid box = this->boxOf(cell.box, center);
-    const auto d = shape::distance(box, this->place(id, center), prune_at_);
+    const auto d = shape::distance(box, this->place(id, center), cull_distance_);
     if (!(d.distance < best_)) return;
     lowerTo(d.distance);
     nearest_id_ = id;
@@ -182,7 +183,7 @@ class OctreeDistance : OctreePair<S> {
 
   const fcl::DistanceRequest<S>& request_;
   fcl::DistanceResult<S>& result_;
-  double best_ = kInfinity, prune_at_ = best_;
+  double best_ = kInfinity, cull_distance_ = best_;
   int nearest_id_ = -1;
   Cell<S> nearest_cell_ = {nullptr, {}};
   shape::Vec on_cell_, on_triangle_;

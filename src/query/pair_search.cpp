@@ -71,13 +71,13 @@ template <typename S>
 class TreeSearch {
  public:
   TreeSearch(const MeshPair<S>& frame, const PairQuery& query, SearchCounts& counts)
-      : frame_(frame), query_(query), counts_(counts), prune_at_(query.far_enough) {}
+      : frame_(frame), query_(query), counts_(counts), cull_distance_(query.far_enough) {}
 
   PairAnswer<S> run() {
     if (begin()) return result_;
     long long left = query_.max_expansions;
     const auto skip = [this](const NodePair& at) {
-      if (!(at.bound >= prune_at_)) return false;
+      if (!(at.bound >= cull_distance_)) return false;
       left_out_ = std::min(left_out_, at.bound);
       return true;
     };
@@ -106,7 +106,7 @@ class TreeSearch {
     const std::vector<NodePair> rest =
         walkNearestFirst(bounded(0, 0, -kInfinity), skip, visit, query_.hasBudget());
     // Any pair that intersects is an answer, but which one is given must not depend on the start.
-    if (offered_ && result_.found() && result_.nearest.distance == 0) return cold();
+    if (has_bound_ && result_.found() && result_.nearest.distance == 0) return cold();
     for (const NodePair& pair : rest) left_out_ = std::min(left_out_, pair.bound);
     result_.least_other = std::max(0.0, left_out_);
     return result_;
@@ -125,8 +125,8 @@ class TreeSearch {
     const double distance = double{frame_.distanceOf(query_.start).distance};
     const bool near = query_.near_enough > 0 && distance <= query_.near_enough;
     if (!query_.isExact() || query_.hasBudget() || near) return evaluate(query_.start, -kInfinity);
-    offered_ = distance > 0;
-    if (offered_) prune_at_ = std::min(prune_at_, withRounding(distance));
+    has_bound_ = distance > 0;
+    if (has_bound_) cull_distance_ = std::min(cull_distance_, withRounding(distance));
     return false;
   }
 
@@ -143,8 +143,8 @@ class TreeSearch {
   }
 
   NodePair bounded(int node_a, int node_b, double parent) const {
-    const double own =
-        separation(frame_.a.getBV(node_a).bv, frame_.b.getBV(node_b).bv, frame_.X_AB, prune_at_);
+    const double own = separation(frame_.a.getBV(node_a).bv, frame_.b.getBV(node_b).bv, frame_.X_AB,
+                                  cull_distance_);
     return {std::max(own, parent), node_a, node_b};
   }
 
@@ -161,8 +161,8 @@ class TreeSearch {
     result_.nearest = found;
     result_.least_evaluated = distance;
     // For an exact answer, every pair is evaluated that rounding alone may have made farther.
-    prune_at_ =
-        std::min(prune_at_, query_.isExact() ? withRounding(distance) : query_.pruneAt(distance));
+    cull_distance_ = std::min(
+        cull_distance_, query_.isExact() ? withRounding(distance) : query_.cullDistance(distance));
     if (!(distance <= query_.near_enough)) return false;
     result_.end = SearchEnd::kNear;
     return true;
@@ -171,9 +171,9 @@ class TreeSearch {
   const MeshPair<S>& frame_;
   const PairQuery& query_;
   SearchCounts& counts_;
-  double prune_at_;
+  double cull_distance_;
   double left_out_ = kInfinity;  ///< least bound of the pairs left out
-  bool offered_ = false;         ///< the start lowered prune_at_
+  bool has_bound_ = false;       ///< the start lowered cull_distance_
   PairAnswer<S> result_;
 };
 

@@ -92,16 +92,16 @@ Ball PosedSolid<S>::placeCap(const kIOS<S>& bv, int i, const Ball& central, doub
 }
 
 template <typename S>
-double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
+double PosedSolid<S>::bound(const kIOS<S>& bv, double required) const {
   double lengths;
   const Ball central = placeCentral(bv, lengths);
-  if (solid_.kind == shape::Kind::kConvex) return convexBound(bv, enough, central, lengths);
+  if (solid_.kind == shape::Kind::kConvex) return convexBound(bv, required, central, lengths);
   const auto boundOf = [this](const Ball& b) {
     return shape::pointBound(solid_, {b.x, b.y, b.z}) - b.r;
   };
   double best = boundOf(central);
   // A centre in the shape: the content all but surely touches, and caps would only cost time.
-  if (best > enough || best <= -central.r) return best;
+  if (best > required || best <= -central.r) return best;
   for (int i = 0; i + 1 < bv.k(); ++i) {
     best = std::max(best, boundOf(placeCap(bv, i, central, lengths)));
   }
@@ -111,17 +111,17 @@ double PosedSolid<S>::bound(const kIOS<S>& bv, double enough) const {
 // The box of the points says enough of what is far. Else a few steps of GJK find a slab for S0,
 // which bounds the caps, too.
 template <typename S>
-double PosedSolid<S>::convexBound(const kIOS<S>& bv, double enough, const Ball& central,
+double PosedSolid<S>::convexBound(const kIOS<S>& bv, double required, const Ball& central,
                                   double lengths) const {
   constexpr int kSteps = 4;
   const shape::Vec p(central.x, central.y, central.z);
   const double by_box = (p - p.cwiseMax(low_).cwiseMin(high_)).norm() - central.r;
-  if (by_box > enough) return by_box;
+  if (by_box > required) return by_box;
   const shape::CoreDistance core = shape::gjkDistance(solid_, &p, 1, kInfinity, kSteps);
   double best = core.lower - central.r;
   const shape::Vec way = core.point - core.on_core;
   const double length = way.norm();
-  if (best > enough || best <= -central.r || !(length > 0)) return best;
+  if (best > required || best <= -central.r || !(length > 0)) return best;
   const shape::Vec n = way / length;
   const double extent = shape::extentAlong(solid_, n);
   for (int i = 0; i + 1 < bv.k(); ++i) {

@@ -44,8 +44,8 @@ class PosedSolid {
 
   /// Lower bound, in units, of the distance between the solid and the content of a volume of the
   /// mesh, whose posed points may be rounded; negative values order overlapping ones. Once the
-  /// central sphere's bound exceeds `enough`, that is returned.
-  double bound(const kIOS<S>& bv, double enough) const;
+  /// central sphere's bound exceeds `required`, that is returned.
+  double bound(const kIOS<S>& bv, double required) const;
   /// Half of what computed distances and bounds of the mesh's triangles may be off by; `root` is
   /// its root volume.
   double kernelError(const kIOS<S>& root) const;
@@ -56,7 +56,7 @@ class PosedSolid {
   Ball placeCentral(const kIOS<S>& bv, double& lengths) const;
 
  private:
-  double convexBound(const kIOS<S>& bv, double enough, const Ball& central, double lengths) const;
+  double convexBound(const kIOS<S>& bv, double required, const Ball& central, double lengths) const;
   Ball placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const;
 
   shape::Solid solid_;

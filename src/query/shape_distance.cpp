@@ -103,13 +103,13 @@ class NearestTriangle final : public engine::SolidEvaluator {
 
   void lowerTo(double distance) {
     best_ = distance;
-    limit_ = engine::pruneAt(distance, rel_err_, abs_err_);
-    prune_at = limit_ < 0x1p127 ? roundUpFloat(limit_) : kInfinityFloat;
+    limit_ = engine::cullDistance(distance, rel_err_, abs_err_);
+    cull_distance = limit_ < 0x1p127 ? roundUpFloat(limit_) : kInfinityFloat;
   }
 
   /// In the tree of volumes, the nearer child first, until so many tests were made, of which a
   /// triangle's counts as four. Returns their number.
-  long long walk(double root, long long most) {
+  long long walk(double root, long long max_tests) {
     long long tests = 1;
     const auto skip = [this](const BoundedNode& at) { return leftOut(at.bound); };
     const auto visit = [&](const BoundedNode& at, const auto& add) {
@@ -123,10 +123,10 @@ class NearestTriangle final : public engine::SolidEvaluator {
         add({boundOf(node.rightChild()), node.rightChild()});
         add({boundOf(node.leftChild()), node.leftChild()});
       }
-      return best_ <= 0 || tests >= most;
+      return best_ <= 0 || tests >= max_tests;
     };
     const bool ended = walkNearestFirst(BoundedNode{root, 0}, skip, visit).empty() || best_ <= 0;
-    return ended ? std::min(tests, most - 1) : tests;
+    return ended ? std::min(tests, max_tests - 1) : tests;
   }
 
   const Model<S>& model_;

@@ -91,7 +91,7 @@ class ShapeCollision final : public engine::SolidEvaluator {
     found_.clear();
     std::vector<engine::FloatSlab> planes;
     if (tree && makeFloatSolid(*tree, posed_, *faces_, planes, solid)) {
-      prune_at = 0;
+      cull_distance = 0;
       engine::kernels().solid({*tree, solid, *this, counts_});
     } else {
       ++counts_.tree_searches;
@@ -136,10 +136,10 @@ class ShapeCollision final : public engine::SolidEvaluator {
 
   /// In the tree of volumes, until so many tests were made, of which a triangle's counts as four.
   /// Returns their number.
-  long long walk(long long most) {
+  long long walk(long long max_tests) {
     std::vector<int> waiting = {0};
     long long tests = 0;
-    while (!waiting.empty() && tests < most) {
+    while (!waiting.empty() && tests < max_tests) {
       const auto& node = model_.getBV(waiting.back());
       waiting.pop_back();
       ++counts_.volume_tests;
@@ -153,7 +153,7 @@ class ShapeCollision final : public engine::SolidEvaluator {
       tests += 4;
       if (test(node.primitiveId(), false)) waiting.clear();
     }
-    return waiting.empty() ? std::min(tests, most - 1) : tests;
+    return waiting.empty() ? std::min(tests, max_tests - 1) : tests;
   }
 
   void report(int id) {

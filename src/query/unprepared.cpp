@@ -9,7 +9,7 @@
 
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
-#include "query/near_pairs.h"
+#include "query/nearest_candidates.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -72,7 +72,7 @@ class TreeWalk {
     double bounds[2];
     for (int i = 0; i < 2; ++i) {
       bounds[i] = std::max(bound, separation(frame_.a.getBV(a[i]).bv, frame_.b.getBV(b[i]).bv,
-                                             frame_.X_AB, walk.pruneAt()));
+                                             frame_.X_AB, walk.cullDistance()));
     }
     volume_tests_ += 2;
     const int first = bounds[1] < bounds[0] ? 1 : 0;
@@ -95,24 +95,24 @@ class TouchWalk : public TreeWalk<S, TouchWalk<S>> {
   using Base = TreeWalk<S, TouchWalk<S>>;
 
  public:
-  TouchWalk(const MeshPair<S>& frame, std::size_t most, long long limit)
-      : Base(frame, limit), most_(most) {}
+  TouchWalk(const MeshPair<S>& frame, std::size_t max_pairs, long long limit)
+      : Base(frame, limit), max_pairs_(max_pairs) {}
 
   void run() { this->visit(0, 0, -kInfinity); }
   std::vector<TrianglePairIds> found;
 
-  double pruneAt() const { return 0; }
+  double cullDistance() const { return 0; }
   bool isFar(double bound) const { return bound > 0; }
   bool test(const TrianglePairIds& ids) {
     if (!trianglesIntersect(this->frame_.triangleA(ids.a), this->frame_.triangleB(ids.b))) {
       return false;
     }
     found.push_back(ids);
-    return found.size() >= most_;
+    return found.size() >= max_pairs_;
   }
 
  private:
-  const std::size_t most_;
+  const std::size_t max_pairs_;
 };
 
 template <typename S>
@@ -126,14 +126,14 @@ class NearWalk : public TreeWalk<S, NearWalk<S>> {
   /// Where triangles touch, the walk ends with TouchWalk's first: bounds that exceed 0 differ, but
   /// nodes as far apart as that hold no such triangles.
   void run() { this->visit(0, 0, -kInfinity); }
-  const NearPairs<S>& pairs() const { return pairs_; }
+  const NearestCandidates<S>& pairs() const { return pairs_; }
 
-  double pruneAt() const { return pairs_.pruneAt(); }
-  bool isFar(double bound) const { return bound > pairs_.pruneAt(); }
+  double cullDistance() const { return pairs_.cullDistance(); }
+  bool isFar(double bound) const { return bound > pairs_.cullDistance(); }
   bool test(const TrianglePairIds& ids) { return pairs_.test(ids); }
 
  private:
-  NearPairs<S> pairs_;
+  NearestCandidates<S> pairs_;
 };
 
 }  // namespace

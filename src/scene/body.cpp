@@ -103,7 +103,7 @@ Box boxOf(const Body<S>& body) {
 
 template <typename S>
 void newState(Body<S>& body) {
-  body.state = nextStamp();
+  body.generation = nextStamp();
   body.path = 0;
 }
 

@@ -24,10 +24,10 @@ template <typename S>
 struct Body {
   // These members come first, as every query reads them in every body.
 
-  /// Is unlike that of any other geometry, or state of a geometry, in this process; 0 is that of no
-  /// object.
-  std::uint64_t state = 0;
-  /// No point of the content has moved farther than this in this state; it grows with each move.
+  /// Is unlike that of any other geometry, or of the same one changed; 0 is that of no object.
+  std::uint64_t generation = 0;
+  /// No point of the content has moved farther than this in this generation; it grows with each
+  /// move.
   double path = 0;
   double rotation_error = 0;   ///< >= |R^T R - I|_2
   double rotation_square = 0;  ///< the square of |R^T R - I| (Frobenius)
@@ -48,7 +48,7 @@ struct Body {
   std::array<Sphere, kIOS<S>::kCaps> caps;
   int num_caps = 0;
 
-  bool used() const { return state != 0; }
+  bool used() const { return generation != 0; }
   /// A change of the geometry is seen. It is not of octrees and of the user's classes, of which
   /// nothing is remembered.
   bool watched() const { return model != nullptr || shape; }

@@ -158,8 +158,8 @@ void BodyPair<S>::remember(double apart, bool exact, const Answer& answer) {
   Proof<S>* const proof = memory_.obtain(id_a_, id_b_);
   if (!proof) return;
   const bool same = proof->tellsOf(a_, b_);
-  proof->state_a = a_.state;
-  proof->state_b = b_.state;
+  proof->generation_a = a_.generation;
+  proof->generation_b = b_.generation;
   if (meshes()) {
     proof->R = frame().X_AB.R();
     proof->T = frame().X_AB.T();

@@ -16,7 +16,7 @@ void NearList<S>::follow(const std::vector<Body<S>>& bodies) {
   for (std::size_t id = 0; id < known; ++id) {
     const Body<S>& body = bodies[id];
     const Mark& mark = marks_[id];
-    if (body.state == mark.state) {
+    if (body.generation == mark.generation) {
       moved_ = std::max(moved_, addUp(body.path, -mark.path));
       valid_ = valid_ && body.rotation_error <= mark.rotation_error;
     } else {
@@ -36,7 +36,7 @@ double NearList<S>::startFor(double limit, const std::vector<Body<S>>& bodies) {
   marks_.clear();
   double radii = 0;
   for (const Body<S>& body : bodies) {
-    marks_.push_back({body.state, body.path, body.rotation_error});
+    marks_.push_back({body.generation, body.path, body.rotation_error});
     radii += std::min(body.sphere.radius, 1e300);
   }
   size_ = bodies.empty() ? 0 : radii / static_cast<double>(bodies.size());

@@ -39,7 +39,7 @@ class NearList {
  private:
   void rest();
   struct Mark {
-    std::uint64_t state;
+    std::uint64_t generation;
     double path, rotation_error;
   };
 

@@ -13,8 +13,8 @@ namespace kios::scene {
 /// nothing of other states of their geometries.
 template <typename S>
 struct Proof {
-  std::uint64_t state_a = 0, state_b = 0;  ///< 0: nothing was proven
-  fcl::Matrix3<S> R;                       ///< pose of b in a, as RelativePose has it
+  std::uint64_t generation_a = 0, generation_b = 0;  ///< 0: nothing was proven
+  fcl::Matrix3<S> R;                                 ///< pose of b in a, as RelativePose has it
   fcl::Vector3<S> T;
   double path_a = 0, path_b = 0;
   double rotation_error = 0;  ///< of a's pose
@@ -25,7 +25,7 @@ struct Proof {
   std::uint64_t made = 0, used = 0;                ///< numbers of the queries that last did
 
   bool tellsOf(const Body<S>& a, const Body<S>& b) const {
-    return state_a == a.state && state_b == b.state;
+    return generation_a == a.generation && generation_b == b.generation;
   }
 };
 

@@ -93,22 +93,22 @@ class DistanceSearch {
     constexpr size_t kBatch = kLarge ? 16 : 4, kLeafPairs = kLarge ? 8 : 1;
     for (;;) {
       while (!frontier_.leaves.empty()) {
-        PairList::Entry pairs[kLeafPairs];
+        NodePairList::Entry pairs[kLeafPairs];
         const size_t n = frontier_.leaves.pop(pairs);
         if (kLarge) fetchLeaves(pairs, n);
         for (size_t i = n; i-- > 0;) {
           if (boundLeaves(pairs[i])) return;
         }
       }
-      PairList::Entry batch[kBatch];
+      NodePairList::Entry batch[kBatch];
       const size_t n = frontier_.inner.pop(batch);
       expander_.expand<false>(batch, n, frontier_);
       if (n == 0) {
-        if (!frontier_.nextWave(search_.evaluator.prune_at, kWave)) return;
+        if (!frontier_.nextWave(search_.evaluator.cull_distance, kWave)) return;
         if (kLarge) fetchWave();
         while (!frontier_.bounded.empty()) {
-          const PairList::Entry entry = frontier_.bounded.pop();
-          if (entry.bound >= search_.evaluator.prune_at) continue;
+          const NodePairList::Entry entry = frontier_.bounded.pop();
+          if (entry.bound >= search_.evaluator.cull_distance) continue;
           if (evaluateFeatures(waiting_[entry.pair.a], entry.bound)) return;
         }
       }
@@ -124,17 +124,17 @@ class DistanceSearch {
   }
 
   /// True to end the search.
-  HWY_INLINE bool boundLeaves(const PairList::Entry& entry) {
-    if (entry.bound >= search_.evaluator.prune_at) return false;
+  HWY_INLINE bool boundLeaves(const NodePairList::Entry& entry) {
+    if (entry.bound >= search_.evaluator.cull_distance) return false;
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
     bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
-    if (!pair.slab.apart) search_.evaluator.offer(pair.upper);
+    if (!pair.slab.apart) search_.evaluator.addUpperBound(pair.upper);
     const float bound = std::max(entry.bound, pair.lower);
-    if (pair.slab.apart || bound >= search_.evaluator.prune_at) {
+    if (pair.slab.apart || bound >= search_.evaluator.cull_distance) {
       if (search_.audit)
-        search_.audit->pruned(entry.pair.a, entry.pair.b, search_.evaluator.prune_at);
+        search_.audit->pruned(entry.pair.a, entry.pair.b, search_.evaluator.cull_distance);
       return false;
     }
     // Overlapping pairs are searched at once, and so is a pair that finds no room to wait.
@@ -148,7 +148,7 @@ class DistanceSearch {
   HWY_INLINE void fetchWave() const {
     for (size_t i = 0; i < frontier_.inner.size(); ++i) expander_.fetchNodes(frontier_.inner[i]);
     for (size_t i = 0; i < frontier_.bounded.size(); ++i) {
-      const Pair at = waiting_[frontier_.bounded[i].a].nodes;
+      const NodePair at = waiting_[frontier_.bounded[i].a].nodes;
       fetchFeatures(search_.a, leaves_a_.leafOf(at.a));
       fetchFeatures(search_.b, leaves_b_.leafOf(at.b));
     }
@@ -159,7 +159,7 @@ class DistanceSearch {
     fetch(view.ids, size_t{leaf.num_faces} + leaf.num_edges + leaf.num_owned);
   }
 
-  HWY_INLINE void fetchLeaves(const PairList::Entry* pairs, size_t count) const {
+  HWY_INLINE void fetchLeaves(const NodePairList::Entry* pairs, size_t count) const {
     for (size_t i = 0; i < count; ++i) {
       fetch(leaves_a_.leafOf(pairs[i].pair.a));
       fetch(leaves_b_.leafOf(pairs[i].pair.b));
@@ -200,17 +200,17 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;
   Leaves leaves_a(search.a), leaves_b(search.b);
   const Expander expander(search);
-  const size_t most = expander.hasBoxes() ? 2 : kBatch;
+  const size_t batch_size = expander.hasBoxes() ? 2 : kBatch;
   Frontier frontier;
   expander.pushRoots(frontier);
   for (;;) {
     while (!frontier.leaves.empty()) {
       ++search.counts.leaf_pairs;
-      const Pair at = frontier.leaves.pop().pair;
+      const NodePair at = frontier.leaves.pop().pair;
       if (leaf_pair(search, leaves_a(at.a), leaves_b(at.b))) return;
     }
-    PairList::Entry batch[kBatch];
-    const size_t n = frontier.inner.pop(batch, most);
+    NodePairList::Entry batch[kBatch];
+    const size_t n = frontier.inner.pop(batch, batch_size);
     if (n == 0) return;
     expander.expand<false>(batch, n, frontier);
   }

@@ -79,7 +79,7 @@ class NearestEvaluator final : public RefineCallback {
         query_(query),
         by_faces_(query.hasBudget()),
         least_shared_(featureError<S>(4 * scale)) {
-    prune_at = candidate_limit = upToFloat(query.far_enough);
+    cull_distance = candidate_limit = upToFloat(query.far_enough);
   }
 
   bool evaluate(const Candidate& c) override {
@@ -108,11 +108,11 @@ class NearestEvaluator final : public RefineCallback {
     return distance <= query_.near_enough && endsWith(ids);
   }
 
-  void offer(float upper_bound) override {
+  void addUpperBound(float upper_bound) override {
     if (!(upper_bound < candidate_limit)) return;
     candidate_limit = upper_bound;
-    prune_at =
-        std::min(prune_at, offers_stand ? upToFloat(query_.pruneAt(upper_bound)) : upper_bound);
+    cull_distance = std::min(
+        cull_distance, keeps_pairs ? upToFloat(query_.cullDistance(upper_bound)) : upper_bound);
   }
 
   /// Triangles to begin with, their distance known. True to end the search.
@@ -129,7 +129,8 @@ class NearestEvaluator final : public RefineCallback {
     return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
   }
 
-  bool offers_stand = false;  ///< the search keeps the pairs that it offers, so that errors apply
+  bool keeps_pairs =
+      false;  ///< the search keeps the pairs of its upper bounds, so that errors apply
 
  private:
   /// The fourth power of a shorter extent, times what parts of it matter, would not be a normal
@@ -181,7 +182,7 @@ class NearestEvaluator final : public RefineCallback {
   void lowerTo(double distance) {
     best_ = distance;
     candidate_limit = std::min(candidate_limit, upToFloat(distance));
-    prune_at = std::min(prune_at, upToFloat(query_.pruneAt(distance)));
+    cull_distance = std::min(cull_distance, upToFloat(query_.cullDistance(distance)));
   }
 
   const Corners<S> corners_;
@@ -242,7 +243,7 @@ class IntersectionEvaluator final : public RefineCallback {
  public:
   IntersectionEvaluator(const PreparedPair<S>& pair, std::size_t limit)
       : corners_(pair), limit_(limit) {
-    prune_at = candidate_limit = 0;
+    cull_distance = candidate_limit = 0;
   }
 
   bool evaluate(const Candidate& c) override {
@@ -251,7 +252,7 @@ class IntersectionEvaluator final : public RefineCallback {
     return found.size() >= limit_;
   }
 
-  void offer(float /*upper_bound*/) override {}
+  void addUpperBound(float /*upper_bound*/) override {}
 
   std::vector<TrianglePairIds> found;
 
@@ -307,16 +308,16 @@ PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& que
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
   const bool exact = query.usesExactSearch() && !query.endsEarly();
-  evaluator.offers_stand = !exact;
-  bool offered = false, done = false;
+  evaluator.keeps_pairs = !exact;
+  bool has_bound = false, done = false;
   if (exists(query.start, pair)) {
     const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};
     const bool near = query.near_enough > 0 && distance <= query.near_enough;
     if (!query.isExact() || query.hasBudget() || near) {
       done = evaluator.start(query.start, distance);
     } else if (distance > 0) {
-      evaluator.offer(upToFloat(distance + featureError<S>(4 * double{pair.frames.scale})));
-      offered = true;
+      evaluator.addUpperBound(upToFloat(distance + featureError<S>(4 * double{pair.frames.scale})));
+      has_bound = true;
     }
   }
   Search search = {pair.a.tree, pair.b.tree, pair.frames, evaluator, counts, pair.audit, &bracket};
@@ -324,14 +325,14 @@ PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& que
   PairAnswer<S> result;
   result.ids = evaluator.ids();
   if (result.ids.a >= 0) result.nearest = evaluator.certified();
-  if (offered && result.ids.a >= 0 &&
+  if (has_bound && result.ids.a >= 0 &&
       result.nearest.distance == 0) {  // any pair that intersects: which must not depend
     PairQuery cold = query;            // on where it began
     cold.start = {};
     return nearestTriangles(pair, cold, counts);
   }
   result.least_evaluated = evaluator.least();
-  result.least_other = std::max(0.0F, exact ? evaluator.prune_at : bracket.proven);
+  result.least_other = std::max(0.0F, exact ? evaluator.cull_distance : bracket.proven);
   if (evaluator.endedNear()) {
     result.end = SearchEnd::kNear;
   } else if (bracket.out_of_budget) {

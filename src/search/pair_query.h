@@ -21,7 +21,7 @@ struct TrianglePairIds {
 };
 
 /// Once a pair `distance` apart was found, those that are at least so far apart don't matter.
-inline double pruneAt(double distance, double rel_err, double abs_err) {
+inline double cullDistance(double distance, double rel_err, double abs_err) {
   return std::max(0.0, std::min(distance - abs_err, distance / (1 + rel_err)));
 }
 
@@ -39,7 +39,9 @@ struct PairQuery {
   bool usesExactSearch() const { return rel_err <= 0.01 && abs_err == 0; }
   bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
   bool endsEarly() const { return near_enough > 0 || hasBudget(); }
-  double pruneAt(double distance) const { return engine::pruneAt(distance, rel_err, abs_err); }
+  double cullDistance(double distance) const {
+    return engine::cullDistance(distance, rel_err, abs_err);
+  }
 };
 
 /// The reason why a search ended.

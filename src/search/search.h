@@ -36,9 +36,9 @@ class RefineCallback {
   virtual bool evaluate(const Candidate& candidate) = 0;
   /// Tells that some pair is at most so far apart. It will turn up as a candidate, if that is
   /// nearer than candidate_limit.
-  virtual void offer(float upper_bound) = 0;
+  virtual void addUpperBound(float upper_bound) = 0;
 
-  float prune_at = kInfinityFloat;         ///< node and leaf pairs at least so far
+  float cull_distance = kInfinityFloat;    ///< node and leaf pairs at least so far
                                            ///< apart don't matter
   float candidate_limit = kInfinityFloat;  ///< feature pairs at most so far apart
                                            ///< are candidates
@@ -94,8 +94,8 @@ struct Kernels {
   /// Every feature pair that may be nearer than evaluator.candidate_limit, and every edge and face
   /// that may cross, is evaluated.
   void (*distance)(const Search& search);
-  /// Feature pairs that may be nearer than evaluator.prune_at are evaluated, and one of the nearest
-  /// that were offered; may end early, and tells what was proven.
+  /// Feature pairs that may be nearer than evaluator.cull_distance are evaluated, and one of the
+  /// nearest whose distance was added; may end early, and tells what was proven.
   void (*bracket)(const Search& search);
   /// Every edge and face that may touch is evaluated.
   void (*contact)(const Search& search);
@@ -105,7 +105,7 @@ struct Kernels {
   void (*ray)(const RaySearch& search);
   /// Every cell of an octree and triangle that may touch are evaluated.
   void (*cells)(const CellSearch& search);
-  /// Every triangle that may be nearer to the solid than evaluator.prune_at is evaluated.
+  /// Every triangle that may be nearer to the solid than evaluator.cull_distance is evaluated.
   void (*solid)(const SolidSearch& search);
 };
 

@@ -66,12 +66,12 @@ struct FloatSolid {
 /// The exact side of a search.
 class SolidEvaluator {
  public:
-  /// Evaluates a triangle, which may lower `prune_at` and set the slab. `meets`: it is proven to
-  /// have a point in common with the solid. Returns true to end the search.
+  /// Evaluates a triangle, which may lower `cull_distance` and set the slab. `meets`: it is proven
+  /// to have a point in common with the solid. Returns true to end the search.
   virtual bool evaluate(std::uint32_t triangle, bool meets) = 0;
 
-  float prune_at;  ///< triangles at least so far away don't matter; 0: those that don't touch
-  FloatSlab slab;  ///< of the solid: best across what is nearest so far
+  float cull_distance;  ///< triangles at least so far away don't matter; 0: those that don't touch
+  FloatSlab slab;       ///< of the solid: best across what is nearest so far
 
  protected:
   ~SolidEvaluator() = default;

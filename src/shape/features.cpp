@@ -19,10 +19,10 @@ bool isBefore(const Vec& a, const Vec& b) {
 /// away: by how far the slab across n falls short of |x - q| is the error of x as nearest point.
 class Features {
  public:
-  Features(const Solid& solid, const Triangle& triangle, double enough, CoreDistance& core)
+  Features(const Solid& solid, const Triangle& triangle, double required, CoreDistance& core)
       : solid_(solid),
         t_(triangle),
-        enough_(enough),
+        required_(required),
         size_(sizeOf(triangle) + solid.reach()),
         core_(core) {}
 
@@ -54,7 +54,7 @@ class Features {
         std::min({q.normal.dot(t_[0] - x), q.normal.dot(t_[1] - x), q.normal.dot(t_[2] - x)});
     const double lower = q.distance + std::min(rise, 0.0);
     const bool nearest = rise >= -tolerance();
-    if (!nearest && !(lower > enough_ + tolerance())) return false;
+    if (!nearest && !(lower > required_ + tolerance())) return false;
     if (!(q.distance > 0x1p-36 * size_)) return false;
     core_.lower = lower;
     core_.upper = q.distance;
@@ -121,16 +121,16 @@ class Features {
 
   const Solid& solid_;
   const Triangle& t_;
-  const double enough_, size_;
+  const double required_, size_;
   CoreDistance& core_;
   NearestPoint corners_[3];
 };
 
 }  // namespace
 
-bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double enough,
+bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double required,
                            CoreDistance& core) {
-  return Features(solid, triangle, enough, core).run();
+  return Features(solid, triangle, required, core).run();
 }
 
 }  // namespace kios::shape

@@ -13,8 +13,9 @@ namespace kios::shape {
 /// and the solid's reach. Corners and edges are evaluated by their own coordinates alone, so that
 /// triangles that share a nearest one are bitwise as far. Returns false if no slab decides, or if
 /// the pair is nearer than 2^-36 of those lengths: GJK and the kernels of close pairs then do. Ends
-/// early, with `upper` no more than an upper bound, once the pair is proven farther than `enough`.
-bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double enough,
+/// early, with `upper` no more than an upper bound, once the pair is proven farther than
+/// `required`.
+bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double required,
                            CoreDistance& core);
 
 }  // namespace kios::shape

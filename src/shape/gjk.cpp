@@ -17,7 +17,7 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 }  // namespace
 
-CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double enough,
+CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double required,
                          int max_iterations) {
   CoreDistance answer;
   answer.lower = -kInfinity;
@@ -41,7 +41,7 @@ CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, do
     Simplex before = s;
     const Vec y = add(v);
     answer.lower = std::max(answer.lower, v.dot(y) / length);
-    if (answer.lower > enough) {
+    if (answer.lower > required) {
       s = before;
       break;
     }

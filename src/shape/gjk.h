@@ -18,11 +18,11 @@ struct CoreDistance {
 };
 
 /// GJK in double, by support points alone, so that it serves every bounded solid. Ends when the
-/// bracket is closed to rounding, when nothing improves any more, once `lower` exceeds `enough`, or
-/// after `max_iterations` steps. Pairs that overlap by less than about 1e-8 of their size may end
-/// without `inside`, with a small upper and no positive lower. Source: Gilbert, Johnson & Keerthi
-/// (1988); the duality gap as in van den Bergen (1999).
-CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double enough,
+/// bracket is closed to rounding, when nothing improves any more, once `lower` exceeds `required`,
+/// or after `max_iterations` steps. Pairs that overlap by less than about 1e-8 of their size may
+/// end without `inside`, with a small upper and no positive lower. Source: Gilbert, Johnson &
+/// Keerthi (1988); the duality gap as in van den Bergen (1999).
+CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double required,
                          int max_iterations = 128);
 
 /// The point of the triangle nearest to the origin: its distance is the least but for 2^-48 of the

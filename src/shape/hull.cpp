@@ -137,10 +137,10 @@ TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t, double w
   return best;
 }
 
-CoreDistance closedBracket(const Solid& s, const Triangle& t, double enough,
+CoreDistance closedBracket(const Solid& s, const Triangle& t, double required,
                            const CoreDistance& core) {
   const double tolerance = 0x1p-48 * (sizeOf(t) + core.on_core.lpNorm<1>());
-  const bool decided = core.inside || core.lower > enough;
+  const bool decided = core.inside || core.lower > required;
   if (decided || core.upper - core.lower <= tolerance) return core;
   if (!hasFaces(s) && s.kind != Kind::kConvex) return core;
   const TriangleShapeDistance exact =

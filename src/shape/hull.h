@@ -27,9 +27,9 @@ TriangleShapeDistance distanceToHull(const Solid& solid, const Triangle& triangl
 /// contain nothing.
 bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p);
 
-/// GJK's bracket for the pair, or if that is left open beyond rounding around or below `enough`,
+/// GJK's bracket for the pair, or if that is left open beyond rounding around or below `required`,
 /// and the core is a polytope, the distance by its faces or points.
-CoreDistance closedBracket(const Solid& solid, const Triangle& triangle, double enough,
+CoreDistance closedBracket(const Solid& solid, const Triangle& triangle, double required,
                            const CoreDistance& core);
 
 /// The unit normal outwards of the face of a convex shape by which a triangle leaves the hull on

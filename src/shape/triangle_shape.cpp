@@ -59,11 +59,11 @@ bool isCurved(const Solid& s) {
 
 }  // namespace
 
-TriangleShapeDistance distance(const Solid& s, const Triangle& t, double enough) {
+TriangleShapeDistance distance(const Solid& s, const Triangle& t, double required) {
   if (s.kind == Kind::kSphere) return sphereDistance(s, t);
   if (!s.bounded()) return planeDistance(s, t);
   const double margin = s.margin();
-  const double beyond = margin + std::max(enough, 0x1p-40 * sizeOf(t));
+  const double beyond = margin + std::max(required, 0x1p-40 * sizeOf(t));
   CoreDistance core = {};
   TriangleShapeDistance answer;
   if (s.kind == Kind::kConvex || !distanceByCertificate(s, t, beyond, core)) {
@@ -86,7 +86,7 @@ TriangleShapeDistance distance(const Solid& s, const Triangle& t, double enough)
   }
   if (margin > 0) {
     answer.on_shape += margin / core.upper * (core.point - core.on_core);
-  } else if (isCurved(s) && answer.lower <= enough &&
+  } else if (isCurved(s) && answer.lower <= required &&
              answer.distance - answer.lower > 0x1p-45 * sizeOf(t)) {
     TriangleShapeDistance exact = distanceByFeatures(s, t);
     exact.lower = std::max(exact.lower, answer.lower);

@@ -34,9 +34,9 @@ struct TriangleShapeDistance {
   Vec on_shape;
 };
 
-/// Distance of a triangle and a solid. Ends early once the pair is proven farther than `enough`;
+/// Distance of a triangle and a solid. Ends early once the pair is proven farther than `required`;
 /// `distance` is then above that, but no more than an upper bound.
-TriangleShapeDistance distance(const Solid& solid, const Triangle& triangle, double enough);
+TriangleShapeDistance distance(const Solid& solid, const Triangle& triangle, double required);
 
 struct TriangleShapeContact {
   Vec position;  ///< a point of both (half-space: halfway from the deepest corner to the surface)

@@ -107,7 +107,7 @@ class CommonCenter {
 }  // namespace
 
 template <typename S>
-double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation, double enough,
+double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation, double required,
                     bool fully, const std::optional<Vec>& common) {
   CommonCenter<S> center(pair);
   const Vec from = pair.inA(on_a), way = -(pair.R_WA().transpose() * translation);
@@ -115,7 +115,7 @@ double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation,
   if (!fully) {
     double depth = 0;
     for (const double end : {0.985, 0.015}) {
-      if (depth < enough) depth = std::max(depth, center.at(from + end * way, depth).depth);
+      if (depth < required) depth = std::max(depth, center.at(from + end * way, depth).depth);
     }
     return depth;
   }
@@ -133,17 +133,17 @@ double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation,
   // Near 0 the way is in a, near 1 in b; in between it is in both, or never.
   constexpr int kHalvings = 6;
   double low = 0, high = 1;
-  for (int i = 0; i < kHalvings && balls.depth < enough; ++i) {
+  for (int i = 0; i < kHalvings && balls.depth < required; ++i) {
     const double share = 0.5 * (low + high);
     const Balls here = tryPoint(from + share * way);
-    if (here.in_a == here.in_b || balls.depth > 0.6 * enough) break;
+    if (here.in_a == here.in_b || balls.depth > 0.6 * required) break;
     (here.in_a ? low : high) = share;
   }
   constexpr double kPoor = 0.2;
   // If that is poor, from where the surfaces meet, a little way into both.
   for (const auto& seam : pair.seams()) {
     for (double step = 0.3 * translation.norm(); step > 0.01 * translation.norm(); step *= 0.3) {
-      if (balls.depth > kPoor * enough) break;
+      if (balls.depth > kPoor * required) break;
       if (tryPoint(seam.point + step * seam.inwards).depth > 0) break;
     }
   }
@@ -151,7 +151,7 @@ double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation,
   constexpr int kSteps = 6;
   constexpr double kWorth = 1.03;
   double reach = 0.8 * balls.depth;
-  for (int i = 0; i < kSteps && balls.depth < enough; ++i) {
+  for (int i = 0; i < kSteps && balls.depth < required; ++i) {
     const auto [c, hope] = center.highest(best, reach);
     if (!(hope > kWorth * balls.depth)) break;
     const double before = balls.depth;

@@ -12,10 +12,10 @@ namespace kios {
 /// r and s about one point lie in a and in b, their interiors part only where |t| >= r + s. The
 /// point is sought on the way by which b leaves, from `on_a` against `translation` (in the world):
 /// at its ends, where solids touch that overlap by little. If `fully`, it is sought between them
-/// and from `common` (in a's frame), and from there uphill, until the bound reaches `enough` or
+/// and from `common` (in a's frame), and from there uphill, until the bound reaches `required` or
 /// little more can be hoped for. 0 if no common point was found.
 template <typename S>
 double depthOfBalls(SolidPair<S>& pair, const fcl::Vector3d& on_a, const fcl::Vector3d& translation,
-                    double enough, bool fully, const std::optional<fcl::Vector3d>& common);
+                    double required, bool fully, const std::optional<fcl::Vector3d>& common);
 
 }  // namespace kios

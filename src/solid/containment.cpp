@@ -83,8 +83,8 @@ std::optional<fcl::Vector3d> containedPoint(const MeshPair<S>& frame, SearchCoun
           inverseError(frame.X_AB, p.template lpNorm<1>()) +
           error_bounds::frameError<S>(2 * y.template lpNorm<1>() + 4 * largestOf(frame.b),
                                       detail::boundsOf(frame.X_AB).T_norm1);
-      const double enough = error + 2 * surfaceError(frame.b, y);
-      decided = nearestSurface(frame.b, y, 0, enough).lower > error;
+      const double required = error + 2 * surfaceError(frame.b, y);
+      decided = nearestSurface(frame.b, y, 0, required).lower > error;
       if (decided) inside = placeOf(y, frame.b, counts).inside();
     }
     if (!decided) inside = liesInPosed(p, frame);

@@ -111,8 +111,9 @@ class ConeMesh {
     double sum = 0, certain = 0;
   };
   /// Where `fine`, edges that rounding alone may have bent are measured in 113 bits, which costs
-  /// more; else they count as if they were as reflex as they may be. Ends where it exceeds `most`.
-  Reflex measureReflex(bool fine, double most) const {
+  /// more; else they count as if they were as reflex as they may be. Ends where it exceeds
+  /// `max_reflex`.
+  Reflex measureReflex(bool fine, double max_reflex) const {
     Reflex reflex;
     for (const Edge& e : edges_) {
       const int v = e.from, w = to_[at(e.side)];
@@ -135,7 +136,7 @@ class ConeMesh {
           (farthestFromPlane(p - center_, q - center_) / cones_[at(face_[at(e.twin)])]);
       reflex.sum += term;
       if (certain) reflex.certain += term;
-      if (!((fine ? reflex.sum : reflex.certain) <= most)) break;
+      if (!((fine ? reflex.sum : reflex.certain) <= max_reflex)) break;
     }
     return reflex;
   }
@@ -203,12 +204,12 @@ class ConeMesh {
   void fitBox() {
     const auto farthestFrom = [this](const auto& squared) {
       Vec found = Vec::Zero();
-      double most = 0;
+      double largest = 0;
       for (const Vec& point : points_) {
         const Vec v = point - center_;
         const double square = squared(v);
-        if (!(square > most)) continue;
-        most = square;
+        if (!(square > largest)) continue;
+        largest = square;
         found = v;
       }
       return found;

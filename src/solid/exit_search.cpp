@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/exit_search.h"
-#include "volume/errors.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "volume/errors.h"
 
 namespace kios {
 namespace {

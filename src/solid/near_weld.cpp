@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/near_weld.h"
-#include "volume/errors.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <unordered_map>
+
+#include "volume/errors.h"
 
 namespace kios {
 namespace {

@@ -17,11 +17,11 @@ namespace {
 
 /// Returns a lower bound of the distance of the content, but for rounding.
 template <typename S>
-double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double enough) {
+double distanceOf(const kIOS<S>& bv, const fcl::Vector3d& p, double required) {
   const double x = p[0] - double{bv.center0[0]}, y = p[1] - double{bv.center0[1]},
                z = p[2] - double{bv.center0[2]};
   double bound = std::sqrt(x * x + y * y + z * z) - double{bv.radius0};
-  if (bound >= enough) return bound;
+  if (bound >= required) return bound;
   // Caps that k doesn't count repeat the first sphere.
   using Caps = Eigen::Array<float, kIOS<S>::kCaps, 1>;
   const double unit = scaled(1, bv.exponent);
@@ -84,14 +84,14 @@ double surfaceError(const Model<S>& model, const fcl::Vector3d& p) {
 
 template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
-                              double enough, double least) {
+                              double required, double ignored_below) {
   NearestSurface best;
-  double left_out = kInfinity, prune_at = enough;
+  double left_out = kInfinity, cull_distance = required;
   const auto bounded = [&](int node) {
-    return BoundedNode{distanceOf(model.getBV(node).bv, p, prune_at), node};
+    return BoundedNode{distanceOf(model.getBV(node).bv, p, cull_distance), node};
   };
   const auto skip = [&](const BoundedNode& at) {
-    if (at.bound < prune_at) return false;
+    if (at.bound < cull_distance) return false;
     left_out = std::min(left_out, at.bound);
     return true;
   };
@@ -109,10 +109,10 @@ NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, dou
     if (!(near.distance < best.upper)) return false;
     best.upper = near.distance;
     best.point = near.at;
-    prune_at = std::min(prune_at, best.upper * (1 - rel_err));
-    return best.upper < least;
+    cull_distance = std::min(cull_distance, best.upper * (1 - rel_err));
+    return best.upper < ignored_below;
   });
-  if (best.upper < least) return best;
+  if (best.upper < ignored_below) return best;
   best.lower = std::max(0.0, std::min(left_out, best.upper) - surfaceError(model, p));
   return best;
 }

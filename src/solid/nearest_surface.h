@@ -15,11 +15,11 @@ struct NearestSurface {
 };
 
 /// Searches for a point in the model's frame: lower >= upper (1 - rel_err) but for rounding, or
-/// lower >= enough, at which the search ends. It also ends once `upper` is below `least`; lower is
-/// then 0.
+/// lower >= required, at which the search ends. It also ends once `upper` is below `ignored_below`;
+/// lower is then 0.
 template <typename S>
 NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, double rel_err,
-                              double enough = kInfinity, double least = 0);
+                              double required = kInfinity, double ignored_below = 0);
 
 /// Returns what `lower` pays for rounding.
 template <typename S>

@@ -42,7 +42,7 @@ class TreeCache {
   };
   /// Written only while nobody uses a model that shares this cache.
   std::unique_ptr<Attachment> attachment;
-  /// Counts what queries that can do without a tree may spend; exhausted as soon as one was made.
+  /// Counts the tests of queries that can do without a tree; exhausted as soon as one was made.
   BuildBudget budget;
 
   /// A tree in use. Empty if there is none.

@@ -17,7 +17,7 @@ namespace kios {
 /// their squares are far from under- and overflow, so that tests need no scaling.
 inline int capExponent(double radius0) {
   const bool ordinary = radius0 == 0 || (radius0 >= 0x1p-30 && radius0 <= 0x1p30);
-  return ordinary ? 0 : std::ilogb(radius0);
+  return ordinary ? 0 : exponentOf(radius0);
 }
 
 /// Fills the caps beyond k with S0, sets the reach and a new stamp; center0, radius0, exponent and

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,6 +19,10 @@ inline double norm(double x, double y, double z) { return std::sqrt(x * x + y * 
 
 /// v 2^e, without a call where e is 0 as for all ordinary sizes.
 inline double scaled(double v, int e) { return e == 0 ? v : std::ldexp(v, e); }
+
+/// Returns the exponent of a length. That of NaN or infinity, which altered volumes may hold, can
+/// be negated and added to others, too.
+inline int exponentOf(double v) { return std::clamp(std::ilogb(v), -1100, 1100); }
 
 /// The spheres of v in units of 2^exponent, S0's centre at `center` (in those units). Exact, but
 /// for products below 2^-1022; the units are chosen so that this is negligible. Returns k.

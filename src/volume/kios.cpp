@@ -35,7 +35,7 @@ double exclusion(const kIOS<S>& v, const fcl::Vector3<S>& p) {
     largest = std::max(largest, std::abs(d[c]));
   }
   if (largest == 0) return 0;
-  const int e = std::ilogb(largest);
+  const int e = exponentOf(largest);
   Ball balls[kIOS<S>::kMaxSpheres];
   const int k = toBalls(v, {0, 0, 0}, e, balls);
   for (double& c : d) c = scaled(c, -e);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 
 #if defined(__SSE2__)
@@ -18,6 +20,10 @@ using Double2 = double __attribute__((vector_size(16)));
 using Int4 = int __attribute__((vector_size(16)));
 
 inline Float4 broadcast(float v) { return Float4{v, v, v, v}; }
+
+/// Returns a coordinate or length as a float. Those beyond what floats hold square to infinity on
+/// both sides of a comparison with a reach, which is near.
+inline float toFloat(double x) { return static_cast<float>(std::clamp(x, -3e38, 3e38)); }
 
 inline Float4 load(const float* p) {
   Float4 v;
@@ -48,6 +54,17 @@ inline unsigned int bits(Int4 mask) {
 #else
   return (mask[0] & 1U) | (mask[1] & 2U) | (mask[2] & 4U) | (mask[3] & 8U);
 #endif
+}
+
+/// Calls visit(lane) for each of the first `count` lanes, of four at most, that the mask doesn't
+/// set, until it returns true, which is returned.
+template <typename Visit>
+bool visitUnset(Int4 mask, std::size_t count, const Visit& visit) {
+  unsigned int left = ~bits(mask) & (count < 4 ? (1U << count) - 1 : 15U);
+  for (; left != 0; left &= left - 1) {
+    if (visit(static_cast<std::size_t>(__builtin_ctz(left)))) return true;
+  }
+  return false;
 }
 
 /// Lane-wise maximum; b where a is NaN.

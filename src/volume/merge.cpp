@@ -149,7 +149,7 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
     merged.stamp = nextStamp();
     return merged;
   }
-  int exponent = largest >= 0x1p-28 && largest <= 0x1p28 ? 0 : std::ilogb(largest);
+  int exponent = largest >= 0x1p-28 && largest <= 0x1p28 ? 0 : exponentOf(largest);
   const double d = norm(scaled(w[0], -exponent), scaled(w[1], -exponent), scaled(w[2], -exponent));
   const double sa = scaled(ra, -exponent), sb = scaled(rb, -exponent);
   if (d + sa > sb) {

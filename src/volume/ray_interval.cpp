@@ -9,7 +9,6 @@
 #include "volume/rounding.h"
 
 namespace kios {
-namespace {}  // namespace
 
 RayLine::RayLine(const fcl::Vector3d& origin, const fcl::Vector3d& direction, int exponent)
     : origin_(origin) {
@@ -55,7 +54,7 @@ bool rayInterval(const kIOS<S>& bv, const RayLine& line, double& enter, double& 
   const double reach = std::max<double>(scaled(bv.reach, bv.exponent), bv.radius0);
   const double largest = std::max((center - line.origin()).lpNorm<Eigen::Infinity>(), reach);
   // Squares of lengths, and of their roundings, keep clear of under- and overflow.
-  const int e = largest == 0 || (largest > 0x1p-300 && largest < 0x1p300) ? 0 : std::ilogb(largest);
+  const int e = largest == 0 || (largest > 0x1p-300 && largest < 0x1p300) ? 0 : exponentOf(largest);
   const RayLine::Near near = line.nearTo(center, e);
   const fcl::Vector3d &m = near.from_it, &f = line.unit();
   const double pad = 64 * kUlpDouble * (m.lpNorm<1>() + scaled(reach, -e)) + near.error;

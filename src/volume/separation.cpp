@@ -89,7 +89,7 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
   const double reach_b = std::max<double>(scaled(b.reach, b.exponent), b.radius0);
   const double largest = std::max({d.norm1, reach_a, reach_b});
   if (!(largest > 0)) return ScaledBound{-d.pad, {}, {}};
-  const int e = std::ilogb(largest);
+  const int e = exponentOf(largest);
 
   Ball sa[kIOS<S>::kMaxSpheres], sb[kIOS<S>::kMaxSpheres];
   const int ka = toBalls(a, {0, 0, 0}, e, sa), kb = toBalls(b, {0, 0, 0}, e, sb);
@@ -128,7 +128,7 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
 
 template <typename S>
 double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, const Offset& d,
-                      double enough) {
+                      double required) {
   constexpr double kFar = 0x1p40;
   if ((a.exponent | b.exponent) != 0 || !(d.norm1 < kFar)) {
     return scaledSeparation(a, b, X, d).value;
@@ -137,7 +137,7 @@ double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>&
   const double ra = a.radius0, rb = b.radius0;
   const double central =
       std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z) - ra - rb - (d.pad + 0x1p-500);
-  if (central > enough || (a.num_spheres == 1 && b.num_spheres == 1)) return central;
+  if (central > required || (a.num_spheres == 1 && b.num_spheres == 1)) return central;
   return std::max(central, capSeparation(a, b, X, d));
 }
 
@@ -239,9 +239,10 @@ void RelativePose<S>::computeBounds(double squared_errors) {
 }
 
 template <typename S>
-double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB, double enough) {
+double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB,
+                  double required) {
   if (a.num_spheres == 0 || b.num_spheres == 0) return kInfinity;
-  return separationFrom(a, b, X_AB, offset(a, b, X_AB), enough);
+  return separationFrom(a, b, X_AB, offset(a, b, X_AB), required);
 }
 
 template <typename S>

@@ -35,6 +35,7 @@ found=$(sed -n 's/^fcl_kios_DIR:PATH=//p' "$work/cmake/CMakeCache.txt")
 [[ $found == "$prefix"/* ]] || fail "find_package found $found, not $prefix"
 "$cmake" --build "$work/cmake"
 "$work/cmake/consumer"
+"$work/cmake/clearance_consumer"
 
 echo "== pkg-config"
 static=()
@@ -52,6 +53,9 @@ fi
 "$cxx" "${package[@]}" "$here/main.cpp" "$work/plain/generic.o" "${package_cflags[@]}" \
   "${package_libs[@]}" -o "$work/plain/consumer"
 "$work/plain/consumer"
+"$cxx" "${package[@]}" "$here/clearance.cpp" "${package_cflags[@]}" "${package_libs[@]}" \
+  -o "$work/plain/clearance_consumer"
+"$work/plain/clearance_consumer"
 
 if [[ $library == *.so && ! ${flags[*]} =~ -fsanitize|-march|-mavx ]]; then
   "$here/flags.sh" "$source_dir" "$prefix" "$work/plain" "$cxx" "${flags[*]}"

@@ -53,9 +53,9 @@ class Request : public ::testing::Test {
 };
 
 TEST_F(Request, ErrorBoundsAreKeptAndSaveWork) {
-  const std::vector<std::pair<double, double>> bounds{{0, 0},    {1e-3, 0},  {0.1, 0},   {0.5, 0},
-                                                      {0.99, 0}, {0, 1e-3},  {0, 0.05},  {0, 0.5},
-                                                      {0, 1e30}, {0.1, 0.3}, {0.5, 1e-9}};
+  const std::vector<std::pair<double, double>> bounds{{0, 0},    {1e-3, 0},  {0.1, 0},    {0.5, 0},
+                                                      {0.99, 0}, {0, 1e-3},  {0, 0.05},   {0, 0.5},
+                                                      {0, 1e30}, {0.1, 0.3}, {0.5, 1e-9}, {0, 2}};
   std::vector<long> work(bounds.size(), 0);
   for (const Frame& frame : frames_) {
     const double d_exact = exact(frame);

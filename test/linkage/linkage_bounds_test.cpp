@@ -60,7 +60,7 @@ struct TwoChains {
 // much more than what happens; and so does any slab.
 TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
   Random random(3);
-  double largest = 0, largest_slab = 0;
+  double largest = 0, largest_swept = 0, largest_slab = 0;
   for (int i = 0; i < 3000; ++i) {
     const TwoChains chains(random);
     const Linkage& linkage = chains.robot.linkage;
@@ -77,6 +77,7 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
         linkage.impl().shared(chains.robot.bodies[0].link, chains.robot.bodies[1].link);
     const PairMotion motion(c.motion(0, shared), c.motion(1, shared));
     const double pad = path.pad(0, 1);
+    const double swept = path.swept(0, shared) + path.swept(1, shared);
     const auto X = chains.robot.poses(between(q0, q1, s));
     const Vector3d n_W = inBall(random).normalized();
     const auto closing = motion.closing(n_W);
@@ -92,6 +93,10 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
           const double before = (X[1] * y - X[0] * x).norm(), after = (Y[1] * y - Y[0] * x).norm();
           ASSERT_LE(std::abs(after - before), bound + pad) << i;
           if (bound > 1e-9) largest = std::max(largest, std::abs(after - before) / bound);
+          ASSERT_LE(std::abs(after - before), h * swept + pad) << i;
+          if (bound > 1e-9) {
+            largest_swept = std::max(largest_swept, std::abs(after - before) / (h * swept));
+          }
         }
       }
       // The slab is fixed to the link that carries both; there is one in the world if none does.
@@ -118,9 +123,12 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
       }
     }
   }
-  std::printf("up to %.3f of the bound of distances happens, and %.3f of a slab\n", largest,
-              largest_slab);
+  std::printf(
+      "up to %.3f of the bound of distances happens, %.3f of the one without a configuration, "
+      "and %.3f of a slab\n",
+      largest, largest_swept, largest_slab);
   EXPECT_GT(largest, 0.9);
+  EXPECT_GT(largest_swept, 0.7);
   EXPECT_GT(largest_slab, 0.8);
 }
 

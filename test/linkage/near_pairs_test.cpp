@@ -12,21 +12,13 @@
 
 #include "linkage/robot_cases.h"
 #include "not_finite.h"
+#include "volume/float_lanes.h"
 
 namespace kios::testing {
 namespace {
 
-using articulated::BallLanes;
 using articulated::ObstacleBox;
 using articulated::ObstacleTree;
-
-constexpr double kScales[] = {1e-30, 1e-18, 1e-3, 1, 1e6, 1e15, 1e30, 1e200};
-// Rounding alone makes a pair near: so much of its coordinates and of the distance.
-constexpr double kVain = 1e-5;
-
-Vector3d point(Random& random, double far) {
-  return {random.uniform(-far, far), random.uniform(-far, far), random.uniform(-far, far)};
-}
 
 long double distanceTo(const Vector3d& p, const ObstacleBox& box) {
   long double square = 0;
@@ -41,13 +33,14 @@ long double distanceTo(const Vector3d& p, const ObstacleBox& box) {
 TEST(ObstacleTree, FindsAllThatIsNear) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
-    const double scale = kScales[i % 8];
+    const double scale = kFloatScales[i % 8];
     const int count = i % 7 == 0 ? static_cast<int>(random.uniform(0, 6))
                                  : static_cast<int>(std::pow(300, random.unit()));
     std::vector<ObstacleBox> boxes;
     for (int k = 0; k < count; ++k) {
       ObstacleBox box = {{}, {}, 3 * k + 1};
-      const Vector3d low = point(random, scale), size = point(random, 0.2 * scale).cwiseAbs();
+      const Vector3d low = pointWithin(random, scale),
+                     size = pointWithin(random, 0.2 * scale).cwiseAbs();
       const bool unbounded = random.unit() < 0.01;
       for (int c = 0; c < 3; ++c) {
         box.low[c] = unbounded ? -kInfinity : low[c];
@@ -56,7 +49,7 @@ TEST(ObstacleTree, FindsAllThatIsNear) {
       boxes.push_back(box);
     }
     const ObstacleTree tree(boxes);
-    Vector3d p = point(random, 1.3 * scale);
+    Vector3d p = pointWithin(random, 1.3 * scale);
     if (!boxes.empty() && i % 9 == 0 && boxes[0].high[0] < kInfinity) {  // beside a face
       p = {boxes[0].low[0] * (1 + 1e-9), boxes[0].low[1], boxes[0].high[2]};
     }
@@ -75,42 +68,6 @@ TEST(ObstacleTree, FindsAllThatIsNear) {
       }
       if (scale > 1e-17 && scale < 1e17 && distance > far + kVain * (scale + far)) {
         EXPECT_FALSE(is_found) << i;
-      }
-    }
-  }
-}
-
-TEST(BallLanes, FindAllThatTouch) {
-  Random random(6);
-  for (int i = 0; i < 2000; ++i) {
-    const double scale = kScales[i % 8];
-    const auto count = static_cast<std::size_t>(random.uniform(1, 23));
-    BallLanes lanes;
-    lanes.clear();
-    std::vector<Vector3d> centers;
-    std::vector<double> radii;
-    for (std::size_t k = 0; k < count; ++k) {
-      centers.push_back(point(random, scale));
-      radii.push_back(random.unit() < 0.02 ? kInfinity : 0.6 * scale * random.unit());
-      if (k > 0 && i % 3 == 0 && radii[0] < kInfinity) {  // touching
-        radii[k] = std::max(0.0, (centers[k] - centers[0]).norm() * (1 + 1e-15) - radii[0]);
-      }
-      std::vector<char> found(k, 0);
-      lanes.add(centers[k], radii[k], [&](std::size_t at) {
-        ASSERT_LT(at, k);
-        EXPECT_EQ(found[at], 0) << "found twice";
-        found[at] = 1;
-      });
-      for (std::size_t at = 0; at < k; ++at) {
-        const long double apart =
-            (centers[k].cast<long double>() - centers[at].cast<long double>()).stableNorm();
-        const long double reach = static_cast<long double>(radii[k]) + radii[at];
-        if (apart <= reach) {
-          EXPECT_EQ(found[at], 1) << i;
-        }
-        if (scale > 1e-12 && scale < 1e17 && apart > reach + kVain * (scale + reach)) {
-          EXPECT_EQ(found[at], 0) << i;
-        }
       }
     }
   }

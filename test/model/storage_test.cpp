@@ -100,6 +100,17 @@ TEST_F(Storage, OfFloats) {
   EXPECT_NE(refusal<float>(save(*other_)).find("load<double>()"), std::string::npos);
 }
 
+// As storage.h says.
+TEST_F(Storage, SizePerTriangle) {
+  const Mesh mesh = scenes::bumpyTorus(2000);
+  const auto triangles = static_cast<double>(mesh.triangles.size());
+  EXPECT_NEAR(static_cast<double>(save(*kiosModel(mesh)).size()) / triangles, 430, 10);
+  std::vector<fcl::Vector3f> vertices;
+  for (const Vector3d& p : mesh.vertices) vertices.push_back(p.cast<float>());
+  const auto of_floats = makeModel(vertices, mesh.triangles);
+  EXPECT_NEAR(static_cast<double>(save(*of_floats).size()) / triangles, 390, 15);
+}
+
 TEST_F(Storage, RefusesTheUnfinished) {
   Modeld model;
   EXPECT_THROW(save(model), std::invalid_argument);
@@ -113,7 +124,7 @@ TEST_F(Storage, SaysWhatIsWrong) {
     EXPECT_NE(refusal(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))), "") << size;
   }
   Bytes newer = bytes;
-  newer[8] = 2;
+  newer[8] = 3;
   EXPECT_NE(refusal(newer).find("newer version"), std::string::npos);
   Bytes longer = bytes;
   longer.push_back(0);

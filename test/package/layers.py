@@ -4,7 +4,8 @@
 #
 # usage: layers.py SOURCE_DIR
 # The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
-# those below it only (docs/how-it-works.md, "The folders"). FCL's headers are included as <fcl/...>
+# those below it only (docs/how-it-works.md, "The folders"). Addons are libraries of their own, which
+# nothing includes but they themselves, and fcl_kios.h. FCL's headers are included as <fcl/...>
 # and ours as "...", and every "..." names one file, whichever include directory is searched first.
 import pathlib
 import re
@@ -12,6 +13,7 @@ import sys
 
 LAYERS = ["volume", "triangle", "shape", "build", "tree", "search", "model", "query", "solid",
           "continuous", "linkage", "fcl", "scene", "clearance", "preload"]
+ADDONS = [LAYERS.index("clearance"), LAYERS.index("preload")]
 # Public headers of 0.2 that only include their new places.
 MOVED = {"build": ["volume/fit.h"], "clearance": ["query/clearance.h", "volume/exact_distance.h"],
          "continuous": ["motion/continuous.h"], "linkage": ["motion/linkage.h"],
@@ -53,6 +55,8 @@ def check(path, own):
         of = layer(name)
         if of is None:
             faults.append(f'{path}: "{name}" is in no layer')
+        elif of in ADDONS and own not in (of, TOP["fcl_kios.h"]):
+            faults.append(f'{path} includes "{name}", of an addon')
         elif of > own:
             faults.append(f'{path} ({LAYERS[own]}) includes "{name}", of a layer above it')
 

@@ -2,13 +2,13 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: symbols.sh LIBRARY SOURCE_DIR. The shared library exports all that cmake/exports.map lists
-# and nothing else: a weak symbol of FCL or Eigen would replace libfcl's in the whole process, a
+# usage: symbols.sh LIBRARY MAP HEADERS. The shared library exports all that its map lists and nothing
+# else: a weak symbol of FCL or Eigen would replace libfcl's in the whole process, a
 # unique one would keep dlclose() from unloading the library, and a name of ours that no public
 # header knows is internal.
 set -euo pipefail
 
-library=$1 map=$2/cmake/exports.map headers=$2/include/fcl_kios
+library=$1 map=$2 headers=$3
 mapfile -t symbols < <(nm -D --defined-only "$library" | awk '{ print $NF }')
 mapfile -t patterns < <(sed -n '/global:/,/local:/s/^ *\(_[^ ]*\);$/\1/p' "$map")
 if ((${#symbols[@]} == 0 || ${#patterns[@]} == 0)); then

@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: bundled.sh FRONT WORK_DIR HOST PLUGIN TWO_FCLS OWN_FCL USES_LIBFCL LIBFCL
+# usage: bundled.sh INTERPOSER WORK_DIR HOST PLUGIN TWO_FCLS OWN_FCL USES_LIBFCL LIBFCL
 # A plug-in with a copy of libfcl under another name, as tools make it that bundle libraries into a
 # package: it is answered. What only bears such a name isn't, and is left as it is.
 set -euo pipefail
 
-front=$1 work=$2 host=$3 plugin=$4 two_fcls=$5 own_fcl=$6 uses_libfcl=$7 libfcl=$8
+interposer=$1 work=$2 host=$3 plugin=$4 two_fcls=$5 own_fcl=$6 uses_libfcl=$7 libfcl=$8
 if ! command -v patchelf >/dev/null; then
   echo "bundled: patchelf isn't there, by which such copies are made (Debian: patchelf)"
   exit 77
@@ -33,7 +33,7 @@ bundle() {
 # ask MODE NAME: its answers compared with those without us; what is said lies in log.
 parts=(obbrss reuse threads)
 ask() {
-  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$front \
+  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$interposer \
     "$host" "$work/$2/plugin.so" check "$work/answers" "${parts[@]}" >/dev/null 2>"$work/log" || {
     echo "$2, $1:"
     cat "$work/log"
@@ -70,7 +70,7 @@ false=$work/libfcl-0badf00d.so.0.7
 cp "$own_fcl" "$false"
 chmod u+w "$false"
 patchelf --set-soname "${false##*/}" "$false"
-FCL_KIOS_PRELOAD=stats LD_PRELOAD=$front "$two_fcls" "$false" 2>"$work/log" || {
+FCL_KIOS_PRELOAD=stats LD_PRELOAD=$interposer "$two_fcls" "$false" 2>"$work/log" || {
   cat "$work/log"
   exit 1
 }
@@ -79,7 +79,7 @@ expect 'nothing is done: .*libfcl-0badf00d.so.0.7 is no copy .* differ in virtua
 # Beside libfcl itself, whichever is asked first.
 for order in "$false $uses_libfcl" "$uses_libfcl $false"; do
   read -ra plugins <<<"$order"
-  FCL_KIOS_PRELOAD=on LD_PRELOAD=$front "$two_fcls" "${plugins[@]}" 2>"$work/log" || {
+  FCL_KIOS_PRELOAD=on LD_PRELOAD=$interposer "$two_fcls" "${plugins[@]}" 2>"$work/log" || {
     cat "$work/log"
     exit 1
   }

@@ -2,13 +2,13 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: dart.sh FRONT WORK_FILE SOURCE_DIR PROGRAM
+# usage: dart.sh INTERPOSER WORK_FILE SOURCE_DIR PROGRAM
 # Debian's libdart, which was never compiled against us: robots' verdicts, contacts and distances
 # with the library preloaded, in three threads, are those without it. The UR5's links, too, if the
 # benchmark data is found ($KIOS_DATA, or shared/data beside the sources).
 set -euo pipefail
 
-front=$1 work=$2 source_dir=$3 program=$4
+interposer=$1 work=$2 source_dir=$3 program=$4
 if [[ -z $program ]]; then
   echo "skipped: the test was configured without DART (libdart-dev)"
   exit 77
@@ -24,7 +24,7 @@ ask() {
   local mode
   for mode in on trust stats verify; do
     echo "== $mode"
-    FCL_KIOS_PRELOAD=$mode LD_PRELOAD=$front "$program" check "$work.answers" "$@" 2>"$work.log" ||
+    FCL_KIOS_PRELOAD=$mode LD_PRELOAD=$interposer "$program" check "$work.answers" "$@" 2>"$work.log" ||
       fail "other answers in mode $mode"
     cat "$work.log"
     if grep -q differs "$work.log"; then fail "differences"; fi

@@ -30,7 +30,7 @@ void resize(Model& model, const Soup& soup) {
   model.endUpdateModel(true, false);
 }
 
-/// Does the child's work: as often as it takes to have a twin of the changed model.
+/// Does the child's work: as often as it takes to have a copy of the changed model.
 bool answersAreRight(Model& a, const Model& b, unsigned seed) {
   const Soup smaller = torus(24, 16, 0.8);
   resize(a, smaller);
@@ -67,7 +67,7 @@ TEST(Fork, TheChildAsksOn) {
     threads.emplace_back([&, t] {
       std::mt19937 random(t);
       while (!stop) {
-        // Twins that are being made as well.
+        // Copies that are being made as well.
         const auto own = build<fcl::OBBRSSd>(torus(12, 9));
         for (int i = 0; i < 100 && !stop; ++i) {
           distanceOf(*a, *b, randomPose(random, 2.2, 3.4));

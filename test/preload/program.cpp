@@ -3,7 +3,7 @@
 //
 // usage: program [write|check FILE [PART...]]
 // Knows FCL alone: every entry point, request and state of models that a program may have, as often
-// as it takes for the preloaded library to have its twins.
+// as it takes for the preloaded library to have its copies.
 #include <algorithm>
 #include <new>
 #include <thread>
@@ -194,7 +194,7 @@ void writeInPlace(const std::string& name) {
     } else {  // a single vertex of all
       write(static_cast<int>(random() % soup.vertices.size()), part(random));
     }
-    // Right after, and once the twin has caught up.
+    // Right after, and once the copy has caught up.
     ask("_written", round % 6 == 5 ? 60 : 2);
   }
   // A third of some triangles is left, in the volumes that hold the whole.

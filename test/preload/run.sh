@@ -2,12 +2,12 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: run.sh FRONT WORK_FILE PROGRAM
+# usage: run.sh INTERPOSER WORK_FILE PROGRAM
 # The program writes FCL's answers, and compares those that it gets with the library preloaded, in
-# each mode. Twins must have answered a good part, or nothing was tested.
+# each mode. Copies must have answered a good part, or nothing was tested.
 set -euo pipefail
 
-front=$1 answers=$2.answers log=$2.log program=$3
+interposer=$1 answers=$2.answers log=$2.log program=$3
 fail() {
   echo "$*"
   cat "$log"
@@ -15,7 +15,7 @@ fail() {
 }
 # preloaded MODE ARGUMENTS: what the program writes on stderr goes to the log.
 preloaded() {
-  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$front "$program" "${@:2}" 2>"$log"
+  FCL_KIOS_PRELOAD=$1 LD_PRELOAD=$interposer "$program" "${@:2}" 2>"$log"
 }
 # count WORDS QUESTION: of the report's line about collide or distance.
 count() { sed -nE "s/^fcl_kios_preload: $2: .*[^0-9]?\b([0-9]+) $1.*/\1/p" "$log"; }
@@ -38,9 +38,9 @@ grep 'fcl_kios_preload: [cd]' "$log"
 at_least 1000 'by k-IOS' collide
 at_least 2000 'by k-IOS' distance
 
-echo "== stats, 1 MiB for twins"
+echo "== stats, 1 MiB for copies"
 FCL_KIOS_PRELOAD_MIB=1 preloaded stats check "$answers" || fail "other answers with little memory"
-grep -E 'twins of (0\.[0-9]|1\.0) MiB' "$log" || fail "more than 1 MiB of twins"
+grep -E 'copies of (0\.[0-9]|1\.0) MiB' "$log" || fail "more than 1 MiB of copies"
 at_least 300 'by k-IOS' distance
 
 echo "== verify"

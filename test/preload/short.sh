@@ -2,19 +2,19 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: short.sh FRONT WORK_FILE PROGRAM
+# usage: short.sh INTERPOSER WORK_FILE PROGRAM
 # A program takes at no moment of its life much longer with the library preloaded: 1.3 times as
 # long, the same again for the machine's noise, and a few milliseconds once for opening it. In the
 # end it has gained. Least CPU times of several runs by turns.
 set -euo pipefail
 
-front=$1 work=$2 program=$3
+interposer=$1 work=$2 program=$3
 arguments=(4 100 2048)
 : >"$work.plain"
 : >"$work.preloaded"
 for _ in 1 2 3; do
   "$program" "${arguments[@]}" >>"$work.plain"
-  FCL_KIOS_PRELOAD=on LD_PRELOAD=$front "$program" "${arguments[@]}" >>"$work.preloaded"
+  FCL_KIOS_PRELOAD=on LD_PRELOAD=$interposer "$program" "${arguments[@]}" >>"$work.preloaded"
 done
 least() { sort -k1,1n -k2,2n "$1" | awk '$1 != last { print; last = $1 }'; }
 join <(least "$work.plain" | sort) <(least "$work.preloaded" | sort) | sort -n | awk '

@@ -2,13 +2,13 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: symbols.sh FRONT BACK PROGRAM
-# The front defines what libfcl defines under these names, and nothing else; among it all that the
-# program imports of FCL's four queries and of its fits. It needs no library but C's. The back
-# exports its entry alone.
+# usage: symbols.sh INTERPOSER IMPLEMENTATION PROGRAM
+# The interposer defines what libfcl defines under these names, and nothing else; among it all that
+# the program imports of FCL's four queries and of its fits. It needs no library but C's. The
+# implementation exports its entry alone.
 set -euo pipefail
 
-front=$1 back=$2 program=$3
+interposer=$1 implementation=$2 program=$3
 status=0
 fault() {
   echo "$*"
@@ -17,8 +17,8 @@ fault() {
 exports() { nm -D --defined-only "$1" | awk '{ print $NF }'; }
 libfcl=$(ldd "$program" | awk '/libfcl\.so\.0\.7/ { print $3 }')
 
-mapfile -t defined < <(exports "$front")
-((${#defined[@]} == 20)) || fault "the front defines ${#defined[@]} symbols"
+mapfile -t defined < <(exports "$interposer")
+((${#defined[@]} == 20)) || fault "the interposer defines ${#defined[@]} symbols"
 declare -A in_libfcl=() counted=()
 while read -r symbol; do in_libfcl[$symbol]=1; done < <(exports "$libfcl")
 for symbol in "${defined[@]}"; do
@@ -29,11 +29,11 @@ while read -r symbol; do
   [[ -n ${counted[$symbol]:-} ]] || fault "not counted: $(c++filt "$symbol")"
 done < <(nm -D --undefined-only "$program" | awk '{ print $NF }' |
   grep -E '^_ZN3fcl(13getCovarianceId|6detail[0-9]+[A-Za-z]+_fit_functions4fit[36n]Id|6detail6FitterId|17CollisionGeometryIdED)')
-[[ $(exports "$back") == fcl_kios_preload_open ]] || fault "the back exports: $(exports "$back")"
-if readelf -dW "$front" | grep NEEDED | grep -vE 'lib(c|dl|pthread)\.so|ld-linux'; then
-  fault "the front needs these libraries"
+[[ $(exports "$implementation") == fcl_kios_preload_open ]] || fault "the implementation exports: $(exports "$implementation")"
+if readelf -dW "$interposer" | grep NEEDED | grep -vE 'lib(c|dl|pthread)\.so|ld-linux'; then
+  fault "the interposer needs these libraries"
 fi
-if nm -DC --undefined-only "$front" | grep -E 'fcl|kios|std::'; then
-  fault "the front asks for these symbols"
+if nm -DC --undefined-only "$interposer" | grep -E 'fcl|kios|std::'; then
+  fault "the interposer asks for these symbols"
 fi
 exit "$status"

@@ -15,7 +15,7 @@ namespace {
 using fcl::Transform3d;
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-// Before the first query: twins that don't all find room.
+// Before the first query: copies that don't all find room.
 const bool little_memory = [] {
   setenv("FCL_KIOS_PRELOAD_MIB", "1", 1);
   return true;

@@ -63,7 +63,7 @@ class Auditor final : public engine::Audit {
       for (const S rel_err : {S(0), S(0.3)}) {
         engine::PairQuery query;
         query.rel_err = rel_err;
-        if (at_most < kInfinity) query.far_enough = query.pruneAt(at_most);
+        if (at_most < kInfinity) query.far_enough = query.cullDistance(at_most);
         SearchCounts counts;
         engine::nearestTriangles(pair, query, counts);
       }

@@ -44,7 +44,7 @@ class Searches {
     engine::PairQuery query;
     query.rel_err = rel_err;
     query.abs_err = abs_err;
-    if (at_most < std::numeric_limits<S>::max()) query.far_enough = query.pruneAt(at_most);
+    if (at_most < std::numeric_limits<S>::max()) query.far_enough = query.cullDistance(at_most);
     SearchCounts counts;
     const auto found = engine::nearestTriangles(posed_.pair(), query, counts);
     const bool nearer = found.found() && found.nearest.distance < at_most;

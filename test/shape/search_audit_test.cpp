@@ -112,13 +112,13 @@ class Auditor {
     for (const double limit :
          {kInfinity, 0.0, sorted[0], sorted[sorted.size() / 9], sorted[sorted.size() / 2]}) {
       Listener listener;
-      listener.prune_at = static_cast<float>(limit);
+      listener.cull_distance = static_cast<float>(limit);
       if (limit < kInfinity && limit > 0) {
-        listener.prune_at = std::nextafter(listener.prune_at, 2 * listener.prune_at);
+        listener.cull_distance = std::nextafter(listener.cull_distance, 2 * listener.cull_distance);
       }
       if (limit > 0) listener.slab = slab;
       SearchCounts counts;
-      const float asked = listener.prune_at;
+      const float asked = listener.cull_distance;
       engine::kernels().solid({*tree_, solid, listener, counts, &listener});
       judge(listener, asked, out);
     }

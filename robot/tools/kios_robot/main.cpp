@@ -8,7 +8,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -22,7 +21,7 @@ namespace {
 using kios::Robot;
 
 struct Options {
-  std::string urdf, srdf, at, to, html;
+  std::string urdf, srdf, at, to, path, html;
   std::vector<std::string> scenes, packages;
   double padding = 0, within = 0.1, separation = 0;
   bool first = false, srdf_out = false;
@@ -59,6 +58,30 @@ Eigen::VectorXd configuration(const Robot& robot, const std::string& text) {
     if (end != item.size() || item.empty()) return robot.state(text);
   }
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// Reads configurations, one a line.
+std::vector<Eigen::VectorXd> pathOf(const Robot& robot, const std::string& name) {
+  std::ifstream file(name);
+  if (!file) throw std::runtime_error(name + ": the path can't be read.");
+  std::vector<Eigen::VectorXd> path;
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    if (line.empty()) continue;
+    try {
+      path.push_back(configuration(robot, line));
+      if (path.back().size() != robot.coordinates()) {
+        throw std::invalid_argument("it has " + std::to_string(path.back().size()) +
+                                    " coordinates, but the robot " +
+                                    std::to_string(robot.coordinates()) + ".");
+      }
+    } catch (const std::exception& error) {
+      throw std::runtime_error(name + ", line " + std::to_string(number) + ": " + error.what());
+    }
+  }
+  if (path.empty()) throw std::runtime_error(name + ": it has no configuration.");
+  return path;
 }
 
 std::string text(const Eigen::VectorXd& q) {
@@ -140,11 +163,15 @@ int motion(const Robot& robot, const Options& options) {
 }
 
 int show(const Robot& robot, const Options& options) {
-  std::optional<Eigen::VectorXd> to;
-  if (!options.to.empty()) to = configuration(robot, options.to);
-  const std::string page =
-      kios::robot_tool::showPage(robot, std::filesystem::path(options.urdf).stem().string(),
-                                 configuration(robot, options.at), to, options.separation);
+  std::vector<Eigen::VectorXd> path;
+  if (options.path.empty()) {
+    path.push_back(configuration(robot, options.at));
+    if (!options.to.empty()) path.push_back(configuration(robot, options.to));
+  } else {
+    path = pathOf(robot, options.path);
+  }
+  const std::string page = kios::robot_tool::showPage(
+      robot, std::filesystem::path(options.urdf).stem().string(), path, options.separation);
   std::ofstream file(options.html, std::ios::binary);
   if (!(file << page) || !file.flush()) {
     throw std::runtime_error(options.html + ": the page can't be written.");
@@ -215,8 +242,11 @@ int main(int argc, char** argv) {
   way->add_option("--separation", options.separation, "farther apart than this, metres");
   way->add_flag("--first", options.first, "asks for the earliest contact");
   CLI::App* const page = add("show", "a page to look at: the robot, its obstacles, a path", show);
-  page->add_option("-q,--from,--at", options.at, at);
-  page->add_option("--to", options.to, "shows the straight path there");
+  CLI::Option* const from = page->add_option("-q,--from,--at", options.at, at);
+  CLI::Option* const to = page->add_option("--to", options.to, "shows the straight path there");
+  page->add_option("--path", options.path, "FILE: shows a path, its configurations one a line")
+      ->excludes(from)
+      ->excludes(to);
   page->add_option("--separation", options.separation, "of the path, metres");
   page->add_option("--html", options.html, "the file to write")->required();
   CLI::App* const all = add("pairs", "settles every pair of links, by proof", pairs);

@@ -16,7 +16,8 @@ using Eigen::VectorXd;
 using fcl::Transform3d;
 using fcl::Vector3d;
 
-constexpr int kSteps = 100;  // of a path
+constexpr int kSteps = 100;      // of a path
+constexpr int kLeastSteps = 10;  // of a part of it
 
 Json listOf(const VectorXd& v) { return std::vector<double>(v.data(), v.data() + v.size()); }
 
@@ -94,18 +95,50 @@ const char* nameOf(MotionVerdict verdict) {
   return "budget spent";
 }
 
+/// A path through configurations, from 0 to 1, each part as long as the others.
+class Way {
+ public:
+  explicit Way(const std::vector<VectorXd>& stops) : stops_(stops) {}
+
+  int parts() const { return static_cast<int>(stops_.size()) - 1; }
+  double timeOf(int stop) const { return static_cast<double>(stop) / parts(); }
+  VectorXd at(double s) const {
+    const int part = std::clamp(static_cast<int>(s * parts()), 0, std::max(parts() - 1, 0));
+    if (parts() == 0 || s <= timeOf(part)) return stops_[part];
+    if (s >= timeOf(part + 1)) return stops_[part + 1];
+    return stops_[part] + (s * parts() - part) * (stops_[part + 1] - stops_[part]);
+  }
+  /// Returns the answer of the first part that isn't clear, its times those of the whole path.
+  RobotMotion check(const Robot& robot, const MotionRequest& request) const {
+    RobotMotion answer;
+    for (int part = 0; part < parts(); ++part) {
+      answer = robot.checkMotion(stops_[part], stops_[part + 1], request);
+      if (answer.verdict == MotionVerdict::kClear) continue;
+      answer.from = (part + answer.from) / parts();
+      answer.to = (part + answer.to) / parts();
+      break;
+    }
+    return answer;
+  }
+
+ private:
+  const std::vector<VectorXd>& stops_;
+};
+
 }  // namespace
 
-std::string showPage(const Robot& robot, const std::string& title, const VectorXd& from,
-                     const std::optional<VectorXd>& to, double min_separation) {
+std::string showPage(const Robot& robot, const std::string& title,
+                     const std::vector<VectorXd>& path, double min_separation) {
+  const Way way(path);
   std::vector<double> times = {0};
-  Json motion;
-  if (to) {
+  Json motion, stops = Json::array();
+  if (way.parts() > 0) {
+    const int steps = way.parts() * std::max((kSteps - 1) / way.parts() + 1, kLeastSteps);
+    for (int i = 1; i <= steps; ++i) times.push_back(static_cast<double>(i) / steps);
     MotionRequest request;
     request.first_contact = true;
     request.min_separation = min_separation;
-    const RobotMotion answer = robot.checkMotion(from, *to, request);
-    for (int i = 1; i <= kSteps; ++i) times.push_back(static_cast<double>(i) / kSteps);
+    const RobotMotion answer = way.check(robot, request);
     motion = {{"verdict", nameOf(answer.verdict)}, {"from", answer.from}, {"to", answer.to}};
     if (answer.verdict != MotionVerdict::kClear) {
       motion["pair"] = {answer.a, answer.b};
@@ -113,10 +146,11 @@ std::string showPage(const Robot& robot, const std::string& title, const VectorX
       std::sort(times.begin(), times.end());
       times.erase(std::unique(times.begin(), times.end()), times.end());
     }
+    for (int i = 0; way.parts() > 1 && i <= way.parts(); ++i) {
+      const auto at = std::lower_bound(times.begin(), times.end(), way.timeOf(i));
+      stops.push_back(at - times.begin());
+    }
   }
-  const auto configuration = [&](double s) {
-    return !to || s == 0 ? from : s == 1 ? *to : VectorXd(from + s * (*to - from));
-  };
 
   std::vector<RobotElement> elements;
   std::vector<ShapeMesh> meshes;
@@ -126,8 +160,7 @@ std::string showPage(const Robot& robot, const std::string& title, const VectorX
     if (isEndless(*element.geometry)) continue;
     const ShapeMesh mesh = meshOf(*element.geometry, 0);
     for (std::size_t i = 0; i < times.size(); i += element.obstacle ? times.size() : 10) {
-      const Transform3d X =
-          robot.pose(element.name, configuration(times[i])) * Transform3d(element.X);
+      const Transform3d X = robot.pose(element.name, way.at(times[i])) * Transform3d(element.X);
       for (const Vector3d& p : mesh.vertices) frame.box.extend(X * p);
     }
   }
@@ -151,10 +184,11 @@ std::string showPage(const Robot& robot, const std::string& title, const VectorX
   }
   Json frames = Json::array();
   for (const double s : times) {
-    frames.push_back(frameOf(robot, elements, configuration(s), s, frame));
+    frames.push_back(frameOf(robot, elements, way.at(s), s, frame));
   }
   const Json content = {{"title", title},   {"joints", robot.joints()}, {"notes", notes},
-                        {"motion", motion}, {"frames", frames},         {"scene", scene}};
+                        {"motion", motion}, {"frames", frames},         {"stops", stops},
+                        {"scene", scene}};
   return viewer::page(viewer::kPageText,
                       content.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

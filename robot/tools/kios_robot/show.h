@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,11 @@
 
 namespace kios::robot_tool {
 
-/// One self-contained HTML page: the robot among its obstacles at `from`, the nearest points; with
-/// `to`, the straight path between them to be stepped along, what checkMotion() says about it, and
-/// the time of its first contact. `title` heads the page.
-std::string showPage(const Robot& robot, const std::string& title, const Eigen::VectorXd& from,
-                     const std::optional<Eigen::VectorXd>& to, double min_separation);
+/// Returns a self-contained HTML page: the robot among its obstacles at the first configuration of
+/// `path`, and the nearest points. Several are a path through them, straight in between, to be
+/// stepped along, with what checkMotion() says about it and the time of its first contact. `title`
+/// heads the page.
+std::string showPage(const Robot& robot, const std::string& title,
+                     const std::vector<Eigen::VectorXd>& path, double min_separation);
 
 }  // namespace kios::robot_tool

@@ -10,10 +10,10 @@ namespace kios::engine::HWY_NAMESPACE {
 /// their triangles are evaluated in the end if nothing nearer was found.
 ///
 /// A pair that was not evaluated is still in the frontier or in flight, or was left out as not
-/// nearer than prune_at, which only falls. So min(prune_at, bounds of the waiting pairs) is a lower
-/// bound at any time, and the search has proved the largest such value. Bounds of waiting pairs
-/// never fall, as pairs inherit their parents': the search takes the value when prune_at is about
-/// to fall.
+/// nearer than cull_distance, which only falls. So min(cull_distance, bounds of the waiting pairs)
+/// is a lower bound at any time, and the search has proved the largest such value. Bounds of
+/// waiting pairs never fall, as pairs inherit their parents': the search takes the value when
+/// cull_distance is about to fall.
 class BracketSearch {
  public:
   explicit BracketSearch(const Search& search)
@@ -28,7 +28,7 @@ class BracketSearch {
     // Any triangles, so that even the smallest budget has an upper bound.
     bool done = budgeted() && evaluateFaces(LeafView(search_.a, search_.a.leaves[0]), 0,
                                             LeafView(search_.b, search_.b.leaves[0]), 0);
-    lowerTo(search_.evaluator.prune_at);
+    lowerTo(search_.evaluator.cull_distance);
     done = done || descend();
     while (!done && !frontier_.empty()) {
       if (budget_ < static_cast<long long>(kBatch)) {  // whole batches: more never differs
@@ -38,7 +38,7 @@ class BracketSearch {
       done = advance();
     }
     prove();
-    if (offered_) evaluateVertices();
+    if (has_bound_) evaluateVertices();
   }
 
  private:
@@ -48,13 +48,13 @@ class BracketSearch {
 
   void prove() {
     const float least = std::min({in_flight_, current_, frontier_.least()});
-    bracket_.proven = std::max(bracket_.proven, std::min(prune_at_, least));
+    bracket_.proven = std::max(bracket_.proven, std::min(cull_distance_, least));
   }
 
-  void lowerTo(float prune_at) {
-    if (!(prune_at < prune_at_)) return;
+  void lowerTo(float cull_distance) {
+    if (!(cull_distance < cull_distance_)) return;
     prove();
-    prune_at_ = prune_at;
+    cull_distance_ = cull_distance;
   }
 
   /// True to end the search.
@@ -72,16 +72,16 @@ class BracketSearch {
   /// Looks at some of what is at hand, or takes more. True to end the search.
   bool advance() {
     if (!frontier_.bounded.empty()) {
-      const PairList::Entry entry = frontier_.bounded.pop();
-      return entry.bound < prune_at_ &&
+      const NodePairList::Entry entry = frontier_.bounded.pop();
+      return entry.bound < cull_distance_ &&
              current(entry, [&] { return evaluateFeatures(waiting_[entry.pair.a], entry.bound); });
     }
     if (!frontier_.leaves.empty()) {
-      const PairList::Entry entry = frontier_.leaves.pop();
-      return entry.bound < prune_at_ && current(entry, [&] { return leaves(entry); });
+      const NodePairList::Entry entry = frontier_.leaves.pop();
+      return entry.bound < cull_distance_ && current(entry, [&] { return leaves(entry); });
     }
     if (!frontier_.inner.empty()) {
-      PairList::Entry batch[kBatch];
+      NodePairList::Entry batch[kBatch];
       const size_t n = frontier_.inner.pop(batch);
       for (size_t i = 0; i < n; ++i) in_flight_ = std::min(in_flight_, batch[i].bound);
       budget_ -= static_cast<long long>(n);
@@ -89,12 +89,12 @@ class BracketSearch {
       in_flight_ = kInfinityFloat;
       return false;
     }
-    frontier_.nextWave(prune_at_, kWave);
+    frontier_.nextWave(cull_distance_, kWave);
     return false;
   }
 
   template <class Look>
-  bool current(const PairList::Entry& entry, const Look& look) {
+  bool current(const NodePairList::Entry& entry, const Look& look) {
     current_ = entry.bound;
     if (look()) return true;
     current_ = kInfinityFloat;
@@ -102,20 +102,20 @@ class BracketSearch {
   }
 
   /// True to end the search.
-  bool leaves(const PairList::Entry& entry) {
+  bool leaves(const NodePairList::Entry& entry) {
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
     bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
     const bool nearer = !pair.slab.apart && pair.upper < search_.evaluator.candidate_limit;
     if (nearer) {
-      search_.evaluator.offer(pair.upper);
+      search_.evaluator.addUpperBound(pair.upper);
       best_ = pair.vertices;
-      offered_ = true;
+      has_bound_ = true;
     }
     const float bound = std::max(entry.bound, pair.lower);
-    if (pair.slab.apart || (!nearer && bound >= prune_at_)) {
-      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, prune_at_);
+    if (pair.slab.apart || (!nearer && bound >= cull_distance_)) {
+      if (search_.audit) search_.audit->pruned(entry.pair.a, entry.pair.b, cull_distance_);
       return false;
     }
     // With a budget all upper bounds are made true at once: answers must not get worse as it grows.
@@ -123,12 +123,12 @@ class BracketSearch {
     if (nearer && (ends || budgeted()) && evaluateVertices()) return true;
     // A pair that may be nearer than its own upper bound is evaluated at once, so that better ones
     // come early, and what overlaps, as it may touch.
-    const bool open = bound < search_.evaluator.prune_at;
+    const bool open = bound < search_.evaluator.cull_distance;
     if ((open && (nearer || bound <= 0)) || num_waiting_ + 1 == kMaxWaiting) {
       return evaluateFeatures(pair, bound);
     }
     current_ = bound;
-    lowerTo(search_.evaluator.prune_at);
+    lowerTo(search_.evaluator.cull_distance);
     if (open) {
       frontier_.keep(bound, num_waiting_);
     }
@@ -143,17 +143,17 @@ class BracketSearch {
     const float known = search_.evaluator.candidate_limit;
     const bool done = nearestOfLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b),
                                       pair.slab, bound);
-    if (search_.evaluator.candidate_limit < known) offered_ = false;
+    if (search_.evaluator.candidate_limit < known) has_bound_ = false;
     // Features of them that were not evaluated are not nearer than either.
-    if (!done) current_ = std::max(bound, search_.evaluator.prune_at);
-    lowerTo(search_.evaluator.prune_at);
+    if (!done) current_ = std::max(bound, search_.evaluator.cull_distance);
+    lowerTo(search_.evaluator.cull_distance);
     return done;
   }
 
   /// Evaluates triangles of the vertices that are the upper bound: the edges and faces there
   /// may belong to other leaves, and be left out. True to end the search.
   bool evaluateVertices() {
-    offered_ = false;
+    has_bound_ = false;
     const LeafView a = leaves_a_(best_.nodes.a), b = leaves_b_(best_.nodes.b);
     return evaluateFaces(a, faceAt(a.leaf, best_.a), b, faceAt(b.leaf, best_.b));
   }
@@ -175,12 +175,12 @@ class BracketSearch {
   Leaves leaves_a_, leaves_b_;
   Frontier frontier_;
   long long budget_;
-  float prune_at_ = kInfinityFloat;
+  float cull_distance_ = kInfinityFloat;
   float in_flight_ = kInfinityFloat;  ///< least bound of what is being expanded
   float current_ = -kInfinityFloat;   ///< bound of what is at hand
   LastLeaves last_;
   VertexPair best_;
-  bool offered_ = false;  ///< whether they are the upper bound
+  bool has_bound_ = false;  ///< whether they are the upper bound
   uint32_t num_waiting_ = 0;
   Bracketed waiting_[kMaxWaiting];
 };

@@ -10,9 +10,9 @@ namespace kios::engine::HWY_NAMESPACE {
 class Descent {
  public:
   /// Takes at most so many expansions.
-  Descent(const Expander& expander, long long most) : expander_(expander) {
+  Descent(const Expander& expander, long long max_steps) : expander_(expander) {
     const auto isInner = [&] { return !expander.areLeaves(end_.pair); };
-    while (isInner() && steps_ < kMaxSteps && static_cast<long long>(steps_) < most) {
+    while (isInner() && steps_ < kMaxSteps && static_cast<long long>(steps_) < max_steps) {
       if (!step()) return;
     }
     at_leaves_ = !isInner();
@@ -20,10 +20,10 @@ class Descent {
 
   size_t steps() const { return steps_; }
   bool atLeaves() const { return at_leaves_; }
-  /// Whether all children at the end are as far as prune_at.
+  /// Whether all children at the end are as far as cull_distance.
   bool lost() const { return steps_ > 0 && taken_[steps_ - 1] == 0; }
   /// The pair at the end, unless lost.
-  const PairList::Entry& end() const { return end_; }
+  const NodePairList::Entry& end() const { return end_; }
   float leastPassed() const { return passed_; }
 
   /// What was passed joins the frontier, and the end if it isn't a pair of leaves.
@@ -66,7 +66,7 @@ class Descent {
   Expansion path_[kMaxSteps];
   uint32_t taken_[kMaxSteps];
   size_t steps_ = 0;
-  PairList::Entry end_ = {-kInfinityFloat, {0, 0}};
+  NodePairList::Entry end_ = {-kInfinityFloat, {0, 0}};
   float passed_ = kInfinityFloat;
   bool at_leaves_ = false;
 };

@@ -55,23 +55,23 @@ HWY_INLINE void fetch(const T& data) {
 }
 
 /// Nodes of a and b; which fields hold something else is said where it is so.
-struct Pair {
+struct NodePair {
   uint32_t a, b;
 };
 
 /// Pairs of nodes with lower bounds of their distances, in arrays. Lanes are pushed without a
 /// branch: which of them matter can't be predicted.
-class PairList {
+class NodePairList {
  public:
   struct Entry {
     float bound;
-    Pair pair;
+    NodePair pair;
   };
 
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
   size_t size() const { return size_; }
-  Pair operator[](size_t i) const { return {a_[i], b_[i]}; }
+  NodePair operator[](size_t i) const { return {a_[i], b_[i]}; }
 
   /// Room for so many more.
   void reserve(size_t more) {
@@ -79,7 +79,7 @@ class PairList {
   }
 
   /// There must be room: see reserve().
-  void push(float bound, Pair pair) {
+  void push(float bound, NodePair pair) {
     bounds_[size_] = bound;
     a_[size_] = pair.a;
     b_[size_] = pair.b;
@@ -111,9 +111,9 @@ class PairList {
 
   /// Pops up to `most`; returns how many.
   template <size_t kMax>
-  size_t pop(Entry (&out)[kMax], size_t most = kMax) {
+  size_t pop(Entry (&out)[kMax], size_t max_count = kMax) {
     static_assert(kMax <= kRoom);
-    const size_t count = std::min(most, size_);
+    const size_t count = std::min(max_count, size_);
     size_ -= count;
     for (size_t i = 0; i < kMax; ++i) {  // there is room for all of them beyond the end
       out[i] = {bounds_[size_ + i], {a_[size_ + i], b_[size_ + i]}};
@@ -183,13 +183,13 @@ class Frontier {
  public:
   Frontier() { hn::Store(hn::Set(d, kInfinityFloat), d, least_); }
 
-  PairList inner;    ///< at hand: pairs of nodes not both of which are leaves
-  PairList leaves;   ///< at hand: pairs of leaves
-  PairList bounded;  ///< at hand: in `a`, what keep() was told
+  NodePairList inner;    ///< at hand: pairs of nodes not both of which are leaves
+  NodePairList leaves;   ///< at hand: pairs of leaves
+  NodePairList bounded;  ///< at hand: in `a`, what keep() was told
 
   /// There is room for a vector of lanes in each list after this.
   void reserve() {
-    for (PairList* const list : {&inner, &leaves, &apart_inner_, &apart_leaves_}) {
+    for (NodePairList* const list : {&inner, &leaves, &apart_inner_, &apart_leaves_}) {
       list->reserve(kLanes);
     }
   }
@@ -225,20 +225,21 @@ class Frontier {
                      apart_leaves_.least(), apart_bounded_.least()});
   }
 
-  /// Takes at hand what is nearest of what is apart: a `share` of the way to `prune_at`, all of
-  /// which must be looked at anyway if the answer is beyond. What is as far as `prune_at` is
-  /// dropped. False if that is all.
-  bool nextWave(float prune_at, float share) {
+  /// Takes at hand what is nearest of what is apart: a `share` of the way to `cull_distance`, all
+  /// of which must be looked at anyway if the answer is beyond. What is as far as `cull_distance`
+  /// is dropped. False if that is all.
+  bool nextWave(float cull_distance, float share) {
     const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
     hn::Store(hn::Set(d, kInfinityFloat), d, least_);
-    if (!(least < prune_at)) {  // also where nothing is left: infinities aren't subtracted
-      for (PairList* const list : {&apart_inner_, &apart_leaves_, &apart_bounded_}) list->clear();
+    if (!(least < cull_distance)) {  // also where nothing is left: infinities aren't subtracted
+      for (NodePairList* const list : {&apart_inner_, &apart_leaves_, &apart_bounded_})
+        list->clear();
       return false;
     }
-    const float at_most =
-        prune_at < kInfinityFloat ? least + share * (prune_at - least) : (1 + share / 4) * least;
-    const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, prune_at);
-    const auto take = [&](PairList& apart, PairList& at_hand) {
+    const float at_most = cull_distance < kInfinityFloat ? least + share * (cull_distance - least)
+                                                         : (1 + share / 4) * least;
+    const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, cull_distance);
+    const auto take = [&](NodePairList& apart, NodePairList& at_hand) {
       at_hand.reserve(apart.size());
       apart.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
         const uint32_t kept = lanes & bitsOf(hn::Lt(bounds, limit));
@@ -262,7 +263,7 @@ class Frontier {
     hn::Store(hn::Min(least, hn::IfThenElse(apart, bounds, least)), d, least_);
   }
 
-  PairList apart_inner_, apart_leaves_, apart_bounded_;
+  NodePairList apart_inner_, apart_leaves_, apart_bounded_;
   alignas(32) float least_[kLanes];  ///< the least bounds of what is apart are among these
 };
 

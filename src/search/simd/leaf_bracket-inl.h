@@ -7,13 +7,13 @@ namespace kios::engine::HWY_NAMESPACE {
 
 /// Two vertices, by their leaves.
 struct VertexPair {
-  Pair nodes;
+  NodePair nodes;
   uint32_t a, b;
 };
 
 /// Two leaves that were looked at.
 struct Bracketed {
-  Pair nodes;
+  NodePair nodes;
   Slab slab;            ///< the one that proves most
   float lower, upper;   ///< bounds of the distance
   VertexPair vertices;  ///< the nearest so far: the upper bound
@@ -154,13 +154,13 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
   out.upper = std::sqrt(out.upper) + frames.pad;
 }
 
-/// Brackets the distance of two leaves, or proves them at least prune_at apart: by the last
+/// Brackets the distance of two leaves, or proves them at least cull_distance apart: by the last
 /// direction, then the line of centres and steps of Frank-Wolfe.
 HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
                                 LastLeaves& last, Bracketed& out) {
   const LeafView a(search.a, leaf_a);
   const FloatFrame& frames = search.frames;
-  const float distance = search.evaluator.prune_at + frames.pad;
+  const float distance = search.evaluator.cull_distance + frames.pad;
   if (last.b.leaf != &leaf_b) last.b.move(LeafView(search.b, leaf_b), frames.a_from_b);
   betweenHulls(a.vertices, last.b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
@@ -175,7 +175,7 @@ template <bool kTriangleOfA>
 HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a, const LeafView& b,
                                   LastLeaves& last, Bracketed& out) {
   const FloatFrame& frames = search.frames;
-  const float distance = search.evaluator.prune_at + frames.pad;
+  const float distance = search.evaluator.cull_distance + frames.pad;
   const uint32_t node = isTriangle(out.nodes.b) ? out.nodes.b : 0;  // all share one leaf
   if (last.b.leaf != &b.leaf || last.triangle != node) last.b.move(b, frames.a_from_b);
   last.triangle = node;

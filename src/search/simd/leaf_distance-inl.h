@@ -99,7 +99,7 @@ class LeafDistances {
     if (!(least <= squaredLimit(evaluator, pad))) return false;
     if (evaluateRows(least, true, pad, evaluator, exact)) return true;
     // Where an error is allowed, features that are nearly as near as the nearest are left out.
-    if (std::sqrt(std::max(least, 0.0F)) - pad >= evaluator.prune_at) return false;
+    if (std::sqrt(std::max(least, 0.0F)) - pad >= evaluator.cull_distance) return false;
     return evaluateRows(least, false, pad, evaluator, exact);
   }
 

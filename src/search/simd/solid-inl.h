@@ -13,7 +13,7 @@ class SolidTraversal {
       : search_(search),
         tree_(search.tree),
         bounds_(search.solid),
-        contact_(!(search.evaluator.prune_at > 0)) {}
+        contact_(!(search.evaluator.cull_distance > 0)) {}
 
   void run() {
     const bool leaf = tree_.nodes[0].isLeaf();
@@ -27,10 +27,10 @@ class SolidTraversal {
         expand(frontier_.inner.pop());
         continue;
       }
-      if (!frontier_.nextWave(search_.evaluator.prune_at, kWave)) return;
+      if (!frontier_.nextWave(search_.evaluator.cull_distance, kWave)) return;
       while (!frontier_.bounded.empty()) {
-        const PairList::Entry entry = frontier_.bounded.pop();
-        if (entry.bound < search_.evaluator.prune_at && evaluate(entry.pair.a, false)) return;
+        const NodePairList::Entry entry = frontier_.bounded.pop();
+        if (entry.bound < search_.evaluator.cull_distance && evaluate(entry.pair.a, false)) return;
       }
     }
   }
@@ -46,9 +46,9 @@ class SolidTraversal {
   }
 
   /// A point of the mesh is so far away, but for the pad: that bounds what matters.
-  void offer(float distance) {
+  void addUpperBound(float distance) {
     const float upper = std::max(distance, 0.0F) + search_.solid.pad;
-    search_.evaluator.prune_at = std::min(search_.evaluator.prune_at, upper);
+    search_.evaluator.cull_distance = std::min(search_.evaluator.cull_distance, upper);
   }
 
   /// From the root to the nearest child, each time, for an upper bound: that of a vertex, or where
@@ -91,15 +91,15 @@ class SolidTraversal {
     return hn::Sub(dot(n, p), hn::Set(d, slab.offset));
   }
 
-  HWY_INLINE void expand(const PairList::Entry& entry) {
-    if (entry.bound >= search_.evaluator.prune_at) return;
+  HWY_INLINE void expand(const NodePairList::Entry& entry) {
+    if (entry.bound >= search_.evaluator.cull_distance) return;
     const Node& node = tree_.nodes[entry.pair.a];
     const auto at = static_cast<size_t>(node.child);
     const Children& children = tree_.children[at];
     const Block& block = tree_.blocks[at];
     ++search_.counts.expansions;
     search_.counts.volume_tests += children.count;
-    const V limit = hn::Set(d, search_.evaluator.prune_at), least = hn::Set(d, entry.bound);
+    const V limit = hn::Set(d, search_.evaluator.cull_distance), least = hn::Set(d, entry.bound);
     frontier_.reserve();
     for (size_t l = 0; l < kLanes; l += step()) {
       const uint32_t used = children.all() >> l & ((1U << step()) - 1);
@@ -148,7 +148,7 @@ class SolidTraversal {
         hn::Store(overSlab(p), d, to[kOverSlab].v + l);
       }
     }
-    if (!contact_ && bounds_.tellsDistance()) offer(hn::GetLane(hn::MinOfLanes(d, least)));
+    if (!contact_ && bounds_.tellsDistance()) addUpperBound(hn::GetLane(hn::MinOfLanes(d, least)));
   }
 
   /// What is known of the triangles of a leaf, a bit or a lane each.
@@ -166,7 +166,7 @@ class SolidTraversal {
       for (uint32_t k = 0; k < 3; ++k) corners[k][i] = view.leaf.corners[3 * face + k];
     }
     const Points vertices = {values, view.vertices.chunks};
-    const V limit = hn::Set(d, search_.evaluator.prune_at), inside = hn::Neg(pad());
+    const V limit = hn::Set(d, search_.evaluator.cull_distance), inside = hn::Neg(pad());
     for (size_t l = 0; l < kLanes; l += step()) {
       const VU at[3] = {hn::Load(du, corners[0] + l), hn::Load(du, corners[1] + l),
                         hn::Load(du, corners[2] + l)};
@@ -201,7 +201,7 @@ class SolidTraversal {
       V lower = bounds_.boxes(boxes, l, contact_, hn::Load(d, out.bounds + l));
       if (bounds_.hasPlanes()) lower = overPlanes(view, l, lower);
       hn::Store(lower, d, out.bounds + l);
-      near |= bitsOf(hn::Lt(lower, hn::Set(d, search_.evaluator.prune_at))) << l;
+      near |= bitsOf(hn::Lt(lower, hn::Set(d, search_.evaluator.cull_distance))) << l;
     }
     out.near &= near | out.meeting;
   }
@@ -221,8 +221,8 @@ class SolidTraversal {
   }
 
   /// True to end the search.
-  bool leafOf(const PairList::Entry& entry) {
-    if (entry.bound >= search_.evaluator.prune_at) return false;
+  bool leafOf(const NodePairList::Entry& entry) {
+    if (entry.bound >= search_.evaluator.cull_distance) return false;
     const LeafView view(tree_, tree_.leaves[tree_.nodes[entry.pair.a].leaf()]);
     ++search_.counts.leaf_pairs;
     Lanes values[kRows * kMaxChunks];

@@ -14,7 +14,7 @@ enum class Expanded : uint32_t {
 
 /// A pair of nodes under test: the children of one against the other.
 struct Expansion {
-  Pair at;
+  NodePair at;
   uint32_t side;  ///< whose node is expanded: 0 of a, 1 of b
   Expanded kind;
   const Node* parent;    ///< of the children
@@ -60,7 +60,7 @@ class Expander {
         large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
 
   /// e.bound is that of the pair.
-  void start(Pair at, Expansion& e) const {
+  void start(NodePair at, Expansion& e) const {
     e.at = at;
     if (HWY_UNLIKELY(isTriangle(at.a | at.b))) return startAgainstTriangle(e);
     const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
@@ -98,7 +98,7 @@ class Expander {
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
-    if (search_.evaluator.prune_at == 0) {
+    if (search_.evaluator.cull_distance == 0) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
       const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -120,7 +120,7 @@ class Expander {
   /// next, as much of it at once as there is; a limit found by trying.
   bool isLarge() const { return large_; }
 
-  HWY_INLINE void fetchNodes(Pair at) const {
+  HWY_INLINE void fetchNodes(NodePair at) const {
     if (!isTriangle(at.a)) fetch(search_.a.nodes[at.a]);
     if (!isTriangle(at.b)) fetch(search_.b.nodes[at.b]);
   }
@@ -134,12 +134,12 @@ class Expander {
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
   template <bool kInherit, size_t kMax>
-  void expand(const PairList::Entry (&pairs)[kMax], size_t count, Frontier& frontier) const {
+  void expand(const NodePairList::Entry (&pairs)[kMax], size_t count, Frontier& frontier) const {
     Expansion batch[kMax];
     size_t n = 0;
     for (size_t i = 0; large_ && i < count; ++i) fetchNodes(pairs[i].pair);
     for (size_t i = 0; i < count; ++i) {
-      if (pairs[i].bound >= search_.evaluator.prune_at) continue;
+      if (pairs[i].bound >= search_.evaluator.cull_distance) continue;
       batch[n].bound = pairs[i].bound;
       start(pairs[i].pair, batch[n++]);
     }
@@ -153,16 +153,16 @@ class Expander {
     (leaves ? frontier.leaves : frontier.inner).push(-kInfinityFloat, {0, 0});
   }
 
-  bool areLeaves(Pair at) const {
+  bool areLeaves(NodePair at) const {
     const auto isLeaf = [](const Tree& tree, uint32_t node) {
       return isTriangle(node) || tree.nodes[node].isLeaf();
     };
     return isLeaf(search_.a, at.a) && isLeaf(search_.b, at.b);
   }
 
-  Pair childPair(const Expansion& e, uint32_t lane) const {
+  NodePair childPair(const Expansion& e, uint32_t lane) const {
     const uint32_t child = e.first_child + lane;
-    return e.side == 0 ? Pair{child, e.at.b} : Pair{e.at.a, child};
+    return e.side == 0 ? NodePair{child, e.at.b} : NodePair{e.at.a, child};
   }
 
   /// The children that matter join the frontier. If kInherit, bounds are at least the pair's, and
@@ -170,7 +170,7 @@ class Expander {
   template <bool kInherit>
   void spread(Expansion& e, Frontier& frontier, uint32_t taken = 0) const {
     if constexpr (kInherit) {
-      const V limit = hn::Set(d, search_.evaluator.prune_at), least = hn::Set(d, e.bound);
+      const V limit = hn::Set(d, search_.evaluator.cull_distance), least = hn::Set(d, e.bound);
       uint32_t near = 0;
       for (size_t l = 0; l < kLanes; l += step()) {
         const V bounds = hn::Max(hn::Load(d, e.bounds + l), least);
@@ -229,7 +229,7 @@ class Expander {
   /// Notes the bounds of some lanes.
   HWY_INLINE void keep(Expansion& e, size_t l, V bounds) const {
     hn::Store(bounds, d, e.bounds + l);
-    e.near |= bitsOf(hn::Lt(bounds, hn::Set(d, search_.evaluator.prune_at))) << l;
+    e.near |= bitsOf(hn::Lt(bounds, hn::Set(d, search_.evaluator.cull_distance))) << l;
   }
   HWY_INLINE void endTest(Expansion& e) const {
     e.near &= e.children.all();
@@ -247,7 +247,7 @@ class Expander {
     }
     testLeaf(e);
     endTest(e);
-    if (!(search_.evaluator.prune_at < kInfinityFloat)) return;
+    if (!(search_.evaluator.cull_distance < kInfinityFloat)) return;
     tighten(e);
     if (2 * hwy::PopCount(e.near) <= e.children.count) return;
     std::swap(e.parent, e.other);
@@ -338,7 +338,7 @@ class Expander {
     if (nodes) move(otherBox(e), *to_[e.side], moved);
     const float pad = nodes ? search_.frames.box_pad : trianglePad(search_.frames);
     const BoxLanes other(moved);
-    const bool contact = search_.evaluator.prune_at == 0;
+    const bool contact = search_.evaluator.cull_distance == 0;
     const uint32_t near = e.near;
     e.near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
@@ -366,7 +366,7 @@ class Expander {
   HWY_NOINLINE void reportPruned(const Expansion& e, uint32_t taken) const {
     for (uint32_t left = e.children.all() & ~e.near & ~taken; left != 0; left &= left - 1) {
       const uint32_t lane = firstOf(left);
-      const Pair child = childPair(e, lane);
+      const NodePair child = childPair(e, lane);
       search_.audit->pruned(child.a, child.b, e.bounds[lane]);
     }
   }

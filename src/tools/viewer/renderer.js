@@ -106,7 +106,7 @@ out vec4 result;
 void main() {
   vec3 n = normalize(cross(dFdx(seen), dFdy(seen)));
   float light = 0.38 + 0.52 * max(dot(n, normalize(vec3(0.35, 0.55, 0.75))), 0.0) + 0.12 * n.y;
-  result = flatColor ? color : vec4(color.rgb * light, 1.0);
+  result = flatColor ? color : vec4(color.rgb * light, color.a);
 }`;
 
 // The witness segment: a ribbon and two dots of constant width in pixels, over everything.
@@ -195,7 +195,8 @@ class Renderer {
 
   uploadMesh(mesh) {
     const gl = this.gl;
-    const uploaded = {color: mesh.color.map((c) => c / 255), matrix: mesh.matrix, levels: []};
+    const uploaded = {color: mesh.color.map((c) => c / 255), opacity: 1, matrix: mesh.matrix,
+      levels: []};
     if (mesh.positions) {
       const triangles = decode(mesh.triangles, Uint32Array);
       const edges = new Uint32Array(2 * triangles.length);
@@ -240,7 +241,7 @@ class Renderer {
   /**
    * camera: {view: Mat, projection: Mat, pixel: size of a pixel at distance 1};
    * shown: {level, opacity, volumes, mesh, edges, segment}. Between pictures a page may set the
-   * matrix, the colour and `hidden` of a mesh, and the scene's segment.
+   * matrix, the colour, the opacity and `hidden` of a mesh, and the scene's segment.
    */
   draw(camera, shown) {
     const gl = this.gl, {width, height} = gl.canvas;
@@ -248,7 +249,13 @@ class Renderer {
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const views = this.meshes.map((mesh) => multiply(camera.view, mesh.matrix));
-    if (shown.mesh) this.meshes.forEach((m, i) => this.drawMesh(m, views[i], camera, shown));
+    if (shown.mesh) {
+      // What one looks through comes last; only the foremost of it is blended.
+      for (const faint of [false, true]) {
+        this.meshes.forEach((m, i) => m.opacity < 1 === faint &&
+          this.drawMesh(m, views[i], camera, shown));
+      }
+    }
     if (shown.volumes) {
       // Only the foremost volume of a pixel is blended: no order is needed.
       const {program, uniforms} = this.volumeProgram;
@@ -275,14 +282,16 @@ class Renderer {
     gl.useProgram(program);
     gl.uniformMatrix4fv(uniforms.toView, false, view);
     gl.uniformMatrix4fv(uniforms.toClip, false, multiply(camera.projection, view));
-    gl.uniform4f(uniforms.color, ...mesh.color, 1);
+    gl.uniform4f(uniforms.color, ...mesh.color, mesh.opacity);
     gl.uniform1i(uniforms.flatColor, 0);
+    if (mesh.opacity < 1) gl.enable(gl.BLEND);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1, 1);
     gl.bindVertexArray(mesh.faces.array);
     gl.drawElements(gl.TRIANGLES, mesh.faces.count, gl.UNSIGNED_INT, 0);
     gl.disable(gl.POLYGON_OFFSET_FILL);
-    if (!shown.edges) return;
+    gl.disable(gl.BLEND);
+    if (!shown.edges || mesh.opacity < 1) return;
     gl.enable(gl.BLEND);
     gl.uniform4f(uniforms.color, 0.08, 0.1, 0.14, 0.55);
     gl.uniform1i(uniforms.flatColor, 1);

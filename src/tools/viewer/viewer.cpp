@@ -48,8 +48,10 @@ std::string page(const PageText& text, std::string content) {
   for (std::size_t at = 0; (at = content.find('<', at)) != std::string::npos;) {
     content.replace(at, 1, "\\u003c");
   }
-  std::string html = text.html;
+  std::string html = kFrame;
+  replace(html, "@TITLE@", text.title);
   replace(html, "@STYLE@", kStyle);
+  replace(html, "@BODY@", text.body);
   replace(html, "@SCRIPT@", std::string(kRenderer) + kViewer + text.script);
   replace(html, "@SCENE@", content);
   return html;

@@ -10,19 +10,19 @@
 
 namespace kios::viewer {
 
-/// A page's own files: HTML with @STYLE@, @SCENE@ and @SCRIPT@ to be filled in, and its script.
+/// Holds what is a page's own: its title, the HTML of its body, its script.
 struct PageText {
-  const char *html, *script;
+  const char *title, *body, *script;
 };
-/// Those of the program that is linked (kios_page in CMakeLists.txt).
+/// That of the program that is linked (kios_page in CMakeLists.txt).
 extern const PageText kPageText;
 
-/// Little-endian bytes in base64, as renderer.js reads them.
+/// Returns little-endian bytes in base64, as renderer.js reads them.
 std::string base64(const std::vector<float>& values);
 std::string base64(const std::vector<std::uint32_t>& values);
 
-/// One self-contained page: the text with the shared style and scripts, and `content`, which is
-/// JSON with a member `scene` as renderer.js draws it.
+/// Returns a self-contained page: the text with the shared frame, style and scripts, and `content`,
+/// which is JSON with a member `scene` as renderer.js draws it.
 std::string page(const PageText& text, std::string content);
 
 }  // namespace kios::viewer

@@ -4,7 +4,9 @@
 
 namespace kios::viewer {
 
-// The files beside this one.
+// The files beside this one. The frame has @TITLE@, @STYLE@, @BODY@, @SCENE@ and @SCRIPT@ to be
+// filled in.
+extern const char* const kFrame;
 extern const char* const kStyle;
 extern const char* const kRenderer;
 extern const char* const kViewer;

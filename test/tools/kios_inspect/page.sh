@@ -10,12 +10,7 @@ set -euo pipefail
 
 inspect=$1 dir=$2
 here=$(cd "$(dirname "$0")" && pwd)
-chromium=$(command -v chromium || command -v chromium-browser || command -v google-chrome || true)
-python=$(command -v python3 || true)
-if [[ -z $chromium || -z $python ]]; then
-  echo "skipped: no chromium or no python3; Debian's packages are chromium and python3"
-  exit 77
-fi
+source "$here/../browser.sh"
 mkdir -p "$dir"
 cd "$dir"
 

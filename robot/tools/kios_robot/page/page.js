@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-const {frames, motion} = content;
-Object.assign(shown, {volumes: false, robot: true, obstacles: true, place: 0});
+const {frames, motion, stops} = content;
+Object.assign(shown, {volumes: false, robot: true, obstacles: true, stops: true, place: 0});
 const CONTACT = [222, 84, 72];
 const fields = {};
+
+const ghosts = [];  // the robot at each stop of the path
 
 // The first of the path's places that is in contact, or can't be told; -1 if there is none.
 const contactPlace = motion && motion.pair ?
@@ -39,24 +41,42 @@ function describe() {
     return add(rows, 'dd', '');
   });
   describeKeys(panel, [['[ ]', 'along the path'], ['C', 'first contact'],
-    ['M O N E', 'what is shown']]);
+    ['M O N E S', 'what is shown']]);
 }
 
 // Controls.
+
+const posesAt = (place) => {
+  const poses = decode(frames[place].poses, Float32Array);
+  return (mesh) => Array.from(poses.subarray(16 * mesh, 16 * mesh + 16));
+};
+
+function addGhosts() {
+  const OPACITY = 0.3;
+  for (const place of stops) {
+    const poseOf = posesAt(place);
+    renderer.meshes.slice(0, scene.meshes.length).forEach((mesh, i) => {
+      if (scene.meshes[i].obstacle) return;
+      ghosts.push({...mesh, matrix: poseOf(i), opacity: OPACITY, levels: []});
+    });
+  }
+  renderer.meshes.push(...ghosts);
+}
 
 function choosePlace(place) {
   shown.place = Math.min(Math.max(place, 0), frames.length - 1);
   const frame = frames[shown.place];
   byId('path').value = shown.place;
   byId('path-name').textContent = `${(100 * frame.at).toFixed(1)} % of the path`;
-  const poses = decode(frame.poses, Float32Array);
+  const poseOf = posesAt(shown.place);
   scene.meshes.forEach((mesh, i) => {
     const touches = frame.contact && frame.nearest && frame.nearest.includes(mesh.name);
     const drawn = renderer.meshes[i];
-    drawn.matrix = Array.from(poses.subarray(16 * i, 16 * i + 16));
+    drawn.matrix = poseOf(i);
     drawn.color = (touches ? CONTACT : mesh.color).map((c) => c / 255);
     drawn.hidden = mesh.obstacle ? !shown.obstacles : !shown.robot;
   });
+  for (const ghost of ghosts) ghost.hidden = !shown.robot || !shown.stops;
   scene.segment = frame.segment || null;
   fields.clearance.textContent = frame.contact ? 'contact' :
     frame.nearest ? short(frame.clearance) + ' m' : 'no pair is checked';
@@ -78,17 +98,21 @@ function connectControls() {
     byId('mark').style.setProperty('--place', contactPlace / (frames.length - 1));
     first.addEventListener('click', () => choosePlace(contactPlace));
   }
-  connectBoxes(['obstacles', 'segment', 'edges']);
+  addGhosts();
+  byId('stops-label').hidden = stops.length === 0;
+  connectBoxes(['obstacles', 'segment', 'edges', 'stops']);
   byId('show-mesh').addEventListener('change', (event) => {
     shown.robot = event.target.checked;
     update();
   });
   byId('show-obstacles').addEventListener('change', update);
+  byId('show-stops').addEventListener('change', update);
   connectKeys({
     '[': () => choosePlace(shown.place - 1), ']': () => choosePlace(shown.place + 1),
     c: () => contactPlace >= 0 && choosePlace(contactPlace),
     m: () => byId('show-mesh').click(), o: () => byId('show-obstacles').click(),
-    n: () => byId('show-segment').click(), e: () => byId('show-edges').click()});
+    n: () => byId('show-segment').click(), e: () => byId('show-edges').click(),
+    s: () => byId('show-stops').click()});
   choosePlace(0);
 }
 

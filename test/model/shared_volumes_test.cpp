@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Which volumes are lent to builds of equal meshes, and when no more.
+// Which volumes are shared with builds of equal meshes, and when no more.
 
-#include "model/lent_volumes.h"
+#include "model/shared_volumes.h"
 
 #include <gtest/gtest.h>
 
@@ -15,39 +15,39 @@
 namespace kios::testing {
 namespace {
 
-class LentVolumes : public ::testing::Test {
+class SharedVolumes : public ::testing::Test {
  protected:
   /// Returns whether a build of this mesh would find volumes to copy.
-  static bool areLent(const Mesh& mesh) {
+  static bool areShared(const Mesh& mesh) {
     const std::size_t n = mesh.triangles.size();
     std::vector<fcl::BVNode<kIOSd>> nodes(2 * n - 1);
     std::vector<unsigned int> primitives(n);
     const engine::ContentHash content = engine::contentHash(engine::MeshView<double>{
         mesh.vertices.data(), mesh.vertices.size(), mesh.triangles.data(), n});
-    return copyLentVolumes<double>(content, n, {nodes.data(), primitives.data()});
+    return copySharedVolumes<double>(content, n, {nodes.data(), primitives.data()});
   }
 
   const Mesh mesh_ = scenes::bumpyTorus(300);
 };
 
-TEST_F(LentVolumes, AsLongAsAModelLives) {
-  EXPECT_FALSE(areLent(mesh_));
+TEST_F(SharedVolumes, AsLongAsAModelLives) {
+  EXPECT_FALSE(areShared(mesh_));
   auto model = kiosModel(mesh_);
-  EXPECT_TRUE(areLent(mesh_));
+  EXPECT_TRUE(areShared(mesh_));
   auto copy = std::make_shared<Modeld>(*model);
   auto second = kiosModel(mesh_);
   model.reset();
-  EXPECT_TRUE(areLent(mesh_));
+  EXPECT_TRUE(areShared(mesh_));
   second.reset();
-  EXPECT_TRUE(areLent(mesh_));  // of the copy
+  EXPECT_TRUE(areShared(mesh_));  // of the copy
   copy.reset();
-  EXPECT_FALSE(areLent(mesh_));
+  EXPECT_FALSE(areShared(mesh_));
 }
 
-TEST_F(LentVolumes, UntilTheyChange) {
+TEST_F(SharedVolumes, UntilTheyChange) {
   for (int way = 0; way < 6; ++way) {
     const auto model = kiosModel(mesh_);
-    ASSERT_TRUE(areLent(mesh_));
+    ASSERT_TRUE(areShared(mesh_));
     if (way == 0) replace(*model, swayed(mesh_, 1), true, true);
     if (way == 1) replace(*model, swayed(mesh_, 1), true, false);
     if (way == 2) replace(*model, swayed(mesh_, 1), false, true);
@@ -58,12 +58,12 @@ TEST_F(LentVolumes, UntilTheyChange) {
       model->beginModel();
       ::testing::internal::GetCapturedStderr();
     }
-    EXPECT_FALSE(areLent(mesh_)) << way;
+    EXPECT_FALSE(areShared(mesh_)) << way;
   }
 }
 
 // Volumes that were written show that a build reads them.
-TEST_F(LentVolumes, ABuildCopiesThem) {
+TEST_F(SharedVolumes, ABuildCopiesThem) {
   const auto first = kiosModel(mesh_);
   first->getBV(5).bv.radius0 *= 2;
   const auto second = kiosModel(mesh_);
@@ -72,7 +72,7 @@ TEST_F(LentVolumes, ABuildCopiesThem) {
   EXPECT_FALSE(sameTree(*third, *first));
 }
 
-TEST_F(LentVolumes, OnlyThoseOfTheTunedFitByCost) {
+TEST_F(SharedVolumes, OnlyThoseOfTheTunedFitByCost) {
   Modeld published, median, cloud;
   published.bv_fitter.reset(new fcl::detail::BVFitter<kIOSd>(FitMethod::kMethodII));
   median.bv_splitter.reset(new fcl::detail::BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEDIAN));
@@ -84,11 +84,11 @@ TEST_F(LentVolumes, OnlyThoseOfTheTunedFitByCost) {
   cloud.beginModel();
   cloud.addSubModel(mesh_.vertices);
   cloud.endModel();
-  EXPECT_FALSE(areLent(mesh_));
+  EXPECT_FALSE(areShared(mesh_));
 }
 
 // A model that could use a prepared tree at once doesn't do without.
-TEST_F(LentVolumes, AnEqualPreparedTreeIsUsedAtOnce) {
+TEST_F(SharedVolumes, AnEqualPreparedTreeIsUsedAtOnce) {
   const auto prepared = kiosModel(mesh_);
   prepare(*prepared);
   const auto equal = kiosModel(mesh_);

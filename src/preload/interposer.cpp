@@ -24,7 +24,7 @@ Mode mode = Mode::kOff;
 
 pthread_once_t started = PTHREAD_ONCE_INIT;
 
-// Forks wait for the choice, and then for what the back does.
+// Forks wait for the choice, and then for what the implementation does.
 void beforeFork() {
   pthread_mutex_lock(&choosing);
   if (forks.before) forks.before();
@@ -89,27 +89,27 @@ const Calls& fclOf(const void* caller) {
   return known->calls;
 }
 
-/// The back's calls, opened at most once, if these are libfcl's and the mode isn't kOff. Of several
-/// copies of libfcl the one that is asked first is served.
-const Calls* backOf(const Calls& fcl) {
+/// Returns the implementation's calls, opened at most once, if these are libfcl's and the mode
+/// isn't kOff. Only the copy of libfcl that is asked first is served.
+const Calls* implementationOf(const Calls& fcl) {
   static bool opened = false;
-  static const Calls* of_back = nullptr;
-  static Start back;
+  static const Calls* of_implementation = nullptr;
+  static Start start;
   if (mode == Mode::kOff) return nullptr;
   if (!isOfLibfcl(fcl)) return nullptr;
   if (!opened) {
     opened = true;
-    back.fcl = fcl;
-    back.mode = mode;
-    back.fits = &fits();
-    const Opened now = openBack(back);
-    of_back = now.calls;
+    start.fcl = fcl;
+    start.mode = mode;
+    start.fits = &fits();
+    const Opened now = openImplementation(start);
+    of_implementation = now.calls;
     forks = now.forks;
   }
-  return std::memcmp(&back.fcl, &fcl, sizeof(Calls)) == 0 ? of_back : nullptr;
+  return std::memcmp(&start.fcl, &fcl, sizeof(Calls)) == 0 ? of_implementation : nullptr;
 }
 
-/// Whether the back is to be opened by now: for a few queries it doesn't pay.
+/// Whether the implementation is to be opened by now: for a few queries it doesn't pay.
 bool isWorthOpening() {
   constexpr int kFirst = 32;
   static int queries = 0;
@@ -134,7 +134,7 @@ const Calls* choose(const void* caller) {
       pthread_mutex_unlock(&choosing);
       return fcl;
     }
-    chosen = backOf(*fcl);
+    chosen = implementationOf(*fcl);
     if (!chosen) chosen = fcl;
     if (isGlobal(KIOS_COLLIDE)) {
       calls.store(chosen, std::memory_order_release);

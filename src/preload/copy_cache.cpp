@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/twins.h"
+#include "preload/copy_cache.h"
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +22,7 @@ namespace {
 using engine::Fingerprint;
 using engine::fingerprint;
 
-/// Returns bytes that twins may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
+/// Returns bytes that copies may take: FCL_KIOS_PRELOAD_MIB, else 1 GiB.
 std::size_t limitOfEnvironment() {
   constexpr long long kDefault = 1024, kMost = 1LL << 40;
   const char* const text = std::getenv("FCL_KIOS_PRELOAD_MIB");
@@ -41,18 +41,18 @@ Fingerprint fingerprintOf(const Mesh& mesh) {
   return fingerprint(mesh.vertices, mesh.vertexBytes(), mesh.triangles, mesh.triangleBytes());
 }
 
-/// Returns what a twin costs to make, in nanoseconds.
+/// Returns what a copy costs to make, in nanoseconds.
 double priceOf(const Mesh& mesh) { return 5e3 + 950.0 * static_cast<double>(mesh.num_triangles); }
 
-/// This part of FCL's time, by the prices of its tests, may be spent on twins. They cost 0.3 of it
+/// This part of FCL's time, by the prices of its tests, may be spent on copies. They cost 0.3 of it
 /// at most: the prices are a slow machine's, on others FCL takes less.
 constexpr double kShare = 0.22;
 
-/// Holds a twin and what it was made of. Constant, but for the count of fits.
+/// Holds a copy and what it was made of. Constant, but for the count of fits.
 struct Content {
   Mesh mesh;
   Fingerprint print;
-  std::shared_ptr<const Modeld> twin;
+  std::shared_ptr<const Modeld> copy;
   std::size_t bytes = 0;
   std::atomic<std::uint64_t> fits_at_last_comparison{0};
 };
@@ -65,19 +65,19 @@ std::unique_ptr<Content> makeContent(const Mesh& mesh, std::uint64_t fits) {
     auto content = std::make_unique<Content>();
     content->mesh = mesh;
     content->fits_at_last_comparison.store(fits, std::memory_order_relaxed);
-    const auto twin = makeModel(vertices, triangles);
-    prepare(*twin);
-    const Mesh copy = {twin.get(), twin->vertices, twin->tri_indices, mesh.num_vertices,
-                       mesh.num_triangles};
-    content->print = fingerprintOf(copy);
-    // The content that is proven later by its fingerprint is, byte by byte, the twin's.
-    if (std::memcmp(copy.vertices, mesh.vertices, mesh.vertexBytes()) != 0 ||
-        std::memcmp(copy.triangles, mesh.triangles, mesh.triangleBytes()) != 0) {
+    const auto copy = makeModel(vertices, triangles);
+    prepare(*copy);
+    const Mesh copied = {copy.get(), copy->vertices, copy->tri_indices, mesh.num_vertices,
+                         mesh.num_triangles};
+    content->print = fingerprintOf(copied);
+    // The content that is proven later by its fingerprint is, byte by byte, the copy's.
+    if (std::memcmp(copied.vertices, mesh.vertices, mesh.vertexBytes()) != 0 ||
+        std::memcmp(copied.triangles, mesh.triangles, mesh.triangleBytes()) != 0) {
       return nullptr;
     }
-    content->bytes = mesh.bytes() + preparedBytes(*twin) +
+    content->bytes = mesh.bytes() + preparedBytes(*copy) +
                      mesh.num_triangles * (2 * sizeof(fcl::BVNode<kIOSd>) + sizeof(unsigned int));
-    content->twin = twin;
+    content->copy = copy;
     return content;
   } catch (const std::exception&) {
     return nullptr;
@@ -90,14 +90,14 @@ constexpr std::size_t kSets = 512, kWays = 8;
 }  // namespace
 
 /// Holds the place of one model.
-struct alignas(64) Twins::Cell {
+struct alignas(64) CopyCache::Cell {
   std::atomic<std::uint32_t> holders{0};  ///< kClosed is added while the next two change
   std::unique_ptr<Content> content;
   std::uint32_t serial = 0;
 
   std::atomic<bool> stale{false}, making{false};
   std::atomic<double> paid{0};
-  std::atomic<std::uint32_t> uses{0};   ///< of this twin
+  std::atomic<std::uint32_t> uses{0};   ///< of this copy
   std::atomic<std::uint32_t> price{1};  ///< factor; grows for models that change often
   std::atomic<std::uint32_t> used_at{0};
 
@@ -121,7 +121,7 @@ struct alignas(64) Twins::Cell {
 };
 
 /// Models by their addresses, in sets of a few places.
-struct Twins::Table {
+struct CopyCache::Table {
   struct Set {
     std::atomic<const Geometry*> models[kWays] = {};
     Cell cells[kWays];
@@ -130,7 +130,7 @@ struct Twins::Table {
   std::mutex changing;
   std::atomic<int> makers{0};  ///< threads in make(): they lock more than `changing`
   std::atomic<bool> forking{false};
-  std::atomic<std::uint32_t> clock{1};  ///< of queries that FCL answered for want of a twin
+  std::atomic<std::uint32_t> clock{1};  ///< of queries that FCL answered for want of a copy
   std::uint32_t num_serials = 0;
   std::size_t bytes = 0, count = 0;
 
@@ -210,44 +210,44 @@ struct Twins::Table {
   }
 };
 
-Twins::Hold::Hold(Hold&& o) noexcept
-    : twins_(o.twins_), cell_(std::exchange(o.cell_, nullptr)), mesh_(o.mesh_) {}
+CopyCache::ModelLease::ModelLease(ModelLease&& o) noexcept
+    : cache_(o.cache_), cell_(std::exchange(o.cell_, nullptr)), mesh_(o.mesh_) {}
 
-Twins::Hold& Twins::Hold::operator=(Hold&& o) noexcept {
-  std::swap(twins_, o.twins_);
+CopyCache::ModelLease& CopyCache::ModelLease::operator=(ModelLease&& o) noexcept {
+  std::swap(cache_, o.cache_);
   std::swap(cell_, o.cell_);
   std::swap(mesh_, o.mesh_);
   return *this;
 }
 
-Twins::Hold::~Hold() {
+CopyCache::ModelLease::~ModelLease() {
   if (cell_) cell_->release();
 }
 
-bool Twins::Hold::hasTwin() const {
+bool CopyCache::ModelLease::hasCopy() const {
   return cell_ && cell_->content && !cell_->stale.load(std::memory_order_relaxed);
 }
 
-bool Twins::Hold::trusted() const {
-  if (twins_->mode_ != Mode::kTrust) return false;
+bool CopyCache::ModelLease::trusted() const {
+  if (cache_->mode_ != Mode::kTrust) return false;
   const Content& content = *cell_->content;
   return content.mesh == mesh_ &&
          content.fits_at_last_comparison.load(std::memory_order_relaxed) ==
-             twins_->fits_.count.load(std::memory_order_acquire) &&
-         twins_->fits_.seen(mesh_.vertices);
+             cache_->fits_.count.load(std::memory_order_acquire) &&
+         cache_->fits_.seen(mesh_.vertices);
 }
 
-std::size_t Twins::Hold::bytesToCompare() const {
-  return hasTwin() && trusted() ? 0 : mesh_.bytes();
+std::size_t CopyCache::ModelLease::bytesToCompare() const {
+  return hasCopy() && trusted() ? 0 : mesh_.bytes();
 }
 
-bool Twins::Hold::isCurrent() const {
+bool CopyCache::ModelLease::isCurrent() const {
   if (trusted()) {
     cell_->uses.fetch_add(1, std::memory_order_relaxed);
     return true;
   }
   Content& content = *cell_->content;
-  const std::uint64_t fits = twins_->fits_.count.load(std::memory_order_acquire);
+  const std::uint64_t fits = cache_->fits_.count.load(std::memory_order_acquire);
   const bool equal = content.mesh.num_vertices == mesh_.num_vertices &&
                      content.mesh.num_triangles == mesh_.num_triangles &&
                      content.print == fingerprintOf(mesh_);
@@ -259,7 +259,7 @@ bool Twins::Hold::isCurrent() const {
     return true;
   }
   if (!cell_->stale.exchange(true, std::memory_order_relaxed)) {
-    // A model that changes all the time shall not cost a twin for every few queries.
+    // A model that changes all the time shall not cost a copy for every few queries.
     constexpr std::uint32_t kOften = 256, kMost = 1024;
     const std::uint32_t price = cell_->price.load(std::memory_order_relaxed);
     const bool often = cell_->uses.load(std::memory_order_relaxed) < kOften;
@@ -269,19 +269,19 @@ bool Twins::Hold::isCurrent() const {
   return false;
 }
 
-const Modeld& Twins::Hold::twin() const { return *cell_->content->twin; }
-std::uint32_t Twins::Hold::serial() const { return cell_->serial; }
+const Modeld& CopyCache::ModelLease::copy() const { return *cell_->content->copy; }
+std::uint32_t CopyCache::ModelLease::serial() const { return cell_->serial; }
 
-Twins::Twins(const Start& start)
+CopyCache::CopyCache(const Start& start)
     : mode_(start.mode),
       fits_(*start.fits),
       limit_(limitOfEnvironment()),
       table_(std::make_unique<Table>()) {
   fingerprint(nullptr, 0, nullptr, 0);  // its keys, of which a fork sees all or none
 }
-Twins::~Twins() = default;
+CopyCache::~CopyCache() = default;
 
-Twins::Hold Twins::hold(const Mesh& mesh) {
+CopyCache::ModelLease CopyCache::lease(const Mesh& mesh) {
   Cell* cell = table_->find(mesh.model);
   if (!cell) {
     const std::unique_lock<std::mutex> lock(table_->changing, std::try_to_lock);
@@ -290,19 +290,19 @@ Twins::Hold Twins::hold(const Mesh& mesh) {
     if (!cell) cell = table_->insert(mesh.model);
   }
   if (!cell || !cell->tryHold()) return {};
-  Hold hold;
-  hold.twins_ = this;
-  hold.cell_ = cell;
-  hold.mesh_ = mesh;
+  ModelLease lease;
+  lease.cache_ = this;
+  lease.cell_ = cell;
+  lease.mesh_ = mesh;
   if (table_->find(mesh.model) != cell) return {};  // another's by now
   const std::uint32_t now = table_->clock.load(std::memory_order_relaxed);
   if (cell->used_at.load(std::memory_order_relaxed) != now) {
     cell->used_at.store(now, std::memory_order_relaxed);
   }
-  return hold;
+  return lease;
 }
 
-void Twins::pay(const Mesh& mesh, double nanoseconds) {
+void CopyCache::pay(const Mesh& mesh, double nanoseconds) {
   table_->clock.fetch_add(1, std::memory_order_relaxed);
   Cell* const cell = table_->find(mesh.model);
   if (!cell) return;
@@ -312,7 +312,7 @@ void Twins::pay(const Mesh& mesh, double nanoseconds) {
   if (kShare * paid >= price) make(mesh);
 }
 
-void Twins::make(const Mesh& mesh) {
+void CopyCache::make(const Mesh& mesh) {
   struct Maker {
     explicit Maker(std::atomic<int>& all) : makers(all) { ++makers; }
     ~Maker() { --makers; }
@@ -339,30 +339,30 @@ void Twins::make(const Mesh& mesh) {
   asked->making.store(false, std::memory_order_release);
 }
 
-void Twins::beforeFork() {
+void CopyCache::beforeFork() {
   table_->forking = true;
   while (table_->makers > 0) std::this_thread::yield();
   table_->changing.lock();  // so that no cell is closed
 }
 
-void Twins::afterFork() {
+void CopyCache::afterFork() {
   table_->changing.unlock();
   table_->forking = false;
 }
 
-void Twins::afterForkInChild() {
+void CopyCache::afterForkInChild() {
   for (Table::Set& set : table_->sets) {
     for (Cell& cell : set.cells) cell.holders.store(0, std::memory_order_relaxed);
   }
   afterFork();
 }
 
-std::size_t Twins::count() const {
+std::size_t CopyCache::count() const {
   const std::lock_guard<std::mutex> lock(table_->changing);
   return table_->count;
 }
 
-std::size_t Twins::bytes() const {
+std::size_t CopyCache::bytes() const {
   const std::lock_guard<std::mutex> lock(table_->changing);
   return table_->bytes;
 }

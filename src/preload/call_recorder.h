@@ -7,22 +7,23 @@
 #include <ctime>
 #include <iterator>
 
-#include "preload/back.h"
+#include "preload/implementation.h"
 
 namespace kios::preload {
 
 /// Mode::kVerify asks both, gives the program FCL's answer and says on stderr where the other
 /// differs. Mode::kStats counts who answers, and asks FCL, too, once in a hundred times.
-class Watch {
+class CallRecorder {
  public:
-  explicit Watch(Back& back) : back_(back), verify_(back.start.mode == Mode::kVerify) {}
+  explicit CallRecorder(Implementation& implementation)
+      : implementation_(implementation), verify_(implementation.start.mode == Mode::kVerify) {}
 
   template <typename AskFcl>
-  std::size_t collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result,
-                      const AskFcl& ask_fcl) {
-    return watch(
+  std::size_t collide(const PosedPair& pair, const CollisionRequest& request,
+                      CollisionResult& result, const AskFcl& ask_fcl) {
+    return record(
         result, counts_[0], ask_fcl,
-        [&](CollisionResult& r) { return back_.collide(pair, request, r); },
+        [&](CollisionResult& r) { return implementation_.collide(pair, request, r); },
         [](const CollisionResult& r) { return r.numContacts(); },
         [&](const CollisionResult& ours, const CollisionResult& fcls) {
           compare(pair, request, ours, fcls);
@@ -30,11 +31,11 @@ class Watch {
   }
 
   template <typename AskFcl>
-  double distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result,
+  double distance(const PosedPair& pair, const DistanceRequest& request, DistanceResult& result,
                   const AskFcl& ask_fcl) {
-    return watch(
+    return record(
         result, counts_[1], ask_fcl,
-        [&](DistanceResult& r) { return back_.distance(pair, request, r); },
+        [&](DistanceResult& r) { return implementation_.distance(pair, request, r); },
         [](const DistanceResult& r) { return r.min_distance; },
         [&](const DistanceResult& ours, const DistanceResult& fcls) {
           compare(pair, request, ours, fcls);
@@ -62,20 +63,20 @@ class Watch {
     return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
   }
 
-  template <typename Result, typename AskFcl, typename AskBack, typename Value, typename Compare>
-  auto watch(Result& result, Counts& counts, const AskFcl& ask_fcl, const AskBack& ask_back,
-             const Value& value, const Compare& differ) {
+  template <typename Result, typename AskFcl, typename AskOurs, typename Value, typename Compare>
+  auto record(Result& result, Counts& counts, const AskFcl& ask_fcl, const AskOurs& ask_ours,
+              const Value& value, const Compare& differ) {
     constexpr std::uint64_t kProbeEvery = 100;
     const std::uint64_t n =
-        counts.queries[static_cast<int>(By::kTwins)].load(std::memory_order_relaxed);
+        counts.queries[static_cast<int>(By::kCopies)].load(std::memory_order_relaxed);
     const bool may_probe = !verify_ && n % kProbeEvery == kProbeEvery / 2;
     Result ours = result;
     const double start = may_probe ? cpuTime() : 0;
-    const By by = ask_back(ours);
+    const By by = ask_ours(ours);
     const double time_of_ours = may_probe ? cpuTime() - start : 0;
     counts.queries[static_cast<int>(by)].fetch_add(1, std::memory_order_relaxed);
     if (by == By::kHandedOn) return ask_fcl(result);
-    if (may_probe && by == By::kTwins) {
+    if (may_probe && by == By::kCopies) {
       // FCL's tree is in no cache, unlike in a program without us: the second time counts.
       double time_of_fcl = 0;
       for (int i = 0; i < 2; ++i) {
@@ -100,12 +101,12 @@ class Watch {
     return fcls_value;
   }
 
-  void compare(const Pair& pair, const CollisionRequest& request, const CollisionResult& ours,
+  void compare(const PosedPair& pair, const CollisionRequest& request, const CollisionResult& ours,
                const CollisionResult& fcls);
-  void compare(const Pair& pair, const DistanceRequest& request, const DistanceResult& ours,
+  void compare(const PosedPair& pair, const DistanceRequest& request, const DistanceResult& ours,
                const DistanceResult& fcls);
 
-  Back& back_;
+  Implementation& implementation_;
   const bool verify_;
   Counts counts_[2];
 };

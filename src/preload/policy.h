@@ -17,23 +17,23 @@ enum class Kind : std::uint32_t { kVerdict, kContacts, kDistance };
 struct Question {
   std::uint32_t serial_a, serial_b;
   Kind kind;
-  double twins_cost;  ///< what the twins need, in nanoseconds
+  double copies_cost;  ///< what the copies need, in nanoseconds
 };
 
 /// Returns what it takes to compare so many bytes, in nanoseconds.
 double timeOfComparison(std::size_t bytes);
 
-/// Returns what the twins need for a query: to compare so many bytes, and to search.
-double costOfTwins(Kind kind, std::size_t bytes_to_compare);
+/// Returns what the copies need for a query: to compare so many bytes, and to search.
+double costOfCopies(Kind kind, std::size_t bytes_to_compare);
 
-/// Decides for each pair whether FCL or the twins are asked first, from what FCL's searches of that
-/// pair have cost: in tests, not in time, so that a program's answers don't depend on the machine's
-/// load. FCL is cheaper where its volumes decide soon, and for contacts, which it has to list; the
-/// twins' price is the comparison of their contents. A pair without a history, which may also be
-/// lost, begins with that of its first model.
-class Rule {
+/// Decides for each pair whether FCL or the copies are asked first, from what FCL's searches of
+/// that pair have cost: in tests, not in time, so that a program's answers don't depend on the
+/// machine's load. FCL is cheaper where its volumes decide soon, and for contacts, which it has to
+/// list; the copies' price is the comparison of their contents. A pair without a history, which may
+/// also be lost, begins with that of its first model.
+class Policy {
  public:
-  /// Returns how much FCL's search may cost before the twins are asked: 0 if they come first,
+  /// Returns how much FCL's search may cost before the copies are asked: 0 if they come first,
   /// infinity if FCL alone, and kHandOn if its search need not even be watched.
   double fclLimit(const Question& question);
   static constexpr double kHandOn = -1;
@@ -41,7 +41,7 @@ class Rule {
   /// Notes how FCL's search ended, and whether it found contacts.
   void note(const Question& question, const Search& search, double limit, bool touches);
 
-  /// Notes that the twins touch; FCL has to list the contacts if they are wanted.
+  /// Notes that the copies touch; FCL has to list the contacts if they are wanted.
   void noteContact(const Question& question);
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/back.h"
+#include "preload/implementation.h"
 
 #include <cmath>
 
@@ -48,18 +48,20 @@ bool isKnown(S solver) {
 /// Calls ask(mesh, pair) with the mesh first if one of the two is a mesh and the other a shape or
 /// an octree.
 template <typename Ask>
-By askAboutOther(const Pair& pair, fcl::NODE_TYPE type_a, fcl::NODE_TYPE type_b, const Ask& ask) {
+By askAboutOther(const PosedPair& pair, fcl::NODE_TYPE type_a, fcl::NODE_TYPE type_b,
+                 const Ask& ask) {
   Mesh mesh;
   if (isServed(type_a) && isOther(type_b) && read(pair.a, type_a, mesh)) return ask(mesh, pair);
   if (isServed(type_b) && isOther(type_a) && read(pair.b, type_b, mesh)) {
-    return ask(mesh, Pair{pair.b, pair.X_WB, pair.a, pair.X_WA});
+    return ask(mesh, PosedPair{pair.b, pair.X_WB, pair.a, pair.X_WA});
   }
   return By::kHandedOn;
 }
 
 }  // namespace
 
-By Back::collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result) {
+By Implementation::collide(const PosedPair& pair, const CollisionRequest& request,
+                           CollisionResult& result) {
   const fcl::NODE_TYPE type_a = pair.a->getNodeType(), type_b = pair.b->getNodeType();
   if (request.enable_cost || request.num_max_contacts == 0 || request.enable_cached_gjk_guess ||
       !isKnown(request.gjk_solver_type)) {
@@ -77,12 +79,13 @@ By Back::collide(const Pair& pair, const CollisionRequest& request, CollisionRes
         return collideModels<fcl::OBBRSSd>(*this, pair, request, result);
     }
   }
-  return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const Pair& ordered) {
+  return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const PosedPair& ordered) {
     return collideWithOther(*this, mesh, ordered, request, result);
   });
 }
 
-By Back::distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result) {
+By Implementation::distance(const PosedPair& pair, const DistanceRequest& request,
+                            DistanceResult& result) {
   const fcl::NODE_TYPE type_a = pair.a->getNodeType(), type_b = pair.b->getNodeType();
   // FCL stops at once at a bound of 0 or less, but may ask for the depth of a negative one.
   if (!isKnown(request.gjk_solver_type) || !(result.min_distance > 0)) return By::kHandedOn;
@@ -98,7 +101,7 @@ By Back::distance(const Pair& pair, const DistanceRequest& request, DistanceResu
         return distanceOfModels<fcl::OBBRSSd>(*this, pair, request, result);
     }
   }
-  return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const Pair& ordered) {
+  return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const PosedPair& ordered) {
     // Nor has it that of OBB and a shape.
     const bool octree = ordered.b->getNodeType() == fcl::GEOM_OCTREE;
     if (ordered.a->getNodeType() == fcl::BV_OBB && !octree) return By::kHandedOn;
@@ -106,12 +109,12 @@ By Back::distance(const Pair& pair, const DistanceRequest& request, DistanceResu
   });
 }
 
-void Back::makeTwin(const Mesh& mesh) {
+void Implementation::makeCopy(const Mesh& mesh) {
   {
-    const Twins::Hold hold = twins.hold(mesh);
-    if (!hold || (hold.hasTwin() && hold.isCurrent())) return;
+    const CopyCache::ModelLease lease = copies.lease(mesh);
+    if (!lease || (lease.hasCopy() && lease.isCurrent())) return;
   }
-  twins.make(mesh);
+  copies.make(mesh);
 }
 
 bool isRigid(const Pose& X) {

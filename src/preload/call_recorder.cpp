@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/watch.h"
+#include "preload/call_recorder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kQuestions[] = {"collide", "distance"};
 
 /// Returns the size of numbers that a distance is computed from.
-double scaleOf(const Pair& pair) {
+double scaleOf(const PosedPair& pair) {
   return 1 + pair.X_WA.translation().norm() + pair.X_WB.translation().norm();
 }
 
@@ -23,14 +23,14 @@ double medianOf(std::vector<double>& values) {
   return *middle;
 }
 
-bool areMeshes(const Pair& pair) {
+bool areMeshes(const PosedPair& pair) {
   return pair.a->getObjectType() == fcl::OT_BVH && pair.b->getObjectType() == fcl::OT_BVH;
 }
 
 }  // namespace
 
-void Watch::compare(const Pair& pair, const CollisionRequest& /*request*/,
-                    const CollisionResult& ours, const CollisionResult& fcls) {
+void CallRecorder::compare(const PosedPair& pair, const CollisionRequest& /*request*/,
+                           const CollisionResult& ours, const CollisionResult& fcls) {
   const char* what = nullptr;
   if (ours.isCollision() != fcls.isCollision()) {
     what = "the verdict";
@@ -49,8 +49,8 @@ void Watch::compare(const Pair& pair, const CollisionRequest& /*request*/,
                ours.numContacts(), fcls.numContacts());
 }
 
-void Watch::compare(const Pair& pair, const DistanceRequest& request, const DistanceResult& ours,
-                    const DistanceResult& fcls) {
+void CallRecorder::compare(const PosedPair& pair, const DistanceRequest& request,
+                           const DistanceResult& ours, const DistanceResult& fcls) {
   // FCL's solvers for shapes are as exact as the request asks.
   const double tolerance =
       scaleOf(pair) * (areMeshes(pair) ? 1e-12 : std::max(1e-5, 10 * request.distance_tolerance));
@@ -69,7 +69,7 @@ void Watch::compare(const Pair& pair, const DistanceRequest& request, const Dist
                agree ? " in its objects" : "", ours.min_distance, fcls.min_distance);
 }
 
-void Watch::report() const {
+void CallRecorder::report() const {
   for (int i = 0; i < 2; ++i) {
     const Counts& counts = counts_[i];
     const auto queries = [&](By by) {
@@ -78,7 +78,7 @@ void Watch::report() const {
     };
     std::fprintf(
         stderr, "fcl_kios_preload: %s: %llu by k-IOS, %llu by FCL's volumes, %llu handed to FCL",
-        kQuestions[i], queries(By::kTwins), queries(By::kFclSearch), queries(By::kHandedOn));
+        kQuestions[i], queries(By::kCopies), queries(By::kFclSearch), queries(By::kHandedOn));
     if (verify_) {
       std::fprintf(stderr, "; %llu differences",
                    static_cast<unsigned long long>(counts.differences.load()));
@@ -95,12 +95,13 @@ void Watch::report() const {
       std::fprintf(stderr,
                    "; %.3g us a query, FCL %.3g us, about %.3g s of CPU time saved (medians)",
                    medianOf(ours) * 1e-3, medianOf(fcls) * 1e-3,
-                   medianOf(saved) * 1e-9 * static_cast<double>(queries(By::kTwins)));
+                   medianOf(saved) * 1e-9 * static_cast<double>(queries(By::kCopies)));
     }
     std::fprintf(stderr, ".\n");
   }
-  std::fprintf(stderr, "fcl_kios_preload: %zu twins of %.1f MiB.\n", back_.twins.count(),
-               static_cast<double>(back_.twins.bytes()) / (1 << 20));
+  std::fprintf(stderr, "fcl_kios_preload: %zu copies of %.1f MiB.\n",
+               implementation_.copies.count(),
+               static_cast<double>(implementation_.copies.bytes()) / (1 << 20));
 }
 
 }  // namespace kios::preload

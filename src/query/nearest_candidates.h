@@ -16,24 +16,24 @@ namespace kios {
 /// keeps every pair that rounding may make the nearest, and lets the engine's evaluation of their
 /// features decide.
 template <typename S>
-class NearPairs {
+class NearestCandidates {
  public:
   /// Pairs as far as `far_enough` don't matter.
-  NearPairs(const MeshPair<S>& frame, double far_enough)
-      : frame_(frame), prune_at_(withRounding(far_enough)) {}
+  NearestCandidates(const MeshPair<S>& frame, double far_enough)
+      : frame_(frame), cull_distance_(withRounding(far_enough)) {}
 
   /// Pairs farther than this don't matter.
-  double pruneAt() const { return prune_at_; }
+  double cullDistance() const { return cull_distance_; }
   bool touching() const { return best_ == 0; }
 
   /// True if the triangles touch, which ends a search.
   bool test(const engine::TrianglePairIds& ids) {
     const double distance = double{frame_.distanceOf(ids).distance};
-    if (!(distance <= prune_at_)) return false;
+    if (!(distance <= cull_distance_)) return false;
     near_.push_back({ids, distance});
     if (distance < best_) {
       best_ = distance;
-      prune_at_ = std::min(prune_at_, withRounding(distance));
+      cull_distance_ = std::min(cull_distance_, withRounding(distance));
     }
     return distance == 0;
   }
@@ -45,7 +45,7 @@ class NearPairs {
     std::vector<engine::TrianglePairIds> nearest;
     if (touching()) nearest.push_back(near_.back().ids);
     for (const Found& found : near_) {
-      if (!touching() && found.distance <= prune_at_) nearest.push_back(found.ids);
+      if (!touching() && found.distance <= cull_distance_) nearest.push_back(found.ids);
     }
     answer.ids = engine::nearestOfThese(nearest, viewOf(frame_.a), viewOf(frame_.b), frame_.X_AB);
     answer.nearest = frame_.distanceOf(answer.ids);
@@ -66,7 +66,7 @@ class NearPairs {
 
   const MeshPair<S>& frame_;
   std::vector<Found> near_;
-  double best_ = kInfinity, prune_at_;
+  double best_ = kInfinity, cull_distance_;
 };
 
 }  // namespace kios

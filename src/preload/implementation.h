@@ -8,8 +8,8 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include "preload/calls.h"
-#include "preload/rule.h"
-#include "preload/twins.h"
+#include "preload/copy_cache.h"
+#include "preload/policy.h"
 
 namespace kios::preload {
 
@@ -17,18 +17,18 @@ namespace kios::preload {
 enum class By {
   kHandedOn,   ///< nobody yet: FCL's own function is to be called, with the result as it was
   kFclSearch,  ///< FCL's search, made here: its first test, or all of it
-  kTwins
+  kCopies
 };
 
 /// Holds two geometries at poses in the world.
-struct Pair {
+struct PosedPair {
   const Geometry* a;
   const Pose& X_WA;
   const Geometry* b;
   const Pose& X_WB;
 };
 
-/// Whether models over a volume have twins.
+/// Whether models over a volume have copies.
 inline bool isServed(fcl::NODE_TYPE type) {
   return type == fcl::BV_OBB || type == fcl::BV_RSS || type == fcl::BV_kIOS ||
          type == fcl::BV_OBBRSS;
@@ -41,37 +41,38 @@ inline bool isServed(const Geometry* a, const Geometry* b) {
 
 /// Answers for FCL. Whatever it can't answer as FCL would, or is cheaper there, it leaves to be
 /// handed on; so it does where k-IOS refuses what it is given.
-class Back {
+class Implementation {
  public:
-  explicit Back(const Start& start) : start(start), twins(start) {}
+  explicit Implementation(const Start& start) : start(start), copies(start) {}
 
   /// Answers for pairs that isServed() says.
-  By collide(const Pair& pair, const CollisionRequest& request, CollisionResult& result);
-  By distance(const Pair& pair, const DistanceRequest& request, DistanceResult& result);
+  By collide(const PosedPair& pair, const CollisionRequest& request, CollisionResult& result);
+  By distance(const PosedPair& pair, const DistanceRequest& request, DistanceResult& result);
 
   const Start start;
-  Twins twins;
-  Rule rule;
+  CopyCache copies;
+  Policy policy;
 
-  /// Every pair is asked of twins, from the first query on.
+  /// Every pair is asked of copies, from the first query on.
   bool always() const { return start.mode == Mode::kVerify; }
-  /// Makes the model's twin of its present content.
-  void makeTwin(const Mesh& mesh);
+  /// Makes the model's copy of its present content.
+  void makeCopy(const Mesh& mesh);
 };
 
-// The parts of Back::collide() and Back::distance(), for models over BV.
+// The parts of Implementation::collide() and Implementation::distance(), for models over BV.
 
 template <typename BV>
-By collideModels(Back& back, const Pair& pair, const CollisionRequest& request,
-                 CollisionResult& result);
+By collideModels(Implementation& implementation, const PosedPair& pair,
+                 const CollisionRequest& request, CollisionResult& result);
 template <typename BV>
-By distanceOfModels(Back& back, const Pair& pair, const DistanceRequest& request,
-                    DistanceResult& result);
+By distanceOfModels(Implementation& implementation, const PosedPair& pair,
+                    const DistanceRequest& request, DistanceResult& result);
 
 /// The mesh is the pair's a, whatever the order of FCL's call.
-By collideWithOther(Back& back, const Mesh& mesh, const Pair& pair, const CollisionRequest& request,
-                    CollisionResult& result);
-By distanceToOther(Back& back, const Mesh& mesh, const Pair& pair, DistanceResult& result);
+By collideWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+                    const CollisionRequest& request, CollisionResult& result);
+By distanceToOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+                   DistanceResult& result);
 
 /// Whether a pose is surely one that k-IOS takes: finite, rigid, no reflection.
 bool isRigid(const Pose& X);

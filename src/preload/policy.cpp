@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/rule.h"
+#include "preload/policy.h"
 
 #include <algorithm>
 #include <limits>
@@ -31,54 +31,54 @@ double timeOfComparison(std::size_t bytes) {
   return kByte * static_cast<double>(bytes);
 }
 
-double costOfTwins(Kind kind, std::size_t bytes_to_compare) {
+double costOfCopies(Kind kind, std::size_t bytes_to_compare) {
   constexpr double kSearch[] = {2000, 2000, 7000};
   return timeOfComparison(bytes_to_compare) + kSearch[static_cast<std::size_t>(kind)];
 }
 
-std::uint32_t Rule::tagOf(const Question& question) {
+std::uint32_t Policy::tagOf(const Question& question) {
   return static_cast<std::uint32_t>(mixed(question)) | 1;
 }
 
-std::atomic<Rule::Past>& Rule::placeOf(const Question& question) {
+std::atomic<Policy::Past>& Policy::placeOf(const Question& question) {
   return pasts_[mixed(question) >> 40 & (pasts_.size() - 1)];
 }
 
-Rule::Past Rule::find(const Question& question) {
+Policy::Past Policy::find(const Question& question) {
   const Past past = placeOf(question).load(std::memory_order_relaxed);
   return past.tag == tagOf(question) ? past : Past{};
 }
 
 /// Asks about all pairs with the first model that have no history.
-Question Rule::ofFirst(const Question& question) {
+Question Policy::ofFirst(const Question& question) {
   Question first = question;
   first.serial_b = 0;
   return first;
 }
 
-double Rule::fclLimit(const Question& question) {
+double Policy::fclLimit(const Question& question) {
   Question about = question;
   Past past = find(about);
   if (past.tag == 0) {
     about = ofFirst(question);
     past = find(about);
-    if (past.tag == 0) return question.twins_cost;
+    if (past.tag == 0) return question.copies_cost;
   }
-  if (!past.touched && past.cost * kUnit <= question.twins_cost) return 2 * question.twins_cost;
+  if (!past.touched && past.cost * kUnit <= question.copies_cost) return 2 * question.copies_cost;
   const bool probes = past.until_probe == 0;
   const std::uint8_t every = past.touched ? kWatchEvery : kProbeEvery;
   past.until_probe = probes ? every - 1 : static_cast<std::uint8_t>(past.until_probe - 1);
   placeOf(about).store(past, std::memory_order_relaxed);
   if (past.touched) return probes ? kInfinity : kHandOn;
-  return probes ? question.twins_cost : 0;
+  return probes ? question.copies_cost : 0;
 }
 
-void Rule::note(const Question& question, const Search& search, double limit, bool touches) {
+void Policy::note(const Question& question, const Search& search, double limit, bool touches) {
   noteOne(question, search, limit, touches);
   noteOne(ofFirst(question), search, limit, false);
 }
 
-void Rule::noteOne(const Question& question, const Search& search, double limit, bool touches) {
+void Policy::noteOne(const Question& question, const Search& search, double limit, bool touches) {
   const Past past = find(question);
   const std::uint16_t cost = inUnits(search.done ? search.nanoseconds : 2 * limit);
   Past next = past;
@@ -97,7 +97,7 @@ void Rule::noteOne(const Question& question, const Search& search, double limit,
   placeOf(question).store(next, std::memory_order_relaxed);
 }
 
-void Rule::noteContact(const Question& question) {
+void Policy::noteContact(const Question& question) {
   if (question.kind != Kind::kContacts) return;
   Past past = find(question);
   past.tag = tagOf(question);
