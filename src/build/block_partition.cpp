@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "build/four_axes.h"
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "build/volume_fit.h"
 
 namespace kios::engine {

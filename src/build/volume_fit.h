@@ -8,7 +8,7 @@
 #include <fcl/geometry/bvh/BV_node.h>
 #include "build/extremes.h"
 #include "build/four_fit.h"
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "build/sphere_fitter.h"
 
 namespace kios::engine {

@@ -44,7 +44,7 @@ double reachOf(const std::vector<ShapeNode>& solids) {
 MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion,
                                          std::vector<ShapeNode> solids, const Motion& solids_motion,
                                          Touching touching, ContinuousCounts& counts)
-    : PairSearch(solids_motion, reachOf(solids), mesh_motion, continuous::reachOf(mesh), counts),
+    : StepSearch(solids_motion, reachOf(solids), mesh_motion, continuous::reachOf(mesh), counts),
       mesh_(mesh),
       solids_(std::move(solids)),
       touching_(std::move(touching)),

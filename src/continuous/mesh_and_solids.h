@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "continuous/pair_search.h"
+#include "continuous/step_search.h"
 #include "shape/solid.h"
 
 namespace kios::continuous {
@@ -23,7 +23,7 @@ struct ShapeNode {
 /// of an octree. All tests are in the solids' frame and turn with it, so that unbounded shapes have
 /// no velocities but near the mesh. The shapes' kernels are right to 2^-42 of the pair's extent: a
 /// pair nearer than 2^-40 of it counts as touching while something moves.
-class MovingMeshAndSolids final : public PairSearch {
+class MovingMeshAndSolids final : public StepSearch {
  public:
   /// The static query: returns true if the mesh and the solids touch at these poses.
   using Touching =

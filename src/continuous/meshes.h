@@ -5,17 +5,17 @@
 #include <cstdint>
 
 #include "continuous/chords.h"
-#include "continuous/pair_search.h"
+#include "continuous/step_search.h"
 #include "search/pair_query.h"
 
 namespace kios::continuous {
 
 /// Holds two moving meshes.
-class MovingMeshes final : public PairSearch {
+class MovingMeshes final : public StepSearch {
  public:
   MovingMeshes(const Modeld& a, const Motion& motion_a, const Modeld& b, const Motion& motion_b,
                ContinuousCounts& counts)
-      : PairSearch(motion_a, reachOf(a), motion_b, reachOf(b), counts), a_(a), b_(b) {}
+      : StepSearch(motion_a, reachOf(a), motion_b, reachOf(b), counts), a_(a), b_(b) {}
 
   bool touching(double t) override;
 

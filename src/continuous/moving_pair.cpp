@@ -38,7 +38,7 @@ bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Mo
 
 }  // namespace
 
-std::unique_ptr<PairSearch> movingPair(const CollisionGeometryd& a, const Motion& motion_a,
+std::unique_ptr<StepSearch> movingPair(const CollisionGeometryd& a, const Motion& motion_a,
                                        const CollisionGeometryd& b, const Motion& motion_b,
                                        ContinuousCounts& counts) {
   const Modeld *mesh_a = asModel(&a), *mesh_b = asModel(&b);

@@ -25,7 +25,7 @@ class LocalSlabs {
  private:
   ContinuousCounts counts_;
   const continuous::Motion motion_a_, motion_b_;
-  const std::unique_ptr<continuous::PairSearch> search_;
+  const std::unique_ptr<continuous::StepSearch> search_;
 };
 
 }  // namespace kios::articulated

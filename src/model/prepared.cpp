@@ -55,6 +55,12 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
 }
 
 template <typename S>
+bool copyRoot(const Model<S>& model, engine::TreeRoot& root) {
+  const engine::TreeCache* const trees = treesOf(model);
+  return trees && trees->findRoot(model.getBV(0).bv.stamp, root);
+}
+
+template <typename S>
 engine::SharedTree purelyPreparedTree(const Model<S>& model) {
   const engine::TreeCache::Use kept = preparedTree(model);
   if (!kept) return {};
@@ -111,6 +117,7 @@ const char* simdTarget() { return engine::kernels().target; }
 #define KIOS_INSTANTIATE(S)                                                   \
   template engine::TreeCache* treesOf(const Model<S>&);                       \
   template engine::TreeCache::Use preparedTree(const Model<S>&);              \
+  template bool copyRoot(const Model<S>&, engine::TreeRoot&);                 \
   template engine::SharedTree purelyPreparedTree(const Model<S>&);            \
   template void takePrepared(const Model<S>&, std::unique_ptr<engine::Tree>); \
   template void prepare(const Model<S>&);                                     \

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "fcl_kios/model/model.h"
 #include "tree/tree_cache.h"
 
@@ -18,6 +18,11 @@ engine::TreeCache* treesOf(const Model<S>& model);
 /// size is beyond the range of floats. The model must be finished.
 template <typename S>
 engine::TreeCache::Use preparedTree(const Model<S>& model);
+
+/// Copies the root of the tree that was prepared last of the model and its copies; false if that is
+/// not the model's, or there is none.
+template <typename S>
+bool copyRoot(const Model<S>& model, engine::TreeRoot& root);
 
 /// The tree that prepare() makes of the mesh of a model whose tree of volumes is the ordinary one;
 /// preparedTree() may have refitted that of an earlier state. The model is prepared then, too.

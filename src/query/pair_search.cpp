@@ -27,14 +27,18 @@ template <typename S>
 class EnginePair {
  public:
   /// Pairs at least `far_enough` apart don't matter. Nothing is prepared in vain.
-  EnginePair(const MeshPair<S>& frame, double far_enough)
-      : frame_(frame),
-        tree_a_(tooFar() ? engine::TreeCache::Use() : preparedTree(frame.a)),
-        tree_b_(tree_a_ ? preparedTree(frame.b) : engine::TreeCache::Use()) {
+  EnginePair(const MeshPair<S>& frame, double far_enough) : frame_(frame) {
+    if (tooFar()) return;
+    const bool bounded = far_enough < kInfinity;
+    engine::TreeRoot a, b;
+    const bool known = bounded && copyRoot(frame.a, a) && copyRoot(frame.b, b);
+    if (known && boundRoots(a, b) && isFar(far_enough)) return;
+    tree_a_ = preparedTree(frame.a);
+    if (tree_a_) tree_b_ = preparedTree(frame.b);
     engine::TreePose pose;
     usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
     if (!usable_) return;
-    if (far_enough < kInfinity) apart_ = engine::rootBound(*tree_a_, *tree_b_, pose);
+    if (bounded && !known) apart_ = engine::rootBound(*tree_a_, *tree_b_, pose);
     if (!isFar(far_enough)) engine::makeFloatFrame(pose, frames_);
   }
 
@@ -50,6 +54,13 @@ class EnginePair {
   }
 
  private:
+  bool boundRoots(const engine::TreeRoot& a, const engine::TreeRoot& b) {
+    engine::TreePose pose;
+    usable_ = engine::makeTreePose(a, b, frame_.X_AB, pose);
+    if (usable_) apart_ = engine::rootBound(a, b, pose);
+    return usable_;
+  }
+
   /// True if the models are so far apart for their size that makeFloatFrame() would refuse them:
   /// its pad would be as large as the smaller model's radius.
   bool tooFar() const {
@@ -59,7 +70,7 @@ class EnginePair {
   }
 
   const MeshPair<S>& frame_;
-  const engine::TreeCache::Use tree_a_, tree_b_;
+  engine::TreeCache::Use tree_a_, tree_b_;
   engine::FloatFrame frames_;
   bool usable_ = false;
   double apart_ = -kInfinity;  ///< lower bound of the distance

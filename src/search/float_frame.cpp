@@ -25,7 +25,8 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 }  // namespace
 
 template <typename S>
-bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out) {
+bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB,
+                  TreePose& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
   const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
   out.R = X_AB.R().template cast<double>();
@@ -68,8 +69,8 @@ bool makeFloatFrame(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, F
   return true;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                \
-  template bool makeTreePose(const Tree&, const Tree&, const RelativePose<S>&, TreePose&); \
+#define KIOS_INSTANTIATE(S)                                                                        \
+  template bool makeTreePose(const TreeRoot&, const TreeRoot&, const RelativePose<S>&, TreePose&); \
   template bool makeFloatFrame(const Tree&, const Tree&, const RelativePose<S>&, FloatFrame&);
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)

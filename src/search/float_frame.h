@@ -79,7 +79,7 @@ struct TreePose {
 /// False if floats can't serve the pair: lengths out of range, or a pad that is not small against
 /// both models. The exact search of layer 1 then does.
 template <typename S>
-bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out);
+bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB, TreePose& out);
 void makeFloatFrame(const TreePose& X_AB, FloatFrame& out);
 
 /// Both at once.

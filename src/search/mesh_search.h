@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/volume/separation.h"
 #include "search/pair_query.h"

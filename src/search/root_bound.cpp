@@ -71,7 +71,7 @@ double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X) {
 
 }  // namespace
 
-double rootBound(const Tree& a, const Tree& b, const TreePose& X_AB) {
+double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB) {
   return betweenBoxes(RootBox(a.root_box), RootBox(b.root_box), X_AB);
 }
 

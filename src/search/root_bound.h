@@ -9,6 +9,6 @@ namespace kios::engine {
 /// Lower bound of the distance of two models by the boxes of their roots; not positive where that
 /// proves nothing. It tells most near pairs of CAD parts apart before anything is built for a
 /// search.
-double rootBound(const Tree& a, const Tree& b, const TreePose& X_AB);
+double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB);
 
 }  // namespace kios::engine

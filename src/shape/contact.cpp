@@ -7,7 +7,7 @@
 #include "shape/convex_faces.h"
 #include "shape/features.h"
 #include "shape/hull.h"
-#include "shape/intersection.h"
+#include "shape/meets.h"
 #include "shape/nearest_point.h"
 #include "shape/polygon.h"
 #include "shape/triangle_shape.h"

@@ -8,7 +8,7 @@
 
 #include "shape/features.h"
 #include "shape/hull.h"
-#include "shape/intersection.h"
+#include "shape/meets.h"
 #include "shape/nearest_point.h"
 
 namespace kios::shape {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "fcl_kios/solid/closedness.h"
 
 namespace kios {

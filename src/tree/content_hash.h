@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "tree/fingerprint.h"
 
 namespace kios::engine {

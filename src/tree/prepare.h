@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "build/mesh.h"
 #include "build/mesh_tree.h"
+#include "build/mesh_view.h"
 #include "tree/tree.h"
 
 namespace kios::engine {

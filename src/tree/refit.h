@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "tree/tree.h"
 
 namespace kios::engine {

@@ -81,7 +81,7 @@ SharedTree& SharedTree::operator=(SharedTree&& other) noexcept {
   return *this;
 }
 
-SharedTree::~SharedTree() { Directory::release(entry_); }
+void SharedTree::release() { Directory::release(entry_); }
 
 bool SharedTree::isHeld(const ContentHash& content) {
   const std::lock_guard<std::mutex> lock(Directory::mutex);

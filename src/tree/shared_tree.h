@@ -23,7 +23,9 @@ class SharedTree {
   SharedTree(const ContentHash& content, const Make& make);
   SharedTree(SharedTree&& other) noexcept;
   SharedTree& operator=(SharedTree&& other) noexcept;
-  ~SharedTree();
+  ~SharedTree() {
+    if (entry_) release();
+  }
 
   /// Whether somebody holds a tree for this content, or is making one.
   static bool isHeld(const ContentHash& content);
@@ -39,6 +41,8 @@ class SharedTree {
  private:
   struct Entry;
   struct Directory;
+  void release();
+
   Entry* entry_ = nullptr;
 };
 

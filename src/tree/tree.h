@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "tree/content_hash.h"
 
 // The prepared tree: what the SIMD kernels stream. All floats are relative to the tree's origin, in
@@ -108,14 +108,18 @@ struct Children {
 /// The vertices of a triangle; of equal ones the first.
 using Corners3 = std::array<std::uint32_t, 3>;
 
-struct Tree {
+/// Holds what of a tree tells models apart that are farther apart than they look by their spheres.
+struct TreeRoot {
+  Box root_box;  ///< of the root, flat or not
   double origin[3] = {};
-  float reach = 0;        ///< >= |centre| + |radius| of all spheres
+  float reach = 0;  ///< >= |centre| + |radius| of all spheres
+};
+
+struct Tree : TreeRoot {
   float mean_leaf = 0;    ///< mean size of the leaves' nodes
   float widest_leaf = 0;  ///< their largest width
   int depth = 0;          ///< of blocks
   std::vector<Node> nodes;
-  Box root_box;            ///< of the root, flat or not
   std::vector<Box> boxes;  ///< by node; none if no node is flat
   std::vector<Block> blocks;
   std::vector<BoxBlock> box_blocks;  ///< by block; none if no node is flat

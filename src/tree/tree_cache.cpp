@@ -12,6 +12,13 @@ TreeCache::Use::Use(Use&& o) noexcept
       own_(std::move(o.own_)),
       tree_(std::exchange(o.tree_, nullptr)) {}
 
+TreeCache::Use& TreeCache::Use::operator=(Use&& o) noexcept {
+  std::swap(cell_, o.cell_);
+  std::swap(own_, o.own_);
+  std::swap(tree_, o.tree_);
+  return *this;
+}
+
 TreeCache::Use::~Use() {
   if (cell_) cell_->users.fetch_sub(1, std::memory_order_release);
 }
@@ -66,6 +73,7 @@ bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, SharedTree& tree) {
   cell.key = key;
   std::swap(cell.tree, tree);
   cell.root_stamp.store(key.root_stamp, std::memory_order_relaxed);
+  if (cell.tree.get()) root_.write(key.root_stamp, *cell.tree.get());
   cell.users.fetch_sub(kWriting, std::memory_order_release);
   return true;
 }

@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "tree/build_budget.h"
+#include "tree/root_copy.h"
 #include "tree/shared_tree.h"
 
 namespace kios::engine {
@@ -50,7 +51,7 @@ class TreeCache {
    public:
     Use() = default;
     Use(Use&& o) noexcept;
-    Use& operator=(Use&&) = delete;
+    Use& operator=(Use&& o) noexcept;
     ~Use();
 
     explicit operator bool() const { return tree_ != nullptr; }
@@ -71,6 +72,11 @@ class TreeCache {
 
   /// The tree of that key, empty if there is none. Lock-free.
   Use find(const TreeKey& key);
+
+  /// Copies the root of the tree that was made last, if it is of this state; takes no tree in use.
+  bool findRoot(std::uint64_t root_stamp, TreeRoot& root) const {
+    return root_stamp != 0 && root_.read(root_stamp, root);
+  }
 
   /// Makes a tree, of `old` if that serves: another state of the same triangles, or nothing.
   using Make = std::function<SharedTree(SharedTree old)>;
@@ -99,9 +105,10 @@ class TreeCache {
   };
   static constexpr int kWriting = -(1 << 30);
 
-  static bool tryReplace(Cell& cell, const TreeKey& key, SharedTree& tree);
+  bool tryReplace(Cell& cell, const TreeKey& key, SharedTree& tree);
   SharedTree earlierState(const TreeKey& key);
 
+  RootCopy root_;
   std::array<Cell, 8> cells_;
   std::array<std::atomic<std::uint64_t>, 8> built_{};
   std::atomic<unsigned int> num_built_{0};

@@ -5,7 +5,8 @@
 # usage: layers.py SOURCE_DIR
 # The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
 # those below it only (docs/how-it-works.md, "The folders"). Addons are libraries of their own, which
-# nothing includes but they themselves, and fcl_kios.h. FCL's headers are included as <fcl/...>
+# nothing includes but they themselves, and fcl_kios.h. No two folders have files of one name, but
+# those of public headers. FCL's headers are included as <fcl/...>
 # and ours as "...", and every "..." names one file, whichever include directory is searched first.
 import pathlib
 import re
@@ -61,7 +62,10 @@ def check(path, own):
             faults.append(f'{path} ({LAYERS[own]}) includes "{name}", of a layer above it')
 
 
-count = 0
+# Public headers that share a name with another layer's file; that of motion bounds is defined where
+# motions are.
+NAMED_TWICE = {"distance", "intersection", "motion_bounds", "prepare"}
+count, homes = 0, {}
 for base in (root / "src", root / "include" / "fcl_kios"):
     for path in sorted(base.rglob("*")):
         relative = path.relative_to(base).as_posix()
@@ -73,6 +77,9 @@ for base in (root / "src", root / "include" / "fcl_kios"):
             continue
         count += 1
         check(path, own)
+        home = homes.setdefault(path.stem, own)
+        if home != own and path.stem not in NAMED_TWICE:
+            faults.append(f"{path}: {LAYERS[home]} has files of this name too")
 if count < 100:
     faults.append(f"only {count} files were found")
 print("\n".join(faults) if faults else f"{count} files include downwards only")

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "build/mesh.h"
+#include "build/mesh_view.h"
 #include "fcl_kios/volume/separation.h"
 #include "search/mesh_search.h"
 #include "shapes.h"

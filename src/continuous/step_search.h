@@ -19,7 +19,7 @@ double reachOf(const Modeld& model);
 /// The search for the time that the pairs of a tree's nodes, or of two trees', are apart. Source:
 /// Tang, Kim & Manocha, "C2A: controlled conservative advancement for continuous collision
 /// detection of polygonal models" (2009).
-class PairSearch : public MovingPair {
+class StepSearch : public MovingPair {
  public:
   double apartFor(double t, double required) final;
 
@@ -35,7 +35,7 @@ class PairSearch : public MovingPair {
     int a, b;
   };
 
-  PairSearch(const Motion& motion_a, double reach_a, const Motion& motion_b, double reach_b,
+  StepSearch(const Motion& motion_a, double reach_a, const Motion& motion_b, double reach_b,
              ContinuousCounts& counts)
       : motion_(motion_a, motion_b, reach_a, reach_b), counts_(counts) {}
 

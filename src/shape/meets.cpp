@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "shape/intersection.h"
+#include "shape/meets.h"
 
 #include <algorithm>
 #include <cmath>

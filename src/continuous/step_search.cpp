@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "continuous/pair_search.h"
+#include "continuous/step_search.h"
 
 #include <algorithm>
 
@@ -14,7 +14,7 @@ double reachOf(const Modeld& model) {
   return (root.center0.norm() + root.radius0) * (1 + 0x1p-50);
 }
 
-void PairSearch::setLimits(double end, long long most_tests) {
+void StepSearch::setLimits(double end, long long most_tests) {
   end_ = end;
   most_tests_ = most_tests;
   slide_ = 1;
@@ -28,7 +28,7 @@ void PairSearch::setLimits(double end, long long most_tests) {
 // are tried. What the pair as a whole is proven apart for tells how long a step should be looked
 // for: more of it as long as that costs little. Where a search gets no farther than as many of
 // those short steps as it costs, some of them are taken instead, more each time.
-double PairSearch::apartFor(double t, double required) {
+double StepSearch::apartFor(double t, double required) {
   if (motion_.still()) return 1;
   const double left = end_ - t;
   const double window = motion_.steady() ? left : std::min(left, window_);

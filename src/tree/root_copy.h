@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+
+#include "tree/tree.h"
+
+namespace kios::engine {
+
+/// Holds a copy of a tree's root for readers that need no more of the tree, and so needn't keep it
+/// in use. Any thread may read while one writes.
+class RootCopy {
+ public:
+  /// Copies the root of the tree for this state of the model (TreeKey::root_stamp); false if it is
+  /// not what is held, or is being written. No lock is taken and nothing is written.
+  bool read(std::uint64_t stamp, TreeRoot& root) const {
+    // Odd while it is written. Whoever reads a word of another writing sees this changed, as words
+    // are acquired.
+    const unsigned int version = version_.load(std::memory_order_acquire);
+    if ((version & 1U) != 0 || stamp_.load(std::memory_order_acquire) != stamp) return false;
+    std::array<std::uint64_t, kWords> words;
+    for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
+    if (version_.load(std::memory_order_relaxed) != version) return false;
+    std::memcpy(&root, words.data(), sizeof(words));
+    return true;
+  }
+
+  /// By one thread at a time.
+  void write(std::uint64_t stamp, const TreeRoot& root) {
+    std::array<std::uint64_t, kWords> words;
+    std::memcpy(words.data(), &root, sizeof(words));
+    version_.fetch_add(1, std::memory_order_relaxed);
+    stamp_.store(stamp, std::memory_order_release);
+    for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
+    version_.fetch_add(1, std::memory_order_release);
+  }
+
+ private:
+  static constexpr std::size_t kWords = (offsetof(TreeRoot, reach) + 4 + 7) / 8;
+
+  std::atomic<unsigned int> version_{0};
+  std::atomic<std::uint64_t> stamp_{0};  ///< 0: none
+  std::array<std::atomic<std::uint64_t>, kWords> words_{};
+};
+
+}  // namespace kios::engine
