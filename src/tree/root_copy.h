@@ -4,8 +4,10 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "tree/tree.h"
 
@@ -25,14 +27,14 @@ class RootCopy {
     std::array<std::uint64_t, kWords> words;
     for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
     if (version_.load(std::memory_order_relaxed) != version) return false;
-    std::memcpy(&root, words.data(), sizeof(words));
+    std::memcpy(static_cast<void*>(&root), words.data(), sizeof(words));
     return true;
   }
 
   /// By one thread at a time.
   void write(std::uint64_t stamp, const TreeRoot& root) {
     std::array<std::uint64_t, kWords> words;
-    std::memcpy(words.data(), &root, sizeof(words));
+    std::memcpy(words.data(), static_cast<const void*>(&root), sizeof(words));
     version_.fetch_add(1, std::memory_order_relaxed);
     stamp_.store(stamp, std::memory_order_release);
     for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
@@ -40,7 +42,9 @@ class RootCopy {
   }
 
  private:
-  static constexpr std::size_t kWords = (offsetof(TreeRoot, reach) + 4 + 7) / 8;
+  static constexpr std::size_t kWords = 12;
+  static_assert(std::is_trivially_copyable_v<TreeRoot> && sizeof(TreeRoot) >= 8 * kWords &&
+                offsetof(TreeRoot, reach) + sizeof(float) <= 8 * kWords);
 
   std::atomic<unsigned int> version_{0};
   std::atomic<std::uint64_t> stamp_{0};  ///< 0: none

@@ -5,6 +5,8 @@
 // octrees, some marked as solids), against the static queries at samples of the path: what is
 // proven clear has no contact, what is named is in contact, and nothing before a first contact is.
 
+#include <algorithm>
+#include <ctime>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -58,14 +60,28 @@ class LinkageQuestion {
     request.resolution = std::exp2(-below(random_, 21));
     request.first_contact = chance(random_, 0.5);
     if (chance(random_, 0.3)) request.min_separation = size_ * power(random_, -6, -1);
+    const int most = queriesWithin(kTriangleTests);
+    request.max_queries = chance(random_, 0.2) ? 1 + below(random_, most) : most;
     const MotionAnswer answer = checkMotion(linkage_, q0_, q1_, request);
     call_ = "checkMotion: draw " + std::to_string(case_.draw) + ", resolution " +
             literal(request.resolution) + ", first " + std::to_string(request.first_contact) +
-            ", separation " + literal(request.min_separation);
+            ", separation " + literal(request.min_separation) + ", queries " +
+            std::to_string(request.max_queries);
     return judge(request, answer);
   }
 
  private:
+  static constexpr long long kTriangleTests = 800'000;  // of 1 us each
+
+  /// The queries that even brute force answers within so many tests of two triangles: where all of
+  /// two meshes' features are nearer to each other than floats can tell, none is spared.
+  int queriesWithin(long long tests) const {
+    std::size_t most = 1;
+    for (const Mesh& mesh : case_.meshes) most = std::max(most, mesh.triangles.size());
+    const auto pairs = static_cast<long long>(most * most);
+    return static_cast<int>(std::clamp<long long>(tests / pairs, 8, 500));
+  }
+
   Eigen::VectorXd signs() {
     Eigen::VectorXd v(middle_.size());
     for (int i = 0; i < v.size(); ++i) v[i] = units_[i] * random_.uniform(-1, 1);
@@ -155,7 +171,13 @@ class LinkageQuestion {
 
   Verdict judge(const MotionRequest& request, const MotionAnswer& answer) const {
     const bool clear = answer.verdict == MotionVerdict::kClear;
-    if (!clear && !(answer.from <= answer.to && answer.to - answer.from <= request.resolution)) {
+    const bool spent = answer.verdict == MotionVerdict::kBudgetSpent;
+    if (spent && answer.counts.queries < request.max_queries) {
+      return failure(Words() << "a spent budget after " << answer.counts.queries << " queries",
+                     call_);
+    }
+    if (!clear &&
+        !(answer.from <= answer.to && (spent || answer.to - answer.from <= request.resolution))) {
       return failure(Words() << "an interval from " << answer.from << " to " << answer.to, call_);
     }
     if (answer.verdict == MotionVerdict::kContact &&
@@ -166,10 +188,14 @@ class LinkageQuestion {
                      call_);
     }
     const double free = clear ? 2 : request.first_contact ? answer.from : 0;
+    // Between meshes of which all triangles are equally near, as far as rounding can tell, a
+    // distance takes milliseconds: not all samples are worth that.
     constexpr int kSamples = 60;
-    for (int i = 0; i <= kSamples; ++i) {
-      const double s = static_cast<double>(i) / kSamples;
-      if (s >= free) break;
+    constexpr std::clock_t kLongest = CLOCKS_PER_SEC / 4;
+    const std::clock_t begin = std::clock();
+    for (int i = 0; i <= kSamples && std::clock() - begin < kLongest; ++i) {
+      const double s = static_cast<double>((37 * i) % (kSamples + 1)) / kSamples;
+      if (s >= free) continue;
       if (const auto pair = contactAt(s, request.min_separation)) {
         return failure(Words() << "verdict " << static_cast<int>(answer.verdict) << " from "
                                << answer.from << ", but bodies " << static_cast<int>(pair->first)
