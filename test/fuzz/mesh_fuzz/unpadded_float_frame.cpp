@@ -11,13 +11,15 @@
 namespace kios::engine {
 
 template <typename S>
-bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, TreePose& out) {
+bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB,
+                  TreePose& out) {
   if (!makePaddedTreePose(a, b, X_AB, out)) return false;
   out.pad = out.box_pad = 0;
   return true;
 }
 
-template bool makeTreePose(const Tree&, const Tree&, const RelativePose<double>&, TreePose&);
-template bool makeTreePose(const Tree&, const Tree&, const RelativePose<float>&, TreePose&);
+template bool makeTreePose(const TreeRoot&, const TreeRoot&, const RelativePose<double>&,
+                           TreePose&);
+template bool makeTreePose(const TreeRoot&, const TreeRoot&, const RelativePose<float>&, TreePose&);
 
 }  // namespace kios::engine
