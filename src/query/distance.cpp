@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "query/bracket.h"
+#include "query/intersecting_pairs.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
 
@@ -68,6 +69,10 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
   if (t < 0) {
     answer.stop = DistanceStop::kFar;
     return false;
+  }
+  if (t == 0 && !certificate && !warm_start) {  // as the distance is 0 where triangles intersect
+    const auto found = intersectingPairs(frame, 1, true, answer.counts);
+    if (found) return !found->empty();
   }
   DistanceOptions<S> options;
   options.warm_start = warm_start;

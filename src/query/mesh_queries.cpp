@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <iostream>
 #include <limits>
-#include <utility>
-#include <vector>
 
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include "fcl_kios/query/mesh_nodes.h"
 #include "model/kios_model.h"
 #include "query/few_triangles.h"
+#include "query/intersecting_pairs.h"
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
 #include "query/unprepared.h"
@@ -33,15 +32,6 @@ template <typename S>
   fcl::detail::collide(&node);
 }
 
-/// Returns true if one model is so much larger than the other, as a floor than a link, that its
-/// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
-template <typename S>
-bool areUnlike(const MeshPair<S>& frame) {
-  constexpr S kMuch = 16;
-  const S a = frame.rootA().radius0, b = frame.rootB().radius0;
-  return a > kMuch * b || b > kMuch * a;
-}
-
 /// collideMeshes() of models that may touch, for all that farApart() can tell.
 template <typename S>
 [[gnu::noinline]] void collideNear(const MeshPair<S>& frame, const fcl::Transform3<S>& X_WA,
@@ -49,33 +39,17 @@ template <typename S>
                                    const fcl::CollisionRequest<S>& request,
                                    fcl::CollisionResult<S>& result, SearchCounts& counts) {
   const Model<S>&a = frame.a, &b = frame.b;
-  const bool few = areFew(a, b);
-  if ((few || !areUnlike(frame)) && frame.rootBound(0) > 0) return;
-  if (verticesApart(frame, 0)) return;
-  const bool occupied = a.isOccupied() && b.isOccupied();
-  if (occupied && !request.enable_cost) {
-    const std::size_t room = request.num_max_contacts - result.numContacts();
-    std::vector<engine::TrianglePairIds> found;
-    if (few) {
-      found = intersectingOfFew(frame, room, counts);
-    } else {
-      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
-      // the models.
-      const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
-      auto walked = touchUnprepared(frame, room, counts);
-      if (walked && (verdict || walked->size() < room)) {
-        found = std::move(*walked);
-      } else if (!searchContacts(frame, room, found, counts)) {
-        return collideByFCL(frame, X_WA, X_WB, request, result, counts);
-      }
-    }
-    for (const auto& ids : found) {
-      addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA, request,
-                  result);
-    }
-    return;
+  if (request.enable_cost || !a.isOccupied() || !b.isOccupied()) {
+    return collideByFCL(frame, X_WA, X_WB, request, result, counts);
   }
-  collideByFCL(frame, X_WA, X_WB, request, result, counts);
+  const std::size_t room = request.num_max_contacts - result.numContacts();
+  const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
+  const auto found = intersectingPairs(frame, room, verdict, counts);
+  if (!found) return collideByFCL(frame, X_WA, X_WB, request, result, counts);
+  for (const auto& ids : *found) {
+    addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA, request,
+                result);
+  }
 }
 
 /// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough.

@@ -44,6 +44,7 @@ class CloserThan : public ::testing::Test {
         WarmStart* const start = random.uniform(0, 1) < 0.5 ? &warm : nullptr;
         ASSERT_EQ(closerThan(*model_a, X_WA, *model_b, X_WB, t, &proof, start), d <= t)
             << d << " " << t;
+        ASSERT_EQ(closerThan(*model_a, X_WA, *model_b, X_WB, t), d <= t) << d << " " << t;
         if (d <= t) {
           ASSERT_LE(proof.distance, t);
           ASSERT_GE(proof.triangle_a, 0);
@@ -88,7 +89,14 @@ TYPED_TEST(CloserThan, Touching) {
     X.translation() = fcl::Vector3<S>(x, S(0.25), 0);
     poses.push_back({fcl::Transform3<S>::Identity(), X});
   }
-  for (const bool engine : {true, false}) this->check(box, box, engine, poses);
+  const Mesh coarse = scenes::subdividedBox({1, 1, 1}, 1),
+             floor = scenes::subdividedBox({90, 90, 1}, 4);
+  for (const bool engine : {true, false}) {
+    this->check(box, box, engine, poses);
+    this->check(coarse, coarse, engine, poses);
+    for (auto& [X_WA, X_WB] : poses) X_WB.translation().z() = X_WB.translation().x();
+    this->check(floor, box, engine, poses);
+  }
 }
 
 }  // namespace

@@ -61,6 +61,11 @@ class BracketQuestion {
                                << ", but the distance is " << exact_.distance,
                        call);
       }
+      if (closerThan<S>(*pair_.A, pair_.X, *pair_.B, pair_.Y, t) != is) {
+        return failure(Words() << "closerThan(" << t << ") without a certificate is not "
+                               << (is ? "true" : "false"),
+                       call);
+      }
       if (t < 0) continue;
       DistanceOptions<S> any;  // the certificate is no answer to options
       any.near_enough = certificate.stop == DistanceStop::kNear ? certificate.distance : S{0};

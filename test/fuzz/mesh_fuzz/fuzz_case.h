@@ -36,6 +36,7 @@ struct Question {
   int meshes, frames;              ///< how many a case has of them
   int least_meshes, least_frames;  ///< to how few the shrinker may get
   bool may_be_float;
+  double seconds;  ///< a case may take of a processor, --slow times
   Verdict (*ask)(const Case&);
 };
 

@@ -5,8 +5,9 @@
 //                  [--skip QUESTION]... [--shrink S] [--slow S] [--traps 0]
 // Asks cases 0, 1, 2 ... of a seed until the time is up, or --case's alone. At the first failure it
 // prints one line that repeats it, the smallest case that fails alike (searched for --shrink
-// seconds), and exits with 1. A case that takes more than --slow seconds of a processor (1) is a
-// failure, and so is an operation that raises FE_INVALID or FE_DIVBYZERO, unless --traps is 0.
+// seconds), and exits with 1. A case that takes more than --slow (1) times the processor time of
+// its question is a failure, and so is an operation that raises FE_INVALID or FE_DIVBYZERO, unless
+// --traps is 0.
 
 #include <atomic>
 #include <cfenv>
@@ -36,7 +37,7 @@ struct Settings {
   double seconds = 10, shrink_seconds = 20;
   long long index = -1;  ///< negative: all
   int threads = 1;
-  double slow = 1;
+  double slow = 1;  ///< times what a question's case may take
   bool traps = true;
   const Question* only = nullptr;
   std::set<const Question*> skip;
@@ -113,7 +114,7 @@ class Run {
       const double start = threadSeconds();
       Verdict wrong = ask(c);
       const double seconds = threadSeconds() - start;
-      if (!wrong && seconds > settings_.slow) {
+      if (!wrong && seconds > settings_.slow * c.question->seconds) {
         wrong = Failure{"takes " + std::to_string(seconds) + " s", ""};
       }
       ++cases_;
