@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "triangle/expansion.h"
 
@@ -36,6 +37,12 @@ Vec accurateCross(const Vec& a, const Vec& b) {
   return n;
 }
 
+/// Returns |e|^2, or 0 if that is subnormal: its inverse would be infinite.
+double squareOf(const Vec& e) {
+  const double square = e.squaredNorm();
+  return square >= std::numeric_limits<double>::min() ? square : 0;
+}
+
 }  // namespace
 
 CertifiedDistance::CertifiedDistance(const TrianglePair& pair)
@@ -43,8 +50,8 @@ CertifiedDistance::CertifiedDistance(const TrianglePair& pair)
   for (int i = 0; i < 3; ++i) {
     e_[i] = pair_.p[nextVertex(i)] - pair_.p[i];
     f_[i] = pair_.q[nextVertex(i)] - pair_.q[i];
-    ee_[i] = e_[i].squaredNorm();
-    ff_[i] = f_[i].squaredNorm();
+    ee_[i] = squareOf(e_[i]);
+    ff_[i] = squareOf(f_[i]);
     per_ee_[i] = 1 / (ee_[i] > 0 ? ee_[i] : 1);  // edges of length 0 are left out
     per_ff_[i] = 1 / (ff_[i] > 0 ? ff_[i] : 1);
   }

@@ -101,6 +101,49 @@ TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
   }
 }
 
+// The squares of such edges are subnormal or 0, and the inverse of a subnormal number is infinite.
+TYPED_TEST(QueryTraps, EdgesWithSubnormalSquares) {
+  using S = TypeParam;
+  Flags flags;
+  Random random(8);
+  const bool is_float = sizeof(S) == 4;
+  const int least = std::numeric_limits<S>::min_exponent / 2 - (is_float ? 14 : 30);
+  for (int i = 0; i < 20000; ++i) {
+    const S tiny =
+        std::ldexp(S(1), least + static_cast<int>(random.uniform(0, is_float ? 20 : 40)));
+    TriangleVertices<S> p, q;
+    for (auto* const triangle : {&p, &q}) {
+      for (auto& v : *triangle) {
+        for (S& x : v) {
+          const double kind = random.uniform(0, 1);
+          x = static_cast<S>(random.uniform(-1, 1));
+          if (kind < 0.4) x = kind < 0.2 ? S(0) : std::round(x);
+        }
+      }
+      const int of = static_cast<int>(random.uniform(0, 3));
+      const auto k = static_cast<std::size_t>(of);
+      if (random.uniform(0, 1) < 0.8) {
+        (*triangle)[(k + 1) % 3] = tiny * (*triangle)[(k + 1) % 3];
+        (*triangle)[k] = tiny * (*triangle)[k];
+      }
+    }
+    flags.during("triangleDistance", [&] { triangleDistance<S>(p, q); });
+    flags.during("trianglesIntersect", [&] { trianglesIntersect<S>(p, q); });
+    Mesh meshes[2];
+    for (std::size_t m = 0; m < 2; ++m) {
+      for (const auto& v : m == 0 ? p : q) {
+        meshes[m].vertices.push_back(v.template cast<double>());
+      }
+      meshes[m].triangles = {{0, 1, 2}};
+    }
+    if (i % 16 != 0) continue;
+    const auto a = modelOf<S>(meshes[0]), b = modelOf<S>(meshes[1]);
+    const fcl::Transform3<S> here = fcl::Transform3<S>::Identity();
+    flags.during("kios::distance", [&] { kios::distance<S>(*a, here, *b, here); });
+    flags.during("closerThan", [&] { closerThan<S>(*a, here, *b, here, 0); });
+  }
+}
+
 TYPED_TEST(QueryTraps, Rays) {
   using S = TypeParam;
   Flags flags;
