@@ -111,6 +111,7 @@ void Body::measure() {
   }
   if (mesh == nullptr && kind != BodyKind::kOctree) kind = BodyKind::kShape;
   // More than all that rounds here and where the ball and the box are asked.
+  middle_L = X_LB.linear() * middle;
   const double slack = 0x1p-40 * (middle.norm() + radius);
   radius += slack;
   half.array() += slack;

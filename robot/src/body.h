@@ -24,9 +24,10 @@ struct Body {
   /// A box of the content in the body's frame, and the ball about its centre that holds the
   /// content.
   fcl::Vector3d middle = fcl::Vector3d::Zero(), half = fcl::Vector3d::Zero();
-  double radius = 0;  ///< infinite for half-spaces and planes
+  double radius = 0;                               ///< infinite for half-spaces and planes
+  fcl::Vector3d middle_L = fcl::Vector3d::Zero();  ///< of the box, from the body's origin
 
-  /// Sets what follows from the geometry.
+  /// Sets what follows from the geometry and its pose.
   void measure();
 };
 

@@ -26,8 +26,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Cell::Placed {
   const Cell* cell = nullptr;
   std::vector<PlacedLink> links;
-  std::vector<Transform3d> poses;  ///< of what links carry, as `centers`
-  std::vector<Vector3d> centers;
+  std::vector<Vector3d> centers;  ///< of what links carry, as `poses`
+  mutable std::vector<Transform3d> poses;
+  mutable std::vector<char> posed;  ///< the pose was asked for and is set
   std::vector<Candidate> found;
   BallLanes balls;
 
@@ -37,17 +38,24 @@ struct Cell::Placed {
     cell.arm_->tree.place(q, placed.links);
     const auto count = static_cast<std::size_t>(cell.carried_);
     placed.poses.resize(count);
+    placed.posed.assign(count, 0);
     placed.centers.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
       const Body& body = cell.bodies_[i];
-      placed.poses[i] = placed.links[body.node].pose(body.X_LB);
-      placed.centers[i] = placed.poses[i] * body.middle;
+      const PlacedLink& link = placed.links[body.node];
+      placed.centers[i] = link.place(body.X_LB.translation()) + link.R * body.middle_L;
     }
     placed.found.clear();
     return placed;
   }
   const Transform3d& pose(int i) const {
-    return i < cell->carried_ ? poses[i] : cell->bodies_[i].X_LB;
+    const Body& body = cell->bodies_[i];
+    if (i >= cell->carried_) return body.X_LB;
+    if (posed[i] == 0) {
+      posed[i] = 1;
+      poses[i] = links[body.node].pose(body.X_LB);
+    }
+    return poses[i];
   }
   const Vector3d& center(int i) const {
     return i < cell->carried_ ? centers[i] : cell->middles_[i - cell->carried_];

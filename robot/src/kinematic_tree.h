@@ -21,9 +21,10 @@ struct PlacedLink {
   fcl::Transform3d pose(const fcl::Transform3d& X_LB) const {
     fcl::Transform3d X = fcl::Transform3d::Identity();
     X.linear().noalias() = R * X_LB.linear();
-    X.translation() = t + R * X_LB.translation();
+    X.translation() = place(X_LB.translation());
     return X;
   }
+  Eigen::Vector3d place(const Eigen::Vector3d& p_L) const { return t + R * p_L; }
 };
 
 /// The links of a URDF as those of a linkage: planar and floating joints become several, parents
