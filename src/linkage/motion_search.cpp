@@ -16,6 +16,8 @@ constexpr double kRootsShare = 0.35;
 constexpr double kSlabShare = 0.35;
 // Looks at a pair before slabs between its triangles are tried.
 constexpr int kPatience = 40;
+// Where a query proves so much of the path they aren't: at that pace a few more looks decide it.
+constexpr double kFastWay = 1.0 / 256;
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
 constexpr int kMostUndecided = 256;
 
@@ -178,7 +180,7 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   constexpr long long kTestsOfQuery = 100;
   const Look nothing = knownLocally(task);
   Suspect& suspect = suspects_[task.suspect];
-  if (++suspect.looks <= kPatience) return nothing;
+  if (++suspect.looks <= kPatience || suspect.way > kFastWay) return nothing;
   const auto isMesh = [&](int body) { return path_.linkage().bodies[body].model != nullptr; };
   if (!isMesh(suspect.pair.a) && !isMesh(suspect.pair.b)) return nothing;
   if (suspect.place < 0) {
