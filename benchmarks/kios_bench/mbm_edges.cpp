@@ -53,6 +53,21 @@ class Draw {
 
 using Answer = std::function<void(const Question&)>;
 
+void addRows(const std::string& scenario, const char* query,
+             const std::vector<Competitor>& competitors, std::size_t frames, const Options& options,
+             Report& report) {
+  Row row;
+  row.scenario = scenario;
+  row.query = query;
+  row.frames = frames;
+  row.seed = options.seed;
+  std::vector<Row> rows;
+  for (const Competitor& competitor : competitors) {
+    rows.push_back(row.of(competitor, named("fcl_obbrss", competitors)));
+  }
+  report.add(rows);
+}
+
 void race(const std::string& scenario, const char* query, const std::vector<Question>& questions,
           const std::vector<std::pair<const char*, Answer>>& ways, const Options& options,
           Report& report) {
@@ -72,16 +87,39 @@ void race(const std::string& scenario, const char* query, const std::vector<Ques
   race.block = race.step = 16;
   race.warm_up = true;
   race.run(competitors);
-  Row row;
-  row.scenario = scenario;
-  row.query = query;
-  row.frames = questions.size();
-  row.seed = options.seed;
-  std::vector<Row> rows;
-  for (const Competitor& competitor : competitors) {
-    rows.push_back(row.of(competitor, named("fcl_obbrss", competitors)));
+  addRows(scenario, query, competitors, questions.size(), options, report);
+}
+
+/// All configurations of a robot's places at once, on all cores and on one.
+void raceBatches(const std::string& scenario,
+                 const std::vector<std::pair<const Place*, Eigen::MatrixXd>>& batches,
+                 const Options& options, Report& report) {
+  using Contacts = std::function<void(const Place&, const Eigen::MatrixXd&)>;
+  const std::pair<const char*, Contacts> ways[] = {
+      {"kios", [](const Place& place, const Eigen::MatrixXd& q) { place.robot.contacts(q); }},
+      {"kios_one_thread",
+       [](const Place& place, const Eigen::MatrixXd& q) { place.robot.contacts(q, 1); }},
+      {"fcl_obbrss", [](const Place& place, const Eigen::MatrixXd& q) {
+         for (Eigen::Index i = 0; i < q.cols(); ++i) place.obbrss->isFree(q.col(i));
+       }}};
+  std::vector<Competitor> competitors;
+  for (const auto& [bv, answer] : ways) {
+    Competitor competitor;
+    competitor.name = bv;
+    competitor.answer = [&batches, answer = answer](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) answer(*batches[i].first, batches[i].second);
+    };
+    competitors.push_back(std::move(competitor));
   }
-  report.add(rows);
+  Race race;
+  race.questions = batches.size();
+  race.repeats = options.quick ? 1 : options.repeats;
+  race.block = race.step = 1;
+  race.warm_up = race.wall_clock = true;
+  race.run(competitors);
+  std::size_t frames = 0;
+  for (const auto& batch : batches) frames += static_cast<std::size_t>(batch.second.cols());
+  addRows(scenario, "collide", competitors, frames, options, report);
 }
 
 bool isClear(const Question& edge) {
@@ -134,9 +172,12 @@ void measureQuestions(const std::string& name, const Robot& bare,
     race("mbm/" + name + "/blocked/" + text, "motion", blocked, edge_ways, options, report);
   }
   std::vector<Question> configurations, clear;
+  std::vector<std::pair<const Place*, Eigen::MatrixXd>> batches;
   for (const auto& place : places) {
-    for (int i = 0; i < 10 * of_place; ++i) {
+    batches.emplace_back(place.get(), Eigen::MatrixXd(bare.coordinates(), 20 * of_place));
+    for (int i = 0; i < 20 * of_place; ++i) {
       Question question{place.get(), draw.configuration(), {}};
+      batches.back().second.col(i) = question.q0;
       if (is_free(*place)(question.q0)) clear.push_back(question);
       configurations.push_back(std::move(question));
     }
@@ -145,6 +186,7 @@ void measureQuestions(const std::string& name, const Robot& bare,
        {{"kios", [&](const Question& at) { is_free (*at.place)(at.q0); }},
         {"fcl_obbrss", [&](const Question& at) { is_free_by_fcl (*at.place)(at.q0); }}},
        options, report);
+  raceBatches("mbm/" + name + "/batches", batches, options, report);
   race("mbm/" + name + "/free", "gradient", clear,
        {{"kios", [&](const Question& at) { at.place->robot.clearance(at.q0); }}}, options, report);
 }

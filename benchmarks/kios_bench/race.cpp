@@ -8,8 +8,17 @@
 #include <numeric>
 
 namespace kios::bench {
+namespace {
+
+double wallMicroseconds() {
+  const auto time = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::micro>(time).count();
+}
+
+}  // namespace
 
 void Race::run(std::vector<Competitor>& competitors) const {
+  const auto now = wall_clock ? wallMicroseconds : nowMicroseconds;
   const std::size_t of_block = std::min(block, questions), of_step = std::min(step, of_block);
   for (Competitor& competitor : competitors) {
     competitor.us.clear();
@@ -26,9 +35,9 @@ void Race::run(std::vector<Competitor>& competitors) const {
         if (competitor.before) competitor.before(begin, end);
         for (std::size_t at = begin; at < end; at += of_step) {
           if (at / of_step % competitor.stride != 0) continue;
-          const double start = nowMicroseconds();
+          const double start = now();
           competitor.answer(at, std::min(at + of_step, end));
-          competitor.us.back()[at / of_step] = nowMicroseconds() - start;
+          competitor.us.back()[at / of_step] = now() - start;
         }
       }
     }
@@ -66,8 +75,7 @@ double nowMicroseconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) * 1e6 + static_cast<double>(time.tv_nsec) * 1e-3;
 #else
-  const auto time = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::micro>(time).count();
+  return wallMicroseconds();
 #endif
 }
 

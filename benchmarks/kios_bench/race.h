@@ -35,6 +35,7 @@ struct Race {
   /// Each competitor answers all once before: what models leave to their first query belongs to no
   /// repeat.
   bool warm_up = false;
+  bool wall_clock = false;  ///< where answers take several threads; else this thread's CPU time
 
   /// Sets `us` of the competitors.
   void run(std::vector<Competitor>& competitors) const;
