@@ -334,7 +334,7 @@ bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes, L
     const double centers = (a_.centers[i] - b_.centers[k]).norm();
     if (centers - a.radius - b.radius > moved || anySlabStays(half, i, k)) continue;
     if (moved < centers + a.radius + b.radius) {
-      // Of a mesh and a shape an error that is allowed would be taken off what is proven.
+      // An error that is allowed would be taken off what is proven of a mesh and a shape.
       const double rel_err = a.mesh && b.mesh ? 1 : 0;
       const Nearness near =
           distanceOf(a, a_.poses[i], b, b_.poses[k], rel_err, 0, moved * (1 + 0x1p-30));
