@@ -75,6 +75,18 @@ Nearness ofShapes(const Body& a, const Transform3d& X_WA, const Body& b, const T
   return near;
 }
 
+/// Returns true if two meshes whose surfaces are apart are in contact, as marked solids are where
+/// one lies in the other; kios::distance and closerThan know surfaces only. Sets a common point.
+bool isContained(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
+                 Nearness& near) {
+  if (!isSolid(*a.mesh) || !isSolid(*b.mesh)) return false;
+  fcl::CollisionResultd result;
+  if (fcl::collide(a.mesh, X_WA, b.mesh, X_WB, fcl::CollisionRequestd(), result) == 0) return false;
+  near = {};
+  near.point_a = near.point_b = result.getContact(0).pos;
+  return true;
+}
+
 Nearness ofMeshes(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
                   double rel_err, double abs_err, double far_enough) {
   DistanceOptionsd options;
@@ -89,6 +101,7 @@ Nearness ofMeshes(const Body& a, const Transform3d& X_WA, const Body& b, const T
   near.point_b = answer.point_b;
   near.id_a = answer.triangle_a;
   near.id_b = answer.triangle_b;
+  if (near.distance > 0) isContained(a, X_WA, b, X_WB, near);
   return near;
 }
 
@@ -101,16 +114,21 @@ Nearness ofMeshAndOther(const Body& mesh, const Transform3d& X_WM, const Body& o
   request.rel_err = rel_err;
   request.abs_err = abs_err;
   fcl::DistanceResultd result;
-  if (far_enough < kInfinity) result.min_distance = std::max(far_enough, 0x1p-500);
+  // A request with errors leaves out what is nearer than its bound by as much.
+  if (far_enough < kInfinity) {
+    result.min_distance = std::max({far_enough * (1 + rel_err), far_enough + abs_err, 0x1p-500});
+  }
   const double asked = result.min_distance;
   const double found =
       fcl::distance(mesh.geometry.get(), X_WM, other.geometry.get(), X_WO, request, result);
   Nearness near;
-  const double length = mesh.radius + (other.radius < kInfinity ? other.radius : 0) +
+  const double length = mesh.middle.norm() + mesh.radius + other.middle.norm() +
+                        (other.radius < kInfinity ? other.radius : 0) +
                         (X_WM.translation() - X_WO.translation()).norm();
   if (!(found < asked)) {
     near.distance = kInfinity;
-    near.lower = std::max(0.0, asked - errorOf(other, length));
+    const double proven = std::min(asked / (1 + rel_err), asked - abs_err) * (1 - 0x1p-50);
+    near.lower = std::max(0.0, proven - errorOf(other, length));
     return near;
   }
   near.distance = std::max(0.0, found);
@@ -156,7 +174,8 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     return near.distance <= separation;
   }
   if (separation > 0) {
-    if (!contact && a.mesh && b.mesh) {
+    const bool meshes = a.mesh && b.mesh;
+    if (!contact && meshes && !(isSolid(*a.mesh) && isSolid(*b.mesh))) {
       return closerThan(*a.mesh, X_WA, *b.mesh, X_WB, separation);
     }
     // A shape's threshold is exclusive.

@@ -15,6 +15,7 @@ namespace kios::robot {
 namespace {
 
 using Eigen::Vector3d;
+using fcl::Transform3d;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -59,6 +60,7 @@ PairSearch::PairSearch(const Arm& arm, int link_a, int link_b) : arm_(arm) {
     side->poses.resize(side->bodies.size());
     side->centers.resize(side->bodies.size());
   }
+  ways_.resize(joints_.size());
   findRanges();
 }
 
@@ -260,13 +262,14 @@ double PairSearch::radiusFrom(const Between& joint, const Side& side, std::size_
 }
 
 double PairSearch::motionBound(const std::vector<double>& half, std::size_t i, std::size_t k,
-                               std::vector<double>& parts) const {
+                               std::vector<double>& parts) {
   double of_both = 0, of_a = 0, of_b = 0;
   std::vector<double> own(3 * half.size(), 0);
   for (const Between& joint : joints_) {
     const std::size_t slot = static_cast<std::size_t>(joint.slot);
     const double way = joint.scale * half[slot];
     const double a = way * radiusFrom(joint, a_, i), b = way * radiusFrom(joint, b_, k);
+    ways_[static_cast<std::size_t>(&joint - joints_.data())] = joint.of_a ? a : b;
     own[3 * slot] += joint.of_a ? a : b;
     own[3 * slot + 1] += a;
     own[3 * slot + 2] += b;
@@ -278,6 +281,36 @@ double PairSearch::motionBound(const std::vector<double>& half, std::size_t i, s
   const std::size_t chosen = least == of_both ? 0 : least == of_a ? 1 : 2;
   for (std::size_t slot = 0; slot < half.size(); ++slot) parts[slot] = own[3 * slot + chosen];
   return least * (1 + 0x1p-40) + pad_;
+}
+
+bool PairSearch::slabStays(const Vector3d& n, const std::vector<double>& half, std::size_t i,
+                           std::size_t k) const {
+  const auto extent = [&](const Side& side, std::size_t index) {
+    const Vector3d along = side.poses[index].linear().transpose() * n;
+    return along.cwiseAbs().dot(side.bodies[index]->half);
+  };
+  const double gap = std::abs(n.dot(b_.centers[k] - a_.centers[i])) - extent(a_, i) - extent(b_, k);
+  if (!(gap > 0)) return false;
+  double moved = 0, turned_a = 0, turned_b = 0;
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const Between& joint = joints_[j];
+    const Vector3d& axis = placed_[static_cast<std::size_t>(joint.node)].axis;
+    double& turned = joint.of_a ? turned_a : turned_b;
+    const double share = joint.slides ? std::abs(n.dot(axis)) : n.cross(axis).norm();
+    moved += ways_[j] * std::min(1.0, share + turned + 0x1p-40);
+    if (!joint.slides) turned += joint.scale * half[static_cast<std::size_t>(joint.slot)];
+  }
+  return gap > moved * (1 + 0x1p-40) + pad_;
+}
+
+bool PairSearch::anySlabStays(const std::vector<double>& half, std::size_t i, std::size_t k) const {
+  if (!(a_.bodies[i]->radius < kInfinity && b_.bodies[k]->radius < kInfinity)) return false;
+  for (const Transform3d* X : {&a_.poses[i], &b_.poses[k]}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (slabStays(X->linear().col(axis), half, i, k)) return true;
+    }
+  }
+  return false;
 }
 
 bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes, LinkPair& result) {
@@ -299,9 +332,12 @@ bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes, L
     place(middle_);
     const double moved = motionBound(half, i, k, parts);
     const double centers = (a_.centers[i] - b_.centers[k]).norm();
-    if (centers - a.radius - b.radius > moved) continue;
+    if (centers - a.radius - b.radius > moved || anySlabStays(half, i, k)) continue;
     if (moved < centers + a.radius + b.radius) {
-      const Nearness near = distanceOf(a, a_.poses[i], b, b_.poses[k], 1, 0, moved * (1 + 0x1p-30));
+      // An error that is allowed would be taken off what is proven of a mesh and a shape.
+      const double rel_err = a.mesh && b.mesh ? 1 : 0;
+      const Nearness near =
+          distanceOf(a, a_.poses[i], b, b_.poses[k], rel_err, 0, moved * (1 + 0x1p-30));
       if (near.lower > moved) continue;
       if (!(near.distance > 0) && touchingAt(result)) return false;
     }

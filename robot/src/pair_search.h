@@ -21,6 +21,12 @@ namespace kios::robot {
 /// carries both, both bodies move, each by the joints of its own side; seen from one of the bodies,
 /// the other one moves by the joints of both sides. All three bounds hold; the least is used.
 ///
+/// A slab between the boxes of two bodies at c, across n, proves more where they move along it. In
+/// the sum of steps from which the bound above comes, one joint after the other, joint i turns a
+/// point within the plane across its axis, which the joints before it have turned by at most the
+/// sum of their angles: so the step's length along n is at most h_i rho_i (|n x axis| + that sum),
+/// and that of a slide h_i (|n axis| + that sum).
+///
 /// Rounding is as in src/linkage/configuration.h; 2^-40 stands here in the place of 2^-43.
 class PairSearch {
  public:
@@ -52,7 +58,11 @@ class PairSearch {
   bool touchingAt(LinkPair& result);
   /// How far the pair of bodies may come nearer to each other in a box, by slot in `parts` too.
   double motionBound(const std::vector<double>& half, std::size_t i, std::size_t k,
-                     std::vector<double>& parts) const;
+                     std::vector<double>& parts);
+  /// Whether a slab across n, or across a side of a body's box, stays between the bodies in a box.
+  bool slabStays(const fcl::Vector3d& n, const std::vector<double>& half, std::size_t i,
+                 std::size_t k) const;
+  bool anySlabStays(const std::vector<double>& half, std::size_t i, std::size_t k) const;
   double radiusFrom(const Between& joint, const Side& side, std::size_t body) const;
   bool proveApart(std::size_t i, std::size_t k, long long max_boxes, LinkPair& result);
   Eigen::VectorXd configuration() const;
@@ -67,6 +77,7 @@ class PairSearch {
   Side a_, b_;
   double pad_ = 0;
   std::vector<PlacedLink> placed_;
+  std::vector<double> ways_;  ///< by joint: how far it moves its side in a box, by motionBound()
 };
 
 }  // namespace kios::robot

@@ -31,7 +31,8 @@ void requireColumns(const Impl& impl, const Eigen::MatrixXd& q, const char* what
            impl.arm->description.name + " has " + std::to_string(impl.arm->tree.coordinates()) +
            " coordinates; a configuration is a column.");
   }
-  for (Eigen::Index i = 0; i < q.cols() && !q.allFinite(); ++i) {
+  const bool fine = q.allFinite() && q.lpNorm<Eigen::Infinity>() <= 0x1p300;
+  for (Eigen::Index i = 0; i < q.cols() && !fine; ++i) {
     impl.requireConfiguration(q.col(i),
                               (std::string(what) + ", column " + std::to_string(i)).c_str());
   }

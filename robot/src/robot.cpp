@@ -95,6 +95,14 @@ void Robot::Impl::forget(const std::string& name) {
   changed();
 }
 
+void Robot::Impl::remove(const std::string& name) {
+  forget(name);
+  paddings.erase(name);
+  for (auto at = allowed.begin(); at != allowed.end();) {
+    at = at->first == name || at->second == name ? allowed.erase(at) : std::next(at);
+  }
+}
+
 Robot::Robot(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Robot::Robot(const Robot& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
 Robot::Robot(Robot&& other) noexcept = default;
@@ -211,11 +219,7 @@ void Robot::remove(const std::string& name) {
   if (impl_->requireEntity(name) < static_cast<int>(impl_->arm->links.size())) {
     refuse("'" + name + "' is a link, which can't be removed.");
   }
-  impl_->forget(name);
-  impl_->paddings.erase(name);
-  for (auto at = impl_->allowed.begin(); at != impl_->allowed.end();) {
-    at = at->first == name || at->second == name ? impl_->allowed.erase(at) : std::next(at);
-  }
+  impl_->remove(name);
 }
 
 void Robot::allow(const std::string& a, const std::string& b, bool allowed) {
@@ -247,7 +251,7 @@ void Robot::setPadding(const std::string& name, double metres) {
 void Robot::addScene(const std::string& file) {
   robot::Scene scene = robot::readScene(file, impl_->arm->description);
   auto next = std::make_unique<Impl>(*impl_);
-  for (const std::string& name : scene.removed) next->forget(name);
+  for (const std::string& name : scene.removed) next->remove(name);
   for (Object& object : scene.objects) {
     next->forget(object.name);
     try {

@@ -34,7 +34,8 @@ class Robot::Impl {
   int requireLink(const std::string& name) const;
   void requireConfiguration(const Eigen::VectorXd& q, const char* what) const;
   void add(robot::Object object);
-  void forget(const std::string& name);
+  void forget(const std::string& name);  ///< an object; what is known of its name stays
+  void remove(const std::string& name);  ///< with its paddings and allowed pairs
 
   std::shared_ptr<const robot::Arm> arm;
   std::vector<robot::Object> objects;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkage/orbits.h"
 #include "volume/rounding.h"
 
 namespace kios::articulated {
@@ -18,6 +19,9 @@ constexpr double kSlabShare = 0.35;
 constexpr int kPatience = 40;
 // Where a query proves so much of the path they aren't: at that pace a few more looks decide it.
 constexpr double kFastWay = 1.0 / 256;
+constexpr int kLooksBeforeOrbits = 4;  // and one more for so many triangles
+constexpr int kTrianglesOfLook = 128;
+constexpr long long kTestsOfQuery = 100;  // take as long as one
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
 constexpr int kMostUndecided = 256;
 
@@ -173,16 +177,34 @@ MotionSearch::Look MotionSearch::knownLocally(const Task& task) const {
   return {Outcome::kPart, task.from, task.from, own.to, own.to - task.from};
 }
 
+void MotionSearch::tryOrbits(int suspect, const Configuration& c) {
+  Suspect& own = suspects_[suspect];
+  long long cost = 0;
+  const bool proven = orbitsApart(path_, own.pair, c, request_.min_separation, cost);
+  counts_.queries += cost / kTestsOfQuery;
+  if (!proven) return;
+  own.place = static_cast<int>(local_.size());
+  local_.emplace_back();
+  local_.back().to = 1;
+}
+
 // Goes on beyond the interval, as far as it gets. One that proved less than queries at the same
 // cost is followed by pauses, each several times as long.
 MotionSearch::Look MotionSearch::local(const Task& task) {
   constexpr int kLongestPause = 1000;
-  constexpr long long kTestsOfQuery = 100;
   const Look nothing = knownLocally(task);
   Suspect& suspect = suspects_[task.suspect];
-  if (++suspect.looks <= kPatience || suspect.way > kFastWay) return nothing;
-  const auto isMesh = [&](int body) { return path_.linkage().bodies[body].model != nullptr; };
-  if (!isMesh(suspect.pair.a) && !isMesh(suspect.pair.b)) return nothing;
+  const Modeld *a = path_.linkage().bodies[suspect.pair.a].model,
+               *b = path_.linkage().bodies[suspect.pair.b].model;
+  ++suspect.looks;
+  if (!a && !b) return nothing;
+  const int triangles = (a ? a->num_tris : 0) + (b ? b->num_tris : 0);
+  if (suspect.looks == kLooksBeforeOrbits + triangles / kTrianglesOfLook) {
+    tryOrbits(task.suspect, at(task.look_at));
+    const Look look = knownLocally(task);
+    if (look.outcome == Look::Outcome::kProven) return look;
+  }
+  if (suspect.looks <= kPatience || suspect.way > kFastWay) return nothing;
   if (suspect.place < 0) {
     suspect.place = static_cast<int>(local_.size());
     local_.emplace_back();

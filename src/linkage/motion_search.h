@@ -108,8 +108,11 @@ class MotionSearch {
   /// are proven apart from s on, or up to s.
   bool containedAt(double s);
   Look look(const Task& task);
-  /// By slabs between triangles, once a pair has been looked at often; else nothing.
+  /// By what turns leave as it is, or by slabs between triangles, once a pair has been looked at
+  /// often; else nothing.
   Look local(const Task& task);
+  /// Tries to prove the suspect for the whole path.
+  void tryOrbits(int suspect, const Configuration& c);
   /// What the last such search proved of an interval, which it may have passed.
   Look knownLocally(const Task& task) const;
   Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;

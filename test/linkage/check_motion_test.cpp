@@ -254,8 +254,9 @@ TEST(CheckMotion, OctreesAgreeWithDenseSampling) {
 TEST(CheckMotion, UnresolvedNamesTheInterval) {
   RobotCase robot;
   robot.addLink(-1, joint(JointType::kRevolute, {0, 0, 0}, {0, 0, 1}));
-  robot.addBody(0, boxOf(2, 0.1, 0.1), shifted(1, 0, 0));
-  // The tip's corner passes the plate a ten-millionth away, as it points along x.
+  robot.addBody(0, boxOf(5, 0.1, 0.1), shifted(-0.5, 0, 0));
+  // The tip's corner passes the plate a ten-millionth away, as it points along x; the other end
+  // would meet it.
   const double reach = std::hypot(2, 0.05);
   robot.addBody(-1, boxOf(0.1, 2, 0.1), shifted(reach + 0.05 + 1e-7, 0, 0));
   MotionRequest request;

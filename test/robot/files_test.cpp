@@ -249,6 +249,15 @@ world:
   robot.addScene(scene);  // the same names are replaced
   robot.remove("tent");
   expectRefused([&] { robot.pose("tent", q); }, "tent");
+  // What a scene removes goes with what was allowed and padded.
+  robot.setPadding("shelf", 0.1);
+  robot.addScene(folder.write(
+      "less.yaml", "world:\n  collision_objects:\n    - {id: shelf, operation: REMOVE}\n"));
+  expectRefused([&] { robot.pose("shelf", q); }, "shelf");
+  robot.addObstacle("shelf", std::make_shared<fcl::Sphered>(0.1), shifted(0.2, 0, 0));
+  EXPECT_FALSE(robot.allowed("shelf", "base"));
+  EXPECT_TRUE(robot.contact(q).has_value());
+  EXPECT_EQ(robot.clearance(q).clearance, 0);
   expectRefused([&] { robot.remove("upper"); }, "link");
 }
 

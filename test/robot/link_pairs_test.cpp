@@ -3,6 +3,10 @@
 //
 // Pairs of links: proofs against samples, gaps that shrink to nothing, joints without limits.
 
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
 #include "fcl/expect_refused.h"
 #include "robot/robot_files.h"
 
@@ -121,6 +125,29 @@ TEST(LinkPairs, SmallGapsAreProvenAndSmallOverlapsFound) {
   EXPECT_EQ(swinging(folder, 0.001).linkPairs(none)[0].verdict, PairVerdict::kOpen);
   none.max_boxes = -1;
   expectRefused([&] { swinging(folder, 1).linkPairs(none); }, "max_boxes");
+}
+
+// The tip of a mesh reaches a ball at one angle only, which no sample finds.
+TEST(LinkPairs, NoProofPassesOverAContact) {
+  const Folder folder;
+  folder.write("needle.obj", "v 1 0 0\nv 0.5 0.001 0\nv 0.5 -0.001 0\nf 1 2 3\n");
+  for (const double angle : {-2.7, -1.234, -0.51, 0.3, 0.777, 1.9, 2.71}) {
+    SCOPED_TRACE(angle);
+    const double far = 1.01 - 1e-10;
+    std::ostringstream place;
+    place << std::setprecision(17) << "<origin xyz='" << far * std::cos(angle) << " "
+          << far * std::sin(angle) << " 0'/>";
+    const Robot robot = loadRobot(folder.write(
+        "n.urdf", "<robot name='n'>" + link("post", "<sphere radius='0.01'/>", place.str()) +
+                      link("first") + link("needle", "<mesh filename='needle.obj'/>") +
+                      joint("f", "fixed", "post", "first") +
+                      joint("j", "revolute", "first", "needle",
+                            "<axis xyz='0 0 1'/><limit lower='-3' upper='3'/>") +
+                      "</robot>"));
+    const auto pairs = robot.linkPairs();
+    ASSERT_EQ(pairs.size(), 1u);
+    EXPECT_EQ(pairs[0].verdict, PairVerdict::kSometimes) << pairs[0].boxes << " boxes";
+  }
 }
 
 // One coordinate moves two fingers towards each other; they stop before they meet, or don't.

@@ -69,6 +69,10 @@ TEST(RobotSurroundings, WhatIsAddedMovedAttachedAndRemoved) {
   bad[3] = std::numeric_limits<double>::quiet_NaN();
   expectRefused([&] { robot.clearance(bad); }, "turn");
   expectRefused([&] { robot.clearances(q, std::nan("")); }, "within");
+  bad[3] = 1e305;
+  expectRefused([&] { robot.contact(bad); }, "too large");
+  expectRefused([&] { robot.contacts(bad); }, "too large");
+  expectRefused([&] { robot.checkMotions(q, bad); }, "too large");
   expectRefused(
       [&] { robot.addObstacle("plain", std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>()); },
       "toKIOS");
@@ -203,6 +207,69 @@ TEST(RobotSurroundings, BodiesLieInMarkedSolids) {
         EXPECT_TRUE(robot.contact(across).has_value());
         EXPECT_FALSE(robot.contact(outside).has_value());
       }
+    }
+  }
+}
+
+// One marked solid within another is in contact whatever the paddings, and all calls say so.
+TEST(RobotSurroundings, SolidsWithinSolidsAreInContact) {
+  const Folder folder;
+  const auto large = loadMesh(folder.write("large.obj", boxObj(0.5, 0.5, 0.5)));
+  const auto small = loadMesh(folder.write("small.obj", boxObj(0.1, 0.1, 0.1)));
+  markSolid(*large);
+  markSolid(*small);
+  Robot robot =
+      loadRobot(folder.write("r.urdf", "<robot name='r'>" + link("a") + link("b") +
+                                           joint("fly", "floating", "a", "b") + "</robot>"));
+  robot.attach("small", "b", small, shifted(0, 0, 0));
+  robot.addObstacle("large", large);
+  VectorXd q = VectorXd::Zero(6);
+  q << 0.1, 0.05, -0.1, 0.3, 0.2, 0.1;
+  for (const double padding : {0.0, 0.01, 0.2}) {
+    SCOPED_TRACE(padding);
+    robot.setPadding("small", padding);
+    const auto contact = robot.contact(q);
+    ASSERT_TRUE(contact.has_value());
+    EXPECT_LT(contact->point.cwiseAbs().maxCoeff(), 0.5);
+    EXPECT_EQ(robot.contacts(q)[0], 1);
+    const RobotClearance nearest = robot.clearance(q);
+    EXPECT_EQ(nearest.clearance, -padding);
+    EXPECT_EQ(nearest.lower_bound, -padding);
+    ASSERT_EQ(nearest.gradient.size(), 6);
+    EXPECT_GT(nearest.gradient.head(3).norm(), 0.5);
+    ClearanceOptions near;
+    near.far_enough = 0.01;
+    EXPECT_EQ(robot.clearance(q, near).clearance, -padding);
+    ASSERT_EQ(robot.clearances(q, 0.0).size(), 1u);
+    EXPECT_EQ(robot.checkMotion(q, q).verdict, MotionVerdict::kContact);
+  }
+}
+
+// What is proven of a shape and a mesh holds with errors that are allowed, too.
+TEST(RobotSurroundings, LowerBoundsHoldWithErrors) {
+  const Folder folder;
+  Robot robot =
+      loadRobot(folder.write("r.urdf", "<robot name='r'>" + link("a") + link("b") +
+                                           joint("fly", "floating", "a", "b") + "</robot>"));
+  robot.attach("mesh", "b", loadMesh(folder.write("box.obj", boxObj(0.25, 0.25, 0.25))),
+               shifted(0, 0, 0));
+  robot.addObstacle("ball", std::make_shared<fcl::Sphered>(0.5));
+  VectorXd q = VectorXd::Zero(6);
+  for (const double distance : {0.1, 0.7, 0.95, 1.0, 1.2, 1.9, 2.5}) {
+    q[0] = 0.75 + distance;
+    ClearanceOptions options;
+    options.far_enough = 1;
+    for (const auto& [rel, abs] : {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(3.0, 0.0),
+                                   std::pair(0.0, 0.4), std::pair(0.2, 0.2)}) {
+      SCOPED_TRACE(::testing::Message() << distance << " " << rel << " " << abs);
+      options.rel_err = rel;
+      options.abs_err = abs;
+      const RobotClearance near = robot.clearance(q, options);
+      EXPECT_LE(near.lower_bound, distance + 1e-12);
+      EXPECT_GE(near.lower_bound, std::min({1.0, distance / (1 + rel), distance - abs}) - 1e-9);
+      EXPECT_GE(near.clearance, distance - 1e-12);
+      const double most = distance < 1 ? distance + std::max(rel * distance, abs) : kInfinity;
+      EXPECT_LE(near.clearance, most + 1e-9);
     }
   }
 }
