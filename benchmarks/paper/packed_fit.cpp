@@ -113,21 +113,23 @@ PackedPolicy::Volume PackedPolicy::fit(const fcl::Vector3d* points, int n,
     options.count = SphereCount::kAll;
   }
   SphereFitter<double> fitter;
-  const auto spheres = fitter.placement(points, n, options, v.by_height ? 1 : most_spheres_);
+  const SphereCenters spheres = fitter.place(points, n, options, v.by_height ? 1 : most_spheres_);
+  const auto inModel = [&](float x) { return scaled(double{x}, fitter.exponent()); };
   const double unit = scaled(1.0, -model.exponent);
   std::vector<fcl::Vector3d> q(n);
   for (int i = 0; i < n; ++i) q[i] = (points[i] - model.origin) * unit;
   for (int c = 0; c < 3; ++c) {
-    v.center[c] = static_cast<float>((spheres.center0[c] - model.origin[c]) * unit);
+    v.center[c] =
+        static_cast<float>((points[0][c] + inModel(spheres.sphere[0][c]) - model.origin[c]) * unit);
   }
   if (v.by_height) {
     placeAlong(directions(model), q, v);
   } else {
     for (v.caps = 0; v.caps < spheres.k - 1; ++v.caps) {
-      const fcl::Vector3f o = (spheres.cap[v.caps] * unit).cast<float>();
-      v.x[v.caps] = o[0];
-      v.y[v.caps] = o[1];
-      v.z[v.caps] = o[2];
+      const float* const o = spheres.sphere[v.caps + 1];
+      v.x[v.caps] = static_cast<float>(inModel(o[0]) * unit);
+      v.y[v.caps] = static_cast<float>(inModel(o[1]) * unit);
+      v.z[v.caps] = static_cast<float>(inModel(o[2]) * unit);
     }
     v.pairs = static_cast<std::uint8_t>((1 << v.caps / 2) - 1);
   }

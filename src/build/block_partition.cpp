@@ -83,10 +83,10 @@ LaneFrame BlockPartition::principalFrame(const std::uint32_t* items, int n) cons
     for (int r = 0; r < 3; ++r) row[r] += d[r] * d;
   }
   const float part = 1.0F / static_cast<float>(n);
-  const Eigen::Matrix3f axes =
-      principalAxes(Scatter{row[0][0] - s[0] * s[0] * part, row[0][1] - s[0] * s[1] * part,
-                            row[0][2] - s[0] * s[2] * part, row[1][1] - s[1] * s[1] * part,
-                            row[1][2] - s[1] * s[2] * part, row[2][2] - s[2] * s[2] * part});
+  const Eigen::Matrix3f axes = principalAxes(
+      Scatter<float>{0, 0, 0, row[0][0] - s[0] * s[0] * part, row[0][1] - s[0] * s[1] * part,
+                     row[0][2] - s[0] * s[2] * part, row[1][1] - s[1] * s[1] * part,
+                     row[1][2] - s[1] * s[2] * part, row[2][2] - s[2] * s[2] * part});
   LaneFrame frame;
   for (int c = 0; c < 3; ++c) frame.columns[c] = Float4{axes(c, 0), axes(c, 1), axes(c, 2), 0};
   return frame;

@@ -39,7 +39,7 @@ void acrossAny(const Float4 (&e)[3], Float4 (&out)[3]) {
 
 // The eigenvalue that lies farthest from the other two is single, if any is: its eigenvector is the
 // largest cross product of two rows of A - lambda. In the plane across it the rest is a rotation.
-FourAxes principalAxes(const FourScatter& s) {
+FourAxes principalAxes(const Scatter<Float4>& s) {
   const Float4 one = broadcast(1), zero = broadcast(0);
   const Float4 trace = s.xx + s.yy + s.zz;
   Int4 usable = (trace > broadcast(1e-30F)) & (trace < broadcast(1e30F));
@@ -105,10 +105,16 @@ FourAxes principalAxes(const FourScatter& s) {
   return axes;
 }
 
-Eigen::Matrix3f principalAxes(const Scatter& s) {
-  const FourAxes four =
-      principalAxes(FourScatter{broadcast(s.xx), broadcast(s.xy), broadcast(s.xz), broadcast(s.yy),
-                                broadcast(s.yz), broadcast(s.zz)});
+Eigen::Matrix3f principalAxes(const Scatter<float>& s) {
+  const FourAxes four = principalAxes(Scatter<Float4>{{},
+                                                      {},
+                                                      {},
+                                                      broadcast(s.xx),
+                                                      broadcast(s.xy),
+                                                      broadcast(s.xz),
+                                                      broadcast(s.yy),
+                                                      broadcast(s.yz),
+                                                      broadcast(s.zz)});
   Eigen::Matrix3f axes;
   for (int k = 0; k < 3; ++k) {
     for (int r = 0; r < 3; ++r) axes(r, k) = four.column[k][r][0];

@@ -8,9 +8,32 @@
 
 namespace kios {
 
-/// Four symmetric matrices, one a lane.
-struct FourScatter {
-  lanes::Float4 xx = {}, xy = {}, xz = {}, yy = {}, yz = {}, zz = {};
+/// Holds sums of the coordinates of points, relative to an origin of theirs, and of their products:
+/// of one set, or of four sets, one a lane.
+template <typename Real>
+struct Scatter {
+  Real x = {}, y = {}, z = {}, xx = {}, xy = {}, xz = {}, yy = {}, yz = {}, zz = {};
+
+  void add(Real px, Real py, Real pz) {
+    x += px;
+    y += py;
+    z += pz;
+    xx += px * px;
+    xy += px * py;
+    xz += px * pz;
+    yy += py * py;
+    yz += py * pz;
+    zz += pz * pz;
+  }
+  /// Makes the products those about the mean; `part` is 1 / n.
+  void center(Real part) {
+    xx -= part * x * x;
+    xy -= part * x * y;
+    xz -= part * x * z;
+    yy -= part * y * y;
+    yz -= part * y * z;
+    zz -= part * z * z;
+  }
 };
 
 /// Orthonormal axes of four frames: column k, coordinate r.
@@ -18,16 +41,11 @@ struct FourAxes {
   lanes::Float4 column[3][3];
 };
 
-/// Eigenvectors of scatter matrices in no order, by floats: true to about 1e-3 where the
+/// Eigenvectors of the matrices of products in no order, by floats: true to about 1e-3 where the
 /// eigenvalues differ by that. Any matrix gives axes that are orthonormal to 1e-6, also one that is
 /// zero or not finite.
-FourAxes principalAxes(const FourScatter& scatter);
-
-/// Holds one matrix.
-struct Scatter {
-  float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-};
-Eigen::Matrix3f principalAxes(const Scatter& scatter);
+FourAxes principalAxes(const Scatter<lanes::Float4>& scatter);
+Eigen::Matrix3f principalAxes(const Scatter<float>& scatter);
 
 /// A unit vector across each unit vector e.
 void acrossAny(const lanes::Float4 (&e)[3], lanes::Float4 (&out)[3]);

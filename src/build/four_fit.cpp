@@ -37,29 +37,14 @@ void orderPair(InFrame& f, int i, int j, Float4 (&from)[3]) {
 
 void project(const FourSets& s, InFrame& f) {
   const Float4 x0 = s.x[0], y0 = s.y[0], z0 = s.z[0];
-  FourScatter m;
-  Float4 n = broadcast(0), sx = n, sy = n, sz = n;
+  Scatter<Float4> m;
+  Float4 n = broadcast(0);
   for (int i = 0; i < s.count; ++i) {
     const Float4 w = s.weight[i];
-    const Float4 x = (s.x[i] - x0) * w, y = (s.y[i] - y0) * w, z = (s.z[i] - z0) * w;
+    m.add((s.x[i] - x0) * w, (s.y[i] - y0) * w, (s.z[i] - z0) * w);
     n += w;
-    sx += x;
-    sy += y;
-    sz += z;
-    m.xx += x * x;
-    m.xy += x * y;
-    m.xz += x * z;
-    m.yy += y * y;
-    m.yz += y * z;
-    m.zz += z * z;
   }
-  const Float4 part = 1 / n;
-  m.xx -= part * sx * sx;
-  m.xy -= part * sx * sy;
-  m.xz -= part * sx * sz;
-  m.yy -= part * sy * sy;
-  m.yz -= part * sy * sz;
-  m.zz -= part * sz * sz;
+  m.center(1 / n);
   f.axes = principalAxes(m);
   Float4 low[3], high[3];
   for (int k = 0; k < 3; ++k) low[k] = high[k] = broadcast(0);

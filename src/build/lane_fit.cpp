@@ -2,29 +2,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "build/lane_fit.h"
 
+#include <algorithm>
+
 #include "build/principal_frame.h"
 #include "build/sphere_centers.h"
 
 namespace kios {
 using lanes::broadcast;
 using lanes::Float4;
+using lanes::Int4;
 
 SphereSites placeTuned(const PointLanes& points, const float first[3], PointLanes& scratch) {
-  PrincipalFrame frame = quickPrincipalFrame(points, scratch);
-  const SphereCenters c = tunedCenters(scratch, frame, FitMethod::kTuned, 5);
+  const PrincipalFrame frame = quickPrincipalFrame(points, scratch);
+  const SphereCenters c = inAxesOfPoints(tunedCenters(scratch, frame, FitMethod::kTuned, 5), frame);
   SphereSites sites;
   sites.k = c.k;
-  const auto inModel = [&](float x, float y, float z, int row) {
-    return frame.axes(row, 0) * x + frame.axes(row, 1) * y + frame.axes(row, 2) * z;
-  };
-  const float* const s0 = c.sphere[0];
   for (int r = 0; r < 3; ++r) {
-    sites.center[r] = first[r] + inModel(frame.middle[0] + s0[0], frame.middle[1] + s0[1],
-                                         frame.middle[2] + s0[2], r);
-    for (int i = 1; i < c.k; ++i) {
-      const float* const s = c.sphere[i];
-      sites.cap[r][i - 1] = inModel(s[0] - s0[0], s[1] - s0[1], s[2] - s0[2], r);
-    }
+    sites.center[r] = first[r] + c.sphere[0][r];
+    for (int i = 1; i < c.k; ++i) sites.cap[r][i - 1] = c.sphere[i][r];
   }
   return sites;
 }
@@ -46,6 +41,51 @@ FarthestSquares farthestSquares(const PointQuad* quads, std::size_t n, const Sph
   result.s0 = lanes::horizontalMax(squares[0]);
   for (int s = 0; s < 4; ++s) result.cap[s] = lanes::horizontalMax(squares[s + 1]);
   return result;
+}
+
+void Extremes::move(const float (&by)[3]) {
+  for (int i = 0; i < count; ++i) {
+    x[i] += by[0];
+    y[i] += by[1];
+    z[i] += by[2];
+  }
+}
+
+Extremes extremesOf(const PointQuad* quads, std::size_t n) {
+  Extremes e;
+  int taken[Extremes::kMost];
+  const auto take = [&](int index) {
+    if (std::find(taken, taken + e.count, index) != taken + e.count) return;
+    const PointQuad& q = quads[index / 4];
+    taken[e.count] = index;
+    e.x[e.count] = q.x[index % 4];
+    e.y[e.count] = q.y[index % 4];
+    e.z[e.count++] = q.z[index % 4];
+  };
+  for (int direction = 0; direction < Extremes::kDirections; ++direction) {
+    const int of_x = direction % 3 - 1, of_y = direction / 3 % 3 - 1, of_z = direction / 9 - 1;
+    const auto x = static_cast<float>(of_x), y = static_cast<float>(of_y),
+               z = static_cast<float>(of_z);
+    Float4 low = quads[0].x * x + quads[0].y * y + quads[0].z * z, high = low;
+    Int4 at = {0, 1, 2, 3}, low_at = at, high_at = at;
+    for (std::size_t i = 1; i < n; ++i) {
+      at += 4;
+      const Float4 h = quads[i].x * x + quads[i].y * y + quads[i].z * z;
+      const Int4 lower = h<low, higher = h> high;
+      low_at = (lower & at) | (~lower & low_at);
+      high_at = (higher & at) | (~higher & high_at);
+      low = lanes::min(low, h);
+      high = lanes::max(high, h);
+    }
+    int least = 0, most = 0;
+    for (int lane = 1; lane < 4; ++lane) {
+      if (low[lane] < low[least]) least = lane;
+      if (high[lane] > high[most]) most = lane;
+    }
+    take(low_at[least]);
+    take(high_at[most]);
+  }
+  return e;
 }
 
 }  // namespace kios

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "build/four_axes.h"
-#include "fcl_kios/volume/rigid.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -19,67 +18,36 @@ using lanes::load;
 
 double sum(Float4 v) { return double{v[0]} + v[1] + v[2] + v[3]; }
 
-/// Adds up x, y, z, xx, xy, xz, yy, yz and zz of the points from `begin` to `end`, four a step.
-inline void addMoments(const PointLanes& points, int begin, int end, Float4 (&t)[9]) {
+/// Adds up the points from `begin` to `end`, four a step.
+inline Scatter<Float4> scatterOf(const PointLanes& points, int begin, int end) {
+  Scatter<Float4> t;
   for (int i = begin; i < end; i += 4) {
-    const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
-    t[0] += x;
-    t[1] += y;
-    t[2] += z;
-    t[3] += x * x;
-    t[4] += x * y;
-    t[5] += x * z;
-    t[6] += y * y;
-    t[7] += y * z;
-    t[8] += z * z;
+    t.add(load(points.x() + i), load(points.y() + i), load(points.z() + i));
   }
+  return t;
 }
 
 /// n times the covariance; the padding repeats point 0, the origin, and adds nothing.
 Eigen::Matrix3d covariance(const PointLanes& points) {
-  double s[9] = {};
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   constexpr int kBlock = 1024;  // float sums of at most 256 terms a lane
   for (int begin = 0; begin < points.paddedSize(); begin += kBlock) {
-    Float4 t[9] = {};
-    addMoments(points, begin, std::min(begin + kBlock, points.paddedSize()), t);
-    for (int j = 0; j < 9; ++j) s[j] += sum(t[j]);
+    const auto t = scatterOf(points, begin, std::min(begin + kBlock, points.paddedSize()));
+    first += Eigen::Vector3d(sum(t.x), sum(t.y), sum(t.z));
+    const double xy = sum(t.xy), xz = sum(t.xz), yz = sum(t.yz);
+    second +=
+        (Eigen::Matrix3d() << sum(t.xx), xy, xz, xy, sum(t.yy), yz, xz, yz, sum(t.zz)).finished();
   }
-  const Eigen::Vector3d first(s[0], s[1], s[2]);
-  Eigen::Matrix3d second;
-  second << s[3], s[4], s[5], s[4], s[6], s[7], s[5], s[7], s[8];
   return second - first * first.transpose() / points.size();
 }
 
 Eigen::Matrix3f axesOf(const PointLanes& points) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance(points));
-  return orthonormalAxes(solver.eigenvectors().col(2).cast<float>(),
-                         solver.eigenvectors().col(1).cast<float>());
+  return axesAlong(solver.eigenvectors().col(2).cast<float>(),
+                   solver.eigenvectors().col(1).cast<float>());
 }
-
-}  // namespace
-
-Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b) {
-  constexpr float kTiny = 1e-30F;  // squared; the caller's units make the longest length about 1
-  const float square_a = detail::dot<float>(a, a), square_b = detail::dot<float>(b, b);
-  const bool usable = square_a > kTiny && square_a < kInfinityFloat;
-  const Eigen::Vector3f e0 =
-      usable ? Eigen::Vector3f(a / std::sqrt(square_a)) : Eigen::Vector3f::UnitX();
-  b -= detail::dot<float>(e0, b) * e0;
-  float square = detail::dot<float>(b, b);
-  if (!(square > 1e-6F * square_b && square > kTiny)) {  // any direction across e0
-    int least = 0;
-    e0.cwiseAbs().minCoeff(&least);
-    b = Eigen::Vector3f::Unit(least) - e0[least] * e0;
-    square = detail::dot<float>(b, b);
-  }
-  const Eigen::Vector3f e1 = b / std::sqrt(square);
-  Eigen::Matrix3f axes;
-  axes << e0, e1, e0.cross(e1);
-  return axes;
-}
-
-namespace {
 
 PrincipalFrame frameAlong(const Eigen::Matrix3f& axes, const PointLanes& points,
                           PointLanes& in_frame) {
@@ -117,17 +85,33 @@ PrincipalFrame frameAlong(const Eigen::Matrix3f& axes, const PointLanes& points,
 
 /// In floats: the axes serve to place spheres only, and need not be exact.
 Eigen::Matrix3f quickAxesOf(const PointLanes& points) {
-  Float4 t[9] = {};
-  addMoments(points, 0, points.paddedSize(), t);
-  float s[9];
-  for (int j = 0; j < 9; ++j) s[j] = (t[j][0] + t[j][1]) + (t[j][2] + t[j][3]);
-  const float part = 1.0F / static_cast<float>(points.size());
-  return principalAxes(Scatter{s[3] - part * s[0] * s[0], s[4] - part * s[0] * s[1],
-                               s[5] - part * s[0] * s[2], s[6] - part * s[1] * s[1],
-                               s[7] - part * s[1] * s[2], s[8] - part * s[2] * s[2]});
+  const Scatter<Float4> t = scatterOf(points, 0, points.paddedSize());
+  const auto sum = [](Float4 v) { return (v[0] + v[1]) + (v[2] + v[3]); };
+  Scatter<float> s = {sum(t.x),  sum(t.y),  sum(t.z),  sum(t.xx), sum(t.xy),
+                      sum(t.xz), sum(t.yy), sum(t.yz), sum(t.zz)};
+  s.center(1.0F / static_cast<float>(points.size()));
+  return principalAxes(s);
 }
 
 }  // namespace
+
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
+  const double square = first.dot(first), square_b = second.dot(second);
+  if (square > 0 && square < kInfinity) axes.col(0) = first / std::sqrt(square);
+  Eigen::Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
+  double left = across.dot(across);
+  if (!(left > 1e-6 * square_b && left < kInfinity)) {  // any direction across the first
+    int least = 0;
+    axes.col(0).cwiseAbs().minCoeff(&least);
+    across = Eigen::Vector3d::Unit(least) - axes(least, 0) * axes.col(0);
+    left = across.dot(across);
+  }
+  axes.col(1) = across / std::sqrt(left);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return axes.cast<float>();
+}
 
 PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame) {
   return frameAlong(axesOf(points), points, in_frame);

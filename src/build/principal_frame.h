@@ -23,8 +23,8 @@ PrincipalFrame principalFrame(const PointLanes& points, PointLanes& in_frame);
 /// Finds it by floats alone, in less time.
 PrincipalFrame quickPrincipalFrame(const PointLanes& points, PointLanes& in_frame);
 
-/// Orthonormal axes: the first along a, the second towards b; either may be zero, parallel to the
-/// other or not finite.
-Eigen::Matrix3f orthonormalAxes(const Eigen::Vector3f& a, Eigen::Vector3f b);
+/// Orthonormal axes, the first along a, the second towards b, each rounded once: a box's slabs add
+/// up only if its axes are so. Either may be 0 or not finite, or parallel to the other.
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
 
 }  // namespace kios

@@ -115,6 +115,21 @@ SphereCenters ellipsoidCenters(const PrincipalFrame& frame, const FitOptions& op
   return centers;
 }
 
+SphereCenters inAxesOfPoints(const SphereCenters& in_frame, const PrincipalFrame& frame) {
+  SphereCenters centers = in_frame;
+  for (int i = 0; i < in_frame.k; ++i) {
+    const float* const from = in_frame.sphere[0];
+    const float* const to = in_frame.sphere[i];
+    float d[3];
+    for (int c = 0; c < 3; ++c) d[c] = i == 0 ? frame.middle[c] + to[c] : to[c] - from[c];
+    for (int r = 0; r < 3; ++r) {
+      centers.sphere[i][r] =
+          frame.axes(r, 0) * d[0] + frame.axes(r, 1) * d[1] + frame.axes(r, 2) * d[2];
+    }
+  }
+  return centers;
+}
+
 void adjustCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
                    const FitOptions& options, SphereCenters& centers) {
   double radius[SphereCenters::kMost];

@@ -46,6 +46,10 @@ SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame&
 /// a sin(angle) at least, the sine of the half angle under which a cap of radius a^2 / c sees a.
 SphereCenters ellipsoidCenters(const PrincipalFrame& frame, const FitOptions& options);
 
+/// Turns centres of a frame into the axes of the points that it is of: S0 relative to their origin,
+/// the caps relative to S0.
+SphereCenters inAxesOfPoints(const SphereCenters& in_frame, const PrincipalFrame& frame);
+
 /// Drops pairs of caps by SphereCount::kByGain, then moves caps as FitOptions::shared_radius asks.
 void adjustCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
                    const FitOptions& options, SphereCenters& centers);

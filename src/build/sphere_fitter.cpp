@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "build/ellipsoid_frame.h"
+#include "build/enclosing_ellipsoid.h"
 #include "build/measure.h"
 #include "build/triangle_fit.h"
 #include "volume/assemble.h"
@@ -28,6 +28,35 @@ void requireUsable(const fcl::Vector3<S>* points, int n) {
     refuse("vertex (", p[0], ", ", p[1], ", ", p[2], ") is not finite or above ", kMaxCoordinate<S>,
            " in magnitude; the model stays unfinished.");
   }
+}
+
+/// The frame of the smallest enclosing ellipsoid: middle, axes and half extents are its centre,
+/// axes and semi-axes (paper, III-B.1). `in_frame` holds `points` in the frame `principal`, on
+/// return in the new one.
+PrincipalFrame ellipsoidFrame(const PointLanes& points, PointLanes& in_frame,
+                              const PrincipalFrame& principal) {
+  constexpr double kTolerance = 1e-3;  // the volume is within 0.15 % of the least
+  const EnclosingEllipsoid ellipsoid = smallestEllipsoid(in_frame, kTolerance);
+  const Eigen::Matrix3d axes = principal.axes.cast<double>() * ellipsoid.axes;
+  const Eigen::Vector3d middle =
+      ellipsoid.axes.transpose() *
+      (ellipsoid.center +
+       Eigen::Vector3d(principal.middle[0], principal.middle[1], principal.middle[2]));
+
+  PrincipalFrame frame;
+  frame.axes = axes.cast<float>();
+  for (int k = 0; k < 3; ++k) {
+    frame.middle[k] = static_cast<float>(middle[k]);
+    frame.half[k] = static_cast<float>(ellipsoid.half[k]);
+    frame.order[k] = k;
+  }
+  in_frame.resize(points.size());
+  float* const out[3] = {in_frame.x(), in_frame.y(), in_frame.z()};
+  for (int i = 0; i < points.paddedSize(); ++i) {
+    const Eigen::Vector3f p(points.x()[i], points.y()[i], points.z()[i]);
+    for (int k = 0; k < 3; ++k) out[k][i] = frame.axes.col(k).dot(p) - frame.middle[k];
+  }
+  return frame;
 }
 
 }  // namespace
@@ -55,32 +84,19 @@ void SphereFitter<S>::loadRelative(const fcl::Vector3<S>* points, int n) {
 }
 
 template <typename S>
-kIOS<S> SphereFitter<S>::placed(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
-                                const SphereCenters& centers) const {
-  kIOS<S> bv;
-  const auto inModel = [&](float x, float y, float z) {
-    return Eigen::Vector3f(frame.axes * Eigen::Vector3f(x, y, z));
-  };
-  const float* const s0 = centers.sphere[0];
-  const Eigen::Vector3f to_center =
-      inModel(frame.middle[0] + s0[0], frame.middle[1] + s0[1], frame.middle[2] + s0[2]);
-  for (int c = 0; c < 3; ++c) {
-    bv.center0[c] = static_cast<S>(double{points[0][c]} + scaled(double{to_center[c]}, exponent_));
+SphereCenters SphereFitter<S>::place(const fcl::Vector3<S>* points, int n,
+                                     const FitOptions& options, int most, Split* split) {
+  loadRelative(points, n);
+  PrincipalFrame frame = principalFrame(relative_, in_frame_);
+  if (split) {
+    const Eigen::Vector3f middle(frame.middle[0], frame.middle[1], frame.middle[2]);
+    const Eigen::Vector3f center = frame.axes * middle;
+    for (int c = 0; c < 3; ++c) {
+      split->center[c] = double{points[0][c]} + scaled(double{center[c]}, exponent_);
+    }
+    split->axis = frame.axes.col(frame.order[0]).template cast<double>();
+    split->axes = frame.axes;
   }
-  for (int i = 1; i < centers.k; ++i) {
-    const float* const s = centers.sphere[i];
-    const Eigen::Vector3f o = inModel(s[0] - s0[0], s[1] - s0[1], s[2] - s0[2]);
-    bv.cap_x[i - 1] = o[0];
-    bv.cap_y[i - 1] = o[1];
-    bv.cap_z[i - 1] = o[2];
-  }
-  measure(points, n, exponent_, centers.k, static_cast<float>(centers.least_cap_radius), bv);
-  return bv;
-}
-
-template <typename S>
-SphereCenters SphereFitter<S>::centersFor(PrincipalFrame& frame, const FitOptions& options,
-                                          int most) {
   SphereCenters centers;
   switch (options.method) {
     case FitMethod::kTuned:
@@ -99,7 +115,7 @@ SphereCenters SphereFitter<S>::centersFor(PrincipalFrame& frame, const FitOption
   if (options.shared_radius || options.count == SphereCount::kByGain) {
     adjustCenters(in_frame_, frame, options, centers);
   }
-  return centers;
+  return inAxesOfPoints(centers, frame);
 }
 
 template <typename S>
@@ -110,19 +126,18 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, const FitOpti
     requireUsable(points, n);
     return fitTriangle(points);
   }
-  loadRelative(points, n);
-  PrincipalFrame frame = principalFrame(relative_, in_frame_);
-  if (split) {
-    const Eigen::Vector3f middle(frame.middle[0], frame.middle[1], frame.middle[2]);
-    const Eigen::Vector3f center = frame.axes * middle;
-    for (int c = 0; c < 3; ++c) {
-      split->center[c] = double{points[0][c]} + scaled(double{center[c]}, exponent_);
-    }
-    split->axis = frame.axes.col(frame.order[0]).template cast<double>();
-    split->axes = frame.axes;
+  const SphereCenters centers = place(points, n, options, kIOS<S>::kMaxSpheres, split);
+  kIOS<S> bv;
+  for (int c = 0; c < 3; ++c) {
+    bv.center0[c] =
+        static_cast<S>(double{points[0][c]} + scaled(double{centers.sphere[0][c]}, exponent_));
   }
-  const SphereCenters centers = centersFor(frame, options, kIOS<S>::kMaxSpheres);
-  kIOS<S> bv = placed(points, n, frame, centers);
+  for (int i = 1; i < centers.k; ++i) {
+    bv.cap_x[i - 1] = centers.sphere[i][0];
+    bv.cap_y[i - 1] = centers.sphere[i][1];
+    bv.cap_z[i - 1] = centers.sphere[i][2];
+  }
+  measure(points, n, exponent_, centers.k, static_cast<float>(centers.least_cap_radius), bv);
   if (!options.plain() && sizeof(S) == sizeof(float) && bv.reach > scaled(0x1p126, -bv.exponent)) {
     completeCaps(bv, 1);  // accessors could not return such spheres
   } else if (options.shared_radius && centers.k > 1) {
@@ -131,31 +146,6 @@ kIOS<S> SphereFitter<S>::fit(const fcl::Vector3<S>* points, int n, const FitOpti
     completeCaps(bv, centers.k);
   }
   return bv;
-}
-
-template <typename S>
-typename SphereFitter<S>::Placement SphereFitter<S>::placement(const fcl::Vector3<S>* points, int n,
-                                                               const FitOptions& options,
-                                                               int most) {
-  loadRelative(points, n);
-  PrincipalFrame frame = principalFrame(relative_, in_frame_);
-  const SphereCenters centers = centersFor(frame, options, most);
-  Placement result;
-  result.k = centers.k;
-  const Eigen::Matrix3d axes = frame.axes.template cast<double>();
-  const auto at = [&](int i) {
-    const float* const c = centers.sphere[i];
-    return Eigen::Vector3d(frame.middle[0] + c[0], frame.middle[1] + c[1], frame.middle[2] + c[2]);
-  };
-  const Eigen::Vector3d s0 = at(0);
-  for (int i = 0; i < centers.k; ++i) {
-    const Eigen::Vector3d in_units = axes * (i == 0 ? s0 : Eigen::Vector3d(at(i) - s0));
-    Eigen::Vector3d& out = i == 0 ? result.center0 : result.cap[i - 1];
-    for (int c = 0; c < 3; ++c) {
-      out[c] = (i == 0 ? double{points[0][c]} : 0.0) + scaled(in_units[c], exponent_);
-    }
-  }
-  return result;
 }
 
 void requireUsable(const FitOptions& options) {

@@ -25,21 +25,14 @@ class SphereFitter {
   kIOS<S> fit(const fcl::Vector3<S>* points, int n, const FitOptions& options,
               Split* split = nullptr);
 
-  /// The places of a fit's spheres: S0 in the model's frame, k - 1 caps relative to it.
-  struct Placement {
-    int k = 0;
-    Eigen::Vector3d center0 = Eigen::Vector3d::Zero();
-    Eigen::Vector3d cap[SphereCenters::kMost - 1];
-  };
-  /// As fit(), but at most `most` spheres (7 by the tuned fit alone) and no radii. n > 0.
-  Placement placement(const fcl::Vector3<S>* points, int n, const FitOptions& options, int most);
+  /// Places at most `most` spheres (7 by the tuned fit alone) as fit() does: in the points' axes
+  /// and units of 2^exponent(), the first relative to points[0], the others to the first. n > 0.
+  SphereCenters place(const fcl::Vector3<S>* points, int n, const FitOptions& options, int most,
+                      Split* split = nullptr);
+  int exponent() const { return exponent_; }
 
  private:
   void loadRelative(const fcl::Vector3<S>* points, int n);
-  /// Changes `frame` to the one that the centers are in.
-  SphereCenters centersFor(PrincipalFrame& frame, const FitOptions& options, int most);
-  kIOS<S> placed(const fcl::Vector3<S>* points, int n, const PrincipalFrame& frame,
-                 const SphereCenters& centers) const;
 
   PointLanes relative_;  ///< points - points[0], in units of 2^exponent_
   PointLanes in_frame_;

@@ -90,7 +90,7 @@ kIOS<S> fitTriangle(const fcl::Vector3<S>* points) {
     e2 = e0.cross(e1);
   } else {
     const Eigen::Matrix3f axes =
-        orthonormalAxes(edge.template cast<float>(), across.template cast<float>());
+        axesAlong(edge.template cast<float>(), across.template cast<float>());
     e0 = axes.col(0);
     e1 = axes.col(1);
     e2 = axes.col(2);

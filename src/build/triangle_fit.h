@@ -6,8 +6,9 @@
 
 namespace kios {
 
-/// The tuned fit of three points in closed form. Every coordinate must be finite and below
-/// kMaxCoordinate<S>.
+/// The tuned fit of three points in closed form: placeFourTriangles() for one, in which three lanes
+/// would idle and a bottom-up refit take an eighth longer. Every coordinate must be finite and
+/// below kMaxCoordinate<S>.
 template <typename S>
 kIOS<S> fitTriangle(const fcl::Vector3<S>* points);
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 
 #include <fcl/geometry/bvh/BV_node.h>
-#include "build/extremes.h"
 #include "build/four_fit.h"
+#include "build/lane_fit.h"
 #include "build/mesh_view.h"
 #include "build/sphere_fitter.h"
 

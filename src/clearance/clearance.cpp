@@ -11,6 +11,7 @@
 #include "clearance/exact_pair.h"
 #include "fcl_kios/build/fit.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -261,13 +262,8 @@ Clearance smoothClearance(const Cover<S>& a, const Cover<S>& b, const RelativePo
   return result;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                      \
-  template class Cover<S>;                                                                       \
-  template Clearance minimumClearance(const Cover<S>&, const Cover<S>&, const RelativePose<S>&); \
-  template Clearance smoothClearance(const Cover<S>&, const Cover<S>&, const RelativePose<S>&,   \
-                                     double);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_CLASS(Cover);
+KIOS_INSTANTIATE_FUNCTION(minimumClearance);
+KIOS_INSTANTIATE_FUNCTION(smoothClearance);
 
 }  // namespace kios

@@ -39,6 +39,10 @@ const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
 template <typename S>
 void requireFinished(const Model<S>& model);
 
+/// Throws where FCL's build calls failed, which throw for some of their arrays and return a status
+/// for others.
+void requireBuilt(int status);
+
 /// The C++ name of the geometry's type, for messages.
 template <typename S>
 std::string typeName(const fcl::CollisionGeometry<S>& geometry);

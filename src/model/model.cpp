@@ -6,9 +6,11 @@
 #include <new>
 #include <stdexcept>
 
+#include <boost/core/demangle.hpp>
 #include "fcl_kios/model/convert.h"
 #include "model/kios_model.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -70,13 +72,17 @@ bool isFinished(fcl::BVHBuildState state, int num_tris, int num_bvs) {
          " nodes; geometry was added after it was built: ", remedy, ".");
 }
 
-/// FCL's build calls throw for some of their arrays and return this for others.
+}  // namespace
+
 void requireBuilt(int status) {
   if (status == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
   if (status != fcl::BVH_OK) refuse<std::logic_error>("FCL refused to build a new model.");
 }
 
-}  // namespace
+template <typename S>
+std::string typeName(const fcl::CollisionGeometry<S>& geometry) {
+  return boost::core::demangle(typeid(geometry).name());
+}
 
 template <typename S>
 std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices,
@@ -117,14 +123,10 @@ void validate(const Model<S>& model) {
                  static_cast<std::size_t>(model.num_vertices));
 }
 
-template std::shared_ptr<Modeld> makeModel(const std::vector<fcl::Vector3d>&,
-                                           const std::vector<fcl::Triangle>&);
-template std::shared_ptr<Modelf> makeModel(const std::vector<fcl::Vector3f>&,
-                                           const std::vector<fcl::Triangle>&);
-template void requireFinished(const Modeld&);
-template void requireFinished(const Modelf&);
-template void validate(const Modeld&);
-template void validate(const Modelf&);
+KIOS_INSTANTIATE_FUNCTION(makeModel);
+KIOS_INSTANTIATE_FUNCTION(requireFinished);
+KIOS_INSTANTIATE_FUNCTION(typeName);
+KIOS_INSTANTIATE_FUNCTION(validate);
 
 }  // namespace kios
 

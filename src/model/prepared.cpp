@@ -12,18 +12,9 @@
 #include "tree/prepare.h"
 #include "tree/refit.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 
 namespace kios {
-namespace {
-
-template <typename S>
-engine::TreeKey keyOf(const Model<S>& model) {
-  const engine::MeshView<S> mesh = viewOf(model);
-  return {model.getBV(0).bv.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
-          mesh.num_triangles};
-}
-
-}  // namespace
 
 template <typename S>
 engine::TreeCache* treesOf(const Model<S>& model) {
@@ -114,17 +105,13 @@ void invalidate(Model<S>& model) {
 
 const char* simdTarget() { return engine::kernels().target; }
 
-#define KIOS_INSTANTIATE(S)                                                   \
-  template engine::TreeCache* treesOf(const Model<S>&);                       \
-  template engine::TreeCache::Use preparedTree(const Model<S>&);              \
-  template bool copyRoot(const Model<S>&, engine::TreeRoot&);                 \
-  template engine::SharedTree purelyPreparedTree(const Model<S>&);            \
-  template void takePrepared(const Model<S>&, std::unique_ptr<engine::Tree>); \
-  template void prepare(const Model<S>&);                                     \
-  template std::size_t preparedBytes(const Model<S>&);                        \
-  template void invalidate(Model<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(treesOf);
+KIOS_INSTANTIATE_FUNCTION(preparedTree);
+KIOS_INSTANTIATE_FUNCTION(copyRoot);
+KIOS_INSTANTIATE_FUNCTION(purelyPreparedTree);
+KIOS_INSTANTIATE_FUNCTION(takePrepared);
+KIOS_INSTANTIATE_FUNCTION(prepare);
+KIOS_INSTANTIATE_FUNCTION(preparedBytes);
+KIOS_INSTANTIATE_FUNCTION(invalidate);
 
 }  // namespace kios

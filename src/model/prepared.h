@@ -40,4 +40,12 @@ engine::MeshView<S> viewOf(const Model<S>& model) {
           static_cast<std::size_t>(model.num_tris)};
 }
 
+/// Returns the state of a model, as its root volume and arrays tell it.
+template <typename S>
+engine::TreeKey keyOf(const Model<S>& model) {
+  const engine::MeshView<S> mesh = viewOf(model);
+  return {model.getBV(0).bv.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
+          mesh.num_triangles};
+}
+
 }  // namespace kios

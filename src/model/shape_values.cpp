@@ -17,6 +17,8 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
 
+#include "volume/instantiate.h"
+
 namespace kios {
 namespace {
 
@@ -108,12 +110,8 @@ bool hasShapeValues(const fcl::CollisionGeometry<S>& geometry, const std::vector
   return same && next == values.size();
 }
 
-#define KIOS_INSTANTIATE(S)                                              \
-  template bool isShapeOfFcl(const fcl::CollisionGeometry<S>&);          \
-  template std::vector<S> shapeValues(const fcl::CollisionGeometry<S>&); \
-  template bool hasShapeValues(const fcl::CollisionGeometry<S>&, const std::vector<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(isShapeOfFcl);
+KIOS_INSTANTIATE_FUNCTION(shapeValues);
+KIOS_INSTANTIATE_FUNCTION(hasShapeValues);
 
 }  // namespace kios

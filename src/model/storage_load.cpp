@@ -17,6 +17,7 @@
 
 #include "build/mesh_tree.h"
 #include "fcl_kios/model/storage.h"
+#include "model/kios_model.h"
 #include "model/prepared.h"
 #include "model/stored_format.h"
 #include "model/stored_tree.h"
@@ -305,11 +306,6 @@ class Reader {
   const Layout at_;
   Hash hash_;
 };
-
-void requireBuilt(int status) {
-  if (status == fcl::BVH_ERR_MODEL_OUT_OF_MEMORY) throw std::bad_alloc();
-  if (status != fcl::BVH_OK) refuse<std::logic_error>("FCL refused to build a new model.");
-}
 
 }  // namespace
 

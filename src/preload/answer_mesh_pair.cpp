@@ -3,17 +3,15 @@
 //
 // Two meshes over one of FCL's volumes.
 #include <exception>
-#include <limits>
 #include <type_traits>
 
 #include "fcl_kios/query/mesh_queries.h"
 #include "preload/fcl_search.h"
 #include "preload/implementation.h"
+#include "volume/rounding.h"
 
 namespace kios::preload {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The places of two models, and what is asked.
 struct Asked {
@@ -60,6 +58,45 @@ bool touch(const Asked& asked, const PosedPair& pair, int& id_a, int& id_b) {
   return true;
 }
 
+/// Answers by the copies where they are the cheaper, else by FCL. searchByFcl(limit) asks FCL,
+/// touches() says whether it has found a contact, and askCopies(asked) whether the copies' answer
+/// will do; it may throw what k-IOS's queries do.
+template <typename SearchByFcl, typename Touches, typename AskCopies>
+By answer(Implementation& implementation, const PosedPair& pair, const Mesh& a, const Mesh& b,
+          Kind kind, const SearchByFcl& searchByFcl, const Touches& touches,
+          const AskCopies& askCopies) {
+  if (implementation.always()) {
+    implementation.makeCopy(a);
+    implementation.makeCopy(b);
+  }
+  {
+    const Asked asked(implementation, a, b, kind);
+    if (asked.have_copies) {
+      const double limit =
+          implementation.always() ? 0 : implementation.policy.fclLimit(asked.question);
+      if (limit == Policy::kHandOn) return By::kHandedOn;
+      if (limit > 0) {
+        const Search search = searchByFcl(limit);
+        implementation.policy.note(asked.question, search, limit, touches());
+        if (search.done) return By::kFclSearch;
+      }
+      const bool rigid = isRigid(pair.X_WA) && isRigid(pair.X_WB);
+      const bool current = !rigid || asked.areCurrent();
+      try {
+        if (rigid && current && askCopies(asked)) return By::kCopies;
+      } catch (const std::exception&) {  // k-IOS refuses the pair
+      }
+      if (current) {
+        searchByFcl(kInfinity);
+        return By::kFclSearch;
+      }
+    }
+  }
+  const Search search = searchByFcl(kInfinity);
+  pay(implementation, a, b, search.nanoseconds);
+  return By::kFclSearch;
+}
+
 template <typename BV>
 constexpr bool kFclCopiesModels = std::is_same<BV, fcl::RSSd>::value;
 
@@ -90,49 +127,19 @@ By collideModels(Implementation& implementation, const PosedPair& pair,
     }
   };
 
-  if (implementation.always()) {
-    implementation.makeCopy(a);
-    implementation.makeCopy(b);
-  }
-  bool stale = false;
-  {
-    const Asked asked(implementation, a, b,
-                      wantsContacts(request) ? Kind::kContacts : Kind::kVerdict);
-    if (asked.have_copies) {
-      const double limit =
-          implementation.always() ? 0 : implementation.policy.fclLimit(asked.question);
-      if (limit == Policy::kHandOn) return By::kHandedOn;
-      if (limit > 0) {
-        const Search search = searchByFcl(limit);
-        implementation.policy.note(asked.question, search, limit, result.numContacts() > before);
-        if (search.done) return By::kFclSearch;
-      }
-      if (isRigid(pair.X_WA) && isRigid(pair.X_WB)) {
-        stale = !asked.areCurrent();
-        if (!stale) {
-          try {
-            int id_a, id_b;
-            if (!touch(asked, pair, id_a, id_b)) return By::kCopies;
-            implementation.policy.noteContact(asked.question);
-            if (!wantsContacts(request)) {
-              const fcl::Vector3d unset = fcl::Vector3d::Zero();  // FCL leaves it uninitialised
-              result.addContact(
-                  fcl::Contact<double>(pair.a, pair.b, id_a, id_b, unset, unset, 0.0));
-              return By::kCopies;
-            }
-          } catch (const std::exception&) {  // k-IOS refuses the pair
-          }
-        }
-      }
-      if (!stale) {
-        searchByFcl(kInfinity);
-        return By::kFclSearch;
-      }
-    }
-  }
-  const Search search = searchByFcl(kInfinity);
-  pay(implementation, a, b, search.nanoseconds);
-  return By::kFclSearch;
+  const auto touches = [&] { return result.numContacts() > before; };
+  const auto askCopies = [&](const Asked& asked) {
+    int id_a, id_b;
+    if (!touch(asked, pair, id_a, id_b)) return true;
+    implementation.policy.noteContact(asked.question);
+    if (wantsContacts(request)) return false;
+    const fcl::Vector3d unset = fcl::Vector3d::Zero();  // FCL leaves it uninitialised
+    result.addContact(fcl::Contact<double>(pair.a, pair.b, id_a, id_b, unset, unset, 0.0));
+    return true;
+  };
+  return answer(implementation, pair, a, b,
+                wantsContacts(request) ? Kind::kContacts : Kind::kVerdict, searchByFcl, touches,
+                askCopies);
 }
 
 template <typename BV>
@@ -145,50 +152,21 @@ By distanceOfModels(Implementation& implementation, const PosedPair& pair,
     return distanceByFcl(model_a, pair.X_WA, model_b, pair.X_WB, request, result, limit);
   };
 
-  if (implementation.always()) {
-    implementation.makeCopy(a);
-    implementation.makeCopy(b);
-  }
-  bool stale = false;
-  {
-    const Asked asked(implementation, a, b, Kind::kDistance);
-    if (asked.have_copies) {
-      const double limit =
-          implementation.always() ? 0 : implementation.policy.fclLimit(asked.question);
-      if (limit > 0) {
-        const Search search = searchByFcl(limit);
-        implementation.policy.note(asked.question, search, limit, false);
-        if (search.done) return By::kFclSearch;
-      }
-      if (isRigid(pair.X_WA) && isRigid(pair.X_WB)) {
-        stale = !asked.areCurrent();
-        if (!stale) {
-          try {
-            DistanceResult found(result.min_distance);
-            kios::distanceMeshes(asked.lease_a.copy(), pair.X_WA, asked.lease_b.copy(), pair.X_WB,
-                                 exact(request.enable_nearest_points), found);
-            if (request.enable_nearest_points) {
-              result.update(found.min_distance, pair.a, pair.b, static_cast<int>(found.b1),
-                            static_cast<int>(found.b2), found.nearest_points[0],
-                            found.nearest_points[1]);
-            } else {
-              result.update(found.min_distance, pair.a, pair.b, static_cast<int>(found.b1),
-                            static_cast<int>(found.b2));
-            }
-            return By::kCopies;
-          } catch (const std::exception&) {  // k-IOS refuses the pair
-          }
-        }
-      }
-      if (!stale) {
-        searchByFcl(kInfinity);
-        return By::kFclSearch;
-      }
+  const auto askCopies = [&](const Asked& asked) {
+    DistanceResult found(result.min_distance);
+    kios::distanceMeshes(asked.lease_a.copy(), pair.X_WA, asked.lease_b.copy(), pair.X_WB,
+                         exact(request.enable_nearest_points), found);
+    const int id_a = static_cast<int>(found.b1), id_b = static_cast<int>(found.b2);
+    if (request.enable_nearest_points) {
+      result.update(found.min_distance, pair.a, pair.b, id_a, id_b, found.nearest_points[0],
+                    found.nearest_points[1]);
+    } else {
+      result.update(found.min_distance, pair.a, pair.b, id_a, id_b);
     }
-  }
-  const Search search = searchByFcl(kInfinity);
-  pay(implementation, a, b, search.nanoseconds);
-  return By::kFclSearch;
+    return true;
+  };
+  return answer(
+      implementation, pair, a, b, Kind::kDistance, searchByFcl, [] { return false; }, askCopies);
 }
 
 template By collideModels<fcl::OBBd>(Implementation&, const PosedPair&, const CollisionRequest&,

@@ -3,12 +3,12 @@
 #include "preload/policy.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "volume/rounding.h"
 
 namespace kios::preload {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kUnit = 64;              // nanoseconds
 constexpr std::uint8_t kProbeEvery = 64;  // queries; FCL may have become the cheaper
 constexpr std::uint8_t kWatchEvery = 8;   // a pair of which contacts are listed may part

@@ -8,6 +8,7 @@
 
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -167,14 +168,7 @@ engine::FloatSlab slabAcross(const engine::Tree& tree, const PosedSolid<S>& pose
   return toTree(tree, posed, n, shape::extentAlong(posed.solid(), n));
 }
 
-#define KIOS_INSTANTIATE(S)                                                                \
-  template bool makeFloatSolid(const engine::Tree&, const PosedSolid<S>&,                  \
-                               const shape::ConvexFaces&, std::vector<engine::FloatSlab>&, \
-                               engine::FloatSolid&);                                       \
-  template engine::FloatSlab slabAcross(const engine::Tree&, const PosedSolid<S>&,         \
-                                        const shape::Vec&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(makeFloatSolid);
+KIOS_INSTANTIATE_FUNCTION(slabAcross);
 
 }  // namespace kios

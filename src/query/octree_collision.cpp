@@ -17,6 +17,7 @@
 #include "search/search.h"
 #include "shape/triangle_shape.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -289,14 +290,7 @@ bool addOctreeContacts(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X
   return true;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                  \
-  template bool addOctreeContacts(const fcl::OcTree<S>&, const fcl::Transform3<S>&,          \
-                                  const Model<S>&, const fcl::Transform3<S>&,                \
-                                  const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&, \
-                                  SearchCounts&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(addOctreeContacts);
 
 }  // namespace kios
 #endif  // FCL_HAVE_OCTOMAP

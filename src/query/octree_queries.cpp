@@ -13,6 +13,7 @@
 #include "query/octree_collision.h"
 #include "query/posed_solid.h"
 #include "shape/triangle_shape.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -216,17 +217,8 @@ S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
   return result.min_distance;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                     \
-  template std::size_t collideOctree(const fcl::OcTree<S>&, const fcl::Transform3<S>&,          \
-                                     const Model<S>&, const fcl::Transform3<S>&,                \
-                                     const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&, \
-                                     SearchCounts*);                                            \
-  template S distanceOctree(const fcl::OcTree<S>&, const fcl::Transform3<S>&, const Model<S>&,  \
-                            const fcl::Transform3<S>&, const fcl::DistanceRequest<S>&,          \
-                            fcl::DistanceResult<S>&, SearchCounts*);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(collideOctree);
+KIOS_INSTANTIATE_FUNCTION(distanceOctree);
 
 }  // namespace kios
 #endif  // FCL_HAVE_OCTOMAP

@@ -13,6 +13,7 @@
 #include "search/search.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -169,13 +170,6 @@ S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
   return result.min_distance;
 }
 
-#define KIOS_INSTANTIATE(S)                                                             \
-  template S distanceShape(const Model<S>&, const fcl::Transform3<S>&,                  \
-                           const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&, \
-                           const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&,     \
-                           SearchCounts*);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(distanceShape);
 
 }  // namespace kios

@@ -14,6 +14,7 @@
 #include "search/search.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -209,13 +210,6 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
   });
 }
 
-#define KIOS_INSTANTIATE(S)                                                                      \
-  template std::size_t collideShape(const Model<S>&, const fcl::Transform3<S>&,                  \
-                                    const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&, \
-                                    const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&,   \
-                                    SearchCounts*);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(collideShape);
 
 }  // namespace kios

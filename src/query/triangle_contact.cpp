@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fcl_kios/triangle/intersection.h"
+#include "volume/instantiate.h"
 #include "volume/unit_vector.h"
 
 namespace kios {
@@ -96,9 +97,6 @@ TriangleContact<S> triangleContact(const TriangleVertices<S>& a, const TriangleV
   return contact;
 }
 
-template TriangleContact<double> triangleContact(const TriangleVertices<double>&,
-                                                 const TriangleVertices<double>&);
-template TriangleContact<float> triangleContact(const TriangleVertices<float>&,
-                                                const TriangleVertices<float>&);
+KIOS_INSTANTIATE_FUNCTION(triangleContact);
 
 }  // namespace kios

@@ -8,6 +8,7 @@
 #include "model/kios_model.h"
 #include "model/shape_values.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
 #include "volume/stamp.h"
@@ -167,15 +168,9 @@ void renewIfChanged(Body<S>& body) {
   if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) measure(body);
 }
 
-template void place(Body<double>&, std::shared_ptr<const fcl::CollisionGeometry<double>>,
-                    const fcl::Transform3<double>&);
-template void move(Body<double>&, const fcl::Transform3<double>&);
-template void renew(Body<double>&);
-template void renewIfChanged(Body<double>&);
-template void place(Body<float>&, std::shared_ptr<const fcl::CollisionGeometry<float>>,
-                    const fcl::Transform3<float>&);
-template void move(Body<float>&, const fcl::Transform3<float>&);
-template void renew(Body<float>&);
-template void renewIfChanged(Body<float>&);
+KIOS_INSTANTIATE_FUNCTION(place);
+KIOS_INSTANTIATE_FUNCTION(move);
+KIOS_INSTANTIATE_FUNCTION(renew);
+KIOS_INSTANTIATE_FUNCTION(renewIfChanged);
 
 }  // namespace kios::scene

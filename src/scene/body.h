@@ -12,9 +12,9 @@
 #include <fcl/narrowphase/collision_object.h>
 #include "fcl_kios/model/model.h"
 #include "fcl_kios/scene/scene_types.h"
+#include "model/prepared.h"
 #include "scene/box.h"
 #include "scene/motion_bound.h"
-#include "tree/tree_cache.h"
 #include "volume/error_bounds.h"
 
 namespace kios::scene {
@@ -71,13 +71,6 @@ void renew(Body<S>& body);
 /// Does so if the body is a shape that has changed.
 template <typename S>
 void renewIfChanged(Body<S>& body);
-
-/// Returns the state of a model, as its root volume and arrays tell it.
-template <typename S>
-engine::TreeKey keyOf(const Model<S>& model) {
-  return {model.getBV(0).bv.stamp, model.vertices, model.tri_indices,
-          static_cast<std::size_t>(model.num_vertices), static_cast<std::size_t>(model.num_tris)};
-}
 
 /// See Body::box: `error` is the largest rotation error of the scene.
 template <typename S>

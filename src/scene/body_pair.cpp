@@ -14,6 +14,7 @@
 #include "solid/containment.h"
 #include "solid/solid_mark.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios::scene {
@@ -40,6 +41,14 @@ MeshPair<S> frameOf(const Body<S>& a, const Body<S>& b) {
 }
 
 }  // namespace
+
+void countSkipped(PairBound::Source source, SceneCounts& counts) {
+  using Source = PairBound::Source;
+  ++(source == Source::kStill    ? counts.still
+     : source == Source::kMotion ? counts.moved_too_little
+     : source == Source::kRoots  ? counts.far_roots
+                                 : counts.far_boxes);
+}
 
 template <typename S>
 BodyPair<S>::BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory)
@@ -118,6 +127,23 @@ PairBound BodyPair<S>::cachedLowerBound(double limit) const {
 }
 
 template <typename S>
+std::optional<typename BodyPair<S>::Answer> BodyPair<S>::decide(double limit, PairBound& known,
+                                                                SceneCounts& counts) const {
+  if (lowerBound() > limit) {
+    ++counts.ties;
+    return Answer();
+  }
+  known = cachedLowerBound(limit);
+  if (known.exact) {
+    ++counts.still;
+    return proven(limit);
+  }
+  if (!(known.bound > limit)) return std::nullopt;
+  countSkipped(known.source, counts);
+  return Answer();
+}
+
+template <typename S>
 double BodyPair<S>::upperBound() const {
   if (!proof_ || !meshes() || proof_->triangle_a < 0 || proof_->triangle_b < 0) return kInfinity;
   return frame()
@@ -141,10 +167,10 @@ bool BodyPair<S>::stoodStill() const {
 }
 
 template <typename S>
-typename BodyPair<S>::Answer BodyPair<S>::nearby(double limit) const {
+std::optional<typename BodyPair<S>::Answer> BodyPair<S>::nearby(double limit) const {
   const double distance = upperBound();
-  if (!(distance + 2 * roundingOf(distance) <= limit)) return {};
-  return {true, static_cast<S>(distance), proof_->triangle_a, proof_->triangle_b};
+  if (!(distance + 2 * roundingOf(distance) <= limit)) return std::nullopt;
+  return Answer{true, static_cast<S>(distance), proof_->triangle_a, proof_->triangle_b};
 }
 
 template <typename S>
@@ -248,7 +274,15 @@ bool BodyPair<S>::contained(SearchCounts& counts) const {
 }
 
 template <typename S>
-typename BodyPair<S>::Answer BodyPair<S>::search(double limit, bool exact, SearchCounts& counts) {
+typename BodyPair<S>::Answer BodyPair<S>::search(double limit, bool exact, SceneCounts& counts) {
+  ++counts.queried;
+  const Answer answer = ask(limit, exact, counts.search);
+  if (!answer.within) ++counts.proven_farther;
+  return answer;
+}
+
+template <typename S>
+typename BodyPair<S>::Answer BodyPair<S>::ask(double limit, bool exact, SearchCounts& counts) {
   if (meshes()) {
     const Answer answer = exact ? searchMeshes(limit, counts) : decideMeshes(limit, counts);
     if (marksExist() && !(answer.within && answer.distance == 0) && contained(counts)) {
@@ -283,11 +317,7 @@ void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair) {
   pair.nearest_b = result.nearest_points[1];
 }
 
-#define KIOS_INSTANTIATE(S)   \
-  template class BodyPair<S>; \
-  template void nearestPoints(const Body<S>&, const Body<S>&, ScenePair<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_CLASS(BodyPair);
+KIOS_INSTANTIATE_FUNCTION(nearestPoints);
 
 }  // namespace kios::scene

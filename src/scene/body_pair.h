@@ -28,21 +28,20 @@ class BodyPair {
  public:
   BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
 
-  /// Gathers bounds, the cheapest first, until one exceeds `limit`.
-  PairBound cachedLowerBound(double limit) const;
-
   /// Holds the answer of the narrow phase.
   struct Answer {
     bool within = false;  ///< `distance` is at most the limit; else the pair is farther than that
     S distance = 0;
     std::intptr_t triangle_a = -1, triangle_b = -1;
   };
+  /// Decides without a search whether the pair is within the limit, if what is known allows that,
+  /// and counts the pair then. Else `known` is a lower bound.
+  std::optional<Answer> decide(double limit, PairBound& known, SceneCounts& counts) const;
   /// Asks the narrow phase for the distance if that is at most `limit`; of two meshes, if `exact`
   /// is false, for any that is at most that.
-  Answer search(double limit, bool exact, SearchCounts& counts);
+  Answer search(double limit, bool exact, SceneCounts& counts);
 
-  /// Returns the last search's or the proof's answer, where cachedLowerBound() said that it is
-  /// exact.
+  /// Returns the proof's answer, which has to be exact.
   Answer proven(double limit) const;
 
   /// Returns the distance of the triangles of the last proof, which lie somewhere near; +infinity
@@ -56,9 +55,11 @@ class BodyPair {
   double lowerBound() const { return meshes() ? 0 : -kInfinity; }
   /// Returns an answer with these triangles, if that proves that the narrow phase's is at most the
   /// limit.
-  Answer nearby(double limit) const;
+  std::optional<Answer> nearby(double limit) const;
 
  private:
+  /// Gathers bounds, the cheapest first, until one exceeds `limit`.
+  PairBound cachedLowerBound(double limit) const;
   /// An answer holds until something is seen to have changed.
   bool lasting() const { return a_.watched() && b_.watched(); }
   bool meshes() const { return a_.model && b_.model; }
@@ -71,6 +72,7 @@ class BodyPair {
   /// Returns true if the bodies are solids and one, whose surface is apart from the other's, lies
   /// in it.
   bool contained(SearchCounts& counts) const;
+  Answer ask(double limit, bool exact, SearchCounts& counts);
   Answer searchMeshes(double limit, SearchCounts& counts);
   Answer decideMeshes(double limit, SearchCounts& counts);
   void remember(double apart, bool exact, const Answer& answer);
@@ -81,6 +83,9 @@ class BodyPair {
   const Proof<S>* proof_;
   mutable std::optional<MeshPair<S>> frame_;
 };
+
+/// Counts a pair that `source` proves to be too far.
+void countSkipped(PairBound::Source source, SceneCounts& counts);
 
 /// Finds the points that realise a pair's distance, in the world.
 template <typename S>

@@ -38,13 +38,7 @@ class ManagerQuery<S>::Impl {
     if (done()) return true;
     const Known &a = meet(o1), &b = meet(o2);
     // Some managers come up with a pair twice, in either order.
-    const auto [low, high] = std::minmax(a.id, b.id);
-    if (!asked_
-             .insert(std::uint64_t{static_cast<std::uint32_t>(low)} << 32 |
-                     static_cast<std::uint32_t>(high))
-             .second) {
-      return false;
-    }
+    if (!asked_.insert(scene::keyOfEither(a.id, b.id)).second) return false;
     ++counts.total;
     if (filter_ && !filter_(o1, o2)) {
       ++counts.filtered;
@@ -53,13 +47,15 @@ class ManagerQuery<S>::Impl {
     // A proof of (b, a) is no help: that distance may differ in its last bits.
     scene::BodyPair<S> pair(a.id, a.body, b.id, b.body, memory_);
     const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
-    const auto answer = answerOf(pair, limit);
-    if (answer.within) {
+    scene::PairBound known;
+    auto answer = pair.decide(limit, known, counts);
+    if (!answer) answer = pair.search(limit, true, counts);
+    if (answer->within) {
       if (closest_) {
         pairs.clear();
-        dist = bound_ = answer.distance;
+        dist = bound_ = answer->distance;
       }
-      pairs.push_back({o1, o2, answer.distance, answer.triangle_a, answer.triangle_b});
+      pairs.push_back({o1, o2, answer->distance, answer->triangle_a, answer->triangle_b});
     }
     return done();
   }
@@ -93,38 +89,15 @@ class ManagerQuery<S>::Impl {
       scene::move(body, object->getTransform());
       if (body.model) {
         requireFinished(*body.model);
-        if (!(scene::keyOf(*body.model) == known.key)) scene::renew(body);
+        if (!(keyOf(*body.model) == known.key)) scene::renew(body);
       } else {
         scene::renewIfChanged(body);
       }
     }
-    if (body.model) known.key = scene::keyOf(*body.model);
+    if (body.model) known.key = keyOf(*body.model);
     known.met = memory_.query();
     ++met_;
     return known;
-  }
-
-  typename scene::BodyPair<S>::Answer answerOf(scene::BodyPair<S>& pair, double limit) {
-    using Source = scene::PairBound::Source;
-    if (pair.lowerBound() > limit) {
-      ++counts.ties;
-      return {};
-    }
-    const scene::PairBound known = pair.cachedLowerBound(limit);
-    if (known.exact) {
-      ++counts.still;
-      return pair.proven(limit);
-    }
-    if (known.bound > limit) {
-      ++(known.source == Source::kStill    ? counts.still
-         : known.source == Source::kMotion ? counts.moved_too_little
-                                           : counts.far_roots);
-      return {};
-    }
-    ++counts.queried;
-    const auto answer = pair.search(limit, true, counts.search);
-    if (!answer.within) ++counts.proven_farther;
-    return answer;
   }
 
   void forgetUnmet() {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios::scene {
@@ -61,11 +62,6 @@ double displacement(const fcl::Matrix3<S>& R0, const fcl::Vector3<S>& T0, const 
          terms * kRelative + kSubnormal;
 }
 
-#define KIOS_INSTANTIATE(S)                                                    \
-  template double displacement(const fcl::Matrix3<S>&, const fcl::Vector3<S>&, \
-                               const fcl::Matrix3<S>&, const fcl::Vector3<S>&, const Sphere&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(displacement);
 
 }  // namespace kios::scene

@@ -6,7 +6,7 @@ namespace kios::scene {
 
 template <typename S>
 Proof<S>* PairMemory<S>::find(int id_a, const Body<S>& a, int id_b, const Body<S>& b) {
-  const auto found = proofs_.find(keyOf(id_a, id_b));
+  const auto found = proofs_.find(pairKey(id_a, id_b));
   if (found == proofs_.end() || !found->second.tellsOf(a, b)) return nullptr;
   use(found->second);
   return &found->second;
@@ -14,7 +14,7 @@ Proof<S>* PairMemory<S>::find(int id_a, const Body<S>& a, int id_b, const Body<S
 
 template <typename S>
 Proof<S>* PairMemory<S>::obtain(int id_a, int id_b) {
-  const std::uint64_t key = keyOf(id_a, id_b);
+  const std::uint64_t key = pairKey(id_a, id_b);
   if (proofs_.size() >= capacity_ && proofs_.count(key) == 0) return nullptr;
   Proof<S>& proof = proofs_[key];
   use(proof);

@@ -2,12 +2,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 
 #include "scene/body.h"
 
 namespace kios::scene {
+
+/// Returns a key of the pair (a, b), which is another than that of (b, a).
+inline std::uint64_t pairKey(int a, int b) {
+  return std::uint64_t{static_cast<std::uint32_t>(a)} << 32 | static_cast<std::uint32_t>(b);
+}
+inline std::uint64_t keyOfEither(int a, int b) { return pairKey(std::min(a, b), std::max(a, b)); }
 
 /// Holds the last answer of the narrow phase about two bodies, and their poses then. It says
 /// nothing of other states of their geometries.
@@ -54,9 +61,6 @@ class PairMemory {
   void clear() { proofs_.clear(); }
 
  private:
-  static std::uint64_t keyOf(int a, int b) {
-    return std::uint64_t{static_cast<std::uint32_t>(a)} << 32 | static_cast<std::uint32_t>(b);
-  }
   struct Hash {
     std::size_t operator()(std::uint64_t key) const {
       key *= 0x9e3779b97f4a7c15U;

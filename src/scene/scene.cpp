@@ -11,14 +11,6 @@
 #include "volume/errors.h"
 
 namespace kios::scene {
-namespace {
-
-std::uint64_t keyOf(int a, int b) {
-  const auto [low, high] = std::minmax({a, b});
-  return std::uint64_t{static_cast<std::uint32_t>(low)} << 32 | static_cast<std::uint32_t>(high);
-}
-
-}  // namespace
 
 template <typename S>
 int Scene<S>::add(Body<S> body) {
@@ -80,16 +72,16 @@ void Scene<S>::exclude(int a, int b, bool excluded) {
     refuse("the object ", a, " makes no pair with itself, which could be excluded.");
   }
   if (excluded) {
-    excluded_.insert(keyOf(a, b));
+    excluded_.insert(keyOfEither(a, b));
   } else {
-    excluded_.erase(keyOf(a, b));
+    excluded_.erase(keyOfEither(a, b));
   }
 }
 
 template <typename S>
 bool Scene<S>::admissible(int a, int b) const {
   if (obstacles(a, b)) return false;
-  if (!excluded_.empty() && excluded_.count(keyOf(a, b)) != 0) return false;
+  if (!excluded_.empty() && excluded_.count(keyOfEither(a, b)) != 0) return false;
   return !filter || filter(a, b);
 }
 

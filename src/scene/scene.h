@@ -80,8 +80,6 @@ class Scene {
   double boxBound(double square) const {
     return square < 0x1p1000 ? std::sqrt(square) * box_share_ * (1 - 0x1p-40) : 0x1p499;
   }
-  void countSkipped(PairBound::Source source);
-  Answer search(BodyPair<S>& pair, double limit, bool exact);
   ScenePair<S> report(int a, int b, const Answer& answer, const SceneRequest& request) const;
 
   std::vector<Body<S>> bodies_;  // by id

@@ -125,31 +125,6 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
 }
 
 template <typename S>
-void Scene<S>::countSkipped(PairBound::Source source) {
-  switch (source) {
-    case PairBound::Source::kNothing:
-      ++counts.far_boxes;
-      break;
-    case PairBound::Source::kStill:
-      ++counts.still;
-      break;
-    case PairBound::Source::kMotion:
-      ++counts.moved_too_little;
-      break;
-    case PairBound::Source::kRoots:
-      ++counts.far_roots;
-  }
-}
-
-template <typename S>
-typename Scene<S>::Answer Scene<S>::search(BodyPair<S>& pair, double limit, bool exact) {
-  ++counts.queried;
-  const Answer answer = pair.search(limit, exact, counts.search);
-  if (!answer.within) ++counts.proven_farther;
-  return answer;
-}
-
-template <typename S>
 ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
                               const SceneRequest& request) const {
   ScenePair<S> pair;
@@ -212,37 +187,28 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
     }
     BodyPair<S> pair = pairOf(next.a, next.b);
     const double matters = found && best < ids ? below(nearest.distance) : limit;
-    if (pair.lowerBound() > matters) {
+    std::optional<Answer> answer;
+    if (next.source == PairBound::Source::kNothing) {
+      PairBound known;
+      answer = pair.decide(matters, known, counts);
+      if (!answer && known.bound > queue.leastBound()) {
+        queue.push({known.bound, next.a, next.b, Waiting::Kind::kBodies, known.source});
+        continue;
+      }
+    } else if (pair.lowerBound() > matters) {
       ++counts.ties;
       continue;
     }
-    Answer answer;
-    if (next.source == PairBound::Source::kNothing) {
-      const PairBound known = pair.cachedLowerBound(matters);
-      if (known.exact) {
-        ++counts.still;
-        answer = pair.proven(matters);
-      } else if (known.bound > matters) {
-        countSkipped(known.source);
-        continue;
-      } else if (known.bound > queue.leastBound()) {
-        queue.push({known.bound, next.a, next.b, Waiting::Kind::kBodies, known.source});
-        continue;
-      } else {
-        answer = search(pair, matters, true);
-      }
-    } else {
-      answer = search(pair, matters, true);
-    }
-    if (!answer.within) continue;
+    if (!answer) answer = pair.search(matters, true, counts);
+    if (!answer->within) continue;
     found = true;
     best = ids;
-    nearest = answer;
-    limit = std::min(limit, double{answer.distance});
+    nearest = *answer;
+    limit = std::min(limit, double{nearest.distance});
   }
   for (const Waiting& item : queue.items()) {
     if (item.kind == Waiting::Kind::kBodies) {
-      countSkipped(item.source);
+      countSkipped(item.source, counts);
     } else {
       counts.far_boxes +=
           item.a == item.b ? tree_[item.a].pairs() : tree_[item.a].pairsWith(tree_[item.b]);
@@ -265,26 +231,14 @@ std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& re
       return;
     }
     BodyPair<S> pair = pairOf(a, b);
-    if (pair.lowerBound() > limit) {
-      ++counts.ties;
-      return;
+    PairBound known;
+    std::optional<Answer> answer = pair.decide(limit, known, counts);
+    if (!answer && !request.exact) {
+      answer = pair.nearby(limit);
+      if (answer) ++counts.near_by_proof;
     }
-    const PairBound known = pair.cachedLowerBound(limit);
-    Answer answer;
-    if (known.exact) {
-      ++counts.still;
-      answer = pair.proven(limit);
-    } else if (known.bound > limit) {
-      countSkipped(known.source);
-    } else {
-      if (!request.exact) answer = pair.nearby(limit);
-      if (answer.within) {
-        ++counts.near_by_proof;
-      } else {
-        answer = search(pair, limit, request.exact);
-      }
-    }
-    if (answer.within) pairs.push_back(report(a, b, answer, request));
+    if (!answer) answer = pair.search(limit, request.exact, counts);
+    if (answer->within) pairs.push_back(report(a, b, *answer, request));
   };
 
   forNearPairs(limit, ask);
@@ -310,7 +264,7 @@ std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
       BodyPair<S> pair = pairOf(a, b);
       const bool still = pair.stoodStill();
       if (still) ++counts.still;
-      const Answer answer = still ? pair.proven(kInfinity) : search(pair, kInfinity, true);
+      const Answer answer = still ? pair.proven(kInfinity) : pair.search(kInfinity, true, counts);
       pairs.push_back(report(a, b, answer, request));
     }
   }
@@ -318,11 +272,12 @@ std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
   return pairs;
 }
 
-template std::optional<ScenePair<double>> Scene<double>::closestPair(const SceneRequest&);
-template std::vector<ScenePair<double>> Scene<double>::pairsWithin(double, const SceneRequest&);
-template std::vector<ScenePair<double>> Scene<double>::clearances(const SceneRequest&);
-template std::optional<ScenePair<float>> Scene<float>::closestPair(const SceneRequest&);
-template std::vector<ScenePair<float>> Scene<float>::pairsWithin(float, const SceneRequest&);
-template std::vector<ScenePair<float>> Scene<float>::clearances(const SceneRequest&);
+#define KIOS_INSTANTIATE(S)                                                         \
+  template std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest&);  \
+  template std::vector<ScenePair<S>> Scene<S>::pairsWithin(S, const SceneRequest&); \
+  template std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest&);
+KIOS_INSTANTIATE(double)
+KIOS_INSTANTIATE(float)
+#undef KIOS_INSTANTIATE
 
 }  // namespace kios::scene

@@ -14,6 +14,7 @@
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -134,11 +135,7 @@ Solid toSolid(const fcl::CollisionGeometry<S>& geometry) {
   return solid;
 }
 
-#define KIOS_INSTANTIATE(S)                                \
-  template bool isShape(const fcl::CollisionGeometry<S>&); \
-  template Solid toSolid(const fcl::CollisionGeometry<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(isShape);
+KIOS_INSTANTIATE_FUNCTION(toSolid);
 
 }  // namespace kios

@@ -10,6 +10,7 @@
 #include "solid/containment.h"
 #include "solid/nearest_surface.h"
 #include "solid/winding.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -162,9 +163,6 @@ double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation,
   return balls.depth;
 }
 
-template double depthOfBalls(SolidPair<double>&, const Vec&, const Vec&, double, bool,
-                             const std::optional<Vec>&);
-template double depthOfBalls(SolidPair<float>&, const Vec&, const Vec&, double, bool,
-                             const std::optional<Vec>&);
+KIOS_INSTANTIATE_FUNCTION(depthOfBalls);
 
 }  // namespace kios

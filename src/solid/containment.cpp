@@ -11,6 +11,7 @@
 #include "solid/winding.h"
 #include "triangle/ray_crossing.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -93,13 +94,9 @@ std::optional<fcl::Vector3d> containedPoint(const MeshPair<S>& frame, SearchCoun
   return std::nullopt;
 }
 
-#define KIOS_INSTANTIATE(S)                                                 \
-  template bool surfacesMeet(const MeshPair<S>&, SearchCounts&);            \
-  template fcl::Vector3d toB(const RelativePose<S>&, const fcl::Vector3d&); \
-  template double inverseError(const RelativePose<S>&, double);             \
-  template std::optional<fcl::Vector3d> containedPoint(const MeshPair<S>&, SearchCounts&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(surfacesMeet);
+KIOS_INSTANTIATE_FUNCTION(toB);
+KIOS_INSTANTIATE_FUNCTION(inverseError);
+KIOS_INSTANTIATE_FUNCTION(containedPoint);
 
 }  // namespace kios

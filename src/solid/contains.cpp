@@ -7,6 +7,7 @@
 #include "solid/solid_mark.h"
 #include "solid/winding.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -25,9 +26,6 @@ bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
   return placeOf<S>(detail::rotate<double>(inverse, from), solid, unused).inside();
 }
 
-template bool contains(const Model<double>&, const fcl::Transform3<double>&,
-                       const fcl::Vector3<double>&);
-template bool contains(const Model<float>&, const fcl::Transform3<float>&,
-                       const fcl::Vector3<float>&);
+KIOS_INSTANTIATE_FUNCTION(contains);
 
 }  // namespace kios

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -258,15 +259,9 @@ Exit leaveAnywhere(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>&
   return ExitSearch<S>(pair, balls, exit, last_test).anywhere(directions, ways);
 }
 
-#define KIOS_INSTANTIATE(S)                                                                        \
-  template Exit goAlong(SolidPair<S>&, const Vec&, double, double);                                \
-  template Exit leaveRoots(SolidPair<S>&, const Vec&);                                             \
-  template Exit leaveNearby(SolidPair<S>&, const Exit&, const std::vector<Vec>&, const BallPairs&, \
-                            long long);                                                            \
-  template Exit leaveAnywhere(SolidPair<S>&, const Exit&, const std::vector<Vec>&,                 \
-                              const std::vector<BallPairs::Way>&, const BallPairs&, long long);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(goAlong);
+KIOS_INSTANTIATE_FUNCTION(leaveRoots);
+KIOS_INSTANTIATE_FUNCTION(leaveNearby);
+KIOS_INSTANTIATE_FUNCTION(leaveAnywhere);
 
 }  // namespace kios

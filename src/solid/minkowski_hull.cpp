@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include "query/ray_walk.h"
 #include "solid/support_point.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -238,11 +239,7 @@ HullDepth hullDepth(const Differences<S>& set, double size, double rel_gap, int 
   return result;
 }
 
-#define KIOS_INSTANTIATE(S)      \
-  template class Differences<S>; \
-  template HullDepth hullDepth(const Differences<S>&, double, double, int);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_CLASS(Differences);
+KIOS_INSTANTIATE_FUNCTION(hullDepth);
 
 }  // namespace kios

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -126,9 +127,6 @@ NearWeld weldNear(const std::vector<fcl::Vector3<S>>& vertices, const std::vecto
   return weld;
 }
 
-template NearWeld weldNear(const std::vector<fcl::Vector3d>&, const std::vector<bool>&, double,
-                           double);
-template NearWeld weldNear(const std::vector<fcl::Vector3f>&, const std::vector<bool>&, double,
-                           double);
+KIOS_INSTANTIATE_FUNCTION(weldNear);
 
 }  // namespace kios

@@ -10,6 +10,7 @@
 #include "query/ray_walk.h"
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -117,12 +118,7 @@ NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, dou
   return best;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                     \
-  template double surfaceError(const Model<S>&, const fcl::Vector3d&);                          \
-  template NearestSurface nearestSurface(const Model<S>&, const fcl::Vector3d&, double, double, \
-                                         double);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(surfaceError);
+KIOS_INSTANTIATE_FUNCTION(nearestSurface);
 
 }  // namespace kios

@@ -15,6 +15,7 @@
 #include "solid/solid_pair.h"
 #include "solid/touching.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -150,11 +151,6 @@ Penetration penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
   return PenetrationQuery<S>(pair, options).run();
 }
 
-template Penetration penetration(const Model<double>&, const fcl::Transform3<double>&,
-                                 const Model<double>&, const fcl::Transform3<double>&,
-                                 const PenetrationOptions&);
-template Penetration penetration(const Model<float>&, const fcl::Transform3<float>&,
-                                 const Model<float>&, const fcl::Transform3<float>&,
-                                 const PenetrationOptions&);
+KIOS_INSTANTIATE_FUNCTION(penetration);
 
 }  // namespace kios

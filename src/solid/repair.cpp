@@ -12,6 +12,7 @@
 #include "solid/hole_filling.h"
 #include "solid/near_weld.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -265,14 +266,7 @@ std::string summaryOf(const Repaired<S>& r) {
   return text.str();
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
-#define KIOS_INSTANTIATE(S)                                                             \
-  template Repaired<S> repair(const std::vector<fcl::Vector3<S>>&,                      \
-                              const std::vector<fcl::Triangle>&, const RepairOptions&); \
-  template std::string summaryOf(const Repaired<S>&);
-// NOLINTEND(bugprone-macro-parentheses)
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(repair);
+KIOS_INSTANTIATE_FUNCTION(summaryOf);
 
 }  // namespace kios

@@ -18,6 +18,7 @@
 #include "shape/solid.h"
 #include "solid/nearest_surface.h"
 #include "solid/support_point.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -171,16 +172,7 @@ Penetration shapeExit(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
   return ShapeExit<S>(solid, X_WM, shape, X_WS).run();
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
-#define KIOS_INSTANTIATE(S)                                                                        \
-  template std::optional<fcl::Vector3<S>> shapePointIn(const Model<S>&, const fcl::Transform3<S>&, \
-                                                       const fcl::CollisionGeometry<S>&,           \
-                                                       const fcl::Transform3<S>&);                 \
-  template Penetration shapeExit(const Model<S>&, const fcl::Transform3<S>&,                       \
-                                 const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&);
-// NOLINTEND(bugprone-macro-parentheses)
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(shapePointIn);
+KIOS_INSTANTIATE_FUNCTION(shapeExit);
 
 }  // namespace kios

@@ -10,6 +10,7 @@
 #include "model/prepared.h"
 #include "solid/components.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/stamp.h"
 
 namespace kios {
@@ -178,19 +179,13 @@ bool isSolid(const Model<S>& model) {
   return mark->stateOf(model)->closedness().isSolid();
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
-#define KIOS_INSTANTIATE(S)                                                    \
-  template class SolidState<S>;                                                \
-  template class SolidMark<S>;                                                 \
-  template SolidMark<S>* detail::findMark(const Model<S>&);                    \
-  template void checkSolid(const Model<S>&);                                   \
-  template std::shared_ptr<const SolidState<S>> requireSolid(const Model<S>&); \
-  template void markSolid(Model<S>&);                                          \
-  template void unmarkSolid(Model<S>&);                                        \
-  template bool isSolid(const Model<S>&);
-// NOLINTEND(bugprone-macro-parentheses)
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_CLASS(SolidState);
+KIOS_INSTANTIATE_CLASS(SolidMark);
+KIOS_INSTANTIATE_FUNCTION(detail::findMark);
+KIOS_INSTANTIATE_FUNCTION(checkSolid);
+KIOS_INSTANTIATE_FUNCTION(requireSolid);
+KIOS_INSTANTIATE_FUNCTION(markSolid);
+KIOS_INSTANTIATE_FUNCTION(unmarkSolid);
+KIOS_INSTANTIATE_FUNCTION(isSolid);
 
 }  // namespace kios

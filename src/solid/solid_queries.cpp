@@ -9,6 +9,7 @@
 #include "fcl_kios/solid/penetration.h"
 #include "solid/containment.h"
 #include "solid/shape_exit.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -146,21 +147,9 @@ S distanceSolidShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
       [&] { return shapeExit(model, X_WM, shape, X_WS); });
 }
 
-#define KIOS_INSTANTIATE(S)                                                                       \
-  template std::size_t collideSolids(const Model<S>&, const fcl::Transform3<S>&, const Model<S>&, \
-                                     const fcl::Transform3<S>&, const fcl::CollisionRequest<S>&,  \
-                                     fcl::CollisionResult<S>&);                                   \
-  template S distanceSolids(const Model<S>&, const fcl::Transform3<S>&, const Model<S>&,          \
-                            const fcl::Transform3<S>&, const fcl::DistanceRequest<S>&,            \
-                            fcl::DistanceResult<S>&);                                             \
-  template std::size_t collideSolidShape(                                                         \
-      const Model<S>&, const fcl::Transform3<S>&, const fcl::CollisionGeometry<S>&,               \
-      const fcl::Transform3<S>&, const fcl::CollisionRequest<S>&, fcl::CollisionResult<S>&);      \
-  template S distanceSolidShape(const Model<S>&, const fcl::Transform3<S>&,                       \
-                                const fcl::CollisionGeometry<S>&, const fcl::Transform3<S>&,      \
-                                const fcl::DistanceRequest<S>&, fcl::DistanceResult<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(collideSolids);
+KIOS_INSTANTIATE_FUNCTION(distanceSolids);
+KIOS_INSTANTIATE_FUNCTION(collideSolidShape);
+KIOS_INSTANTIATE_FUNCTION(distanceSolidShape);
 
 }  // namespace kios

@@ -20,7 +20,7 @@ using lanes::broadcast;
 using lanes::Float4;
 
 /// Longest first.
-Eigen::Matrix3f principalAxes(const Moments& m) {
+Eigen::Matrix3f principalAxes(const Scatter<double>& m) {
   const double trace = m.xx + m.yy + m.zz;
   if (!(trace > 0)) return Eigen::Matrix3f::Identity();
   Eigen::Matrix3f scatter;
@@ -82,85 +82,15 @@ Box boxOf(const Eigen::Matrix3f& axes, const Extents& e, const Eigen::Vector3f& 
   return box;
 }
 
-}  // namespace
-
-Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
-  const double square = first.dot(first), square_b = second.dot(second);
-  if (square > 0 && square < kInfinity) axes.col(0) = first / std::sqrt(square);
-  Eigen::Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
-  double left = across.dot(across);
-  if (!(left > 1e-6 * square_b && left < kInfinity)) {  // any direction across the first
-    int least = 0;
-    axes.col(0).cwiseAbs().minCoeff(&least);
-    across = Eigen::Vector3d::Unit(least) - axes(least, 0) * axes.col(0);
-    left = across.dot(across);
-  }
-  axes.col(1) = across / std::sqrt(left);
-  axes.col(2) = axes.col(0).cross(axes.col(1));
-  return axes.cast<float>();
-}
-
-void Moments::add(const Moments& o) {
-  const double sum = n + o.n;
-  if (!(sum > 0)) return;
-  const Eigen::Vector3d d = o.mean - mean;
-  const double weight = n * o.n / sum;
-  xx += o.xx + weight * d[0] * d[0];
-  xy += o.xy + weight * d[0] * d[1];
-  xz += o.xz + weight * d[0] * d[2];
-  yy += o.yy + weight * d[1] * d[1];
-  yz += o.yz + weight * d[1] * d[2];
-  zz += o.zz + weight * d[2] * d[2];
-  mean += o.n / sum * d;
-  n = sum;
-}
-
-Moments momentsOf(const Eigen::Vector3f* points, int n) {
-  const Eigen::Vector3d from = points[0].cast<double>();
-  double x = 0, y = 0, z = 0;
-  Moments m;
-  for (int i = 1; i < n; ++i) {
-    const double dx = points[i][0] - from[0], dy = points[i][1] - from[1],
-                 dz = points[i][2] - from[2];
-    x += dx;
-    y += dy;
-    z += dz;
-    m.xx += dx * dx;
-    m.xy += dx * dy;
-    m.xz += dx * dz;
-    m.yy += dy * dy;
-    m.yz += dy * dz;
-    m.zz += dz * dz;
-  }
-  const double part = 1.0 / n;
-  m.n = n;
-  m.mean = from + part * Eigen::Vector3d(x, y, z);
-  m.xx -= part * x * x;
-  m.xy -= part * x * y;
-  m.xz -= part * x * z;
-  m.yy -= part * y * y;
-  m.yz -= part * y * z;
-  m.zz -= part * z * z;
-  return m;
-}
-
-// Points and S0's centre are floats as they stand: a distance has 4.5 roundings, its root's
-// included. A cap's centre is the sum of two floats, off by at most u a coordinate.
-void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv) {
-  const int k = bv.k();
-  Float4 cx[5], cy[5], cz[5], squares[5];
-  double shift[5] = {};
+/// Measures the radii, not rounded, of k spheres that hold all points. Points and centres are
+/// floats as they stand: a distance has 4.5 roundings, its root's included.
+void measureRadii(const PointChunk* chunks, std::size_t num_chunks, const Eigen::Vector3f* centers,
+                  int k, double* radii) {
+  Float4 cx[kSphereRows], cy[kSphereRows], cz[kSphereRows], squares[kSphereRows];
   for (int s = 0; s < k; ++s) {
-    const float x = s == 0 ? bv.center0[0] : bv.center0[0] + bv.cap_x[s - 1];
-    const float y = s == 0 ? bv.center0[1] : bv.center0[1] + bv.cap_y[s - 1];
-    const float z = s == 0 ? bv.center0[2] : bv.center0[2] + bv.cap_z[s - 1];
-    if (s > 0)
-      shift[s] = kUlpFloat * (std::abs(double{x}) + std::abs(double{y}) + std::abs(double{z}));
-    cx[s] = broadcast(x);
-    cy[s] = broadcast(y);
-    cz[s] = broadcast(z);
+    cx[s] = broadcast(centers[s][0]);
+    cy[s] = broadcast(centers[s][1]);
+    cz[s] = broadcast(centers[s][2]);
     squares[s] = broadcast(0);
   }
   const auto pass = [&](auto count) {
@@ -175,17 +105,60 @@ void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float
       }
     }
   };
-  if (k == 5) {
-    pass(std::integral_constant<int, 5>());
+  if (k == kSphereRows) {
+    pass(std::integral_constant<int, kSphereRows>());
   } else {
     pass([k] { return k; });
   }
-  const auto radius = [&](int s) {
-    return roundUpFloat(std::sqrt(double{lanes::horizontalMax(squares[s])}) * (1 + 8 * kUlpFloat) +
-                        shift[s] + 0x1p-74);
-  };
-  bv.radius0 = radius(0);
-  for (int s = 1; s < k; ++s) bv.cap_r[s - 1] = radius(s);
+  for (int s = 0; s < k; ++s) {
+    radii[s] = std::sqrt(double{lanes::horizontalMax(squares[s])}) * (1 + 8 * kUlpFloat) + 0x1p-74;
+  }
+}
+
+}  // namespace
+
+void Moments::add(const Moments& o) {
+  const double sum = n + o.n;
+  if (!(sum > 0)) return;
+  const Eigen::Vector3d d = o.mean - mean;
+  const double weight = n * o.n / sum;
+  scatter.xx += o.scatter.xx + weight * d[0] * d[0];
+  scatter.xy += o.scatter.xy + weight * d[0] * d[1];
+  scatter.xz += o.scatter.xz + weight * d[0] * d[2];
+  scatter.yy += o.scatter.yy + weight * d[1] * d[1];
+  scatter.yz += o.scatter.yz + weight * d[1] * d[2];
+  scatter.zz += o.scatter.zz + weight * d[2] * d[2];
+  mean += o.n / sum * d;
+  n = sum;
+}
+
+Moments momentsOf(const Eigen::Vector3f* points, int n) {
+  const Eigen::Vector3d from = points[0].cast<double>();
+  Moments m;
+  Scatter<double>& s = m.scatter;
+  for (int i = 1; i < n; ++i) {
+    s.add(points[i][0] - from[0], points[i][1] - from[1], points[i][2] - from[2]);
+  }
+  const double part = 1.0 / n;
+  m.n = n;
+  m.mean = from + part * Eigen::Vector3d(s.x, s.y, s.z);
+  s.center(part);
+  return m;
+}
+
+// A cap's centre is the sum of two floats, off by at most u a coordinate.
+void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv) {
+  Eigen::Vector3f centers[kSphereRows] = {bv.center0};
+  for (int s = 1; s < bv.k(); ++s) {
+    centers[s] = bv.center0 + Eigen::Vector3f(bv.cap_x[s - 1], bv.cap_y[s - 1], bv.cap_z[s - 1]);
+  }
+  double radii[kSphereRows] = {};
+  measureRadii(chunks, num_chunks, centers, bv.k(), radii);
+  bv.radius0 = roundUpFloat(radii[0]);
+  for (int s = 1; s < bv.k(); ++s) {
+    const double shift = kUlpFloat * centers[s].cast<double>().lpNorm<1>();
+    bv.cap_r[s - 1] = roundUpFloat(radii[s] + shift);
+  }
 }
 
 Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks) {
@@ -203,7 +176,7 @@ Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::siz
       points[l] = {chunks[i].x.v[l], chunks[i].y.v[l], chunks[i].z.v[l]};
     m.add(momentsOf(points, kLanes));
   }
-  return principalAxes(m);
+  return principalAxes(m.scatter);
 }
 
 Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks) {
@@ -213,7 +186,7 @@ Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t
 
 void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,
                Box* box) {
-  const Eigen::Matrix3f axes = principalAxes(moments);
+  const Eigen::Matrix3f axes = principalAxes(moments.scatter);
   const Extents e = extentsAlong(axes, chunks, num_chunks);
   const Eigen::Vector3f half = 0.5F * (e.high - e.low);
   const Eigen::Vector3f center = e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high));
@@ -233,37 +206,23 @@ void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& 
   }
   const Eigen::Vector3f centers[kSphereRows] = {center, center + to_cap[0], center - to_cap[0],
                                                 center + to_cap[1], center - to_cap[1]};
-  Float4 squares[kSphereRows];
-  for (Float4& s : squares) s = broadcast(0);
-  for (std::size_t i = 0; i < num_chunks; ++i) {
-    for (int l = 0; l < kLanes; l += 4) {
-      const Float4 x = lanes::load(chunks[i].x.v + l), y = lanes::load(chunks[i].y.v + l),
-                   z = lanes::load(chunks[i].z.v + l);
-      for (int s = 0; s < kSphereRows; ++s) {
-        const Float4 dx = x - centers[s][0], dy = y - centers[s][1], dz = z - centers[s][2];
-        squares[s] = lanes::max(squares[s], dx * dx + dy * dy + dz * dz);
-      }
-    }
-  }
-  // Points and centres are floats as they stand: a distance has 4.5 roundings, its root's included.
+  double radii[kSphereRows];
+  measureRadii(chunks, num_chunks, centers, kSphereRows, radii);
   // A cap's centre is middle +- half, off by at most u a coordinate from what was measured.
-  const auto radius = [&](int s) {
-    return std::sqrt(double{lanes::horizontalMax(squares[s])}) * (1 + 8 * kUlpFloat) + 0x1p-74;
-  };
   const auto write = [&](int row, const Eigen::Vector3f& place) {
     node.x[row] = place[0];
     node.y[row] = place[1];
     node.z[row] = place[2];
   };
   write(kCentral, center);
-  node.r[kCentral] = node.size = roundUpFloat(radius(0));
+  node.r[kCentral] = node.size = roundUpFloat(radii[0]);
   for (int pair = 0; pair < 2; ++pair) {
     const int middle = pair == 0 ? kMiddle2 : kMiddle1, plus = 1 + 2 * pair, minus = plus + 1;
     write(middle, center);
     write(middle + 1, to_cap[pair]);
     const double shift =
         kUlpFloat * double{std::max(centers[plus].lpNorm<1>(), centers[minus].lpNorm<1>())};
-    const double r_plus = radius(plus), r_minus = radius(minus);
+    const double r_plus = radii[plus], r_minus = radii[minus];
     node.r[middle + 1] = static_cast<float>(0.5 * (r_plus - r_minus));
     node.r[middle] = roundUpFloat(0.5 * (r_plus + r_minus) + shift +
                                   kUlpFloat * 0.5 * std::abs(r_plus - r_minus));

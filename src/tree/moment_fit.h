@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "build/four_axes.h"
+#include "build/principal_frame.h"
 #include "fcl_kios/volume/kios.h"
 #include "tree/tree.h"
 
@@ -18,7 +20,7 @@ struct PointChunk {
 struct Moments {
   double n = 0;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  Scatter<double> scatter;  ///< about the mean
 
   void add(const Moments& o);
 };
@@ -28,10 +30,6 @@ Moments momentsOf(const Eigen::Vector3f* points, int n);
 /// Sets the radii of a volume's spheres by points, in the frame of the points: every sphere holds
 /// all of them, in exact arithmetic. Its centres are set, in units of 1.
 void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv);
-
-/// Orthonormal axes, the first along a, the second towards b, each rounded once: a box's slabs add
-/// up only if its axes are so. Either may be 0 or not finite, or parallel to the other.
-Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
 
 /// Axes for the box of a volume: along its caps, or where it has not enough of them the principal
 /// axes of the points.

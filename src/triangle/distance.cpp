@@ -10,6 +10,7 @@
 #include "triangle/certified_distance.h"
 #include "triangle/common_point.h"
 #include "triangle/pair.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -147,9 +148,6 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
   return result;
 }
 
-template TriangleDistance<double> triangleDistance(const TriangleVertices<double>&,
-                                                   const TriangleVertices<double>&);
-template TriangleDistance<float> triangleDistance(const TriangleVertices<float>&,
-                                                  const TriangleVertices<float>&);
+KIOS_INSTANTIATE_FUNCTION(triangleDistance);
 
 }  // namespace kios

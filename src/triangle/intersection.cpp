@@ -9,6 +9,7 @@
 #include "triangle/common_point.h"
 #include "triangle/plain_intersection.h"
 #include "triangle/predicates.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -368,11 +369,7 @@ Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<
   return {static_cast<S>(point[0]), static_cast<S>(point[1]), static_cast<S>(point[2])};
 }
 
-template bool trianglesIntersect(const TriangleVertices<double>&, const TriangleVertices<double>&);
-template bool trianglesIntersect(const TriangleVertices<float>&, const TriangleVertices<float>&);
-template Point<double> intersectionPoint(const TriangleVertices<double>&,
-                                         const TriangleVertices<double>&);
-template Point<float> intersectionPoint(const TriangleVertices<float>&,
-                                        const TriangleVertices<float>&);
+KIOS_INSTANTIATE_FUNCTION(trianglesIntersect);
+KIOS_INSTANTIATE_FUNCTION(intersectionPoint);
 
 }  // namespace kios

@@ -9,6 +9,7 @@
 
 #include "build/all_fits.h"
 #include "fcl_kios/build/fit.h"
+#include "scalars.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {
@@ -53,10 +54,7 @@ class Checker {
   std::size_t next_ = 0;
 };
 
-template <typename S>
-class FitContainment : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(FitContainment, Scalars);
+KIOS_SCALAR_SUITE(FitContainment);
 
 TYPED_TEST(FitContainment, HardSetsOfAnyShapePlaceAndScale) {
   Random random(1);

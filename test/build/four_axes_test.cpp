@@ -13,9 +13,13 @@
 namespace kios::testing {
 namespace {
 
-Scatter scatterOf(const Eigen::Matrix3d& m) {
-  const auto at = [&](int i, int j) { return static_cast<float>(m(i, j)); };
-  return {at(0, 0), at(0, 1), at(0, 2), at(1, 1), at(1, 2), at(2, 2)};
+Scatter<float> products(float xx, float xy, float xz, float yy, float yz, float zz) {
+  return {0, 0, 0, xx, xy, xz, yy, yz, zz};
+}
+
+Scatter<float> scatterOf(const Eigen::Matrix3d& m) {
+  const Eigen::Matrix3f f = m.cast<float>();
+  return products(f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2));
 }
 
 double orthonormalError(const Eigen::Matrix3d& axes) {
@@ -51,8 +55,8 @@ TEST(FourAxes, AnyMatrixGivesOrthonormalAxes) {
               huge = std::numeric_limits<float>::infinity();
   for (const float v : {0.0F, 1e-40F, 1e-20F, 1.0F, 1e20F, 1e38F, none, huge, -1.0F}) {
     for (const float w : {0.0F, 1e-38F, 1.0F, 1e38F, none, -huge}) {
-      for (const Scatter& s : {Scatter{v, 0, 0, w, 0, 0}, Scatter{v, w, w, v, w, v},
-                               Scatter{v, 0, w, v, 0, v}, Scatter{w, v, v, w, v, w}}) {
+      for (const auto& s : {products(v, 0, 0, w, 0, 0), products(v, w, w, v, w, v),
+                            products(v, 0, w, v, 0, v), products(w, v, v, w, v, w)}) {
         EXPECT_LT(orthonormalError(principalAxes(s).cast<double>()), 2e-6) << v << " " << w;
       }
     }

@@ -8,16 +8,14 @@
 
 #include "build/all_fits.h"
 #include "fcl_kios/build/fit.h"
+#include "scalars.h"
 #include "together.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class FitInput : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(FitInput, Scalars);
+KIOS_SCALAR_SUITE(FitInput);
 
 const std::vector<FitOptions> kFits = allFits();
 

@@ -14,6 +14,7 @@
 
 #include "fcl_kios/build/fit.h"
 #include "model/bvh_check.h"
+#include "scalars.h"
 #include "search/prepared_pair.h"
 
 namespace kios::testing {
@@ -81,10 +82,7 @@ void expectContained(const MeshIn<S>& shape, const Built<S>& built) {
   EXPECT_EQ(outside, 0);
 }
 
-template <typename S>
-class MeshTree : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(MeshTree, Scalars);
+KIOS_SCALAR_SUITE(MeshTree);
 
 TYPED_TEST(MeshTree, EveryVolumeHoldsItsVertices) {
   using S = TypeParam;

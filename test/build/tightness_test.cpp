@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "fcl_kios/build/fit.h"
+#include "scalars.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {
@@ -84,10 +85,7 @@ kIOS<S> fitted(const Points<S>& points, FitMethod method = FitMethod::kTuned) {
   return v;
 }
 
-template <typename S>
-class Tightness : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Tightness, Scalars);
+KIOS_SCALAR_SUITE(Tightness);
 
 /// Returns a triangle of size 1, `thin` high, its apex at `along` the longest edge.
 Points<double> thinTriangle(double along, double thin, int apex) {

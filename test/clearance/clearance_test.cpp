@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "fcl_kios/fcl_kios.h"
+#include "scalars.h"
 #include "scenes/mesh.h"
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
@@ -20,10 +21,7 @@
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class ClearanceOf : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(ClearanceOf, Scalars);
+KIOS_SCALAR_SUITE(ClearanceOf);
 
 TYPED_TEST(ClearanceOf, BoundsTheDistanceOfTheMeshes) {
   using S = TypeParam;

@@ -9,15 +9,13 @@
 
 #include "clearance/interior_point.h"
 #include "not_finite.h"
+#include "scalars.h"
 #include "volume/exact_pairs.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class ExactPair : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(ExactPair, Scalars);
+KIOS_SCALAR_SUITE(ExactPair);
 
 /// Returns the mean of the points around v's S0: inside all spheres.
 template <typename S>

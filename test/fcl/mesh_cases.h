@@ -13,9 +13,8 @@
 
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 
+#include "all_pairs.h"
 #include "fcl_kios/fcl_kios.h"
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
@@ -110,39 +109,16 @@ Pairs contactPairs(const fcl::CollisionResult<S>& result) {
   return {pairs.begin(), pairs.end()};
 }
 
-/// Returns the triangles of B in A's frame, as the library places them.
-inline std::vector<TriangleVertices<double>> placed(const Mesh& b, const Frame& frame) {
-  const RelativePose<double> X_AB(frame.X_WA, frame.X_WB);
-  std::vector<TriangleVertices<double>> triangles;
-  for (std::size_t j = 0; j < b.triangles.size(); ++j) {
-    const auto q = corners(b, j);
-    triangles.push_back({X_AB * q[0], X_AB * q[1], X_AB * q[2]});
-  }
-  return triangles;
-}
-
 /// Returns the library's triangle kernels over all pairs of triangles, without a tree.
-inline double leafDistance(const Mesh& a, const Mesh& b, const Frame& frame) {
-  const auto triangles_b = placed(b, frame);
-  double best = std::numeric_limits<double>::max();
-  for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-    const TriangleVertices<double> p = corners(a, i);
-    for (const auto& q : triangles_b) best = std::min(best, triangleDistance(p, q).distance);
-  }
-  return best;
+inline AllPairs<double> allPairs(const Mesh& a, const Mesh& b, const Frame& frame) {
+  return {trianglesOf(MeshIn<double>(a)), trianglesOf(MeshIn<double>(b)),
+          RelativePose<double>(frame.X_WA, frame.X_WB)};
 }
-
+inline double leafDistance(const Mesh& a, const Mesh& b, const Frame& frame) {
+  return allPairs(a, b, frame).distance;
+}
 inline Pairs leafPairs(const Mesh& a, const Mesh& b, const Frame& frame) {
-  const auto triangles_b = placed(b, frame);
-  Pairs pairs;
-  for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-    const TriangleVertices<double> p = corners(a, i);
-    for (std::size_t j = 0; j < triangles_b.size(); ++j) {
-      if (!trianglesIntersect(p, triangles_b[j])) continue;
-      pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
-    }
-  }
-  return pairs;
+  return allPairs(a, b, frame).hits;
 }
 
 /// Holds the answer of FCL's triangle routine for a pair that meets, in A's frame.

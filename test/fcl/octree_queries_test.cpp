@@ -12,6 +12,7 @@
 #include <fcl/geometry/octree/octree.h>
 
 #include "fcl/mesh_cases.h"
+#include "scalars.h"
 #include "scenes/random.h"
 
 namespace kios::testing {
@@ -124,10 +125,7 @@ OctreeAnswer bruteForce(const std::vector<Leaf>& leaves, const fcl::Transform3<S
   return answer;
 }
 
-template <typename S>
-class Octree : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Octree, Scalars);
+KIOS_SCALAR_SUITE(Octree);
 
 TYPED_TEST(Octree, EqualsBruteForce) {
   using S = TypeParam;

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fcl/mesh_cases.h"
 #include "fcl_kios/fcl_kios.h"
 #include "scenes/random.h"
 #include "scenes/triangle_classes.h"
@@ -41,46 +42,23 @@ std::shared_ptr<Modeld> modelOf(const std::vector<Vector3d>& corners) {
   return makeModel<double>(corners, triangles);
 }
 
-struct BruteForce {
-  double distance = std::numeric_limits<double>::max();
-  double extent = 0;  // of everything, in the common frame
-  PairSet hits;
-};
-
-BruteForce bruteForce(const Modeld& a, const Transform3d& X_WA, const Modeld& b,
-                      const Transform3d& X_WB) {
-  BruteForce result;
-  const RelativePose<double> X_AB(X_WA, X_WB);
-  Vector3d low = a.vertices[0], high = low;
-  const auto triangle = [&](const Modeld& m, int i, const auto& X) {
-    TriangleVertices<double> t;
-    for (int c = 0; c < 3; ++c) {
-      t[c] = X * m.vertices[m.tri_indices[i][c]];
-      low = low.cwiseMin(t[c]);
-      high = high.cwiseMax(t[c]);
-    }
-    return t;
-  };
-  for (int i = 0; i < a.num_tris; ++i) {
-    const auto p = triangle(a, i, Transform3d::Identity());
-    for (int j = 0; j < b.num_tris; ++j) {
-      const auto q = triangle(b, j, X_AB);
-      result.distance = std::min(result.distance, triangleDistance(p, q).distance);
-      if (trianglesIntersect(p, q)) result.hits.emplace(i, j);
-    }
-  }
-  result.extent = (high - low).stableNorm();
-  return result;
-}
-
 void expectBruteForce(const std::shared_ptr<Modeld>& a, const Transform3d& X_WA,
                       const std::shared_ptr<Modeld>& b, const Transform3d& X_WB) {
-  const BruteForce expected = bruteForce(*a, X_WA, *b, X_WB);
+  const Triangles<double> triangles_a = trianglesOf(*a), triangles_b = trianglesOf(*b);
+  const RelativePose<double> X_AB(X_WA, X_WB);
+  const AllPairs<double> expected(triangles_a, triangles_b, X_AB);
+  Eigen::AlignedBox3d box;  // of everything, in the common frame
+  for (const auto& t : triangles_a) {
+    for (const Vector3d& p : t) box.extend(p);
+  }
+  for (const auto& t : triangles_b) {
+    for (const Vector3d& p : t) box.extend(Vector3d(X_AB * p));
+  }
   fcl::DistanceResultd nearest;
   const double d = fcl::distance(a.get(), X_WA, b.get(), X_WB, fcl::DistanceRequestd(), nearest);
   EXPECT_EQ(d == 0, expected.distance == 0);
   // Bounds are exact to rounding, the kernel to 16 eps: a pruned pair may be that much nearer.
-  EXPECT_NEAR(d, expected.distance, 32 * 0x1p-52 * expected.extent);
+  EXPECT_NEAR(d, expected.distance, 32 * 0x1p-52 * box.diagonal().stableNorm());
 
   fcl::CollisionResultd contacts;
   const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), true);
@@ -90,7 +68,7 @@ void expectBruteForce(const std::shared_ptr<Modeld>& a, const Transform3d& X_WA,
     hits.emplace(contacts.getContact(i).b1, contacts.getContact(i).b2);
     EXPECT_TRUE(contacts.getContact(i).normal.allFinite());
   }
-  EXPECT_EQ(hits, expected.hits);
+  EXPECT_EQ(hits, PairSet(expected.hits.begin(), expected.hits.end()));
   EXPECT_EQ(d == 0, !hits.empty());
 }
 

@@ -10,6 +10,7 @@
 #include "model/deform.h"
 #include "model/prepared.h"
 #include "model/stored_file.h"
+#include "scalars.h"
 #include "shapes.h"
 #include "tree/adopt.h"
 #include "tree/prepare.h"
@@ -46,10 +47,7 @@ void expectSame(const Tree& a, const Tree& b) {
   EXPECT_TRUE(same(a.corners, b.corners));
 }
 
-template <typename S>
-class StoredPrepared : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(StoredPrepared, Scalars);
+KIOS_SCALAR_SUITE(StoredPrepared);
 
 TYPED_TEST(StoredPrepared, IsTheTreeOfPrepare) {
   using S = TypeParam;

@@ -8,6 +8,9 @@
 # nothing includes but they themselves, and fcl_kios.h. No two folders have files of one name, but
 # those of public headers. FCL's headers are included as <fcl/...>
 # and ours as "...", and every "..." names one file, whichever include directory is searched first.
+# What include/fcl_kios/x.h declares is defined in src/x.cpp. A file of under thirty lines, but for
+# the header of a longer .cpp, and a header without a .cpp that one file includes stand below, with
+# their reason.
 import pathlib
 import re
 import sys
@@ -42,7 +45,9 @@ def layer(path):
 
 
 def check(path, own):
-    for quote, name in INCLUDE.findall(path.read_text(encoding="utf-8")):
+    text = path.read_text(encoding="utf-8")
+    lines[path] = text.count("\n")
+    for quote, name in INCLUDE.findall(text):
         ours = [r for r in roots if (r / name).is_file()]
         if name in ("fcl_kios/version.h", "fcl_kios/compiler.h"):  # made by CMake
             ours = [None]
@@ -50,6 +55,8 @@ def check(path, own):
             if ours:
                 faults.append(f"{path}: <{name}> is ours: write it in quotes")
             continue
+        if quote == '"':
+            users.setdefault(name, set()).add(path)
         if len(ours) != 1:
             faults.append(f'{path}: "{name}" names {len(ours)} files of ours')
             continue
@@ -65,7 +72,35 @@ def check(path, own):
 # Public headers that share a name with another layer's file; that of motion bounds is defined where
 # motions are.
 NAMED_TWICE = {"distance", "intersection", "motion_bounds", "prepare"}
-count, homes = 0, {}
+# Public headers without a .cpp of their path.
+DEFINED_ELSEWHERE = {
+    "build/fit.h": "build/sphere_fitter.cpp",
+    "model/motion_bounds.h": "continuous/motion_bounds.cpp",
+    "model/prepare.h": "model/prepared.cpp", "solid/solids.h": "solid/solid_mark.cpp",
+    "model/convert.h": "a template", "volume/rigid.h": "templates",
+    "scene/scene_types.h": "values", "search/counts.h": "values", "triangle/triangle.h": "types",
+    "volume/specialisations.h": "model/bvh_build.cpp and its neighbours"}
+SMALL_OR_USED_ONCE = {
+    "clearance/exact_pair.h": "what two .cpp share",
+    "continuous/motion_bounds.cpp": "for model/motion_bounds.h, by continuous's velocities",
+    "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
+    "linkage/near_pairs.h": "tested alone", "model/memory_to_fill.cpp": "of the operating system",
+    "model/memory_to_fill.h": "likewise", "query/cell_walk.h": "FCL's tree beside the engine's",
+    "query/intersecting_pairs.h": "one function", "shape/simplex.h": "tested alone",
+    "solid/vertex_graph.cpp": "of vertex_graph.h", "tree/build_budget.h": "tested alone",
+    "tree/compress_table.h": "a table that no target needs twice",
+    "tree/root_copy.h": "a lock-free cell", "tree/weld.h": "one function",
+    "triangle/common_point.h": "what two .cpp share",
+    "triangle/integer.cpp": "Boost's integers, which take long to compile",
+    "triangle/integer.h": "likewise",
+    "triangle/plain_intersection.h": "the filter before the proof",
+    "volume/ball_lanes.h": "tested alone", "volume/errors.h": "the one way to refuse",
+    "volume/instantiate.h": "macros", "volume/stamp.h": "one function",
+    "volume/simd_targets.h": "before Highway's headers",
+    "volume/unit_vector.h": "one function",
+    "fcl_kios/search/counts.h": "values", "fcl_kios/triangle/triangle.h": "types",
+    "fcl_kios/volume/specialisations.h": "declared with the volume"}
+count, homes, lines, users, listed = 0, {}, {}, {}, set()
 for base in (root / "src", root / "include" / "fcl_kios"):
     for path in sorted(base.rglob("*")):
         relative = path.relative_to(base).as_posix()
@@ -80,6 +115,24 @@ for base in (root / "src", root / "include" / "fcl_kios"):
         home = homes.setdefault(path.stem, own)
         if home != own and path.stem not in NAMED_TWICE:
             faults.append(f"{path}: {LAYERS[home]} has files of this name too")
+for path, length in lines.items():
+    base = root / ("src" if path.is_relative_to(root / "src") else "include")
+    name = path.relative_to(base).as_posix()
+    moved = any(name.removeprefix("fcl_kios/") in headers for headers in MOVED.values())
+    if moved or name.endswith("-inl.h") or name.count("/") == name.startswith("fcl_kios/"):
+        continue
+    own_cpp = root / "src" / name.removeprefix("fcl_kios/").replace(".h", ".cpp")
+    is_header, has_cpp = path.suffix == ".h", own_cpp in lines
+    if name.startswith("fcl_kios/") and not has_cpp and name[9:] not in DEFINED_ELSEWHERE:
+        faults.append(f"{path}: src/{name[9:-2]}.cpp, which would define it, isn't there")
+    small = length < 30 and not (is_header and has_cpp and lines[own_cpp] >= 60)
+    used_once = is_header and not has_cpp and len(users.get(name, ())) == 1
+    if small or used_once:
+        listed.add(name)
+        if name not in SMALL_OR_USED_ONCE:
+            faults.append(f"{path}: has {length} lines, or one user; give the reason in {__file__}")
+for name in sorted(SMALL_OR_USED_ONCE.keys() - listed):
+    faults.append(f"{name} is listed, but neither small nor used once")
 if count < 100:
     faults.append(f"only {count} files were found")
 print("\n".join(faults) if faults else f"{count} files include downwards only")

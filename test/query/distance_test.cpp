@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "query/query_cases.h"
+#include "scalars.h"
 #include "together.h"
 
 namespace kios::testing {
@@ -65,10 +66,7 @@ bool sameAnswer(const DistanceAnswer<S>& a, const DistanceAnswer<S>& b) {
          a.upper_bound == b.upper_bound && a.stop == b.stop;
 }
 
-template <typename S>
-class Distance : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Distance, Scalars);
+KIOS_SCALAR_SUITE(Distance);
 
 // The last answer, wrong models' ids, random ids: an exact answer shows nothing of its start.
 TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {

@@ -10,17 +10,16 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include <gtest/gtest.h>
+#include "all_pairs.h"
 #include "fcl_kios/query/mesh_queries.h"
 #include "fcl_kios/scene/scene_distance.h"
 #include "query/query_cases.h"
+#include "scalars.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class Fallback : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Fallback, Scalars);
+KIOS_SCALAR_SUITE(Fallback);
 
 template <typename S>
 fcl::Transform3<S> poseNear(scenes::Random& random) {
@@ -53,34 +52,16 @@ TYPED_TEST(Fallback, EveryCallNamesTheNearestOfBruteForce) {
   for (int i = 0; i < 400; ++i) {
     const SoupPair<S> pair(i, 1e-2, random);
     const auto& [a, b, X_WA, X_WB] = pair;
-    const RelativePose<S> X_AB(X_WA, X_WB);
-    S least = std::numeric_limits<S>::infinity();
-    int least_a = -1, least_b = -1;
-    const auto corners = [](const Model<S>& m, int t) {
-      const fcl::Triangle& ids = m.tri_indices[t];
-      return TriangleVertices<S>{m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]};
-    };
-    for (int s = 0; s < a->num_tris; ++s) {
-      for (int t = 0; t < b->num_tris; ++t) {
-        const auto q = corners(*b, t);
-        const S d =
-            triangleDistance(corners(*a, s), {X_AB * q[0], X_AB * q[1], X_AB * q[2]}).distance;
-        if (!(d < least)) continue;
-        least = d;
-        least_a = s;
-        least_b = t;
-      }
-    }
+    const AllPairs<S> all(trianglesOf(*a), trianglesOf(*b), RelativePose<S>(X_WA, X_WB));
     const auto answer = kios::distance(*a, X_WA, *b, X_WB);
     ASSERT_EQ(answer.counts.tree_searches, 1);
-    ASSERT_EQ(answer.distance, least);
+    ASSERT_EQ(answer.distance, all.distance);
     fcl::DistanceResult<S> result;
-    ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result), least);
-    if (least == 0) continue;
-    ASSERT_EQ(std::make_pair(answer.triangle_a, answer.triangle_b),
-              std::make_pair(least_a, least_b));
-    ASSERT_EQ(result.b1, least_a);
-    ASSERT_EQ(result.b2, least_b);
+    ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result), all.distance);
+    if (all.distance == 0) continue;
+    ASSERT_EQ(std::make_pair(answer.triangle_a, answer.triangle_b), all.nearest);
+    ASSERT_EQ(result.b1, all.nearest.first);
+    ASSERT_EQ(result.b2, all.nearest.second);
   }
 }
 

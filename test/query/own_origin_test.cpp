@@ -12,6 +12,7 @@
 #include <cstdio>
 
 #include "query/query_cases.h"
+#include "scalars.h"
 #include "scenes/random.h"
 
 namespace kios::testing {
@@ -33,10 +34,7 @@ std::shared_ptr<Model<S>> pointModel(const fcl::Vector3<S>& p) {
   return makeModel<S>({p, p, p}, {{0, 1, 2}, {0, 1, 2}, {0, 1, 2}});
 }
 
-template <typename S>
-class OwnOrigin : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(OwnOrigin, Scalars);
+KIOS_SCALAR_SUITE(OwnOrigin);
 
 // Two points near each other in the world, each `offset` from its model's origin, poses at random.
 TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {

@@ -8,14 +8,12 @@
 #include <string>
 
 #include "query/ray_cases.h"
+#include "scalars.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class RayQuery : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(RayQuery, Scalars);
+KIOS_SCALAR_SUITE(RayQuery);
 
 TYPED_TEST(RayQuery, BruteForce) {
   using S = TypeParam;

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "all_pairs.h"
 #include "query/query_cases.h"
+#include "scalars.h"
 
 namespace kios::testing {
 namespace {
@@ -87,28 +89,9 @@ Poses<S> poseAt(int kind, double apart, Random& random) {
 }
 
 template <typename S>
-TriangleVertices<S> corners(const Model<S>& m, int t) {
-  const fcl::Triangle& ids = m.tri_indices[t];
-  return {m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]};
+AllPairs<S> allPairs(const Model<S>& a, const Model<S>& b, const Poses<S>& X) {
+  return {trianglesOf(a), trianglesOf(b), RelativePose<S>(X.X_WA, X.X_WB)};
 }
-
-/// All pairs by the kernels alone.
-template <typename S>
-struct BruteForce {
-  BruteForce(const Model<S>& a, const Model<S>& b, const Poses<S>& X) {
-    const RelativePose<S> X_AB(X.X_WA, X.X_WB);
-    for (int i = 0; i < a.num_tris; ++i) {
-      for (int j = 0; j < b.num_tris; ++j) {
-        auto q = corners(b, j);
-        for (auto& v : q) v = X_AB * v;
-        least = std::min(least, triangleDistance(corners(a, i), q).distance);
-        if (trianglesIntersect(corners(a, i), q)) pairs.emplace_back(i, j);
-      }
-    }
-  }
-  S least = std::numeric_limits<S>::infinity();
-  std::vector<std::pair<int, int>> pairs;
-};
 
 /// Returns a model that shares no tree with one of the same mesh.
 template <typename S>
@@ -132,10 +115,7 @@ std::vector<std::pair<int, int>> contactsOf(const Model<S>& a, const Model<S>& b
   return pairs;
 }
 
-template <typename S>
-class SmallBodies : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(SmallBodies, Scalars);
+KIOS_SCALAR_SUITE(SmallBodies);
 
 TYPED_TEST(SmallBodies, ContactsAreThoseOfAllPairs) {
   using S = TypeParam;
@@ -145,15 +125,15 @@ TYPED_TEST(SmallBodies, ContactsAreThoseOfAllPairs) {
     const Mesh mesh_a = smallMesh(i, random), mesh_b = smallMesh(i / 8, random);
     const auto a = modelOf<S>(mesh_a), b = modelOf<S>(mesh_b);
     const auto X = poseAt<S>(i, random.uniform(0, 1.5), random);
-    const BruteForce<S> all(*a, *b, X);
+    const AllPairs<S> all = allPairs(*a, *b, X);
     const auto one = contactsOf(*a, *b, X, 1);
-    ASSERT_EQ(one.empty(), all.pairs.empty()) << i;
+    ASSERT_EQ(one.empty(), all.hits.empty()) << i;
     if (!one.empty()) {
-      ASSERT_TRUE(std::find(all.pairs.begin(), all.pairs.end(), one[0]) != all.pairs.end()) << i;
+      ASSERT_TRUE(std::find(all.hits.begin(), all.hits.end(), one[0]) != all.hits.end()) << i;
     }
-    ASSERT_EQ(contactsOf(*a, *b, X, 100000), all.pairs) << i;
-    ASSERT_EQ(contactsOf(*a, *b, X, 2).size(), std::min<std::size_t>(2, all.pairs.size())) << i;
-    (all.pairs.empty() ? apart : touching) += 1;
+    ASSERT_EQ(contactsOf(*a, *b, X, 100000), all.hits) << i;
+    ASSERT_EQ(contactsOf(*a, *b, X, 2).size(), std::min<std::size_t>(2, all.hits.size())) << i;
+    (all.hits.empty() ? apart : touching) += 1;
   }
   EXPECT_GT(touching, 300);
   EXPECT_GT(apart, 300);
@@ -175,9 +155,9 @@ TYPED_TEST(SmallBodies, FreshModelsAnswerAsPreparedOnes) {
     const S d = distanceMeshes(*a, X.X_WA, *b, X.X_WB, request, fresh, &by_walk);
     ASSERT_EQ(d, distanceMeshes(*ready_a, X.X_WA, *ready_b, X.X_WB, request, ready, &by_engine))
         << i << ' ' << fresh.b1 << ' ' << fresh.b2 << ' ' << ready.b1 << ' ' << ready.b2;
-    const BruteForce<S> all(*a, *b, X);
-    ASSERT_EQ(d == 0, !all.pairs.empty()) << i;
-    ASSERT_LE(std::abs(d - all.least), 1e-5 * (d + 4)) << i;
+    const AllPairs<S> all = allPairs(*a, *b, X);
+    ASSERT_EQ(d == 0, !all.hits.empty()) << i;
+    ASSERT_LE(std::abs(d - all.distance), 1e-5 * (d + 4)) << i;
     walks += by_walk.expansions == 0 && by_walk.leaf_pairs > 0;
     if (d == 0 && a->num_tris * b->num_tris > 1) {  // the engine answered both
       ASSERT_EQ(std::make_pair(fresh.b1, fresh.b2), std::make_pair(ready.b1, ready.b2)) << i;
@@ -219,13 +199,13 @@ TYPED_TEST(SmallBodies, PlanesBetweenVerticesTellNothingThatRoundingHides) {
     for (int step = 0; step < 70; ++step) {
       const double middle = (low + high) / 2;
       X.X_WB.translation() = start + static_cast<S>(middle) * along;
-      const BruteForce<S> all(*a, *b, X);
-      (all.pairs.empty() ? low : high) = middle;
-      const bool touch = !all.pairs.empty();
+      const AllPairs<S> all = allPairs(*a, *b, X);
+      (all.hits.empty() ? low : high) = middle;
+      const bool touch = !all.hits.empty();
       ASSERT_EQ(!contactsOf(*a, *b, X, 1).empty(), touch) << i << ' ' << step;
       fcl::DistanceResult<S> result;
       // Both distances are right to 16 eps of the triangles' extent.
-      const S bound = all.least + 64 * std::numeric_limits<S>::epsilon() * 4;
+      const S bound = all.distance + 64 * std::numeric_limits<S>::epsilon() * 4;
       result.min_distance = bound;
       distanceMeshes(*a, X.X_WA, *b, X.X_WB, fcl::DistanceRequest<S>(), result);
       ASSERT_LT(result.min_distance, bound) << i << ' ' << step;

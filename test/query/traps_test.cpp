@@ -5,6 +5,7 @@
 #include "floating_point_flags.h"
 #include "query/query_cases.h"
 #include "query/ray_cases.h"
+#include "scalars.h"
 
 namespace kios::testing {
 namespace {
@@ -38,10 +39,7 @@ std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::ui
   return result;
 }
 
-template <typename S>
-class QueryTraps : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(QueryTraps, Scalars);
+KIOS_SCALAR_SUITE(QueryTraps);
 
 TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
   using S = TypeParam;

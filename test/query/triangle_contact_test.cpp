@@ -12,15 +12,13 @@
 
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
 #include "fcl_kios/triangle/intersection.h"
+#include "scalars.h"
 #include "scenes/random.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class ContactOfTriangles : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(ContactOfTriangles, Scalars);
+KIOS_SCALAR_SUITE(ContactOfTriangles);
 
 TYPED_TEST(ContactOfTriangles, IsFcls) {
   using S = TypeParam;

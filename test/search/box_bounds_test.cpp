@@ -144,11 +144,11 @@ Eigen::Matrix3f anyAxes(Random& random, const Eigen::Matrix3f& near) {
   if (kind < 0.25) return near;
   if (kind < 0.5) {
     const auto tilt = static_cast<float>(anySize(random, 1e-8, 1e-2));
-    return engine::axesAlong(near.col(0) + tilt * direction(random),
-                             near.col(1) + tilt * direction(random));
+    return axesAlong(near.col(0) + tilt * direction(random),
+                     near.col(1) + tilt * direction(random));
   }
   if (kind < 0.6) return Eigen::Matrix3f::Identity();
-  return engine::axesAlong(direction(random), direction(random));
+  return axesAlong(direction(random), direction(random));
 }
 
 /// Returns the smallest reach that a tree with this box may have.
@@ -172,7 +172,7 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
   const auto place = [&](double at) -> Eigen::Vector3f {
     return (at * size * inCube(random)).cast<float>();
   };
-  const Eigen::Matrix3f first = engine::axesAlong(direction(random), direction(random));
+  const Eigen::Matrix3f first = axesAlong(direction(random), direction(random));
   engine::Tree a, b;
   const Eigen::Vector3f around = place(offset);
   for (int lane = 0; lane < kLanes; ++lane) {

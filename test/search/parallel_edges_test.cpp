@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "search/brute_force.h"
+#include "scalars.h"
+#include "search/prepared_pair.h"
 
 namespace kios::testing {
 namespace {
@@ -40,10 +41,7 @@ Edges bundles(int count, double angle, double gap, Random& random) {
   return {scenes::merged(a), scenes::merged(b)};
 }
 
-template <typename S>
-class ParallelEdges : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(ParallelEdges, Scalars);
+KIOS_SCALAR_SUITE(ParallelEdges);
 
 TYPED_TEST(ParallelEdges, AreAsNearAsTheKernelsSay) {
   using S = TypeParam;
@@ -60,7 +58,7 @@ TYPED_TEST(ParallelEdges, AreAsNearAsTheKernelsSay) {
         const fcl::Transform3d X_B = i % 3 == 0 ? poses[0] : poses[i];
         const fcl::Transform3d X_A = i % 3 == 0 ? poses[0] : poses[i];
         ASSERT_TRUE(posed.pose(X_A.cast<S>(), X_B.cast<S>()));
-        const AllPairs<S> all = allPairs(posed);
+        const AllPairs<S> all = posed.all();
         SearchCounts counts;
         const auto nearest = engine::nearestTriangles(posed.pair(), {}, counts).nearest;
         EXPECT_EQ(nearest.distance == 0, all.distance == 0);

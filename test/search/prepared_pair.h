@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "all_pairs.h"
 #include "build/mesh_view.h"
 #include "fcl_kios/volume/separation.h"
 #include "search/mesh_search.h"
@@ -45,6 +46,7 @@ class PosedPair {
   engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
     return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, frames_, audit};
   }
+  AllPairs<S> all() const { return {trianglesOf(a), trianglesOf(b), *X_AB}; }
   TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
     const TriangleVertices<S> q = b.corners(t);
     return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};

@@ -10,7 +10,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "search/brute_force.h"
+#include "scalars.h"
+#include "search/prepared_pair.h"
 #include "search/root_bound.h"
 
 namespace kios::testing {
@@ -36,7 +37,7 @@ void tryPoses(const Mesh& a, const Mesh& b, double size, double offset, bool par
     X_AB.translation() = away - X_AB.linear() * away + size * (2 * inCube(random));
     for (int step = 0; step < 3; ++step) {  // towards the gap
       if (!posed.pose(fcl::Transform3<S>::Identity(), X_AB.cast<S>())) return;
-      const AllPairs<S> all = allPairs(posed);
+      const AllPairs<S> all = posed.all();
       engine::TreePose pose;
       ASSERT_TRUE(makeTreePose(*posed.tree_a, *posed.tree_b, *posed.X_AB, pose));
       const double bound = rootBound(*posed.tree_a, *posed.tree_b, pose);
@@ -48,8 +49,8 @@ void tryPoses(const Mesh& a, const Mesh& b, double size, double offset, bool par
       sum.without_pad += without_pad > double{all.distance};
       if (!(all.distance > 0)) break;
       const auto nearest =
-          triangleDistance(posed.a.corners(static_cast<std::size_t>(all.nearest.a)),
-                           posed.cornersOfB(static_cast<std::size_t>(all.nearest.b)));
+          triangleDistance(posed.a.corners(static_cast<std::size_t>(all.nearest.first)),
+                           posed.cornersOfB(static_cast<std::size_t>(all.nearest.second)));
       const fcl::Vector3d way = (nearest.point_a - nearest.point_b).template cast<double>();
       X_AB.translation() += (1 - gap * size / double{all.distance}) * way;
     }
@@ -82,10 +83,7 @@ Outcome tryMeshes() {
   return sum;
 }
 
-template <typename S>
-class RootBound : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(RootBound, Scalars);
+KIOS_SCALAR_SUITE(RootBound);
 
 TYPED_TEST(RootBound, IsAtMostTheDistance) {
   const Outcome sum = tryMeshes<TypeParam>();

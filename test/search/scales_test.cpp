@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "search/brute_force.h"
+#include "scalars.h"
+#include "search/prepared_pair.h"
 
 namespace kios::testing {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 template <typename S>
 int wrongAnswers(const PosedPair<S>& posed, TriangleDistance<S>& nearest) {
   int wrong = 0;
-  const AllPairs<S> all = allPairs(posed);
+  const AllPairs<S> all = posed.all();
   const double slack = 16 * double{std::numeric_limits<S>::epsilon()} * all.extent;
   SearchCounts counts;
   for (const S at_most :
@@ -61,10 +62,7 @@ int wrongAnswers(int e) {
   return wrong;
 }
 
-template <typename S>
-class Scales : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Scales, Scalars);
+KIOS_SCALAR_SUITE(Scales);
 
 TYPED_TEST(Scales, ModerateLengths) {
   for (int e = -16; e <= 24; e += 4) EXPECT_EQ(wrongAnswers<TypeParam>(e), 0) << "scale 2^" << e;

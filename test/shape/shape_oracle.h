@@ -20,16 +20,12 @@
 
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "scenes/triangle_oracle.h"
+#include "shape/golden_section.h"
 
 // FCL's nine shapes and an oracle for them in long double that shares no code with the library:
 // closed forms for points, and golden-section search over the triangle.
 
 namespace kios::testing {
-
-using Real = long double;
-using scenes::ExactPoint;
-using scenes::ExactTriangle;
 
 enum class Shape {
   kBox,
@@ -198,29 +194,6 @@ inline Real level(const ShapeSpec& s, const ExactPoint& p, bool distance) {
   }
 }
 
-/// Returns the least value of a convex function on a segment.
-template <typename F>
-Real goldenSection(const F& f, int steps) {
-  const Real phi = (std::sqrt(Real(5)) - 1) / 2;
-  Real low = 0, high = 1, a = high - phi, b = low + phi, fa = f(a), fb = f(b);
-  Real least = std::min({f(0), f(1), fa, fb});
-  for (int i = 0; i < steps; ++i) {
-    if (fa <= fb) {
-      high = b;
-      b = a;
-      fb = fa;
-      fa = f(a = high - phi * (high - low));
-    } else {
-      low = a;
-      a = b;
-      fa = fb;
-      fb = f(b = low + phi * (high - low));
-    }
-    least = std::min({least, fa, fb});
-  }
-  return least;
-}
-
 /// Returns the least level (or distance) over a triangle in the shape's frame. Error: about 1e-16
 /// of the extent.
 inline Real leastLevel(const ShapeSpec& s, const ExactTriangle& t, bool distance) {
@@ -229,14 +202,7 @@ inline Real leastLevel(const ShapeSpec& s, const ExactTriangle& t, bool distance
     const Real low = std::min({a, b, c}), high = std::max({a, b, c});
     return s.kind == Shape::kHalfspace ? low : std::max(low, -high);
   }
-  constexpr int kSteps = 60;  // 0.618^60 = 3e-13, its effect on a smooth minimum far less
-  return goldenSection(
-      [&](Real u) {
-        const ExactPoint from = t[0] + u * (t[1] - t[0]), to = t[0] + u * (t[2] - t[0]);
-        return goldenSection([&](Real w) { return level(s, from + w * (to - from), distance); },
-                             kSteps);
-      },
-      kSteps);
+  return leastOver(t, [&](const ExactPoint& p) { return level(s, p, distance); });
 }
 
 /// Returns the distance of the triangle and the full shape, 0 at overlap.

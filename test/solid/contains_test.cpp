@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "scalars.h"
 #include "scenes/containment_oracle.h"
 #include "solid/solid_meshes.h"
 
@@ -59,10 +60,7 @@ fcl::Vector3<S> rounded(const fcl::Vector3d& p) {
   return r;
 }
 
-template <typename S>
-class Contains : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Contains, Scalars);
+KIOS_SCALAR_SUITE(Contains);
 
 // KIOS_SOLID_CASES=100000 asks for so many verdicts.
 TYPED_TEST(Contains, VerdictsEqualRationalArithmetic) {

@@ -3,15 +3,13 @@
 //
 // Queries of solids raise no floating-point flags.
 #include "floating_point_flags.h"
+#include "scalars.h"
 #include "solid/solid_meshes.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class SolidTraps : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(SolidTraps, Scalars);
+KIOS_SCALAR_SUITE(SolidTraps);
 
 TYPED_TEST(SolidTraps, ContainmentAndPenetration) {
   using S = TypeParam;

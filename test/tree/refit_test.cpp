@@ -5,16 +5,14 @@
 
 #include <algorithm>
 
+#include "scalars.h"
 #include "tree/node_layout.h"
 #include "tree/tree_check.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class RefittedTree : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(RefittedTree, Scalars);
+KIOS_SCALAR_SUITE(RefittedTree);
 
 // Refitted from where it was before. What the refit refuses is prepared anew by queries.
 TYPED_TEST(RefittedTree, HoldsTheMesh) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "scalars.h"
 #include "tree/tree_check.h"
 
 namespace kios::testing {
@@ -13,10 +14,7 @@ namespace {
 
 using engine::Node;
 
-template <typename S>
-class PreparedTree : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(PreparedTree, Scalars);
+KIOS_SCALAR_SUITE(PreparedTree);
 
 TYPED_TEST(PreparedTree, HoldsTheMesh) {
   for (const NamedMesh& named : allMeshes<TypeParam>()) {

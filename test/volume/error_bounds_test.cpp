@@ -18,6 +18,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/volume/separation.h"
 #include "query/posed_solid.h"
+#include "scalars.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/rational_oracle.h"
@@ -93,10 +94,7 @@ double norm1(const fcl::Vector3<S>& v) {
   return v.template cast<double>().template lpNorm<1>();
 }
 
-template <typename S>
-class ErrorBounds : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(ErrorBounds, Scalars);
+KIOS_SCALAR_SUITE(ErrorBounds);
 
 TYPED_TEST(ErrorBounds, PointsInTheCommonFrame) {
   using S = TypeParam;

@@ -11,15 +11,13 @@
 
 #include "fcl_kios/volume/separation.h"
 #include "not_finite.h"
+#include "scalars.h"
 #include "scenes/random.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class FarApart : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(FarApart, Scalars);
+KIOS_SCALAR_SUITE(FarApart);
 
 /// Holds two volumes of a sphere each, in poses that leave a given gap between them but for
 /// rounding.

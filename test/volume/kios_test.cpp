@@ -13,6 +13,7 @@
 #include <fcl/geometry/bvh/BV_node.h>
 #include <fcl/math/bv/kIOS.h>
 #include "fcl_kios/build/fit.h"
+#include "scalars.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {
@@ -22,10 +23,7 @@ static_assert(sizeof(fcl::BVNode<kIOSd>) <= 128, "two nodes in four cache lines"
 static_assert(sizeof(fcl::BVNode<kIOSf>) <= sizeof(fcl::BVNode<kIOSd>), "smaller in float");
 static_assert(sizeof(fcl::BVNode<kIOSd>) < sizeof(fcl::BVNode<fcl::kIOSd>) / 2, "defect 9 of FCL");
 
-template <typename S>
-class Kios : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Kios, Scalars);
+KIOS_SCALAR_SUITE(Kios);
 
 // Whatever the memory held before: FCL's kIOS reads its uninitialised count here.
 TYPED_TEST(Kios, DefaultIsEmptyInAnyMemory) {

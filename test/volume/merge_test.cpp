@@ -8,15 +8,13 @@
 
 #include "build/all_fits.h"
 #include "fcl_kios/build/fit.h"
+#include "scalars.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class Merge : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Merge, Scalars);
+KIOS_SCALAR_SUITE(Merge);
 
 /// Merges leaves of 1 to 3 points pairwise up to the root and checks every node on the way.
 template <typename S>

@@ -10,16 +10,14 @@
 
 #include "fcl_kios/build/fit.h"
 #include "fcl_kios/query/ray.h"
+#include "scalars.h"
 #include "scenes/ray_oracle.h"
 #include "volume/point_sets.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class RayIntervalTest : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(RayIntervalTest, Scalars);
+KIOS_SCALAR_SUITE(RayIntervalTest);
 
 template <typename S>
 kIOS<S> ball(const fcl::Vector3<S>& center, S radius) {

@@ -9,15 +9,13 @@
 
 #include "fcl_kios/build/fit.h"
 #include "not_finite.h"
+#include "scalars.h"
 #include "volume/exact_pairs.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class Separation : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Separation, Scalars);
+KIOS_SCALAR_SUITE(Separation);
 
 TYPED_TEST(Separation, NeverExceedsTheDistanceOfThePoints) {
   using S = TypeParam;

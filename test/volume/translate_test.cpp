@@ -6,15 +6,13 @@
 
 #include "fcl_kios/build/fit.h"
 #include "fcl_kios/volume/separation.h"
+#include "scalars.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class Translate : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Translate, Scalars);
+KIOS_SCALAR_SUITE(Translate);
 
 template <typename S>
 fcl::Vector3<S> randomShift(Random& random, const kIOS<S>& v) {

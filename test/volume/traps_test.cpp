@@ -4,14 +4,12 @@
 // Fits and queries of volumes, and of covers, raise no floating-point flags.
 #include "floating_point_flags.h"
 #include "query/query_cases.h"
+#include "scalars.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class VolumeTraps : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(VolumeTraps, Scalars);
+KIOS_SCALAR_SUITE(VolumeTraps);
 
 TYPED_TEST(VolumeTraps, FitsAndQueries) {
   using S = TypeParam;

@@ -7,15 +7,13 @@
 #include <stdexcept>
 
 #include "fcl_kios/volume/separation.h"
+#include "scalars.h"
 #include "volume/exact_pairs.h"
 
 namespace kios::testing {
 namespace {
 
-template <typename S>
-class Witness : public ::testing::Test {};
-using Scalars = ::testing::Types<double, float>;
-TYPED_TEST_SUITE(Witness, Scalars);
+KIOS_SCALAR_SUITE(Witness);
 
 /// Returns the distance of p to the nearest surface of a sphere of v, where v sits at (R, T).
 template <typename S>

@@ -48,96 +48,37 @@ class BVSplitter<kios::kIOS<S>>;
 // memory return BVH_ERR_MODEL_OUT_OF_MEMORY where there is none, and may be called again. Those
 // after which a tree is another, or none, first wait for builds that copy it (equal meshes share).
 // Those that take vertices and triangles take no more than there is room for, or make room.
-template <>
-BVHModel<kios::kIOS<double>>::BVHModel();
-template <>
-BVHModel<kios::kIOS<double>>::BVHModel(const BVHModel& other);
-template <>
-BVHModel<kios::kIOS<double>>::~BVHModel();
-template <>
-int BVHModel<kios::kIOS<double>>::beginModel(int num_tris, int num_vertices);
-template <>
-int BVHModel<kios::kIOS<double>>::addVertex(const Vector3<double>& p);
-template <>
-int BVHModel<kios::kIOS<double>>::addTriangle(const Vector3<double>& p1, const Vector3<double>& p2,
-                                              const Vector3<double>& p3);
-template <>
-int BVHModel<kios::kIOS<double>>::addSubModel(const std::vector<Vector3<double>>& ps);
-template <>
-int BVHModel<kios::kIOS<double>>::addSubModel(const std::vector<Vector3<double>>& ps,
-                                              const std::vector<Triangle>& ts);
-template <>
-int BVHModel<kios::kIOS<double>>::replaceVertex(const Vector3<double>& p);
-template <>
-int BVHModel<kios::kIOS<double>>::replaceTriangle(const Vector3<double>& p1,
-                                                  const Vector3<double>& p2,
-                                                  const Vector3<double>& p3);
-template <>
-int BVHModel<kios::kIOS<double>>::replaceSubModel(const std::vector<Vector3<double>>& ps);
-template <>
-int BVHModel<kios::kIOS<double>>::updateVertex(const Vector3<double>& p);
-template <>
-int BVHModel<kios::kIOS<double>>::updateTriangle(const Vector3<double>& p1,
-                                                 const Vector3<double>& p2,
-                                                 const Vector3<double>& p3);
-template <>
-int BVHModel<kios::kIOS<double>>::updateSubModel(const std::vector<Vector3<double>>& ps);
-template <>
-int BVHModel<kios::kIOS<double>>::endModel();
-template <>
-int BVHModel<kios::kIOS<double>>::beginUpdateModel();
-template <>
-int BVHModel<kios::kIOS<double>>::buildTree();
-template <>
-int BVHModel<kios::kIOS<double>>::refitTree(bool bottomup);
-template <>
-int BVHModel<kios::kIOS<double>>::refitTree_topdown();
-template <>
-OBJECT_TYPE BVHModel<kios::kIOS<double>>::getObjectType() const;
-template <>
-BVHModel<kios::kIOS<float>>::BVHModel();
-template <>
-BVHModel<kios::kIOS<float>>::BVHModel(const BVHModel& other);
-template <>
-BVHModel<kios::kIOS<float>>::~BVHModel();
-template <>
-int BVHModel<kios::kIOS<float>>::beginModel(int num_tris, int num_vertices);
-template <>
-int BVHModel<kios::kIOS<float>>::addVertex(const Vector3<float>& p);
-template <>
-int BVHModel<kios::kIOS<float>>::addTriangle(const Vector3<float>& p1, const Vector3<float>& p2,
-                                             const Vector3<float>& p3);
-template <>
-int BVHModel<kios::kIOS<float>>::addSubModel(const std::vector<Vector3<float>>& ps);
-template <>
-int BVHModel<kios::kIOS<float>>::addSubModel(const std::vector<Vector3<float>>& ps,
-                                             const std::vector<Triangle>& ts);
-template <>
-int BVHModel<kios::kIOS<float>>::replaceVertex(const Vector3<float>& p);
-template <>
-int BVHModel<kios::kIOS<float>>::replaceTriangle(const Vector3<float>& p1, const Vector3<float>& p2,
-                                                 const Vector3<float>& p3);
-template <>
-int BVHModel<kios::kIOS<float>>::replaceSubModel(const std::vector<Vector3<float>>& ps);
-template <>
-int BVHModel<kios::kIOS<float>>::updateVertex(const Vector3<float>& p);
-template <>
-int BVHModel<kios::kIOS<float>>::updateTriangle(const Vector3<float>& p1, const Vector3<float>& p2,
-                                                const Vector3<float>& p3);
-template <>
-int BVHModel<kios::kIOS<float>>::updateSubModel(const std::vector<Vector3<float>>& ps);
-template <>
-int BVHModel<kios::kIOS<float>>::endModel();
-template <>
-int BVHModel<kios::kIOS<float>>::beginUpdateModel();
-template <>
-int BVHModel<kios::kIOS<float>>::buildTree();
-template <>
-int BVHModel<kios::kIOS<float>>::refitTree(bool bottomup);
-template <>
-int BVHModel<kios::kIOS<float>>::refitTree_topdown();
-template <>
-OBJECT_TYPE BVHModel<kios::kIOS<float>>::getObjectType() const;
+// Macros, as explicit specialisations can't have the scalar as a parameter.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
+#define KIOS_MEMBER(declaration) \
+  template <>                    \
+  declaration
+#define KIOS_MEMBERS_OF(Model, V)                                                                 \
+  KIOS_MEMBER(Model::BVHModel());                                                                 \
+  KIOS_MEMBER(Model::BVHModel(const BVHModel& other));                                            \
+  KIOS_MEMBER(Model::~BVHModel());                                                                \
+  KIOS_MEMBER(int Model::beginModel(int num_tris, int num_vertices));                             \
+  KIOS_MEMBER(int Model::addVertex(const V& p));                                                  \
+  KIOS_MEMBER(int Model::addTriangle(const V& p1, const V& p2, const V& p3));                     \
+  KIOS_MEMBER(int Model::addSubModel(const std::vector<V>& ps));                                  \
+  KIOS_MEMBER(int Model::addSubModel(const std::vector<V>& ps, const std::vector<Triangle>& ts)); \
+  KIOS_MEMBER(int Model::replaceVertex(const V& p));                                              \
+  KIOS_MEMBER(int Model::replaceTriangle(const V& p1, const V& p2, const V& p3));                 \
+  KIOS_MEMBER(int Model::replaceSubModel(const std::vector<V>& ps));                              \
+  KIOS_MEMBER(int Model::updateVertex(const V& p));                                               \
+  KIOS_MEMBER(int Model::updateTriangle(const V& p1, const V& p2, const V& p3));                  \
+  KIOS_MEMBER(int Model::updateSubModel(const std::vector<V>& ps));                               \
+  KIOS_MEMBER(int Model::endModel());                                                             \
+  KIOS_MEMBER(int Model::beginUpdateModel());                                                     \
+  KIOS_MEMBER(int Model::buildTree());                                                            \
+  KIOS_MEMBER(int Model::refitTree(bool bottomup));                                               \
+  KIOS_MEMBER(int Model::refitTree_topdown());                                                    \
+  KIOS_MEMBER(OBJECT_TYPE Model::getObjectType() const);
+// NOLINTEND(bugprone-macro-parentheses)
+KIOS_MEMBERS_OF(BVHModel<kios::kIOS<double>>, Vector3<double>)
+KIOS_MEMBERS_OF(BVHModel<kios::kIOS<float>>, Vector3<float>)
+#undef KIOS_MEMBERS_OF
+#undef KIOS_MEMBER
 
 extern template class BVHModel<kios::kIOS<double>>;
 extern template class BVHModel<kios::kIOS<float>>;

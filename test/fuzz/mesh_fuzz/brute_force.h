@@ -13,23 +13,12 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "fcl_kios/volume/separation.h"
 #include "fuzz/mesh_fuzz/fuzz_case.h"
+#include "shapes.h"
 
 // The judge of the searches: the triangle kernels over all pairs of triangles, in the common frame.
 // The kernels themselves are judged by the question "kernel".
 
 namespace kios::fuzz {
-
-template <typename S>
-double extentOf(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  Point<S> low = a[0], high = a[0];
-  for (const auto* t : {&a, &b}) {
-    for (const Point<S>& p : *t) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
-  return (high - low).template cast<double>().stableNorm();
-}
 
 template <typename S>
 TriangleVertices<S> placed(const TriangleVertices<S>& t, const RelativePose<S>& X) {
@@ -74,8 +63,8 @@ class BruteForce {
   }
   /// Returns L of the contract.
   double extentOf(const Ids& ids) const {
-    return fuzz::extentOf(a_[static_cast<std::size_t>(ids.first)],
-                          b_[static_cast<std::size_t>(ids.second)]);
+    return testing::extentOf(a_[static_cast<std::size_t>(ids.first)],
+                             b_[static_cast<std::size_t>(ids.second)]);
   }
   /// The largest difference of two right answers, one for these triangles and one for the nearest:
   /// 16 eps L each.

@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Instantiates a function template, which must have no overloads, for both scalars.
+#define KIOS_INSTANTIATE_FUNCTION(function)             \
+  template decltype(function<double>) function<double>; \
+  template decltype(function<float>) function<float>
+
+#define KIOS_INSTANTIATE_CLASS(Class) \
+  template class Class<double>;       \
+  template class Class<float>
