@@ -40,6 +40,13 @@ double errorOf(const Body& other, double length) {
   return error;
 }
 
+/// Returns true if one of two shapes is so much larger that libccd's search for a contact has no
+/// end.
+bool areUnlike(const Body& a, const Body& b) {
+  constexpr double kMuch = 0x1p26;
+  return a.radius > kMuch * b.radius || b.radius > kMuch * a.radius;
+}
+
 Nearness ofShapes(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB) {
   const bool plane_a = a.kind == BodyKind::kPlane, plane_b = b.kind == BodyKind::kPlane;
   ConvexDistance answer;
@@ -184,6 +191,11 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     nearContact(near);
     return true;
   }
+  if (shapes && areUnlike(a, b)) {
+    const Nearness near = distanceOf(a, X_WA, b, X_WB);
+    if (near.lower <= 0) nearContact(near);
+    return near.lower <= 0;  // free only by proof, as distances round by the larger one's size
+  }
   fcl::CollisionRequestd request(1, contact != nullptr);
   fcl::CollisionResultd result;
   const auto* const first = a.geometry.get();
@@ -212,7 +224,8 @@ Vector3d wayOut(const Body& a, const Transform3d& X_WA, const Body& b, const Tra
     way = depth.translation;
     if (depth.upper > 0) near.point_a = near.point_b = depth.point;
   }
-  if (way.isZero(0) && a.kind != BodyKind::kOctree && b.kind != BodyKind::kOctree) {
+  if (way.isZero(0) && a.kind != BodyKind::kOctree && b.kind != BodyKind::kOctree &&
+      (a.mesh || b.mesh || !areUnlike(a, b))) {
     fcl::CollisionRequestd request(1, true);
     fcl::CollisionResultd result;
     try {

@@ -103,7 +103,11 @@ double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
 
 bool shapesMeet(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
                 const Transform3d& X_WB, double within) {
-  if (!a.bounded || !b.bounded) return shapeGap(a, X_WA, b, X_WB) <= within;
+  // Where one is so much larger than the other, libccd's search for a contact has no end.
+  constexpr double kMuch = 0x1p26;
+  const double size_a = a.content.radius, size_b = b.content.radius;
+  const bool unlike = size_a > kMuch * size_b || size_b > kMuch * size_a;
+  if (!a.bounded || !b.bounded || unlike) return shapeGap(a, X_WA, b, X_WB) <= within;
   fcl::CollisionResultd contacts;
   if (fcl_own::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, fcl::CollisionRequestd(),
                        contacts) > 0) {

@@ -19,14 +19,15 @@ double productDistance(double u, double v) {
   return std::sqrt(u * u + v * v);
 }
 
-/// The cone is the triangle (0, -h), (r, -h), (0, h) of the half-plane (rho, z), turned.
+/// The cone is the triangle (0, -h), (r, -h), (0, h) of the half-plane (rho, z), turned. A
+/// segment has no side that ends at the apex, a disk none that ends at the rim.
 double conePoint(const Solid& s, const Vec& p) {
   const double h = s.half_length, r = s.radius, rho = radial(p), z = p.z();
   const double base = -h - z;
   const double length = std::sqrt(4 * h * h + r * r);
   if (!(length > 0)) return std::sqrt(rho * rho + z * z);
   const double slant = (2 * h * (rho - r) + r * (z + h)) / length;
-  if (base <= 0 && slant <= 0) return std::max(base, slant);
+  if (base <= 0 && slant <= 0 && z <= h && rho <= r) return std::max(base, slant);
   const double to_base = std::hypot(std::max(rho - r, 0.0), base);
   const double t = std::clamp((2 * h * (z + h) - r * (rho - r)) / (length * length), 0.0, 1.0);
   const double to_slant = std::hypot(rho - (1 - t) * r, z + h - 2 * h * t);

@@ -274,6 +274,27 @@ TEST(RobotSurroundings, LowerBoundsHoldWithErrors) {
   }
 }
 
+// FCL's search for a contact of two shapes has no end where one is 1e10 times as large.
+TEST(RobotSurroundings, ShapesOfAnySizesHaveAnAnswer) {
+  const Folder folder;
+  Random random(12);
+  for (const double size : {1e7, 1e10, 1e12, 1e16, 1e20}) {
+    Robot robot =
+        loadRobot(folder.write("r.urdf", "<robot name='r'>" + link("a") +
+                                             link("b", "<cylinder radius='0.06' length='0.1'/>") +
+                                             joint("fly", "floating", "a", "b") + "</robot>"));
+    robot.addObstacle("beam", std::make_shared<fcl::Boxd>(size, 0.2, 0.1));
+    for (int i = 0; i < 300; ++i) {
+      VectorXd q(6);
+      for (double& x : q) x = random.uniform(-0.3, 0.3);
+      const bool contact = robot.contact(q).has_value();
+      EXPECT_TRUE(contact || std::abs(q[1]) > 0.1 || std::abs(q[2]) > 0.05);
+      EXPECT_FALSE(contact && size < 1e11 && (std::abs(q[1]) > 0.25 || std::abs(q[2]) > 0.2));
+      if (i < 20) robot.checkMotion(q, 0.9 * q);
+    }
+  }
+}
+
 TEST(RobotSurroundings, WithoutPairsAllIsClear) {
   const Folder folder;
   const Robot robot = loadRobot(

@@ -128,7 +128,8 @@ class SolidBounds {
                    hn::Sqrt(hn::Add(hn::Mul(a, a), hn::Mul(b, b))));
   }
 
-  /// As conePoint() in shape/solid.cpp.
+  /// As conePoint() in shape/solid.cpp. Inside, base and side are nearest; only segments and disks
+  /// need the apex's height and the radius to tell what is inside.
   V cone(const V3& at) const {
     const V n_rho = set(solid_.slant_radial), n_z = set(solid_.slant_axial);
     const V out = hn::Sub(radial(at), set(solid_.radius)), up = hn::Add(at.z, box_.half.z);
@@ -141,7 +142,7 @@ class SolidBounds {
     const V rim = positive(out);
     const V to_side = hn::Add(hn::Mul(side_rho, side_rho), hn::Mul(side_z, side_z));
     const V to_base = hn::Add(hn::Mul(rim, rim), hn::Mul(base, base));
-    const V inside = hn::Max(base, slant);
+    const V inside = hn::Max(hn::Max(base, slant), hn::Max(out, hn::Sub(at.z, box_.half.z)));
     return hn::IfThenElse(hn::Le(inside, hn::Zero(d)), inside, hn::Sqrt(hn::Min(to_side, to_base)));
   }
 
