@@ -27,9 +27,10 @@ void requireRelativeError(const fcl::DistanceRequest<S>& request) {
 }
 
 template <typename S>
-std::size_t collide(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
-                    const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
-                    const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+[[gnu::hot]] std::size_t collide(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
+                                 const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
+                                 const fcl::CollisionRequest<S>& request,
+                                 fcl::CollisionResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
   if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
     if (!mesh_b) return collideSolidShape(*mesh_a, X_WA, *b, X_WB, request, result);
@@ -43,9 +44,9 @@ std::size_t collide(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>
 }
 
 template <typename S>
-S distance(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
-           const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
-           const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
+[[gnu::hot]] S distance(const fcl::CollisionGeometry<S>* a, const fcl::Transform3<S>& X_WA,
+                        const fcl::CollisionGeometry<S>* b, const fcl::Transform3<S>& X_WB,
+                        const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
   if (mesh_a || mesh_b) requireRelativeError(request);
   if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {

@@ -18,8 +18,10 @@ bool anyModel(const CollisionGeometry<double>* o1, const CollisionGeometry<doubl
 
 }  // namespace
 
-std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
-                    const CollisionRequest<double>& request, CollisionResult<double>& result) {
+[[gnu::hot]] std::size_t collide(const CollisionObject<double>* o1,
+                                 const CollisionObject<double>* o2,
+                                 const CollisionRequest<double>& request,
+                                 CollisionResult<double>& result) {
   return kios::collide(o1, o2, request, result);
 }
 
@@ -29,8 +31,9 @@ std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double
   return kios::collide(o1, tf1, o2, tf2, request, result);
 }
 
-double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
-                const DistanceRequest<double>& request, DistanceResult<double>& result) {
+[[gnu::hot]] double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
+                             const DistanceRequest<double>& request,
+                             DistanceResult<double>& result) {
   return kios::distance(o1, o2, request, result);
 }
 

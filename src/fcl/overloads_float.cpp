@@ -13,8 +13,9 @@ template std::size_t collide(const CollisionGeometry<float>*, const Transform3<f
                              const CollisionRequest<float>&, CollisionResult<float>&);
 inline namespace kios_overloads {
 
-std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
-                    const CollisionRequest<float>& request, CollisionResult<float>& result) {
+[[gnu::hot]] std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
+                                 const CollisionRequest<float>& request,
+                                 CollisionResult<float>& result) {
   return kios::collide(o1, o2, request, result);
 }
 
@@ -24,8 +25,8 @@ std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>&
   return kios::collide(o1, tf1, o2, tf2, request, result);
 }
 
-float distance(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
-               const DistanceRequest<float>& request, DistanceResult<float>& result) {
+[[gnu::hot]] float distance(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
+                            const DistanceRequest<float>& request, DistanceResult<float>& result) {
   return kios::distance(o1, o2, request, result);
 }
 

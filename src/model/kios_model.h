@@ -12,6 +12,9 @@ namespace kios {
 
 namespace detail {
 
+/// Compares types as == does, but reads nothing of them where they are at one place.
+inline bool areSame(const std::type_info& a, const std::type_info& b) { return &a == &b || a == b; }
+
 /// asModel() of what is no Model<S> itself, but may be derived from it.
 template <typename S>
 [[gnu::noinline]] const Model<S>* asDerivedModel(const fcl::CollisionGeometry<S>* geometry) {
@@ -28,7 +31,7 @@ template <typename S>
 /// never the node type: all foreign volumes share BV_UNKNOWN.
 template <typename S>
 const Model<S>* asModel(const fcl::CollisionGeometry<S>* geometry) {
-  if (geometry && typeid(*geometry) == typeid(Model<S>)) {
+  if (geometry && detail::areSame(typeid(*geometry), typeid(Model<S>))) {
     return static_cast<const Model<S>*>(geometry);
   }
   return detail::asDerivedModel(geometry);

@@ -100,7 +100,7 @@ std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices
 }
 
 template <typename S>
-void requireFinished(const Model<S>& model) {
+[[gnu::hot]] void requireFinished(const Model<S>& model) {
   if (isFinished(model.build_state, model.num_tris, model.getNumBVs())) return;
   refuseUnfinished("the BVHModel<kios::kIOS> can't be queried", model.build_state,
                    model.getModelType(), model.num_tris, model.getNumBVs(),

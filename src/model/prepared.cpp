@@ -17,17 +17,18 @@
 namespace kios {
 
 template <typename S>
-engine::TreeCache* treesOf(const Model<S>& model) {
+[[gnu::hot]] engine::TreeCache* treesOf(const Model<S>& model) {
   using Fitter = fcl::detail::BVFitter<kIOS<S>>;
   const auto* const fitter = model.bv_fitter.get();
   if (!fitter) return nullptr;
-  if (typeid(*fitter) == typeid(Fitter)) return static_cast<const Fitter*>(fitter)->trees_.get();
+  if (detail::areSame(typeid(*fitter), typeid(Fitter)))
+    return static_cast<const Fitter*>(fitter)->trees_.get();
   const auto* const derived = dynamic_cast<const Fitter*>(fitter);
   return derived ? derived->trees_.get() : nullptr;
 }
 
 template <typename S>
-engine::TreeCache::Use preparedTree(const Model<S>& model) {
+[[gnu::hot]] engine::TreeCache::Use preparedTree(const Model<S>& model) {
   engine::TreeCache* const trees = treesOf(model);
   const kIOS<S>& root = model.getBV(0).bv;
   if (!trees || root.stamp == 0) return {};
@@ -46,7 +47,7 @@ engine::TreeCache::Use preparedTree(const Model<S>& model) {
 }
 
 template <typename S>
-bool copyRoot(const Model<S>& model, engine::TreeRoot& root) {
+[[gnu::hot]] bool copyRoot(const Model<S>& model, engine::TreeRoot& root) {
   const engine::TreeCache* const trees = treesOf(model);
   return trees && trees->findRoot(model.getBV(0).bv.stamp, root);
 }

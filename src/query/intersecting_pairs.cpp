@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "fcl_kios/triangle/intersection.h"
 #include "query/few_triangles.h"
 #include "query/pair_search.h"
 #include "query/unprepared.h"
@@ -26,8 +27,12 @@ bool areUnlike(const MeshPair<S>& frame) {
 }  // namespace
 
 template <typename S>
-std::optional<PairIds> intersectingPairs(const MeshPair<S>& frame, std::size_t limit, bool any,
-                                         SearchCounts& counts) {
+[[gnu::hot]] std::optional<PairIds> intersectingPairs(const MeshPair<S>& frame, std::size_t limit,
+                                                      bool any, SearchCounts& counts) {
+  if (frame.a.num_tris == 1 && frame.b.num_tris == 1) {  // bounds would take longer
+    ++counts.exact;
+    return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
+  }
   const bool few = areFew(frame.a, frame.b);
   if ((few || !areUnlike(frame)) && frame.rootBound(0) > 0) return PairIds();
   if (verticesApart(frame, 0)) return PairIds();

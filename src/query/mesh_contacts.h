@@ -24,9 +24,11 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
 /// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
 /// contacts, as many as the request leaves room for.
 template <typename S>
-void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p, const Model<S>& b,
-                 int id_b, const TriangleVertices<S>& q, const fcl::Transform3<S>& X_WA,
-                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+[[gnu::hot]] void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p,
+                              const Model<S>& b, int id_b, const TriangleVertices<S>& q,
+                              const fcl::Transform3<S>& X_WA,
+                              const fcl::CollisionRequest<S>& request,
+                              fcl::CollisionResult<S>& result) {
   const std::size_t room =
       request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
   if (!request.enable_contact) {

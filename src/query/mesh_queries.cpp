@@ -34,10 +34,12 @@ template <typename S>
 
 /// collideMeshes() of models that may touch, for all that farApart() can tell.
 template <typename S>
-[[gnu::noinline]] void collideNear(const MeshPair<S>& frame, const fcl::Transform3<S>& X_WA,
-                                   const fcl::Transform3<S>& X_WB,
-                                   const fcl::CollisionRequest<S>& request,
-                                   fcl::CollisionResult<S>& result, SearchCounts& counts) {
+[[gnu::noinline, gnu::hot]] void collideNear(const MeshPair<S>& frame,
+                                             const fcl::Transform3<S>& X_WA,
+                                             const fcl::Transform3<S>& X_WB,
+                                             const fcl::CollisionRequest<S>& request,
+                                             fcl::CollisionResult<S>& result,
+                                             SearchCounts& counts) {
   const Model<S>&a = frame.a, &b = frame.b;
   if (request.enable_cost || !a.isOccupied() || !b.isOccupied()) {
     return collideByFCL(frame, X_WA, X_WB, request, result, counts);
@@ -54,8 +56,8 @@ template <typename S>
 
 /// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough.
 template <typename S>
-engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame, const engine::PairQuery& query,
-                                SearchCounts& counts) {
+[[gnu::hot]] engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame,
+                                             const engine::PairQuery& query, SearchCounts& counts) {
   // Almost any triangles are near enough where the error that is allowed is as large as a mesh.
   const bool single = frame.a.num_tris == 1 && frame.b.num_tris == 1;
   if (single || query.abs_err > std::min<double>(frame.rootA().radius0, frame.rootB().radius0)) {
@@ -77,9 +79,10 @@ engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame, const engine::PairQuer
 }  // namespace
 
 template <typename S>
-std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                          const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
-                          fcl::CollisionResult<S>& result, SearchCounts* counts) {
+[[gnu::hot]] std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA,
+                                       const Model<S>& b, const fcl::Transform3<S>& X_WB,
+                                       const fcl::CollisionRequest<S>& request,
+                                       fcl::CollisionResult<S>& result, SearchCounts* counts) {
   requireFinished(a);
   requireFinished(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
@@ -97,9 +100,10 @@ std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, con
 }
 
 template <typename S>
-S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                 const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
-                 fcl::DistanceResult<S>& result, SearchCounts* counts) {
+[[gnu::hot]] S distanceMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                              const fcl::Transform3<S>& X_WB,
+                              const fcl::DistanceRequest<S>& request,
+                              fcl::DistanceResult<S>& result, SearchCounts* counts) {
   requireErrorBounds(request);
   requireFinished(a);
   requireFinished(b);

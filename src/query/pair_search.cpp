@@ -26,19 +26,27 @@ using engine::TrianglePairIds;
 template <typename S>
 class EnginePair {
  public:
-  /// Pairs at least `far_enough` apart don't matter. Nothing is prepared in vain.
-  EnginePair(const MeshPair<S>& frame, double far_enough) : frame_(frame) {
+  /// Pairs at least `far_enough` apart don't matter, and apart() need tell no more than
+  /// `required`. Nothing is prepared in vain.
+  EnginePair(const MeshPair<S>& frame, double far_enough, double required)
+      : frame_(frame), required_(required) {
     if (tooFar()) return;
     const bool bounded = far_enough < kInfinity;
     engine::TreeRoot a, b;
+    engine::TreePose pose;
     const bool known = bounded && copyRoot(frame.a, a) && copyRoot(frame.b, b);
-    if (known && boundRoots(a, b) && isFar(far_enough)) return;
+    if (known && boundRoots(a, b, pose) && isFar(far_enough)) return;
     tree_a_ = preparedTree(frame.a);
     if (tree_a_) tree_b_ = preparedTree(frame.b);
-    engine::TreePose pose;
-    usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
+    // The roots' pose serves, but for a copy of a model that has a tree of its own.
+    const bool same = known && tree_b_ && isRootOf(a, *tree_a_) && isRootOf(b, *tree_b_);
+    if (!same) {
+      usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
+    }
     if (!usable_) return;
-    if (bounded && !known) apart_ = engine::rootBound(*tree_a_, *tree_b_, pose);
+    if (bounded && !known) {
+      apart_ = engine::rootBound(*tree_a_, *tree_b_, pose, required_);
+    }
     if (!isFar(far_enough)) engine::makeFloatFrame(pose, frames_);
   }
 
@@ -54,10 +62,15 @@ class EnginePair {
   }
 
  private:
-  bool boundRoots(const engine::TreeRoot& a, const engine::TreeRoot& b) {
-    engine::TreePose pose;
+  /// Whether makeTreePose() takes of both what it takes of the same root.
+  static bool isRootOf(const engine::TreeRoot& root, const engine::TreeRoot& tree) {
+    return root.reach == tree.reach && root.origin[0] == tree.origin[0] &&
+           root.origin[1] == tree.origin[1] && root.origin[2] == tree.origin[2];
+  }
+
+  bool boundRoots(const engine::TreeRoot& a, const engine::TreeRoot& b, engine::TreePose& pose) {
     usable_ = engine::makeTreePose(a, b, frame_.X_AB, pose);
-    if (usable_) apart_ = engine::rootBound(a, b, pose);
+    if (usable_) apart_ = engine::rootBound(a, b, pose, required_);
     return usable_;
   }
 
@@ -70,6 +83,7 @@ class EnginePair {
   }
 
   const MeshPair<S>& frame_;
+  const double required_;
   engine::TreeCache::Use tree_a_, tree_b_;
   engine::FloatFrame frames_;
   bool usable_ = false;
@@ -210,9 +224,9 @@ double leastReach(const Model<S>& model) {
 }  // namespace
 
 template <typename S>
-PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
-                            SearchCounts& counts) {
-  if (const EnginePair<S> engine(frame, query.far_enough); engine) {
+[[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
+                                         SearchCounts& counts) {
+  if (const EnginePair<S> engine(frame, query.far_enough, kInfinity); engine) {
     if (engine.isFar(query.far_enough)) {
       PairAnswer<S> far;
       far.nearest.point_a = far.nearest.point_b = fcl::Vector3<S>::Zero();
@@ -253,9 +267,9 @@ bool engineServes(const MeshPair<S>& frame) {
 }
 
 template <typename S>
-bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
-                    std::vector<TrianglePairIds>& found, SearchCounts& counts) {
-  const EnginePair<S> engine(frame, 0);
+[[gnu::hot]] bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
+                                 std::vector<TrianglePairIds>& found, SearchCounts& counts) {
+  const EnginePair<S> engine(frame, 0, 0);
   if (!engine) return false;
   if (engine.isFar(0)) return true;
   found = engine::intersectingTriangles(engine.pair(), limit, counts);

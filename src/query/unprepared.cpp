@@ -30,9 +30,14 @@ class Allowance {
   }
 
   long long tests() const { return tests_; }
+  /// Charges a walk of so many tests with those that trees would have spared it: a search of trees
+  /// takes as long before it looks at any node. Short walks are charged, too, with an eighth, so
+  /// that trees are made in the long run.
   void charge(long long tests) const {
-    trees_a_->budget.charge(tests);
-    if (trees_b_ != trees_a_) trees_b_->budget.charge(tests);
+    constexpr long long kTestsToBegin = 12;
+    const long long spared = std::max(tests - kTestsToBegin, tests / 8);
+    trees_a_->budget.charge(spared);
+    if (trees_b_ != trees_a_) trees_b_->budget.charge(spared);
   }
 
  private:

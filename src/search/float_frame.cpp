@@ -25,8 +25,8 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 }  // namespace
 
 template <typename S>
-bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB,
-                  TreePose& out) {
+[[gnu::hot]] bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB,
+                               TreePose& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
   const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
   out.R = X_AB.R().template cast<double>();
@@ -46,7 +46,7 @@ bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X
 
 // The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by
 // 3 stretch S: far below a rounding in float, which the counts have room for, if the stretch is.
-void makeFloatFrame(const TreePose& X_AB, FloatFrame& out) {
+[[gnu::hot]] void makeFloatFrame(const TreePose& X_AB, FloatFrame& out) {
   constexpr double kRigid = 0x1p-30;
   Eigen::Matrix3d inverse;
   if (X_AB.stretch <= kRigid) {

@@ -89,7 +89,7 @@ class DistanceSearch {
 
   /// kLarge: the trees are; see Expander::isLarge(). More is then looked at together.
   template <bool kLarge>
-  void search() {
+  [[gnu::hot]] void search() {
     constexpr size_t kBatch = kLarge ? 16 : 4, kLeafPairs = kLarge ? 8 : 1;
     for (;;) {
       while (!frontier_.leaves.empty()) {
@@ -116,7 +116,7 @@ class DistanceSearch {
   }
 
   /// True to end the search. Not inlined: its path is large, and not needed for long.
-  HWY_NOINLINE bool descend() {
+  [[gnu::hot]] HWY_NOINLINE bool descend() {
     Descent descent(expander_, std::numeric_limits<long long>::max());
     if (descent.atLeaves() && boundLeaves(descent.end())) return true;
     descent.spread(frontier_);
@@ -175,7 +175,7 @@ class DistanceSearch {
   }
 
   /// True to end the search.
-  HWY_NOINLINE bool evaluateFeatures(const Bracketed& pair, float bound) {
+  [[gnu::hot]] HWY_NOINLINE bool evaluateFeatures(const Bracketed& pair, float bound) {
     return nearestOfLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b), pair.slab,
                            bound);
   }
@@ -189,7 +189,7 @@ class DistanceSearch {
   Bracketed waiting_[kMaxWaiting];
 };
 
-void distance(const Search& search) { DistanceSearch(search).run(); }
+[[gnu::hot]] void distance(const Search& search) { DistanceSearch(search).run(); }
 
 void bracket(const Search& search) { BracketSearch(search).run(); }
 
@@ -201,7 +201,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   Leaves leaves_a(search.a), leaves_b(search.b);
   const Expander expander(search);
   const size_t batch_size = expander.hasBoxes() ? 2 : kBatch;
-  Frontier frontier;
+  Frontier frontier(/*keeps_apart=*/false);
   expander.pushRoots(frontier);
   for (;;) {
     while (!frontier.leaves.empty()) {
@@ -216,9 +216,9 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   }
 }
 
-void contact(const Search& search) { touching(search, contactOfLeaves); }
+[[gnu::hot]] void contact(const Search& search) { touching(search, contactOfLeaves); }
 
-void contacts(const Search& search) { touching(search, contactsOfLeaves); }
+[[gnu::hot]] void contacts(const Search& search) { touching(search, contactsOfLeaves); }
 
 extern const Kernels kKernels;
 const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2],  // after N_
@@ -289,7 +289,7 @@ const Kernels& choose() {
 
 }  // namespace
 
-const Kernels& kernels() {
+[[gnu::hot]] const Kernels& kernels() {
   static const Kernels& chosen = choose();
   return chosen;
 }

@@ -82,7 +82,7 @@ class NearestEvaluator final : public RefineCallback {
     cull_distance = candidate_limit = upToFloat(query.far_enough);
   }
 
-  bool evaluate(const Candidate& c) override {
+  [[gnu::hot]] bool evaluate(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
       if (!corners_.intersect(c)) return false;
       least_ = 0;
@@ -246,7 +246,7 @@ class IntersectionEvaluator final : public RefineCallback {
     cull_distance = candidate_limit = 0;
   }
 
-  bool evaluate(const Candidate& c) override {
+  [[gnu::hot]] bool evaluate(const Candidate& c) override {
     if (!corners_.intersect(c)) return false;
     found.push_back(idsOf(c));
     return found.size() >= limit_;
@@ -301,8 +301,8 @@ TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const 
 }
 
 template <typename S>
-PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
-                               SearchCounts& counts) {
+[[gnu::hot]] PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
+                                            SearchCounts& counts) {
   NearestEvaluator<S> evaluator(Corners<S>(pair), double{pair.frames.scale}, query);
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
@@ -342,8 +342,9 @@ PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& que
 }
 
 template <typename S>
-std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, std::size_t limit,
-                                                   SearchCounts& counts) {
+[[gnu::hot]] std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair,
+                                                                std::size_t limit,
+                                                                SearchCounts& counts) {
   IntersectionEvaluator<S> evaluator(pair, limit);
   const Search search = {pair.a.tree, pair.b.tree, pair.frames, evaluator, counts, pair.audit};
   if (limit == 1) {
@@ -351,7 +352,7 @@ std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, 
   } else {
     kernels().contacts(search);
   }
-  std::sort(evaluator.found.begin(), evaluator.found.end());
+  if (limit > 1) std::sort(evaluator.found.begin(), evaluator.found.end());
   return std::move(evaluator.found);
 }
 

@@ -28,25 +28,39 @@ double square(double gap) { return gap > 0 ? gap * gap : 0.0; }
 /// The bound of simd/box_test-inl.h along the axes of both boxes, and along their products where
 /// that proves nothing. Roundings are far fewer than those that box_pad is for: what of it is left
 /// are the stored floats.
-double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X) {
+double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X, double required) {
   double moved[3][kBoxColumns];  // b in a's frame, its centre from a's
+  const auto moveColumn = [&](int i, int j) {
+    moved[i][j] = X.R(i, 0) * b.at[0][j] + X.R(i, 1) * b.at[1][j] + X.R(i, 2) * b.at[2][j];
+  };
+  double C[3][kBoxColumns], abs_C[3][3];  // along a's axes
+  const auto alongA = [&](int i, int j) {
+    C[i][j] = a.at[0][i] * moved[0][j] + a.at[1][i] * moved[1][j] + a.at[2][i] * moved[2][j];
+  };
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < kBoxColumns; ++j) {
-      moved[i][j] = X.R(i, 0) * b.at[0][j] + X.R(i, 1) * b.at[1][j] + X.R(i, 2) * b.at[2][j];
-    }
+    moveColumn(i, kCenter);
     moved[i][kCenter] += X.t[i] - a.at[i][kCenter];
   }
-  double C[3][kBoxColumns], abs_C[3][3];  // along a's axes
+  bool is_inside = true;  // b's centre within a's box, as a link is within a room
+  for (int i = 0; i < 3; ++i) {
+    alongA(i, kCenter);
+    is_inside &= std::abs(C[i][kCenter]) <= a.half[i];
+  }
+  if (is_inside) return 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < kCenter; ++j) moveColumn(i, j);
+  }
   double by_a = 0, by_b = 0;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < kBoxColumns; ++j) {
-      C[i][j] = a.at[0][i] * moved[0][j] + a.at[1][i] * moved[1][j] + a.at[2][i] * moved[2][j];
+    for (int j = 0; j < kCenter; ++j) {
+      alongA(i, j);
+      abs_C[i][j] = std::abs(C[i][j]);
     }
-    for (int j = 0; j < 3; ++j) abs_C[i][j] = std::abs(C[i][j]);
     const double reach =
         abs_C[i][0] * b.half[0] + abs_C[i][1] * b.half[1] + abs_C[i][2] * b.half[2];
     by_a += square(std::abs(C[i][kCenter]) - (a.half[i] + reach + X.box_pad));
   }
+  if (by_a > required * required) return std::sqrt(by_a);
   for (int j = 0; j < 3; ++j) {
     const double apart = moved[0][j] * moved[0][kCenter] + moved[1][j] * moved[1][kCenter] +
                          moved[2][j] * moved[2][kCenter];
@@ -71,8 +85,9 @@ double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X) {
 
 }  // namespace
 
-double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB) {
-  return betweenBoxes(RootBox(a.root_box), RootBox(b.root_box), X_AB);
+[[gnu::hot]] double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB,
+                              double required) {
+  return betweenBoxes(RootBox(a.root_box), RootBox(b.root_box), X_AB, required);
 }
 
 }  // namespace kios::engine

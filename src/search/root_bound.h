@@ -3,12 +3,14 @@
 #pragma once
 
 #include "search/float_frame.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 
 /// Lower bound of the distance of two models by the boxes of their roots; not positive where that
 /// proves nothing. It tells most near pairs of CAD parts apart before anything is built for a
-/// search.
-double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB);
+/// search. Any bound above `required` may be given in place of the best.
+double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB,
+                 double required = kInfinity);
 
 }  // namespace kios::engine

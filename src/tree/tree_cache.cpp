@@ -7,23 +7,23 @@
 
 namespace kios::engine {
 
-TreeCache::Use::Use(Use&& o) noexcept
+[[gnu::hot]] TreeCache::Use::Use(Use&& o) noexcept
     : cell_(std::exchange(o.cell_, nullptr)),
       own_(std::move(o.own_)),
       tree_(std::exchange(o.tree_, nullptr)) {}
 
-TreeCache::Use& TreeCache::Use::operator=(Use&& o) noexcept {
+[[gnu::hot]] TreeCache::Use& TreeCache::Use::operator=(Use&& o) noexcept {
   std::swap(cell_, o.cell_);
   std::swap(own_, o.own_);
   std::swap(tree_, o.tree_);
   return *this;
 }
 
-TreeCache::Use::~Use() {
+[[gnu::hot]] TreeCache::Use::~Use() {
   if (cell_) cell_->users.fetch_sub(1, std::memory_order_release);
 }
 
-TreeCache::Use TreeCache::find(const TreeKey& key) {
+[[gnu::hot]] TreeCache::Use TreeCache::find(const TreeKey& key) {
   for (Cell& cell : cells_) {
     if (cell.root_stamp.load(std::memory_order_relaxed) != key.root_stamp) continue;
     if (cell.users.fetch_add(1, std::memory_order_acquire) >= 0 && cell.key == key) {
@@ -72,6 +72,7 @@ bool TreeCache::tryReplace(Cell& cell, const TreeKey& key, SharedTree& tree) {
   }
   cell.key = key;
   std::swap(cell.tree, tree);
+  cell.found = cell.tree.get();
   cell.root_stamp.store(key.root_stamp, std::memory_order_relaxed);
   if (cell.tree.get()) root_.write(key.root_stamp, *cell.tree.get());
   cell.users.fetch_sub(kWriting, std::memory_order_release);

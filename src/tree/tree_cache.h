@@ -62,7 +62,7 @@ class TreeCache {
 
    private:
     friend class TreeCache;
-    explicit Use(Cell& cell) : cell_(&cell), tree_(cell.tree.get()) {}
+    explicit Use(Cell& cell) : cell_(&cell), tree_(cell.found) {}
     explicit Use(SharedTree own) : own_(std::move(own)), tree_(own_.get()) {}
 
     Cell* cell_ = nullptr;
@@ -96,11 +96,12 @@ class TreeCache {
   void drop(const void* vertices);
 
  private:
-  /// users counts those who read key and tree; kWriting is added while they change.
+  /// users counts those who read what follows it; kWriting is added while they change.
   struct Cell {
     std::atomic<std::uint64_t> root_stamp{0};
     std::atomic<int> users{0};
     TreeKey key;
+    const Tree* found = nullptr;  ///< that of `tree`, one step nearer
     SharedTree tree;
   };
   static constexpr int kWriting = -(1 << 30);

@@ -336,7 +336,7 @@ PairPredicates::Coordinates coordinates(const TriangleVertices<S>& a,
 }
 
 template <typename S>
-bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+[[gnu::hot]] bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   for (int c = 0; c < 3; ++c) {
     const auto low = [c](const auto& t) { return std::min(std::min(t[0][c], t[1][c]), t[2][c]); };
     const auto high = [c](const auto& t) { return std::max(std::max(t[0][c], t[1][c]), t[2][c]); };
@@ -348,7 +348,7 @@ bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
 }  // namespace
 
 template <typename S>
-bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+[[gnu::hot]] bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   if (boxesApart(a, b)) return false;
   const Plainly plain = plainlyMeet(a, b);
   if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;

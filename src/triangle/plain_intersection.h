@@ -45,7 +45,7 @@ enum class Plainly { kApart, kMeet, kUnclear };
 /// Whether two triangles intersect, where every sign that decides is clear by plain arithmetic:
 /// nearly always. The steps are those of PairIntersection (Guigue and Devillers, 2003).
 template <typename S>
-Plainly plainlyMeet(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+[[gnu::hot]] Plainly plainlyMeet(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   const PlainPlane plane_a(a[2], a[1], a[0]), plane_b(b[2], b[1], b[0]);
   int side_a[3], side_b[3];
   for (int i = 0; i < 3; ++i) side_b[i] = plane_a.side(b[i]);

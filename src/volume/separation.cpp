@@ -25,7 +25,7 @@ struct Offset {
 };
 
 template <typename S>
-Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
+[[gnu::hot]] Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
   const double ax = a.center0[0], ay = a.center0[1], az = a.center0[2];
   const double bx = b.center0[0], by = b.center0[1], bz = b.center0[2];
   Offset d;
@@ -47,8 +47,8 @@ Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
 // u |D| and 11 u |o_b|, 2 u |o_a| from rounding D, R, products and sums, 3 u of the root, 2 u a
 // subtraction. 2^-19 is 32 u. Squares that underflow make the bound smaller.
 template <typename S>
-double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
-                     const Offset& d) {
+[[gnu::hot]] double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+                                  const Offset& d) {
   using lanes::Float4;
   const float dx = static_cast<float>(d.x), dy = static_cast<float>(d.y),
               dz = static_cast<float>(d.z);
@@ -127,8 +127,8 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
 }
 
 template <typename S>
-double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, const Offset& d,
-                      double required) {
+[[gnu::hot]] double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+                                   const Offset& d, double required) {
   constexpr double kFar = 0x1p40;
   if ((a.exponent | b.exponent) != 0 || !(d.norm1 < kFar)) {
     return scaledSeparation(a, b, X, d).value;
@@ -220,8 +220,8 @@ RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transfo
     : RelativePose(X_WA, X_WB, squaredRotationErrors(X_WA, X_WB)) {}
 
 template <typename S>
-RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
-                              double squared_errors) {
+[[gnu::hot]] RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA,
+                                           const fcl::Transform3<S>& X_WB, double squared_errors) {
   const fcl::Matrix3<S> inverse = X_WA.linear().transpose();
   for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
   T_ = detail::rotate<S>(inverse, X_WB.translation() - X_WA.translation());
@@ -239,8 +239,8 @@ void RelativePose<S>::computeBounds(double squared_errors) {
 }
 
 template <typename S>
-double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB,
-                  double required) {
+[[gnu::hot]] double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB,
+                               double required) {
   if (a.num_spheres == 0 || b.num_spheres == 0) return kInfinity;
   return separationFrom(a, b, X_AB, offset(a, b, X_AB), required);
 }

@@ -65,6 +65,28 @@ TEST(Unprepared, ModelsArePreparedWhenItHasPaid) {
   EXPECT_EQ(counts.tree_searches, 0);
 }
 
+// A search of trees would take as long as a walk that the first nodes decide: who asks no more than
+// that waits for trees, but not for ever.
+TEST(Unprepared, ShortWalksPrepareLate) {
+  const Mesh mesh = scenes::bumpyTorus(300);
+  const auto a = kiosModel(mesh), b = kiosModel(mesh);
+  std::vector<Frame> short_walks;
+  for (const Frame& frame : randomFrames(200, 1.6, 7)) {
+    const auto fresh_a = kiosModel(mesh), fresh_b = kiosModel(mesh);
+    SearchCounts counts;
+    touch(*fresh_a, *fresh_b, frame, counts);
+    const long long tests = counts.volume_tests + 4 * counts.leaf_pairs;
+    if (counts.tree_searches == 1 && tests >= 8 && tests <= 16) short_walks.push_back(frame);
+  }
+  ASSERT_FALSE(short_walks.empty());
+  SearchCounts counts;
+  for (int asked = 0; bytesOf(*a, *b) == 0 && asked < 10000; ++asked) {
+    touch(*a, *b, short_walks[static_cast<std::size_t>(asked) % short_walks.size()], counts);
+  }
+  EXPECT_GT(bytesOf(*a, *b), 0U);
+  EXPECT_GT(counts.volume_tests + 4 * counts.leaf_pairs, 4 * (4 * a->num_tris + 32));
+}
+
 // Two sheets that run close to each other everywhere: one question would take more than a tree.
 TEST(Unprepared, OneQuestionTakesNoMoreThanATree) {
   const auto a = kiosModel(scenes::sheet(1, 1, 40, 40, 0));

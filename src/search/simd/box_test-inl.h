@@ -114,7 +114,7 @@ struct BoxPairs {
 
   /// The widest gap along a product of an axis of a and one of b. None of these directions is
   /// longer than 1, so that the gaps are bounds as they are.
-  V acrossEdges() const {
+  [[gnu::hot]] V acrossEdges() const {
     V widest = hn::Set(d, -kInfinityFloat);
     const V twice = hn::Add(padding, padding);
     const auto across = [&](V t1, V t2, V h1, V h2, V c1, V c2, V abs_c1, V abs_c2, V reach) {

@@ -22,10 +22,18 @@ HWY_INLINE hn::Mask<DU> maskOf(uint32_t bits) {
   return hn::LoadMaskBits(du, bytes);
 }
 
-/// Moves some lanes, given as bits, to the front. hn::Compress() of Highway 1.0 copies its table
-/// to the stack with some compilers.
+/// Moves some lanes, given as bits, to the front; what follows them may be anything.
 class ToFront {
  public:
+#if HWY_TARGET == HWY_AVX3  // an instruction does it
+  explicit ToFront(uint32_t bits) : lanes_(maskOf(bits)) {}
+
+  V operator()(V v) const { return hn::Compress(v, hn::RebindMask(d, lanes_)); }
+  VU operator()(VU v) const { return hn::Compress(v, lanes_); }
+
+ private:
+  const hn::Mask<DU> lanes_;
+#else  // hn::Compress() of Highway 1.0 copies its table to the stack with some compilers
   explicit ToFront(uint32_t bits)
       : order_(hn::IndicesFromVec(
             d, hn::PromoteTo(du, hn::LoadU(hn::Rebind<uint8_t, D>(), kLaneOrder[bits].data())))) {}
@@ -37,6 +45,7 @@ class ToFront {
 
  private:
   const decltype(hn::IndicesFromVec(d, hn::Zero(du))) order_;
+#endif
 };
 
 /// Brings something into the caches. What only fetches has to be inlined: compilers drop calls of
@@ -59,14 +68,28 @@ struct NodePair {
   uint32_t a, b;
 };
 
+/// Arrays of pairs of nodes with lower bounds of their distances.
+template <size_t kSize>
+struct NodePairArrays {
+  float bounds[kSize];
+  uint32_t a[kSize], b[kSize];
+};
+
 /// Pairs of nodes with lower bounds of their distances, in arrays. Lanes are pushed without a
-/// branch: which of them matter can't be predicted.
+/// branch: which of them matter can't be predicted. Small searches stay in few lines of memory,
+/// since in a program that does more than to search all of them are out of the caches.
 class NodePairList {
  public:
   struct Entry {
     float bound;
     NodePair pair;
   };
+  static constexpr size_t kFew = 64, kUsual = 512;
+
+  /// `usual` is room for lists that have outgrown their own.
+  explicit NodePairList(NodePairArrays<kUsual>& usual) : usual_(usual) {}
+  NodePairList(const NodePairList&) = delete;
+  NodePairList& operator=(const NodePairList&) = delete;
 
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
@@ -153,6 +176,16 @@ class NodePairList {
   }
 
   HWY_NOINLINE void grow(size_t capacity) {
+    if (capacity_ == kFew && capacity <= kUsual) {
+      std::copy_n(bounds_, size_, usual_.bounds);
+      std::copy_n(a_, size_, usual_.a);
+      std::copy_n(b_, size_, usual_.b);
+      bounds_ = usual_.bounds;
+      a_ = usual_.a;
+      b_ = usual_.b;
+      capacity_ = kUsual;
+      return;
+    }
     std::unique_ptr<float[]> bounds(new float[capacity]);  // not zeroed, as a vector would be
     std::unique_ptr<uint32_t[]> pairs(new uint32_t[2 * capacity]);
     std::copy_n(bounds_, size_, bounds.get());
@@ -166,26 +199,32 @@ class NodePairList {
     capacity_ = capacity;
   }
 
-  static constexpr size_t kUsual = 512;
   static constexpr size_t kRoom = 2 * kLanes;  ///< beyond the end, for whole vectors and batches
-  float usual_bounds_[kUsual];
-  uint32_t usual_a_[kUsual], usual_b_[kUsual];
+  size_t size_ = 0, capacity_ = kFew;
+  float* bounds_ = few_.bounds;
+  uint32_t *a_ = few_.a, *b_ = few_.b;
+  NodePairArrays<kFew> few_;
+  NodePairArrays<kUsual>& usual_;
   std::unique_ptr<float[]> more_bounds_;
   std::unique_ptr<uint32_t[]> more_pairs_;
-  float* bounds_ = usual_bounds_;
-  uint32_t *a_ = usual_a_, *b_ = usual_b_;
-  size_t size_ = 0, capacity_ = kUsual;
 };
 
 /// Pairs that wait. Those that overlap must all be looked at: they are at hand, the last in first.
 /// Those apart wait for their turn in waves, the nearest first.
 class Frontier {
- public:
-  Frontier() { hn::Store(hn::Set(d, kInfinityFloat), d, least_); }
+  enum { kInner, kLeaves, kBounded, kApartInner, kApartLeaves, kApartBounded, kLists };
+  NodePairArrays<NodePairList::kUsual> usual_[kLists];
+  const bool keeps_apart_;
 
-  NodePairList inner;    ///< at hand: pairs of nodes not both of which are leaves
-  NodePairList leaves;   ///< at hand: pairs of leaves
-  NodePairList bounded;  ///< at hand: in `a`, what keep() was told
+ public:
+  /// Where `keeps_apart` is false, no pair may be pushed that doesn't overlap.
+  explicit Frontier(bool keeps_apart = true) : keeps_apart_(keeps_apart) {
+    hn::Store(hn::Set(d, kInfinityFloat), d, least_);
+  }
+
+  NodePairList inner{usual_[kInner]};      ///< at hand: pairs of nodes not both of which are leaves
+  NodePairList leaves{usual_[kLeaves]};    ///< at hand: pairs of leaves
+  NodePairList bounded{usual_[kBounded]};  ///< at hand: in `a`, what keep() was told
 
   /// There is room for a vector of lanes in each list after this.
   void reserve() {
@@ -201,6 +240,7 @@ class Frontier {
       leaves.push(overlapping & are_leaves, bounds, a, b);
       inner.push(overlapping & ~are_leaves, bounds, a, b);
     }
+    if (!keeps_apart_) return;
     const uint32_t apart = lanes & ~overlapping;
     apart_leaves_.push(apart & are_leaves, bounds, a, b);
     apart_inner_.push(apart & ~are_leaves, bounds, a, b);
@@ -263,7 +303,8 @@ class Frontier {
     hn::Store(hn::Min(least, hn::IfThenElse(apart, bounds, least)), d, least_);
   }
 
-  NodePairList apart_inner_, apart_leaves_, apart_bounded_;
+  NodePairList apart_inner_{usual_[kApartInner]}, apart_leaves_{usual_[kApartLeaves]},
+      apart_bounded_{usual_[kApartBounded]};
   alignas(32) float least_[kLanes];  ///< the least bounds of what is apart are among these
 };
 

@@ -29,7 +29,7 @@ struct Corners {
   /// It leads to a combination of the corners with weights that add up to 1 but for 2 u, so its
   /// length is an upper bound to the pad: with edges up to 2 S long, weights, products and sums
   /// cost 12 u S, the points 9 u S, square and root 3 u S (u and S as in float_frame.h).
-  HWY_NOINLINE Vec3 from(Vec3 p) const {
+  [[gnu::hot]] HWY_NOINLINE Vec3 from(Vec3 p) const {
     const Vec3 e[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
     Vec3 best = {};
     float least = kInfinityFloat;
@@ -103,7 +103,7 @@ class Slabs {
   /// other, and the line of centres tells little: from the other's centre, and then from its vertex
   /// that is nearest along that, to the triangle's nearest point.
   template <bool kTriangleOfA>
-  bool stepsAt(const Corners& triangle, Vec3 center) {
+  [[gnu::hot]] bool stepsAt(const Corners& triangle, Vec3 center) {
     const auto between = [&](Vec3 p) {
       const Vec3 v = triangle.from(p);
       return kTriangleOfA ? -1.0F * v : v;
@@ -156,8 +156,8 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
 
 /// Brackets the distance of two leaves, or proves them at least cull_distance apart: by the last
 /// direction, then the line of centres and steps of Frank-Wolfe.
-HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const Leaf& leaf_b,
-                                LastLeaves& last, Bracketed& out) {
+[[gnu::hot]] HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a,
+                                             const Leaf& leaf_b, LastLeaves& last, Bracketed& out) {
   const LeafView a(search.a, leaf_a);
   const FloatFrame& frames = search.frames;
   const float distance = search.evaluator.cull_distance + frames.pad;
@@ -172,8 +172,9 @@ HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a, const 
 
 /// Brackets the distance of two leaves of which one is a triangle's: that of a if kTriangleOfA.
 template <bool kTriangleOfA>
-HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a, const LeafView& b,
-                                  LastLeaves& last, Bracketed& out) {
+[[gnu::hot]] HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a,
+                                               const LeafView& b, LastLeaves& last,
+                                               Bracketed& out) {
   const FloatFrame& frames = search.frames;
   const float distance = search.evaluator.cull_distance + frames.pad;
   const uint32_t node = isTriangle(out.nodes.b) ? out.nodes.b : 0;  // all share one leaf

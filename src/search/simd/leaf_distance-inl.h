@@ -71,8 +71,8 @@ class LeafDistances {
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
 
   /// The least of them. Features that the slab proves farther than `distance` are left out.
-  float compute(const Points& vertices_b, const FloatFrame& frames, const Slab& slab,
-                float distance) {
+  [[gnu::hot]] float compute(const Points& vertices_b, const FloatFrame& frames, const Slab& slab,
+                             float distance) {
     const Vec3 w = slab.along.w;
     const float thickness = distance * slab.along.length;
     const uint32_t near_a = facing(a_.vertices, w, slab.bottom_b - thickness);
@@ -212,8 +212,8 @@ class LeafDistances {
 };
 
 /// Evaluates all features of two leaves that may be nearest.
-HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const LeafView& b,
-                                  const Slab& slab, float bound) {
+[[gnu::hot]] HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a,
+                                               const LeafView& b, const Slab& slab, float bound) {
   const FloatFrame& frames = search.frames;
   RefineCallback& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
@@ -227,7 +227,8 @@ HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a, const
   return distances.evaluateNear(least, frames.pad, evaluator, search.counts.exact);
 }
 
-HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
+[[gnu::hot]] HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a,
+                                               const LeafView& b) {
   const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
@@ -263,7 +264,8 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
   return result & ((1U << on.leaf.num_faces) - 1);
 }
 
-HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a, const LeafView& b) {
+[[gnu::hot]] HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a,
+                                                const LeafView& b) {
   const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);

@@ -243,8 +243,9 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
 /// Evaluates some edges of one leaf, in rows moved to the frame of the other, against its
 /// faces.
 template <bool kEdgesOfA>
-HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some, const LeafView& faces,
-                            float pad, RefineCallback& evaluator, long long& exact) {
+[[gnu::hot]] HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some,
+                                         const LeafView& faces, float pad,
+                                         RefineCallback& evaluator, long long& exact) {
   const uint32_t used = (1U << faces.leaf.num_faces) - 1;
   for (int i = 0; i < some.count; ++i) {
     const Points chunk = {some.rows + 6 * (i / kLanes), 1};

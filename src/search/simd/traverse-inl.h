@@ -76,7 +76,7 @@ class Expander {
     startNode(e, Expanded::kNode);
   }
 
-  void test(Expansion& e) const {
+  [[gnu::hot]] void test(Expansion& e) const {
     if (HWY_UNLIKELY(e.kind != Expanded::kNode)) {
       testTriangles(e);
       if (e.kind != Expanded::kNode) {
@@ -134,7 +134,8 @@ class Expander {
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
   template <bool kInherit, size_t kMax>
-  void expand(const NodePairList::Entry (&pairs)[kMax], size_t count, Frontier& frontier) const {
+  [[gnu::hot]] void expand(const NodePairList::Entry (&pairs)[kMax], size_t count,
+                           Frontier& frontier) const {
     Expansion batch[kMax];
     size_t n = 0;
     for (size_t i = 0; large_ && i < count; ++i) fetchNodes(pairs[i].pair);
@@ -203,7 +204,7 @@ class Expander {
     e.first_child = e.parent->first_child;
     fetch(blockOf(e));
   }
-  HWY_NOINLINE void startAgainstTriangle(Expansion& e) const {
+  [[gnu::hot]] HWY_NOINLINE void startAgainstTriangle(Expansion& e) const {
     e.side = isTriangle(e.at.a) ? 1 : 0;
     e.parent = &trees_[e.side]->nodes[e.side == 0 ? e.at.a : e.at.b];
     e.other = &kTriangleStandIn;
@@ -216,7 +217,7 @@ class Expander {
     constexpr float kTimes = 4;  // found by trying
     return splits_ & e.other->isLeaf() & (e.bound + kTimes * e.parent->size < e.other->width);
   }
-  HWY_NOINLINE void startLeaf(Expansion& e) const {
+  [[gnu::hot]] HWY_NOINLINE void startLeaf(Expansion& e) const {
     std::swap(e.parent, e.other);
     e.side = 1 - e.side;
     e.kind = Expanded::kLeaf;
@@ -239,7 +240,7 @@ class Expander {
 
   /// Spheres against prisms. Where most triangles of a leaf matter, it isn't split after all: the
   /// node is to be expanded, and tested, in its place.
-  HWY_NOINLINE void testTriangles(Expansion& e) const {
+  [[gnu::hot]] HWY_NOINLINE void testTriangles(Expansion& e) const {
     e.near = 0;
     if (e.kind == Expanded::kNodeTriangle) {
       testAgainstTriangle(e);
@@ -254,7 +255,7 @@ class Expander {
     e.side = 1 - e.side;
     startNode(e, Expanded::kNode);
   }
-  void testLeaf(Expansion& e) const {
+  [[gnu::hot]] void testLeaf(Expansion& e) const {
     const Node& other = *e.other;
     const Vec3 c = moved(*to_[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
     const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
@@ -264,7 +265,7 @@ class Expander {
       keep(e, l, hn::Sub(prismsOf(leaf, l).distances(center), reach));
     }
   }
-  void testAgainstTriangle(Expansion& e) const {
+  [[gnu::hot]] void testAgainstTriangle(Expansion& e) const {
     const Tree& tree = *trees_[1 - e.side];
     const uint32_t triangle = otherId(e);
     const LeafView leaf(tree, tree.leaves[leafOfTriangle(triangle)]);
@@ -331,7 +332,7 @@ class Expander {
   }
 
   /// Raises bounds by boxes.
-  HWY_NOINLINE void testBoxes(Expansion& e) const {
+  [[gnu::hot]] HWY_NOINLINE void testBoxes(Expansion& e) const {
     Box moved;
     const bool nodes = HWY_LIKELY(e.kind == Expanded::kNode);
     const BoxBlock& block = nodes ? boxBlockOf(e) : boxesOfTriangles(e, moved);
@@ -351,7 +352,7 @@ class Expander {
     e.near &= near;
   }
   /// The boxes of the children, and the other's in their frame.
-  HWY_NOINLINE const BoxBlock& boxesOfTriangles(const Expansion& e, Box& moved) const {
+  [[gnu::hot]] HWY_NOINLINE const BoxBlock& boxesOfTriangles(const Expansion& e, Box& moved) const {
     if (e.kind == Expanded::kLeaf) {
       move(otherBox(e), *to_[e.side], moved);
       return boxed_[e.side].of(*trees_[e.side], static_cast<uint32_t>(e.parent->leaf()));

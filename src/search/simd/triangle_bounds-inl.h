@@ -46,7 +46,7 @@ HWY_INLINE Axes axesAlong(const V3& direction) {
 ///   product with an axis of coordinates is exact, and its direction at right angles.
 /// The halves are measured from the centre as stored, along the axes as stored, by 5 roundings of
 /// terms that add up to at most 1.8 times the sum of the halves; they grow by 32 u of that sum.
-HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
+[[gnu::hot]] HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
   alignas(32) uint32_t corners[3][kLanes];
   for (uint32_t i = 0; i < kLanes; ++i) {
     const uint32_t face = std::min(i, leaf.leaf.num_faces - 1U);

@@ -13,7 +13,7 @@ class TriangleLeaf {
  public:
   LeafView view() const { return {leaf_, lanes_, ids_}; }
 
-  HWY_NOINLINE void make(const Tree& tree, uint32_t node) {
+  [[gnu::hot]] HWY_NOINLINE void make(const Tree& tree, uint32_t node) {
     if (node == node_) return;
     node_ = node;
     const LeafView from(tree, tree.leaves[leafOfTriangle(node)]);
