@@ -100,7 +100,7 @@ std::vector<Pivot> pivotsOf(const Path& path, const Pair& pair, const Configurat
       std::count_if(joints.begin(), joints.end(), [](const Moving& joint) { return joint.turns; });
   if (turns == 0 || !a.bounded || !b.bounded) return {};
   const bool a_is_smaller = a.content.radius < b.content.radius;
-  const Vector3d middle = at.center(a_is_smaller ? pair.a : pair.b);
+  const Vector3d& middle = at.center(a_is_smaller ? pair.a : pair.b);
   const double radius = a_is_smaller ? a.content.radius : b.content.radius;
   const double lengths = path.length(pair.a) + path.length(pair.b);
   const Slack slack(joints, path.pad(pair.a, pair.b) + 0x1p-43 * lengths);

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+// A name between angle brackets can't stand in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+
 /// Instantiates a function template, which must have no overloads, for both scalars.
 #define KIOS_INSTANTIATE_FUNCTION(function)             \
   template decltype(function<double>) function<double>; \
@@ -10,3 +13,5 @@
 #define KIOS_INSTANTIATE_CLASS(Class) \
   template class Class<double>;       \
   template class Class<float>
+
+// NOLINTEND(bugprone-macro-parentheses)
