@@ -272,6 +272,7 @@ std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
   return pairs;
 }
 
+// NOLINTBEGIN(bugprone-macro-parentheses): scalars in template arguments
 #define KIOS_INSTANTIATE(S)                                                         \
   template std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest&);  \
   template std::vector<ScenePair<S>> Scene<S>::pairsWithin(S, const SceneRequest&); \
@@ -279,5 +280,6 @@ std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace kios::scene
