@@ -199,7 +199,9 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   ++suspect.looks;
   if (!a && !b) return nothing;
   const int triangles = (a ? a->num_tris : 0) + (b ? b->num_tris : 0);
-  if (suspect.looks == kLooksBeforeOrbits + triangles / kTrianglesOfLook) {
+  if (suspect.way <= kFastWay && !suspect.orbits &&
+      suspect.looks >= kLooksBeforeOrbits + triangles / kTrianglesOfLook) {
+    suspect.orbits = true;
     tryOrbits(task.suspect, at(task.look_at));
     const Look look = knownLocally(task);
     if (look.outcome == Look::Outcome::kProven) return look;

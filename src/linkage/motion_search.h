@@ -18,6 +18,7 @@ struct Suspect {
   int looks = 0;
   double way = 0;          ///< how much of the path a query proves of late
   bool undecided = false;  ///< somewhere
+  bool orbits = false;     ///< were tried
   int place = -1;          ///< of its LocalSlabs, if there are any
 };
 
