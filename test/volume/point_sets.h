@@ -150,8 +150,9 @@ inline int randomCount(Random& random) {
 template <typename S>
 Points<S> hardPointSet(Random& random, int n) {
   const auto shape = static_cast<PointShape>(below(random, kPointShapes));
-  return place<S>(random, shapePoints(random, shape, n), randomOffset(random),
-                  randomScale<S>(random));
+  const Points<double> points = shapePoints(random, shape, n);
+  const double offset = randomOffset(random), scale = randomScale<S>(random);
+  return place<S>(random, points, offset, scale);
 }
 
 }  // namespace kios::testing
