@@ -90,7 +90,7 @@ void race(const std::string& scenario, const char* query, const std::vector<Ques
   addRows(scenario, query, competitors, questions.size(), options, report);
 }
 
-/// All configurations of a robot's places at once, on all cores and on one.
+/// Each place's configurations at once, on all cores and on one.
 void raceBatches(const std::string& scenario,
                  const std::vector<std::pair<const Place*, Eigen::MatrixXd>>& batches,
                  const Options& options, Report& report) {
@@ -174,10 +174,10 @@ void measureQuestions(const std::string& name, const Robot& bare,
   std::vector<Question> configurations, clear;
   std::vector<std::pair<const Place*, Eigen::MatrixXd>> batches;
   for (const auto& place : places) {
-    batches.emplace_back(place.get(), Eigen::MatrixXd(bare.coordinates(), 20 * of_place));
+    batches.emplace_back(place.get(), Eigen::MatrixXd(bare.coordinates(), 250 * of_place));
+    for (auto q : batches.back().second.colwise()) q = draw.configuration();
     for (int i = 0; i < 20 * of_place; ++i) {
       Question question{place.get(), draw.configuration(), {}};
-      batches.back().second.col(i) = question.q0;
       if (is_free(*place)(question.q0)) clear.push_back(question);
       configurations.push_back(std::move(question));
     }

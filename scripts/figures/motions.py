@@ -71,6 +71,12 @@ contacts called free   | wrong_verdicts fcl_obbrss
     return grid("problems", spec("\n".join(lines)), columns, cell)
 
 
+def mbm_cores(rows, robot):
+    """How many times as fast a robot's batches are on all cores as on one."""
+    row = f"mbm/{robot}/batches", "collide"
+    return number(rows.find(*row, "kios_one_thread")["median_us"] / rows.find(*row)["median_us"])
+
+
 def mbm_contact(rows, robot):
     """How many problems of a robot begin or end in contact."""
     return number(rows.find(f"mbm/{robot}", "plan")["in_contact"])
@@ -82,6 +88,7 @@ def mbm_questions(rows):
              for what, of in (("free", "free"), ("not free", "blocked"))
              for length in ("0.05", "0.2", "0.8")]
     kinds += [("a configuration, in contact or not", "configurations collide"),
+              ("the same, 10,000 at once on all cores, by the clock", "batches collide"),
               ("clearance and its gradient, free", "free gradient")]
     columns = [(f"{label}{of}", ([robot, bv], {}))
                for robot, label in (("panda", "Panda"), ("ur5", "UR5"))

@@ -5,7 +5,7 @@
 A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several words, such as
 `<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
 from figures.builds import building, memory, refits  # noqa: F401
-from figures.motions import mbm, mbm_contact, mbm_questions, missed, motions  # noqa: F401
+from figures.motions import mbm, mbm_contact, mbm_cores, mbm_questions, missed, motions  # noqa: F401
 from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
 from figures.robots import links  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, spec, table, time

@@ -89,8 +89,8 @@ class MotionSearch {
   /// Gathers the pairs that aren't proven apart within `time` of s, until there are more than
   /// `most`.
   std::vector<Pair>& gather(double s, double time, std::size_t most);
-  /// True if no body moves far for its size.
-  bool isShort() const;
+  /// True if no body moves farther on the whole path than so many of its radii.
+  bool movesWithin(double radii) const;
   /// Finds the suspects, or a contact: true.
   bool findSuspects();
   /// Adds those of the pairs that root volumes at s don't prove clear from `from` to `to`.

@@ -26,33 +26,37 @@ std::vector<Pair>& MotionSearch::gather(double s, double time, std::size_t most)
   return pairs;
 }
 
-bool MotionSearch::isShort() const {
-  constexpr double kFar = 8;
+bool MotionSearch::movesWithin(double radii) const {
   const Linkage::Impl& linkage = path_.linkage();
-  return std::all_of(
-      linkage.carried.begin(), linkage.carried.end(), [&](const CarriedBody& carried) {
-        return !(path_.swept(carried.body, 0) > kFar * linkage.bodies[carried.body].content.radius);
-      });
+  return std::all_of(linkage.carried.begin(), linkage.carried.end(),
+                     [&](const CarriedBody& carried) {
+                       return !(path_.swept(carried.body, 0) >
+                                radii * linkage.bodies[carried.body].content.radius);
+                     });
 }
 
 // Most pairs are so far apart at the middle of the path that half of it doesn't bring them
 // together. Where many aren't, they are looked for anew in both halves, rather than one by one.
-// What is gathered finds contacts too.
+// Contacts at the middles are found too: of long ways first, which are more likely in contact than
+// not where bodies overlap.
 bool MotionSearch::findSuspects() {
   constexpr std::size_t kMany = 16;
-  constexpr double kShortest = 0.125;
+  constexpr double kShortest = 0.125, kFar = 32;
   std::vector<Interval>& intervals = scratch_->intervals;
   intervals.assign(1, {0, 1});
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     const auto [from, to] = intervals[i];
     const double s = 0.5 * (from + to);
+    const bool contacts = looked_at_end_ && !request_.first_contact;
+    const bool far = !movesWithin(kFar / (to - from));
+    if (contacts && far && touching(overlapping(gather(s, 0, kAll), s), s)) return true;
     const std::vector<Pair>& pairs = gather(s, 0.5 * (to - from), kAll);
     const std::size_t before = suspects_.size();
     suspect(pairs, from, s, to);
     const std::size_t found = suspects_.size() - before;
     if (i == 0) notProvenAtOnce(found);
     if (found <= kMany || to - from <= kShortest || request_.first_contact) continue;
-    if (looked_at_end_ && touching(overlapping(before), s)) return true;
+    if (contacts && !far && touching(overlapping(before), s)) return true;
     suspects_.erase(suspects_.begin() + static_cast<std::ptrdiff_t>(before), suspects_.end());
     waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(before), waiting_.end());
     intervals.push_back({from, s});
@@ -65,8 +69,9 @@ bool MotionSearch::findSuspects() {
 // contacts are looked for by.
 bool MotionSearch::touchingAtEnd() {
   constexpr std::size_t kFew = 12;
+  constexpr double kNear = 8;
   looked_at_end_ = true;
-  if (isShort()) {
+  if (movesWithin(kNear)) {
     const std::vector<Pair>& pairs = gather(1, 1, kFew);
     if (pairs.size() <= kFew) {
       suspect(pairs, 0, 1, 1);

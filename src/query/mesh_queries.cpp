@@ -54,10 +54,12 @@ template <typename S>
   }
 }
 
-/// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough.
+/// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough. With
+/// `any_touching`, which triangles it names at distance 0 may depend on who prepared the models.
 template <typename S>
 [[gnu::hot]] engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame,
-                                             const engine::PairQuery& query, SearchCounts& counts) {
+                                             const engine::PairQuery& query, bool any_touching,
+                                             SearchCounts& counts) {
   // Almost any triangles are near enough where the error that is allowed is as large as a mesh.
   const bool single = frame.a.num_tris == 1 && frame.b.num_tris == 1;
   if (single || query.abs_err > std::min<double>(frame.rootA().radius0, frame.rootB().radius0)) {
@@ -70,7 +72,7 @@ template <typename S>
   }
   if (query.isExact() && engineServes(frame)) {
     if (areVeryFew(frame.a, frame.b)) return nearestOfFew(frame, query.far_enough, counts);
-    const auto answer = nearestUnprepared(frame, query.far_enough, counts);
+    const auto answer = nearestUnprepared(frame, query.far_enough, any_touching, counts);
     if (answer) return *answer;
   }
   return searchNearest(frame, query, counts);
@@ -123,7 +125,8 @@ template <typename S>
                                verticesApart(frame, query.far_enough));
   if (far || request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
-  const engine::PairAnswer<S> answer = nearestOf(frame, query, counts ? *counts : unused);
+  const engine::PairAnswer<S> answer =
+      nearestOf(frame, query, !request.enable_nearest_points, counts ? *counts : unused);
   const TriangleDistance<S>& nearest = answer.nearest;
   if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
   if (request.enable_nearest_points) {

@@ -26,13 +26,15 @@ namespace {
 template <typename S>
 class NearestTriangle final : public engine::SolidEvaluator {
  public:
+  /// With `any_touching`, at distance 0 the triangle may depend on whether the model is prepared.
   NearestTriangle(const Model<S>& model, const PosedSolid<S>& posed, double rel_err, double abs_err,
-                  double far_enough, SearchCounts& counts)
+                  double far_enough, bool any_touching, SearchCounts& counts)
       : model_(model),
         posed_(posed),
         rel_err_(rel_err),
         abs_err_(abs_err),
         far_enough_(far_enough),
+        any_touching_(any_touching),
         counts_(counts),
         slack_(rel_err == 0 && abs_err == 0 ? posed.kernelError(model.getBV(0).bv) : 0) {
     lowerTo(far_enough);
@@ -48,7 +50,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
     if (spare > 0) {
       const long long tests = walk(root, spare);
       if (trees) trees->budget.charge(tests);
-      if (tests < spare && best_ > 0) {
+      if (tests < spare && (best_ > 0 || any_touching_)) {
         ++counts_.tree_searches;
         return;
       }
@@ -133,6 +135,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
   const Model<S>& model_;
   const PosedSolid<S>& posed_;
   const double rel_err_, abs_err_, far_enough_;
+  const bool any_touching_;
   SearchCounts& counts_;
   const double slack_;
   const engine::Tree* tree_ = nullptr;
@@ -156,7 +159,7 @@ S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
   const bool limited = result.min_distance < std::numeric_limits<S>::max();
   NearestTriangle<S> search(model, posed, request.rel_err, posed.toUnits(request.abs_err),
                             limited ? posed.toUnits(result.min_distance) : kInfinity,
-                            counts ? *counts : unused);
+                            !request.enable_nearest_points, counts ? *counts : unused);
   search.run();
   if (search.id() < 0) return result.min_distance;
   constexpr int kNone = fcl::DistanceResult<S>::NONE;

@@ -161,14 +161,15 @@ std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<S>& f
 
 template <typename S>
 std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame, double far_enough,
-                                               SearchCounts& counts) {
+                                               bool any_touching, SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
   NearWalk<S> walk(frame, far_enough, allowance.tests());
   walk.run();
   allowance.charge(walk.tests());
   walk.countIn(counts);
-  const bool done = walk.pairs().touching() ? namesFirstTouching(frame) : !walk.gaveUp();
+  const bool done =
+      walk.pairs().touching() ? any_touching || namesFirstTouching(frame) : !walk.gaveUp();
   if (!done) return std::nullopt;
   return walk.pairs().answer();
 }
@@ -185,9 +186,9 @@ template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshP
                                                                      std::size_t, SearchCounts&);
 template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<float>&,
                                                                      std::size_t, SearchCounts&);
-template std::optional<PairAnswer<double>> nearestUnprepared(const MeshPair<double>&, double,
+template std::optional<PairAnswer<double>> nearestUnprepared(const MeshPair<double>&, double, bool,
                                                              SearchCounts&);
-template std::optional<PairAnswer<float>> nearestUnprepared(const MeshPair<float>&, double,
+template std::optional<PairAnswer<float>> nearestUnprepared(const MeshPair<float>&, double, bool,
                                                             SearchCounts&);
 template TrianglePairIds firstTouching(const MeshPair<double>&, SearchCounts&);
 template TrianglePairIds firstTouching(const MeshPair<float>&, SearchCounts&);

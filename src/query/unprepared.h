@@ -24,10 +24,10 @@ std::optional<std::vector<engine::TrianglePairIds>> touchUnprepared(const MeshPa
 
 /// The nearest triangles of those nearer than `far_enough`, as searchNearest() names them for exact
 /// queries that the engine serves; not found if there are none. If triangles touch, they are
-/// firstTouching()'s.
+/// firstTouching()'s: for models of which prepared queries name others, only with `any_touching`.
 template <typename S>
 std::optional<engine::PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame, double far_enough,
-                                                       SearchCounts& counts);
+                                                       bool any_touching, SearchCounts& counts);
 
 /// True for models of which exact distance queries name firstTouching()'s triangles at distance 0,
 /// prepared or not.

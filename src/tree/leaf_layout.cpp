@@ -131,7 +131,7 @@ void appendLeaf(const LeafContent& content, Tree& tree) {
     const LeafEdge& edge = content.edges[i];
     leaf.ends[i] = static_cast<std::uint16_t>(edge.start | edge.end << 8);
   }
-  tree.lanes.resize(tree.lanes.size() + 3 * leaf.vertexChunks() + kFaceRows);
+  tree.lanes.resize(tree.lanes.size() + leaf.rows());
   placeLeaf(content.vertices.data(), content.faces.data(), leaf, tree);
 
   for (const LeafTriangle& t : content.triangles) tree.features.push_back(FeatureId{t.id << 2});

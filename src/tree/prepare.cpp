@@ -113,42 +113,48 @@ class Preparation {
   void layOut() {
     const Collapse collapse(binary_);
     struct Pending {
-      std::uint32_t node;
+      std::size_t node;
       int binary, depth;
+    };
+    struct Links {
+      std::int32_t child;
+      std::uint32_t first_child;
     };
     std::vector<Pending> stack = {{0, 0, 0}};
     std::vector<int> children;
-    tree_->nodes.reserve(binary_.size());
-    tree_->nodes.emplace_back();
+    std::vector<Links> links(1);  // of nodes: their number isn't known before
+    links.reserve(binary_.size());
+    of_node_.reserve(binary_.size());
     of_node_.push_back(0);
     while (!stack.empty()) {
       const Pending at = stack.back();
       stack.pop_back();
       if (binary_[at.binary].isLeaf()) {
-        tree_->nodes[at.node].child = ~static_cast<std::int32_t>(leaves_.size());
+        links[at.node] = {~static_cast<std::int32_t>(leaves_.size()), 0};
         leaves_.push_back(at.binary);
         continue;
       }
       tree_->depth = std::max(tree_->depth, at.depth + 1);
       collapse.children(at.binary, children);
-      tree_->nodes[at.node].child = static_cast<std::int32_t>(tree_->blocks.size());
-      tree_->nodes[at.node].first_child = static_cast<std::uint32_t>(tree_->nodes.size());
+      links[at.node] = {static_cast<std::int32_t>(tree_->children.size()),
+                        static_cast<std::uint32_t>(links.size())};
       Children& of_block = tree_->children.emplace_back();
       of_block.count = static_cast<std::uint8_t>(children.size());
-      tree_->blocks.emplace_back();
-      for (int lane = 0; lane < kLanes; ++lane) {
-        if (lane < static_cast<int>(children.size())) {
-          stack.push_back(
-              {static_cast<std::uint32_t>(tree_->nodes.size()), children[lane], at.depth + 1});
-          tree_->nodes.emplace_back();
-          of_node_.push_back(binary_[children[lane]].volume);
-          of_block.leaves |= static_cast<std::uint8_t>(binary_[children[lane]].isLeaf() << lane);
-        }
+      for (std::size_t lane = 0; lane < children.size(); ++lane) {
+        const BinaryNode& child = binary_[children[lane]];
+        stack.push_back({links.size(), children[lane], at.depth + 1});
+        links.emplace_back();
+        of_node_.push_back(child.volume);
+        of_block.leaves |= static_cast<std::uint8_t>(child.isLeaf() << lane);
       }
     }
     tree_->children.shrink_to_fit();
-    tree_->nodes.shrink_to_fit();
-    tree_->blocks.shrink_to_fit();
+    tree_->blocks.resize(tree_->children.size());
+    tree_->nodes.resize(links.size());
+    for (std::size_t n = 0; n < links.size(); ++n) {
+      tree_->nodes[n].child = links[n].child;
+      tree_->nodes[n].first_child = links[n].first_child;
+    }
   }
 
   /// All volumes, bottom-up: nodes lie before their children.
@@ -207,14 +213,32 @@ class Preparation {
     }
     const Ownership owned = assignFeatures(corners_, order, begin, mesh_.num_vertices);
     tree_->leaves.reserve(leaves_.size());
-    tree_->lanes.reserve(leaves_.size() * 22);
+    tree_->lanes.reserve(countRows(order, begin));
     tree_->features.reserve(order.size() + owned.edges.size() + owned.vertices.size());
     LeafContent content;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
       gather(order.data() + begin[l], begin[l + 1] - begin[l], owned, l, content);
       appendLeaf(content, *tree_);
     }
-    tree_->lanes.shrink_to_fit();
+  }
+
+  /// Returns the rows that the leaves will have: copies of so many would take long.
+  std::size_t countRows(const std::vector<std::uint32_t>& order,
+                        const std::vector<std::uint32_t>& begin) {
+    std::size_t rows = 0;
+    for (std::size_t l = 0; l + 1 < begin.size(); ++l) {
+      ++stamp_;
+      int vertices = 0;
+      for (std::uint32_t i = begin[l]; i < begin[l + 1]; ++i) {
+        for (const std::uint32_t v : corners_[order[i]]) {
+          vertices += std::exchange(stamps_[v], stamp_) != stamp_ ? 1 : 0;
+        }
+      }
+      Leaf leaf;
+      leaf.num_vertices = static_cast<std::uint8_t>(vertices);
+      rows += leaf.rows();
+    }
+    return rows;
   }
 
   Eigen::Vector3d cornerOf(FeatureId id, std::uint32_t step) const {

@@ -78,6 +78,11 @@ struct FeatureId {
   std::uint32_t corner() const { return packed & 3U; }
 };
 
+/// Rows of a chunk of faces: unit normal and offset, then three inward unit edge planes; 16 rows.
+/// A face too thin or too small for a normal has height 0 everywhere and lies inside everywhere: it
+/// is always a candidate.
+enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
+
 /// Up to eight triangles, and the edges and vertices that the leaf owns: every edge and every
 /// vertex of the mesh belongs to one leaf only. In `lanes` from `offset`: vertices (chunks of x, y,
 /// z; owned ones first), faces (a chunk of FaceRow). Lanes that aren't used repeat the last
@@ -92,12 +97,8 @@ struct Leaf {
   std::uint16_t ends[kMaxLeafFeatures] = {};    ///< vertices of each edge: start, and end << 8
 
   int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }
+  std::size_t rows() const { return static_cast<std::size_t>(3 * vertexChunks() + kFaceRows); }
 };
-
-/// Rows of a chunk of faces: unit normal and offset, then three inward unit edge planes; 16 rows.
-/// A face too thin or too small for a normal has height 0 everywhere and lies inside everywhere: it
-/// is always a candidate.
-enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
 /// The number of a block's children, and as bits the children that are flat and that are leaves.
 struct Children {

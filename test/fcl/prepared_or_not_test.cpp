@@ -4,7 +4,8 @@
 // What a query answers doesn't depend on whether its model is prepared, which only says who asked
 // before: complete and truncated lists, a contact with its geometry, distances with points and ids,
 // at contact too, against meshes, all shapes and octrees. (Which contact fcl::collide names where
-// one is asked for, without its geometry, may depend on it.)
+// one is asked for, without its geometry, and which triangles fcl::distance names at distance 0,
+// without their points, may depend on it.)
 
 #include <gtest/gtest.h>
 

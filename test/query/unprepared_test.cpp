@@ -120,11 +120,30 @@ TEST(Unprepared, OtherQuestionsPrepare) {
     if (question == 0) ask(fcl::CollisionRequestd(2));
     if (question == 1) ask(fcl::CollisionRequestd(1, true));
     if (question == 2) {
-      fcl::distance(a.get(), near.X_WA, b.get(), near.X_WB, fcl::DistanceRequestd(), distance);
+      fcl::distance(a.get(), near.X_WA, b.get(), near.X_WB, fcl::DistanceRequestd(true), distance);
+      EXPECT_EQ(distance.min_distance, 0);
     }
     if (question == 3) closerThan(*a, near.X_WA, *b, near.X_WB, 0.1);
     EXPECT_GT(bytesOf(*a, *b), 0U) << question;
   }
+}
+
+TEST(Unprepared, DistanceZeroWithoutPointsPreparesNothing) {
+  const auto a = kiosModel(scenes::bumpyTorus(2'000)), b = kiosModel(scenes::bumpyTorus(2'100));
+  const fcl::Boxd box(1, 1, 1);
+  const auto isApart = [&](const fcl::CollisionGeometryd& other, const fcl::DistanceRequestd& asked,
+                           const Vector3d& at) {
+    fcl::DistanceResultd result;
+    fcl::distance(a.get(), Transform3d::Identity(), &other, Transform3d(fcl::Translation3d(at)),
+                  asked, result);
+    return result.min_distance > 0;
+  };
+  const Vector3d near(0.3, 0.2, 0.1);
+  EXPECT_FALSE(isApart(*b, fcl::DistanceRequestd(), near));
+  EXPECT_FALSE(isApart(box, fcl::DistanceRequestd(), {1, 0, 0}));
+  EXPECT_EQ(bytesOf(*a, *b), 0U);
+  EXPECT_FALSE(isApart(*b, fcl::DistanceRequestd(true), near));
+  EXPECT_GT(bytesOf(*a, *b), 0U);
 }
 
 // Trees are refitted where there are some, which costs less than a search without.

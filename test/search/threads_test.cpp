@@ -41,8 +41,9 @@ Answer ask(const Modeld& a, const Modeld& b, const Frame& frame) {
   fcl::CollisionResultd contacts;
   SearchCounts counts;
   Answer answer;
+  // With points: at distance 0 the pair is the same, then, whoever asked first.
   answer.distance =
-      distanceMeshes(a, frame.X_WA, b, frame.X_WB, fcl::DistanceRequestd(), distance, &counts);
+      distanceMeshes(a, frame.X_WA, b, frame.X_WB, fcl::DistanceRequestd(true), distance, &counts);
   collideMeshes(a, frame.X_WA, b, frame.X_WB, fcl::CollisionRequestd(kAllContacts), contacts,
                 &counts);
   answer.a = distance.b1;
