@@ -31,7 +31,8 @@ Setting settingOf(const Row& row) {
 // turned or near content badly: who asks for those doesn't compare their builds.
 bool isRival(const Row& row) {
   if (row.bv.rfind("fcl_", 0) != 0) return row.bv == "embree";
-  return row.query != "build" || (row.bv != "fcl_aabb" && row.bv.rfind("fcl_kdop", 0) != 0);
+  const bool builds = row.query == "build" || row.query == "first_query";
+  return !builds || (row.bv != "fcl_aabb" && row.bv.rfind("fcl_kdop", 0) != 0);
 }
 
 bool isTimed(const Row& row) {
