@@ -101,21 +101,27 @@ MotionSearch::Look MotionSearch::proven(const Task& task, double s, double apart
 
 // Across the direction of the nearest points most of the motion doesn't matter.
 MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, double slab,
-                                         Pair& pair, const Configuration& c,
-                                         const PairMotion& motion) const {
+                                         Pair& pair, const Configuration& c) const {
   using Outcome = Look::Outcome;
   if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
   const double s = look.s;
   double gap = slab - request_.min_separation;
-  if (!(gap > 0)) gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
-  if (!(gap > 0)) return look;
-  const auto closing = motion.closing(pair.direction * (1 + 0x1p-50));
+  CapsuleDepth depth_a, depth_b;
+  if (!(gap > 0)) {
+    gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
+    if (!(gap > 0)) return look;
+    const double pad = path_.pad(pair.a, pair.b);
+    depth_a = c.depth(pair.a, pair.direction, pad);
+    depth_b = c.depth(pair.b, -pair.direction, pad);
+  }
+  const SlabMotion closing(pair.direction * (1 + 0x1p-50), c.motion(pair.a, pair.shared), depth_a,
+                           c.motion(pair.b, pair.shared), depth_b);
   Look wide = look;
   wide.outcome = Outcome::kPart;
   const double back = std::max(0.0, s - task.from) * (1 + 0x1p-50),
                forth = std::max(0.0, task.to - s) * (1 + 0x1p-50);
-  const double way_back = motion.timeForSlab(gap, closing.back, back),
-               way_forth = motion.timeForSlab(gap, closing.forth, forth);
+  const double way_back = closing.timeFor(gap, -1, back),
+               way_forth = closing.timeFor(gap, 1, forth);
   const double from = s - way_back * (1 - 0x1p-40) + 0x1p-52,
                to = s + way_forth * (1 - 0x1p-40) - 0x1p-52;
   wide.from = way_back >= back ? task.from : std::min(look.from, from);
@@ -142,7 +148,7 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
     return proven(task, s, roots, motion);
   }
   const Look nothing = {Outcome::kUndecided, s, s, s, 0};
-  const Look before = widened(task, nothing, -kInfinity, pair, c, motion);
+  const Look before = widened(task, nothing, -kInfinity, pair, c);
   if (before.outcome == Outcome::kProven) return before;
   if (before.outcome == Outcome::kPart &&
       before.to - before.from > kSlabShare * (task.to - task.from)) {
@@ -159,8 +165,8 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   }
   const Nearness near = queries_.ask(pair, c, enough, roots);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
-  const Look by_query = widened(task, proven(task, s, std::max(near.apart, roots), motion),
-                                near.slab, pair, c, motion);
+  const Look by_query =
+      widened(task, proven(task, s, std::max(near.apart, roots), motion), near.slab, pair, c);
   double& way = suspects_[task.suspect].way;
   way = std::max(0.5 * way, by_query.to - by_query.from);
   return by_query;

@@ -118,8 +118,8 @@ class MotionSearch {
   Look knownLocally(const Task& task) const;
   Look proven(const Task& task, double s, double apart, const PairMotion& motion) const;
   /// `slab` is the width of one across the pair's direction; if there is none, one is looked for.
-  Look widened(const Task& task, const Look& look, double slab, Pair& pair, const Configuration& c,
-               const PairMotion& motion) const;
+  Look widened(const Task& task, const Look& look, double slab, Pair& pair,
+               const Configuration& c) const;
   bool contactAt(double s, int suspect);
   bool budgetSpent() const { return counts_.queries >= request_.max_queries; }
 

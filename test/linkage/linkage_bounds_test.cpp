@@ -11,13 +11,20 @@
 namespace kios::testing {
 namespace {
 
+using articulated::CapsuleDepth;
 using articulated::Configuration;
 using articulated::PairMotion;
 using articulated::Path;
+using articulated::SlabMotion;
 
 Mesh linkMesh(Random& random) {
-  Mesh mesh =
-      random.unit() < 0.5 ? scenes::bumpyTorus(100) : scenes::subdividedBox({4, 0.3, 0.2}, 1);
+  const double kind = random.unit(), thin = std::pow(10, random.uniform(-3, 0));
+  Mesh mesh = kind < 0.4   ? scenes::bumpyTorus(100)
+              : kind < 0.7 ? scenes::subdividedBox({4, 0.3 * thin, 0.2 * thin}, 1)
+                           : scenes::icosphere(1, 1);
+  if (kind >= 0.7) {  // a spindle, whose middle lies lowest
+    for (Vector3d& p : mesh.vertices) p = p.cwiseProduct(Vector3d(2, 0.3 * thin, 0.2 * thin));
+  }
   const double size = random.uniform(0.05, 0.3);
   for (Vector3d& p : mesh.vertices) p *= size;
   return mesh;
@@ -60,7 +67,8 @@ struct TwoChains {
 // much more than what happens; and so does any slab.
 TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
   Random random(3);
-  double largest = 0, largest_swept = 0, largest_slab = 0;
+  double largest = 0, largest_swept = 0, largest_slab = 0, largest_deep = 0;
+  int much_longer = 0;
   for (int i = 0; i < 3000; ++i) {
     const TwoChains chains(random);
     const Linkage& linkage = chains.robot.linkage;
@@ -80,13 +88,25 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
     const double swept = path.swept(0, shared) + path.swept(1, shared);
     const auto X = chains.robot.poses(between(q0, q1, s));
     const Vector3d n_W = inBall(random).normalized();
-    const auto closing = motion.closing(n_W);
+    const auto slab = [&](const CapsuleDepth& a, const CapsuleDepth& b) {
+      return SlabMotion(n_W, c.motion(0, shared), a, c.motion(1, shared), b);
+    };
+    const auto gapAlong = [&](const Vector3d& n, const auto& poses) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Vector3d& y : chains.meshes[1].vertices) low = std::min(low, n.dot(poses[1] * y));
+      for (const Vector3d& x : chains.meshes[0].vertices)
+        high = std::max(high, n.dot(poses[0] * x));
+      return low - high;
+    };
+    const SlabMotion closing = slab({}, {}),
+                     deep = slab(c.depth(0, n_W, pad), c.depth(1, -n_W, pad));
+    Vector3d point;
+    const double width = -c.support(1, -n_W, point) - c.support(0, n_W, point);
     for (const double other : {0.0, 1.0, random.unit()}) {
       const double h = std::abs(other - s);
       const auto Y = chains.robot.poses(between(q0, q1, other));
       const double bound = motion.during(h);
-      const double speed = other > s ? closing.forth : closing.back;
-      double least = std::numeric_limits<double>::infinity(), least_later = least;
+      const double sign = other > s ? 1 : -1;
       for (std::size_t a = 0; a < chains.meshes[0].vertices.size(); a += 7) {
         for (std::size_t b = 0; b < chains.meshes[1].vertices.size(); b += 5) {
           const Vector3d &x = chains.meshes[0].vertices[a], &y = chains.meshes[1].vertices[b];
@@ -101,23 +121,22 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
       }
       // The slab is fixed to the link that carries both; there is one in the world if none does.
       if (shared > 0) continue;
-      double low = -least, low_later = -least;
-      for (const Vector3d& y : chains.meshes[1].vertices) {
-        least = std::min(least, n_W.dot(X[1] * y));
-        least_later = std::min(least_later, n_W.dot(Y[1] * y));
-      }
-      for (const Vector3d& x : chains.meshes[0].vertices) {
-        low = std::max(low, n_W.dot(X[0] * x));
-        low_later = std::max(low_later, n_W.dot(Y[0] * x));
-      }
-      const double used = (least - low) - (least_later - low_later);
+      const double used = gapAlong(n_W, X) - gapAlong(n_W, Y);
       for (const double gap : {0.3, 0.01, 1e-4}) {
-        // Within the time that a slab of this width holds, no more than it was used up.
-        const double time = motion.timeForSlab(gap, speed, 1);
+        // Within the time that a slab of this width holds, no more than it was used up: of that
+        // between the bodies, and where capsules' depths count, between their supports.
+        const double time = closing.timeFor(gap, sign, 1);
         if (h <= time) {
           ASSERT_LE(used, gap + pad) << i;
           largest_slab = std::max(largest_slab, used / gap);
         }
+        const double longer = deep.timeFor(gap, sign, 1);
+        ASSERT_GE(longer, 0.9 * time) << i;  // both stop short of what they could
+        much_longer += longer > 1.5 * time;
+        const double end = std::clamp(s + sign * longer, 0.0, 1.0);
+        const double of_supports = width - gapAlong(n_W, chains.robot.poses(between(q0, q1, end)));
+        ASSERT_LE(of_supports, gap + pad) << i;
+        largest_deep = std::max(largest_deep, of_supports / gap);
         const double way = motion.timeFor(gap, 1);
         ASSERT_LE(motion.during(way), gap * (1 + 1e-12));
       }
@@ -125,11 +144,13 @@ TEST(LinkageBounds, DistancesAndSlabsChangeByNoMore) {
   }
   std::printf(
       "up to %.3f of the bound of distances happens, %.3f of the one without a configuration, "
-      "and %.3f of a slab\n",
-      largest, largest_swept, largest_slab);
+      "%.3f of a slab, and %.3f of one where depths count\n",
+      largest, largest_swept, largest_slab, largest_deep);
   EXPECT_GT(largest, 0.9);
   EXPECT_GT(largest_swept, 0.7);
   EXPECT_GT(largest_slab, 0.8);
+  EXPECT_GT(largest_deep, 0.8);
+  EXPECT_GT(much_longer, 500);
 }
 
 // |x(s + h) - 2 x(s) + x(s - h)| <= h^2 max |x''|, of every point of a body.
@@ -152,8 +173,15 @@ TEST(LinkageBounds, AccelerationsAreNoLarger) {
       const auto Z = chains.robot.poses(between(q0, q1, 0.5 - h));
       for (int b = 0; b < 2; ++b) {
         const auto& change = c.motion(b, 0).change;
-        const double bound = h * h * (change[0] + h * change[1]);
+        const auto& body = chains.robot.linkage.impl().bodies[b];
+        const Vector3d &first = body.content.ends[0], along = body.content.ends[1] - first;
         for (const Vector3d& p : chains.meshes[b].vertices) {
+          const double share =
+              std::clamp((body.X_LB * p - first).dot(along) / along.squaredNorm(), 0.0, 1.0);
+          const auto between = [&](int k) {
+            return (1 - share) * change[0][k] + share * change[1][k];
+          };
+          const double bound = h * h * (between(0) + h * between(1));
           const double second = (Y[b] * p - 2 * (X[b] * p) + Z[b] * p).norm();
           ASSERT_LE(second, bound + 1e-13) << i;
           if (bound > 1e-6) largest = std::max(largest, second / bound);
