@@ -23,23 +23,6 @@ void requireCoordinates(const Eigen::VectorXd& q, int size, const char* name) {
   refuse("a coordinate of ", name, q.allFinite() ? " is too large." : " is NaN or infinite.");
 }
 
-constexpr double kTooMuch = 0x1p500;  // what overflows, or nearly so, proves nothing
-
-// What `used(time, rate)` says is used up, at which rate too, is convex in time and not above 0 at
-// 0. Newton's steps come down to the time looked for from above, and the chord from 0 then ends
-// below it.
-template <typename Used>
-double timeUntil(double gap, double longest, int steps, const Used& used) {
-  double time = longest, rate = 0, sum = used(time, rate);
-  if (sum < gap) return longest;
-  if (!(sum < kTooMuch)) return 0;
-  for (int step = 0; step < steps && sum > gap; ++step) {
-    time -= (sum - gap) / rate;
-    sum = used(time, rate);
-  }
-  return sum > gap ? time * (gap / sum) * (1 - 0x1p-45) : time * (1 - 0x1p-45);
-}
-
 }  // namespace
 
 Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen::VectorXd& q1)
@@ -165,8 +148,7 @@ void Configuration::addMotions(const BodyData& body, int id) const {
   motions[moving.size()] = BodyMotion();
   Vector3d turning = Vector3d::Zero();
   Array2d vx = Array2d::Zero(), vy = vx, vz = vx;
-  Array2d second = Array2d::Zero(), third = second, outer = second, sum = second;
-  double most = 0, rates = 0;
+  double most = 0, second = 0, third = 0, outer = 0, rates = 0;
   for (std::size_t i = moving.size(); i-- > 0;) {
     const int link = moving[i];
     const double rate = path_->rate(link), speed = std::abs(rate) * (1 + 0x1p-50);
@@ -176,27 +158,22 @@ void Configuration::addMotions(const BodyData& body, int id) const {
       vy += rate * axis.y();
       vz += rate * axis.z();
       most += speed;
-      sum += speed;
     } else if (speed > 0) {
       const Array2d dx = x - origin.x(), dy = y - origin.y(), dz = z - origin.z();
       const Array2d arm_x = axis.y() * dz - axis.z() * dy, arm_y = axis.z() * dx - axis.x() * dz,
                     arm_z = axis.x() * dy - axis.y() * dx;
-      Array2d away = (arm_x * arm_x + arm_y * arm_y + arm_z * arm_z).sqrt() +
-                     (body.content.capsule_radius + rounding);
-      double farthest = away.maxCoeff();
-      if (link == body.link && body.own_radius < farthest) {
-        farthest = body.own_radius;
-        if (farthest < away.minCoeff()) away = farthest;
-      }
+      double away = std::sqrt((arm_x * arm_x + arm_y * arm_y + arm_z * arm_z).maxCoeff()) +
+                    body.content.capsule_radius;
+      away += rounding;
+      if (link == body.link) away = std::min(away, body.own_radius);
       turning += rate * axis;
       vx += rate * arm_x;
       vy += rate * arm_y;
       vz += rate * arm_z;
-      second += speed * (speed * away + 2 * sum);
-      third += speed * (speed * sum + 2 * outer);
-      outer += speed * sum;
-      sum += speed * away;
-      most += speed * farthest;
+      second += speed * (speed * away + 2 * most);
+      third += speed * (speed * most + 2 * outer);
+      outer += speed * most;
+      most += speed * away;
       rates += speed;
     }
     BodyMotion& motion = motions[i];
@@ -205,25 +182,21 @@ void Configuration::addMotions(const BodyData& body, int id) const {
     motion.ends[1] = {vx[1], vy[1], vz[1]};
     motion.swing = turning * body.content.capsule_radius;
     motion.rounding = 4 * rounding * rates + 0x1p-40 * most;
-    for (int end = 0; end < 2; ++end) {
-      motion.change[end][0] = second[end] * kSums;
-      motion.change[end][1] = third[end] * kSums;
-    }
+    motion.change[0] = second * kSums;
+    motion.change[1] = third * kSums;
   }
 }
 
 double BodyMotion::during(double time) const {
   const double speed =
       std::sqrt(std::max(ends[0].squaredNorm(), ends[1].squaredNorm())) + swing.norm() + rounding;
-  const double second = std::max(change[0][0], change[1][0]),
-               third = std::max(change[0][1], change[1][1]);
-  return std::min(most, speed + 0.5 * time * (second + time * third)) * time;
+  return std::min(most, speed + 0.5 * time * (change[0] + time * change[1])) * time;
 }
 
 PairMotion::PairMotion(const BodyMotion& a, const BodyMotion& b)
     : most_(a.most + b.most),
-      second_(std::max(a.change[0][0], a.change[1][0]) + std::max(b.change[0][0], b.change[1][0])),
-      third_(std::max(a.change[0][1], a.change[1][1]) + std::max(b.change[0][1], b.change[1][1])) {
+      second_(a.change[0] + b.change[0]),
+      third_(a.change[1] + b.change[1]) {
   double square = 0;
   for (const Vector3d& u : a.ends) {
     for (const Vector3d& v : b.ends) square = std::max(square, (u - v).squaredNorm());
@@ -231,57 +204,18 @@ PairMotion::PairMotion(const BodyMotion& a, const BodyMotion& b)
   first_ = std::sqrt(square) + a.swing.norm() + b.swing.norm() + a.rounding + b.rounding;
 }
 
+// What a distance changes by is convex in time and 0 at 0. Newton's steps come down to the time
+// looked for from above, and the chord from 0 then ends below it.
 double PairMotion::timeFor(double gap, double longest) const {
-  const double time = timeUntil(gap, longest, 3, [this](double t, double& rate) {
-    rate = first_ + t * (second_ + 1.5 * t * third_);
-    return after(t, first_);
-  });
-  return std::max(time, std::min(longest, gap / most_));
-}
-
-SlabMotion::SlabMotion(const Vector3d& n, const BodyMotion& a, const CapsuleDepth& of_a,
-                       const BodyMotion& b, const CapsuleDepth& of_b)
-    : swing_(n.cross(a.swing).norm() + n.cross(b.swing).norm() + a.rounding + b.rounding) {
-  set(sides_[0], n, a, of_a);
-  set(sides_[1], -n, b, of_b);
-}
-
-void SlabMotion::set(Side& side, const Vector3d& n, const BodyMotion& motion,
-                     const CapsuleDepth& depth) {
-  for (int end = 0; end < 2; ++end) {
-    side.parts[end] = {std::max(0.0, depth.ends[end]), n.dot(motion.ends[end]),
-                       motion.change[end][0], motion.change[end][1]};
+  double time = longest, changed = after(time);
+  if (changed < gap) return longest;
+  const double at_most = std::min(longest, gap / most_);
+  if (!(changed < 0x1p500)) return at_most;  // an overflow proves nothing
+  for (int step = 0; step < 3; ++step) {
+    time -= (changed - gap) / (first_ + time * (second_ + 1.5 * time * third_));
+    changed = after(time);
   }
-  side.parts[2] = side.parts[0];
-  const double first = depth.ends[0], last = depth.ends[1];
-  if (!(first < 0 && last > 0) && !(first > 0 && last < 0)) return;
-  const double share = first / (first - last);
-  const auto between = [share](double x, double y) { return x + share * (y - x); };
-  const Part &x = side.parts[0], &y = side.parts[1];
-  side.parts[2] = {0, between(x.speed, y.speed), between(x.second, y.second),
-                   between(x.third, y.third)};
-}
-
-double SlabMotion::timeFor(double gap, double sign, double longest) const {
-  constexpr int kSteps = 5;
-  return timeUntil(gap, longest, kSteps, [this, sign](double t, double& rate) {
-    rate = swing_;
-    double sum = t * swing_;
-    for (const Side& side : sides_) {
-      double most = -kInfinity, its_rate = 0;
-      for (const Part& part : side.parts) {
-        const double speed = sign * part.speed;
-        const double used = t * (speed + 0.5 * t * (part.second + t * part.third)) - part.depth;
-        if (!(used < kTooMuch)) return kInfinity;
-        if (!(used > most)) continue;
-        most = used;
-        its_rate = speed + t * (part.second + 1.5 * t * part.third);
-      }
-      sum += most;
-      rate += its_rate;
-    }
-    return sum;
-  });
+  return std::max(at_most, (changed > gap ? time * (gap / changed) : time) * (1 - 0x1p-45));
 }
 
 }  // namespace kios::articulated

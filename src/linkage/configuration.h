@@ -119,10 +119,7 @@ struct BodyMotion {  // NOLINT(bugprone-reserved-identifier): in the copy of an 
   Eigen::Vector3d ends[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Vector3d swing = Eigen::Vector3d::Zero();
   double rounding = 0;
-  /// At an end of the capsule, accelerations are at most change[end][0] + change[end][1] h, h away
-  /// from s; elsewhere in it they are at most what lies between, as the distance from an axis is
-  /// convex along the capsule.
-  double change[2][2] = {};
+  double change[2] = {0, 0};  ///< accelerations are at most change[0] + change[1] h, h away from s
 
   /// No point moves farther than this within `time` of the configuration.
   double during(double time) const;
@@ -134,65 +131,27 @@ class PairMotion {
   PairMotion(const BodyMotion& a, const BodyMotion& b);
 
   /// Within `time` of the configuration no distance changes by more than this.
-  double during(double time) const { return std::min(most_ * time, after(time, first_)); }
+  double during(double time) const { return std::min(most_ * time, after(time)); }
   /// A time of at most `longest` in which no distance changes by more than `gap` > 0.
   double timeFor(double gap, double longest) const;
 
  private:
-  double after(double time, double speed) const {
-    return time * (speed + 0.5 * time * (second_ + time * third_));
+  double after(double time) const {
+    return time * (first_ + 0.5 * time * (second_ + time * third_));
   }
 
   double most_, first_, second_, third_;
 };
 
-/// How deep the ends of a body's capsule lie behind a plane that bounds the body, their radius
-/// taken off; nothing is known where they are -infinity.
-struct CapsuleDepth {
-  double ends[2] = {-kInfinity, -kInfinity};
-};
-
-/// How a slab between two bodies is used up. Of two planes across n, |n| = 1, one bounds a from
-/// above and the other b from below. A point of a whose nearest one on the capsule's axis lies at a
-/// share l from its first end to its last is at least max(0, (1 - l) d_0 + l d_1) below its plane,
-/// d the ends' depths, and comes nearer to it by at most
-///   t v(l) + t^2 / 2 (second(l) + t third(l)) + t (|n x swing| + rounding)
-/// within t of s, where v, second and third lie between those of the ends as l tells. What that
-/// uses up is linear in l on both sides of where the depths change their sign, and so largest there
-/// or at an end: a link's far end is as fast as the link is long, but lies far behind.
-///
-///        n ^    ------------------------ the plane that bounds b
-///          |    ________________________ the plane that bounds a
-///               (____                 |
-///         end 0   (  ) --_____        | d_1
-///                             -----(  )   end 1
-class SlabMotion {
- public:
-  SlabMotion(const Eigen::Vector3d& n, const BodyMotion& a, const CapsuleDepth& of_a,
-             const BodyMotion& b, const CapsuleDepth& of_b);
-
-  /// Returns a time of at most `longest` in which a slab as wide as `gap` > 0 isn't used up, as s
-  /// grows (sign 1) or falls (-1).
-  double timeFor(double gap, double sign, double longest) const;
-
- private:
-  /// What is used up where the depth is known: at an end, or where the depths change their sign.
-  struct Part {
-    double depth, speed, second, third;
-  };
-  struct Side {
-    Part parts[3];
-  };
-  static void set(Side& side, const Eigen::Vector3d& n, const BodyMotion& motion,
-                  const CapsuleDepth& depth);
-
-  Side sides_[2];
-  double swing_;
-};
-
 /// The bodies at a configuration s of a path.
 class Configuration {
  public:
+  /// A link in the world, and the axis of its joint.
+  struct PlacedLink {
+    Eigen::Matrix3d R;
+    Eigen::Vector3d t, axis;
+  };
+
   Configuration(const Path& path, double s) { set(path, s); }
   /// Moves the bodies of the same path.
   void set(const Path& path, double s);
@@ -222,20 +181,8 @@ class Configuration {
     point = link.t + link.R * point;
     return n.dot(link.t) + along;
   }
-  /// How deep a body's capsule lies behind its support along n; unknown for obstacles, which don't
-  /// move. `pad` is taken off.
-  CapsuleDepth depth(int id, const Eigen::Vector3d& n, double pad) const {
-    CapsuleDepth depth;
-    const BodyData& body = path_->linkage().bodies[id];
-    if (body.carried < 0 || !body.bounded) return depth;
-    const PlacedLink& link = links_[body.link];
-    const Eigen::Vector3d along = link.R.transpose() * n;
-    const double support = body.supports.along(along) - body.content.capsule_radius - pad;
-    for (int end = 0; end < 2; ++end) {
-      depth.ends[end] = support - along.dot(body.content.ends[end]);
-    }
-    return depth;
-  }
+  const Path& path() const { return *path_; }
+  const PlacedLink& link(int link) const { return links_[link]; }
   /// By the joints after the first `shared` that carry the body.
   const BodyMotion& motion(int id, int shared) const {
     const BodyData& body = bodyAt(id);
@@ -245,11 +192,6 @@ class Configuration {
   }
 
  private:
-  /// A link in the world, and the axis of its joint.
-  struct PlacedLink {
-    Eigen::Matrix3d R;
-    Eigen::Vector3d t, axis;
-  };
   struct PlacedBody {
     fcl::Transform3d X;
     Eigen::Vector3d center;

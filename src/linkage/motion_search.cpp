@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linkage/orbits.h"
+#include "linkage/slab_motion.h"
 #include "volume/rounding.h"
 
 namespace kios::articulated {
@@ -106,22 +107,15 @@ MotionSearch::Look MotionSearch::widened(const Task& task, const Look& look, dou
   if (look.outcome != Outcome::kPart && look.outcome != Outcome::kUndecided) return look;
   const double s = look.s;
   double gap = slab - request_.min_separation;
-  CapsuleDepth depth_a, depth_b;
-  if (!(gap > 0)) {
-    gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
-    if (!(gap > 0)) return look;
-    const double pad = path_.pad(pair.a, pair.b);
-    depth_a = c.depth(pair.a, pair.direction, pad);
-    depth_b = c.depth(pair.b, -pair.direction, pad);
-  }
-  const SlabMotion closing(pair.direction * (1 + 0x1p-50), c.motion(pair.a, pair.shared), depth_a,
-                           c.motion(pair.b, pair.shared), depth_b);
+  const bool planes = !(gap > 0);
+  if (planes) gap = queries_.slab(pair, c, kInfinity) - request_.min_separation;
+  if (!(gap > 0)) return look;
+  const SlabMotion motion(c, pair, planes);
   Look wide = look;
   wide.outcome = Outcome::kPart;
   const double back = std::max(0.0, s - task.from) * (1 + 0x1p-50),
                forth = std::max(0.0, task.to - s) * (1 + 0x1p-50);
-  const double way_back = closing.timeFor(gap, -1, back),
-               way_forth = closing.timeFor(gap, 1, forth);
+  const double way_back = motion.timeFor(gap, -1, back), way_forth = motion.timeFor(gap, 1, forth);
   const double from = s - way_back * (1 - 0x1p-40) + 0x1p-52,
                to = s + way_forth * (1 - 0x1p-40) - 0x1p-52;
   wide.from = way_back >= back ? task.from : std::min(look.from, from);
