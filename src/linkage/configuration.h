@@ -113,9 +113,8 @@ class Path {
 /// s.
 struct BodyMotion {  // NOLINT(bugprone-reserved-identifier): in the copy of an array
   double most = 0;   ///< no point moves farther than this in a unit of s, from the configuration on
-  /// Velocities of the ends of the capsule, and the angular one times its radius. Along any
-  /// direction n no point of the capsule is faster than an end by more than |n x swing|, and
-  /// `rounding`.
+  /// Velocities of the ends of the capsule, and the angular one times its radius: no point of the
+  /// capsule is faster than an end by more than |swing|, and `rounding`.
   Eigen::Vector3d ends[2] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   Eigen::Vector3d swing = Eigen::Vector3d::Zero();
   double rounding = 0;

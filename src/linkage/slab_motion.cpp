@@ -9,6 +9,12 @@ namespace kios::articulated {
 
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double kMostTurns = 0x1p100;  // whose cubes don't overflow
+
+}  // namespace
+
 SlabMotion::SlabMotion(const Configuration& c, const Pair& pair, bool planes)
     : pad_(c.path().pad(pair.a, pair.b)) {
   add(c, pair.a, pair.shared, pair.direction, planes);
@@ -35,6 +41,7 @@ void SlabMotion::add(const Configuration& c, int id, int shared, const Vector3d&
   Vector3d velocity = Vector3d::Zero(), turning = velocity, second = velocity;
   double change = 0, most = 0;  // what the joints after it move the body by
   turns_ += turns;
+  if (!(turns < kMostTurns)) return;
   for (auto i = moving.end(); i != first;) {
     const Configuration::PlacedLink& joint = c.link(*--i);
     const double rate = path.rate(*i), speed = std::abs(rate);
@@ -92,11 +99,11 @@ double SlabMotion::usedUpTo(double time, double sign) const {
 
 double SlabMotion::timeFor(double gap, double sign, double longest) const {
   constexpr int kTries = 5;
+  if (!(turns_ < kMostTurns)) return 0;
   double time = longest;
   for (int i = 0; i < kTries; ++i) {
     const double sum = usedUpTo(time, sign);
     if (sum < gap) return time;
-    if (!(sum < 0x1p500)) return 0;  // an overflow proves nothing
     time *= std::clamp(0.95 * std::sqrt(gap / sum), 0.1, 0.9);
   }
   return 0;
