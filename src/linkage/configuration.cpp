@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "volume/errors.h"
 #include "volume/rotation.h"
@@ -143,6 +144,7 @@ void Configuration::addMotions(const BodyData& body, int id) const {
   const double rounding = path_->axisRounding(id);
   // For the stretch of rotations that are ones to rounding, and for the sums.
   constexpr double kSums = 1 + 0x1p-30;
+  constexpr double kLargest = std::numeric_limits<double>::max();  // infinity times 0 is NaN
 
   BodyMotion* const motions = &motions_[body.first_motion];
   motions[moving.size()] = BodyMotion();
@@ -183,7 +185,7 @@ void Configuration::addMotions(const BodyData& body, int id) const {
     motion.swing = turning * body.content.capsule_radius;
     motion.rounding = 4 * rounding * rates + 0x1p-40 * most;
     motion.change[0] = second * kSums;
-    motion.change[1] = third * kSums;
+    motion.change[1] = std::min(third * kSums, kLargest);
   }
 }
 

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -22,10 +24,12 @@ struct ObstacleBox {
 /// distance that was computed from it exceeds `limit` only if the exact one exceeds `far`.
 ///
 /// The point rounds by 2^-24 of its coordinates, differences, squares and sums by less than 2^-21
-/// relatively, and squares that underflow by less than the least normal number.
+/// relatively, and squares that underflow by less than the least normal number. Points beyond all
+/// floats are moved in, nearer to everything.
 struct FloatBall {
   FloatBall(const fcl::Vector3d& center, double far) {
-    for (int i = 0; i < 3; ++i) place[i] = static_cast<float>(center[i]);
+    constexpr double kMost = std::numeric_limits<float>::max();
+    for (int i = 0; i < 3; ++i) place[i] = static_cast<float>(std::clamp(center[i], -kMost, kMost));
     const double reach = far + 0x1p-23 * center.lpNorm<1>();
     limit = roundUp<float>(reach * reach * (1 + 0x1p-20) + 0x1p-126);
   }
@@ -96,7 +100,6 @@ bool ObstacleTree::walk(const fcl::Vector3d& center, double far, const Visit& vi
     Float4 square = zero;
     for (int i = 0; i < 3; ++i) {
       const Float4 p = lanes::broadcast(ball.place[i]);
-      // Where both are infinite the difference is NaN, and the other one counts.
       const Float4 off = lanes::max(p - lanes::load(node.high[i]), lanes::load(node.low[i]) - p);
       const Float4 outside = lanes::max(off, zero);
       square += outside * outside;

@@ -51,16 +51,18 @@ TEST(MotionTraps, Linkages) {
     if (!flat && name != "octree") robot.addBody(link, other, at(0, 0, 0.2));
     robot.addBody(-1, other, at(1.2, 0.4, 0.9));
     scenes::Random random(3);
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 15; ++i) {
       Eigen::VectorXd q0(3), q1(3);
       for (int k = 0; k < 3; ++k) {
         q0[k] = random.uniform(-2, 2);
         q1[k] = i % 4 == 3 ? q0[k] : q0[k] + random.uniform(-0.5, 0.5);
+        if (i >= 12) q1[k] = random.uniform(-1, 1) * (i == 12 ? 1e5 : i == 13 ? 1e40 : 0x1p300);
       }
       for (const bool first : {false, true}) {
         MotionRequest request;
         request.first_contact = first;
         request.resolution = 0x1p-10;
+        request.max_queries = 1000;
         if (i % 3 == 1) request.min_separation = 0.05;
         flags.during(name + ": checkMotion", [&] { checkMotion(robot, q0, q1, request); });
       }
