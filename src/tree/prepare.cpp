@@ -236,7 +236,7 @@ class Preparation {
       }
       Leaf leaf;
       leaf.num_vertices = static_cast<std::uint8_t>(vertices);
-      rows += leaf.rows();
+      rows += static_cast<std::size_t>(leaf.rows());
     }
     return rows;
   }

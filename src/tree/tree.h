@@ -97,7 +97,7 @@ struct Leaf {
   std::uint16_t ends[kMaxLeafFeatures] = {};    ///< vertices of each edge: start, and end << 8
 
   int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }
-  std::size_t rows() const { return static_cast<std::size_t>(3 * vertexChunks() + kFaceRows); }
+  int rows() const { return 3 * vertexChunks() + kFaceRows; }
 };
 
 /// The number of a block's children, and as bits the children that are flat and that are leaves.
