@@ -211,13 +211,13 @@ PairMotion::PairMotion(const BodyMotion& a, const BodyMotion& b)
 double PairMotion::timeFor(double gap, double longest) const {
   double time = longest, changed = after(time);
   if (changed < gap) return longest;
-  const double at_most = std::min(longest, gap / most_);
-  if (!(changed < 0x1p500)) return at_most;  // an overflow proves nothing
+  const double by_most = std::min(longest, gap / most_);
+  if (!(changed < 0x1p500)) return by_most;  // an overflow proves nothing
   for (int step = 0; step < 3; ++step) {
     time -= (changed - gap) / (first_ + time * (second_ + 1.5 * time * third_));
     changed = after(time);
   }
-  return std::max(at_most, (changed > gap ? time * (gap / changed) : time) * (1 - 0x1p-45));
+  return std::max(by_most, (changed > gap ? time * (gap / changed) : time) * (1 - 0x1p-45));
 }
 
 }  // namespace kios::articulated

@@ -11,8 +11,9 @@ namespace kios::articulated {
 ///
 /// A point x of a, at a depth D(x) >= 0 below its plane, comes nearer to it by at most
 ///   t n . x' + t^2 / 2 n . x'' + |t|^3 / 6 (jerk + |t| growth)
-/// within t of s. The body is rigid: with r the vector to x from the origin o of its link, and w_i
-/// the rate of joint i times its axis through o_i, j the joints after i,
+/// within t of s; lengths are the linkage's, times those of s, primes derivatives by s, and b is
+/// like a along -n. The body is rigid: with r the vector to x from the origin o of its link, and
+/// w_i the rate of joint i times its axis through o_i, j the joints after i,
 ///   n . x'  = n . o'  + (n x W) . r,                                   W = sum w_i
 ///   n . x'' = n . o'' + sum_i ((n x w_i) x (w_i + 2 sum_j w_j)) . r,
 ///   n . o'' = sum_i (n x w_i) . (w_i x (o - o_i) + 2 v_i),             v_i = o' by the joints j

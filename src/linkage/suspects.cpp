@@ -37,17 +37,17 @@ bool MotionSearch::movesWithin(double radii) const {
 
 // Most pairs are so far apart at the middle of the path that half of it doesn't bring them
 // together. Where many aren't, they are looked for anew in both halves, rather than one by one.
-// Contacts at the middles are found too: of long ways first, which are more likely in contact than
-// not where bodies overlap.
+// The middles are looked at for contacts too: on a long way, where one is likely, before the pairs
+// of all of it are gathered, which takes several times as long; else once these are many.
 bool MotionSearch::findSuspects() {
   constexpr std::size_t kMany = 16;
   constexpr double kShortest = 0.125, kFar = 32;
   std::vector<Interval>& intervals = scratch_->intervals;
   intervals.assign(1, {0, 1});
+  const bool contacts = looked_at_end_ && !request_.first_contact;
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     const auto [from, to] = intervals[i];
     const double s = 0.5 * (from + to);
-    const bool contacts = looked_at_end_ && !request_.first_contact;
     const bool far = !movesWithin(kFar / (to - from));
     if (contacts && far && touching(overlapping(gather(s, 0, kAll), s), s)) return true;
     const std::vector<Pair>& pairs = gather(s, 0.5 * (to - from), kAll);
