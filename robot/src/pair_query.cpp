@@ -149,6 +149,29 @@ Nearness ofMeshAndOther(const Body& mesh, const Transform3d& X_WM, const Body& o
   return near;
 }
 
+/// Returns the mesh of one triangle of a mesh; other geometries as they are.
+std::shared_ptr<const fcl::CollisionGeometryd> triangleOf(const Body& body, std::intptr_t id) {
+  if (!body.mesh) return body.geometry;
+  std::vector<Vector3d> vertices;
+  for (int k = 0; k < 3; ++k) {
+    vertices.push_back(body.mesh->vertices[body.mesh->tri_indices[id][k]]);
+  }
+  return makeModel(vertices, {{0, 1, 2}});
+}
+
+/// Returns the point of a contact whose ids are known. A query about the whole meshes that asks for
+/// it prepares them, which takes longer than thousands of these.
+Vector3d pointOf(const RobotContact& contact, const Body& a, const Transform3d& X_WA, const Body& b,
+                 const Transform3d& X_WB) {
+  const auto first = triangleOf(a, contact.id_a), second = triangleOf(b, contact.id_b);
+  const fcl::CollisionRequestd request(1, true);
+  fcl::CollisionResultd result;
+  if (fcl::collide(first.get(), X_WA, second.get(), X_WB, request, result) == 0) {
+    fcl::collide(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, result);
+  }
+  return result.getContact(0).pos;
+}
+
 }  // namespace
 
 Nearness distanceOf(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
@@ -196,7 +219,8 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     if (near.lower <= 0) nearContact(near);
     return near.lower <= 0;  // free only by proof, as distances round by the larger one's size
   }
-  fcl::CollisionRequestd request(1, contact != nullptr);
+  const bool solids = (!a.mesh || isSolid(*a.mesh)) && (!b.mesh || isSolid(*b.mesh));
+  fcl::CollisionRequestd request(1, contact != nullptr && solids);
   fcl::CollisionResultd result;
   const auto* const first = a.geometry.get();
   const auto* const second = b.geometry.get();
@@ -209,6 +233,7 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     contact->point = c.pos;
     contact->id_a = same ? c.b1 : c.b2;
     contact->id_b = same ? c.b2 : c.b1;
+    if (!solids) contact->point = pointOf(*contact, a, X_WA, b, X_WB);
     if (a.kind == BodyKind::kShape) contact->id_a = -1;
     if (b.kind == BodyKind::kShape || b.kind == BodyKind::kPlane) contact->id_b = -1;
     if (a.kind == BodyKind::kPlane) contact->id_a = -1;

@@ -9,9 +9,47 @@
 #include "fcl/expect_refused.h"
 #include "not_finite.h"
 #include "robot/robot_files.h"
+#include "scenes/shapes.h"
 
 namespace kios::testing {
 namespace {
+
+std::shared_ptr<Modeld> meshOfBall(int subdivisions) {
+  const scenes::Mesh mesh = scenes::icosphere(0.1, subdivisions);
+  return makeModel(mesh.vertices, mesh.triangles);
+}
+
+// A contact is found, with its point, before any mesh is prepared: that takes longer than FCL takes
+// for thousands of contacts.
+TEST(RobotSurroundings, FirstContactsPrepareNoMesh) {
+  const Folder folder;
+  const VectorXd q = VectorXd::Zero(8);
+  const auto held = meshOfBall(3), other = meshOfBall(4);
+  const std::vector<std::shared_ptr<const fcl::CollisionGeometryd>> obstacles = {
+      other, std::make_shared<fcl::Boxd>(0.1, 0.1, 0.1),
+      std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0)};
+  for (const auto& obstacle : obstacles) {
+    Robot robot = loadRobot(manyJoints(folder));
+    const Transform3d X_WT = robot.pose("tool", q);
+    robot.attach("held", "tool", held, shifted(0, 0, 0));
+    for (const std::string& link : robot.links()) robot.allow("held", link);
+    robot.addObstacle("obstacle", obstacle, X_WT * shifted(0.03, 0.02, 0.12));
+    for (const std::string& link : robot.links()) robot.allow("obstacle", link);
+    const auto contact = robot.contact(q);
+    ASSERT_TRUE(contact.has_value());
+    EXPECT_EQ(contact->a, "held");
+    EXPECT_EQ(contact->b, "obstacle");
+    EXPECT_EQ(preparedBytes(*held), 0U);
+    EXPECT_EQ(preparedBytes(*other), 0U);
+    if (obstacle == obstacles.back())
+      continue;  // of whose contacts FCL puts the point half as deep
+    // The point is that of the triangles that are named.
+    ASSERT_TRUE(contact->id_a >= 0 && contact->id_a < held->num_tris);
+    const fcl::Triangle& t = held->tri_indices[contact->id_a];
+    const Vector3d p = X_WT.inverse() * contact->point;
+    EXPECT_LT((p - held->vertices[t[0]]).norm(), 0.02);
+  }
+}
 
 TEST(RobotSurroundings, WhatIsAddedMovedAttachedAndRemoved) {
   const Folder folder;
