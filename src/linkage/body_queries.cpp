@@ -210,6 +210,8 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
   }
   if (answer.triangle_a >= 0) {
     pair.direction = unitOrZero(at.pose(a).linear() * (answer.point_b - answer.point_a));
+    pair.triangle_a = answer.triangle_a;
+    pair.triangle_b = answer.triangle_b;
   }
   bool contact = answer.distance <= min_separation_;
   if (contact && min_separation_ > 0 && answer.distance > min_separation_ - pad) {
@@ -238,6 +240,8 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   if (distance > 0 && distance < asked) {
     const Eigen::Vector3d d = result.nearest_points[1] - result.nearest_points[0];
     pair.direction = unitOrZero(result.o1 == body(pair.a).geometry.get() ? d : -d);
+    (mesh == pair.a ? pair.triangle_a : pair.triangle_b) =
+        static_cast<int>(result.o1 == &model ? result.b1 : result.b2);
   }
   const double apart = distance / (1 + request.rel_err) * (1 - 0x1p-40) - error;
   if (distance > min_separation_ && apart > min_separation_) return {apart, false};

@@ -13,6 +13,8 @@ struct Pair {
   int shared;  ///< moving joints that carry both
   /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  /// Triangles of meshes that were nearest in the last query; -1 if there was none.
+  int triangle_a = -1, triangle_b = -1;
 };
 
 /// What is known of a pair of bodies at a configuration.
@@ -39,7 +41,8 @@ class BodyQueries {
   /// slab wider than `enough` will do.
   double slab(Pair& pair, const Configuration& at, double enough) const;
   /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two
-  /// of the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction.
+  /// of the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction
+  /// and triangles.
   Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;
   /// True only if the bodies are in contact, by a query that tells nothing else and takes less
   /// time; false if that would take a query as long as ask().

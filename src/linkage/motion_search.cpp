@@ -20,8 +20,11 @@ constexpr double kSlabShare = 0.35;
 constexpr int kPatience = 40;
 // Where a query proves so much of the path they aren't: at that pace a few more looks decide it.
 constexpr double kFastWay = 1.0 / 256;
-constexpr int kLooksBeforeOrbits = 4;  // and one more for so many triangles
-constexpr int kTrianglesOfLook = 128;
+// Turns are tried after so many looks, and one more for so many triangles; or once queries that
+// prove little have taken longer, by the triangles that take as long as an expansion.
+constexpr int kLooksBeforeOrbits = 4;
+constexpr int kTrianglesOfLook = 128, kTrianglesOfExpansion = 1;
+constexpr double kLittleWay = 1.0 / 32;
 constexpr long long kTestsOfQuery = 100;  // take as long as one
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
 constexpr int kMostUndecided = 256;
@@ -157,7 +160,9 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   if (by_triangles.to - by_triangles.from > kSlabShare * (task.to - task.from)) {
     return by_triangles;
   }
+  const long long expansions = counts_.expansions;
   const Nearness near = queries_.ask(pair, c, enough, roots);
+  suspects_[task.suspect].expansions += counts_.expansions - expansions;
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
   const Look by_query =
       widened(task, proven(task, s, std::max(near.apart, roots), motion), near.slab, pair, c);
@@ -178,7 +183,11 @@ MotionSearch::Look MotionSearch::knownLocally(const Task& task) const {
 }
 
 void MotionSearch::tryOrbits(int suspect, const Configuration& c) {
+  constexpr int kLooks = 3;
   Suspect& own = suspects_[suspect];
+  const bool hopeful = nearestOrbitsApart(path_, own.pair, c, request_.min_separation);
+  own.orbits = hopeful && own.orbits + 1 < kLooks ? own.orbits + 1 : Suspect::kNoOrbits;
+  if (!hopeful || own.orbits != Suspect::kNoOrbits) return;
   long long cost = 0;
   const bool proven = orbitsApart(path_, own.pair, c, request_.min_separation, cost);
   counts_.queries += cost / kTestsOfQuery;
@@ -199,9 +208,11 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   ++suspect.looks;
   if (!a && !b) return nothing;
   const int triangles = (a ? a->num_tris : 0) + (b ? b->num_tris : 0);
-  if (suspect.way <= kFastWay && !suspect.orbits &&
-      suspect.looks >= kLooksBeforeOrbits + triangles / kTrianglesOfLook) {
-    suspect.orbits = true;
+  const bool slow =
+      suspect.way <= kFastWay && suspect.looks >= kLooksBeforeOrbits + triangles / kTrianglesOfLook;
+  const bool costly =
+      suspect.way <= kLittleWay && kTrianglesOfExpansion * suspect.expansions >= triangles;
+  if ((slow || costly) && suspect.orbits != Suspect::kNoOrbits) {
     tryOrbits(task.suspect, at(task.look_at));
     const Look look = knownLocally(task);
     if (look.outcome == Look::Outcome::kProven) return look;

@@ -16,10 +16,13 @@ struct Suspect {
   Pair pair;
   double roots;  ///< rootBound() where it was found
   int looks = 0;
-  double way = 0;          ///< how much of the path a query proves of late
-  bool undecided = false;  ///< somewhere
-  bool orbits = false;     ///< were tried
-  int place = -1;          ///< of its LocalSlabs, if there are any
+  long long expansions = 0;  ///< of its queries
+  double way = 0;            ///< how much of the path a query proves of late
+  bool undecided = false;    ///< somewhere
+  /// Looks in a row by which turns may prove it; kNoOrbits once they can't, or were tried.
+  int orbits = 0;
+  static constexpr int kNoOrbits = -1;
+  int place = -1;  ///< of its LocalSlabs, if there are any
 };
 
 /// An interval that is not proven yet for a suspect.
@@ -112,7 +115,7 @@ class MotionSearch {
   /// By what turns leave as it is, or by slabs between triangles, once a pair has been looked at
   /// often; else nothing.
   Look local(const Task& task);
-  /// Tries to prove the suspect for the whole path.
+  /// Tries to prove the suspect for the whole path, once some looks found nothing against it.
   void tryOrbits(int suspect, const Configuration& c);
   /// What the last such search proved of an interval, which it may have passed.
   Look knownLocally(const Task& task) const;

@@ -28,6 +28,14 @@ struct Image {
       high[i] = std::max(high[i], o.high[i]);
     }
   }
+  /// Compares the images of two bodies: in an interval a gap of more than `needed` parts them.
+  bool isApart(const Image& o, const double* needed) const {
+    bool any = false;
+    for (int i = 0; i < kIntervals; ++i) {
+      any |= o.low[i] - high[i] > needed[i] || low[i] - o.high[i] > needed[i];
+    }
+    return any;
+  }
 };
 
 /// A place's part across the pivot's axis, all of it about a point; and its height.
@@ -46,6 +54,16 @@ class Imager {
     return {d - height * pivot_.axis, height};
   }
 
+  /// The image of a triangle of a mesh at X, or of a shape.
+  Image ofLeaf(const BodyData& body, const fcl::Transform3d& X, int triangle) const {
+    if (!body.model) return ofShape(body, X);
+    const fcl::Triangle& t = body.model->tri_indices[triangle];
+    const Vector3d* const vertices = body.model->vertices;
+    const Vector3d corners[3] = {X * vertices[t[0]], X * vertices[t[1]], X * vertices[t[2]]};
+    return ofTriangle(corners);
+  }
+
+ private:
   /// The image of the hull of three points in the world.
   Image ofTriangle(const Vector3d* p) const {
     Coordinates c[3];
@@ -112,7 +130,6 @@ class Imager {
     return image;
   }
 
- private:
   static Image empty() {
     Image image;
     std::fill_n(image.low, kIntervals, kInfinity);
@@ -137,7 +154,7 @@ class Images {
   Images(const BodyData& body, const fcl::Transform3d& X, const Imager& imager)
       : model_(body.model) {
     if (!model_) {
-      images_.push_back(imager.ofShape(body, X));
+      images_.push_back(imager.ofLeaf(body, X, 0));
       return;
     }
     images_.resize(static_cast<std::size_t>(model_->getNumBVs()));
@@ -146,10 +163,7 @@ class Images {
       const auto& bv = model_->getBV(node);
       Image& image = images_[static_cast<std::size_t>(node)];
       if (bv.isLeaf()) {
-        const fcl::Triangle& t = model_->tri_indices[bv.primitiveId()];
-        const Vector3d corners[3] = {X * model_->vertices[t[0]], X * model_->vertices[t[1]],
-                                     X * model_->vertices[t[2]]};
-        image = imager.ofTriangle(corners);
+        image = imager.ofLeaf(body, X, bv.primitiveId());
       } else {
         image = at(bv.leftChild());
         image.unite(at(bv.rightChild()));
@@ -167,15 +181,7 @@ class Images {
   std::vector<Image> images_;
 };
 
-/// Compares two trees of images: in an interval a gap of more than `needed` parts them.
 bool areApart(const Images& a, const Images& b, const double* needed, long long& cost) {
-  const auto apart = [&](const Image& x, const Image& y) {
-    bool any = false;
-    for (int i = 0; i < kIntervals; ++i) {
-      any |= y.low[i] - x.high[i] > needed[i] || x.low[i] - y.high[i] > needed[i];
-    }
-    return any;
-  };
   // What is to be proven is so at large: many nodes in each other's reach are hopeless.
   const long long most = 64 + static_cast<long long>(a.size() + b.size());
   std::vector<std::pair<int, int>> stack = {{0, 0}};
@@ -186,7 +192,7 @@ bool areApart(const Images& a, const Images& b, const double* needed, long long&
     stack.pop_back();
     ++own_tests;
     const Image &x = a.at(i), &y = b.at(k);
-    if (apart(x, y)) continue;
+    if (x.isApart(y, needed)) continue;
     const bool leaf_a = a.isLeaf(i), leaf_b = b.isLeaf(k);
     if ((leaf_a && leaf_b) || own_tests > most) proven = false;
     const bool splits_a = leaf_b || (!leaf_a && x.high[0] - x.low[0] > y.high[0] - y.low[0]);
@@ -202,26 +208,73 @@ bool areApart(const Images& a, const Images& b, const double* needed, long long&
   return proven;
 }
 
-}  // namespace
-
-bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
-                 long long& cost) {
-  const BodyData &a = path.linkage().bodies[pair.a], &b = path.linkage().bodies[pair.b];
-  if (a.kind == BodyKind::kOctree || b.kind == BodyKind::kOctree) return false;
-  for (const Pivot& pivot : pivotsOf(path, pair, at)) {
-    const Imager imager(pivot);
-    const Images of_a(a, at.pose(pair.a), imager), of_b(b, at.pose(pair.b), imager);
-    cost += static_cast<long long>(of_a.size() + of_b.size()) / 4;
+/// The images about a pivot, and the gaps of their intervals that part the bodies.
+class Orbits {
+ public:
+  Orbits(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
+         const Pivot& pivot)
+      : pair_(pair),
+        a_(path.linkage().bodies[pair.a]),
+        b_(path.linkage().bodies[pair.b]),
+        X_WA_(at.pose(pair.a)),
+        X_WB_(at.pose(pair.b)),
+        imager_(pivot) {
     // Places are off by less than the pad, images by a few roundings of lengths.
     const double lengths =
         path.length(pair.a) + path.length(pair.b) + pivot.point.lpNorm<1>() + min_separation;
     const double gap = min_separation + 4 * path.pad(pair.a, pair.b) + 0x1p-44 * lengths;
-    const double oblique = 1.5 * gap + pivot.slack + pivot.height_slack;  // > sqrt(2) gap
-    const double needed[kIntervals] = {gap + pivot.slack, gap + pivot.height_slack, oblique,
-                                       oblique};
-    if (areApart(of_a, of_b, needed, cost)) return true;
+    needed_[0] = gap + pivot.slack;
+    needed_[1] = gap + pivot.height_slack;
+    needed_[2] = needed_[3] = 1.5 * gap + pivot.slack + pivot.height_slack;  // > sqrt(2) gap
   }
-  return false;
+
+  bool nearestApart() const {
+    const bool known = (!a_.model || pair_.triangle_a >= 0) && (!b_.model || pair_.triangle_b >= 0);
+    return !known || imager_.ofLeaf(a_, X_WA_, pair_.triangle_a)
+                         .isApart(imager_.ofLeaf(b_, X_WB_, pair_.triangle_b), needed_);
+  }
+
+  bool allApart(long long& cost) const {
+    const Images of_a(a_, X_WA_, imager_), of_b(b_, X_WB_, imager_);
+    cost += 2 * static_cast<long long>(of_a.size() + of_b.size());
+    return areApart(of_a, of_b, needed_, cost);
+  }
+
+ private:
+  const Pair& pair_;
+  const BodyData &a_, &b_;
+  const fcl::Transform3d &X_WA_, &X_WB_;
+  const Imager imager_;
+  double needed_[kIntervals];
+};
+
+/// True if `test` holds for the orbits about one of the pivots.
+template <typename Test>
+bool anyOrbits(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
+               const Test& test) {
+  const auto& bodies = path.linkage().bodies;
+  if (bodies[pair.a].kind == BodyKind::kOctree || bodies[pair.b].kind == BodyKind::kOctree) {
+    return false;
+  }
+  const auto pivots = pivotsOf(path, pair, at);
+  return std::any_of(pivots.begin(), pivots.end(), [&](const Pivot& pivot) {
+    return test(Orbits(path, pair, at, min_separation, pivot));
+  });
+}
+
+}  // namespace
+
+bool nearestOrbitsApart(const Path& path, const Pair& pair, const Configuration& at,
+                        double min_separation) {
+  return anyOrbits(path, pair, at, min_separation,
+                   [](const Orbits& orbits) { return orbits.nearestApart(); });
+}
+
+bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
+                 long long& cost) {
+  return anyOrbits(path, pair, at, min_separation, [&cost](const Orbits& orbits) {
+    return orbits.nearestApart() && orbits.allApart(cost);
+  });
 }
 
 }  // namespace kios::articulated

@@ -25,4 +25,9 @@ namespace kios::articulated {
 bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
                  long long& cost);
 
+/// Compares the orbits of the pair's triangles alone, or of a shape with a triangle: false only if
+/// orbitsApart() is. True if they aren't known.
+bool nearestOrbitsApart(const Path& path, const Pair& pair, const Configuration& at,
+                        double min_separation);
+
 }  // namespace kios::articulated
