@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tree/leaf_layout.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 
@@ -15,9 +16,7 @@ namespace {
 float widthOf(const Tree& tree, const Leaf& leaf) {
   const Eigen::Vector3f centroid(leaf.centroid[0], leaf.centroid[1], leaf.centroid[2]);
   const auto fromCentroid = [&](int i) -> Eigen::Vector3f {
-    const Lanes* const rows = &tree.lanes[leaf.offset + 3U * static_cast<unsigned>(i / kLanes)];
-    const int l = i % kLanes;
-    return Eigen::Vector3f(rows[0].v[l], rows[1].v[l], rows[2].v[l]) - centroid;
+    return vertexOf(tree, leaf, i) - centroid;
   };
   Eigen::Vector3f along = Eigen::Vector3f::Zero();
   float farthest = 0;
