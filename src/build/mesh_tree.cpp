@@ -204,7 +204,7 @@ class MeshTree {
       const Corners& t = corners_[place];
       const auto row = [&](int c) { return Float4{t.v[0][c], t.v[1][c], t.v[2][c], t.v[0][c]}; };
       quads_[i] = PointQuad{row(0), row(1), row(2)};
-      for (const Float4& v : t.v) most = lanes::max(most, lanes::max(v, -v));
+      for (const Float4& v : t.v) most = lanes::max(most, lanes::abs(v));
     }
     chunks_.clear();
     chunk_at_.resize(static_cast<std::size_t>(root.count) + 1);

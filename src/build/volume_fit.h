@@ -17,12 +17,10 @@ namespace kios::engine {
 struct PointFrame {
   double origin[3] = {};
   double to_frame = 1, to_model = 1;  ///< 2^-exponent, 2^exponent
-  int exponent = 0;
 
-  void setExponent(int e) {
-    exponent = e;
-    to_frame = std::ldexp(1.0, -e);
-    to_model = std::ldexp(1.0, e);
+  void setExponent(int exponent) {
+    to_frame = std::ldexp(1.0, -exponent);
+    to_model = std::ldexp(1.0, exponent);
   }
 
   /// Writes p in the frame, rounded once, to a float, but for the double difference.

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
+#include "volume/assemble.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
@@ -190,15 +191,11 @@ void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& 
   const Extents e = extentsAlong(axes, chunks, num_chunks);
   const Eigen::Vector3f half = 0.5F * (e.high - e.low);
   const Eigen::Vector3f center = e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high));
-  int order[3] = {0, 1, 2};  // longest first
-  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
-  if (half[order[1]] < half[order[2]]) std::swap(order[1], order[2]);
-  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
+  const auto order = longestFirst(half);
 
   // Caps across the shortest and the middle axis, at the fit's half opening angle of 30 degrees.
   Eigen::Vector3f to_cap[2];
   for (int pair = 0; pair < 2; ++pair) {
-    constexpr float kCot30 = 1.7320508F;
     const int axis = order[2 - pair];
     const float u = half[(axis + 1) % 3], v = half[(axis + 2) % 3];
     const float height = std::max(0.0F, kCot30 * std::sqrt(u * u + v * v) - half[axis]);
