@@ -53,10 +53,7 @@ class Adoption {
     for (const Node& node : tree_.nodes) {
       if (!node.isLeaf()) fillBlock(node, tree_);
     }
-    if (!tree_.boxes.empty()) {
-      tree_.box_blocks.resize(tree_.blocks.size());
-      writeBoxBlocks(tree_);
-    }
+    if (!tree_.boxes.empty()) writeBoxBlocks(tree_);
     return true;
   }
 

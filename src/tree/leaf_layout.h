@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 
 #include "build/mesh_view.h"
@@ -14,9 +13,9 @@ namespace kios::engine {
 /// The corners of a triangle relative to the tree's origin.
 using FaceCorners = std::array<Eigen::Vector3d, 3>;
 
-/// Sets a tree's origin, the middle of the box around the vertices that triangles use; returns it.
+/// Sets a tree's origin to the middle of the box around the vertices that triangles use.
 template <typename S>
-Eigen::Vector3d placeOrigin(const MeshView<S>& mesh, Tree& tree) {
+void placeOrigin(const MeshView<S>& mesh, Tree& tree) {
   fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
   for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
     for (int k = 0; k < 3; ++k) {
@@ -24,14 +23,28 @@ Eigen::Vector3d placeOrigin(const MeshView<S>& mesh, Tree& tree) {
       high = high.cwiseMax(mesh.corner(t, k));
     }
   }
-  const Eigen::Vector3d origin = 0.5 * (low.template cast<double>() + high.template cast<double>());
-  std::copy_n(origin.data(), 3, tree.origin);
-  return origin;
+  Eigen::Map<Eigen::Vector3d>(tree.origin) =
+      0.5 * (low.template cast<double>() + high.template cast<double>());
 }
 
 /// Writes all that depends on where a leaf's vertices and faces are: its lanes in the tree, its
 /// centroid and its slab.
 void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& leaf, Tree& tree);
+
+/// Does so for a leaf that knows its features, and writes its vertices.
+template <typename S>
+void placeLeaf(const MeshView<S>& mesh, Leaf& leaf, Tree& tree, Eigen::Vector3f* vertices) {
+  const Eigen::Vector3d origin(tree.origin);
+  FaceCorners faces[kLeafTriangles];
+  for (int i = 0; i < leaf.num_faces; ++i) {
+    const std::uint32_t t = tree.features[leaf.feature_offset + i].triangle();
+    for (int k = 0; k < 3; ++k) {
+      faces[i][k] = mesh.corner(t, k).template cast<double>() - origin;
+      vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
+    }
+  }
+  placeLeaf(vertices, faces, leaf, tree);
+}
 
 /// Returns a vertex of a leaf as its lanes hold it.
 inline Eigen::Vector3f vertexOf(const Tree& tree, const Leaf& leaf, int i) {

@@ -24,14 +24,10 @@ using lanes::Float4;
 Eigen::Matrix3f principalAxes(const Scatter<double>& m) {
   const double trace = m.xx + m.yy + m.zz;
   if (!(trace > 0)) return Eigen::Matrix3f::Identity();
-  Eigen::Matrix3f scatter;
-  scatter << static_cast<float>(m.xx / trace), static_cast<float>(m.xy / trace),
-      static_cast<float>(m.xz / trace), static_cast<float>(m.xy / trace),
-      static_cast<float>(m.yy / trace), static_cast<float>(m.yz / trace),
-      static_cast<float>(m.xz / trace), static_cast<float>(m.yz / trace),
-      static_cast<float>(m.zz / trace);
+  Eigen::Matrix3d scatter;
+  scatter << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect(scatter);
+  solver.computeDirect((scatter / trace).cast<float>());
   return axesAlong(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
 }
 
@@ -219,10 +215,7 @@ void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& 
     write(middle + 1, to_cap[pair]);
     const double shift =
         kUlpFloat * double{std::max(centers[plus].lpNorm<1>(), centers[minus].lpNorm<1>())};
-    const double r_plus = radii[plus], r_minus = radii[minus];
-    node.r[middle + 1] = static_cast<float>(0.5 * (r_plus - r_minus));
-    node.r[middle] = roundUpFloat(0.5 * (r_plus + r_minus) + shift +
-                                  kUlpFloat * 0.5 * std::abs(r_plus - r_minus));
+    writeRadii(radii[plus], radii[minus], shift, middle, node);
   }
   if (box) {
     *box = boxOf(axes, e, center);

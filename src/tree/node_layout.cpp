@@ -61,10 +61,7 @@ void writeSpheres(const kIOS<float>& bv, Node& node) {
       const double difference = double{rows[c][middle]} - rows[c][half];
       shift += std::max(std::abs(sum - p[c]), std::abs(difference - m[c]));
     }
-    // middle - |half| error of the radii: half rounds by at most 2^-24 of itself.
-    node.r[half] = static_cast<float>(0.5 * (plus.r - minus.r));
-    node.r[middle] = roundUpFloat(0.5 * (plus.r + minus.r) + shift +
-                                  kUlpFloat * 0.5 * std::abs(plus.r - minus.r));
+    writeRadii(plus.r, minus.r, shift, middle, node);
   }
 }
 
@@ -86,6 +83,7 @@ void fillBlock(const Node& node, Tree& tree) {
 }
 
 void writeBoxBlocks(Tree& tree) {
+  tree.box_blocks.resize(tree.children.size());
   for (const Node& node : tree.nodes) {
     if (node.isLeaf()) continue;
     const auto at = static_cast<std::size_t>(node.child);

@@ -36,11 +36,7 @@ class Preparation {
         welds_ |= first[v] != v;
       }
     }
-    origin_ = placeOrigin(mesh, *tree_);
-    points_.resize(mesh.num_vertices);
-    for (std::size_t v = 0; v < mesh.num_vertices; ++v) {
-      if (first[v] == v) points_[v] = relative(mesh.vertices[v]).template cast<float>();
-    }
+    placeOrigin(mesh, *tree_);
     stamps_.assign(mesh.num_vertices, 0);
     place_.resize(mesh.num_vertices);
   }
@@ -58,10 +54,6 @@ class Preparation {
   }
 
  private:
-  Eigen::Vector3d relative(const fcl::Vector3<S>& v) const {
-    return v.template cast<double>() - origin_;
-  }
-
   /// The binary tree down to the leaves of the wide one, and the order of the triangles.
   void readBinary() {
     const int n = static_cast<int>(mesh_.num_triangles);
@@ -77,15 +69,15 @@ class Preparation {
         continue;
       }
       binary_[at].size = static_cast<float>(2 * volume.bv.radius0);
-      binary_[at].left = static_cast<int>(binary_.size());
-      binary_[at].right = binary_[at].left + 1;
+      const int left = static_cast<int>(binary_.size());
+      binary_[at].left = left;
       for (const int child : {volume.first_child, volume.first_child + 1}) {
         const VolumeNode<S>& of_child = volumes_[child];
         __builtin_prefetch(&volumes_[std::max(0, of_child.first_child)]);
-        binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, -1, 0, child});
+        binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, 0, child});
       }
-      stack.push_back(binary_[at].right);
-      stack.push_back(binary_[at].left);
+      stack.push_back(left + 1);
+      stack.push_back(left);
     }
   }
 
@@ -163,7 +155,6 @@ class Preparation {
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
     tree_->root_box = tree_->boxes[0];
-    tree_->box_blocks.resize(any_flat ? tree_->blocks.size() : 0);
     if (any_flat && fitBoxes(points, *tree_)) {
       tree_->root_box = tree_->boxes[0];
       return;
@@ -177,7 +168,7 @@ class Preparation {
     kIOS<float> moved;
     moved.num_spheres = bv.num_spheres;
     for (int c = 0; c < 3; ++c) {
-      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - origin_[c]);
+      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - tree_->origin[c]);
     }
     const auto unit = static_cast<float>(scaled(1.0, bv.exponent));
     for (int i = 0; i + 1 < bv.k(); ++i) {
@@ -203,61 +194,44 @@ class Preparation {
     }
     const Ownership owned = assignFeatures(corners_, order, begin, mesh_.num_vertices);
     tree_->leaves.reserve(leaves_.size());
-    tree_->lanes.reserve(countRows(order, begin));
     tree_->features.reserve(order.size() + owned.edges.size() + owned.vertices.size());
+    std::size_t num_rows = 0;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
-      appendLeaf(order.data() + begin[l], order.data() + begin[l + 1], owned, l);
+      Leaf& leaf = tree_->leaves.emplace_back();
+      leaf.offset = static_cast<std::uint32_t>(num_rows);
+      gather(order.data() + begin[l], order.data() + begin[l + 1], owned, l, leaf);
+      num_rows += static_cast<std::size_t>(leafRows(leaf.num_vertices));
+    }
+    tree_->lanes.reserve(num_rows);
+    for (Leaf& leaf : tree_->leaves) {
+      tree_->lanes.resize(leaf.offset + leafRows(leaf.num_vertices));
+      Eigen::Vector3f vertices[kMaxLeafFeatures];
+      placeLeaf(mesh_, leaf, *tree_, vertices);
     }
   }
 
-  /// Returns the rows that the leaves will have: copies of so many would take long.
-  std::size_t countRows(const std::vector<std::uint32_t>& order,
-                        const std::vector<std::uint32_t>& begin) {
-    std::size_t rows = 0;
-    for (std::size_t l = 0; l + 1 < begin.size(); ++l) {
-      ++stamp_;
-      int vertices = 0;
-      for (std::uint32_t i = begin[l]; i < begin[l + 1]; ++i) {
-        for (const std::uint32_t v : corners_[order[i]]) {
-          vertices += std::exchange(stamps_[v], stamp_) != stamp_ ? 1 : 0;
-        }
-      }
-      rows += static_cast<std::size_t>(leafRows(vertices));
-    }
-    return rows;
-  }
-
-  /// Appends leaf l, of these triangles: owned vertices come before the others.
-  void appendLeaf(const std::uint32_t* begin, const std::uint32_t* end, const Ownership& owned,
-                  std::size_t l) {
+  /// Gathers the features of leaf l, of these triangles: owned vertices come before the others.
+  void gather(const std::uint32_t* begin, const std::uint32_t* end, const Ownership& owned,
+              std::size_t l, Leaf& leaf) {
     std::vector<FeatureId>& features = tree_->features;
-    Leaf& leaf = tree_->leaves.emplace_back();
-    leaf.offset = static_cast<std::uint32_t>(tree_->lanes.size());
     leaf.feature_offset = static_cast<std::uint32_t>(features.size());
-    Eigen::Vector3f vertices[kMaxLeafFeatures];
-    FaceCorners faces[kLeafTriangles];
     ++stamp_;
-    const auto addVertex = [&](std::uint32_t v) {
-      if (std::exchange(stamps_[v], stamp_) != stamp_) {
-        place_[v] = leaf.num_vertices;
-        vertices[leaf.num_vertices++] = points_[v];
-      }
+    const auto number = [&](std::uint32_t v) {
+      if (std::exchange(stamps_[v], stamp_) != stamp_) place_[v] = leaf.num_vertices++;
       return place_[v];
     };
     const auto first_owned = owned.vertices.begin() + owned.vertex_begin[l];
     const auto last_owned = owned.vertices.begin() + owned.vertex_begin[l + 1];
     for (auto id = first_owned; id != last_owned; ++id) {
-      addVertex(corners_[id->triangle()][id->corner()]);
+      number(corners_[id->triangle()][id->corner()]);
     }
     leaf.num_owned = leaf.num_vertices;
     for (; begin != end; ++begin) {
-      const std::uint32_t t = *begin;
       for (int k = 0; k < 3; ++k) {
-        leaf.corners[3 * leaf.num_faces + k] = addVertex(corners_[t][k]);
-        faces[leaf.num_faces][k] = relative(mesh_.corner(t, k));
+        leaf.corners[3 * leaf.num_faces + k] = number(corners_[*begin][k]);
       }
       ++leaf.num_faces;
-      features.push_back({t << 2});
+      features.push_back({*begin << 2});
     }
     for (std::uint32_t i = owned.edge_begin[l]; i < owned.edge_begin[l + 1]; ++i) {
       const FeatureId id = owned.edges[i];
@@ -267,8 +241,6 @@ class Preparation {
       features.push_back(id);
     }
     features.insert(features.end(), first_owned, last_owned);
-    tree_->lanes.resize(tree_->lanes.size() + leafRows(leaf.num_vertices));
-    placeLeaf(vertices, faces, leaf, *tree_);
   }
 
   const MeshView<S> mesh_;
@@ -276,11 +248,9 @@ class Preparation {
   std::unique_ptr<Tree> tree_;
   std::vector<Corners3> corners_;  ///< by triangle, welded
   bool welds_ = false;             ///< they aren't the mesh's own
-  Eigen::Vector3d origin_;
   std::vector<std::uint32_t> order_;
-  std::vector<Eigen::Vector3f> points_;  ///< relative to the origin, by welded vertex
-  std::vector<std::uint32_t> stamps_;    ///< by welded vertex
-  std::vector<std::uint8_t> place_;      ///< in the leaf at hand, by welded vertex
+  std::vector<std::uint32_t> stamps_;  ///< by welded vertex
+  std::vector<std::uint8_t> place_;    ///< in the leaf at hand, by welded vertex
   std::uint32_t stamp_ = 0;
   std::vector<BinaryNode> binary_;
   std::vector<int> leaves_;   ///< binary nodes

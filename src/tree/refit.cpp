@@ -23,7 +23,7 @@ class Refit {
 
   bool run() {
     if (!sameTopology()) return false;
-    origin_ = placeOrigin(mesh_, tree_);
+    placeOrigin(mesh_, tree_);
     moments_.resize(tree_.nodes.size());
     placeLeaves();
     const TreePoints points(tree_);
@@ -52,19 +52,11 @@ class Refit {
   }
 
   void placeLeaves() {
-    Eigen::Vector3f vertices[kMaxLeafFeatures];
-    FaceCorners faces[kLeafTriangles];
     for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
       if (!tree_.nodes[n].isLeaf()) continue;
       Leaf& leaf = tree_.leaves[tree_.nodes[n].leaf()];
-      for (int i = 0; i < leaf.num_faces; ++i) {
-        const std::uint32_t t = tree_.features[leaf.feature_offset + i].triangle();
-        for (int k = 0; k < 3; ++k) {
-          faces[i][k] = mesh_.corner(t, k).template cast<double>() - origin_;
-          vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
-        }
-      }
-      placeLeaf(vertices, faces, leaf, tree_);
+      Eigen::Vector3f vertices[kMaxLeafFeatures];
+      placeLeaf(mesh_, leaf, tree_, vertices);
       moments_[n] = momentsOf(vertices, leaf.num_vertices);
     }
   }
@@ -87,7 +79,6 @@ class Refit {
 
   const MeshView<S> mesh_;
   Tree& tree_;
-  Eigen::Vector3d origin_;
   std::vector<Moments> moments_;  ///< by node
 };
 
