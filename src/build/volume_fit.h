@@ -23,10 +23,11 @@ struct PointFrame {
     to_model = std::ldexp(1.0, exponent);
   }
 
-  /// Writes p in the frame, rounded once, to a float, but for the double difference.
+  /// Returns p in the frame as x, y, z, 0: rounded once, to floats, but for the double differences.
   template <typename S>
-  void place(const fcl::Vector3<S>& p, float (&q)[3]) const {
-    for (int c = 0; c < 3; ++c) q[c] = static_cast<float>((p[c] - origin[c]) * to_frame);
+  lanes::Float4 place(const fcl::Vector3<S>& p) const {
+    const auto at = [&](int c) { return static_cast<float>((p[c] - origin[c]) * to_frame); };
+    return lanes::Float4{at(0), at(1), at(2), 0};
   }
 };
 
