@@ -140,8 +140,7 @@ TEST(MeshTreeFit, IsNearlyAsTightAsTheTunedFit) {
         if (std::find(points.begin(), points.end(), p) == points.end()) points.push_back(p);
       }
     }
-    kIOSd tuned;
-    fit(points.data(), static_cast<int>(points.size()), tuned);
+    const kIOSd tuned = testing::fitted(points);
     Sum& sum = node.num_primitives == 1 ? triangles : (node.num_primitives <= 8 ? small : large);
     const double ratio = node.bv.radius0 / tuned.radius0;
     sum.s0 += ratio;
