@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "build/four_axes.h"
 #include "build/mesh_view.h"
@@ -193,10 +192,7 @@ void BlockPartition::sortByHeight(const std::uint32_t* items, int n, int axis,
 int BlockPartition::sweep(std::uint32_t* items, int n) const {
   const LaneBox centers = centersOf(items, n);
   const Float4 extent = centers.high - centers.low;
-  int axes[3] = {0, 1, 2};
-  if (extent[axes[0]] < extent[axes[1]]) std::swap(axes[0], axes[1]);
-  if (extent[axes[1]] < extent[axes[2]]) std::swap(axes[1], axes[2]);
-  if (extent[axes[0]] < extent[axes[1]]) std::swap(axes[0], axes[1]);
+  const auto axes = longestFirst(extent);
   if (!(extent[axes[0]] > 0)) return n / 2;  // the centroids are one
   float sizes[kSweep];
   for (int i = 1; i < n; ++i) {

@@ -10,8 +10,6 @@ using lanes::Float4;
 using lanes::Int4;
 using lanes::select;
 
-Float4 magnitude(Float4 v) { return lanes::max(v, -v); }
-
 /// cos(acos(r) / 3) for r in [0, 1], the root of 4 c^3 - 3 c = r above 0.866: from a chord, by
 /// Newton's steps.
 Float4 cosOfThird(Float4 r) {
@@ -27,7 +25,7 @@ Float4 cosOfThird(Float4 r) {
 }  // namespace
 
 void acrossAny(const Float4 (&e)[3], Float4 (&out)[3]) {
-  const Int4 by_x = magnitude(e[0]) > magnitude(e[2]);
+  const Int4 by_x = lanes::abs(e[0]) > lanes::abs(e[2]);
   const Float4 zero = broadcast(0);
   const Float4 x = select(by_x, -e[1], zero), y = select(by_x, e[0], -e[2]),
                z = select(by_x, zero, e[1]);
@@ -44,7 +42,7 @@ FourAxes principalAxes(const Scatter<Float4>& s) {
   const Float4 trace = s.xx + s.yy + s.zz;
   Int4 usable = (trace > broadcast(1e-30F)) & (trace < broadcast(1e30F));
   for (const Float4& entry : {s.xx, s.xy, s.xz, s.yy, s.yz, s.zz}) {
-    usable &= magnitude(entry) <= trace;  // as in every scatter matrix
+    usable &= lanes::abs(entry) <= trace;  // as in every scatter matrix
   }
   const Float4 unit = 1 / select(usable, trace, one);
   const auto scaled = [&](Float4 v) { return select(usable, v * unit, zero); };
@@ -58,7 +56,7 @@ FourAxes principalAxes(const Scatter<Float4>& s) {
   const Float4 determinant =
       xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   const Float4 r = 0.5F * determinant / (safe_p * safe_p * safe_p);
-  const Float4 c = 2 * safe_p * cosOfThird(lanes::min(magnitude(r), one));
+  const Float4 c = 2 * safe_p * cosOfThird(lanes::min(lanes::abs(r), one));
   const Float4 lambda = select(r < zero, -c, c);
   const Float4 a = xx - lambda, b = yy - lambda, d = zz - lambda;
   // Cross products of rows (a, xy, xz), (xy, b, yz), (xz, yz, d).
@@ -92,10 +90,10 @@ FourAxes principalAxes(const Scatter<Float4>& s) {
   const Float4 half = 0.5F * (uu - vv), radius = lanes::sqrt(half * half + uv * uv);
   const Int4 turns = usable & (radius > broadcast(1e-7F));
   const Float4 safe_radius = select(turns, radius, one);
-  const Float4 larger = lanes::sqrt(0.5F + 0.5F * lanes::min(magnitude(half) / safe_radius, one));
+  const Float4 larger = lanes::sqrt(0.5F + 0.5F * lanes::min(lanes::abs(half) / safe_radius, one));
   const Float4 smaller = 0.5F * uv / (safe_radius * larger);
   const Int4 first = half >= zero;
-  const Float4 cosine = select(turns, select(first, larger, magnitude(smaller)), one);
+  const Float4 cosine = select(turns, select(first, larger, lanes::abs(smaller)), one);
   const Float4 sine =
       select(turns, select(first, smaller, select(uv >= zero, larger, -larger)), zero);
   for (int k = 0; k < 3; ++k) {

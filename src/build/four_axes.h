@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <utility>
 
 #include "volume/lanes.h"
 
@@ -46,6 +48,19 @@ struct FourAxes {
 /// zero or not finite.
 FourAxes principalAxes(const Scatter<lanes::Float4>& scatter);
 Eigen::Matrix3f principalAxes(const Scatter<float>& scatter);
+
+/// Returns the axes by decreasing extent, of equal ones the first before.
+template <typename Extents>
+std::array<int, 3> longestFirst(const Extents& extents) {
+  std::array<int, 3> order = {0, 1, 2};
+  const auto sort = [&](int i, int j) {
+    if (extents[order[i]] < extents[order[j]]) std::swap(order[i], order[j]);
+  };
+  sort(0, 1);
+  sort(1, 2);
+  sort(0, 1);
+  return order;
+}
 
 /// A unit vector across each unit vector e.
 void acrossAny(const lanes::Float4 (&e)[3], lanes::Float4 (&out)[3]);

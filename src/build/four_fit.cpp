@@ -3,6 +3,7 @@
 #include "build/four_fit.h"
 
 #include "build/four_axes.h"
+#include "volume/assemble.h"
 
 namespace kios {
 namespace {
@@ -12,7 +13,6 @@ using lanes::Float4;
 using lanes::Int4;
 using lanes::select;
 
-constexpr float kCot30 = 1.7320508F;
 constexpr float kRatio = 1.1F;  // as the tuned fit
 
 /// Coordinates of the points along the axes, longest first, from the middle of the box.
@@ -243,7 +243,7 @@ FourSites placeFourTriangles(const FourSets& s) {
     const Float4 weight_edge = v * v, weight_apex = (h - v) * (h - v);
     const Int4 leans = x * x + weight_apex > a * a + weight_edge, right = x > zero;
     const Float4 end = select(right, -a, a), gap = x - end;
-    const Float4 safe = select(lanes::max(gap, -gap) > tiny, gap, tiny);
+    const Float4 safe = select(lanes::abs(gap) > tiny, gap, tiny);
     Float4 u = 0.5F * (x * x - a * a + weight_apex - weight_edge) / safe;
     u = select(right, lanes::min(u, x), lanes::max(u, x));
     u = select(leans, u, zero);

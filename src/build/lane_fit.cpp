@@ -43,7 +43,7 @@ FarthestSquares farthestSquares(const PointQuad* quads, std::size_t n, const Sph
   return result;
 }
 
-void Extremes::move(const float (&by)[3]) {
+void Extremes::move(Float4 by) {
   for (int i = 0; i < count; ++i) {
     x[i] += by[0];
     y[i] += by[1];

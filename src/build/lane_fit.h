@@ -39,7 +39,7 @@ struct Extremes {
   int count = 0;
   float x[kMost], y[kMost], z[kMost];
 
-  void move(const float (&by)[3]);
+  void move(lanes::Float4 by);
 };
 
 Extremes extremesOf(const PointQuad* quads, std::size_t n);

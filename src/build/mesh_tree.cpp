@@ -32,11 +32,10 @@ class MeshTree {
     const int n = static_cast<int>(mesh_.num_triangles);
     centroids_.resize(mesh_.num_triangles);
     for (int t = 0; t < n; ++t) {
-      Centroid& centroid = centroids_[t];
-      float v[3][3];
-      for (int k = 0; k < 3; ++k) frame_.place(mesh_.corner(t, k), v[k]);
-      for (int c = 0; c < 3; ++c) centroid.sum[c] = v[0][c] + v[1][c] + v[2][c];
-      centroid.triangle = static_cast<std::uint32_t>(t);
+      const auto triangle = static_cast<std::uint32_t>(t);
+      const Corners corners = cornersOf(triangle, frame_);
+      const Float4 sum = corners.v[0] + corners.v[1] + corners.v[2];
+      centroids_[t] = {{sum[0], sum[1], sum[2]}, triangle};
     }
     divide(n);
     fitLarge();
@@ -117,11 +116,7 @@ class MeshTree {
 
   Corners cornersOf(std::uint32_t triangle, const PointFrame& frame) const {
     Corners t;
-    for (int k = 0; k < 3; ++k) {
-      float v[3];
-      frame.place(mesh_.corner(triangle, k), v);
-      t.v[k] = Float4{v[0], v[1], v[2], 0};
-    }
+    for (int k = 0; k < 3; ++k) t.v[k] = frame.place(mesh_.corner(triangle, k));
     return t;
   }
 
@@ -204,7 +199,7 @@ class MeshTree {
       const Corners& t = corners_[place];
       const auto row = [&](int c) { return Float4{t.v[0][c], t.v[1][c], t.v[2][c], t.v[0][c]}; };
       quads_[i] = PointQuad{row(0), row(1), row(2)};
-      for (const Float4& v : t.v) most = lanes::max(most, lanes::max(v, -v));
+      for (const Float4& v : t.v) most = lanes::max(most, lanes::abs(v));
     }
     chunks_.clear();
     chunk_at_.resize(static_cast<std::size_t>(root.count) + 1);
@@ -283,10 +278,7 @@ class MeshTree {
 
   /// Keeps of a block what the nodes above it need, moved to the mesh's frame.
   void keepBlock(const Part& root, const PointFrame& frame, int of_root) {
-    float shift[3];
-    for (int c = 0; c < 3; ++c) {
-      shift[c] = static_cast<float>((frame.origin[c] - frame_.origin[c]) * frame_.to_frame);
-    }
+    const Float4 shift = frame_.place(fcl::Vector3d(frame.origin));
     Extremes e = of_root >= 0 ? extremes_[of_root] : extremesOf(chunks_.data(), chunks_.size());
     e.move(shift);
     above_blocks_.emplace(root.node, e);

@@ -16,13 +16,7 @@ namespace kios {
 class PointLanes {
  public:
   PointLanes() = default;
-  PointLanes(const PointLanes& o) {
-    resize(o.n_);
-    std::copy_n(o.x_, padded_, x_);
-    std::copy_n(o.y_, padded_, y_);
-    std::copy_n(o.z_, padded_, z_);
-  }
-  PointLanes& operator=(const PointLanes&) = delete;
+  PointLanes(const PointLanes&) = delete;
 
   struct Farthest {
     int index;

@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "build/four_axes.h"
 #include "volume/rounding.h"
@@ -53,7 +52,6 @@ PrincipalFrame frameAlong(const Eigen::Matrix3f& axes, const PointLanes& points,
                           PointLanes& in_frame) {
   PrincipalFrame frame;
   frame.axes = axes;
-  const Eigen::Matrix3f& e = frame.axes;
   in_frame.resize(points.size());
   float* const out[3] = {in_frame.x(), in_frame.y(), in_frame.z()};
   Float4 low[3], high[3];
@@ -61,25 +59,21 @@ PrincipalFrame frameAlong(const Eigen::Matrix3f& axes, const PointLanes& points,
   for (int i = 0; i < points.paddedSize(); i += 4) {
     const Float4 x = load(points.x() + i), y = load(points.y() + i), z = load(points.z() + i);
     for (int k = 0; k < 3; ++k) {
-      const Float4 h = x * e(0, k) + y * e(1, k) + z * e(2, k);
+      const Float4 h = x * axes(0, k) + y * axes(1, k) + z * axes(2, k);
       lanes::store(out[k] + i, h);
-      low[k] = -lanes::max(-low[k], -h);
+      low[k] = lanes::min(low[k], h);
       high[k] = lanes::max(high[k], h);
     }
   }
   for (int k = 0; k < 3; ++k) {
-    const float lowest = -lanes::horizontalMax(-low[k]), highest = lanes::horizontalMax(high[k]);
+    const float lowest = lanes::horizontalMin(low[k]), highest = lanes::horizontalMax(high[k]);
     frame.middle[k] = 0.5F * (lowest + highest);
     frame.half[k] = 0.5F * (highest - lowest);
     for (int i = 0; i < points.paddedSize(); i += 4) {
       lanes::store(out[k] + i, load(out[k] + i) - frame.middle[k]);
     }
   }
-  const float* const half = frame.half;
-  int* const order = frame.order;
-  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
-  if (half[order[1]] < half[order[2]]) std::swap(order[1], order[2]);
-  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
+  frame.order = longestFirst(frame.half);
   return frame;
 }
 

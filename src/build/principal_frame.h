@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "build/point_lanes.h"
 
@@ -13,7 +14,7 @@ struct PrincipalFrame {
   Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();  ///< columns: orthonormal axes
   float middle[3] = {};                                ///< box centre along each axis
   float half[3] = {};                                  ///< half extent along each axis
-  int order[3] = {0, 1, 2};                            ///< axes by decreasing extent
+  std::array<int, 3> order = {0, 1, 2};                ///< axes by decreasing extent
 };
 
 /// The frame of `points` (relative to the first of them), by the covariance of the points (paper,

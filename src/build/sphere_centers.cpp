@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "build/recenter.h"
+#include "volume/assemble.h"
 
 namespace kios {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Sine, cosine and cotangent of the half opening angle, pi/6 as constants.
 struct Opening {
   double sine = 0.5, cosine = 0.8660254037844386;
-  float cotangent = 1.7320508F;
+  float cotangent = kCot30;
 
   explicit Opening(double angle) {
     if (angle == FitOptions::kPublishedAngle) return;
@@ -52,7 +53,7 @@ float lateralRadius(const PointLanes& points, int axis) {
 SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
                            const FitOptions& options, int most) {
   SphereCenters centers;
-  const int* order = frame.order;
+  const auto& order = frame.order;
   const float a = frame.half[order[0]], b = frame.half[order[1]], c = frame.half[order[2]];
   Support support;
   recenterInPlane(in_frame, order[2], centers.sphere[0], support);
@@ -79,7 +80,7 @@ SphereCenters tunedCenters(const PointLanes& in_frame, const PrincipalFrame& fra
 SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame& frame,
                                const FitOptions& options) {
   SphereCenters centers;
-  const int* order = frame.order;
+  const auto& order = frame.order;
   const double a = frame.half[order[0]], b = frame.half[order[1]], c = frame.half[order[2]];
   centers.k = sphereCount(a, b, c, kPublishedRatio, options.count, 5);
   const double r0_squared = in_frame.farthest(0, 0, 0).squared_distance;
@@ -101,7 +102,7 @@ SphereCenters publishedCenters(const PointLanes& in_frame, const PrincipalFrame&
 
 SphereCenters ellipsoidCenters(const PrincipalFrame& frame, const FitOptions& options) {
   SphereCenters centers;
-  const int* order = frame.order;
+  const auto& order = frame.order;
   const double a = frame.half[order[0]], b = frame.half[order[1]], c = frame.half[order[2]];
   centers.k = sphereCount(a, b, c, kPublishedRatio, options.count, 5);
   if (!(a > 0)) return centers;  // of a point

@@ -48,7 +48,6 @@ PrincipalFrame ellipsoidFrame(const PointLanes& points, PointLanes& in_frame,
   for (int k = 0; k < 3; ++k) {
     frame.middle[k] = static_cast<float>(middle[k]);
     frame.half[k] = static_cast<float>(ellipsoid.half[k]);
-    frame.order[k] = k;
   }
   in_frame.resize(points.size());
   float* const out[3] = {in_frame.x(), in_frame.y(), in_frame.z()};

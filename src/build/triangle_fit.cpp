@@ -6,6 +6,7 @@
 
 #include "build/measure.h"
 #include "build/principal_frame.h"
+#include "volume/assemble.h"
 
 namespace kios {
 namespace {
@@ -27,7 +28,6 @@ struct PlaneCenters {
 };
 
 PlaneCenters centersOf(const PlaneTriangle& t) {
-  constexpr float kCot30 = 1.7320508F;
   PlaneCenters c;
   // Acute if the apex lies outside the ball over the longest edge: then the circumcentre, which is
   // at most a / sqrt(3) above that edge, is the minimal circle's.

@@ -12,12 +12,6 @@ namespace kios::engine {
 
 using lanes::Float4;
 
-namespace {
-
-Float4 magnitude(Float4 v) { return lanes::max(v, -v); }
-
-}  // namespace
-
 template <typename S>
 void VolumeFit<S>::addSmall(int node, SmallNode content, const PointQuad* quads, int n) {
   const int of_each = content == SmallNode::kCluster ? 4 : 3;
@@ -157,11 +151,10 @@ void VolumeFit<S>::complete(int node, const SphereSites& sites, const FarthestSq
   }
   bv.radius0 = roundUp<S>(r0 * frame_.to_model);
   bv.exponent = static_cast<std::int16_t>(capExponent(bv.radius0));
-  const auto to_cap_units = static_cast<float>(
-      bv.exponent == 0 ? frame_.to_model : scaled(1.0, frame_.exponent - bv.exponent));
+  const auto to_cap_units = static_cast<float>(scaled(frame_.to_model, -bv.exponent));
   const Float4(&cap)[3] = sites.cap;
   const Float4 most =
-      lanes::max(lanes::max(magnitude(cap[0]), magnitude(cap[1])), magnitude(cap[2]));
+      lanes::max(lanes::max(lanes::abs(cap[0]), lanes::abs(cap[1])), lanes::abs(cap[2]));
   const Float4 radius = lanes::sqrt(far.cap) * (1 + 0x1p-20F) + 0x1p-21F * (2 * at + most);
   lanes::store(bv.cap_x, cap[0] * to_cap_units);
   lanes::store(bv.cap_y, cap[1] * to_cap_units);

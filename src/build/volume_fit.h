@@ -17,18 +17,17 @@ namespace kios::engine {
 struct PointFrame {
   double origin[3] = {};
   double to_frame = 1, to_model = 1;  ///< 2^-exponent, 2^exponent
-  int exponent = 0;
 
-  void setExponent(int e) {
-    exponent = e;
-    to_frame = std::ldexp(1.0, -e);
-    to_model = std::ldexp(1.0, e);
+  void setExponent(int exponent) {
+    to_frame = std::ldexp(1.0, -exponent);
+    to_model = std::ldexp(1.0, exponent);
   }
 
-  /// Writes p in the frame, rounded once, to a float, but for the double difference.
+  /// Returns p in the frame as x, y, z, 0: rounded once, to floats, but for the double differences.
   template <typename S>
-  void place(const fcl::Vector3<S>& p, float (&q)[3]) const {
-    for (int c = 0; c < 3; ++c) q[c] = static_cast<float>((p[c] - origin[c]) * to_frame);
+  lanes::Float4 place(const fcl::Vector3<S>& p) const {
+    const auto at = [&](int c) { return static_cast<float>((p[c] - origin[c]) * to_frame); };
+    return lanes::Float4{at(0), at(1), at(2), 0};
   }
 };
 

@@ -53,10 +53,7 @@ class Adoption {
     for (const Node& node : tree_.nodes) {
       if (!node.isLeaf()) fillBlock(node, tree_);
     }
-    if (!tree_.boxes.empty()) {
-      tree_.box_blocks.resize(tree_.blocks.size());
-      writeBoxBlocks(tree_);
-    }
+    if (!tree_.boxes.empty()) writeBoxBlocks(tree_);
     return true;
   }
 
@@ -142,7 +139,7 @@ class Adoption {
       std::memcpy(vertices, leaf.corners, kVertices);
       for (const std::uint8_t vertex : vertices) largest = std::max(largest, vertex);
       if (largest >= leaf.num_vertices) return false;
-      lanes += static_cast<std::size_t>(leaf.rows());
+      lanes += static_cast<std::size_t>(leafRows(leaf.num_vertices));
       features += static_cast<std::size_t>(leaf.num_faces) + leaf.num_edges + leaf.num_owned;
     }
     // A triangle of a leaf is named by the leaf's index << 3: see search/search.h.

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "tree/leaf_layout.h"
 #include "tree/node_layout.h"
 #include "volume/rounding.h"
 
@@ -31,9 +32,7 @@ Content contentOf(const Leaf& leaf, const Tree& tree) {
   Eigen::Vector3f vertices[kMaxLeafFeatures];
   Content content;
   for (int i = 0; i < leaf.num_vertices; ++i) {
-    const Lanes* const rows = &tree.lanes[leaf.offset + static_cast<std::size_t>(3 * (i / kLanes))];
-    const int lane = i % kLanes;
-    vertices[i] = {rows[0].v[lane], rows[1].v[lane], rows[2].v[lane]};
+    vertices[i] = vertexOf(tree, leaf, i);
     content.low = i == 0 ? vertices[i] : content.low.cwiseMin(vertices[i]);
     content.high = i == 0 ? vertices[i] : content.high.cwiseMax(vertices[i]);
   }

@@ -116,28 +116,4 @@ void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& 
   }
 }
 
-void appendLeaf(const LeafContent& content, Tree& tree) {
-  Leaf leaf;
-  leaf.offset = static_cast<std::uint32_t>(tree.lanes.size());
-  leaf.feature_offset = static_cast<std::uint32_t>(tree.features.size());
-  leaf.num_faces = static_cast<std::uint8_t>(content.triangles.size());
-  leaf.num_edges = static_cast<std::uint8_t>(content.edges.size());
-  leaf.num_owned = static_cast<std::uint8_t>(content.owned.size());
-  leaf.num_vertices = static_cast<std::uint8_t>(content.vertices.size());
-  for (int i = 0; i < leaf.num_faces; ++i) {
-    std::copy_n(content.triangles[i].vertices, 3, leaf.corners + 3 * i);
-  }
-  for (int i = 0; i < leaf.num_edges; ++i) {
-    const LeafEdge& edge = content.edges[i];
-    leaf.ends[i] = static_cast<std::uint16_t>(edge.start | edge.end << 8);
-  }
-  tree.lanes.resize(tree.lanes.size() + leaf.rows());
-  placeLeaf(content.vertices.data(), content.faces.data(), leaf, tree);
-
-  for (const LeafTriangle& t : content.triangles) tree.features.push_back(FeatureId{t.id << 2});
-  for (const LeafEdge& e : content.edges) tree.features.push_back(e.id);
-  for (const FeatureId v : content.owned) tree.features.push_back(v);
-  tree.leaves.push_back(leaf);
-}
-
 }  // namespace kios::engine

@@ -4,9 +4,8 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstdint>
-#include <vector>
 
+#include "build/mesh_view.h"
 #include "tree/tree.h"
 
 namespace kios::engine {
@@ -14,32 +13,44 @@ namespace kios::engine {
 /// The corners of a triangle relative to the tree's origin.
 using FaceCorners = std::array<Eigen::Vector3d, 3>;
 
-/// A triangle of a leaf.
-struct LeafTriangle {
-  std::uint32_t id;
-  std::uint8_t vertices[3];  ///< its corners among the leaf's vertices
-};
-
-/// An edge of a leaf, its ends among the leaf's vertices.
-struct LeafEdge {
-  FeatureId id;
-  std::uint8_t start, end;
-};
-
-/// The content of a leaf before it is written into lanes.
-struct LeafContent {
-  std::vector<LeafTriangle> triangles;
-  std::vector<LeafEdge> edges;
-  std::vector<FeatureId> owned;           ///< ids of the first of `vertices`
-  std::vector<Eigen::Vector3f> vertices;  ///< distinct corners of the triangles
-  std::vector<FaceCorners> faces;         ///< by triangle
-};
-
-/// Appends a leaf to the tree.
-void appendLeaf(const LeafContent& content, Tree& tree);
+/// Sets a tree's origin to the middle of the box around the vertices that triangles use.
+template <typename S>
+void placeOrigin(const MeshView<S>& mesh, Tree& tree) {
+  fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
+  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      low = low.cwiseMin(mesh.corner(t, k));
+      high = high.cwiseMax(mesh.corner(t, k));
+    }
+  }
+  Eigen::Map<Eigen::Vector3d>(tree.origin) =
+      0.5 * (low.template cast<double>() + high.template cast<double>());
+}
 
 /// Writes all that depends on where a leaf's vertices and faces are: its lanes in the tree, its
 /// centroid and its slab.
 void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& leaf, Tree& tree);
+
+/// Does so for a leaf that knows its features, and writes its vertices.
+template <typename S>
+void placeLeaf(const MeshView<S>& mesh, Leaf& leaf, Tree& tree, Eigen::Vector3f* vertices) {
+  const Eigen::Vector3d origin(tree.origin);
+  FaceCorners faces[kLeafTriangles];
+  for (int i = 0; i < leaf.num_faces; ++i) {
+    const std::uint32_t t = tree.features[leaf.feature_offset + i].triangle();
+    for (int k = 0; k < 3; ++k) {
+      faces[i][k] = mesh.corner(t, k).template cast<double>() - origin;
+      vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
+    }
+  }
+  placeLeaf(vertices, faces, leaf, tree);
+}
+
+/// Returns a vertex of a leaf as its lanes hold it.
+inline Eigen::Vector3f vertexOf(const Tree& tree, const Leaf& leaf, int i) {
+  const Lanes* const rows = &tree.lanes[leaf.offset + static_cast<std::size_t>(3 * (i / kLanes))];
+  const int lane = i % kLanes;
+  return {rows[0].v[lane], rows[1].v[lane], rows[2].v[lane]};
+}
 
 }  // namespace kios::engine

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
+#include "volume/assemble.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
@@ -23,14 +24,10 @@ using lanes::Float4;
 Eigen::Matrix3f principalAxes(const Scatter<double>& m) {
   const double trace = m.xx + m.yy + m.zz;
   if (!(trace > 0)) return Eigen::Matrix3f::Identity();
-  Eigen::Matrix3f scatter;
-  scatter << static_cast<float>(m.xx / trace), static_cast<float>(m.xy / trace),
-      static_cast<float>(m.xz / trace), static_cast<float>(m.xy / trace),
-      static_cast<float>(m.yy / trace), static_cast<float>(m.yz / trace),
-      static_cast<float>(m.xz / trace), static_cast<float>(m.yz / trace),
-      static_cast<float>(m.zz / trace);
+  Eigen::Matrix3d scatter;
+  scatter << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect(scatter);
+  solver.computeDirect((scatter / trace).cast<float>());
   return axesAlong(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
 }
 
@@ -190,15 +187,11 @@ void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& 
   const Extents e = extentsAlong(axes, chunks, num_chunks);
   const Eigen::Vector3f half = 0.5F * (e.high - e.low);
   const Eigen::Vector3f center = e.from + detail::rotate<float>(axes, 0.5F * (e.low + e.high));
-  int order[3] = {0, 1, 2};  // longest first
-  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
-  if (half[order[1]] < half[order[2]]) std::swap(order[1], order[2]);
-  if (half[order[0]] < half[order[1]]) std::swap(order[0], order[1]);
+  const auto order = longestFirst(half);
 
   // Caps across the shortest and the middle axis, at the fit's half opening angle of 30 degrees.
   Eigen::Vector3f to_cap[2];
   for (int pair = 0; pair < 2; ++pair) {
-    constexpr float kCot30 = 1.7320508F;
     const int axis = order[2 - pair];
     const float u = half[(axis + 1) % 3], v = half[(axis + 2) % 3];
     const float height = std::max(0.0F, kCot30 * std::sqrt(u * u + v * v) - half[axis]);
@@ -222,10 +215,7 @@ void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& 
     write(middle + 1, to_cap[pair]);
     const double shift =
         kUlpFloat * double{std::max(centers[plus].lpNorm<1>(), centers[minus].lpNorm<1>())};
-    const double r_plus = radii[plus], r_minus = radii[minus];
-    node.r[middle + 1] = static_cast<float>(0.5 * (r_plus - r_minus));
-    node.r[middle] = roundUpFloat(0.5 * (r_plus + r_minus) + shift +
-                                  kUlpFloat * 0.5 * std::abs(r_plus - r_minus));
+    writeRadii(radii[plus], radii[minus], shift, middle, node);
   }
   if (box) {
     *box = boxOf(axes, e, center);

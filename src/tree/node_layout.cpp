@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tree/leaf_layout.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 
@@ -15,9 +16,7 @@ namespace {
 float widthOf(const Tree& tree, const Leaf& leaf) {
   const Eigen::Vector3f centroid(leaf.centroid[0], leaf.centroid[1], leaf.centroid[2]);
   const auto fromCentroid = [&](int i) -> Eigen::Vector3f {
-    const Lanes* const rows = &tree.lanes[leaf.offset + 3U * static_cast<unsigned>(i / kLanes)];
-    const int l = i % kLanes;
-    return Eigen::Vector3f(rows[0].v[l], rows[1].v[l], rows[2].v[l]) - centroid;
+    return vertexOf(tree, leaf, i) - centroid;
   };
   Eigen::Vector3f along = Eigen::Vector3f::Zero();
   float farthest = 0;
@@ -62,10 +61,7 @@ void writeSpheres(const kIOS<float>& bv, Node& node) {
       const double difference = double{rows[c][middle]} - rows[c][half];
       shift += std::max(std::abs(sum - p[c]), std::abs(difference - m[c]));
     }
-    // middle - |half| error of the radii: half rounds by at most 2^-24 of itself.
-    node.r[half] = static_cast<float>(0.5 * (plus.r - minus.r));
-    node.r[middle] = roundUpFloat(0.5 * (plus.r + minus.r) + shift +
-                                  kUlpFloat * 0.5 * std::abs(plus.r - minus.r));
+    writeRadii(plus.r, minus.r, shift, middle, node);
   }
 }
 
@@ -87,6 +83,7 @@ void fillBlock(const Node& node, Tree& tree) {
 }
 
 void writeBoxBlocks(Tree& tree) {
+  tree.box_blocks.resize(tree.children.size());
   for (const Node& node : tree.nodes) {
     if (node.isLeaf()) continue;
     const auto at = static_cast<std::size_t>(node.child);

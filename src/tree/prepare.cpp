@@ -29,27 +29,19 @@ class Preparation {
         corners_(mesh.num_triangles),
         order_(mesh.num_triangles) {
     const std::vector<std::uint32_t> first = weld(mesh);
-    fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
     for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
       for (int k = 0; k < 3; ++k) {
         const std::size_t v = mesh.index(t, k);
         corners_[t][k] = first[v];
         welds_ |= first[v] != v;
-        low = low.cwiseMin(mesh.corner(t, k));
-        high = high.cwiseMax(mesh.corner(t, k));
       }
     }
-    origin_ = 0.5 * (low.template cast<double>() + high.template cast<double>());
-    points_.resize(mesh.num_vertices);
-    for (std::size_t v = 0; v < mesh.num_vertices; ++v) {
-      if (first[v] == v) points_[v] = relative(mesh.vertices[v]).template cast<float>();
-    }
+    placeOrigin(mesh, *tree_);
     stamps_.assign(mesh.num_vertices, 0);
     place_.resize(mesh.num_vertices);
   }
 
   std::unique_ptr<Tree> run() {
-    std::copy_n(origin_.data(), 3, tree_->origin);
     readBinary();
     layOut();
     fillLeaves();
@@ -62,10 +54,6 @@ class Preparation {
   }
 
  private:
-  Eigen::Vector3d relative(const fcl::Vector3<S>& v) const {
-    return v.template cast<double>() - origin_;
-  }
-
   /// The binary tree down to the leaves of the wide one, and the order of the triangles.
   void readBinary() {
     const int n = static_cast<int>(mesh_.num_triangles);
@@ -76,37 +64,31 @@ class Preparation {
       const int at = stack.back();
       stack.pop_back();
       const VolumeNode<S>& volume = volumes_[binary_[at].volume];
-      const int left = volume.first_child;
-      if (binary_[at].count <= kLeafTriangles) {
-        readTriangles(binary_[at].volume);
+      if (volume.num_primitives <= kLeafTriangles) {
+        readTriangles(volume);
         continue;
       }
       binary_[at].size = static_cast<float>(2 * volume.bv.radius0);
-      binary_[at].left = static_cast<int>(binary_.size());
-      binary_[at].right = binary_[at].left + 1;
-      for (int child = left; child < left + 2; ++child) {
+      const int left = static_cast<int>(binary_.size());
+      binary_[at].left = left;
+      for (const int child : {volume.first_child, volume.first_child + 1}) {
         const VolumeNode<S>& of_child = volumes_[child];
         __builtin_prefetch(&volumes_[std::max(0, of_child.first_child)]);
-        binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, -1, 0, child});
+        binary_.push_back({of_child.first_primitive, of_child.num_primitives, -1, 0, child});
       }
-      stack.push_back(binary_[at].right);
-      stack.push_back(binary_[at].left);
+      stack.push_back(left + 1);
+      stack.push_back(left);
     }
   }
 
-  void readTriangles(int volume) {
-    // The descendants of a node follow each other, but for the root of the part.
-    const VolumeNode<S>& root = volumes_[volume];
-    if (root.first_child < 0) {
-      order_[root.first_primitive] = static_cast<std::uint32_t>(-root.first_child - 1);
-      return;
-    }
-    for (int i = root.first_child; i < root.first_child + 2 * root.num_primitives - 2; ++i) {
-      const VolumeNode<S>& node = volumes_[i];
-      if (node.first_child < 0) {
-        order_[node.first_primitive] = static_cast<std::uint32_t>(-node.first_child - 1);
-      }
-    }
+  /// Reads the triangles of a part. Its nodes follow each other, but for the root.
+  void readTriangles(const VolumeNode<S>& root) {
+    const auto read = [&](const VolumeNode<S>& node) {
+      if (node.first_child >= 0) return;
+      order_[node.first_primitive] = static_cast<std::uint32_t>(-node.first_child - 1);
+    };
+    read(root);
+    for (int i = 0; i < 2 * root.num_primitives - 2; ++i) read(volumes_[root.first_child + i]);
   }
 
   /// Nodes and blocks, depth first, children of a block in a row.
@@ -173,7 +155,6 @@ class Preparation {
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
     tree_->root_box = tree_->boxes[0];
-    tree_->box_blocks.resize(any_flat ? tree_->blocks.size() : 0);
     if (any_flat && fitBoxes(points, *tree_)) {
       tree_->root_box = tree_->boxes[0];
       return;
@@ -187,7 +168,7 @@ class Preparation {
     kIOS<float> moved;
     moved.num_spheres = bv.num_spheres;
     for (int c = 0; c < 3; ++c) {
-      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - origin_[c]);
+      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - tree_->origin[c]);
     }
     const auto unit = static_cast<float>(scaled(1.0, bv.exponent));
     for (int i = 0; i + 1 < bv.k(); ++i) {
@@ -213,70 +194,53 @@ class Preparation {
     }
     const Ownership owned = assignFeatures(corners_, order, begin, mesh_.num_vertices);
     tree_->leaves.reserve(leaves_.size());
-    tree_->lanes.reserve(countRows(order, begin));
     tree_->features.reserve(order.size() + owned.edges.size() + owned.vertices.size());
-    LeafContent content;
+    std::size_t num_rows = 0;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
-      gather(order.data() + begin[l], begin[l + 1] - begin[l], owned, l, content);
-      appendLeaf(content, *tree_);
+      Leaf& leaf = tree_->leaves.emplace_back();
+      leaf.offset = static_cast<std::uint32_t>(num_rows);
+      gather(order.data() + begin[l], order.data() + begin[l + 1], owned, l, leaf);
+      num_rows += static_cast<std::size_t>(leafRows(leaf.num_vertices));
+    }
+    tree_->lanes.reserve(num_rows);
+    for (Leaf& leaf : tree_->leaves) {
+      tree_->lanes.resize(leaf.offset + leafRows(leaf.num_vertices));
+      Eigen::Vector3f vertices[kMaxLeafFeatures];
+      placeLeaf(mesh_, leaf, *tree_, vertices);
     }
   }
 
-  /// Returns the rows that the leaves will have: copies of so many would take long.
-  std::size_t countRows(const std::vector<std::uint32_t>& order,
-                        const std::vector<std::uint32_t>& begin) {
-    std::size_t rows = 0;
-    for (std::size_t l = 0; l + 1 < begin.size(); ++l) {
-      ++stamp_;
-      int vertices = 0;
-      for (std::uint32_t i = begin[l]; i < begin[l + 1]; ++i) {
-        for (const std::uint32_t v : corners_[order[i]]) {
-          vertices += std::exchange(stamps_[v], stamp_) != stamp_ ? 1 : 0;
-        }
-      }
-      Leaf leaf;
-      leaf.num_vertices = static_cast<std::uint8_t>(vertices);
-      rows += static_cast<std::size_t>(leaf.rows());
-    }
-    return rows;
-  }
-
-  Eigen::Vector3d cornerOf(FeatureId id, std::uint32_t step) const {
-    return relative(mesh_.corner(id.triangle(), (id.corner() + step) % 3));
-  }
-
-  void gather(const std::uint32_t* triangles, std::size_t n, const Ownership& owned, std::size_t l,
-              LeafContent& content) {
-    content.triangles.clear();
-    content.faces.clear();
-    content.edges.clear();
-    content.owned.clear();
-    content.vertices.clear();
+  /// Gathers the features of leaf l, of these triangles: owned vertices come before the others.
+  void gather(const std::uint32_t* begin, const std::uint32_t* end, const Ownership& owned,
+              std::size_t l, Leaf& leaf) {
+    std::vector<FeatureId>& features = tree_->features;
+    leaf.feature_offset = static_cast<std::uint32_t>(features.size());
     ++stamp_;
-    const auto addVertex = [&](std::uint32_t v) {
-      if (std::exchange(stamps_[v], stamp_) != stamp_) {
-        place_[v] = static_cast<std::uint8_t>(content.vertices.size());
-        content.vertices.push_back(points_[v]);
-      }
+    const auto number = [&](std::uint32_t v) {
+      if (std::exchange(stamps_[v], stamp_) != stamp_) place_[v] = leaf.num_vertices++;
       return place_[v];
     };
-    for (std::uint32_t i = owned.vertex_begin[l]; i < owned.vertex_begin[l + 1]; ++i) {
-      const FeatureId id = owned.vertices[i];
-      addVertex(corners_[id.triangle()][id.corner()]);
-      content.owned.push_back(id);
+    const auto first_owned = owned.vertices.begin() + owned.vertex_begin[l];
+    const auto last_owned = owned.vertices.begin() + owned.vertex_begin[l + 1];
+    for (auto id = first_owned; id != last_owned; ++id) {
+      number(corners_[id->triangle()][id->corner()]);
     }
-    for (std::size_t i = 0; i < n; ++i) {
-      const Corners3& v = corners_[triangles[i]];
-      const FeatureId id = {triangles[i] << 2};
-      content.triangles.push_back(
-          {triangles[i], {addVertex(v[0]), addVertex(v[1]), addVertex(v[2])}});
-      content.faces.push_back({cornerOf(id, 0), cornerOf(id, 1), cornerOf(id, 2)});
+    leaf.num_owned = leaf.num_vertices;
+    for (; begin != end; ++begin) {
+      for (int k = 0; k < 3; ++k) {
+        leaf.corners[3 * leaf.num_faces + k] = number(corners_[*begin][k]);
+      }
+      ++leaf.num_faces;
+      features.push_back({*begin << 2});
     }
     for (std::uint32_t i = owned.edge_begin[l]; i < owned.edge_begin[l + 1]; ++i) {
       const FeatureId id = owned.edges[i];
       const Corners3& v = corners_[id.triangle()];
-      content.edges.push_back({id, place_[v[id.corner()]], place_[v[(id.corner() + 1) % 3]]});
+      const int start = place_[v[id.corner()]], stop = place_[v[(id.corner() + 1) % 3]];
+      leaf.ends[leaf.num_edges++] = static_cast<std::uint16_t>(start | stop << 8);
+      features.push_back(id);
     }
+    features.insert(features.end(), first_owned, last_owned);
   }
 
   const MeshView<S> mesh_;
@@ -284,11 +248,9 @@ class Preparation {
   std::unique_ptr<Tree> tree_;
   std::vector<Corners3> corners_;  ///< by triangle, welded
   bool welds_ = false;             ///< they aren't the mesh's own
-  Eigen::Vector3d origin_;
   std::vector<std::uint32_t> order_;
-  std::vector<Eigen::Vector3f> points_;  ///< relative to the origin, by welded vertex
-  std::vector<std::uint32_t> stamps_;    ///< by welded vertex
-  std::vector<std::uint8_t> place_;      ///< in the leaf at hand, by welded vertex
+  std::vector<std::uint32_t> stamps_;  ///< by welded vertex
+  std::vector<std::uint8_t> place_;    ///< in the leaf at hand, by welded vertex
   std::uint32_t stamp_ = 0;
   std::vector<BinaryNode> binary_;
   std::vector<int> leaves_;   ///< binary nodes

@@ -23,7 +23,7 @@ class Refit {
 
   bool run() {
     if (!sameTopology()) return false;
-    moveOrigin();
+    placeOrigin(mesh_, tree_);
     moments_.resize(tree_.nodes.size());
     placeLeaves();
     const TreePoints points(tree_);
@@ -51,42 +51,20 @@ class Refit {
     return true;
   }
 
-  void moveOrigin() {
-    fcl::Vector3<S> low = mesh_.corner(0, 0), high = low;
-    for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
-      for (int k = 0; k < 3; ++k) {
-        low = low.cwiseMin(mesh_.corner(t, k));
-        high = high.cwiseMax(mesh_.corner(t, k));
-      }
-    }
-    origin_ = 0.5 * (low.template cast<double>() + high.template cast<double>());
-    std::copy_n(origin_.data(), 3, tree_.origin);
-  }
-
   void placeLeaves() {
-    Eigen::Vector3f vertices[kMaxLeafFeatures];
-    FaceCorners faces[kLeafTriangles];
-    leaf_moments_.resize(tree_.leaves.size());
-    for (std::size_t l = 0; l < tree_.leaves.size(); ++l) {
-      Leaf& leaf = tree_.leaves[l];
-      for (int i = 0; i < leaf.num_faces; ++i) {
-        const std::uint32_t t = tree_.features[leaf.feature_offset + i].triangle();
-        for (int k = 0; k < 3; ++k) {
-          faces[i][k] = mesh_.corner(t, k).template cast<double>() - origin_;
-          vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
-        }
-      }
-      placeLeaf(vertices, faces, leaf, tree_);
-      leaf_moments_[l] = momentsOf(vertices, leaf.num_vertices);
+    for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
+      if (!tree_.nodes[n].isLeaf()) continue;
+      Leaf& leaf = tree_.leaves[tree_.nodes[n].leaf()];
+      Eigen::Vector3f vertices[kMaxLeafFeatures];
+      placeLeaf(mesh_, leaf, tree_, vertices);
+      moments_[n] = momentsOf(vertices, leaf.num_vertices);
     }
   }
 
   void fit(std::size_t n, const TreePoints& points) {
     Node& node = tree_.nodes[n];
     Moments& moments = moments_[n];
-    if (node.isLeaf()) {
-      moments = leaf_moments_[node.leaf()];
-    } else {
+    if (!node.isLeaf()) {
       moments = moments_[node.first_child];
       const int count = tree_.children[static_cast<std::size_t>(node.child)].count;
       for (int i = 1; i < count; ++i) moments.add(moments_[node.first_child + i]);
@@ -101,8 +79,7 @@ class Refit {
 
   const MeshView<S> mesh_;
   Tree& tree_;
-  Eigen::Vector3d origin_;
-  std::vector<Moments> leaf_moments_, moments_;  ///< by leaf, by node
+  std::vector<Moments> moments_;  ///< by node
 };
 
 }  // namespace

@@ -83,6 +83,11 @@ struct FeatureId {
 /// is always a candidate.
 enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
+/// Returns the chunks that vertices of a leaf take: two or three.
+constexpr int vertexChunks(int num_vertices) { return num_vertices <= 2 * kLanes ? 2 : 3; }
+/// Returns the rows of `lanes` that a leaf with so many vertices takes.
+constexpr int leafRows(int num_vertices) { return 3 * vertexChunks(num_vertices) + kFaceRows; }
+
 /// Up to eight triangles, and the edges and vertices that the leaf owns: every edge and every
 /// vertex of the mesh belongs to one leaf only. In `lanes` from `offset`: vertices (chunks of x, y,
 /// z; owned ones first), faces (a chunk of FaceRow). Lanes that aren't used repeat the last
@@ -96,8 +101,7 @@ struct Leaf {
   std::uint8_t corners[kMaxLeafFeatures] = {};  ///< vertices of each face
   std::uint16_t ends[kMaxLeafFeatures] = {};    ///< vertices of each edge: start, and end << 8
 
-  int vertexChunks() const { return num_vertices <= 2 * kLanes ? 2 : 3; }
-  int rows() const { return 3 * vertexChunks() + kFaceRows; }
+  int vertexChunks() const { return engine::vertexChunks(num_vertices); }
 };
 
 /// The number of a block's children, and as bits the children that are flat and that are leaves.

@@ -10,7 +10,7 @@ Collapse::Collapse(const std::vector<BinaryNode>& nodes) : nodes_(nodes), costs_
   for (int n = static_cast<int>(nodes.size()) - 1; n >= 0; --n) {  // children before parents
     const BinaryNode& node = nodes[n];
     if (node.isLeaf()) continue;  // costs nothing
-    const Costs &l = costs_[node.left], &r = costs_[node.right];
+    const Costs &l = costs_[node.left], &r = costs_[node.left + 1];
     Costs& c = costs_[n];
     float dissolved[kLanes + 1];
     for (int roots = 2; roots <= kLanes; ++roots) {
@@ -33,7 +33,7 @@ void Collapse::children(int n, std::vector<int>& out) const {
   out.clear();
   const int left = costs_[n].left[kLanes];
   dissolve(nodes_[n].left, left, out);
-  dissolve(nodes_[n].right, kLanes - left, out);
+  dissolve(nodes_[n].left + 1, kLanes - left, out);
 }
 
 void Collapse::dissolve(int n, int roots, std::vector<int>& out) const {
@@ -44,7 +44,7 @@ void Collapse::dissolve(int n, int roots, std::vector<int>& out) const {
     return;
   }
   dissolve(nodes_[n].left, c.left[roots], out);
-  dissolve(nodes_[n].right, roots - c.left[roots], out);
+  dissolve(nodes_[n].left + 1, roots - c.left[roots], out);
 }
 
 }  // namespace kios::engine

@@ -11,9 +11,9 @@ namespace kios::engine {
 /// A node of a binary tree over ranges of triangles.
 struct BinaryNode {
   int first, count;
-  int left = -1, right = -1;  ///< -1: a leaf
-  float size = 0;             ///< of inner nodes: a length
-  int volume = 0;             ///< which of the model's nodes it is
+  int left = -1;   ///< its right child follows; -1: a leaf
+  float size = 0;  ///< of inner nodes: a length
+  int volume = 0;  ///< which of the model's nodes it is
 
   bool isLeaf() const { return left < 0; }
 };

@@ -13,6 +13,10 @@
 
 namespace kios {
 
+/// The cotangent of a cap's half opening angle over the rim of its content, 30 degrees: paper,
+/// III-B.2; build/sphere_centers.h draws it.
+inline constexpr float kCot30 = 1.7320508F;
+
 /// The exponent of the units in which a node of this radius stores its caps: 0 wherever floats and
 /// their squares are far from under- and overflow, so that tests need no scaling.
 inline int capExponent(double radius0) {
@@ -31,12 +35,8 @@ void completeCaps(kIOS<S>& v, int k) {
     v.cap_r[i] = r0;
   }
   // Sums of four floats: within 3 u of theirs.
-  const auto magnitude = [](const float* c) {
-    const lanes::Float4 x = lanes::load(c);
-    return lanes::max(x, -x);
-  };
-  const lanes::Float4 reach =
-      magnitude(v.cap_x) + magnitude(v.cap_y) + magnitude(v.cap_z) + lanes::load(v.cap_r);
+  const lanes::Float4 reach = lanes::abs(lanes::load(v.cap_x)) + lanes::abs(lanes::load(v.cap_y)) +
+                              lanes::abs(lanes::load(v.cap_z)) + lanes::load(v.cap_r);
   v.reach = std::max(lanes::horizontalMax(reach), r0) * (1 + 0x1p-20F);
   v.stamp = nextStamp();
 }

@@ -8,6 +8,7 @@
 
 #include "volume/assemble.h"
 #include "volume/balls.h"
+#include "volume/error_bounds.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
 
@@ -83,10 +84,10 @@ template <typename S>
 S kIOS<S>::sphereRadius(int i) const {
   if (i == 0) return radius0;
   // The returned centre is off by one rounding to S of each coordinate, in double one more.
-  constexpr double kUlp = sizeof(S) == sizeof(double) ? 2 * kUlpDouble : 2 * kUlpFloat;
   const fcl::Vector3<S> center = sphereCenter(i);
-  const double shift = kUlp * (std::abs(double{center[0]}) + std::abs(double{center[1]}) +
-                               std::abs(double{center[2]})) +
+  const double shift = 2 * error_bounds::kUlp<S> *
+                           (std::abs(double{center[0]}) + std::abs(double{center[1]}) +
+                            std::abs(double{center[2]})) +
                        4 * double{std::numeric_limits<S>::denorm_min()};
   return saturate<S>(scaled(double{cap_r[i - 1]}, exponent) * (1 + 4 * kUlpDouble) + shift);
 }
@@ -141,11 +142,10 @@ template <typename S>
 kIOS<S> translate(const kIOS<S>& bv, const fcl::Vector3<S>& t) {
   if (bv.k() == 0) return bv;
   kIOS<S> moved = bv;
-  constexpr double kUlp = sizeof(S) == sizeof(double) ? kUlpDouble : kUlpFloat;
   double shift = 0;  // |rounding of the moved centre|_1
   for (int c = 0; c < 3; ++c) {
     moved.center0[c] = bv.center0[c] + t[c];
-    shift += kUlp * std::abs(double{moved.center0[c]});
+    shift += error_bounds::kUlp<S> * std::abs(double{moved.center0[c]});
   }
   moved.radius0 = saturate<S>((double{bv.radius0} + shift) * (1 + 4 * kUlpDouble));
   // The units stay: growth by a rounding error keeps S0 in range unless the offset dwarfs the

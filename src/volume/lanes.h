@@ -93,6 +93,9 @@ inline Float4 sqrt(Float4 v) {
 #endif
 }
 
+/// Returns the magnitudes, for 0 a zero of either sign.
+inline Float4 abs(Float4 v) { return max(v, -v); }
+
 inline Double2 abs(Double2 v) {
 #if defined(__SSE2__)
   return _mm_andnot_pd(_mm_set1_pd(-0.0), v);

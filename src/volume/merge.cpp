@@ -191,7 +191,6 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
     const Float4 fx = lanesOf(0), fy = lanesOf(1), fz = lanesOf(2);
     const Float4 height =
         lanes::max(from_a.heightAlong(fx, fy, fz), from_b.heightAlong(fx, fy, fz));
-    constexpr float kCot30 = 1.7320508F;
     const auto r0 = static_cast<float>(scaled(double{merged.radius0}, -exponent));
     const Float4 offset = lanes::max(kCot30 * r0 - height, broadcast(0));
     const Float4 x = -fx * offset, y = -fy * offset, z = -fz * offset;

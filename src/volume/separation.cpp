@@ -163,6 +163,22 @@ const RelativePose<S>& identityPose() {
   return identity;
 }
 
+[[noreturn]] void refuseTranslation(const char* what) {
+  refuse("the ", what, " is NaN, infinite or too large to be bounded.");
+}
+
+/// The one to blame is the one that is wrong by itself.
+template <typename S>
+[[noreturn, gnu::noinline]] void refuseTranslations(const fcl::Transform3<S>& X_WA,
+                                                    const fcl::Transform3<S>& X_WB) {
+  const auto fits = [](const fcl::Transform3<S>& X) {
+    return X.translation().template cast<double>().template lpNorm<1>() <= kMaxCoordinate<S>;
+  };
+  if (!fits(X_WA)) refuseTranslation("first object's translation");
+  if (!fits(X_WB)) refuseTranslation("second object's translation");
+  refuseTranslation("difference of the two objects' translations");
+}
+
 }  // namespace
 
 void refuseRotation(const char* what, double error, double allowed) {
@@ -184,26 +200,6 @@ void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& 
   requireRotation<S>(squares[0], determinantOf(X_WA), "first object's pose");
   requireRotation<S>(squares[1], determinantOf(X_WB), "second object's pose");
 }
-
-namespace {
-
-[[noreturn]] void refuseTranslation(const char* what) {
-  refuse("the ", what, " is NaN, infinite or too large to be bounded.");
-}
-
-/// The one to blame is the one that is wrong by itself.
-template <typename S>
-[[noreturn, gnu::noinline]] void refuseTranslations(const fcl::Transform3<S>& X_WA,
-                                                    const fcl::Transform3<S>& X_WB) {
-  const auto fits = [](const fcl::Transform3<S>& X) {
-    return X.translation().template cast<double>().template lpNorm<1>() <= kMaxCoordinate<S>;
-  };
-  if (!fits(X_WA)) refuseTranslation("first object's translation");
-  if (!fits(X_WB)) refuseTranslation("second object's translation");
-  refuseTranslation("difference of the two objects' translations");
-}
-
-}  // namespace
 
 template <typename S>
 RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB)

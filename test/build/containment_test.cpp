@@ -36,8 +36,7 @@ class Checker {
     for (const FitOptions& options :
          {FitOptions(FitMethod::kTuned), FitOptions(FitMethod::kMethodII),
           all[next_++ % all.size()]}) {
-      kIOS<S> v;
-      fit(points.data(), static_cast<int>(points.size()), v, options);
+      const kIOS<S> v = fitted(points, options);
       std::string wrong = violation(v, points);
       if (wrong.empty()) wrong = measureViolation(v, points);
       if (wrong.empty()) continue;
@@ -107,11 +106,9 @@ TYPED_TEST(FitContainment, DoesNotDependOnEarlierFits) {
   for (int set = 0; set < 200; ++set) {
     const auto points = hardPointSet<S>(random, 1 + below(random, 40));
     const auto other = hardPointSet<S>(random, 1 + below(random, 6000));
-    kIOS<S> first, between, again;
-    fit(points.data(), static_cast<int>(points.size()), first);
-    fit(other.data(), static_cast<int>(other.size()), between);
-    fit(points.data(), static_cast<int>(points.size()), again);
-    ASSERT_TRUE(bitwiseEqual(first, again)) << describe(points);
+    const kIOS<S> first = fitted(points);
+    fitted(other);
+    ASSERT_TRUE(bitwiseEqual(first, fitted(points))) << describe(points);
   }
 }
 
@@ -129,8 +126,7 @@ TYPED_TEST(FitContainment, RadiusStaysNearTheContentsSize) {
       farthest = std::max(farthest, from_first.norm());
       magnitude = std::max(magnitude, p.template cast<long double>().cwiseAbs().maxCoeff());
     }
-    kIOS<S> v;
-    fit(points.data(), static_cast<int>(points.size()), v);
+    const kIOS<S> v = fitted(points);
     // The centre is rounded to S; radii of float volumes are at least 2^-126.
     const long double ulp = std::numeric_limits<S>::epsilon() * magnitude;
     const long double limit = 1.1L * farthest + 2 * ulp + 3 * std::numeric_limits<S>::min();

@@ -11,16 +11,18 @@
 namespace kios::testing {
 namespace {
 
-PointLanes lanesOf(const Points<double>& points) {
-  PointLanes lanes;
-  lanes.resize(static_cast<int>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f p = points[i].cast<float>();
-    lanes.set(static_cast<int>(i), p[0], p[1], p[2]);
+/// Points as an ellipsoid is asked for.
+class Lanes : public PointLanes {
+ public:
+  explicit Lanes(const Points<double>& points) {
+    resize(static_cast<int>(points.size()));
+    for (int i = 0; i < size(); ++i) {
+      const Eigen::Vector3f p = points[i].cast<float>();
+      set(i, p[0], p[1], p[2]);
+    }
+    pad();
   }
-  lanes.pad();
-  return lanes;
-}
+};
 
 fcl::Vector3d pointOf(const PointLanes& lanes, int i) {
   return {lanes.x()[i], lanes.y()[i], lanes.z()[i]};
@@ -52,7 +54,7 @@ TEST(Ellipsoid, OfAnAffineImageOfARegularSolidIsTheImageOfItsSphere) {
       points.push_back(0.9 * random.unit() * randomDirection(random));
     }
     for (fcl::Vector3d& p : points) p = center + R * half.cwiseProduct(p);
-    const EnclosingEllipsoid e = smallestEllipsoid(lanesOf(points), 1e-4);
+    const EnclosingEllipsoid e = smallestEllipsoid(Lanes(points), 1e-4);
     ASSERT_EQ(e.rank, 3);
     ASSERT_LE(e.gap, 1e-4);
     ASSERT_LT((e.center - center).norm(), 2e-4);
@@ -120,8 +122,7 @@ TEST(Ellipsoid, IsCertifiedOnHardSets) {
   int ranks[4] = {};
   for (int set = 0; set < 20'000; ++set) {
     const auto shape = static_cast<PointShape>(below(random, kPointShapes));
-    const PointLanes lanes =
-        lanesOf(place<double>(random, shapePoints(random, shape, randomCount(random)), 0, 1));
+    const Lanes lanes(place<double>(random, shapePoints(random, shape, randomCount(random)), 0, 1));
     const EnclosingEllipsoid e = smallestEllipsoid(lanes, 1e-3);
     ASSERT_LE(e.gap, 1e-3) << "set " << set << " shape " << static_cast<int>(shape);
     ASSERT_EQ(wrong(e, lanes), "") << "set " << set << " shape " << static_cast<int>(shape)
@@ -135,8 +136,8 @@ TEST(Ellipsoid, IsCertifiedOnLargeSets) {
   Random random(3);
   for (int set = 0; set < 60; ++set) {
     const auto shape = static_cast<PointShape>(set % kPointShapes);
-    const PointLanes lanes =
-        lanesOf(place<double>(random, shapePoints(random, shape, 500 + below(random, 3000)), 0, 1));
+    const Lanes lanes(
+        place<double>(random, shapePoints(random, shape, 500 + below(random, 3000)), 0, 1));
     const EnclosingEllipsoid e = smallestEllipsoid(lanes, 1e-3);
     ASSERT_LE(e.gap, 1e-3) << "set " << set;
     ASSERT_EQ(wrong(e, lanes), "") << "set " << set;
@@ -149,7 +150,7 @@ TEST(Ellipsoid, OfATriangleIsSteiners) {
   for (int i = 0; i < 3; ++i) {
     points.emplace_back(3 * std::cos(2.0943951023931953 * i), std::sin(2.0943951023931953 * i), 5);
   }
-  const EnclosingEllipsoid e = smallestEllipsoid(lanesOf(points), 1e-6);
+  const EnclosingEllipsoid e = smallestEllipsoid(Lanes(points), 1e-6);
   EXPECT_EQ(e.rank, 2);
   EXPECT_NEAR(e.half[0], 3, 1e-5);
   EXPECT_NEAR(e.half[1], 1, 1e-5);
@@ -160,13 +161,14 @@ TEST(Ellipsoid, OfATriangleIsSteiners) {
 
 TEST(Ellipsoid, OfASegmentAndOfAPoint) {
   const EnclosingEllipsoid segment =
-      smallestEllipsoid(lanesOf({{0, 0, 0}, {1, 2, 2}, {2, 4, 4}, {0.5, 1, 1}}), 1e-6);
+      smallestEllipsoid(Lanes(Points<double>{{0, 0, 0}, {1, 2, 2}, {2, 4, 4}, {0.5, 1, 1}}), 1e-6);
   EXPECT_EQ(segment.rank, 1);
   EXPECT_NEAR(segment.half[0], 3, 1e-5);
   EXPECT_EQ(segment.half[1], 0);
   EXPECT_LT((segment.center - fcl::Vector3d(1, 2, 2)).norm(), 1e-5);
 
-  const EnclosingEllipsoid point = smallestEllipsoid(lanesOf({{1, 2, 3}, {1, 2, 3}}), 1e-6);
+  const EnclosingEllipsoid point =
+      smallestEllipsoid(Lanes(Points<double>{{1, 2, 3}, {1, 2, 3}}), 1e-6);
   EXPECT_EQ(point.rank, 0);
   EXPECT_EQ(point.half, fcl::Vector3d(0, 0, 0));
   EXPECT_EQ(point.center, fcl::Vector3d(1, 2, 3));

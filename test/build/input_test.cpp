@@ -102,13 +102,11 @@ TYPED_TEST(FitInput, FitsAfterARefusalAsBefore) {
   using S = TypeParam;
   Random random(2);
   const auto points = hardPointSet<S>(random, 20);
-  kIOS<S> before, after;
-  fit(points.data(), 20, before);
+  const kIOS<S> before = fitted(points);
   auto bad = points;
   bad[19][0] = std::numeric_limits<S>::quiet_NaN();
   EXPECT_NE(refusal(bad, FitMethod::kTuned), "");
-  fit(points.data(), 20, after);
-  EXPECT_TRUE(bitwiseEqual(before, after));
+  EXPECT_TRUE(bitwiseEqual(before, fitted(points)));
 }
 
 TYPED_TEST(FitInput, FoundByArgumentDependentLookup) {
@@ -127,10 +125,7 @@ TYPED_TEST(FitInput, ThreadsFitAlike) {
   for (int i = 0; i < 500; ++i) sets.push_back(hardPointSet<S>(random, randomCount(random)));
   std::vector<kIOS<S>> results[3];
   testing::together(3, [&](int t) {
-    for (const auto& points : sets) {
-      results[t].emplace_back();
-      fit(points.data(), static_cast<int>(points.size()), results[t].back());
-    }
+    for (const auto& points : sets) results[t].push_back(fitted(points));
   });
   for (std::size_t i = 0; i < sets.size(); ++i) {
     EXPECT_TRUE(bitwiseEqual(results[0][i], results[1][i]));

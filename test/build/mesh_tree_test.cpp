@@ -140,8 +140,7 @@ TEST(MeshTreeFit, IsNearlyAsTightAsTheTunedFit) {
         if (std::find(points.begin(), points.end(), p) == points.end()) points.push_back(p);
       }
     }
-    kIOSd tuned;
-    fit(points.data(), static_cast<int>(points.size()), tuned);
+    const kIOSd tuned = testing::fitted(points);
     Sum& sum = node.num_primitives == 1 ? triangles : (node.num_primitives <= 8 ? small : large);
     const double ratio = node.bv.radius0 / tuned.radius0;
     sum.s0 += ratio;
@@ -168,11 +167,7 @@ std::vector<NamedMesh> hardMeshes(int count) {
   scenes::Mesh concentric;
   for (int i = 1; i <= count; ++i) {
     const double r = 1 + i % 1000 / 500.0;
-    const std::size_t first = concentric.vertices.size();
-    concentric.vertices.insert(
-        concentric.vertices.end(),
-        {fcl::Vector3d(r, 0, r), fcl::Vector3d(-r, r, 0), fcl::Vector3d(0, -r, -r)});
-    concentric.triangles.emplace_back(first, first + 1, first + 2);
+    addTriangle(concentric, {r, 0, r}, {-r, r, 0}, {0, -r, -r});
   }
   meshes.push_back({"one centroid", concentric});
   scenes::Mesh fan;
@@ -192,10 +187,7 @@ std::vector<NamedMesh> hardMeshes(int count) {
   scenes::Mesh chain;  // each so much farther that a plane splits off but a few
   for (int i = 0; i < count; ++i) {
     const double x = std::pow(1.01, std::min(i, 3000)) + 1e-3 * i;
-    const std::size_t first = chain.vertices.size();
-    chain.vertices.insert(chain.vertices.end(),
-                          {fcl::Vector3d(x, 0, 0), fcl::Vector3d(x, 1, 0), fcl::Vector3d(x, 0, 1)});
-    chain.triangles.emplace_back(first, first + 1, first + 2);
+    addTriangle(chain, {x, 0, 0}, {x, 1, 0}, {x, 0, 1});
   }
   meshes.push_back({"farther and farther", chain});
   return meshes;

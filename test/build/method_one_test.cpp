@@ -13,12 +13,6 @@
 namespace kios::testing {
 namespace {
 
-kIOSd fitWith(const Points<double>& points, const FitOptions& options) {
-  kIOSd v;
-  fit(points.data(), static_cast<int>(points.size()), v, options);
-  return v;
-}
-
 FitOptions optionsOf(FitMethod method, SphereCount count, bool shared = false) {
   FitOptions options = method;
   options.count = count;
@@ -39,11 +33,6 @@ Points<double> ellipsoidPoints(Random& random, const fcl::Vector3d& half, const 
   return points;
 }
 
-fcl::Vector3d capOffset(const kIOSd& v, int i) {
-  return std::ldexp(1.0, v.exponent) * fcl::Vector3d(v.cap_x[i], v.cap_y[i], v.cap_z[i]);
-}
-double capRadius(const kIOSd& v, int i) { return std::ldexp(double{v.cap_r[i]}, v.exponent); }
-
 TEST(MethodOne, PutsSpheresWhereThePaperDoes) {
   Random random(1);
   for (int set = 0; set < 1'000; ++set) {
@@ -53,7 +42,7 @@ TEST(MethodOne, PutsSpheresWhereThePaperDoes) {
     const double scale = std::pow(10, random.uniform(-6, 6));
     auto points = ellipsoidPoints(random, half, R, center);
     for (fcl::Vector3d& p : points) p *= scale;
-    const kIOSd v = fitWith(points, FitMethod::kMethodI);
+    const kIOSd v = fitted(points, FitMethod::kMethodI);
     ASSERT_EQ(v.k(), 5);
     // The volume of the ellipsoid is within 0.15 %, an axis within a few per mille.
     const double tolerance = 0.02 * scale;
@@ -81,7 +70,7 @@ TEST(MethodOne, FlatContentHasFiniteSpheresThatCutItOff) {
     const auto points = place<double>(
         random, shapePoints(random, set % 2 ? PointShape::kCoplanar : PointShape::kTriangle, 12),
         set % 3, 1e3);
-    const kIOSd v = fitWith(points, FitMethod::kMethodI);
+    const kIOSd v = fitted(points, FitMethod::kMethodI);
     if (v.k() == 1) continue;
     for (int i = 0; i < v.k() - 1; ++i) {
       EXPECT_LE(capRadius(v, i), 300 * v.radius0);
@@ -101,10 +90,10 @@ TEST(MethodOne, AtAnAngleIsMethodOneUnlessFlat) {
   for (int set = 0; set < 200; ++set) {
     const fcl::Vector3d half(1, 0.6, random.uniform(0.52, 0.6));
     const auto points = ellipsoidPoints(random, half, randomRotation(random), {0, 0, 0});
-    ASSERT_TRUE(bitwiseEqual(fitWith(points, FitMethod::kMethodI),
-                             fitWith(points, FitMethod::kMethodIAtAngle)));
+    ASSERT_TRUE(bitwiseEqual(fitted(points, FitMethod::kMethodI),
+                             fitted(points, FitMethod::kMethodIAtAngle)));
     const auto flat = ellipsoidPoints(random, {1, 0.6, 0.1}, randomRotation(random), {0, 0, 0});
-    const kIOSd v = fitWith(flat, FitMethod::kMethodIAtAngle);
+    const kIOSd v = fitted(flat, FitMethod::kMethodIAtAngle);
     ASSERT_NEAR(capOffset(v, 0).norm(), 2 - 0.5, 0.05);  // r1 = 2 a, c = a/2
   }
 }
@@ -120,24 +109,24 @@ TEST(FitOptions, KIsChosenAsAsked) {
     const auto points = ellipsoidPoints(random, box.half, randomRotation(random), {0, 0, 0});
     for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodIAtAngle,
                               FitMethod::kMethodII}) {
-      EXPECT_EQ(fitWith(points, optionsOf(method, SphereCount::kAll)).k(), 5);
+      EXPECT_EQ(fitted(points, optionsOf(method, SphereCount::kAll)).k(), 5);
       // A pair that takes a tenth off S0 is kept; the published radii are large enough for that.
-      const int k = fitWith(points, optionsOf(method, SphereCount::kByGain)).k();
+      const int k = fitted(points, optionsOf(method, SphereCount::kByGain)).k();
       EXPECT_TRUE(k == 1 || k == 3 || k == 5) << k;
       if (box.half[2] < 0.1) {
         EXPECT_EQ(k, 5) << static_cast<int>(method);
       }
     }
-    EXPECT_EQ(fitWith(points, FitMethod::kMethodI).k(), box.k) << box.half.transpose();
+    EXPECT_EQ(fitted(points, FitMethod::kMethodI).k(), box.k) << box.half.transpose();
   }
   // A ball's caps gain nothing.
   const auto ball = ellipsoidPoints(random, {1, 1, 1}, fcl::Matrix3d::Identity(), {0, 0, 0});
   for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
-    EXPECT_EQ(fitWith(ball, optionsOf(method, SphereCount::kByGain)).k(), 1);
+    EXPECT_EQ(fitted(ball, optionsOf(method, SphereCount::kByGain)).k(), 1);
   }
   const Points<double> point(3, fcl::Vector3d(1, 2, 3));
   for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
-    EXPECT_EQ(fitWith(point, optionsOf(FitMethod::kMethodI, count)).k(), 1);
+    EXPECT_EQ(fitted(point, optionsOf(FitMethod::kMethodI, count)).k(), 1);
   }
 }
 
@@ -150,8 +139,8 @@ TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {
   for (int set = 0; set < 500; ++set) {
     const auto points = place<double>(random, shapePoints(random, PointShape::kRandom, 30), 1, 1);
     for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
-      const kIOSd own = fitWith(points, optionsOf(method, SphereCount::kAll));
-      const kIOSd shared = fitWith(points, optionsOf(method, SphereCount::kAll, true));
+      const kIOSd own = fitted(points, optionsOf(method, SphereCount::kAll));
+      const kIOSd shared = fitted(points, optionsOf(method, SphereCount::kAll, true));
       double largest = 0;
       for (int i = 0; i < 4; ++i) largest = std::max(largest, capRadius(own, i));
       for (int i = 0; i < 4; ++i) {
@@ -164,7 +153,7 @@ TEST(FitOptions, SharedRadiusIsTheLargestAndStillTouches) {
         ASSERT_NEAR(way.norm(), gained, 1e-4 * largest) << "set " << set;
         // Near a cube a published centre may lie on the wrong side of S0's.
         const fcl::Vector3d axis = capOffset(own, i) - capOffset(own, i ^ 1);
-        if (fitWith(points, method).k() == 5) {
+        if (fitted(points, method).k() == 5) {
           ASSERT_GE(way.dot(axis.normalized()), 0.9 * gained - 1e-4 * largest) << "set " << set;
         }
       }
@@ -183,7 +172,7 @@ TEST(FitOptions, ASmallerAngleGivesLargerAndFlatterCaps) {
       for (const double angle : {1.0, FitOptions::kPublishedAngle, 0.2, 0.05}) {
         FitOptions options = optionsOf(method, SphereCount::kAll);
         options.angle = angle;
-        const kIOSd v = fitWith(points, options);
+        const kIOSd v = fitted(points, options);
         ASSERT_GT(capRadius(v, 0), radius);
         ASSERT_LT(farSide(v, 0), side);
         radius = capRadius(v, 0);

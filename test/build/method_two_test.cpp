@@ -94,21 +94,7 @@ Points<double> boxPoints(Random& random, int n, double b, double c) {
   return points;
 }
 
-kIOSd methodTwo(const Points<double>& points) {
-  kIOSd v;
-  fit(points.data(), static_cast<int>(points.size()), v, FitMethod::kMethodII);
-  return v;
-}
-
-fcl::Vector3d centerOf(const kIOSd& v, int i) {
-  return i == 0 ? v.center0
-                : fcl::Vector3d(v.center0 +
-                                std::ldexp(1.0, v.exponent) *
-                                    fcl::Vector3d(v.cap_x[i - 1], v.cap_y[i - 1], v.cap_z[i - 1]));
-}
-double radiusOf(const kIOSd& v, int i) {
-  return i == 0 ? v.radius0 : std::ldexp(double{v.cap_r[i - 1]}, v.exponent);
-}
+kIOSd methodTwo(const Points<double>& points) { return fitted(points, FitMethod::kMethodII); }
 
 TEST(MethodTwo, IsThePapersConstruction) {
   Random random(1);
@@ -136,14 +122,14 @@ TEST(MethodTwo, IsThePapersConstruction) {
     for (int i = 1; i < v.k(); ++i) {
       double nearest = 1e300, radius = 0;  // axes have no sign: caps of a pair may be swapped
       for (int j = (i - 1) / 2 * 2 + 1; j <= (i - 1) / 2 * 2 + 2; ++j) {
-        const double d = (centerOf(v, i) - expected.center[j]).norm();
+        const double d = (v.center0 + capOffset(v, i - 1) - expected.center[j]).norm();
         if (d < nearest) {
           nearest = d;
           radius = expected.radius[j];
         }
       }
       ASSERT_LE(nearest, 5 * tolerance) << "set " << set << " sphere " << i;
-      ASSERT_NEAR(radiusOf(v, i), radius, tolerance) << "set " << set << " sphere " << i;
+      ASSERT_NEAR(capRadius(v, i - 1), radius, tolerance) << "set " << set << " sphere " << i;
     }
   }
   EXPECT_GT(compared[1], 50);
@@ -179,8 +165,8 @@ TEST(MethodTwo, CapsOfOneRadius) {
     const Published expected = published(points);
     for (int i = 1; i < 5; ++i) {
       // r1 exactly as the formula has it, or what the content needs if that is more.
-      EXPECT_GE(radiusOf(v, i), expected.r1 * (1 - 2e-3)) << "set " << set;
-      shared += std::abs(radiusOf(v, i) / expected.r1 - 1) < 2e-3;
+      EXPECT_GE(capRadius(v, i - 1), expected.r1 * (1 - 2e-3)) << "set " << set;
+      shared += std::abs(capRadius(v, i - 1) / expected.r1 - 1) < 2e-3;
     }
   }
   EXPECT_GT(shared, 3'000);

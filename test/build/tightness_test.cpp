@@ -78,13 +78,6 @@ long double minimalCircle(const Points<S>& t) {
   return std::max(edge[2] / 2, edge[0] * edge[1] * edge[2] / (2 * area2));
 }
 
-template <typename S>
-kIOS<S> fitted(const Points<S>& points, FitMethod method = FitMethod::kTuned) {
-  kIOS<S> v;
-  fit(points.data(), static_cast<int>(points.size()), v, method);
-  return v;
-}
-
 KIOS_SCALAR_SUITE(Tightness);
 
 /// Returns a triangle of size 1, `thin` high, its apex at `along` the longest edge.

@@ -186,7 +186,6 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
   a.children[0].count = kLanes;
   a.boxes.resize(1);
   a.boxes.insert(a.boxes.end(), boxes.begin(), boxes.end());
-  a.box_blocks.resize(1);
   engine::writeBoxBlocks(a);
   const Box other = boxOf(anyAxes(random, first), place(offset), anyHalf(random, size));
   b.reach = static_cast<float>(reachOf(other) * (1 + 1e-6));

@@ -136,27 +136,25 @@ FaceCorners anyFace(Random& random, const fcl::Vector3d& center, double size) {
 /// Returns a leaf of such triangles, whose corners are stored one by one.
 engine::Tree leafOf(const std::vector<FaceCorners>& faces) {
   engine::Tree tree;
-  engine::LeafContent content;
+  engine::Leaf& leaf = tree.leaves.emplace_back();
+  Eigen::Vector3f vertices[engine::kMaxLeafFeatures];
   for (const FaceCorners& face : faces) {
-    engine::LeafTriangle triangle = {static_cast<std::uint32_t>(content.triangles.size()), {}};
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3f p = face[static_cast<std::size_t>(k)].cast<float>();
-      triangle.vertices[k] = static_cast<std::uint8_t>(content.vertices.size());
-      content.vertices.push_back(p);
+    tree.features.push_back({std::uint32_t{leaf.num_faces++} << 2});
+    for (const fcl::Vector3d& corner : face) {
+      const Eigen::Vector3f p = corner.cast<float>();
+      leaf.corners[leaf.num_vertices] = leaf.num_vertices;
+      vertices[leaf.num_vertices++] = p;
       tree.reach = std::max(tree.reach, 1.000001F * p.norm());
     }
-    content.triangles.push_back(triangle);
   }
-  content.faces = faces;
-  engine::appendLeaf(content, tree);
+  tree.lanes.resize(static_cast<std::size_t>(engine::leafRows(leaf.num_vertices)));
+  engine::placeLeaf(vertices, faces.data(), leaf, tree);
   return tree;
 }
 
 /// Returns a corner as stored.
 Vec stored(const engine::Tree& tree, std::size_t lane, std::size_t k) {
-  const std::size_t i = 3 * lane + k;
-  const engine::Lanes* const rows = &tree.lanes[tree.leaves[0].offset + 3 * (i / kLanes)];
-  return {rows[0].v[i % kLanes], rows[1].v[i % kLanes], rows[2].v[i % kLanes]};
+  return engine::vertexOf(tree, tree.leaves[0], static_cast<int>(3 * lane + k)).cast<Real>();
 }
 
 class TriangleBounds : public ::testing::TestWithParam<std::int64_t> {

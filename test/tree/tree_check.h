@@ -40,28 +40,25 @@ Edge edgeOf(const TriangleVertices<S>& t, std::uint32_t k) {
   return std::minmax({coordinates(t[k]), coordinates(t[(k + 1) % 3])});
 }
 
-/// Returns x^2 + y^2 + z^2 <= r^2 for sums of floats, without rounding.
-inline bool inSphere(const Eigen::Vector3f& p, const Exact (&center)[3], const Exact& r) {
-  Exact sum = 0;
-  for (int c = 0; c < 3; ++c) sum += (p[c] - center[c]) * (p[c] - center[c]);
-  return r >= 0 && sum <= r * r;
+/// Calls visit(row, half, sign) for each of a node's spheres, which is row + sign half.
+template <typename Visit>
+void forSpheres(const Visit& visit) {
+  visit(engine::kCentral, engine::kHalf1, 0);
+  for (const int sign : {-1, 1}) {
+    visit(engine::kMiddle2, engine::kHalf2, sign);
+    visit(engine::kMiddle1, engine::kHalf1, sign);
+  }
 }
 
-/// Returns true if a node's five spheres hold the point.
+/// Returns true if a node's five spheres hold the point, without rounding.
 inline bool spheresHold(const Node& node, const Eigen::Vector3f& p) {
-  const auto sphere = [&](int row, int half, int sign) {
-    Exact center[3] = {node.x[row], node.y[row], node.z[row]}, r = node.r[row];
-    if (half >= 0) {
-      center[0] += Exact(sign * node.x[half]);
-      center[1] += Exact(sign * node.y[half]);
-      center[2] += Exact(sign * node.z[half]);
-      r += Exact(sign * node.r[half]);
-    }
-    return inSphere(p, center, r);
-  };
-  using namespace engine;
-  return sphere(kCentral, -1, 0) && sphere(kMiddle2, kHalf2, 1) && sphere(kMiddle2, kHalf2, -1) &&
-         sphere(kMiddle1, kHalf1, 1) && sphere(kMiddle1, kHalf1, -1);
+  bool all = true;
+  forSpheres([&](int row, int half, int sign) {
+    const auto at = [&](const float* v) { return Exact(v[row]) + sign * Exact(v[half]); };
+    const Exact x = p[0] - at(node.x), y = p[1] - at(node.y), z = p[2] - at(node.z), r = at(node.r);
+    all &= r >= 0 && x * x + y * y + z * z <= r * r;
+  });
+  return all;
 }
 
 /// Returns how far the point sticks out of the box, at most 0 if it is inside.
@@ -91,20 +88,12 @@ inline double skew(const Box& box) {
 
 /// Returns the greatest |centre| + |radius| of the node's spheres.
 inline double farthest(const Node& node) {
-  using namespace engine;
   double result = 0;
-  const auto add = [&](int row, int half, double sign) {
-    const auto at = [&](const float* v) {
-      return double{v[row]} + (half < 0 ? 0 : sign * double{v[half]});
-    };
+  forSpheres([&](int row, int half, int sign) {
+    const auto at = [&](const float* v) { return double{v[row]} + sign * double{v[half]}; };
     const fcl::Vector3d center(at(node.x), at(node.y), at(node.z));
     result = std::max(result, center.norm() + std::abs(at(node.r)));
-  };
-  add(kCentral, -1, 0);
-  for (const double sign : {-1.0, 1.0}) {
-    add(kMiddle2, kHalf2, sign);
-    add(kMiddle1, kHalf1, sign);
-  }
+  });
   return result;
 }
 

@@ -8,12 +8,12 @@
 
 #include "volume/error_bounds.h"
 
-#include <array>
 #include <cmath>
 #include <type_traits>
 
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
 #include "fcl_kios/build/fit.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/volume/separation.h"
@@ -29,7 +29,7 @@ namespace kios::testing {
 namespace {
 
 using Exact = boost::multiprecision::cpp_bin_float_100;
-using ExactVector = std::array<Exact, 3>;
+using ExactVector = Eigen::Matrix<Exact, 3, 1>;
 
 /// Holds the largest share of a bound that errors took.
 class Share {
@@ -66,29 +66,13 @@ fcl::Transform3<S> randomPose(scenes::Random& random) {
   return X;
 }
 
-template <typename S>
-ExactVector exact(const fcl::Vector3<S>& v) {
-  return {Exact(v[0]), Exact(v[1]), Exact(v[2])};
-}
-
 template <typename Matrix>
-ExactVector times(const Matrix& R, const ExactVector& x, bool transposed = false) {
-  ExactVector y;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) y[i] += Exact(transposed ? R(j, i) : R(i, j)) * x[j];
-  }
-  return y;
+auto exact(const Matrix& m) {
+  return Eigen::Matrix<Exact, Matrix::RowsAtCompileTime, Matrix::ColsAtCompileTime>(
+      m.template cast<Exact>());
 }
 
-ExactVector minus(const ExactVector& x, const ExactVector& y) {
-  return {x[0] - y[0], x[1] - y[1], x[2] - y[2]};
-}
-ExactVector plus(const ExactVector& x, const ExactVector& y) {
-  return {x[0] + y[0], x[1] + y[1], x[2] + y[2]};
-}
-double length(const ExactVector& x) {
-  return static_cast<double>(sqrt(Exact(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])));
-}
+double length(const ExactVector& x) { return static_cast<double>(x.norm()); }
 template <typename S>
 double norm1(const fcl::Vector3<S>& v) {
   return v.template cast<double>().template lpNorm<1>();
@@ -105,13 +89,12 @@ TYPED_TEST(ErrorBounds, PointsInTheCommonFrame) {
     const RelativePose<S> X_AB(X_WA, X_WB);
     const fcl::Vector3<S> x = randomPoint<S>(random), computed = X_AB * x;
     const ExactVector in_world =
-        plus(times(X_WB.linear(), exact<S>(x)),
-             minus(exact<S>(X_WB.translation()), exact<S>(X_WA.translation())));
-    const double off = length(minus(times(X_WA.linear(), in_world, true), exact<S>(computed)));
+        exact(X_WB.linear()) * exact(x) + exact(X_WB.translation()) - exact(X_WA.translation());
+    const double off = length(exact(X_WA.linear()).transpose() * in_world - exact(computed));
     frame.add(off, error_bounds::frameError<S>(norm1<S>(x), detail::boundsOf(X_AB).T_norm1));
     // Against the frame as it is stored.
-    const ExactVector stored = plus(times(X_AB.R(), exact<S>(x)), exact<S>(X_AB.T()));
-    sum.add(length(minus(stored, exact<S>(computed))),
+    const ExactVector stored = exact(X_AB.R()) * exact(x) + exact(X_AB.T());
+    sum.add(length(stored - exact(computed)),
             error_bounds::sumError<S>(1.8 * norm1<S>(x) + detail::boundsOf(X_AB).T_norm1));
   }
   frame.expectWithin("frame", 8);
@@ -130,9 +113,8 @@ TYPED_TEST(ErrorBounds, Stretch) {
     X_WA.linear().col(0) *= static_cast<S>(1 + longer);
     const RelativePose<S> X_AB(X_WA, X_WB);
     // The frame's first coordinate is along that axis of A.
-    ExactVector row = times(X_WB.linear(), exact<S>(X_WA.linear().col(0)), true);
+    const ExactVector row = exact(X_WB.linear()).transpose() * exact(X_WA.linear().col(0));
     share.add(length(row) - 1, detail::boundsOf(X_AB).stretch);
-    (void)row;
   }
   share.expectWithin("stretch", 2);
 }
@@ -161,16 +143,15 @@ TEST(ErrorBoundsOfLanes, CapsAgainstCaps) {
       for (int b = 0; b < bv[1].k(); ++b) {
         // Centres as they are stored: S0's and the offset from it.
         const auto center = [](const kIOSd& v, int s) {
-          ExactVector c = exact<double>(v.center0);
-          if (s == 0) return c;
-          return plus(c, {Exact(v.cap_x[s - 1]), Exact(v.cap_y[s - 1]), Exact(v.cap_z[s - 1])});
+          ExactVector c = exact(v.center0);
+          if (s > 0) c += exact(Eigen::Vector3f(v.cap_x[s - 1], v.cap_y[s - 1], v.cap_z[s - 1]));
+          return c;
         };
         const auto radius = [](const kIOSd& v, int s) {
           return s == 0 ? double{v.radius0} : double{v.cap_r[s - 1]};
         };
-        const ExactVector c_b = plus(times(X.R(), center(bv[1], b)), exact<double>(X.T()));
-        const double value =
-            length(minus(c_b, center(bv[0], a))) - radius(bv[0], a) - radius(bv[1], b);
+        const ExactVector c_b = exact(X.R()) * center(bv[1], b) + exact(X.T());
+        const double value = length(c_b - center(bv[0], a)) - radius(bv[0], a) - radius(bv[1], b);
         if (a + b == 0) central = value;
         best = std::max(best, value);
       }
@@ -252,12 +233,11 @@ TYPED_TEST(ErrorBounds, PointsInASolidsFrame) {
     shape::Solid point;
     const PosedSolid<S> posed(point, X_WM, X_WS, root);
     const ExactVector in_world =
-        plus(times(X_WM.linear(), exact<S>(x)),
-             minus(exact<S>(X_WM.translation()), exact<S>(X_WS.translation())));
-    const ExactVector placed = times(X_WS.linear(), in_world, true);
+        exact(X_WM.linear()) * exact(x) + exact(X_WM.translation()) - exact(X_WS.translation());
+    const ExactVector placed = exact(X_WS.linear()).transpose() * in_world;
     const shape::Vec computed = posed.place(x);
     const double lengths = 1.8 * norm1<S>(x) + norm1<S>(X_WM.translation() - X_WS.translation());
-    share.add(length(minus(placed, exact<double>(computed))), error_bounds::solidError(lengths));
+    share.add(length(placed - exact(computed)), error_bounds::solidError(lengths));
   }
   share.expectWithin("solid", 64);
 }

@@ -24,10 +24,10 @@ class HardPair {
   bool distanceIsAtLeast(double bound) const {
     return allPairs([&](const auto& p, const auto& q) {
       long double y[3], error = 0;
-      move(q, y, &error);
+      moveBy(q, T, y, &error);
       if (apart<long double>(p, y, error, bound)) return true;
       Exact exact[3], exact_error = 0;
-      move(q, exact, &exact_error);
+      moveBy(q, T, exact, &exact_error);
       return apart<Exact>(p, exact, 0, bound);
     });
   }
@@ -57,7 +57,6 @@ class HardPair {
       const StoredSphere<long double> sb(b, j);
       // R c_b + T - c_a first, then the offsets, as exactly as 64 bits can.
       long double c[3], error = 0;
-      const long double zero[3] = {0, 0, 0};
       Exact center[3], exact_error = 0;
       moveBy(sb.center0, T, center, &exact_error);
       moveBy(sb.offset, fcl::Vector3<S>(fcl::Vector3<S>::Zero()), c, &error);
@@ -66,7 +65,7 @@ class HardPair {
         long double sum = 0;
         for (int x = 0; x < 3; ++x) {
           const auto d0 = static_cast<long double>(Exact(center[x] - sa.center0[x]));
-          const long double d = d0 + c[x] - sa.offset[x] - zero[x];
+          const long double d = d0 + c[x] - sa.offset[x];
           sum += d * d;
         }
         best = std::max(best, std::sqrt(sum) - sa.radius - sb.radius);
@@ -123,10 +122,6 @@ class HardPair {
       }
     }
   }
-  template <typename N>
-  void move(const fcl::Vector3<S>& q, N y[3], N* magnitude) const {
-    moveBy(q, T, y, magnitude);
-  }
 
   /// Returns true if |p - y| >= bound for certain, y having been summed from `magnitude` in N.
   template <typename N>
@@ -159,9 +154,8 @@ HardPair<S>::HardPair(Random& random) {
   points_b = draw(random.unit() < 0.7 ? 1 : std::pow(10.0, -random.uniform(0, 6)));
   const int kind = below(random, 9);
   if (kind == 0) points_b = points_a;  // identical
-  fit(points_a.data(), static_cast<int>(points_a.size()), a);
-  fit(points_b.data(), static_cast<int>(points_b.size()), b,
-      random.unit() < 0.8 ? FitMethod::kTuned : FitMethod::kMethodII);
+  a = fitted(points_a);
+  b = fitted(points_b, random.unit() < 0.8 ? FitMethod::kTuned : FitMethod::kMethodII);
   if (kind == 0 || kind == 1) return;  // identity
 
   fcl::Matrix3d rotation = randomRotation(random);

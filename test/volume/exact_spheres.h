@@ -15,11 +15,10 @@
 
 namespace kios::testing {
 
-/// Returns the tuned fit.
 template <typename S>
-kIOS<S> fitted(const Points<S>& points) {
+kIOS<S> fitted(const Points<S>& points, const FitOptions& options = FitMethod::kTuned) {
   kIOS<S> v;
-  fit(points.data(), static_cast<int>(points.size()), v);
+  fit(points.data(), static_cast<int>(points.size()), v, options);
   return v;
 }
 
@@ -64,6 +63,12 @@ struct StoredSphere {
     return sqrt(sum);
   }
 };
+
+/// Returns the centre of cap i from S0's, and its radius, in the model's units.
+inline fcl::Vector3d capOffset(const kIOSd& v, int i) {
+  return fcl::Vector3d(StoredSphere<double>(v, i + 1).offset);
+}
+inline double capRadius(const kIOSd& v, int i) { return StoredSphere<double>(v, i + 1).radius; }
 
 /// Returns true if stored sphere i contains p + t, without rounding.
 template <typename S>

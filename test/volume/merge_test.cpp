@@ -75,9 +75,8 @@ TYPED_TEST(Merge, ContainsBothAndCommutesBitwise) {
       others = points;
       for (auto& p : others) p = (p - points[0]) * static_cast<S>(random.unit()) + points[0];
     }
-    kIOS<S> b;
-    fit(others.data(), static_cast<int>(others.size()), b,
-        pair % 3 ? FitOptions(FitMethod::kTuned) : fits[pair / 3 % fits.size()]);
+    const kIOS<S> b =
+        fitted(others, pair % 3 ? FitOptions(FitMethod::kTuned) : fits[pair / 3 % fits.size()]);
     const kIOS<S> sum = a + b;
     ASSERT_TRUE(bitwiseEqual(sum, b + a)) << "pair " << pair;
     kIOS<S> assigned = a;

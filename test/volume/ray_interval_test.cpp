@@ -8,11 +8,10 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_kios/build/fit.h"
 #include "fcl_kios/query/ray.h"
 #include "scalars.h"
 #include "scenes/ray_oracle.h"
-#include "volume/point_sets.h"
+#include "volume/exact_spheres.h"
 
 namespace kios::testing {
 namespace {
@@ -43,8 +42,7 @@ TYPED_TEST(RayIntervalTest, NeverCutsOffContent) {
   for (int i = 0; i < 6000; ++i) {
     const int n = randomCount(random);
     const Points<S> points = hardPointSet<S>(random, n);
-    kIOS<S> bv;
-    fit(points.data(), n, bv, i % 2 == 0 ? FitMethod::kTuned : FitMethod::kMethodII);
+    const kIOS<S> bv = fitted(points, i % 2 == 0 ? FitMethod::kTuned : FitMethod::kMethodII);
     const auto any = [&]() -> const fcl::Vector3<S>& { return points[below(random, n)]; };
     const fcl::Vector3<S> p = any(), q = any(), r = any();
     const S w = static_cast<S>(random.unit()), size = bv.radius0;
@@ -84,8 +82,7 @@ TYPED_TEST(RayIntervalTest, TangentAtContent) {
   for (int i = 0; i < 20000; ++i) {
     const int n = randomCount(random);
     const Points<S> points = hardPointSet<S>(random, n);
-    kIOS<S> bv;
-    fit(points.data(), n, bv, FitMethod::kTuned);
+    const kIOS<S> bv = fitted(points);
     Ray<S> ray;
     ray.origin = points[below(random, n)];
     const int sphere = below(random, bv.k());
@@ -115,8 +112,7 @@ TYPED_TEST(RayIntervalTest, TangentFromAfar) {
     for (const auto& p : shapePoints(random, PointShape::kRandom, n)) {
       points.push_back(on(p, grid).template cast<S>());
     }
-    kIOS<S> bv;
-    fit(points.data(), n, bv, FitMethod::kTuned);
+    const kIOS<S> bv = fitted(points);
     const fcl::Vector3d p = points[below(random, n)].template cast<double>();
     const fcl::Vector3d center = bv.sphereCenter(below(random, bv.k())).template cast<double>();
     const fcl::Vector3d direction =

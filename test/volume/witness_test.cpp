@@ -89,11 +89,7 @@ TYPED_TEST(Witness, IsOnePointWhereTheBoundIsZero) {
   using S = TypeParam;
   const S eps = std::numeric_limits<S>::epsilon();
   for (int i = -40; i < 80; ++i) {
-    kIOS<S> a, b;
-    const Points<S> one = {{1 + i * eps / 2, 0, 0}};
-    fit(one.data(), 1, a);
-    const Points<S> other = {{1, 0, 0}};
-    fit(other.data(), 1, b);
+    const auto a = fitted<S>({{1 + i * eps / 2, 0, 0}}), b = fitted<S>({{1, 0, 0}});
     fcl::Vector3<S> P, Q;
     if (a.distance(b, &P, &Q) == 0) {
       EXPECT_EQ(P, Q) << i;
