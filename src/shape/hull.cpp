@@ -87,9 +87,7 @@ bool contains(const Solid& s, const Vec& p) {
 
 bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p) {
   constexpr int kApex = 3, kPoint = 4;
-  PairPredicates::Coordinates points;
-  const Vec* given[6] = {&face[0], &face[1], &face[2], &apex, &p, &p};
-  for (int i = 0; i < 6; ++i) points[i] = {given[i]->x(), given[i]->y(), given[i]->z()};
+  const PairPredicates::Coordinates points = coordinatesOf(face, Triangle{apex, p, p});
   const PairPredicates signs(points);
   const int volume = signs.orient3d(0, 1, 2, kApex);
   return volume != 0 && signs.orient3d(0, 1, 2, kPoint) * volume >= 0 &&

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "solid/winding.h"
-#include "triangle/ray_crossing.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 
@@ -52,8 +52,7 @@ bool Nesting<S>::liesWithinOthers(int component) {
     for (const Point<double>& vertex : cornersOf(own)) {
       const RayCrossing ray(vertex, windingDirection(), largest_);
       boxes_->find(vertex, near_parts_);
-      int winding = 0;
-      bool on_other = false;
+      PointPlace place;
       for (const std::size_t c : near_parts_) {
         Part& part = parts_[c];
         if (static_cast<int>(c) == component || (vertex.array() < part.low.array()).any() ||
@@ -68,21 +67,16 @@ bool Nesting<S>::liesWithinOthers(int component) {
         }
         part.triangles->find(vertex, near_);
         for (const std::size_t t : near_) {
-          const Crossing crossing = ray.cross(cornersOf(triangles.first[t]));
-          winding += crossing == Crossing::kForward ? 1 : 0;
-          winding -= crossing == Crossing::kBackward ? 1 : 0;
-          on_other |= crossing == Crossing::kOrigin;
-          if (on_other) break;
+          if (place.add(ray.cross(cornersOf(triangles.first[t])))) break;
         }
-        if (on_other) break;
+        if (place.on_surface) break;
       }
-      if (!on_other) return winding > 0;
+      if (!place.on_surface) return place.inside();
     }
   }
   return true;
 }
 
-template class Nesting<double>;
-template class Nesting<float>;
+KIOS_INSTANTIATE_CLASS(Nesting);
 
 }  // namespace kios

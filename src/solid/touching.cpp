@@ -6,23 +6,17 @@
 
 #include "query/pair_search.h"
 #include "triangle/predicates.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
 
 /// Returns the side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
-template <typename Corners>
-int sideOf(const TriangleVertices<double>& plane, int num_triangles, const Corners& corners_of) {
+template <typename S, typename Corners>
+int sideOf(const TriangleVertices<S>& plane, int num_triangles, const Corners& corners_of) {
   int side = 0;
   for (int t = 0; t < num_triangles; ++t) {
-    const auto corners = corners_of(t);
-    PairPredicates::Coordinates points;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        points[i][c] = plane[i][static_cast<Eigen::Index>(c)];
-        points[i + 3][c] = double{corners[i][static_cast<Eigen::Index>(c)]};
-      }
-    }
+    const PairPredicates::Coordinates points = coordinatesOf(plane, corners_of(t));
     const PairPredicates exact(points);
     for (int i = 3; i < 6; ++i) {
       const int sign = exact.orient3d(0, 1, 2, i);
@@ -32,11 +26,6 @@ int sideOf(const TriangleVertices<double>& plane, int num_triangles, const Corne
     }
   }
   return side;
-}
-
-template <typename S>
-TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
-  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
 }
 
 }  // namespace
@@ -52,8 +41,7 @@ bool partedByFace(SolidPair<S>& pair, double length) {
   const auto of_a = [&](int t) { return frame.triangleA(t); };
   const auto of_b = [&](int t) { return frame.triangleB(t); };
   for (const auto& ids : found) {
-    for (const TriangleVertices<double>& plane :
-         {inDouble(frame.triangleA(ids.a)), inDouble(frame.triangleB(ids.b))}) {
+    for (const TriangleVertices<S>& plane : {of_a(ids.a), of_b(ids.b)}) {
       const int side = sideOf(plane, frame.a.num_tris, of_a);
       if (side != 0 && sideOf(plane, frame.b.num_tris, of_b) == -side) return true;
     }
@@ -61,7 +49,6 @@ bool partedByFace(SolidPair<S>& pair, double length) {
   return false;
 }
 
-template bool partedByFace(SolidPair<double>&, double);
-template bool partedByFace(SolidPair<float>&, double);
+KIOS_INSTANTIATE_FUNCTION(partedByFace);
 
 }  // namespace kios

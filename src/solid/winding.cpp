@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "query/ray_walk.h"
-#include "triangle/ray_crossing.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -28,25 +28,12 @@ class WindingCount final : public RayWalk<S> {
 
   bool evaluate(std::uint32_t triangle) override {
     ++this->counts().exact;
-    switch (ray_.cross(this->cornersOf(triangle))) {
-      case Crossing::kForward:
-        ++place_.winding;
-        break;
-      case Crossing::kBackward:
-        --place_.winding;
-        break;
-      case Crossing::kOrigin:
-        place_.on_surface = true;
-        return true;
-      case Crossing::kNone:
-        break;
-    }
-    return false;
+    return place_.add(ray_.cross(this->cornersOf(triangle)));
   }
 
  private:
   const RayCrossing ray_;
-  PointPlace place_ = {false, 0};
+  PointPlace place_;
 };
 
 }  // namespace
@@ -65,7 +52,6 @@ PointPlace placeOf(const fcl::Vector3d& point, const Model<S>& model, SearchCoun
   return WindingCount<S>(model, ray, counts).run();
 }
 
-template PointPlace placeOf(const fcl::Vector3d&, const Model<double>&, SearchCounts&);
-template PointPlace placeOf(const fcl::Vector3d&, const Model<float>&, SearchCounts&);
+KIOS_INSTANTIATE_FUNCTION(placeOf);
 
 }  // namespace kios

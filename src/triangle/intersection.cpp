@@ -325,17 +325,6 @@ class PairIntersection {
 };
 
 template <typename S>
-PairPredicates::Coordinates coordinates(const TriangleVertices<S>& a,
-                                        const TriangleVertices<S>& b) {
-  PairPredicates::Coordinates all;
-  for (int i = 0; i < 3; ++i) {
-    all[i] = {a[i][0], a[i][1], a[i][2]};
-    all[3 + i] = {b[i][0], b[i][1], b[i][2]};
-  }
-  return all;
-}
-
-template <typename S>
 [[gnu::hot]] bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   for (int c = 0; c < 3; ++c) {
     const auto low = [c](const auto& t) { return std::min(std::min(t[0][c], t[1][c]), t[2][c]); };
@@ -352,20 +341,20 @@ template <typename S>
   if (boxesApart(a, b)) return false;
   const Plainly plain = plainlyMeet(a, b);
   if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;
-  return PairIntersection(coordinates(a, b)).test();
+  return PairIntersection(coordinatesOf(a, b)).test();
 }
 
 bool commonPoint(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
                  Point<double>& point) {
   if (boxesApart(a, b)) return false;
-  const auto found = PairIntersection(coordinates(a, b)).anyPoint();
+  const auto found = PairIntersection(coordinatesOf(a, b)).anyPoint();
   if (found) point = {(*found)[0], (*found)[1], (*found)[2]};
   return found.has_value();
 }
 
 template <typename S>
 Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  const auto point = PairIntersection(coordinates(a, b)).middle();
+  const auto point = PairIntersection(coordinatesOf(a, b)).middle();
   return {static_cast<S>(point[0]), static_cast<S>(point[1]), static_cast<S>(point[2])};
 }
 
