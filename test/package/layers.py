@@ -87,7 +87,7 @@ SMALL_OR_USED_ONCE = {
     "linkage/near_pairs.h": "tested alone", "model/memory_to_fill.cpp": "of the operating system",
     "model/memory_to_fill.h": "likewise", "query/cell_walk.h": "FCL's tree beside the engine's",
     "query/intersecting_pairs.h": "one function", "shape/simplex.h": "tested alone",
-    "solid/vertex_graph.cpp": "of vertex_graph.h", "tree/build_budget.h": "tested alone",
+    "tree/build_budget.h": "tested alone",
     "tree/compress_table.h": "a table that no target needs twice",
     "tree/root_copy.h": "a lock-free cell", "tree/weld.h": "one function",
     "triangle/common_point.h": "what two .cpp share",
