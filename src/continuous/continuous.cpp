@@ -2,14 +2,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/continuous/continuous.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "continuous/fcl_motion.h"
 #include "continuous/moving_pair.h"
+#include "volume/errors.h"
 
 namespace kios {
 namespace {
 
 using continuous::Motion;
 using fcl::CollisionGeometryd;
+
+/// Says when two objects touch first: `time` is at most the time of every contact.
+struct FirstContact {
+  bool found;
+  double time;  ///< 1 if none was found
+};
+
+/// Finds it by conservative advancement, which proves one interval after the other free, until the
+/// end or until a contact at most toc_err later is known. Where the provable intervals shrink below
+/// toc_err / 2^20 and no contact is known, it gives up and reports one. Throws
+/// std::invalid_argument if toc_err is NaN or negative. Source: Mirtich, "Timewarp rigid body
+/// simulation" (2000); Zhang, Redon, Lee & Kim, "Continuous collision detection for articulated
+/// models using Taylor models and temporal culling" (2007).
+FirstContact advance(continuous::StepSearch& pair, double toc_err, ContinuousCounts& counts) {
+  require(toc_err >= 0, "ContinuousCollisionRequest::toc_err", toc_err, ">= 0");
+  constexpr long long kMostSteps = 20000;
+  constexpr double kSmall = 0.25, kShort = 0x1p-13;  // there are few longer steps
+  const double tolerance = std::clamp(toc_err, 0x1p-48, 1.0);
+  const double least = std::max(0x1p-20 * tolerance, 0x1p-52);
+
+  const auto touching = [&](double t) {
+    ++counts.collision_tests;
+    return pair.touching(t);
+  };
+  if (touching(0)) return {true, 0};
+  double t = 0, look_from = 0;
+  for (long long short_steps = 0;;) {
+    const double h = pair.apartFor(t, kSmall * tolerance);
+    ++counts.steps;
+    if (h >= 1 - t) return {false, 1};
+    // Small steps: a contact is near, or the two pass each other closely.
+    if (h < kSmall * tolerance && t >= look_from) {
+      if (touching(std::min(1.0, t + tolerance))) return {true, t};
+      look_from = t + 0.5 * tolerance;
+    }
+    short_steps += h < kShort ? 1 : 0;
+    if (h < least || short_steps > kMostSteps) return {true, t};
+    double next = t + h;
+    if (next - t > h) next = std::nextafter(next, 0.0);
+    t = next;
+  }
+}
 
 double firstContact(const CollisionGeometryd& a, const Motion& motion_a,
                     const CollisionGeometryd& b, const Motion& motion_b, double toc_err,
@@ -19,8 +65,7 @@ double firstContact(const CollisionGeometryd& a, const Motion& motion_a,
   const auto pair = continuous::movingPair(a, motion_a, b, motion_b, count);
   // As in collide(), a geometry that isn't occupied touches nothing.
   const bool occupied = a.isOccupied() && b.isOccupied();
-  const continuous::FirstContact contact =
-      occupied ? continuous::advance(*pair, toc_err, count) : continuous::FirstContact{false, 1};
+  const FirstContact contact = occupied ? advance(*pair, toc_err, count) : FirstContact{false, 1};
   result.is_collide = contact.found;
   result.time_of_contact = contact.time;
   result.contact_tf1 = motion_a.pose(contact.time);
