@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "triangle/common_point.h"
 #include "triangle/plain_intersection.h"
@@ -32,15 +31,21 @@ class PairIntersection {
   explicit PairIntersection(const PairPredicates::Coordinates& points)
       : points_(points), signs_(points) {}
 
-  bool test() { return common(nullptr); }
-
-  /// The common point that is cheapest to find, nothing if there is none.
-  std::optional<Coordinates> anyPoint() {
-    Coordinates point;
-    return common(&point) ? std::optional<Coordinates>(point) : std::nullopt;
+  /// Returns true if the triangles intersect; then `point`, unless null, becomes the common point
+  /// that is cheapest to find.
+  bool common(Coordinates* point) {
+    if (!crossesPlanes()) return false;
+    if (a_.degenerate && b_.degenerate) {
+      if (!segmentsMeet(a_.v[0], a_.v[1], b_.v[0], b_.v[1])) return false;
+      if (point) *point = meetingPoint(a_.v[0], a_.v[1], b_.v[0], b_.v[1]);
+      return true;
+    }
+    if (a_.degenerate) return segmentMeets(a_, b_, point);
+    if (b_.degenerate) return segmentMeets(b_, a_, point);
+    return a_.inPlane() ? coplanarMeet(point) : intervalsMeet(point);
   }
 
-  /// Mean of the points where an edge of one triangle meets the other, after test().
+  /// Mean of the points where an edge of one of two triangles that intersect meets the other.
   Coordinates middle() {
     crossesPlanes();
     Coordinates sum = {0, 0, 0};
@@ -57,19 +62,6 @@ class PairIntersection {
   }
 
  private:
-  /// Returns true if the triangles intersect; then `point`, unless null, becomes a common point.
-  bool common(Coordinates* point) {
-    if (!crossesPlanes()) return false;
-    if (a_.degenerate && b_.degenerate) {
-      if (!segmentsMeet(a_.v[0], a_.v[1], b_.v[0], b_.v[1])) return false;
-      if (point) *point = meetingPoint(a_.v[0], a_.v[1], b_.v[0], b_.v[1]);
-      return true;
-    }
-    if (a_.degenerate) return segmentMeets(a_, b_, point);
-    if (b_.degenerate) return segmentMeets(b_, a_, point);
-    return a_.inPlane() ? coplanarMeet(point) : intervalsMeet(point);
-  }
-
   /// Sides of every vertex with respect to the other plane; false if one plane has a triangle
   /// strictly on one side.
   bool crossesPlanes() {
@@ -341,15 +333,16 @@ template <typename S>
   if (boxesApart(a, b)) return false;
   const Plainly plain = plainlyMeet(a, b);
   if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;
-  return PairIntersection(coordinatesOf(a, b)).test();
+  return PairIntersection(coordinatesOf(a, b)).common(nullptr);
 }
 
 bool commonPoint(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
                  Point<double>& point) {
   if (boxesApart(a, b)) return false;
-  const auto found = PairIntersection(coordinatesOf(a, b)).anyPoint();
-  if (found) point = {(*found)[0], (*found)[1], (*found)[2]};
-  return found.has_value();
+  Coordinates found;
+  if (!PairIntersection(coordinatesOf(a, b)).common(&found)) return false;
+  point = {found[0], found[1], found[2]};
+  return true;
 }
 
 template <typename S>
