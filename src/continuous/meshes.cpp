@@ -75,7 +75,7 @@ bool MovingMeshes::touching(double t) {
   fcl::CollisionResultd result;
   const fcl::CollisionRequestd request;
   const fcl::Transform3d X_WA = motion_.a().pose(t), X_WB = motion_.b().pose(t);
-  return (areSolids(a_, b_) ? collideSolids(a_, X_WA, b_, X_WB, request, result)
+  return (areSolids(a_, b_) ? collideSolid<double>(a_, X_WA, b_, X_WB, request, result)
                             : collideMeshes(a_, X_WA, b_, X_WB, request, result)) > 0;
 }
 

@@ -59,7 +59,7 @@ std::unique_ptr<StepSearch> movingPair(const CollisionGeometryd& a, const Motion
     fcl::CollisionResultd result;
     const fcl::CollisionRequestd request;
     if (marksExist() && solidPair<double>(&mesh, &geometry, nullptr, &mesh)) {
-      return collideSolidShape(mesh, X_mesh, geometry, X_solids, request, result) > 0;
+      return collideSolid(mesh, X_mesh, geometry, X_solids, request, result) > 0;
     }
     return collideOther(mesh, X_mesh, geometry, X_solids, request, result) > 0;
   };
