@@ -19,21 +19,25 @@ constexpr int kNext[3] = {1, 2, 0};
 
 Sign signOf(const cpp_int& v) { return static_cast<Sign>(v.sign()); }
 
-/// The side on which the turned ray passes the edge from p to q, which are relative to the origin:
-/// the sign of d . (p x q), else of its term in e, else of that in e^2. All three vanish only where
-/// p and q lie on a line with the origin.
-template <typename Dot, typename Component>
-Sign turnedSide(const Dot& along_ray, const Component& component) {
-  if (const Sign s = along_ray()) return s;
-  if (const Sign s = component(0)) return s;
-  return component(1);
-}
-
 Crossing verdict(Sign height, const Sign (&sides)[3]) {
   for (const Sign side : sides) {
     if (side != height) return Crossing::kNone;
   }
   return height > 0 ? Crossing::kForward : Crossing::kBackward;
+}
+
+/// The side on which the turned ray passes the edge from corner i to j, relative to the origin, is
+/// the sign of d . (i x j), by along_ray(i, j), else of its term in e, component(i, j, 0), else of
+/// that in e^2. All three vanish only where the corners lie on a line with the origin.
+template <typename Dot, typename Component>
+Crossing turnedVerdict(Sign height, const Dot& along_ray, const Component& component) {
+  Sign sides[3];
+  for (int i = 0; i < 3; ++i) {
+    const int j = kNext[i];
+    sides[i] = along_ray(i, j);
+    for (int axis = 0; axis < 2 && sides[i] == kZero; ++axis) sides[i] = component(i, j, axis);
+  }
+  return verdict(height, sides);
 }
 
 }  // namespace
@@ -84,25 +88,19 @@ Crossing RayCrossing::crossExactly(const ScaledOrigin::Corners& t,
   for (int i = 0; i < 3; ++i) row(m, i, i);
   const Sign height = signOf(determinant(m));
   if (height == kZero) return ifOrigin(corners);
-  Sign sides[3];
-  for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i];
-    sides[i] = turnedSide(
-        [&] {
-          for (int c = 0; c < 3; ++c) {
-            m[0][c] = Expansion<2>();
-            m[0][c].append(direction_[c]);
-          }
-          row(m, 1, i);
-          row(m, 2, j);
-          return signOf(determinant(m));
-        },
-        [&](int axis) {
-          const int y = kNext[axis], z = kNext[y];
-          return signOf(sum(product(p[i][y], p[j][z]), negated(product(p[i][z], p[j][y]))));
-        });
-  }
-  return verdict(height, sides);
+  const auto along_ray = [&](int i, int j) {
+    for (int c = 0; c < 3; ++c) {
+      m[0][c] = Expansion<2>();
+      m[0][c].append(direction_[c]);
+    }
+    row(m, 1, i);
+    row(m, 2, j);
+    return signOf(determinant(m));
+  };
+  return turnedVerdict(height, along_ray, [&](int i, int j, int axis) {
+    const int y = kNext[axis], z = kNext[y];
+    return signOf(sum(product(p[i][y], p[j][z]), negated(product(p[i][z], p[j][y]))));
+  });
 }
 
 Crossing RayCrossing::crossInIntegers(const TriangleVertices<double>& corners) const {
@@ -121,13 +119,9 @@ Crossing RayCrossing::crossInIntegers(const TriangleVertices<double>& corners) c
   };
   const Sign height = dot(p[0], 1, 2);
   if (height == kZero) return ifOrigin(corners);
-  Sign sides[3];
-  for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i];
-    sides[i] = turnedSide([&] { return dot(d, i, j); },
-                          [&](int axis) { return signOf(component(i, j, axis)); });
-  }
-  return verdict(height, sides);
+  return turnedVerdict(
+      height, [&](int i, int j) { return dot(d, i, j); },
+      [&](int i, int j, int axis) { return signOf(component(i, j, axis)); });
 }
 
 Crossing RayCrossing::ifOrigin(const TriangleVertices<double>& corners) const {
