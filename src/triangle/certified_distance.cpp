@@ -42,57 +42,55 @@ double squareOf(const Vec& e) {
 
 }  // namespace
 
-CertifiedDistance::Triangle::Triangle(const Vec (&vertices)[3]) : v(vertices) {
-  for (int i = 0; i < 3; ++i) {
-    edge[i] = v[nextVertex(i)] - v[i];
-    square[i] = squareOf(edge[i]);
-    per_square[i] = 1 / (square[i] > 0 ? square[i] : 1);  // edges of length 0 are left out
-  }
-}
-
 CertifiedDistance::CertifiedDistance(const TrianglePair& pair)
-    : pair_(pair),
-      tolerance_(8 * kEps * pair.magnitude),
-      least_(64 * kEps * pair.magnitude),
-      p_(pair.p),
-      q_(pair.q) {
+    : pair_(pair), tolerance_(8 * kEps * pair.magnitude), least_(64 * kEps * pair.magnitude) {
+  for (int i = 0; i < 3; ++i) {
+    e_[i] = pair_.p[nextVertex(i)] - pair_.p[i];
+    f_[i] = pair_.q[nextVertex(i)] - pair_.q[i];
+    ee_[i] = squareOf(e_[i]);
+    ff_[i] = squareOf(f_[i]);
+    per_ee_[i] = 1 / (ee_[i] > 0 ? ee_[i] : 1);  // edges of length 0 are left out
+    per_ff_[i] = 1 / (ff_[i] > 0 ? ff_[i] : 1);
+  }
   // Most nearest pairs lie at the vertices that face the other triangle.
-  const Vec across = (q_.v[0] + q_.v[1] + q_.v[2]) - (p_.v[0] + p_.v[1] + p_.v[2]);
-  orderEdges(p_, across);
-  orderEdges(q_, -across);
+  const Vec across =
+      (pair_.q[0] + pair_.q[1] + pair_.q[2]) - (pair_.p[0] + pair_.p[1] + pair_.p[2]);
+  orderEdges(pair_.p, across, order_p_);
+  orderEdges(pair_.q, -across, order_q_);
 }
 
 /// The two edges at the vertex farthest along `direction`, then the third.
-void CertifiedDistance::orderEdges(Triangle& t, const Vec& direction) {
-  const double h0 = t.v[0].dot(direction), h1 = t.v[1].dot(direction), h2 = t.v[2].dot(direction);
+void CertifiedDistance::orderEdges(const Vec (&v)[3], const Vec& direction, int (&order)[3]) {
+  const double h0 = v[0].dot(direction), h1 = v[1].dot(direction), h2 = v[2].dot(direction);
   const int vertex = h0 >= h1 ? (h0 >= h2 ? 0 : 2) : (h1 >= h2 ? 1 : 2);
-  t.order[0] = vertex;
-  t.order[2] = nextVertex(vertex);
-  t.order[1] = nextVertex(t.order[2]);
+  order[0] = vertex;
+  order[2] = nextVertex(vertex);
+  order[1] = nextVertex(order[2]);
 }
 
 bool CertifiedDistance::crossing() {
-  setPlane(p_, q_);
-  setPlane(q_, p_);
-  return p_.side == 0 && q_.side == 0;
+  setPlane(pair_.p, e_, pair_.q, plane_p_);
+  setPlane(pair_.q, f_, pair_.p, plane_q_);
+  return plane_p_.side == 0 && plane_q_.side == 0;
 }
 
-void CertifiedDistance::setPlane(Triangle& face, const Triangle& other) {
-  face.normal = face.edge[0].cross(face.edge[1]);
-  face.normal_square = face.normal.squaredNorm();
+void CertifiedDistance::setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3],
+                                 Plane& plane) {
+  plane.normal = edges[0].cross(edges[1]);
+  plane.square = plane.normal.squaredNorm();
   int above = 0, below = 0;
   for (int i = 0; i < 3; ++i) {
-    face.heights[i] = (other.v[i] - face.v[0]).dot(face.normal);
-    above += face.heights[i] > 0;
-    below += face.heights[i] < 0;
+    plane.heights[i] = (other[i] - face[0]).dot(plane.normal);
+    above += plane.heights[i] > 0;
+    below += plane.heights[i] < 0;
   }
-  face.side = above == 3 ? 1 : (below == 3 ? -1 : 0);
+  plane.side = above == 3 ? 1 : (below == 3 ? -1 : 0);
 }
 
 bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) {
   for (int i = begin; i < end; ++i) {
     for (int j = 0; j < 3; ++j) {
-      if (edgePair(p_.order[i], q_.order[j], found)) return true;
+      if (edgePair(order_p_[i], order_q_[j], found)) return true;
       if (touching()) return false;
     }
   }
@@ -100,11 +98,13 @@ bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) {
 }
 
 bool CertifiedDistance::nearestFace(PairDistance& found) const {
-  if (facePair(p_, q_, found.on_p, found.on_q, found.feature_q, found.distance)) {
+  if (facePair(plane_p_, pair_.p, e_, ee_, pair_.q, found.on_p, found.on_q, found.feature_q,
+               found.distance)) {
     found.feature_p = {PairFeature::kFace, 0};
     return true;
   }
-  if (facePair(q_, p_, found.on_q, found.on_p, found.feature_p, found.distance)) {
+  if (facePair(plane_q_, pair_.q, f_, ff_, pair_.p, found.on_q, found.on_p, found.feature_p,
+               found.distance)) {
     found.feature_q = {PairFeature::kFace, 0};
     return true;
   }
@@ -113,11 +113,10 @@ bool CertifiedDistance::nearestFace(PairDistance& found) const {
 
 /// Nearest points of edges i and j; true if they are those of the triangles.
 bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) {
-  const Vec &e = p_.edge[i], &f = q_.edge[j];
-  const double ee = p_.square[i], ff = q_.square[j];
-  if (!(ee > 0 && ff > 0)) return false;
-  const Vec t = q_.v[j] - p_.v[i];
-  const double ef = e.dot(f), et = e.dot(t), ft = f.dot(t);
+  const Vec &e = e_[i], &f = f_[j];
+  if (!(ee_[i] > 0 && ff_[j] > 0)) return false;
+  const Vec t = pair_.q[j] - pair_.p[i];
+  const double ee = ee_[i], ff = ff_[j], ef = e.dot(f), et = e.dot(t), ft = f.dot(t);
   const double den = ee * ff - ef * ef;
   const bool oblique = den > 1e-4 * ee * ff;
   double s = 0;
@@ -128,21 +127,21 @@ bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) {
     const double square = n.squaredNorm();
     if (square > 0) s = clamp01(t.cross(f).dot(n) / square);
   }
-  double v = (s * ef - ft) * q_.per_square[j];
+  double v = (s * ef - ft) * per_ff_[j];
   if (v < 0) {
     v = 0;
-    s = clamp01(et * p_.per_square[i]);
+    s = clamp01(et * per_ee_[i]);
   } else if (v > 1) {
     v = 1;
-    s = clamp01((et + ef) * p_.per_square[i]);
+    s = clamp01((et + ef) * per_ee_[i]);
   }
-  const Vec x = p_.v[i] + s * e, y = q_.v[j] + v * f, w = y - x;
+  const Vec x = pair_.p[i] + s * e, y = pair_.q[j] + v * f, w = y - x;
   const double square = w.squaredNorm();
   if (square < nearest_square_) nearest_square_ = square;
   // The other vertex of each triangle must lie behind its own point, but for the rounding of w.
   const double slack = 8 * tolerance_ * pair_.magnitude;
-  if ((p_.v[nextVertex(nextVertex(i))] - x).dot(w) > slack) return false;
-  if ((q_.v[nextVertex(nextVertex(j))] - y).dot(w) < -slack) return false;
+  if ((pair_.p[nextVertex(nextVertex(i))] - x).dot(w) > slack) return false;
+  if ((pair_.q[nextVertex(nextVertex(j))] - y).dot(w) < -slack) return false;
 
   const double distance = std::sqrt(square);
   if (!(distance > least_)) return false;
@@ -166,10 +165,10 @@ bool CertifiedDistance::edgePair(int i, int j, PairDistance& found) {
 
 /// The slab across `direction` between the triangles is at least distance - tolerance wide.
 bool CertifiedDistance::certified(const Vec& direction, const Vec& x, double distance) const {
-  double high = (p_.v[0] - x).dot(direction), low = (q_.v[0] - x).dot(direction);
+  double high = (pair_.p[0] - x).dot(direction), low = (pair_.q[0] - x).dot(direction);
   for (int k = 1; k < 3; ++k) {
-    high = std::max(high, (p_.v[k] - x).dot(direction));
-    low = std::min(low, (q_.v[k] - x).dot(direction));
+    high = std::max(high, (pair_.p[k] - x).dot(direction));
+    low = std::min(low, (pair_.q[k] - x).dot(direction));
   }
   const double length = direction.norm();
   // A length whose square underflows means nothing.
@@ -178,14 +177,16 @@ bool CertifiedDistance::certified(const Vec& direction, const Vec& x, double dis
 
 /// The vertex of `other` nearest to the plane of `face`, if all lie on one side of it and that
 /// vertex above the face.
-bool CertifiedDistance::facePair(const Triangle& face, const Triangle& other, Vec& on_face,
+bool CertifiedDistance::facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
+                                 const double (&squares)[3], const Vec (&other)[3], Vec& on_face,
                                  Vec& on_other, PairFeature& feature, double& distance) const {
-  const Vec& n = face.normal;
-  const double square = face.normal_square;
-  const double longest = std::max({face.square[0], face.square[1], face.square[2]});
-  if (face.side == 0 || !(square > 1e-6 * longest * longest)) return false;  // height / edge > 1e-3
+  const Vec& n = plane.normal;
+  const double square = plane.square;
+  const double longest = std::max({squares[0], squares[1], squares[2]});
+  if (plane.side == 0 || !(square > 1e-6 * longest * longest))
+    return false;  // height / edge > 1e-3
   const double length = std::sqrt(square);
-  const double* const h = face.heights;
+  const double* const h = plane.heights;
   int nearest = std::abs(h[1]) < std::abs(h[0]) ? 1 : 0;
   if (std::abs(h[2]) < std::abs(h[nearest])) nearest = 2;
   distance = std::abs(h[nearest]) / length;
@@ -193,21 +194,21 @@ bool CertifiedDistance::facePair(const Triangle& face, const Triangle& other, Ve
   // Inside every edge by more than the rounding of this test: near a sharp corner that rounding
   // would reach far beyond the corner.
   for (int i = 0; i < 3; ++i) {
-    const double inside = n.cross(face.edge[i]).dot(other.v[nearest] - face.v[i]);
+    const double inside = n.cross(edges[i]).dot(other[nearest] - face[i]);
     const double margin = 2 * tolerance_;
-    if (!(inside > 0 && inside * inside > margin * margin * square * face.square[i])) {
+    if (!(inside > 0 && inside * inside > margin * margin * square * squares[i])) {
       return false;
     }
   }
   // The face itself must lie within the slab's one side, else n is too inaccurate.
   double low = 0, high = 0;
   for (int i = 1; i < 3; ++i) {
-    const double offset = (face.v[i] - face.v[0]).dot(n);
+    const double offset = (face[i] - face[0]).dot(n);
     low = std::min(low, offset);
     high = std::max(high, offset);
   }
   if (!(high - low <= 0.5 * tolerance_ * length)) return false;
-  on_other = other.v[nearest];
+  on_other = other[nearest];
   on_face = on_other - (h[nearest] / square) * n;
   feature = {PairFeature::kVertex, nearest};
   return true;

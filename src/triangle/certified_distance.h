@@ -30,23 +30,17 @@ class CertifiedDistance {
 
  private:
   using Vec = Eigen::Vector3d;
-  /// Holds one triangle of the pair.
-  struct Triangle {
-    explicit Triangle(const Vec (&vertices)[3]);
-
-    const Vec (&v)[3];
-    Vec edge[3];
-    double square[3], per_square[3];  ///< of the edges' lengths, and their inverses
-    int order[3];                     ///< of the edges, those nearest to the other triangle first
-    // Set by setPlane():
+  /// One triangle's plane, and the heights of the other's vertices above it times |normal|.
+  struct Plane {
     Vec normal;
-    double normal_square, heights[3];  ///< of the other's vertices above the plane, times |normal|
-    int side;                          ///< of all three vertices, 0 if they differ
+    double square, heights[3];
+    int side;  ///< of all three vertices, 0 if they differ
   };
-  static void setPlane(Triangle& face, const Triangle& other);
-  static void orderEdges(Triangle& t, const Vec& direction);
+  void setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3], Plane& plane);
+  static void orderEdges(const Vec (&v)[3], const Vec& direction, int (&order)[3]);
   bool edgePair(int i, int j, PairDistance& found);
-  bool facePair(const Triangle& face, const Triangle& other, Vec& on_face, Vec& on_other,
+  bool facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
+                const double (&squares)[3], const Vec (&other)[3], Vec& on_face, Vec& on_other,
                 PairFeature& feature, double& distance) const;
   bool certified(const Vec& direction, const Vec& x, double distance) const;
 
@@ -54,7 +48,10 @@ class CertifiedDistance {
   const double tolerance_;  ///< of the certificate
   const double least_;      ///< nearer pairs are left to the exact predicates
   double nearest_square_ = kInfinity;
-  Triangle p_, q_;
+  Vec e_[3], f_[3];
+  double ee_[3], ff_[3], per_ee_[3], per_ff_[3];
+  int order_p_[3], order_q_[3];
+  Plane plane_p_, plane_q_;
 };
 
 }  // namespace kios
