@@ -7,15 +7,17 @@ namespace kios {
 Parts partsOf(const std::vector<Side>& sides, std::size_t num_triangles, bool across_branches) {
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   std::vector<int> parent(num_triangles, -1);
-  for (const Side& side : sides) parent[at(side.triangle)] = side.triangle;
   const auto root = [&](int i) {
     while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
     return i;
   };
   forEdges(sides, [&](std::size_t begin, std::size_t end) {
-    if (end - begin != 2 && !across_branches) return;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const int a = root(sides[i - 1].triangle), b = root(sides[i].triangle);
+    const bool joins = end - begin == 2 || across_branches;
+    for (std::size_t i = begin; i < end; ++i) {
+      const int t = sides[i].triangle;
+      if (parent[at(t)] < 0) parent[at(t)] = t;
+      if (i == begin || !joins) continue;
+      const int a = root(sides[i - 1].triangle), b = root(t);
       parent[at(std::max(a, b))] = std::min(a, b);
     }
   });
