@@ -87,37 +87,17 @@ double Convex::margin() const {
 ConvexDistance convexDistance(const Convex& a, const Convex& b) {
   constexpr int kMostSteps = 256;
   shape::Simplex s;
+  double size = 0;
   const auto add = [&](const Vector3d& v) {  // the extreme point of a - b against v
     s.add(a.support(-v), b.support(v));
-    return s.y[s.size - 1];
+    size = std::max({size, s.on_a[s.size - 1].lpNorm<1>(), s.on_b[s.size - 1].lpNorm<1>()});
+    return size;
   };
   Vector3d v = a.center() - b.center();
   if (v.isZero(0)) v = Vector3d::UnitX();
   add(v);
-  v = s.y[0];
-  double squared = v.squaredNorm(), lower = -kInfinity, size = 0;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const double length = std::sqrt(squared);
-    if (!(length > 0)) break;
-    const shape::Simplex before = s;
-    const Vector3d y = add(v);
-    lower = std::max(lower, v.dot(y) / length);
-    size = std::max({size, s.on_a[s.size - 1].lpNorm<1>(), s.on_b[s.size - 1].lpNorm<1>()});
-    bool known = false;
-    for (int i = 0; i < before.size; ++i) known |= before.y[i] == y;
-    if (known || length - lower <= 0x1p-48 * length + 0.25 * kEps * size) {
-      s = before;
-      break;
-    }
-    const shape::Nearest best = shape::nearest(s);
-    if (!(best.squared < squared)) {
-      s = before;
-      break;
-    }
-    shape::reduce(best, s);
-    squared = best.squared;
-    v = best.v;
-  }
+  size = 0;
+  const auto [squared, lower] = shape::descend(s, add, kInfinity, kMostSteps);
   ConvexDistance answer;
   for (int i = 0; i < s.size; ++i) {
     answer.point_a += s.weight[i] * s.on_a[i];

@@ -9,6 +9,7 @@
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/spline_motion.h>
 #include <fcl/math/motion/translation_motion.h>
+#include "fcl_kios/model/motion_bounds.h"
 #include "volume/errors.h"
 
 namespace kios::continuous {
@@ -37,6 +38,12 @@ struct SplinePoints : fcl::SplineMotion<double> {
   static Motion::Points points(const Vector3d (&p)[4]) { return {p[0], p[1], p[2], p[3]}; }
 };
 
+/// Returns null for a motion of another class, a derived one too.
+template <typename FclMotion>
+const FclMotion* exactly(const fcl::MotionBase<double>& motion) {
+  return typeid(motion) == typeid(FclMotion) ? static_cast<const FclMotion*>(&motion) : nullptr;
+}
+
 Motion of(const fcl::TranslationMotion<double>& m) {
   return Motion::twist(poseAtStart(m), m.getVelocity(), Vector3d::UnitX(), 0, Vector3d::Zero());
 }
@@ -61,21 +68,11 @@ Motion of(const fcl::SplineMotion<double>& m) {
 
 Motion motionOf(const fcl::MotionBase<double>* motion) {
   if (!motion) refuse("continuousCollide needs a motion for each object.");
-  const std::type_info& type = typeid(*motion);
-  const auto as = [&](auto* tag) { return static_cast<decltype(tag)>(motion); };
-  if (type == typeid(fcl::TranslationMotion<double>)) {
-    return of(*as(static_cast<const fcl::TranslationMotion<double>*>(nullptr)));
-  }
-  if (type == typeid(fcl::InterpMotion<double>)) {
-    return of(*as(static_cast<const fcl::InterpMotion<double>*>(nullptr)));
-  }
-  if (type == typeid(fcl::ScrewMotion<double>)) {
-    return of(*as(static_cast<const fcl::ScrewMotion<double>*>(nullptr)));
-  }
-  if (type == typeid(fcl::SplineMotion<double>)) {
-    return of(*as(static_cast<const fcl::SplineMotion<double>*>(nullptr)));
-  }
-  refuse("continuousCollide can't bound the motion ", boost::core::demangle(type.name()),
+  if (const auto* m = exactly<fcl::TranslationMotion<double>>(*motion)) return of(*m);
+  if (const auto* m = exactly<fcl::InterpMotion<double>>(*motion)) return of(*m);
+  if (const auto* m = exactly<fcl::ScrewMotion<double>>(*motion)) return of(*m);
+  if (const auto* m = exactly<fcl::SplineMotion<double>>(*motion)) return of(*m);
+  refuse("continuousCollide can't bound the motion ", boost::core::demangle(typeid(*motion).name()),
          "; use fcl::TranslationMotion, InterpMotion, ScrewMotion or SplineMotion.");
 }
 
@@ -94,3 +91,21 @@ Motion motionBetween(const Transform3d& X_0, const Transform3d& X_1, fcl::CCDMot
 }
 
 }  // namespace kios::continuous
+
+namespace kios {
+
+// FCL's motions tell no time, but for splines: the bound is that from 0 on. Points of a body turn
+// with at most angular speed times their distance from a fixed axis, and across it.
+double detail::speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
+                          const fcl::MotionBase<double>& motion) {
+  const continuous::Motion m = continuous::motionOf(&motion);
+  const fcl::Transform3d X = m.pose(0);
+  const continuous::VelocityField v = m.velocities(0, X, 1);
+  const fcl::Vector3d center = X * bv.center0;
+  const double rounding = m.rounding(bv.center0.norm() + bv.radius0);
+  const double turn = v.turnSpeed(center, bv.radius0);
+  return n.dot(v.linear) + n.norm() * v.originAcceleration() +
+         (v.fixed_axis ? n.cross(v.axis).norm() : n.norm()) * turn + rounding;
+}
+
+}  // namespace kios

@@ -101,8 +101,8 @@ bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v,
   const int k = spheresOf(bv, v.pose(), centers, radii);
   // An inner node may be larger than the leaves in it.
   const double pad = this->pad(v) + 0x1p-46 * (1 + v.turn()) * (part.center.norm() + solid.reach());
-  if (solid.bounded() && v.apart(v.ballOfA(part.center, solid.reach() + pad),
-                                 v.ballOfB(centers[0], radii[0]), duration)) {
+  if (solid.bounded() && v.apart(movingBall(v.a(), part.center, solid.reach() + pad),
+                                 movingBall(v.b(), centers[0], radii[0]), duration)) {
     return true;
   }
   // A ball is free if it doesn't get as far as the shape lies.

@@ -32,6 +32,14 @@ struct Edges {
   Vector3d along[3], normal;
 };
 
+/// Returns the central sphere of a volume of A's, or of B's, in frame A.
+MovingBall centralOfA(const kIOSd& bv, const RelativeVelocities& v) {
+  return movingBall(v.a(), bv.center0, bv.radius0);
+}
+MovingBall centralOfB(const kIOSd& bv, const RelativeVelocities& v) {
+  return movingBall(v.b(), v.pose() * bv.center0, bv.radius0 * (1 + v.stretch()));
+}
+
 /// The caps of a volume that is turned by R, its centre at `center`; their radii are returned. Caps
 /// that k doesn't count repeat the central sphere.
 Eigen::Array4d capsOf(const kIOSd& bv, const Eigen::Matrix3d& R, const Vector3d& center,
@@ -67,7 +75,7 @@ bool MovingMeshes::touching(double t) {
   fcl::CollisionResultd result;
   const fcl::CollisionRequestd request;
   const fcl::Transform3d X_WA = motion_.a().pose(t), X_WB = motion_.b().pose(t);
-  return (areSolids(a_, b_) ? collideSolids(a_, X_WA, b_, X_WB, request, result)
+  return (areSolids(a_, b_) ? collideSolid<double>(a_, X_WA, b_, X_WB, request, result)
                             : collideMeshes(a_, X_WA, b_, X_WB, request, result)) > 0;
 }
 
@@ -92,9 +100,7 @@ double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
   query.start = nearest_;
   const DistanceAnswer<double> answer = bracketDistance(frame, query);
   nearest_ = {answer.triangle_a, answer.triangle_b};
-  const kIOSd &a = frame.rootA(), &b = frame.rootB();
-  return v.apartTime(v.ballOfA(a.center0, a.radius0),
-                     v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())),
+  return v.apartTime(centralOfA(frame.rootA(), v), centralOfB(frame.rootB(), v),
                      answer.lower_bound);
 }
 
@@ -273,16 +279,15 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
 bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
   if (useChords(v, duration)) return nodesStayApart(pair, v);
   const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
-  const double stretch = 1 + v.stretch();
-  const MovingBall central_a = v.ballOfA(a.center0, a.radius0);
-  const MovingBall central_b = v.ballOfB(v.pose() * b.center0, b.radius0 * stretch);
+  const MovingBall central_a = centralOfA(a, v), central_b = centralOfB(b, v);
   if (v.apart(central_a, central_b, duration)) return true;
   if (a.k() > 1 || b.k() > 1) {
     Eigen::Array4d centers[3];
-    const Eigen::Array4d radii_b = capsOf(b, v.pose().R(), central_b.center, centers) * stretch;
-    const FourBalls caps_b = v.ballsOfB(centers, radii_b);
+    const Eigen::Array4d radii_b =
+        capsOf(b, v.pose().R(), central_b.center, centers) * (1 + v.stretch());
+    const FourBalls caps_b = movingBalls(v.b(), centers, radii_b);
     const Eigen::Array4d radii_a = capsOf(a, Eigen::Matrix3d::Identity(), a.center0, centers);
-    const FourBalls caps_a = v.ballsOfA(centers, radii_a);
+    const FourBalls caps_a = movingBalls(v.a(), centers, radii_a);
     if (capsApart(a.k(), central_a, caps_a, central_b, caps_b, v, duration)) return true;
   }
   return (a_.getBV(pair.a).isLeaf() || b_.getBV(pair.b).isLeaf()) && planeParts(pair, v, duration);
@@ -294,11 +299,9 @@ double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, dou
   const TriangleDistance<double> nearest = triangleDistance(p, q);
   if (!(nearest.distance > 0)) return 0;
   if (useChords(v, required) && leavesStayApart(pair, v)) return required;
-  const kIOSd &a = a_.getBV(pair.a).bv, &b = b_.getBV(pair.b).bv;
   // The distance is off by 32 u of the pair's extent, which the pad for rounding covers.
-  double best =
-      v.apartTime(v.ballOfA(a.center0, a.radius0),
-                  v.ballOfB(v.pose() * b.center0, b.radius0 * (1 + v.stretch())), nearest.distance);
+  double best = v.apartTime(centralOfA(a_.getBV(pair.a).bv, v), centralOfB(b_.getBV(pair.b).bv, v),
+                            nearest.distance);
   const Vector3d witness = unitVector(nearest.point_b - nearest.point_a);
   if (best < required) best = std::max(best, v.slabTime(witness, p, q, required));
   // The slab that lasts longest need not be the widest one: a body that slides along a face stays

@@ -70,37 +70,24 @@ bool RelativeVelocities::anyApart(const MovingBall& ball, const FourBalls& four,
   return (nearest > least.square()).any();
 }
 
-namespace {
-
-FourBalls balls(const VelocityField& field, const Eigen::Array4d* center,
-                const Eigen::Array4d& radius) {
+FourBalls movingBalls(const VelocityField& body, const Eigen::Array4d* center,
+                      const Eigen::Array4d& radius) {
   FourBalls four;
   four.radius = radius;
   Eigen::Array4d arm[3];
   for (int c = 0; c < 3; ++c) {
     four.center[c] = center[c];
-    arm[c] = center[c] - field.origin[c];
+    arm[c] = center[c] - body.origin[c];
   }
   Eigen::Array4d squared = Eigen::Array4d::Zero();
   for (int c = 0; c < 3; ++c) {
     const int d = (c + 1) % 3, e = (c + 2) % 3;
-    four.velocity[c] = field.linear[c] + field.angular[d] * arm[e] - field.angular[e] * arm[d];
-    squared += field.fixed_axis ? (field.axis[d] * arm[e] - field.axis[e] * arm[d]).square().eval()
-                                : arm[c].square().eval();
+    four.velocity[c] = body.linear[c] + body.angular[d] * arm[e] - body.angular[e] * arm[d];
+    squared += body.fixed_axis ? (body.axis[d] * arm[e] - body.axis[e] * arm[d]).square().eval()
+                               : arm[c].square().eval();
   }
-  four.acceleration = field.originAcceleration() + field.turn_acceleration * squared.sqrt();
+  four.acceleration = body.originAcceleration() + body.turn_acceleration * squared.sqrt();
   return four;
-}
-
-}  // namespace
-
-FourBalls RelativeVelocities::ballsOfA(const Eigen::Array4d* center,
-                                       const Eigen::Array4d& radius) const {
-  return balls(a_, center, radius);
-}
-FourBalls RelativeVelocities::ballsOfB(const Eigen::Array4d* center,
-                                       const Eigen::Array4d& radius) const {
-  return balls(b_, center, radius);
 }
 
 double RelativeVelocities::apartTime(const MovingBall& a, const MovingBall& b, double gap) const {

@@ -23,21 +23,20 @@ struct FourBalls {
   Eigen::Array4d center[3], radius, velocity[3], acceleration;
 };
 
+/// Returns balls of a body, given in the frame of its velocities.
+inline MovingBall movingBall(const VelocityField& body, const Eigen::Vector3d& center,
+                             double radius) {
+  return {center, radius, body.at(center), body.acceleration(center)};
+}
+FourBalls movingBalls(const VelocityField& body, const Eigen::Array4d* center,
+                      const Eigen::Array4d& radius);
+
 /// The relative motion of two bodies A and B at a time t and, by bounds, until t + window.
 /// Everything is in frame A: the axes and origin of body A at t, standing still from then on.
 class RelativeVelocities {
  public:
   RelativeVelocities(const Motion& a, const Motion& b, double t, double window, double pad);
 
-  /// Returns balls of either body, given in frame A, with their velocities.
-  MovingBall ballOfA(const Eigen::Vector3d& center, double radius) const {
-    return {center, radius, a_.at(center), a_.acceleration(center)};
-  }
-  MovingBall ballOfB(const Eigen::Vector3d& center, double radius) const {
-    return {center, radius, b_.at(center), b_.acceleration(center)};
-  }
-  FourBalls ballsOfA(const Eigen::Array4d* center, const Eigen::Array4d& radius) const;
-  FourBalls ballsOfB(const Eigen::Array4d* center, const Eigen::Array4d& radius) const;
   /// True if two balls, and so what they contain, are proven apart for `duration`, at most the
   /// window.
   bool apart(const MovingBall& a, const MovingBall& b, double duration) const;

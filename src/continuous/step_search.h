@@ -5,8 +5,8 @@
 #include <limits>
 #include <vector>
 
-#include "continuous/advance.h"
 #include "continuous/relative_motion.h"
+#include "fcl_kios/continuous/continuous.h"
 #include "fcl_kios/model/model.h"
 #include "volume/rounding.h"
 
@@ -16,12 +16,17 @@ namespace kios::continuous {
 /// std::invalid_argument if it is not finished.
 double reachOf(const Modeld& model);
 
-/// The search for the time that the pairs of a tree's nodes, or of two trees', are apart. Source:
-/// Tang, Kim & Manocha, "C2A: controlled conservative advancement for continuous collision
-/// detection of polygonal models" (2009).
-class StepSearch : public MovingPair {
+/// Holds a moving pair of objects, t in [0, 1], and searches for the time that the pairs of a
+/// tree's nodes, or of two trees', are apart. Source: Tang, Kim & Manocha, "C2A: controlled
+/// conservative advancement for continuous collision detection of polygonal models" (2009).
+class StepSearch {
  public:
-  double apartFor(double t, double required) final;
+  virtual ~StepSearch() = default;
+  /// Returns true if they touch at t; exact.
+  virtual bool touching(double t) = 0;
+  /// Returns a time h <= 1 - t such that they are proven apart from t to t + h: the longest one
+  /// that a search finds, or any of at least `required` that costs less for its length.
+  double apartFor(double t, double required);
 
   /// For whoever takes single steps: none is looked for beyond `end`, none takes many more tests
   /// than `most_tests`, and all may be as long as they can, but for turns by more than an eighth of

@@ -33,9 +33,8 @@ template <typename S>
                                  fcl::CollisionResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
   if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
-    if (!mesh_b) return collideSolidShape(*mesh_a, X_WA, *b, X_WB, request, result);
-    if (!mesh_a) return collideSolidShape(*mesh_b, X_WB, *a, X_WA, request, result);
-    return collideSolids(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
+    if (!mesh_a) return collideSolid(*mesh_b, X_WB, *a, X_WA, request, result);
+    return collideSolid(*mesh_a, X_WA, *b, X_WB, request, result);
   }
   if (mesh_a && mesh_b) return collideMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
   if (mesh_a) return collideOther(*mesh_a, X_WA, *b, X_WB, request, result);
@@ -50,9 +49,8 @@ template <typename S>
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
   if (mesh_a || mesh_b) requireRelativeError(request);
   if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
-    if (!mesh_b) return distanceSolidShape(*mesh_a, X_WA, *b, X_WB, request, result);
-    if (!mesh_a) return distanceSolidShape(*mesh_b, X_WB, *a, X_WA, request, result);
-    return distanceSolids(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
+    if (!mesh_a) return distanceSolid(*mesh_b, X_WB, *a, X_WA, request, result);
+    return distanceSolid(*mesh_a, X_WA, *b, X_WB, request, result);
   }
   if (mesh_a && mesh_b) return distanceMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
   if (mesh_a) return distanceOther(*mesh_a, X_WA, *b, X_WB, request, result);

@@ -162,8 +162,8 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
   }
   if (areSolids(pair)) {
     fcl::CollisionResultd contacts;
-    return collideSolids(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
-                         fcl::CollisionRequestd(), contacts) > 0;
+    return collideSolid<double>(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
+                                fcl::CollisionRequestd(), contacts) > 0;
   }
   const MeshPair<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                                path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
@@ -180,7 +180,7 @@ bool BodyQueries::touchesOther(int mesh, int other, const Configuration& at) con
   const fcl::CollisionGeometryd& geometry = *body(other).geometry;
   const fcl::CollisionRequestd request;
   if (marksExist() && solidPair<double>(&model, &geometry, nullptr, &model)) {
-    return collideSolidShape(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
+    return collideSolid(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
   }
   return collideOther(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
 }

@@ -22,7 +22,6 @@ class Exit {
   Exit(const Solid& solid, const Triangle& triangle)
       : solid_(solid),
         t_(triangle),
-        box_(solid.kind == Kind::kBox),
         symmetric_(solid.kind != Kind::kCone && solid.kind != Kind::kConvex),
         margin_(solid.margin()) {}
 
@@ -60,13 +59,11 @@ class Exit {
     depth_ = depth / length;
     normal_ = n / length;
   }
-  double extent(const Vec& n) const {
-    return box_ ? solid_.half.dot(n.cwiseAbs()) : extentAlong(solid_, n);
-  }
+  double extent(const Vec& n) const { return extentAlong(solid_, n); }
 
   const Solid& solid_;
   const Triangle& t_;
-  const bool box_, symmetric_;
+  const bool symmetric_;
   const double margin_;
   Vec normal_ = Vec::UnitZ();
   double depth_ = kInfinity;
@@ -85,17 +82,11 @@ void descend(Exit& exit) {
   }
 }
 
-/// A point of both; for a capsule the pair of nearest points of its segment and the triangle.
+/// A point of both; for a capsule the pair of nearest points of its segment and the triangle. A box
+/// gets here where its slabs leave nothing of the triangle.
 CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
   CoreDistance core = {};
-  if (s.kind == Kind::kBox) {
-    Polygon polygon(t);
-    for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, s.half[axis]);
-    if (polygon.size > 0) {
-      core.point = core.on_core = polygon.middle();
-      return core;
-    }
-  } else if (s.kind == Kind::kConvex) {
+  if (s.kind == Kind::kConvex) {
     for (int i = 0; faces && i < 3; ++i) {
       if (!faces->contains(t[i])) continue;
       core.point = core.on_core = t[i];
@@ -103,7 +94,7 @@ CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* f
     }
   } else if (s.kind == Kind::kCapsule) {
     if (distanceByCertificate(s, t, kInfinity, core)) return core;
-  } else if (meets(s, t, &core.point)) {
+  } else if (s.kind != Kind::kBox && meets(s, t, &core.point)) {
     core.on_core = core.point;
     return core;
   }
@@ -148,8 +139,7 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const Conve
 /// The directions of solidContact() in closed form, and what the box's slabs leave of the triangle.
 /// False if rounding leaves nothing.
 bool boxContact(const Solid& s, const Triangle& t, TriangleShapeContact& contact) {
-  Polygon polygon(t);
-  for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, s.half[axis]);
+  const Polygon polygon(t, s.half);
   if (polygon.size == 0) return false;
   contact = {polygon.middle(), Vec::UnitZ(), kInfinity};
   // Depths along n and -n, of length `length`, of a box that reaches as far as `reach`.

@@ -36,7 +36,6 @@ class Features {
     if (!(corners_[least].distance > kClear * size_)) return false;
     core_.lower = -1;
     core_.inside = false;
-    core_.iterations = 0;
     if (decides(t_[least], corners_[least])) return true;
     for (int i = 0; i < 3; ++i) {
       if (edge(i, (i + 1) % 3)) return true;

@@ -4,23 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "fcl_kios/triangle/distance.h"
 #include "shape/simplex.h"
-#include "volume/rounding.h"
 
 namespace kios::shape {
-namespace {
-
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-
-}  // namespace
-
 CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double required,
                          int max_iterations) {
-  CoreDistance answer;
-  answer.lower = -kInfinity;
   Simplex s;
   const auto add = [&](const Vec& v) {  // the extreme point of hull - core against v
     int corner = 0;
@@ -28,46 +18,21 @@ CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, do
       if (v.dot(hull[i]) < v.dot(hull[corner])) corner = i;
     }
     s.add(hull[corner], coreSupport(solid, v));
-    return s.y[s.size - 1];
+    return s.on_a[s.size - 1].lpNorm<1>() + s.on_b[s.size - 1].lpNorm<1>();
   };
-  Vec v = hull[0];
-  for (int i = 1; i < num_points; ++i) v += hull[i];
-  add(v);
-  v = s.y[0];
-  double squared = v.squaredNorm();
-  for (answer.iterations = 1; answer.iterations < max_iterations; ++answer.iterations) {
-    const double length = std::sqrt(squared);
-    if (!(length > 0)) break;
-    Simplex before = s;
-    const Vec y = add(v);
-    answer.lower = std::max(answer.lower, v.dot(y) / length);
-    if (answer.lower > required) {
-      s = before;
-      break;
-    }
-    const double size = s.on_a[s.size - 1].lpNorm<1>() + s.on_b[s.size - 1].lpNorm<1>();
-    bool known = false;  // a point that is there already: nothing is nearer
-    for (int i = 0; i < before.size; ++i) known |= before.y[i] == y;
-    if (known || length - answer.lower <= 0x1p-48 * length + 0.25 * kEps * size) {
-      s = before;
-      break;
-    }
-    const Nearest best = nearest(s);
-    if (!(best.squared < squared)) {
-      s = before;
-      break;
-    }
-    reduce(best, s);
-    squared = best.squared;
-    v = best.v;
-  }
+  Vec sum = hull[0];
+  for (int i = 1; i < num_points; ++i) sum += hull[i];
+  add(sum);
+  const Descent found = descend(s, add, required, max_iterations - 1);
+  CoreDistance answer;
+  answer.lower = found.lower;
   answer.point = answer.on_core = Vec::Zero();
   for (int i = 0; i < s.size; ++i) {
     answer.point += s.weight[i] * s.on_a[i];
     answer.on_core += s.weight[i] * s.on_b[i];
   }
   answer.upper = (answer.point - answer.on_core).norm();
-  answer.inside = !(squared > 0);
+  answer.inside = !(found.squared > 0);
   return answer;
 }
 

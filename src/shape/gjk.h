@@ -14,7 +14,6 @@ struct CoreDistance {
                  ///< differences around the origin
   Vec point;     ///< of the hull
   Vec on_core;   ///< of the core
-  int iterations;
 };
 
 /// GJK in double, by support points alone, so that it serves every bounded solid. Ends when the

@@ -23,9 +23,10 @@ bool meetsHull(const Solid& solid, const Triangle& triangle, Vec* common = nullp
 /// points of the pair or infinite.
 TriangleShapeDistance distanceToHull(const Solid& solid, const Triangle& triangle, double within);
 
-/// True if p lies in the closed tetrahedron of an apex and a face, by exact signs. Flat ones
-/// contain nothing.
-bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p);
+/// Distance of a triangle and a convex shape whose faces aren't known, 0 if they meet: that of
+/// triangles over a few of the points, by the certified kernel. The point that lies farthest
+/// towards the triangle joins them until there is none beyond. Costs the cube of their number.
+TriangleShapeDistance distanceToPoints(const Solid& convex, const Triangle& triangle);
 
 /// GJK's bracket for the pair, or if that is left open beyond rounding around or below `required`,
 /// and the core is a polytope, the distance by its faces or points.

@@ -8,7 +8,6 @@
 
 #include "shape/convex_faces.h"
 #include "shape/features.h"
-#include "shape/growing_hull.h"
 #include "shape/hull.h"
 #include "shape/polygon.h"
 #include "triangle/expansion.h"
@@ -63,8 +62,7 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
     if (apart) return false;
   }
   if (accurate && !common) return true;
-  Polygon polygon(t);
-  for (int axis = 0; axis < 3 && polygon.size > 0; ++axis) polygon.clip(axis, h[axis]);
+  const Polygon polygon(t, h);
   if (polygon.size > 0) {
     if (common) *common = polygon.middle();
     return true;
@@ -79,9 +77,7 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
 bool aroundAxis(const Polygon& polygon, Vec* common) {
   bool left = true, right = true;
   const auto side = [](const Vec& a, const Vec& b) {
-    const Twofold area =
-        Twofold{a.x(), 0} * Twofold{b.y(), 0} - Twofold{a.y(), 0} * Twofold{b.x(), 0};
-    return area.high + area.low;
+    return accurateMinor({a.x(), 0}, {a.y(), 0}, {b.x(), 0}, {b.y(), 0});
   };
   for (int i = 0; i < polygon.size; ++i) {
     const double at = side(polygon.corner[i], polygon.corner[(i + 1) % polygon.size]);

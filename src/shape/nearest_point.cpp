@@ -144,8 +144,7 @@ Vec faceNormal(const Triangle& t) {
     const auto edge = [&t](int corner, int axis) {
       return twofoldDifference(t[corner][axis], t[0][axis]);
     };
-    const Twofold det = edge(1, u) * edge(2, v) - edge(1, v) * edge(2, u);
-    n[c] = det.high + det.low;
+    n[c] = accurateMinor(edge(1, u), edge(1, v), edge(2, u), edge(2, v));
   }
   return n;
 }

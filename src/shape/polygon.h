@@ -17,6 +17,10 @@ struct Polygon {
   std::array<Vec, kMost> corner;
 
   explicit Polygon(const Triangle& t) : size(3) { std::copy(t.begin(), t.end(), corner.begin()); }
+  /// Cuts it to a box of half extents h.
+  Polygon(const Triangle& t, const Vec& h) : Polygon(t) {
+    for (int axis = 0; axis < 3 && size > 0; ++axis) clip(axis, h[axis]);
+  }
 
   // A crossing is off by rounding as if the plane lay a few eps of the extent elsewhere, and along
   // the edge only. So the polygon lies within few eps of the exact one and contains what slabs that

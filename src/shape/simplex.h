@@ -147,4 +147,42 @@ inline void reduce(const Nearest& best, Simplex& s) {
   s.size = kept;
 }
 
+/// Holds what a descent came to: the square of the distance of the simplex from the origin, and a
+/// lower bound of the sets' distance by a slab between them.
+struct Descent {
+  double squared;
+  double lower = -std::numeric_limits<double>::infinity();
+};
+
+/// Moves a simplex of one point towards the origin by GJK. add(v) adds the extreme point against v,
+/// and returns the size by which that point is rounded. Ends when the bracket is closed to
+/// rounding, when nothing improves any more, once `lower` exceeds `required`, or after `max_steps`.
+template <typename Add>
+Descent descend(Simplex& s, const Add& add, double required, int max_steps) {
+  Eigen::Vector3d v = s.y[0];
+  Descent found{v.squaredNorm()};
+  for (int step = 0; step < max_steps; ++step) {
+    const double length = std::sqrt(found.squared);
+    if (!(length > 0)) break;
+    const Simplex before = s;
+    const double size = add(v);
+    const Eigen::Vector3d y = s.y[s.size - 1];
+    found.lower = std::max(found.lower, v.dot(y) / length);
+    bool known = false;  // a point that is there already: nothing is nearer
+    for (int i = 0; i < before.size; ++i) known |= before.y[i] == y;
+    const double closed = 0x1p-48 * length + 0.25 * std::numeric_limits<double>::epsilon() * size;
+    Nearest best;
+    const bool ends = found.lower > required || known || length - found.lower <= closed;
+    if (!ends) best = nearest(s);
+    if (!(best.squared < found.squared)) {
+      s = before;
+      break;
+    }
+    reduce(best, s);
+    found.squared = best.squared;
+    v = best.v;
+  }
+  return found;
+}
+
 }  // namespace kios::shape

@@ -9,13 +9,6 @@
 #include "solid/components.h"
 
 namespace kios {
-namespace {
-
-std::string counted(int n, const char* one, const char* many) {
-  return std::to_string(n) + " " + (n == 1 ? one : many);
-}
-
-}  // namespace
 
 template <typename S>
 Closedness<S> inspectClosedness(const Model<S>& model) {
@@ -38,7 +31,7 @@ std::string faultsOf(const Closedness<S>& c) {
   const char* separator = "";
   const auto add = [&](int n, const char* one, const char* many) {
     if (n == 0) return;
-    text << separator << counted(n, one, many);
+    text << separator << n << " " << (n == 1 ? one : many);
     separator = ", ";
   };
   add(c.open_edges, "open edge", "open edges");

@@ -3,99 +3,61 @@
 #include "solid/components.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 
 #include "solid/nesting.h"
 #include "tree/weld.h"
 #include "triangle/integer.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
 
 using boost::multiprecision::cpp_int;
 
-int findRoot(std::vector<int>& parent, int i) {
-  while (parent[static_cast<std::size_t>(i)] != i) {
-    int& p = parent[static_cast<std::size_t>(i)];
-    p = parent[static_cast<std::size_t>(p)];
-    i = p;
-  }
-  return i;
-}
-
 }  // namespace
 
 template <typename S>
-Components<S>::Components(const engine::MeshView<S>& mesh)
-    : mesh_(mesh), welded_(engine::weld(mesh)) {
-  halves_.reserve(3 * mesh.num_triangles);
-  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t from = welded_[mesh.index(t, k)],
-                          to = welded_[mesh.index(t, (k + 1) % 3)];
-      if (from == to) continue;
-      halves_.push_back({std::min(from, to), std::max(from, to), static_cast<std::uint32_t>(t),
-                         static_cast<std::uint32_t>(k), from < to});
-    }
-  }
-  std::sort(halves_.begin(), halves_.end());
-  connect();
-  judgeEdges();
+Components<S>::Components(const engine::MeshView<S>& mesh) : mesh_(mesh) {
+  const std::vector<std::uint32_t> welded = engine::weld(mesh);
+  const std::vector<Side> sides = sidesOf(mesh.num_triangles, [&](std::size_t t) {
+    return std::array{welded[mesh.index(t, 0)], welded[mesh.index(t, 1)], welded[mesh.index(t, 2)]};
+  });
+  listTriangles(partsOf(sides, mesh.num_triangles, true));
+  judgeEdges(sides);
   if (closedness_.closed && closedness_.oriented) findInsideOut();
-  halves_ = {};
 }
 
+// Triangles that are points have no side, and are of no component.
 template <typename S>
-void Components<S>::connect() {
-  std::vector<int> parent(mesh_.num_triangles);
-  std::iota(parent.begin(), parent.end(), 0);
-  for (std::size_t i = 1; i < halves_.size(); ++i) {
-    if (!halves_[i].sameEdge(halves_[i - 1])) continue;
-    const int a = findRoot(parent, static_cast<int>(halves_[i - 1].triangle)),
-              b = findRoot(parent, static_cast<int>(halves_[i].triangle));
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-  // A root is the least of its component, so that components are numbered in the triangles' order.
-  // Triangles that are points have no edge, and are of no component.
-  component_.assign(mesh_.num_triangles, -1);
-  std::vector<int> number(mesh_.num_triangles, 0);
-  for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
-    const std::uint32_t a = welded_[mesh_.index(t, 0)];
-    if (a == welded_[mesh_.index(t, 1)] && a == welded_[mesh_.index(t, 2)]) continue;
-    const auto root = static_cast<std::size_t>(findRoot(parent, static_cast<int>(t)));
-    if (root == t) {
-      number[t] = static_cast<int>(first_.size());
-      first_.push_back(static_cast<int>(t));
-    }
-    component_[t] = number[root];
-  }
-  closedness_.components = static_cast<int>(first_.size());
-  begin_.assign(first_.size() + 1, 0);
-  for (const int c : component_) {
+void Components<S>::listTriangles(const Parts& parts) {
+  closedness_.components = parts.count;
+  begin_.assign(static_cast<std::size_t>(parts.count) + 1, 0);
+  for (const int c : parts.of) {
     if (c >= 0) ++begin_[static_cast<std::size_t>(c) + 1];
   }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   std::vector<int> next = begin_;
   triangles_.resize(static_cast<std::size_t>(begin_.back()));
-  for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
-    if (component_[t] < 0) continue;
-    triangles_[static_cast<std::size_t>(next[static_cast<std::size_t>(component_[t])]++)] =
-        static_cast<int>(t);
+  for (std::size_t t = 0; t < parts.of.size(); ++t) {
+    if (parts.of[t] < 0) continue;
+    int& place = next[static_cast<std::size_t>(parts.of[t])];
+    triangles_[static_cast<std::size_t>(place++)] = static_cast<int>(t);
   }
 }
 
 template <typename S>
-void Components<S>::judgeEdges() {
-  std::vector<const Half*> faulty;
-  for (std::size_t i = 0, end = 0; i < halves_.size(); i = end) {
+void Components<S>::judgeEdges(const std::vector<Side>& sides) {
+  std::vector<const Side*> faulty;
+  forEdges(sides, [&](std::size_t begin, std::size_t end) {
     int forward = 0;
-    while (end < halves_.size() && halves_[end].sameEdge(halves_[i])) {
-      forward += halves_[end++].forward ? 1 : 0;
-    }
-    const int count = static_cast<int>(end - i);
+    for (std::size_t i = begin; i < end; ++i) forward += sides[i].forward ? 1 : 0;
+    const int count = static_cast<int>(end - begin);
     ++closedness_.edges;
     if (count > 2) ++closedness_.branching_edges;
     if (count % 2 == 1) {
@@ -103,21 +65,21 @@ void Components<S>::judgeEdges() {
     } else if (2 * forward != count) {
       ++closedness_.misoriented_edges;
     } else {
-      continue;
+      return;
     }
-    faulty.push_back(&halves_[i]);
-  }
+    faulty.push_back(&sides[begin]);
+  });
   const std::size_t shown = std::min(faulty.size(), closedness_.first.size());
   std::partial_sort(faulty.begin(), faulty.begin() + static_cast<std::ptrdiff_t>(shown),
-                    faulty.end(), [](const Half* a, const Half* b) {
+                    faulty.end(), [](const Side* a, const Side* b) {
                       return a->triangle != b->triangle ? a->triangle < b->triangle
                                                         : a->corner < b->corner;
                     });
   for (std::size_t i = 0; i < shown; ++i) {
-    const Half& half = *faulty[i];
-    closedness_.first[i] = {static_cast<int>(half.triangle),
-                            mesh_.corner(half.triangle, half.corner),
-                            mesh_.corner(half.triangle, (half.corner + 1) % 3)};
+    const auto triangle = static_cast<std::size_t>(faulty[i]->triangle);
+    const std::size_t corner = faulty[i]->corner;
+    closedness_.first[i] = {faulty[i]->triangle, mesh_.corner(triangle, corner),
+                            mesh_.corner(triangle, (corner + 1) % 3)};
   }
   closedness_.closed = closedness_.edges > 0 && closedness_.open_edges == 0;
   closedness_.oriented = closedness_.edges > 0 && closedness_.misoriented_edges == 0;
@@ -129,7 +91,7 @@ void Components<S>::findInsideOut() {
   for (int c = 0; c < closedness_.components; ++c) {
     if (!windsInwards(c)) continue;
     if (!nesting) nesting.emplace(mesh_, *this);
-    if (!nesting->liesWithinOthers(c)) inside_out_.push_back(first_[static_cast<std::size_t>(c)]);
+    if (!nesting->liesWithinOthers(c)) inside_out_.push_back(*trianglesOf(c).begin());
   }
   closedness_.inside_out = static_cast<int>(inside_out_.size());
   if (!inside_out_.empty()) closedness_.first_inside_out = inside_out_.front();
@@ -140,7 +102,8 @@ void Components<S>::findInsideOut() {
 // of its permanent, the sum one of what it adds up to for each term.
 template <typename S>
 bool Components<S>::windsInwards(int component) const {
-  const fcl::Vector3<S>& o = mesh_.corner(static_cast<std::size_t>(first_[component]), 0);
+  const fcl::Vector3<S>& o =
+      mesh_.corner(static_cast<std::size_t>(*trianglesOf(component).begin()), 0);
   const fcl::Vector3d origin = o.template cast<double>();
   double volume = 0, permanents = 0, terms = 0;
   const auto triangles = [&](const auto& visit) {
@@ -174,7 +137,6 @@ bool Components<S>::windsInwards(int component) const {
   return exact < 0;
 }
 
-template class Components<double>;
-template class Components<float>;
+KIOS_INSTANTIATE_CLASS(Components);
 
 }  // namespace kios

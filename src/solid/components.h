@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "build/mesh_view.h"
 #include "fcl_kios/solid/closedness.h"
+#include "solid/sides.h"
 
 namespace kios {
 
@@ -32,31 +32,12 @@ class Components {
   }
 
  private:
-  /// Holds a side of a triangle, at the edge between two welded vertices.
-  struct Half {
-    std::uint32_t low, high;
-    std::uint32_t triangle : 30;
-    std::uint32_t corner : 2;
-    bool forward;  ///< it runs from low to high
-
-    bool sameEdge(const Half& o) const { return low == o.low && high == o.high; }
-    bool operator<(const Half& o) const {
-      if (low != o.low) return low < o.low;
-      if (high != o.high) return high < o.high;
-      return triangle < o.triangle;
-    }
-  };
-
-  void connect();
-  void judgeEdges();
+  void listTriangles(const Parts& parts);
+  void judgeEdges(const std::vector<Side>& sides);
   void findInsideOut();
   bool windsInwards(int component) const;
 
   const engine::MeshView<S> mesh_;
-  std::vector<std::uint32_t> welded_;
-  std::vector<Half> halves_;
-  std::vector<int> component_;  ///< by triangle; -1 for points
-  std::vector<int> first_;      ///< triangle of each component
   std::vector<int> triangles_;  ///< component by component
   std::vector<int> begin_;      ///< of each component in triangles_
   std::vector<int> inside_out_;

@@ -9,7 +9,6 @@
 #include "solid/nearest_surface.h"
 #include "solid/solid_mark.h"
 #include "solid/winding.h"
-#include "triangle/ray_crossing.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
 
@@ -21,24 +20,13 @@ template <typename S>
 bool liesInPosed(const fcl::Vector3d& p, const MeshPair<S>& frame) {
   const double largest = p.cwiseAbs().maxCoeff() + 2 * largestOf(frame.b);
   const RayCrossing ray(p, windingDirection(), largest);
-  int winding = 0;
-  for (int t = 0; t < frame.b.num_tris; ++t) {
+  PointPlace place;
+  for (int t = 0; t < frame.b.num_tris && !place.on_surface; ++t) {
     const TriangleVertices<S> corners = frame.triangleB(t);
-    switch (ray.cross({corners[0].template cast<double>(), corners[1].template cast<double>(),
-                       corners[2].template cast<double>()})) {
-      case Crossing::kForward:
-        ++winding;
-        break;
-      case Crossing::kBackward:
-        --winding;
-        break;
-      case Crossing::kOrigin:
-        return true;
-      case Crossing::kNone:
-        break;
-    }
+    place.add(ray.cross({corners[0].template cast<double>(), corners[1].template cast<double>(),
+                         corners[2].template cast<double>()}));
   }
-  return winding > 0;
+  return place.inside();
 }
 
 }  // namespace

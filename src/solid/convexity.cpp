@@ -10,9 +10,11 @@
 
 #include <Eigen/Geometry>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include "fcl_kios/volume/rigid.h"
 #include "model/prepared.h"
 #include "solid/winding.h"
 #include "tree/weld.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -245,6 +247,24 @@ class ConeMesh {
 
 }  // namespace
 
+int VertexGraph::climb(const fcl::Vector3d& n, int start) const {
+  int best = start;
+  double height = detail::dot(n, point(start));
+  for (bool higher = true; higher;) {
+    higher = false;
+    const auto at = static_cast<std::size_t>(best);
+    for (int i = begin_[at]; i < begin_[at + 1]; ++i) {
+      const int next = neighbours_[static_cast<std::size_t>(i)];
+      const double h = detail::dot(n, point(next));
+      if (!(h > height)) continue;
+      height = h;
+      best = next;
+      higher = true;
+    }
+  }
+  return best;
+}
+
 template <typename S>
 Convexity measureConvexity(const Model<S>& model) {
   constexpr double kMost = 0x1p-20, kNothing = 0x1p-36;
@@ -263,7 +283,6 @@ Convexity measureConvexity(const Model<S>& model) {
   return result;
 }
 
-template Convexity measureConvexity(const Model<double>&);
-template Convexity measureConvexity(const Model<float>&);
+KIOS_INSTANTIATE_FUNCTION(measureConvexity);
 
 }  // namespace kios

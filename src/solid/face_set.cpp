@@ -4,23 +4,13 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
-#include <tuple>
 #include <unordered_map>
+#include <utility>
 
 namespace kios {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// Calls visit(begin, end) for each run of sides of one edge.
-template <typename Sides, typename Visit>
-void forEdges(const Sides& sides, const Visit& visit) {
-  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-    while (end < sides.size() && sides[end].sameEdge(sides[i])) ++end;
-    visit(i, end);
-  }
-}
 
 /// Returns the corners in ascending order, and whether that turns the face.
 std::pair<std::array<int, 3>, bool> sorted(std::array<int, 3> c) {
@@ -48,19 +38,8 @@ FaceSet::FaceSet(const std::vector<fcl::Triangle>& triangles, const std::vector<
   }
 }
 
-std::vector<FaceSet::Side> FaceSet::sides() const {
-  std::vector<Side> sides;
-  sides.reserve(3 * faces_.size());
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int from = faces_[f].corners[k], to = faces_[f].corners[(k + 1) % 3];
-      sides.push_back({std::min(from, to), std::max(from, to), static_cast<int>(f), from < to});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.face) < std::tie(b.low, b.high, b.face);
-  });
-  return sides;
+std::vector<Side> FaceSet::sides() const {
+  return sidesOf(faces_.size(), [this](std::size_t f) { return faces_[f].corners; });
 }
 
 void FaceSet::take(const std::vector<bool>& dropped) {
@@ -69,30 +48,6 @@ void FaceSet::take(const std::vector<bool>& dropped) {
     if (!dropped[f]) faces_[kept++] = faces_[f];
   }
   faces_.resize(kept);
-}
-
-std::pair<std::vector<int>, int> FaceSet::parts(const std::vector<Side>& sides,
-                                                bool across_branches) const {
-  std::vector<int> parent(faces_.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int i) {
-    while (parent[at(i)] != i) i = parent[at(i)] = parent[at(parent[at(i)])];
-    return i;
-  };
-  forEdges(sides, [&](std::size_t begin, std::size_t end) {
-    if (end - begin != 2 && !across_branches) return;
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      const int a = root(sides[i - 1].face), b = root(sides[i].face);
-      parent[at(std::max(a, b))] = std::min(a, b);
-    }
-  });
-  std::vector<int> part(faces_.size());
-  int count = 0;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const int r = root(static_cast<int>(f));
-    part[f] = at(r) == f ? count++ : part[at(r)];  // a root is the least of its part
-  }
-  return {part, count};
 }
 
 int FaceSet::dropDoubles() {
@@ -124,21 +79,20 @@ int FaceSet::dropDoubles() {
     paired[f] = paired[at(front[f])] = true;
   }
   const std::vector<Side> all = sides();
-  const auto [part_of, count] = parts(all, true);
-  const std::vector<int>& part = part_of;
-  std::vector<bool> only_pairs(at(count), true);
+  const Parts parts = partsOf(all, faces_.size(), true);
+  std::vector<bool> only_pairs(at(parts.count), true);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (!paired[f]) only_pairs[at(part[f])] = false;
+    if (!paired[f]) only_pairs[at(parts.of[f])] = false;
   }
   std::vector<int> open(faces_.size(), 0);  // edges of an odd number of faces, by face
   forEdges(all, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && (end - begin) % 2 == 1; ++i) ++open[at(all[i].face)];
+    for (std::size_t i = begin; i < end && (end - begin) % 2 == 1; ++i) ++open[at(all[i].triangle)];
     // Fronts and backs: an odd number of fronts leaves them open.
-    if ((end - begin) % 4 != 0) only_pairs[at(part[at(all[begin].face)])] = false;
+    if ((end - begin) % 4 != 0) only_pairs[at(parts.of[at(all[begin].triangle)])] = false;
   });
   dropped.assign(faces_.size(), false);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (front[f] >= 0) dropped[f] = open[f] == 3 || only_pairs[at(part[f])];
+    if (front[f] >= 0) dropped[f] = open[f] == 3 || only_pairs[at(parts.of[f])];
   }
   take(dropped);
   return static_cast<int>(before - faces_.size());
@@ -161,8 +115,8 @@ void FaceSet::turnNeighbours() {
   forEdges(all, [&](std::size_t begin, std::size_t end) {
     if (end - begin != 2) return;
     const Side &a = all[begin], &b = all[begin + 1];
-    links[at(a.face)].push_back({b.face, a.forward == b.forward});
-    links[at(b.face)].push_back({a.face, a.forward == b.forward});
+    links[at(a.triangle)].push_back({b.triangle, a.forward == b.forward});
+    links[at(b.triangle)].push_back({a.triangle, a.forward == b.forward});
   });
   std::vector<int> turn(faces_.size(), -1);
   for (std::size_t first = 0; first < faces_.size(); ++first) {
@@ -230,19 +184,21 @@ std::vector<std::vector<int>> FaceSet::holes() const {
 
 std::vector<FaceSet::Part> FaceSet::closedParts(bool across_branches) const {
   const std::vector<Side> all = sides();
-  const auto [part_of, count] = parts(all, across_branches);
-  const std::vector<int>& part = part_of;
-  std::vector<bool> closed(at(count), true);
+  const Parts connected = partsOf(all, faces_.size(), across_branches);
+  const std::vector<int>& part = connected.of;
+  const std::size_t count = at(connected.count);
+  std::vector<bool> closed(count, true);
   forEdges(all, [&](std::size_t begin, std::size_t end) {
     std::map<int, int> sums;  // of each part at the edge by itself
-    for (std::size_t i = begin; i < end; ++i)
-      sums[part[at(all[i].face)]] += all[i].forward ? 1 : -1;
+    for (std::size_t i = begin; i < end; ++i) {
+      sums[part[at(all[i].triangle)]] += all[i].forward ? 1 : -1;
+    }
     for (const auto& [p, sum] : sums) {
       if (sum != 0) closed[at(p)] = false;
     }
   });
-  std::vector<Part> parts(at(count));
-  std::vector<std::size_t> flipped(at(count), 0), given(at(count), 0);
+  std::vector<Part> parts(count);
+  std::vector<std::size_t> flipped(count, 0), given(count, 0);
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const std::size_t p = at(part[f]);
     parts[p].faces.push_back(static_cast<int>(f));

@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <fcl/math/triangle.h>
+#include "solid/sides.h"
 
 namespace kios {
 
@@ -47,17 +47,8 @@ class FaceSet {
   std::vector<Part> closedParts(bool across_branches) const;
 
  private:
-  /// Holds a side of a face.
-  struct Side {
-    int low, high, face;
-    bool forward;  ///< it runs from low to high
-    bool sameEdge(const Side& o) const { return low == o.low && high == o.high; }
-  };
-  /// Returns all sides, edge by edge.
+  /// Returns the faces' sides, edge by edge.
   std::vector<Side> sides() const;
-  /// Returns numbers of the parts of each face, and how many there are.
-  std::pair<std::vector<int>, int> parts(const std::vector<Side>& sides,
-                                         bool across_branches) const;
   void take(const std::vector<bool>& dropped);
 
   std::vector<Face> faces_;

@@ -168,15 +168,13 @@ bool spanningPoints(const Differences<S>& set, double size,
 }  // namespace
 
 template <typename S>
-Differences<S>::Differences(const Model<S>& a, const VertexGraph& graph_a, const Model<S>& b,
-                            const VertexGraph& graph_b, const fcl::Matrix3d& R_AB, const Vec& T_AB)
-    : a_(a),
-      b_(b),
-      graph_a_(graph_a),
-      graph_b_(graph_b),
-      R_(R_AB),
-      T_(T_AB),
-      error_(0x1p-46 * (largestOf(a) + 2 * largestOf(b) + T_AB.cwiseAbs().maxCoeff())) {}
+Differences<S>::Differences(const SolidPair<S>& pair)
+    : pair_(pair),
+      a_(pair.frame().a),
+      b_(pair.frame().b),
+      graph_a_(pair.stateA().convexity(a_).graph),
+      graph_b_(pair.stateB().convexity(b_).graph),
+      error_(0x1p-46 * (largestOf(a_) + 2 * largestOf(b_) + pair.T_AB().cwiseAbs().maxCoeff())) {}
 
 template <typename S>
 typename Differences<S>::Point Differences<S>::farthest(const Vec& n, const Point& near) const {

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fcl_kios/model/model.h"
-#include "solid/vertex_graph.h"
+#include "solid/solid_pair.h"
 
 namespace kios {
 
@@ -20,9 +19,8 @@ struct HullDepth {
 template <typename S>
 class Differences {
  public:
-  /// Graphs, where they are not empty, are of convex meshes and spare the search of the trees.
-  Differences(const Model<S>& a, const VertexGraph& graph_a, const Model<S>& b,
-              const VertexGraph& graph_b, const fcl::Matrix3d& R_AB, const fcl::Vector3d& T_AB);
+  /// Graphs of convex meshes spare the search of the trees. `pair` must outlive this.
+  explicit Differences(const SolidPair<S>& pair);
 
   struct Point {
     fcl::Vector3d at;
@@ -37,13 +35,12 @@ class Differences {
   double error() const { return error_; }
 
  private:
-  fcl::Vector3d inA(const fcl::Vector3d& p_B) const { return R_ * p_B + T_; }
-  fcl::Vector3d inB(const fcl::Vector3d& n) const { return R_.transpose() * n; }
+  fcl::Vector3d inA(const fcl::Vector3d& p_B) const { return pair_.R_AB() * p_B + pair_.T_AB(); }
+  fcl::Vector3d inB(const fcl::Vector3d& n) const { return pair_.R_AB().transpose() * n; }
 
+  const SolidPair<S>& pair_;
   const Model<S>&a_, &b_;
   const VertexGraph &graph_a_, &graph_b_;
-  const fcl::Matrix3d R_;
-  const fcl::Vector3d T_;
   const double error_;
 };
 

@@ -7,13 +7,14 @@
 #include <optional>
 #include <vector>
 
+#include "query/pair_search.h"
 #include "solid/ball_pairs.h"
 #include "solid/common_center.h"
 #include "solid/containment.h"
 #include "solid/exit_search.h"
 #include "solid/minkowski_hull.h"
 #include "solid/solid_pair.h"
-#include "solid/touching.h"
+#include "triangle/predicates.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
@@ -28,6 +29,46 @@ void requireValid(const PenetrationOptions& options) {
   require(options.max_tests >= 0, "PenetrationOptions::max_tests", options.max_tests, ">= 0");
 }
 
+/// Returns the side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
+template <typename S, typename Corners>
+int sideOf(const TriangleVertices<S>& plane, int num_triangles, const Corners& corners_of) {
+  int side = 0;
+  for (int t = 0; t < num_triangles; ++t) {
+    const PairPredicates::Coordinates points = coordinatesOf(plane, corners_of(t));
+    const PairPredicates exact(points);
+    for (int i = 3; i < 6; ++i) {
+      const int sign = exact.orient3d(0, 1, 2, i);
+      if (sign == 0) continue;
+      if (side == -sign) return 0;
+      side = sign;
+    }
+  }
+  return side;
+}
+
+/// Returns true if the plane of a triangle that meets another has all of a on one side and all of
+/// b, as posed in a's frame, on the other, in exact arithmetic: the solids touch, but their
+/// interiors are disjoint. Looked for only if a translation of `length`, which parts them, is one
+/// of rounding.
+template <typename S>
+bool partedByFace(SolidPair<S>& pair, double length) {
+  constexpr double kRoundings = 1 << 12;
+  if (!(length <= kRoundings * pair.rounding())) return false;
+  const MeshPair<S>& frame = pair.frame();
+  std::vector<engine::TrianglePairIds> found;
+  constexpr std::size_t kContacts = 16;
+  if (!searchContacts(frame, kContacts, found, pair.counts())) return false;
+  const auto of_a = [&](int t) { return frame.triangleA(t); };
+  const auto of_b = [&](int t) { return frame.triangleB(t); };
+  for (const auto& ids : found) {
+    for (const TriangleVertices<S>& plane : {of_a(ids.a), of_b(ids.b)}) {
+      const int side = sideOf(plane, frame.a.num_tris, of_a);
+      if (side != 0 && sideOf(plane, frame.b.num_tris, of_b) == -side) return true;
+    }
+  }
+  return false;
+}
+
 template <typename S>
 class PenetrationQuery {
  public:
@@ -36,12 +77,8 @@ class PenetrationQuery {
 
   Penetration run() {
     const MeshPair<S>& frame = pair_.frame();
-    const Convexity &shape_a = pair_.stateA().convexity(frame.a),
-                    &shape_b = pair_.stateB().convexity(frame.b);
-    const bool convex = shape_a.convex && shape_b.convex;
-    const Differences<S> differences(frame.a, shape_a.graph, frame.b, shape_b.graph, pair_.R_AB(),
-                                     pair_.T_AB());
-    if (convex) {
+    const Differences<S> differences(pair_);
+    if (pair_.stateA().convexity(frame.a).convex && pair_.stateB().convexity(frame.b).convex) {
       constexpr int kPoints = 128;
       constexpr double kShare = 0.9;
       const HullDepth hull =

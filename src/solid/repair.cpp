@@ -209,10 +209,10 @@ class Repair {
   Repaired<S> result_;
 };
 
-std::string counted(std::size_t n, const char* one, const char* many) {
+template <typename Number>
+std::string counted(Number n, const char* one, const char* many) {
   return std::to_string(n) + " " + (n == 1 ? one : many);
 }
-std::string counted(int n, const char* one, const char* many) { return counted(at(n), one, many); }
 
 }  // namespace
 
@@ -227,30 +227,20 @@ template <typename S>
 std::string summaryOf(const Repaired<S>& r) {
   std::ostringstream text;
   const char* separator = "";
-  const auto add = [&](const std::string& what) {
-    text << separator << what;
+  const auto add = [&](auto n, const char* one, const char* many, const std::string& change) {
+    if (n == 0) return;
+    text << separator << counted(n, one, many) << change;
     separator = ", ";
   };
-  if (r.welded_vertices > 0) {
-    add(counted(r.welded_vertices, "vertex", "vertices") + " welded");
-    if (r.moved_vertices > 0) {
-      text << " (" << r.moved_vertices << " moved, by at most " << r.farthest_weld << ")";
-    }
+  add(r.welded_vertices, "vertex", "vertices", " welded");
+  if (r.moved_vertices > 0) {
+    text << " (" << r.moved_vertices << " moved, by at most " << r.farthest_weld << ")";
   }
-  if (r.degenerate_triangles > 0) {
-    add(counted(r.degenerate_triangles, "degenerate triangle", "degenerate triangles") +
-        " left out");
-  }
-  if (r.double_triangles > 0) {
-    add(counted(r.double_triangles, "double triangle", "double triangles") + " left out");
-  }
-  if (r.flipped_triangles > 0) {
-    add(counted(r.flipped_triangles, "triangle", "triangles") + " turned");
-  }
-  if (!r.filled.empty()) {
-    add(counted(r.filled.size(), "hole", "holes") + " filled by " +
-        counted(r.filled_triangles, "triangle", "triangles"));
-  }
+  add(r.degenerate_triangles, "degenerate triangle", "degenerate triangles", " left out");
+  add(r.double_triangles, "double triangle", "double triangles", " left out");
+  add(r.flipped_triangles, "triangle", "triangles", " turned");
+  add(r.filled.size(), "hole", "holes",
+      " filled by " + counted(r.filled_triangles, "triangle", "triangles"));
   if (separator[0] == '\0') text << "nothing was changed";
   if (r.closedness.isSolid()) {
     text << "; it bounds a solid";

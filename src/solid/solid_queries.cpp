@@ -28,22 +28,65 @@ struct WayOut {
         length(static_cast<S>(p.upper)) {}
 };
 
-/// The rest of a collision once the surfaces were asked: `contained` finds a point of a surface in
-/// the other solid, in the world, and `wayOut` how to leave.
-template <typename S, typename Contained, typename GetWayOut>
-std::size_t addContained(const fcl::CollisionGeometry<S>& o1, const fcl::CollisionGeometry<S>& o2,
-                         std::size_t before, const fcl::CollisionRequest<S>& request,
-                         fcl::CollisionResult<S>& result, const Contained& contained,
-                         const GetWayOut& wayOut) {
+/// Holds a marked mesh and another one, or a shape.
+template <typename S>
+struct SolidAndOther {
+  const Model<S>& a;
+  const fcl::Transform3<S>& X_WA;
+  const fcl::CollisionGeometry<S>& b;
+  const fcl::Transform3<S>& X_WB;
+  const Model<S>* mesh_b = asModel(&b);
+
+  void collideSurfaces(const fcl::CollisionRequest<S>& request,
+                       fcl::CollisionResult<S>& result) const {
+    if (mesh_b) {
+      collideMeshes(a, X_WA, *mesh_b, X_WB, request, result);
+    } else {
+      collideShape(a, X_WA, b, X_WB, request, result);
+    }
+  }
+  void distanceOfSurfaces(const fcl::DistanceRequest<S>& request,
+                          fcl::DistanceResult<S>& result) const {
+    if (mesh_b) {
+      distanceMeshes(a, X_WA, *mesh_b, X_WB, request, result);
+    } else {
+      distanceShape(a, X_WA, b, X_WB, request, result);
+    }
+  }
+  /// Returns a point of a surface that lies in the other solid, in the world. The surfaces must not
+  /// meet.
+  std::optional<fcl::Vector3<S>> contained() const {
+    if (!mesh_b) return shapePointIn(a, X_WA, b, X_WB);
+    const MeshPair<S> frame(a, X_WA, *mesh_b, X_WB);
+    SearchCounts unused;
+    if (frame.rootBound(0) > 0) return std::nullopt;
+    const auto point = containedPoint(frame, unused);
+    if (!point) return std::nullopt;
+    return detail::transform<S>(X_WA, point->template cast<S>());
+  }
+  WayOut<S> wayOut() const {
+    return WayOut<S>(mesh_b ? penetration(a, X_WA, *mesh_b, X_WB) : shapeExit(a, X_WA, b, X_WB));
+  }
+};
+
+}  // namespace
+
+template <typename S>
+std::size_t collideSolid(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  const SolidAndOther<S> objects = {model, X_WM, other, X_WO};
+  const std::size_t before = result.numContacts();
+  objects.collideSurfaces(request, result);
   if (result.numContacts() > before || before >= request.num_max_contacts) {
     return result.numContacts();
   }
-  if (!o1.isOccupied() || !o2.isOccupied()) return result.numContacts();
-  const std::optional<fcl::Vector3<S>> point = contained();
+  if (!model.isOccupied() || !other.isOccupied()) return result.numContacts();
+  const std::optional<fcl::Vector3<S>> point = objects.contained();
   if (!point) return result.numContacts();
-  fcl::Contact<S> contact(&o1, &o2, kNone, kNone, *point, fcl::Vector3<S>::Zero(), S(0));
+  fcl::Contact<S> contact(&model, &other, kNone, kNone, *point, fcl::Vector3<S>::Zero(), S(0));
   if (request.enable_contact) {
-    const WayOut<S> way(wayOut());
+    const WayOut<S> way = objects.wayOut();
     if (way.length > 0) {
       contact.normal = way.translation / way.length;
       contact.penetration_depth = way.length;
@@ -53,27 +96,27 @@ std::size_t addContained(const fcl::CollisionGeometry<S>& o1, const fcl::Collisi
   return result.numContacts();
 }
 
-/// The rest of a distance: `surfaces` asks for that of the surfaces.
-template <typename S, typename Surfaces, typename Contained, typename GetWayOut>
-S signedDistance(const fcl::CollisionGeometry<S>& o1, const fcl::CollisionGeometry<S>& o2,
-                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
-                 const Surfaces& surfaces, const Contained& contained, const GetWayOut& wayOut) {
+template <typename S>
+S distanceSolid(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
+  const SolidAndOther<S> objects = {model, X_WM, other, X_WO};
   if (request.isSatisfied(result)) {
-    surfaces(result);  // which checks the arguments, and does nothing else
+    objects.distanceOfSurfaces(request, result);  // checks the arguments, and does nothing else
     return result.min_distance;
   }
   fcl::DistanceResult<S> found(result.min_distance);
-  surfaces(found);
+  objects.distanceOfSurfaces(request, found);
   const bool meet = found.min_distance <= 0;
-  const std::optional<fcl::Vector3<S>> point = meet ? std::nullopt : contained();
+  const std::optional<fcl::Vector3<S>> point = meet ? std::nullopt : objects.contained();
   if (!meet && !point) {
     result.update(found);
     return result.min_distance;
   }
   if (request.enable_signed_distance) {
-    const WayOut<S> way(wayOut());
+    const WayOut<S> way = objects.wayOut();
     if (way.length > 0) {
-      result.update(-way.length, &o1, &o2, meet ? found.b1 : kNone, meet ? found.b2 : kNone,
+      result.update(-way.length, &model, &other, meet ? found.b1 : kNone, meet ? found.b2 : kNone,
                     way.point, way.point - way.translation);
       return result.min_distance;
     }
@@ -81,75 +124,14 @@ S signedDistance(const fcl::CollisionGeometry<S>& o1, const fcl::CollisionGeomet
   if (meet) {
     result.update(found);
   } else if (request.enable_nearest_points) {
-    result.update(S(0), &o1, &o2, kNone, kNone, *point, *point);
+    result.update(S(0), &model, &other, kNone, kNone, *point, *point);
   } else {
-    result.update(S(0), &o1, &o2, kNone, kNone);
+    result.update(S(0), &model, &other, kNone, kNone);
   }
   return result.min_distance;
 }
 
-template <typename S>
-std::optional<fcl::Vector3<S>> containedInWorld(const Model<S>& a, const fcl::Transform3<S>& X_WA,
-                                                const Model<S>& b, const fcl::Transform3<S>& X_WB) {
-  const MeshPair<S> frame(a, X_WA, b, X_WB);
-  SearchCounts unused;
-  if (frame.rootBound(0) > 0) return std::nullopt;
-  const auto point = containedPoint(frame, unused);
-  if (!point) return std::nullopt;
-  return detail::transform<S>(X_WA, point->template cast<S>());
-}
-
-}  // namespace
-
-template <typename S>
-std::size_t collideSolids(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                          const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
-                          fcl::CollisionResult<S>& result) {
-  const std::size_t before = result.numContacts();
-  collideMeshes(a, X_WA, b, X_WB, request, result);
-  return addContained<S>(
-      a, b, before, request, result, [&] { return containedInWorld(a, X_WA, b, X_WB); },
-      [&] { return penetration(a, X_WA, b, X_WB); });
-}
-
-template <typename S>
-S distanceSolids(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                 const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
-                 fcl::DistanceResult<S>& result) {
-  return signedDistance<S>(
-      a, b, request, result,
-      [&](fcl::DistanceResult<S>& r) { distanceMeshes(a, X_WA, b, X_WB, request, r); },
-      [&] { return containedInWorld(a, X_WA, b, X_WB); },
-      [&] { return penetration(a, X_WA, b, X_WB); });
-}
-
-template <typename S>
-std::size_t collideSolidShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                              const fcl::CollisionGeometry<S>& shape,
-                              const fcl::Transform3<S>& X_WS,
-                              const fcl::CollisionRequest<S>& request,
-                              fcl::CollisionResult<S>& result) {
-  const std::size_t before = result.numContacts();
-  collideShape(model, X_WM, shape, X_WS, request, result);
-  return addContained<S>(
-      model, shape, before, request, result, [&] { return shapePointIn(model, X_WM, shape, X_WS); },
-      [&] { return shapeExit(model, X_WM, shape, X_WS); });
-}
-
-template <typename S>
-S distanceSolidShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                     const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
-                     const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
-  return signedDistance<S>(
-      model, shape, request, result,
-      [&](fcl::DistanceResult<S>& r) { distanceShape(model, X_WM, shape, X_WS, request, r); },
-      [&] { return shapePointIn(model, X_WM, shape, X_WS); },
-      [&] { return shapeExit(model, X_WM, shape, X_WS); });
-}
-
-KIOS_INSTANTIATE_FUNCTION(collideSolids);
-KIOS_INSTANTIATE_FUNCTION(distanceSolids);
-KIOS_INSTANTIATE_FUNCTION(collideSolidShape);
-KIOS_INSTANTIATE_FUNCTION(distanceSolidShape);
+KIOS_INSTANTIATE_FUNCTION(collideSolid);
+KIOS_INSTANTIATE_FUNCTION(distanceSolid);
 
 }  // namespace kios

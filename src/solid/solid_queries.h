@@ -34,31 +34,20 @@ bool solidPair(const Model<S>* mesh_a, const fcl::CollisionGeometry<S>* b, const
   return mark != nullptr;
 }
 
-/// fcl::collide and fcl::distance of two marked models: as collideMeshes() and distanceMeshes(),
-/// but one that lies in the other, or a component that does, is in contact with it. Its triangles'
-/// ids are -1; its normal and depth, if contacts are wanted, are those of penetration(). Distance
-/// is then 0, and with enable_signed_distance -penetration().upper at every overlap: its nearest
-/// points are the ends of the separating translation, that of b less which gives that of a.
+/// Answer fcl::collide and fcl::distance of a marked model and `other`, another one or one of FCL's
+/// nine shapes: as the queries of their surfaces do, but one that lies in the other, or a component
+/// that does, is in contact with it. Its triangles' ids are -1; its normal and depth, if contacts
+/// are wanted, are those of penetration(), or for a shape the shortest translation found that is
+/// proven to part them. Distance is then 0, and with enable_signed_distance less that length at
+/// every overlap: its nearest points are the ends of the separating translation, that of `other`
+/// less which gives that of the model.
 template <typename S>
-std::size_t collideSolids(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                          const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,
-                          fcl::CollisionResult<S>& result);
+std::size_t collideSolid(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result);
 template <typename S>
-S distanceSolids(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                 const fcl::Transform3<S>& X_WB, const fcl::DistanceRequest<S>& request,
-                 fcl::DistanceResult<S>& result);
-
-/// Answers the same for a marked model and one of FCL's nine shapes. The translation is the
-/// shortest found, and proven to part them.
-template <typename S>
-std::size_t collideSolidShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                              const fcl::CollisionGeometry<S>& shape,
-                              const fcl::Transform3<S>& X_WS,
-                              const fcl::CollisionRequest<S>& request,
-                              fcl::CollisionResult<S>& result);
-template <typename S>
-S distanceSolidShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                     const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
-                     const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result);
+S distanceSolid(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result);
 
 }  // namespace kios

@@ -2,12 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "solid/winding.h"
 
+#include <Eigen/LU>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/volume/separation.h"
 #include "query/ray_walk.h"
-#include "triangle/ray_crossing.h"
+#include "solid/solid_mark.h"
+#include "volume/errors.h"
+#include "volume/instantiate.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -28,25 +34,12 @@ class WindingCount final : public RayWalk<S> {
 
   bool evaluate(std::uint32_t triangle) override {
     ++this->counts().exact;
-    switch (ray_.cross(this->cornersOf(triangle))) {
-      case Crossing::kForward:
-        ++place_.winding;
-        break;
-      case Crossing::kBackward:
-        --place_.winding;
-        break;
-      case Crossing::kOrigin:
-        place_.on_surface = true;
-        return true;
-      case Crossing::kNone:
-        break;
-    }
-    return false;
+    return place_.add(ray_.cross(this->cornersOf(triangle)));
   }
 
  private:
   const RayCrossing ray_;
-  PointPlace place_ = {false, 0};
+  PointPlace place_;
 };
 
 }  // namespace
@@ -65,7 +58,21 @@ PointPlace placeOf(const fcl::Vector3d& point, const Model<S>& model, SearchCoun
   return WindingCount<S>(model, ray, counts).run();
 }
 
-template PointPlace placeOf(const fcl::Vector3d&, const Model<double>&, SearchCounts&);
-template PointPlace placeOf(const fcl::Vector3d&, const Model<float>&, SearchCounts&);
+template <typename S>
+bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
+              const fcl::Vector3<std::common_type_t<S>>& point) {
+  checkSolid(solid);
+  require(point.allFinite() && double{point.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>,
+          "the point", point.transpose(), kCoordinateRange<S>);
+  const RelativePose<S> rigid(X_WM.linear(), X_WM.translation());  // or it throws
+  const fcl::Matrix3d inverse = X_WM.linear().template cast<double>().inverse();
+  const fcl::Vector3d from =
+      point.template cast<double>() - X_WM.translation().template cast<double>();
+  SearchCounts unused;
+  return placeOf<S>(detail::rotate<double>(inverse, from), solid, unused).inside();
+}
+
+KIOS_INSTANTIATE_FUNCTION(placeOf);
+KIOS_INSTANTIATE_FUNCTION(contains);
 
 }  // namespace kios

@@ -29,10 +29,7 @@ Vec accurateCross(const Vec& a, const Vec& b) {
   Vec n;
   for (int c = 0; c < 3; ++c) {
     const int u = nextVertex(c), v = nextVertex(u);
-    const Twofold left = Twofold{a[u], 0} * Twofold{b[v], 0};
-    const Twofold right = Twofold{a[v], 0} * Twofold{b[u], 0};
-    const Twofold det = left - right;
-    n[c] = det.high + det.low;
+    n[c] = accurateMinor({a[u], 0}, {a[v], 0}, {b[u], 0}, {b[v], 0});
   }
   return n;
 }

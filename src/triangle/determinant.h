@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "triangle/expansion.h"
+#include "triangle/scaled_origin.h"
 
 // Determinants of 3x3 matrices of differences, in the stages that exact predicates take.
 
@@ -40,6 +41,29 @@ inline Expansion<192> determinant(const Expansion<2> (&m)[3][3]) {
   };
   return sum(sum(product(minor(1, 2), m[0][2]), product(minor(2, 0), m[1][2])),
              product(minor(0, 1), m[2][2]));
+}
+
+template <int N>
+Sign signOf(const Expansion<N>& e) {
+  if (e.size == 0) return kZero;
+  return e.terms[e.size - 1] > 0 ? kPlus : kMinus;
+}
+
+inline Sign signBeyond(double value, double error) {
+  return value > error ? kPlus : (value < -error ? kMinus : kUnknown);
+}
+
+/// The sign of x . (y x z) by plain arithmetic, each coordinate of y and z a rounded difference and
+/// of x one or given: (1 + u)^7, so 7 u of the permanent as it is, 8 u as it is computed. Underflow
+/// adds less than 2^-800.
+inline Sign filteredSign(const double* x, const double* y, const double* z) {
+  const double a = y[1] * z[2], b = y[2] * z[1], c = y[2] * z[0], d = y[0] * z[2], e = y[0] * z[1],
+               f = y[1] * z[0];
+  const double value = x[0] * (a - b) + x[1] * (c - d) + x[2] * (e - f);
+  const double permanent = std::abs(x[0]) * (std::abs(a) + std::abs(b)) +
+                           std::abs(x[1]) * (std::abs(c) + std::abs(d)) +
+                           std::abs(x[2]) * (std::abs(e) + std::abs(f));
+  return signBeyond(value, 8 * 0x1p-53 * permanent + 0x1p-800);
 }
 
 }  // namespace kios

@@ -67,6 +67,13 @@ inline Twofold operator*(const Twofold& a, const Twofold& b) {
   return p;
 }
 
+/// a d - b c with nearly all its digits, however much cancels.
+inline double accurateMinor(const Twofold& a, const Twofold& b, const Twofold& c,
+                            const Twofold& d) {
+  const Twofold minor = a * d - b * c;
+  return minor.high + minor.low;
+}
+
 inline Expansion<2> difference(double a, double b) {
   double high, low;
   twoSum(a, -b, high, low);

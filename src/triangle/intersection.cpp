@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "triangle/common_point.h"
 #include "triangle/plain_intersection.h"
@@ -32,15 +31,21 @@ class PairIntersection {
   explicit PairIntersection(const PairPredicates::Coordinates& points)
       : points_(points), signs_(points) {}
 
-  bool test() { return common(nullptr); }
-
-  /// The common point that is cheapest to find, nothing if there is none.
-  std::optional<Coordinates> anyPoint() {
-    Coordinates point;
-    return common(&point) ? std::optional<Coordinates>(point) : std::nullopt;
+  /// Returns true if the triangles intersect; then `point`, unless null, becomes the common point
+  /// that is cheapest to find.
+  bool common(Coordinates* point) {
+    if (!crossesPlanes()) return false;
+    if (a_.degenerate && b_.degenerate) {
+      if (!segmentsMeet(a_.v[0], a_.v[1], b_.v[0], b_.v[1])) return false;
+      if (point) *point = meetingPoint(a_.v[0], a_.v[1], b_.v[0], b_.v[1]);
+      return true;
+    }
+    if (a_.degenerate) return segmentMeets(a_, b_, point);
+    if (b_.degenerate) return segmentMeets(b_, a_, point);
+    return a_.inPlane() ? coplanarMeet(point) : intervalsMeet(point);
   }
 
-  /// Mean of the points where an edge of one triangle meets the other, after test().
+  /// Mean of the points where an edge of one of two triangles that intersect meets the other.
   Coordinates middle() {
     crossesPlanes();
     Coordinates sum = {0, 0, 0};
@@ -57,19 +62,6 @@ class PairIntersection {
   }
 
  private:
-  /// Returns true if the triangles intersect; then `point`, unless null, becomes a common point.
-  bool common(Coordinates* point) {
-    if (!crossesPlanes()) return false;
-    if (a_.degenerate && b_.degenerate) {
-      if (!segmentsMeet(a_.v[0], a_.v[1], b_.v[0], b_.v[1])) return false;
-      if (point) *point = meetingPoint(a_.v[0], a_.v[1], b_.v[0], b_.v[1]);
-      return true;
-    }
-    if (a_.degenerate) return segmentMeets(a_, b_, point);
-    if (b_.degenerate) return segmentMeets(b_, a_, point);
-    return a_.inPlane() ? coplanarMeet(point) : intervalsMeet(point);
-  }
-
   /// Sides of every vertex with respect to the other plane; false if one plane has a triangle
   /// strictly on one side.
   bool crossesPlanes() {
@@ -325,17 +317,6 @@ class PairIntersection {
 };
 
 template <typename S>
-PairPredicates::Coordinates coordinates(const TriangleVertices<S>& a,
-                                        const TriangleVertices<S>& b) {
-  PairPredicates::Coordinates all;
-  for (int i = 0; i < 3; ++i) {
-    all[i] = {a[i][0], a[i][1], a[i][2]};
-    all[3 + i] = {b[i][0], b[i][1], b[i][2]};
-  }
-  return all;
-}
-
-template <typename S>
 [[gnu::hot]] bool boxesApart(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   for (int c = 0; c < 3; ++c) {
     const auto low = [c](const auto& t) { return std::min(std::min(t[0][c], t[1][c]), t[2][c]); };
@@ -352,20 +333,21 @@ template <typename S>
   if (boxesApart(a, b)) return false;
   const Plainly plain = plainlyMeet(a, b);
   if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;
-  return PairIntersection(coordinates(a, b)).test();
+  return PairIntersection(coordinatesOf(a, b)).common(nullptr);
 }
 
 bool commonPoint(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
                  Point<double>& point) {
   if (boxesApart(a, b)) return false;
-  const auto found = PairIntersection(coordinates(a, b)).anyPoint();
-  if (found) point = {(*found)[0], (*found)[1], (*found)[2]};
-  return found.has_value();
+  Coordinates found;
+  if (!PairIntersection(coordinatesOf(a, b)).common(&found)) return false;
+  point = {found[0], found[1], found[2]};
+  return true;
 }
 
 template <typename S>
 Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  const auto point = PairIntersection(coordinates(a, b)).middle();
+  const auto point = PairIntersection(coordinatesOf(a, b)).middle();
   return {static_cast<S>(point[0]), static_cast<S>(point[1]), static_cast<S>(point[2])};
 }
 

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "fcl_kios/triangle/triangle.h"
+
 namespace kios {
 
 /// Exact signs of determinants of the six vertices of a pair of triangles (a: 0 to 2, b: 3 to 5).
@@ -57,5 +59,16 @@ class PairPredicates {
   bool expansions_exact_;  ///< no term of an expansion can underflow
   bool plain_exact_;       ///< plain doubles are exact, too
 };
+
+template <typename S>
+PairPredicates::Coordinates coordinatesOf(const TriangleVertices<S>& a,
+                                          const TriangleVertices<S>& b) {
+  PairPredicates::Coordinates all;
+  for (std::size_t i = 0; i < 3; ++i) {
+    all[i] = {a[i][0], a[i][1], a[i][2]};
+    all[3 + i] = {b[i][0], b[i][1], b[i][2]};
+  }
+  return all;
+}
 
 }  // namespace kios

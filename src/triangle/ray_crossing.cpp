@@ -9,7 +9,6 @@
 #include "triangle/determinant.h"
 #include "triangle/integer.h"
 #include "triangle/ray_triangle.h"
-#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -17,44 +16,8 @@ namespace {
 using boost::multiprecision::cpp_int;
 
 constexpr int kNext[3] = {1, 2, 0};
-constexpr double kUlp = 0x1p-53;
-
-enum Sign { kMinus = -1, kZero = 0, kPlus = 1, kUnknown = 2 };
-
-template <int N>
-Sign signOf(const Expansion<N>& e) {
-  if (e.size == 0) return kZero;
-  return e.terms[e.size - 1] > 0 ? kPlus : kMinus;
-}
 
 Sign signOf(const cpp_int& v) { return static_cast<Sign>(v.sign()); }
-
-Sign beyond(double value, double error) {
-  return value > error ? kPlus : (value < -error ? kMinus : kUnknown);
-}
-
-/// x . (y x z) in plain arithmetic, each coordinate of y and z a rounded difference and of x one or
-/// given: (1 + u)^7, so 7 u of the permanent as it is, 8 u as it is computed. Underflow adds less
-/// than 2^-800.
-Sign filtered(const double* x, const double* y, const double* z) {
-  const double a = y[1] * z[2], b = y[2] * z[1], c = y[2] * z[0], d = y[0] * z[2], e = y[0] * z[1],
-               f = y[1] * z[0];
-  const double value = x[0] * (a - b) + x[1] * (c - d) + x[2] * (e - f);
-  const double permanent = std::abs(x[0]) * (std::abs(a) + std::abs(b)) +
-                           std::abs(x[1]) * (std::abs(c) + std::abs(d)) +
-                           std::abs(x[2]) * (std::abs(e) + std::abs(f));
-  return beyond(value, 8 * kUlp * permanent + 0x1p-800);
-}
-
-/// The side on which the turned ray passes the edge from p to q, which are relative to the origin:
-/// the sign of d . (p x q), else of its term in e, else of that in e^2. All three vanish only where
-/// p and q lie on a line with the origin.
-template <typename Dot, typename Component>
-Sign turnedSide(const Dot& along_ray, const Component& component) {
-  if (const Sign s = along_ray()) return s;
-  if (const Sign s = component(0)) return s;
-  return component(1);
-}
 
 Crossing verdict(Sign height, const Sign (&sides)[3]) {
   for (const Sign side : sides) {
@@ -63,75 +26,61 @@ Crossing verdict(Sign height, const Sign (&sides)[3]) {
   return height > 0 ? Crossing::kForward : Crossing::kBackward;
 }
 
-}  // namespace
+/// The side on which the turned ray passes the edge from corner i to j, relative to the origin, is
+/// the sign of d . (i x j), by along_ray(i, j), else of its term in e, component(i, j, 0), else of
+/// that in e^2. All three vanish only where the corners lie on a line with the origin.
+template <typename Dot, typename Component>
+Crossing turnedVerdict(Sign height, const Dot& along_ray, const Component& component) {
+  Sign sides[3];
+  for (int i = 0; i < 3; ++i) {
+    const int j = kNext[i];
+    sides[i] = along_ray(i, j);
+    for (int axis = 0; axis < 2 && sides[i] == kZero; ++axis) sides[i] = component(i, j, axis);
+  }
+  return verdict(height, sides);
+}
 
-/// A triangle in the ray's units.
-struct RayCrossing::Scaled {
-  double corner[3][3];
-  double from_origin[3][3];  ///< rounded
-};
+}  // namespace
 
 RayCrossing::RayCrossing(const Point<double>& origin, const Point<double>& direction,
                          double largest)
-    : given_origin_(origin), direction_(direction) {
-  largest = std::max(largest, origin.cwiseAbs().maxCoeff());
-  const bool ordinary = largest >= 0x1p-200 && largest <= 0x1p200;
-  const int exponent =
-      ordinary || !(largest > 0) ? 0 : std::clamp(-std::ilogb(largest), -1000, 1000);
-  unit_ = std::ldexp(1.0, exponent);
-  for (int c = 0; c < 3; ++c) {
-    origin_[c] = origin[c] * unit_;
-    exact_ &= origin_[c] / unit_ == origin[c];
-  }
-}
+    : given_origin_(origin), direction_(direction), origin_(origin, largest) {}
 
 // With u, v, w the corners relative to the origin and h = u . (v x w): the direction d is (d . (v x
 // w) u + d . (w x u) v + d . (u x v) w) / h, so that the ray is in their cone if and only if the
 // three sides have h's sign. The mesh's plane then lies ahead, and the ray leaves it along its
 // normal if h > 0.
 Crossing RayCrossing::cross(const TriangleVertices<double>& corners) const {
-  Scaled t;
-  bool exact = exact_;
-  for (int i = 0; i < 3; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      t.corner[i][c] = corners[i][c] * unit_;
-      exact &= unit_ == 1 || t.corner[i][c] / unit_ == corners[i][c];
-      t.from_origin[i][c] = t.corner[i][c] - origin_[c];
-    }
-  }
-  if (!exact) return crossInIntegers(corners);
+  ScaledOrigin::Corners t;
+  if (!origin_.scale(corners, t)) return crossInIntegers(corners);
   Sign sides[3];
   bool left = false, right = false, unknown = false;
   for (int i = 0; i < 3; ++i) {
-    sides[i] = filtered(direction_.data(), t.from_origin[i], t.from_origin[kNext[i]]);
+    sides[i] = filteredSign(direction_.data(), t.from_origin[i], t.from_origin[kNext[i]]);
     left |= sides[i] == kPlus;
     right |= sides[i] == kMinus;
     unknown |= sides[i] == kUnknown;
   }
   if (left && right) return Crossing::kNone;  // the line misses the closed triangle
   if (unknown) return crossExactly(t, corners);
-  const Sign height = filtered(t.from_origin[0], t.from_origin[1], t.from_origin[2]);
+  const Sign height = filteredSign(t.from_origin[0], t.from_origin[1], t.from_origin[2]);
   if (height == kUnknown) return crossExactly(t, corners);
   return verdict(height, sides);
 }
 
-Crossing RayCrossing::crossExactly(const Scaled& t, const TriangleVertices<double>& corners) const {
-  double least = kInfinity, largest = 0;
-  const auto widen = [&](double v) {
-    if (v != 0) least = std::min(least, std::abs(v));
-    largest = std::max(largest, std::abs(v));
-  };
+Crossing RayCrossing::crossExactly(const ScaledOrigin::Corners& t,
+                                   const TriangleVertices<double>& corners) const {
+  Magnitudes sizes;
   Expansion<2> p[3][3];
   for (int c = 0; c < 3; ++c) {
-    widen(origin_[c]);
-    widen(direction_[c]);
+    sizes.add(origin_[c]);
+    sizes.add(direction_[c]);
     for (int i = 0; i < 3; ++i) {
-      widen(t.corner[i][c]);
+      sizes.add(t.corner[i][c]);
       p[i][c] = difference(t.corner[i][c], origin_[c]);
     }
   }
-  // Bits lie above 2^-324, those of triple products above 2^-972.
-  if (!(least >= 0x1p-270 && largest <= 0x1p201)) return crossInIntegers(corners);
+  if (!sizes.suitExpansions()) return crossInIntegers(corners);
   const auto row = [&](Expansion<2>(&m)[3][3], int r, int i) {
     for (int c = 0; c < 3; ++c) m[r][c] = p[i][c];
   };
@@ -139,25 +88,19 @@ Crossing RayCrossing::crossExactly(const Scaled& t, const TriangleVertices<doubl
   for (int i = 0; i < 3; ++i) row(m, i, i);
   const Sign height = signOf(determinant(m));
   if (height == kZero) return ifOrigin(corners);
-  Sign sides[3];
-  for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i];
-    sides[i] = turnedSide(
-        [&] {
-          for (int c = 0; c < 3; ++c) {
-            m[0][c] = Expansion<2>();
-            m[0][c].append(direction_[c]);
-          }
-          row(m, 1, i);
-          row(m, 2, j);
-          return signOf(determinant(m));
-        },
-        [&](int axis) {
-          const int y = kNext[axis], z = kNext[y];
-          return signOf(sum(product(p[i][y], p[j][z]), negated(product(p[i][z], p[j][y]))));
-        });
-  }
-  return verdict(height, sides);
+  const auto along_ray = [&](int i, int j) {
+    for (int c = 0; c < 3; ++c) {
+      m[0][c] = Expansion<2>();
+      m[0][c].append(direction_[c]);
+    }
+    row(m, 1, i);
+    row(m, 2, j);
+    return signOf(determinant(m));
+  };
+  return turnedVerdict(height, along_ray, [&](int i, int j, int axis) {
+    const int y = kNext[axis], z = kNext[y];
+    return signOf(sum(product(p[i][y], p[j][z]), negated(product(p[i][z], p[j][y]))));
+  });
 }
 
 Crossing RayCrossing::crossInIntegers(const TriangleVertices<double>& corners) const {
@@ -176,13 +119,9 @@ Crossing RayCrossing::crossInIntegers(const TriangleVertices<double>& corners) c
   };
   const Sign height = dot(p[0], 1, 2);
   if (height == kZero) return ifOrigin(corners);
-  Sign sides[3];
-  for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i];
-    sides[i] = turnedSide([&] { return dot(d, i, j); },
-                          [&](int axis) { return signOf(component(i, j, axis)); });
-  }
-  return verdict(height, sides);
+  return turnedVerdict(
+      height, [&](int i, int j) { return dot(d, i, j); },
+      [&](int i, int j, int axis) { return signOf(component(i, j, axis)); });
 }
 
 Crossing RayCrossing::ifOrigin(const TriangleVertices<double>& corners) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fcl_kios/triangle/triangle.h"
+#include "triangle/scaled_origin.h"
 
 namespace kios {
 
@@ -27,20 +28,14 @@ class RayCrossing {
   /// origin.
   Crossing cross(const TriangleVertices<double>& corners) const;
 
-  const Point<double>& origin() const { return given_origin_; }
-  const Point<double>& direction() const { return direction_; }
-
  private:
-  struct Scaled;
-
-  Crossing crossExactly(const Scaled& t, const TriangleVertices<double>& corners) const;
+  Crossing crossExactly(const ScaledOrigin::Corners& t,
+                        const TriangleVertices<double>& corners) const;
   Crossing crossInIntegers(const TriangleVertices<double>& corners) const;
   Crossing ifOrigin(const TriangleVertices<double>& corners) const;
 
   const Point<double> given_origin_, direction_;  ///< |direction| about 1
-  double origin_[3];                              ///< scaled
-  double unit_;                                   ///< of points
-  bool exact_ = true;                             ///< nothing of the ray is lost by that
+  const ScaledOrigin origin_;
 };
 
 }  // namespace kios

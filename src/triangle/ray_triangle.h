@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fcl_kios/triangle/triangle.h"
+#include "triangle/scaled_origin.h"
 
 namespace kios {
 
@@ -33,25 +34,22 @@ class ExactRay {
   /// Returns true and sets `hit` if they meet.
   bool hits(const TriangleVertices<double>& corners, TriangleHit& hit) const;
 
-  const GivenRay& given() const { return given_; }
-
  private:
-  struct Scaled;
+  using Corners = ScaledOrigin::Corners;
 
-  enum Sign { kMinus = -1, kZero = 0, kPlus = 1, kUnknown = 2 };
   /// Returns the sign of direction . ((corner i - origin) x (corner j - corner i)): the side on
   /// which the ray passes the edge.
-  Sign filteredSide(const Scaled& t, int i, int j) const;
-  Sign exactSide(const Scaled& t, int i, int j) const;
+  Sign filteredSide(const Corners& t, int i, int j) const;
+  Sign exactSide(const Corners& t, int i, int j) const;
   /// Sets the hit of a face that the ray's line crosses. False if rounding leaves something open.
-  bool cross(const Scaled& t, TriangleHit& hit, bool& in_range) const;
+  bool cross(const Corners& t, TriangleHit& hit, bool& in_range) const;
 
   const GivenRay given_;
-  double origin_[3], direction_[3];  ///< scaled: of the latter at most 2
-  double unit_;                      ///< of points
-  int shift_;                        ///< t = that of the scaled ray times 2^shift
-  bool exact_ = true;                ///< nothing of the ray is lost by that
-  double least_, largest_;           ///< of the scaled ray's coordinates that aren't 0
+  const ScaledOrigin origin_;
+  double direction_[3];  ///< scaled, of at most 2
+  int shift_;            ///< t = that of the scaled ray times 2^shift
+  bool exact_ = true;    ///< nothing of the direction is lost by that
+  Magnitudes sizes_;     ///< of the scaled ray's coordinates
 };
 
 /// Decides it in integers of any size.

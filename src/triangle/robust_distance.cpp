@@ -154,9 +154,8 @@ class RobustDistance {
       for (int j = 0; j < 3; ++j) {
         between_[i][j] = q_[j] - p_[i];
         squares_[i][j] = between_[i][j].squaredNorm();
-        if (!(squares_[i][j] < square_)) continue;
-        square_ = squares_[i][j];
-        best_ = {0, p_[i], q_[j], {PairFeature::kVertex, i}, {PairFeature::kVertex, j}};
+        take(squares_[i][j],
+             {0, p_[i], q_[j], {PairFeature::kVertex, i}, {PairFeature::kVertex, j}});
       }
     }
   }
@@ -188,10 +187,14 @@ class RobustDistance {
 
   void consider(const SegmentPoint& on_p, PairFeature feature_p, const SegmentPoint& on_q,
                 PairFeature feature_q) {
-    const double square = (on_q.point - on_p.point).squaredNorm();
+    take((on_q.point - on_p.point).squaredNorm(),
+         {0, on_p.point, on_q.point, atEnd(feature_p, on_p.t), atEnd(feature_q, on_q.t)});
+  }
+
+  void take(double square, const PairDistance& found) {
     if (!(square < square_)) return;
     square_ = square;
-    best_ = {0, on_p.point, on_q.point, atEnd(feature_p, on_p.t), atEnd(feature_q, on_q.t)};
+    best_ = found;
   }
 
   static PairFeature atEnd(PairFeature feature, double t) {
@@ -236,27 +239,18 @@ class RobustDistance {
       if (area_p && far_q.of[i] == 0) {
         if (!plane_p) plane_p.emplace(p_);
         if (plane_p->project(q_[i], residual)) {
-          consider(residual, {q_[i] - residual, q_[i], face, {PairFeature::kVertex, i}});
+          take(residual.squaredNorm(),
+               {0, q_[i] - residual, q_[i], face, {PairFeature::kVertex, i}});
         }
       }
       if (area_q && far_p.of[i] == 0) {
         if (!plane_q) plane_q.emplace(q_);
         if (plane_q->project(p_[i], residual)) {
-          consider(residual, {p_[i], p_[i] - residual, {PairFeature::kVertex, i}, face});
+          take(residual.squaredNorm(),
+               {0, p_[i], p_[i] - residual, {PairFeature::kVertex, i}, face});
         }
       }
     }
-  }
-
-  struct Points {
-    Vec on_p, on_q;
-    PairFeature feature_p, feature_q;
-  };
-  void consider(const Vec& residual, const Points& at) {
-    const double square = residual.squaredNorm();
-    if (!(square < square_)) return;
-    square_ = square;
-    best_ = {0, at.on_p, at.on_q, at.feature_p, at.feature_q};
   }
 
   const Vec (&p_)[3];

@@ -69,25 +69,23 @@ def check(path, own):
             faults.append(f'{path} ({LAYERS[own]}) includes "{name}", of a layer above it')
 
 
-# Public headers that share a name with another layer's file; that of motion bounds is defined where
-# motions are.
-NAMED_TWICE = {"distance", "intersection", "motion_bounds", "prepare"}
+# Public headers that share a name with another layer's file.
+NAMED_TWICE = {"distance", "intersection", "prepare"}
 # Public headers without a .cpp of their path.
 DEFINED_ELSEWHERE = {
     "build/fit.h": "build/sphere_fitter.cpp",
-    "model/motion_bounds.h": "continuous/motion_bounds.cpp",
+    "model/motion_bounds.h": "continuous/fcl_motion.cpp",
     "model/prepare.h": "model/prepared.cpp", "solid/solids.h": "solid/solid_mark.cpp",
     "model/convert.h": "a template", "volume/rigid.h": "templates",
     "scene/scene_types.h": "values", "search/counts.h": "values", "triangle/triangle.h": "types",
     "volume/specialisations.h": "model/bvh_build.cpp and its neighbours"}
 SMALL_OR_USED_ONCE = {
     "clearance/exact_pair.h": "what two .cpp share",
-    "continuous/motion_bounds.cpp": "for model/motion_bounds.h, by continuous's velocities",
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
     "linkage/near_pairs.h": "tested alone", "model/memory_to_fill.cpp": "of the operating system",
     "model/memory_to_fill.h": "likewise", "query/cell_walk.h": "FCL's tree beside the engine's",
     "query/intersecting_pairs.h": "one function", "shape/simplex.h": "tested alone",
-    "solid/vertex_graph.cpp": "of vertex_graph.h", "tree/build_budget.h": "tested alone",
+    "tree/build_budget.h": "tested alone",
     "tree/compress_table.h": "a table that no target needs twice",
     "tree/root_copy.h": "a lock-free cell", "tree/weld.h": "one function",
     "triangle/common_point.h": "what two .cpp share",
