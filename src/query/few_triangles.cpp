@@ -8,6 +8,7 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "query/nearest_candidates.h"
 #include "query/unprepared.h"
+#include "volume/instantiate.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
@@ -164,11 +165,7 @@ engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
   return answer;
 }
 
-template engine::PairAnswer<double> nearestOfFew(const MeshPair<double>&, double, SearchCounts&);
-template engine::PairAnswer<float> nearestOfFew(const MeshPair<float>&, double, SearchCounts&);
-template std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<double>&,
-                                                                std::size_t, SearchCounts&);
-template std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<float>&, std::size_t,
-                                                                SearchCounts&);
+KIOS_INSTANTIATE_FUNCTION(nearestOfFew);
+KIOS_INSTANTIATE_FUNCTION(intersectingOfFew);
 
 }  // namespace kios

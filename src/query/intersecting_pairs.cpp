@@ -9,6 +9,7 @@
 #include "query/pair_search.h"
 #include "query/unprepared.h"
 #include "query/vertices_apart.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -44,11 +45,6 @@ template <typename S>
   return found;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                \
-  template std::optional<PairIds> intersectingPairs(const MeshPair<S>&, std::size_t, bool, \
-                                                    SearchCounts&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(intersectingPairs);
 
 }  // namespace kios

@@ -12,6 +12,7 @@
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -276,13 +277,8 @@ template <typename S>
   return true;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                    \
-  template PairAnswer<S> searchNearest(const MeshPair<S>&, const PairQuery&, SearchCounts&);   \
-  template bool engineServes(const MeshPair<S>&);                                              \
-  template bool searchContacts(const MeshPair<S>&, std::size_t, std::vector<TrianglePairIds>&, \
-                               SearchCounts&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(searchNearest);
+KIOS_INSTANTIATE_FUNCTION(engineServes);
+KIOS_INSTANTIATE_FUNCTION(searchContacts);
 
 }  // namespace kios

@@ -10,6 +10,7 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "query/nearest_candidates.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -182,15 +183,8 @@ TrianglePairIds firstTouching(const MeshPair<S>& frame, SearchCounts& counts) {
   return walk.found.at(0);
 }
 
-template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<double>&,
-                                                                     std::size_t, SearchCounts&);
-template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<float>&,
-                                                                     std::size_t, SearchCounts&);
-template std::optional<PairAnswer<double>> nearestUnprepared(const MeshPair<double>&, double, bool,
-                                                             SearchCounts&);
-template std::optional<PairAnswer<float>> nearestUnprepared(const MeshPair<float>&, double, bool,
-                                                            SearchCounts&);
-template TrianglePairIds firstTouching(const MeshPair<double>&, SearchCounts&);
-template TrianglePairIds firstTouching(const MeshPair<float>&, SearchCounts&);
+KIOS_INSTANTIATE_FUNCTION(touchUnprepared);
+KIOS_INSTANTIATE_FUNCTION(nearestUnprepared);
+KIOS_INSTANTIATE_FUNCTION(firstTouching);
 
 }  // namespace kios

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -91,7 +92,6 @@ bool verticesApart(const MeshPair<S>& frame, double margin) {
   return false;
 }
 
-template bool verticesApart(const MeshPair<double>&, double);
-template bool verticesApart(const MeshPair<float>&, double);
+KIOS_INSTANTIATE_FUNCTION(verticesApart);
 
 }  // namespace kios
