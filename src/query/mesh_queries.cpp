@@ -10,7 +10,6 @@
 #include "fcl_kios/query/mesh_nodes.h"
 #include "model/kios_model.h"
 #include "query/few_triangles.h"
-#include "query/intersecting_pairs.h"
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
 #include "query/unprepared.h"

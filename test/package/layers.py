@@ -85,7 +85,7 @@ SMALL_OR_USED_ONCE = {
     "continuous/motion_bounds.cpp": "for model/motion_bounds.h, by continuous's velocities",
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
     "linkage/near_pairs.h": "tested alone", "query/cell_walk.h": "FCL's tree beside the engine's",
-    "query/intersecting_pairs.h": "one function", "shape/simplex.h": "tested alone",
+    "shape/simplex.h": "tested alone",
     "solid/vertex_graph.cpp": "of vertex_graph.h", "tree/build_budget.h": "tested alone",
     "tree/compress_table.h": "a table that no target needs twice",
     "tree/root_copy.h": "a lock-free cell", "tree/weld.h": "one function",
