@@ -84,6 +84,7 @@ SMALL_OR_USED_ONCE = {
     "clearance/exact_pair.h": "what two .cpp share",
     "continuous/motion_bounds.cpp": "for model/motion_bounds.h, by continuous's velocities",
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
+    "fcl/overloads_float.cpp": "FCL's function tables for float, which libfcl lacks",
     "linkage/near_pairs.h": "tested alone", "query/cell_walk.h": "FCL's tree beside the engine's",
     "shape/simplex.h": "tested alone",
     "solid/vertex_graph.cpp": "of vertex_graph.h", "tree/build_budget.h": "tested alone",
