@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/model/bvh_build.h"
 
-#include <algorithm>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "build/sphere_fitter.h"
 #include "model/tree_build.h"
@@ -23,17 +22,12 @@ class BuildsByThread {
   void start(const BuildGeometry<S>& geometry) {
     auto build = std::make_unique<TreeBuild<S>>(geometry);
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto mine = find();
-    if (mine == builds_.end()) {
-      builds_.emplace_back(std::this_thread::get_id(), std::move(build));
-    } else {
-      mine->second = std::move(build);
-    }
+    builds_[std::this_thread::get_id()] = std::move(build);
   }
 
   TreeBuild<S>& current() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto mine = find();
+    const auto mine = builds_.find(std::this_thread::get_id());
     if (mine != builds_.end()) return *mine->second;
     refuse<std::logic_error>(
         "this BVFitter or BVSplitter was not set; set() it in the same thread before use.");
@@ -41,21 +35,12 @@ class BuildsByThread {
 
   void end() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto mine = find();
-    if (mine != builds_.end()) builds_.erase(mine);
+    builds_.erase(std::this_thread::get_id());
   }
 
  private:
-  using Builds = std::vector<std::pair<std::thread::id, std::unique_ptr<TreeBuild<S>>>>;
-
-  typename Builds::iterator find() {
-    const std::thread::id me = std::this_thread::get_id();
-    return std::find_if(builds_.begin(), builds_.end(),
-                        [me](const auto& build) { return build.first == me; });
-  }
-
   std::mutex mutex_;
-  Builds builds_;
+  std::map<std::thread::id, std::unique_ptr<TreeBuild<S>>> builds_;
 };
 
 }  // namespace kios
