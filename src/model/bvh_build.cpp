@@ -19,8 +19,9 @@ namespace kios {
 template <typename S>
 class BuildsByThread {
  public:
-  void start(const BuildGeometry<S>& geometry) {
-    auto build = std::make_unique<TreeBuild<S>>(geometry);
+  void start(const BuildGeometry<S>& geometry, const FitOptions& options,
+             fcl::detail::SplitMethodType method) {
+    auto build = std::make_unique<TreeBuild<S>>(geometry, options, method);
     const std::lock_guard<std::mutex> lock(mutex_);
     builds_[std::this_thread::get_id()] = std::move(build);
   }
@@ -61,18 +62,18 @@ BVFitter<kios::kIOS<S>>::~BVFitter() = default;
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) {
-  builds_->start({vertices, nullptr, tri_indices, type});
+  BVFitter::set(vertices, nullptr, tri_indices, type);
 }
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Vector3<S>* prev_vertices,
                                   Triangle* tri_indices, BVHModelType type) {
-  builds_->start({vertices, prev_vertices, tri_indices, type});
+  builds_->start({vertices, prev_vertices, tri_indices, type}, options_, SPLIT_METHOD_MEAN);
 }
 
 template <typename S>
 kios::kIOS<S> BVFitter<kios::kIOS<S>>::fit(unsigned int* primitive_indices, int num_primitives) {
-  return builds_->current().fit(primitive_indices, num_primitives, options_);
+  return builds_->current().fit(primitive_indices, num_primitives);
 }
 
 template <typename S>
@@ -96,13 +97,13 @@ BVSplitter<kios::kIOS<S>>::~BVSplitter() = default;
 template <typename S>
 void BVSplitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices,
                                     BVHModelType type) {
-  builds_->start({vertices, nullptr, tri_indices, type});
+  builds_->start({vertices, nullptr, tri_indices, type}, {}, method_);
 }
 
 template <typename S>
-void BVSplitter<kios::kIOS<S>>::computeRule(const kios::kIOS<S>& /*bv*/,
+void BVSplitter<kios::kIOS<S>>::computeRule(const kios::kIOS<S>& bv,
                                             unsigned int* primitive_indices, int num_primitives) {
-  builds_->current().computeRule(primitive_indices, num_primitives, method_);
+  builds_->current().computeRule(bv, primitive_indices, num_primitives);
 }
 
 template <typename S>

@@ -34,27 +34,6 @@ const Class* exactly(const Base& base) {
   return typeid(base) == typeid(Class) ? static_cast<const Class*>(&base) : nullptr;
 }
 
-/// A build of what the model holds now, or, with `previous`, at these vertices, too.
-template <typename S>
-TreeBuild<S> buildOf(const Model<S>& model, const fcl::Vector3<S>* previous) {
-  return TreeBuild<S>({model.vertices, previous, model.tri_indices, model.getModelType()},
-                      static_cast<std::size_t>(model.num_vertices));
-}
-
-/// The steps of a build by our own fitter and splitter, which need no virtual call.
-template <typename S>
-struct OwnSteps {
-  TreeBuild<S> build;
-  const FitOptions options;
-  const fcl::detail::SplitMethodType method;
-
-  kIOS<S> fit(unsigned int* primitives, int n) { return build.fit(primitives, n, options); }
-  void computeRule(const kIOS<S>& /*bv*/, unsigned int* primitives, int n) {
-    build.computeRule(primitives, n, method);
-  }
-  bool above(const fcl::Vector3<S>& q) const { return build.above(q); }
-};
-
 /// A fitter or a splitter between its set() and its clear(), which comes also where a build is
 /// given up.
 template <typename FitterOrSplitter>
@@ -73,7 +52,7 @@ class Set {
   FitterOrSplitter& of_;
 };
 
-/// The steps by a fitter or a splitter of the user's.
+/// The steps of a TreeBuild by a fitter or a splitter of the user's. Our own need no virtual call.
 template <typename S>
 struct UsersSteps {
   const Set<FitterBase<S>> fitter;
@@ -203,16 +182,17 @@ void build(const Members<S>& m) {
     m.nodes[0].bv.stamp = nextStamp();
     return;
   }
+  const fcl::BVHModelType type = model.getModelType();
   const int n = m.numPrimitives();
   for (int i = 0; i < n; ++i) m.primitives[i] = static_cast<unsigned int>(i);
   const auto* const own_fitter = exactly<Fitter<S>>(*model.bv_fitter);
   const auto* const own_splitter = exactly<Splitter<S>>(*model.bv_splitter);
   if (own_fitter && own_splitter) {
     if (own_splitter->byCost() && own_fitter->options().plain() && buildByCost(m)) return;
-    OwnSteps<S> steps{buildOf<S>(model, nullptr), own_fitter->options(), own_splitter->method()};
-    return RecursiveBuild<S, OwnSteps<S>>(m, steps).run(n);
+    TreeBuild<S> steps({model.vertices, nullptr, model.tri_indices, type}, own_fitter->options(),
+                       own_splitter->method(), static_cast<std::size_t>(model.num_vertices));
+    return RecursiveBuild<S, TreeBuild<S>>(m, steps).run(n);
   }
-  const fcl::BVHModelType type = model.getModelType();
   UsersSteps<S> steps{
       Set<FitterBase<S>>(*model.bv_fitter, model.vertices, model.tri_indices, type),
       Set<SplitterBase<S>>(*model.bv_splitter, model.vertices, model.tri_indices, type)};
@@ -232,6 +212,7 @@ int buildTree(const Members<S>& m) {
 template <typename S>
 int refitTopDown(const Members<S>& m) {
   Model<S>& model = m.model;
+  const fcl::BVHModelType type = model.getModelType();
   const auto refit = [&m](const auto& fit) {
     for (int i = 0; i < m.num_nodes; ++i) {
       fcl::BVNode<kIOS<S>>& node = m.nodes[i];
@@ -239,11 +220,13 @@ int refitTopDown(const Members<S>& m) {
     }
   };
   if (const auto* const own = exactly<Fitter<S>>(*model.bv_fitter)) {
-    TreeBuild<S> build = buildOf<S>(model, model.prev_vertices);
-    refit([&](unsigned int* first, int n) { return build.fit(first, n, own->options()); });
+    TreeBuild<S> build({model.vertices, model.prev_vertices, model.tri_indices, type},
+                       own->options(), fcl::detail::SPLIT_METHOD_MEAN,
+                       static_cast<std::size_t>(model.num_vertices));
+    refit([&](unsigned int* first, int n) { return build.fit(first, n); });
   } else {
     const Set<FitterBase<S>> set(*model.bv_fitter, model.vertices, model.prev_vertices,
-                                 model.tri_indices, model.getModelType());
+                                 model.tri_indices, type);
     refit([&](unsigned int* first, int n) { return (*set).fit(first, n); });
   }
   return fcl::BVH_OK;
