@@ -13,7 +13,6 @@
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
 #include "query/unprepared.h"
-#include "query/vertices_apart.h"
 #include "volume/far_apart.h"
 #include "volume/instantiate.h"
 

@@ -11,7 +11,6 @@
 #include "model/walk.h"
 #include "query/few_triangles.h"
 #include "query/unprepared.h"
-#include "query/vertices_apart.h"
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
