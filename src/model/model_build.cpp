@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The members of fcl::BVHModel that build and refit trees over k-IOS.
-#include <stdexcept>
 #include <typeinfo>
 #include <utility>
 

@@ -4,7 +4,6 @@
 
 #if FCL_HAVE_OCTOMAP
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

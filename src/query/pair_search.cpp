@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <utility>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"

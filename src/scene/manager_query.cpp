@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/scene/manager_query.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
