@@ -58,21 +58,33 @@ template <typename S>
   return fcl_own::distance(a, X_WA, b, X_WB, request, result);
 }
 
-/// Asks it of two objects; throws std::invalid_argument if either is null.
-template <typename S>
-std::size_t collide(const fcl::CollisionObject<S>* a, const fcl::CollisionObject<S>* b,
-                    const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
-  detail::requireObjects(a, b);
-  return kios::collide(a->collisionGeometry().get(), a->getTransform(),
-                       b->collisionGeometry().get(), b->getTransform(), request, result);
-}
-
-template <typename S>
-S distance(const fcl::CollisionObject<S>* a, const fcl::CollisionObject<S>* b,
-           const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
-  detail::requireObjects(a, b);
-  return kios::distance(a->collisionGeometry().get(), a->getTransform(),
-                        b->collisionGeometry().get(), b->getTransform(), request, result);
-}
-
 }  // namespace kios
+
+// The overloads of fcl_kios/overloads.h for one scalar, which can't be a parameter: FCL's templates
+// would be as good a match.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
+#define KIOS_OVERLOADS(S)                                                                      \
+  std::size_t collide(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,                \
+                      const CollisionGeometry<S>* o2, const Transform3<S>& tf2,                \
+                      const CollisionRequest<S>& request, CollisionResult<S>& result) {        \
+    return kios::collide(o1, tf1, o2, tf2, request, result);                                   \
+  }                                                                                            \
+  [[gnu::hot]] std::size_t collide(const CollisionObject<S>* o1, const CollisionObject<S>* o2, \
+                                   const CollisionRequest<S>& request,                         \
+                                   CollisionResult<S>& result) {                               \
+    kios::detail::requireObjects(o1, o2);                                                      \
+    return kios::collide(o1->collisionGeometry().get(), o1->getTransform(),                    \
+                         o2->collisionGeometry().get(), o2->getTransform(), request, result);  \
+  }                                                                                            \
+  S distance(const CollisionGeometry<S>* o1, const Transform3<S>& tf1,                         \
+             const CollisionGeometry<S>* o2, const Transform3<S>& tf2,                         \
+             const DistanceRequest<S>& request, DistanceResult<S>& result) {                   \
+    return kios::distance(o1, tf1, o2, tf2, request, result);                                  \
+  }                                                                                            \
+  [[gnu::hot]] S distance(const CollisionObject<S>* o1, const CollisionObject<S>* o2,          \
+                          const DistanceRequest<S>& request, DistanceResult<S>& result) {      \
+    kios::detail::requireObjects(o1, o2);                                                      \
+    return kios::distance(o1->collisionGeometry().get(), o1->getTransform(),                   \
+                          o2->collisionGeometry().get(), o2->getTransform(), request, result); \
+  }
+// NOLINTEND(bugprone-macro-parentheses)

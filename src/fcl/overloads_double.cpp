@@ -18,30 +18,7 @@ bool anyModel(const CollisionGeometry<double>* o1, const CollisionGeometry<doubl
 
 }  // namespace
 
-[[gnu::hot]] std::size_t collide(const CollisionObject<double>* o1,
-                                 const CollisionObject<double>* o2,
-                                 const CollisionRequest<double>& request,
-                                 CollisionResult<double>& result) {
-  return kios::collide(o1, o2, request, result);
-}
-
-std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
-                    const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
-                    const CollisionRequest<double>& request, CollisionResult<double>& result) {
-  return kios::collide(o1, tf1, o2, tf2, request, result);
-}
-
-[[gnu::hot]] double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
-                             const DistanceRequest<double>& request,
-                             DistanceResult<double>& result) {
-  return kios::distance(o1, o2, request, result);
-}
-
-double distance(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
-                const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
-                const DistanceRequest<double>& request, DistanceResult<double>& result) {
-  return kios::distance(o1, tf1, o2, tf2, request, result);
-}
+KIOS_OVERLOADS(double)
 
 double continuousCollide(const CollisionGeometry<double>* o1, const MotionBase<double>* motion1,
                          const CollisionGeometry<double>* o2, const MotionBase<double>* motion2,

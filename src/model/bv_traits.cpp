@@ -3,7 +3,6 @@
 #include "fcl_kios/model/bv_traits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "volume/balls.h"

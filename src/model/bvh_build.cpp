@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/model/bvh_build.h"
 
-#include <algorithm>
+#include <map>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "build/sphere_fitter.h"
 #include "model/tree_build.h"
@@ -20,20 +19,16 @@ namespace kios {
 template <typename S>
 class BuildsByThread {
  public:
-  void start(const BuildGeometry<S>& geometry) {
-    auto build = std::make_unique<TreeBuild<S>>(geometry);
+  void start(const BuildGeometry<S>& geometry, const FitOptions& options,
+             fcl::detail::SplitMethodType method) {
+    auto build = std::make_unique<TreeBuild<S>>(geometry, options, method);
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto mine = find();
-    if (mine == builds_.end()) {
-      builds_.emplace_back(std::this_thread::get_id(), std::move(build));
-    } else {
-      mine->second = std::move(build);
-    }
+    builds_[std::this_thread::get_id()] = std::move(build);
   }
 
   TreeBuild<S>& current() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto mine = find();
+    const auto mine = builds_.find(std::this_thread::get_id());
     if (mine != builds_.end()) return *mine->second;
     refuse<std::logic_error>(
         "this BVFitter or BVSplitter was not set; set() it in the same thread before use.");
@@ -41,21 +36,12 @@ class BuildsByThread {
 
   void end() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const auto mine = find();
-    if (mine != builds_.end()) builds_.erase(mine);
+    builds_.erase(std::this_thread::get_id());
   }
 
  private:
-  using Builds = std::vector<std::pair<std::thread::id, std::unique_ptr<TreeBuild<S>>>>;
-
-  typename Builds::iterator find() {
-    const std::thread::id me = std::this_thread::get_id();
-    return std::find_if(builds_.begin(), builds_.end(),
-                        [me](const auto& build) { return build.first == me; });
-  }
-
   std::mutex mutex_;
-  Builds builds_;
+  std::map<std::thread::id, std::unique_ptr<TreeBuild<S>>> builds_;
 };
 
 }  // namespace kios
@@ -76,18 +62,18 @@ BVFitter<kios::kIOS<S>>::~BVFitter() = default;
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) {
-  builds_->start({vertices, nullptr, tri_indices, type});
+  BVFitter::set(vertices, nullptr, tri_indices, type);
 }
 
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Vector3<S>* prev_vertices,
                                   Triangle* tri_indices, BVHModelType type) {
-  builds_->start({vertices, prev_vertices, tri_indices, type});
+  builds_->start({vertices, prev_vertices, tri_indices, type}, options_, SPLIT_METHOD_MEAN);
 }
 
 template <typename S>
 kios::kIOS<S> BVFitter<kios::kIOS<S>>::fit(unsigned int* primitive_indices, int num_primitives) {
-  return builds_->current().fit(primitive_indices, num_primitives, options_);
+  return builds_->current().fit(primitive_indices, num_primitives);
 }
 
 template <typename S>
@@ -111,13 +97,13 @@ BVSplitter<kios::kIOS<S>>::~BVSplitter() = default;
 template <typename S>
 void BVSplitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices,
                                     BVHModelType type) {
-  builds_->start({vertices, nullptr, tri_indices, type});
+  builds_->start({vertices, nullptr, tri_indices, type}, {}, method_);
 }
 
 template <typename S>
-void BVSplitter<kios::kIOS<S>>::computeRule(const kios::kIOS<S>& /*bv*/,
+void BVSplitter<kios::kIOS<S>>::computeRule(const kios::kIOS<S>& bv,
                                             unsigned int* primitive_indices, int num_primitives) {
-  builds_->current().computeRule(primitive_indices, num_primitives, method_);
+  builds_->current().computeRule(bv, primitive_indices, num_primitives);
 }
 
 template <typename S>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/model/model.h"
 
-#include <cmath>
 #include <new>
 #include <stdexcept>
 

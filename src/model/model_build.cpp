@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The members of fcl::BVHModel that build and refit trees over k-IOS.
-#include <stdexcept>
 #include <typeinfo>
 #include <utility>
 
@@ -34,36 +33,6 @@ const Class* exactly(const Base& base) {
   return typeid(base) == typeid(Class) ? static_cast<const Class*>(&base) : nullptr;
 }
 
-/// A model's arrays.
-template <typename S>
-struct Arrays {
-  fcl::Vector3<S>*vertices, *prev_vertices;
-  fcl::Triangle* triangles;
-  fcl::BVHModelType type;
-  int num_vertices;
-  unsigned int* primitives;
-  fcl::BVNode<kIOS<S>>* nodes;
-
-  TreeBuild<S> build() const {
-    return TreeBuild<S>({vertices, prev_vertices, triangles, type},
-                        static_cast<std::size_t>(num_vertices));
-  }
-};
-
-/// The steps of a build by our own fitter and splitter, which need no virtual call.
-template <typename S>
-struct OwnSteps {
-  TreeBuild<S> build;
-  const FitOptions options;
-  const fcl::detail::SplitMethodType method;
-
-  kIOS<S> fit(unsigned int* primitives, int n) { return build.fit(primitives, n, options); }
-  void computeRule(const kIOS<S>& /*bv*/, unsigned int* primitives, int n) {
-    build.computeRule(primitives, n, method);
-  }
-  bool above(const fcl::Vector3<S>& q) const { return build.above(q); }
-};
-
 /// A fitter or a splitter between its set() and its clear(), which comes also where a build is
 /// given up.
 template <typename FitterOrSplitter>
@@ -82,7 +51,7 @@ class Set {
   FitterOrSplitter& of_;
 };
 
-/// The steps by a fitter or a splitter of the user's.
+/// The steps of a TreeBuild by a fitter or a splitter of the user's. Our own need no virtual call.
 template <typename S>
 struct UsersSteps {
   const Set<FitterBase<S>> fitter;
@@ -99,21 +68,24 @@ struct UsersSteps {
 template <typename S, typename Steps>
 class RecursiveBuild {
  public:
-  RecursiveBuild(const Arrays<S>& model, Steps& steps) : model_(model), steps_(steps) {}
+  RecursiveBuild(const Members<S>& members, Steps& steps)
+      : model_(members.model),
+        primitives_(members.primitives),
+        nodes_(members.nodes),
+        steps_(steps) {}
 
-  /// Returns the number of nodes. A user's fitter may return a volume that it keeps, with its
-  /// stamp, so that the root is stamped anew.
-  int run(int num_primitives) {
+  /// A user's fitter may return a volume that it keeps, with its stamp, so that the root is stamped
+  /// anew.
+  void run(int num_primitives) {
     divide(0, 0, num_primitives);
-    model_.nodes[0].bv.stamp = nextStamp();
-    return num_nodes_;
+    nodes_[0].bv.stamp = nextStamp();
   }
 
  private:
   void divide(int node, int first, int n) {
     for (;;) {
-      unsigned int* const primitives = model_.primitives + first;
-      fcl::BVNode<kIOS<S>>& at = model_.nodes[node];
+      unsigned int* const primitives = primitives_ + first;
+      fcl::BVNode<kIOS<S>>& at = nodes_[node];
       at.bv = steps_.fit(primitives, n);
       at.first_primitive = first;
       at.num_primitives = n;
@@ -143,12 +115,14 @@ class RecursiveBuild {
   }
 
   fcl::Vector3<S> centroid(unsigned int primitive) const {
-    if (model_.type == fcl::BVH_MODEL_POINTCLOUD) return model_.vertices[primitive];
-    const fcl::Triangle& t = model_.triangles[primitive];
+    if (model_.num_tris == 0) return model_.vertices[primitive];
+    const fcl::Triangle& t = model_.tri_indices[primitive];
     return (model_.vertices[t[0]] + model_.vertices[t[1]] + model_.vertices[t[2]]) / S(3);
   }
 
-  const Arrays<S> model_;
+  const Model<S>& model_;
+  unsigned int* const primitives_;
+  fcl::BVNode<kIOS<S>>* const nodes_;
   Steps& steps_;
   int num_nodes_ = 1;
 };
@@ -156,19 +130,18 @@ class RecursiveBuild {
 /// The tree of the engine's own partition, which queries read: a copy where an equal mesh lives.
 /// False where there is none.
 template <typename S>
-bool buildByCost(const Arrays<S>& model, int num_triangles, engine::TreeCache& trees) {
-  if (model.type != fcl::BVH_MODEL_TRIANGLES) return false;
-  const auto n = static_cast<std::size_t>(num_triangles);
-  const engine::MeshView<S> mesh = {model.vertices, static_cast<std::size_t>(model.num_vertices),
-                                    model.triangles, n};
+bool buildByCost(const Members<S>& m) {
+  const engine::MeshView<S> mesh = viewOf(m.model);
+  if (mesh.num_triangles == 0) return false;
   const engine::ContentHash content = engine::contentHash(mesh);
-  if (copySharedVolumes<S>(content, n, {model.nodes, model.primitives})) {
-    model.nodes[0].bv.stamp = nextStamp();
-  } else if (!engine::buildVolumes<S>(mesh, model.nodes, model.primitives)) {
+  if (copySharedVolumes<S>(content, mesh.num_triangles, {m.nodes, m.primitives})) {
+    m.nodes[0].bv.stamp = nextStamp();
+  } else if (!engine::buildVolumes<S>(mesh, m.nodes, m.primitives)) {
     return false;
   }
-  shareVolumes(content, model.nodes, model.primitives);
-  trees.noteBuilt(model.nodes[0].bv.stamp);
+  shareVolumes(content, m.nodes, m.primitives);
+  engine::TreeCache& trees = *treesOf(m.model);
+  trees.noteBuilt(m.nodes[0].bv.stamp);
   if (engine::SharedTree::isHeld(content)) trees.budget.exhaust();
   return true;
 }
@@ -200,45 +173,62 @@ void makeRoom(const Members<S>& m) {
   m.num_nodes_allocated = n;
 }
 
+/// Fills the tree, for which there is room.
 template <typename S>
-int build(const Arrays<S>& model, int num_primitives, FitterBase<S>& fitter,
-          SplitterBase<S>& splitter, engine::TreeCache* trees) {
-  if (StoredTree<S>::in(fitter)) {
-    model.nodes[0].bv.stamp = nextStamp();
-    return 2 * num_primitives - 1;
+void build(const Members<S>& m) {
+  Model<S>& model = m.model;
+  if (StoredTree<S>::in(*model.bv_fitter)) {
+    m.nodes[0].bv.stamp = nextStamp();
+    return;
   }
-  for (int i = 0; i < num_primitives; ++i) model.primitives[i] = static_cast<unsigned int>(i);
-  const auto* const own_fitter = exactly<Fitter<S>>(fitter);
-  const auto* const own_splitter = exactly<Splitter<S>>(splitter);
+  const fcl::BVHModelType type = model.getModelType();
+  const int n = m.numPrimitives();
+  for (int i = 0; i < n; ++i) m.primitives[i] = static_cast<unsigned int>(i);
+  const auto* const own_fitter = exactly<Fitter<S>>(*model.bv_fitter);
+  const auto* const own_splitter = exactly<Splitter<S>>(*model.bv_splitter);
   if (own_fitter && own_splitter) {
-    if (own_splitter->byCost() && own_fitter->options().plain() &&
-        buildByCost(model, num_primitives, *trees)) {
-      return 2 * num_primitives - 1;
-    }
-    OwnSteps<S> steps{model.build(), own_fitter->options(), own_splitter->method()};
-    return RecursiveBuild<S, OwnSteps<S>>(model, steps).run(num_primitives);
+    if (own_splitter->byCost() && own_fitter->options().plain() && buildByCost(m)) return;
+    TreeBuild<S> steps({model.vertices, nullptr, model.tri_indices, type}, own_fitter->options(),
+                       own_splitter->method(), static_cast<std::size_t>(model.num_vertices));
+    return RecursiveBuild<S, TreeBuild<S>>(m, steps).run(n);
   }
-  UsersSteps<S> steps{Set<FitterBase<S>>(fitter, model.vertices, model.triangles, model.type),
-                      Set<SplitterBase<S>>(splitter, model.vertices, model.triangles, model.type)};
-  return RecursiveBuild<S, UsersSteps<S>>(model, steps).run(num_primitives);
+  UsersSteps<S> steps{
+      Set<FitterBase<S>>(*model.bv_fitter, model.vertices, model.tri_indices, type),
+      Set<SplitterBase<S>>(*model.bv_splitter, model.vertices, model.tri_indices, type)};
+  RecursiveBuild<S, UsersSteps<S>>(m, steps).run(n);
 }
 
 template <typename S>
-void refitTopDown(const Arrays<S>& model, int num_nodes, FitterBase<S>& fitter) {
-  const auto refit = [&](const auto& fit) {
-    for (int i = 0; i < num_nodes; ++i) {
-      fcl::BVNode<kIOS<S>>& node = model.nodes[i];
-      node.bv = fit(model.primitives + node.first_primitive, node.num_primitives);
+int buildTree(const Members<S>& m) {
+  if (m.model.getModelType() == fcl::BVH_MODEL_UNKNOWN) return fcl::BVH_ERR_UNSUPPORTED_FUNCTION;
+  requireIndices(m.model);
+  makeRoom(m);
+  build(m);
+  m.num_nodes = m.numNodes();
+  return fcl::BVH_OK;
+}
+
+template <typename S>
+int refitTopDown(const Members<S>& m) {
+  Model<S>& model = m.model;
+  const fcl::BVHModelType type = model.getModelType();
+  const auto refit = [&m](const auto& fit) {
+    for (int i = 0; i < m.num_nodes; ++i) {
+      fcl::BVNode<kIOS<S>>& node = m.nodes[i];
+      node.bv = fit(m.primitives + node.first_primitive, node.num_primitives);
     }
   };
-  if (const auto* const own = exactly<Fitter<S>>(fitter)) {
-    TreeBuild<S> build = model.build();
-    refit([&](unsigned int* first, int n) { return build.fit(first, n, own->options()); });
-    return;
+  if (const auto* const own = exactly<Fitter<S>>(*model.bv_fitter)) {
+    TreeBuild<S> build({model.vertices, model.prev_vertices, model.tri_indices, type},
+                       own->options(), fcl::detail::SPLIT_METHOD_MEAN,
+                       static_cast<std::size_t>(model.num_vertices));
+    refit([&](unsigned int* first, int n) { return build.fit(first, n); });
+  } else {
+    const Set<FitterBase<S>> set(*model.bv_fitter, model.vertices, model.prev_vertices,
+                                 model.tri_indices, type);
+    refit([&](unsigned int* first, int n) { return (*set).fit(first, n); });
   }
-  const Set<FitterBase<S>> set(fitter, model.vertices, model.prev_vertices, model.triangles,
-                               model.type);
-  refit([&](unsigned int* first, int n) { return (*set).fit(first, n); });
+  return fcl::BVH_OK;
 }
 
 }  // namespace
@@ -248,36 +238,25 @@ namespace fcl {
 
 // A scalar can't be a parameter of explicit specialisations. A tree has no nodes until it is whole.
 // NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
-#define KIOS_SPECIALISE(S)                                                                     \
-  template <>                                                                                  \
-  int BVHModel<kios::kIOS<S>>::buildTree() {                                                   \
-    const BVHModelType type = getModelType();                                                  \
-    if (type == BVH_MODEL_UNKNOWN) return BVH_ERR_UNSUPPORTED_FUNCTION;                        \
-    kios::requireIndices<S>(*this);                                                            \
-    kios::makeRoom(KIOS_MEMBERS(S));                                                           \
-    num_bvs = kios::build<S>(                                                                  \
-        {vertices, nullptr, tri_indices, type, num_vertices, primitive_indices, bvs},          \
-        type == BVH_MODEL_TRIANGLES ? num_tris : num_vertices, *bv_fitter, *bv_splitter,       \
-        kios::treesOf(*this));                                                                 \
-    return BVH_OK;                                                                             \
-  }                                                                                            \
-  template <>                                                                                  \
-  int BVHModel<kios::kIOS<S>>::refitTree(bool bottomup) {                                      \
-    if (num_bvs != KIOS_MEMBERS(S).numNodes()) {                                               \
-      const int failed = buildTree();                                                          \
-      if (failed || !prev_vertices) return failed;                                             \
-    }                                                                                          \
-    kios::releaseVolumes(bvs);                                                                 \
-    const int failed = bottomup ? refitTree_bottomup() : refitTree_topdown();                  \
-    bvs[0].bv.stamp = kios::nextStamp();                                                       \
-    return failed;                                                                             \
-  }                                                                                            \
-  template <>                                                                                  \
-  int BVHModel<kios::kIOS<S>>::refitTree_topdown() {                                           \
-    kios::refitTopDown<S>({vertices, prev_vertices, tri_indices, getModelType(), num_vertices, \
-                           primitive_indices, bvs},                                            \
-                          num_bvs, *bv_fitter);                                                \
-    return BVH_OK;                                                                             \
+#define KIOS_SPECIALISE(S)                                                    \
+  template <>                                                                 \
+  int BVHModel<kios::kIOS<S>>::buildTree() {                                  \
+    return kios::buildTree(KIOS_MEMBERS(S));                                  \
+  }                                                                           \
+  template <>                                                                 \
+  int BVHModel<kios::kIOS<S>>::refitTree(bool bottomup) {                     \
+    if (num_bvs != KIOS_MEMBERS(S).numNodes()) {                              \
+      const int failed = buildTree();                                         \
+      if (failed || !prev_vertices) return failed;                            \
+    }                                                                         \
+    kios::releaseVolumes(bvs);                                                \
+    const int failed = bottomup ? refitTree_bottomup() : refitTree_topdown(); \
+    bvs[0].bv.stamp = kios::nextStamp();                                      \
+    return failed;                                                            \
+  }                                                                           \
+  template <>                                                                 \
+  int BVHModel<kios::kIOS<S>>::refitTree_topdown() {                          \
+    return kios::refitTopDown(KIOS_MEMBERS(S));                               \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)

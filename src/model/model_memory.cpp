@@ -48,12 +48,11 @@ void copy(const Model<S>& from, int num_vertices_given, const unsigned int* prim
   shareCopy(nodes, to.nodes, to.primitives);
 }
 
+/// Frees all arrays.
 template <typename S>
-int begin(Members<S> m, int num_tris, int num_vertices) {
+void clear(Members<S> m) {
   Model<S>& model = m.model;
-  const bool was_empty = model.build_state == fcl::BVH_BUILD_STATE_EMPTY;
   releaseVolumes(m.nodes);
-  model.build_state = fcl::BVH_BUILD_STATE_EMPTY;
   replace(model.vertices, {});
   replace(model.tri_indices, {});
   replace(model.prev_vertices, {});
@@ -62,6 +61,14 @@ int begin(Members<S> m, int num_tris, int num_vertices) {
   model.num_tris = m.num_tris_allocated = 0;
   model.num_vertices = m.num_vertices_allocated = 0;
   m.num_nodes = m.num_nodes_allocated = 0;
+}
+
+template <typename S>
+int begin(Members<S> m, int num_tris, int num_vertices) {
+  Model<S>& model = m.model;
+  const bool was_empty = model.build_state == fcl::BVH_BUILD_STATE_EMPTY;
+  clear(m);
+  model.build_state = fcl::BVH_BUILD_STATE_EMPTY;
   if (num_tris < 0) num_tris = 8;
   if (num_vertices <= 0) num_vertices = 8;
   try {
@@ -129,6 +136,7 @@ int beginUpdate(Members<S> m) {
     }
   }
   std::swap(model.vertices, model.prev_vertices);
+  m.num_vertices_given = 0;
   model.build_state = fcl::BVH_BUILD_STATE_UPDATE_BEGUN;
   return fcl::BVH_OK;
 }
@@ -166,12 +174,7 @@ namespace fcl {
   }                                                                                                \
   template <>                                                                                      \
   BVHModel<kios::kIOS<S>>::~BVHModel() {                                                           \
-    kios::releaseVolumes(bvs);                                                                     \
-    delete[] vertices;                                                                             \
-    delete[] tri_indices;                                                                          \
-    delete[] prev_vertices;                                                                        \
-    delete[] primitive_indices;                                                                    \
-    delete[] bvs;                                                                                  \
+    kios::clear(KIOS_MEMBERS(S));                                                                  \
   }                                                                                                \
   template <>                                                                                      \
   int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {                      \
@@ -186,9 +189,7 @@ namespace fcl {
   }                                                                                                \
   template <>                                                                                      \
   int BVHModel<kios::kIOS<S>>::beginUpdateModel() {                                                \
-    if (const int failed = kios::beginUpdate(KIOS_MEMBERS(S))) return failed;                      \
-    num_vertex_updated = 0;                                                                        \
-    return BVH_OK;                                                                                 \
+    return kios::beginUpdate(KIOS_MEMBERS(S));                                                     \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)

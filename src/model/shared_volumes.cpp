@@ -8,8 +8,8 @@
 #include <new>
 #include <shared_mutex>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
-#include <vector>
 
 namespace kios {
 namespace {
@@ -21,14 +21,15 @@ struct Entry {
 
   const ContentHash content;
   const void *const nodes, *const primitives;
-  std::size_t place = 0;      ///< among those of equal content; guarded by the registry's mutex
   std::shared_mutex reading;  ///< held while nodes and primitives are copied
   bool released = false;      ///< guarded by `reading`
 };
 
 struct Registry {
   std::unordered_map<const void*, std::shared_ptr<Entry>> by_nodes;
-  std::unordered_map<ContentHash, std::vector<Entry*>, engine::HashOfContent> by_content;
+  /// The nodes of equal content.
+  std::unordered_map<ContentHash, std::unordered_set<const void*>, engine::HashOfContent>
+      by_content;
 };
 
 // Neither has a destructor, and the registry is there only while something is shared: models may
@@ -41,7 +42,7 @@ std::shared_ptr<Entry> find(const ContentHash& content) {
   if (!registry) return nullptr;
   const auto found = registry->by_content.find(content);
   return found == registry->by_content.end() ? nullptr
-                                             : registry->by_nodes.at(found->second.back()->nodes);
+                                             : registry->by_nodes.at(*found->second.begin());
 }
 
 /// The mutex must be locked.
@@ -55,9 +56,7 @@ void list(const ContentHash& content, const void* nodes, const void* primitives)
     if (!registry) registry = new Registry;
     const auto entry = std::make_shared<Entry>(content, nodes, primitives);
     if (!registry->by_nodes.emplace(nodes, entry).second) return;  // these are shared already
-    std::vector<Entry*>& equal = registry->by_content[content];
-    entry->place = equal.size();
-    equal.push_back(entry.get());
+    registry->by_content[content].insert(nodes);
   } catch (const std::bad_alloc&) {
     if (!registry) return;
     registry->by_nodes.erase(nodes);
@@ -76,11 +75,8 @@ std::shared_ptr<Entry> unlist(const void* nodes) {
   std::shared_ptr<Entry> entry = std::move(found->second);
   registry->by_nodes.erase(found);
   const auto equal = registry->by_content.find(entry->content);
-  std::vector<Entry*>& entries = equal->second;
-  entries[entry->place] = entries.back();
-  entries[entry->place]->place = entry->place;
-  entries.pop_back();
-  if (entries.empty()) registry->by_content.erase(equal);
+  equal->second.erase(nodes);
+  if (equal->second.empty()) registry->by_content.erase(equal);
   closeIfEmpty();
   return entry;
 }

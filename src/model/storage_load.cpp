@@ -10,8 +10,8 @@
 #include <limits>
 #include <memory>
 #include <new>
-#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,6 +22,10 @@
 #include "model/stored_format.h"
 #include "model/stored_tree.h"
 #include "tree/adopt.h"
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace kios {
 namespace {
@@ -133,6 +137,26 @@ class NodeCheck {
   Open stack_[engine::kMaxDepth + 2];
 };
 
+/// Returns memory for nodes, which have any bytes until they are written: large trees take longer
+/// to clear than to copy.
+template <typename S>
+std::unique_ptr<Node<S>[]> nodesToFill(std::size_t n) {
+  // As `delete[]` frees what `new[]` made of a type without a destructor.
+  static_assert(std::is_trivially_destructible<Node<S>>::value &&
+                alignof(Node<S>) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  void* const memory = ::operator new[](n * sizeof(Node<S>));
+#if defined(MADV_HUGEPAGE)
+  // A fault costs as much as copying its 4 KiB. Only whole pages of 2 MiB, which the array fills
+  // anyway, are asked for; a system that has none to give ignores it.
+  constexpr std::uintptr_t kHugePage = 1U << 21;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const auto first = (begin + kHugePage - 1) & ~(kHugePage - 1),
+             end = (begin + n * sizeof(Node<S>)) & ~(kHugePage - 1);
+  if (end > first) madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
+#endif
+  return std::unique_ptr<Node<S>[]>(static_cast<Node<S>*>(memory));
+}
+
 /// Copies the parts of a stored model, whose places were checked, in their order.
 template <typename S>
 class Reader {
@@ -141,9 +165,11 @@ class Reader {
       : bytes_(bytes), header_(header), at_(Layout::of(header, S())), hash_(header) {}
 
   std::shared_ptr<StoredTree<S>> tree() {
-    auto tree = std::make_shared<StoredTree<S>>(header_.num_triangles);
+    auto tree = std::make_shared<StoredTree<S>>();
     const auto n = static_cast<int>(header_.num_triangles);
     const std::size_t num_nodes = header_.num_nodes;
+    tree->nodes = nodesToFill<S>(num_nodes);
+    tree->primitives.reset(new unsigned int[header_.num_triangles]);
     NodeCheck<S> check(n, tree->primitives.get());
     constexpr std::size_t kPairs = kBlock / (2 * sizeof(Node<S>));
     copyNodes(tree->nodes.get(), 0, 1);

@@ -3,36 +3,20 @@
 #pragma once
 
 #include <memory>
-#include <type_traits>
 #include <typeinfo>
 
 #include <fcl/geometry/bvh/BV_node.h>
 #include <fcl/geometry/bvh/detail/BV_fitter_base.h>
 #include "fcl_kios/volume/kios.h"
-#include "model/memory_to_fill.h"
 #include "volume/errors.h"
 
 namespace kios {
-
-/// Returns memory for nodes, which have any bytes until they are written: large trees take longer
-/// to clear than to copy.
-template <typename S>
-std::unique_ptr<fcl::BVNode<kIOS<S>>[]> nodesToFill(std::size_t n) {
-  using Node = fcl::BVNode<kIOS<S>>;
-  // As `delete[]` frees what `new[]` made of a type without a destructor.
-  static_assert(std::is_trivially_destructible<Node>::value &&
-                alignof(Node) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
-  return std::unique_ptr<Node[]>(static_cast<Node*>(memoryToFill(n * sizeof(Node))));
-}
 
 /// A finished tree in place of a fitter: endModel() moves it into the model, whose mesh it was
 /// checked to be of, and fits nothing.
 template <typename S>
 class StoredTree final : public fcl::detail::BVFitterBase<kIOS<S>> {
  public:
-  explicit StoredTree(std::size_t num_triangles)
-      : nodes(nodesToFill<S>(2 * num_triangles - 1)), primitives(new unsigned int[num_triangles]) {}
-
   /// That of a model; nullptr if its fitter is another one.
   static StoredTree* in(fcl::detail::BVFitterBase<kIOS<S>>& fitter) {
     return typeid(fitter) == typeid(StoredTree) ? static_cast<StoredTree*>(&fitter) : nullptr;

@@ -7,34 +7,34 @@
 namespace kios {
 
 template <typename S>
-TreeBuild<S>::TreeBuild(const BuildGeometry<S>& geometry, std::size_t num_vertices)
-    : model_(geometry), seen_(num_vertices, 0) {
+TreeBuild<S>::TreeBuild(const BuildGeometry<S>& geometry, const FitOptions& options,
+                        fcl::detail::SplitMethodType method, std::size_t num_vertices)
+    : model_(geometry), options_(options), method_(method), seen_(num_vertices, 0) {
   points_.reserve(model_.prev_vertices ? 2 * num_vertices : num_vertices);
 }
 
 template <typename S>
-kIOS<S> TreeBuild<S>::fit(const unsigned int* primitives, int n, const FitOptions& options) {
+kIOS<S> TreeBuild<S>::fit(const unsigned int* primitives, int n) {
   if (n == 1 && model_.type == fcl::BVH_MODEL_TRIANGLES && !model_.prev_vertices) {
     const fcl::Triangle& t = model_.triangles[primitives[0]];
     const fcl::Vector3<S> corners[3] = {model_.vertices[t[0]], model_.vertices[t[1]],
                                         model_.vertices[t[2]]};
-    return fitter_.fit(corners, 3, options);
+    return fitter_.fit(corners, 3, options_);
   }
   gather(primitives, n);
   fitted_ = primitives;
   fitted_count_ = n;
-  return fitter_.fit(points_.data(), static_cast<int>(points_.size()), options, &split_);
+  return fitter_.fit(points_.data(), static_cast<int>(points_.size()), options_, &split_);
 }
 
 template <typename S>
-void TreeBuild<S>::computeRule(const unsigned int* primitives, int n,
-                               fcl::detail::SplitMethodType method) {
+void TreeBuild<S>::computeRule(const kIOS<S>& /*bv*/, const unsigned int* primitives, int n) {
   if (n < 2) return;
   // A fitter that isn't ours leaves no frame behind.
-  if (fitted_ != primitives || fitted_count_ != n) fit(primitives, n, FitMethod::kTuned);
+  if (fitted_ != primitives || fitted_count_ != n) fit(primitives, n);
   plane_.axis = split_.axis;
   plane_.origin = split_.center;
-  switch (method) {
+  switch (method_) {
     case fcl::detail::SPLIT_METHOD_MEAN:
       plane_.origin = mean_;
       plane_.value = 0;

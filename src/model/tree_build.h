@@ -29,12 +29,13 @@ template <typename S>
 class TreeBuild {
  public:
   /// `num_vertices` saves growing, and may be 0.
-  explicit TreeBuild(const BuildGeometry<S>& geometry, std::size_t num_vertices = 0);
+  TreeBuild(const BuildGeometry<S>& geometry, const FitOptions& options,
+            fcl::detail::SplitMethodType method, std::size_t num_vertices = 0);
 
-  kIOS<S> fit(const unsigned int* primitives, int n, const FitOptions& options);
+  kIOS<S> fit(const unsigned int* primitives, int n);
 
   /// Sets the plane that divides these primitives; the next to be asked after their fit.
-  void computeRule(const unsigned int* primitives, int n, fcl::detail::SplitMethodType method);
+  void computeRule(const kIOS<S>& bv, const unsigned int* primitives, int n);
 
   /// The side of a primitive's centroid.
   bool above(const fcl::Vector3<S>& q) const { return height(q) > plane_.value; }
@@ -55,6 +56,8 @@ class TreeBuild {
   double medianHeight(const unsigned int* primitives, int n);
 
   const BuildGeometry<S> model_;
+  const FitOptions options_;
+  const fcl::detail::SplitMethodType method_;
   SphereFitter<S> fitter_;
   std::vector<fcl::Vector3<S>> points_;
   std::vector<std::uint32_t> seen_;  ///< per vertex, the stamp of the last fit that took it

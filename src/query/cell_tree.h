@@ -12,9 +12,39 @@
 #include <vector>
 
 #include "search/cell_search.h"
+#include "shape/solid.h"
 #include "volume/balls.h"
 
 namespace kios {
+
+/// The cube of an octree's root, about the origin.
+template <typename S>
+shape::Solid rootCube(const fcl::OcTree<S>& octree) {
+  shape::Solid cube;
+  cube.kind = shape::Kind::kBox;
+  cube.half = octree.getRootBV().max_.template cast<double>();
+  return cube;
+}
+
+/// Holds a cell's box about the origin and where its centre lies, in the units of a query.
+struct CenteredCell {
+  shape::Solid box;
+  shape::Vec center;
+
+  CenteredCell() { box.kind = shape::Kind::kBox; }
+
+  template <typename S>
+  void set(const fcl::AABB<S>& cell, double units) {
+    const shape::Vec low = cell.min_.template cast<double>(),
+                     high = cell.max_.template cast<double>();
+    center = (0.5 * (low + high)) * units;
+    box.half = (0.5 * (high - low)) * units;
+  }
+  /// A triangle of the octree's frame relative to the centre.
+  TriangleVertices<double> relative(const TriangleVertices<double>& t) const {
+    return {t[0] - center, t[1] - center, t[2] - center};
+  }
+};
 
 /// An octree as a search for contacts sees it: only what matters, by integer coordinates. Nothing
 /// is kept beyond a query, as octrees change in place.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "query/bracket.h"
-#include "query/intersecting_pairs.h"
+#include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
 

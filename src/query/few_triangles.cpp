@@ -8,6 +8,8 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "query/nearest_candidates.h"
 #include "query/unprepared.h"
+#include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
@@ -17,8 +19,6 @@
 
 namespace kios {
 namespace {
-
-constexpr int kMost = 32, kVeryFewPairs = 64;  // of areFew() and areVeryFew()
 
 /// By axis: where a box begins, and where it ends, negated; or the other way round.
 struct Sides {
@@ -73,6 +73,34 @@ bool apart(const Sides& lower, const Sides& upper) {
 #endif
 }
 
+constexpr int kMostVertices = 64;  ///< of a model
+constexpr int kPlanes = 6;         ///< more find hardly any pair apart
+
+template <typename S>
+double norm1Of(const fcl::Vector3<S>& v) {
+  return std::abs(double{v[0]}) + std::abs(double{v[1]}) + std::abs(double{v[2]});
+}
+
+/// The vertex that lies farthest along a direction.
+struct Farthest {
+  double height;
+  int vertex;
+};
+
+template <typename S>
+Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Eigen::Vector3d& along) {
+  double heights[kMostVertices];
+  for (int i = 0; i < n; ++i) {
+    const fcl::Vector3<S>& v = vertices[i];
+    heights[i] = along[0] * double{v[0]} + along[1] * double{v[1]} + along[2] * double{v[2]};
+  }
+  double most = -kInfinity;
+  for (int i = 0; i < n; ++i) most = heights[i] > most ? heights[i] : most;
+  int at = 0;
+  while (at + 1 < n && !(heights[at] == most)) ++at;
+  return {most, at};
+}
+
 }  // namespace
 
 // Coordinates are those that the triangles' own test sees, so boxes need no pad.
@@ -80,7 +108,7 @@ template <typename S>
 std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame, std::size_t limit,
                                                        SearchCounts& counts) {
   std::vector<engine::TrianglePairIds> found;
-  Box boxes_a[kMost], all_a;
+  Box boxes_a[kFewTriangles], all_a;
   const int num_a = frame.a.num_tris, num_b = frame.b.num_tris;
   for (int i = 0; i < num_a; ++i) all_a.add(boxes_a[i] = Box::of(frame.triangleA(i)));
 
@@ -88,7 +116,7 @@ std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame,
     TriangleVertices<S> triangle;
     Sides upper;
     int id;
-  } near_b[kMost];
+  } near_b[kFewTriangles];
   const Sides lower = all_a.lower();
   Box all_b;
   int num_near = 0;
@@ -120,7 +148,7 @@ std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame,
 }
 
 // All boxes are tested, then triangles by the distance of their boxes. What is left out is farther
-// than NearPairs' allowance for rounding, which is far more than that of boxes.
+// than NearestCandidates' allowance for rounding, which is far more than that of boxes.
 template <typename S>
 engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
                                    SearchCounts& counts) {
@@ -131,7 +159,7 @@ engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
       return bound != o.bound ? bound < o.bound : ids < o.ids;
     }
   } bounded[kVeryFewPairs];
-  Sides upper_b[kMost];
+  Sides upper_b[kFewTriangles];
   const int num_a = frame.a.num_tris, num_b = frame.b.num_tris;
   for (int j = 0; j < num_b; ++j) upper_b[j] = Box::of(frame.triangleB(j)).upper();
   int n = 0, least = 0;
@@ -164,11 +192,57 @@ engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
   return answer;
 }
 
-template engine::PairAnswer<double> nearestOfFew(const MeshPair<double>&, double, SearchCounts&);
-template engine::PairAnswer<float> nearestOfFew(const MeshPair<float>&, double, SearchCounts&);
-template std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<double>&,
-                                                                std::size_t, SearchCounts&);
-template std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<float>&, std::size_t,
-                                                                SearchCounts&);
+// The direction is turned as Chung and Wang do ("Quick collision detection of polytopes in virtual
+// environments", 1996): mirrored at the plane that is square to the line between the two vertices
+// that stand in the way.
+//
+// Heights along n, |n| <= 1 + 4 u: a placed vertex is off by frameError() from R x + T, R and T as
+// stored; n and R^T n by 4 u a coordinate; products and sums by 4 u of the 1-norms: below 32 u of
+// all lengths that enter, twice for n's own length in `margin`. Vertices of no triangle, which the
+// root volumes need not hold, are computed worse, but those of triangles make the heights as large
+// as they must be whatever others add. NaN proves nothing.
+template <typename S>
+bool verticesApart(const MeshPair<S>& frame, double margin) {
+  using Vec = Eigen::Vector3d;
+  const Model<S>&a = frame.a, &b = frame.b;
+  if (std::max(a.num_vertices, b.num_vertices) > kMostVertices) return false;
+  const kIOS<S>&root_a = frame.rootA(), &root_b = frame.rootB();
+  const double norm1_a = norm1Of<S>(root_a.center0) + 1.8 * double{root_a.radius0};
+  const double norm1_b = norm1Of<S>(root_b.center0) + 1.8 * double{root_b.radius0};
+  const double T_norm1 = detail::boundsOf(frame.X_AB).T_norm1;
+  const double least = margin + error_bounds::frameError<S>(norm1_b, T_norm1) +
+                       64 * kUlpDouble * (norm1_a + norm1_b + T_norm1 + margin) + 0x1p-1000;
+  const Eigen::Matrix3d R = frame.X_AB.R().template cast<double>();
+  const Vec T = frame.X_AB.T().template cast<double>();
+  const auto place = [&](const fcl::Vector3<S>& x) {
+    return Vec(detail::rotate<double>(R, x.template cast<double>()) + T);
+  };
+  Vec n = place(root_b.center0) - root_a.center0.template cast<double>();
+  const auto isDivisor = [](double length) { return length > 0x1p-500 && length < 0x1p500; };
+  const double distance = std::sqrt(detail::dot<double>(n, n));
+  if (!isDivisor(distance)) return false;
+  n /= distance;
+  for (int i = 0; i < kPlanes; ++i) {
+    const Vec n_B(R(0, 0) * n[0] + R(1, 0) * n[1] + R(2, 0) * n[2],
+                  R(0, 1) * n[0] + R(1, 1) * n[1] + R(2, 1) * n[2],
+                  R(0, 2) * n[0] + R(1, 2) * n[1] + R(2, 2) * n[2]);
+    const Farthest of_a = farthest<S>(a.vertices, a.num_vertices, n);
+    const Farthest of_b = farthest<S>(b.vertices, b.num_vertices, -n_B);
+    const double gap = (detail::dot<double>(n, T) - of_b.height) - of_a.height;
+    if (gap > least) return true;
+    const Vec between =
+        place(b.vertices[of_b.vertex]) - a.vertices[of_a.vertex].template cast<double>();
+    const double length = std::sqrt(detail::dot<double>(between, between));
+    if (!isDivisor(length)) return false;
+    const Vec r = between / length;
+    n -= 2 * detail::dot<double>(r, n) * r;
+    n /= std::sqrt(detail::dot<double>(n, n));
+  }
+  return false;
+}
+
+KIOS_INSTANTIATE_FUNCTION(nearestOfFew);
+KIOS_INSTANTIATE_FUNCTION(intersectingOfFew);
+KIOS_INSTANTIATE_FUNCTION(verticesApart);
 
 }  // namespace kios

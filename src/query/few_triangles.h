@@ -9,21 +9,27 @@
 #include "query/mesh_pair.h"
 #include "search/pair_query.h"
 
+// Small bodies are looked at triangle by triangle or vertex by vertex: trees, and their
+// preparation, would take longer.
+
 namespace kios {
+
+constexpr int kFewTriangles = 32, kVeryFewPairs = 64;
 
 /// True for models of so few triangles that all pairs are looked at for contacts faster than any
 /// tree is walked: boxes against spheres of 40 triangles. Found by trying.
 template <typename S>
 bool areFew(const Model<S>& a, const Model<S>& b) {
-  constexpr int kMost = 32, kMostPairs = 512;
-  return a.num_tris <= kMost && b.num_tris <= kMost && a.num_tris * b.num_tris <= kMostPairs;
+  constexpr int kFewPairs = 512;
+  return a.num_tris <= kFewTriangles && b.num_tris <= kFewTriangles &&
+         a.num_tris * b.num_tris <= kFewPairs;
 }
 
 /// Tells it for distances, which take more of each pair: of two boxes they take ten times as long
 /// as the engine's.
 template <typename S>
 bool areVeryFew(const Model<S>& a, const Model<S>& b) {
-  return areFew(a, b) && a.num_tris * b.num_tris <= 64;
+  return areFew(a, b) && a.num_tris * b.num_tris <= kVeryFewPairs;
 }
 
 /// Returns up to `limit` pairs of few triangles that intersect, all of them if there are no more,
@@ -37,5 +43,11 @@ std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame,
 template <typename S>
 engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
                                    SearchCounts& counts);
+
+/// True only if a plane between the vertices of two models proves their triangles, as placed in the
+/// common frame, more than `margin` >= 0 apart; false says nothing. Planes are tried in a few
+/// directions, and only for models of few vertices.
+template <typename S>
+bool verticesApart(const MeshPair<S>& frame, double margin);
 
 }  // namespace kios

@@ -3,7 +3,6 @@
 #include "query/float_solid.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "tree/prepare.h"

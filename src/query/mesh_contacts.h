@@ -3,13 +3,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 
 #include <fcl/narrowphase/collision_request.h>
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/distance_request.h>
 #include "fcl_kios/model/model.h"
 #include "query/mesh_pair.h"
-#include "query/triangle_contact.h"
 #include "volume/errors.h"
 
 namespace kios {
@@ -20,6 +20,22 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
   require(request.rel_err >= 0, "DistanceRequest::rel_err", request.rel_err, ">= 0");
   require(request.abs_err >= 0, "DistanceRequest::abs_err", request.abs_err, ">= 0");
 }
+
+/// The contact that FCL reports for two triangles that intersect, in their common frame.
+template <typename S>
+struct TriangleContact {
+  Point<S> points[2];
+  std::size_t num_points;  ///< 1 or 2
+  Point<S> normal;         ///< unit, from the first triangle to the second as FCL orients it
+  S depth;
+};
+
+/// The deepest vertices of one triangle below the other's plane, that plane's normal and their
+/// depth, as FCL's routine gives them; where it gives none, or a triangle has no normal, a point of
+/// the intersection, the other triangle's normal (x if neither has one) and depth 0. The triangles
+/// must intersect.
+template <typename S>
+TriangleContact<S> triangleContact(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
 
 /// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
 /// contacts, as many as the request leaves room for.

@@ -4,13 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "query/mesh_contacts.h"
-#include "volume/rounding.h"
 
 namespace kios {
 namespace {

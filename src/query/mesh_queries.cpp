@@ -10,12 +10,11 @@
 #include "fcl_kios/query/mesh_nodes.h"
 #include "model/kios_model.h"
 #include "query/few_triangles.h"
-#include "query/intersecting_pairs.h"
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
 #include "query/unprepared.h"
-#include "query/vertices_apart.h"
 #include "volume/far_apart.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 namespace {
@@ -139,15 +138,7 @@ template <typename S>
   return result.min_distance;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                       \
-  template std::size_t collideMeshes(const Model<S>&, const fcl::Transform3<S>&, const Model<S>&, \
-                                     const fcl::Transform3<S>&, const fcl::CollisionRequest<S>&,  \
-                                     fcl::CollisionResult<S>&, SearchCounts*);                    \
-  template S distanceMeshes(const Model<S>&, const fcl::Transform3<S>&, const Model<S>&,          \
-                            const fcl::Transform3<S>&, const fcl::DistanceRequest<S>&,            \
-                            fcl::DistanceResult<S>&, SearchCounts*);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(collideMeshes);
+KIOS_INSTANTIATE_FUNCTION(distanceMeshes);
 
 }  // namespace kios

@@ -4,194 +4,276 @@
 
 #if FCL_HAVE_OCTOMAP
 #include <algorithm>
-#include <cmath>
 #include <limits>
+#include <vector>
 
-#include "model/walk.h"
+#include "model/prepared.h"
+#include "query/cell_tree.h"
+#include "query/cell_walk.h"
 #include "query/collide_with.h"
-#include "query/mesh_contacts.h"
-#include "query/octree_collision.h"
+#include "query/mesh_pair.h"
 #include "query/posed_solid.h"
+#include "search/cell_search.h"
+#include "search/search.h"
 #include "shape/triangle_shape.h"
+#include "volume/error_bounds.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
+using engine::Cell;
 using Node = octomap::OcTreeNode;
 
-/// A cell of an octree in its frame; `node` is null where the octree knows nothing.
+/// The cells and triangles of an octree and a mesh that meet. Everything is posed in the octree's
+/// frame.
 template <typename S>
-struct Cell {
-  const Node* node;
-  fcl::AABB<S> box;
-};
-
-/// An octree and a mesh posed in the octree's frame, with what collide and distance share.
-template <typename S>
-class OctreePair {
+class OctreeCollision final : engine::CellSide {
  public:
-  OctreePair(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO, const Model<S>& model,
-             const fcl::Transform3<S>& X_WM, SearchCounts& counts)
+  OctreeCollision(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
+                  const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                  const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
+                  SearchCounts& counts)
       : octree_(octree),
         model_(model),
+        X_WO_(X_WO),
+        X_WM_(X_WM),
+        request_(request),
+        result_(result),
         counts_(counts),
-        posed_(rootCube(octree), X_WM, X_WO, model.getBV(0).bv) {}
-
- protected:
-  Cell<S> root() const { return {octree_.getRoot(), octree_.getRootBV()}; }
-
-  bool isLeaf(const Cell<S>& cell) const {
-    return !cell.node || !octree_.nodeHasChildren(cell.node);
-  }
-
-  /// A child that the octree lacks has no node.
-  Cell<S> child(const Cell<S>& cell, unsigned int i) const {
-    Cell<S> child = {nullptr, {}};
-    fcl::computeChildBV(cell.box, i, child.box);
-    if (octree_.nodeChildExists(cell.node, i)) child.node = octree_.getNodeChild(cell.node, i);
-    return child;
-  }
-
-  /// FCL's rule for a pair of which not both are leaves: true if the cell is divided, not the node.
-  bool dividesCell(const Cell<S>& cell, int node) const {
-    const auto& bv = model_.getBV(node);
-    return bv.isLeaf() || (!isLeaf(cell) && cell.box.size() > bv.bv.size());
-  }
-
-  /// The cell's box about the origin, and its centre, in units.
-  shape::Solid boxOf(const fcl::AABB<S>& box, shape::Vec& center) const {
-    const shape::Vec low = box.min_.template cast<double>(),
-                     high = box.max_.template cast<double>();
-    center = (0.5 * (low + high)) * posed_.toUnits(1);
-    shape::Solid solid;
-    solid.kind = shape::Kind::kBox;
-    solid.half = (0.5 * (high - low)) * posed_.toUnits(1);
-    return solid;
-  }
-
-  /// Lower bound of the distance of a cell and a node of the mesh, signed.
-  double bound(const Cell<S>& cell, int node) const {
-    ++counts_.volume_tests;
-    shape::Vec center;
-    const shape::Solid box = boxOf(cell.box, center);
-    Ball balls[kIOS<S>::kMaxSpheres];
-    const int k = posed_.placeSpheres(model_.getBV(node).bv, balls);
-    double best = -kInfinity;
-    for (int i = 0; i < k; ++i) {
-      const shape::Vec c(balls[i].x, balls[i].y, balls[i].z);
-      best = std::max(best, shape::pointBound(box, c - center) - balls[i].r);
-    }
-    return best;
-  }
-
-  /// A triangle of the mesh relative to a cell's centre.
-  shape::Triangle place(int id, const shape::Vec& center) const {
-    const shape::Triangle t = posed_.place(cornersOf(model_, id));
-    return {t[0] - center, t[1] - center, t[2] - center};
-  }
-
-  /// FCL's query cell id, from which OcTree::getNodeByQueryCellId() finds the node.
-  std::intptr_t idOf(const Cell<S>& cell) const { return cell.node - octree_.getRoot(); }
-
-  const fcl::OcTree<S>& octree_;
-  const Model<S>& model_;
-  SearchCounts& counts_;
-  const PosedSolid<S> posed_;  // its solid is the root's cube
-};
-
-template <typename S>
-class OctreeDistance : OctreePair<S> {
- public:
-  OctreeDistance(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
-                 const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
-                 SearchCounts& counts)
-      : OctreePair<S>(octree, X_WO, model, X_WM, counts), request_(request), result_(result) {}
+        posed_(rootCube(octree), X_WM, X_WO, model.getBV(0).bv),
+        error_(cellError()),
+        occupied_(model.isOccupied()),
+        cells_(octree, posed_.solid().half.x(), request.enable_cost, occupied_),
+        room_(request.enable_cost ? std::numeric_limits<std::size_t>::max()
+                                  : request.num_max_contacts - result.numContacts()) {}
 
   void run() {
-    if (result_.min_distance < std::numeric_limits<S>::max()) {
-      lowerTo(this->posed_.toUnits(result_.min_distance));
+    if (model_.isFree() || !(request_.enable_cost || occupied_)) return;
+    Ball spheres[kIOS<S>::kMaxSpheres];
+    const int count = posed_.placeSpheres(model_.getBV(0).bv, spheres);
+    ++counts_.volume_tests;
+    start_ = cells_.cellsNear(spheres, count, error_);
+    if (start_.empty()) return;
+    engine::TreeCache* const trees = treesOf(model_);
+    const long long spare =
+        trees ? trees->budget.remaining(static_cast<std::size_t>(model_.num_tris)) : 0;
+    if (spare > 0) {
+      const long long left = walk(2 * spare);  // in four lanes, they take half of the time
+      trees->budget.charge(spare - left / 2);
+      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
+      // the model.
+      const bool verdict = request_.num_max_contacts == 1 && !request_.enable_contact;
+      if (found_.size() >= room_ ? verdict : left >= 0) return report();
+      found_.clear();
     }
-    const Cell<S> root = this->root();
-    if (!root.node || !this->octree_.isNodeOccupied(root.node)) return;
-    if (!(best_ > 0)) return;
-    const auto skip = [this](const CellAndNode& pair) {
-      return !(std::max(pair.bound, 0.0) < cull_distance_);
-    };
-    walkNearestFirst(bounded(root, 0), skip, [this](const CellAndNode& pair, const auto& add) {
-      expand(pair, add);
-      return !(best_ > 0);
-    });
-    if (nearest_id_ < 0) return;
-    const S distance = this->posed_.fromUnits(best_);
-    if (!(distance < result_.min_distance)) return;
-    result_.update(distance, &this->octree_, &this->model_, 0, nearest_id_);
-    result_.b1 = this->idOf(nearest_cell_);  // update() would cut it to an int
-    if (request_.enable_nearest_points) {
-      result_.nearest_points[0] = this->posed_.toWorld(on_cell_);
-      result_.nearest_points[1] = this->posed_.toWorld(on_triangle_);
-    }
+    if (!searchPrepared()) walk(std::numeric_limits<long long>::max());
+    report();
   }
 
  private:
-  struct CellAndNode {
-    Cell<S> cell;
-    int node;
-    double bound;
+  struct Found {
+    Cell cell;
+    int triangle;
   };
 
-  void lowerTo(double distance) {
-    best_ = distance;
-    cull_distance_ =
-        engine::cullDistance(distance, request_.rel_err, this->posed_.toUnits(request_.abs_err));
+  /// How far the faces of cells near the mesh may lie from multiples of the unit. FCL's halve
+  /// intervals: exactly, as long as these have an end at 0, and from then on at most 20 times at
+  /// coordinates of at most twice the cell's. The root's size is rounded once.
+  double cellError() const {
+    const kIOS<S>& root = model_.getBV(0).bv;
+    const double reach =
+        posed_.toUnits(double{root.center0.template lpNorm<1>()} + 2 * double{root.radius0});
+    const double largest = std::min(1.01 * reach + posed_.T().template lpNorm<Eigen::Infinity>(),
+                                    posed_.solid().half.x());
+    return 128 * error_bounds::kUlp<S> * largest;  // as a vector
   }
 
-  CellAndNode bounded(const Cell<S>& cell, int node) const {
-    return {cell, node, this->bound(cell, node)};
+  // Pairs.
+
+  std::uint32_t open(const void* node, std::uint32_t wanted, const void* (&children)[8],
+                     std::uint32_t& leaves) override {
+    return cells_.open(node, wanted, children, leaves);
   }
 
-  template <typename Add>
-  void expand(const CellAndNode& pair, const Add& add) {
-    const auto& node = this->model_.getBV(pair.node);
-    const bool divides_cell = !this->isLeaf(pair.cell) && this->dividesCell(pair.cell, pair.node);
-    if (divides_cell) {
-      for (unsigned int i = 0; i < 8; ++i) {
-        const Cell<S> cell = this->child(pair.cell, i);
-        if (cell.node && this->octree_.isNodeOccupied(cell.node)) add(bounded(cell, pair.node));
-      }
-    } else if (node.isLeaf()) {
-      test(pair.cell, node.primitiveId());
-    } else {
-      add(bounded(pair.cell, node.leftChild()));
-      add(bounded(pair.cell, node.rightChild()));
+  bool evaluate(const Cell& cell, std::uint32_t triangle, bool sure) override {
+    ++counts_.leaf_kernels;
+    const int id = static_cast<int>(triangle);
+    if (!sure) {
+      setCell(cell);
+      if (!shape::intersects(centered_.box, place(id))) return false;
+    }
+    found_.push_back({cell, id});
+    return found_.size() >= room_;
+  }
+
+  void setCell(const Cell& cell) {
+    if (cell.half == cell_.half && cell.x == cell_.x && cell.y == cell_.y && cell.z == cell_.z) {
+      return;
+    }
+    cell_ = cell;
+    aabb_ = cells_.boxAt(cell);
+    centered_.set(aabb_, posed_.toUnits(1));
+  }
+
+  /// A triangle of the mesh relative to the centre of the cell that was set.
+  shape::Triangle place(int id) const {
+    return centered_.relative(posed_.place(cornersOf(model_, id)));
+  }
+
+  /// True if floats served.
+  bool searchPrepared() {
+    const engine::TreeCache::Use tree = preparedTree(model_);
+    engine::CellFrame frame;
+    if (!tree || !makeFrame(*tree, frame)) return false;
+    engine::kernels().cells({*tree, frame, *this, counts_, start_.data(), start_.size()});
+    return true;
+  }
+
+  /// `scale` is S of search/cell_search.h, `reach` the mesh's part.
+  bool floatsServe(double reach, double scale) const {
+    using Frame = engine::CellFrame;
+    return posed_.hasUnit1() && reach >= Frame::kLeastReach && scale <= Frame::kLargestReach &&
+           posed_.solid().half.x() <= Frame::kLargestRoot;
+  }
+
+  bool makeFrame(const engine::Tree& tree, engine::CellFrame& frame) const {
+    const Eigen::Map<const Eigen::Vector3d> origin_M(tree.origin);
+    const shape::Vec origin = cells_.origin();
+    const shape::Vec t = posed_.R() * origin_M + (posed_.T() - origin);
+    const double reach = tree.reach, scale = reach + t.template lpNorm<1>();
+    if (!floatsServe(reach, scale)) return false;
+    // The exact stage's points and boxes, and its tests.
+    const double points = error_bounds::solidError(
+        2 * (origin_M.template lpNorm<1>() + 2 * reach) + posed_.T().template lpNorm<1>() +
+        std::min(posed_.solid().half.x(), 4 * (scale + origin.template lpNorm<1>())));
+    const double more = posed_.stretch() * scale + points + error_;
+    const double pad = 0x1p-18 * scale + more;
+    if (!(pad <= 0x1p-4 * reach)) return false;
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) frame.from_mesh.R[i][j] = static_cast<float>(posed_.R()(i, j));
+      frame.from_mesh.t[i] = static_cast<float>(t[i]);
+    }
+    frame.unit = static_cast<float>(cells_.unit());
+    frame.pad = roundUpFloat(pad);
+    frame.box_pad = roundUpFloat(0x1p-17 * scale + more);
+    return true;
+  }
+
+  /// Returns what is left of the tests; negative if they didn't suffice.
+  long long walk(long long most_tests) {
+    const kIOS<S>& root = model_.getBV(0).bv;
+    const double reach = scaled(double{root.reach}, root.exponent);
+    const double scale = reach + 4 * double{root.radius0};  // the origin is within the mesh's box
+    return floatsServe(reach, scale) && posed_.solid().half.x() >= engine::CellFrame::kLeastReach
+               ? walkBy<float>(most_tests)
+               : walkBy<double>(most_tests);
+  }
+
+  template <typename Real>
+  long long walkBy(long long most_tests) {
+    CellWalk<S, Real> walk(model_, posed_, cells_.origin(), cells_.unit(), error_, *this, counts_,
+                           most_tests);
+    walk.run(start_);
+    return walk.testsLeft();
+  }
+
+  // Results.
+
+  /// A list of all that touch has one order, whichever tree was searched: by triangles, then cells.
+  void sort() {
+    const auto num_triangles = static_cast<std::size_t>(model_.num_tris);
+    const auto less = [](const Found& a, const Found& b) {
+      if (a.triangle != b.triangle) return a.triangle < b.triangle;
+      if (a.cell.x != b.cell.x) return a.cell.x < b.cell.x;
+      return a.cell.y != b.cell.y ? a.cell.y < b.cell.y : a.cell.z < b.cell.z;
+    };
+    if (found_.size() < num_triangles / 16) {
+      std::sort(found_.begin(), found_.end(), less);
+      return;
+    }
+    std::vector<std::size_t> begin(num_triangles + 1);
+    for (const Found& found : found_) ++begin[static_cast<std::size_t>(found.triangle) + 1];
+    for (std::size_t i = 0; i < num_triangles; ++i) begin[i + 1] += begin[i];
+    std::vector<Found> sorted(found_.size());
+    for (const Found& found : found_) {
+      sorted[begin[static_cast<std::size_t>(found.triangle)]++] = found;
+    }
+    found_.swap(sorted);
+    for (std::size_t i = 0, first = 0; i < num_triangles; first = begin[i++]) {
+      const auto at = [&](std::size_t k) {
+        return found_.begin() + static_cast<std::ptrdiff_t>(k);
+      };
+      std::sort(at(first), at(begin[i]), less);
     }
   }
 
-  void test(const Cell<S>& cell, int id) {
-    ++this->counts_.leaf_kernels;
-    shape::Vec center;
-    const shape::Solid box = this->boxOf(cell.box, center);
-    const auto d = shape::distance(box, this->place(id, center), cull_distance_);
-    if (!(d.distance < best_)) return;
-    lowerTo(d.distance);
-    nearest_id_ = id;
-    nearest_cell_ = cell;
-    on_cell_ = d.on_shape + center;
-    on_triangle_ = d.on_triangle + center;
+  void report() {
+    if (found_.size() < room_) sort();
+    for (const Found& found : found_) {
+      if (request_.enable_contact || request_.enable_cost) setCell(found.cell);
+      const auto* const node = static_cast<const Node*>(found.cell.node);
+      const bool occupied = node && octree_.isNodeOccupied(node) && occupied_;
+      if (occupied && result_.numContacts() < request_.num_max_contacts) {
+        addContact(node, found.triangle);
+      }
+      if (request_.enable_cost) addCost(node, found.triangle);
+    }
   }
 
-  const fcl::DistanceRequest<S>& request_;
-  fcl::DistanceResult<S>& result_;
-  double best_ = kInfinity, cull_distance_ = best_;
-  int nearest_id_ = -1;
-  Cell<S> nearest_cell_ = {nullptr, {}};
-  shape::Vec on_cell_, on_triangle_;
+  void addContact(const Node* node, int id) {
+    fcl::Contact<S> contact(&octree_, &model_, 0, id, fcl::Vector3<S>::Zero(),
+                            fcl::Vector3<S>::Zero(), S(0));
+    // FCL's query cell id, from which OcTree::getNodeByQueryCellId() finds the node; the
+    // constructor would cut it to an int.
+    contact.b1 = node - octree_.getRoot();
+    if (request_.enable_contact) {
+      const shape::TriangleShapeContact c = shape::contact(centered_.box, place(id));
+      contact.pos = posed_.toWorld(c.position + centered_.center);
+      contact.normal = posed_.directionToWorld(c.normal);  // from the cell to the mesh
+      contact.penetration_depth = posed_.fromUnits(c.depth);
+    }
+    result_.addContact(contact);
+  }
+
+  void addCost(const Node* node, int id) {
+    fcl::AABB<S> cell_box, shared;
+    const fcl::Vector3<S> middle = X_WO_ * aabb_.center();
+    const fcl::Vector3<S> half = X_WO_.linear().cwiseAbs() * (S(0.5) * (aabb_.max_ - aabb_.min_));
+    cell_box.min_ = middle - half;
+    cell_box.max_ = middle + half;
+    const auto t = transformed(cornersOf(model_, id), X_WM_);
+    cell_box.overlap(fcl::AABB<S>(t[0], t[1], t[2]), shared);
+    const S occupancy = node ? S(node->getOccupancy()) : octree_.getOccupancyThres();
+    result_.addCostSource(fcl::CostSource<S>(shared, occupancy * model_.cost_density),
+                          request_.num_max_cost_sources);
+  }
+
+  const fcl::OcTree<S>& octree_;
+  const Model<S>& model_;
+  const fcl::Transform3<S>&X_WO_, &X_WM_;
+  const fcl::CollisionRequest<S>& request_;
+  fcl::CollisionResult<S>& result_;
+  SearchCounts& counts_;
+  const PosedSolid<S> posed_;  // its solid is the root's cube
+  const double error_;
+  const bool occupied_;
+  CellTree<S> cells_;
+  const std::size_t room_;  // for pairs
+  std::vector<Cell> start_;
+  std::vector<Found> found_;
+
+  // The cell that was set last, in FCL's units and in those of the query.
+  Cell cell_ = {nullptr, 0, 0, 0, 0, 0};
+  fcl::AABB<S> aabb_;
+  CenteredCell centered_;
 };
 
 }  // namespace
 
+// Contacts come in an order that the model, the octree and the poses determine, and whether the
+// model was prepared.
 template <typename S>
 std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
                           const Model<S>& model, const fcl::Transform3<S>& X_WM,
@@ -200,25 +282,14 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
   const fcl::CollisionGeometry<S>& other = octree;
   return collideWith(model, X_WM, other, X_WO, request, result, [&](const auto& asked) {
     SearchCounts unused;
-    return addOctreeContacts(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
+    OctreeCollision<S> search(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
+    if (asked.isSatisfied(result)) return false;
+    search.run();
+    return true;
   });
 }
 
-template <typename S>
-S distanceOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
-                 const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                 const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
-                 SearchCounts* counts) {
-  requireErrorBounds(request);
-  requireFinished(model);
-  SearchCounts unused;
-  OctreeDistance<S> search(octree, X_WO, model, X_WM, request, result, counts ? *counts : unused);
-  if (!request.isSatisfied(result)) search.run();
-  return result.min_distance;
-}
-
 KIOS_INSTANTIATE_FUNCTION(collideOctree);
-KIOS_INSTANTIATE_FUNCTION(distanceOctree);
 
 }  // namespace kios
 #endif  // FCL_HAVE_OCTOMAP

@@ -4,14 +4,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <utility>
 
+#include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "model/walk.h"
+#include "query/few_triangles.h"
 #include "query/unprepared.h"
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -21,6 +23,7 @@ using engine::PairAnswer;
 using engine::PairQuery;
 using engine::SearchEnd;
 using engine::TrianglePairIds;
+using PairIds = std::vector<TrianglePairIds>;
 
 /// Two models with their trees, which stay in use while it lives.
 template <typename S>
@@ -221,6 +224,15 @@ double leastReach(const Model<S>& model) {
   return std::min(double{root.radius0} / 4, 0.49 * box.sizes().maxCoeff());
 }
 
+/// Returns true if one model is so much larger than the other, as a floor than a link, that its
+/// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
+template <typename S>
+bool areUnlike(const MeshPair<S>& frame) {
+  constexpr S kMuch = 16;
+  const S a = frame.rootA().radius0, b = frame.rootB().radius0;
+  return a > kMuch * b || b > kMuch * a;
+}
+
 }  // namespace
 
 template <typename S>
@@ -267,8 +279,8 @@ bool engineServes(const MeshPair<S>& frame) {
 }
 
 template <typename S>
-[[gnu::hot]] bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
-                                 std::vector<TrianglePairIds>& found, SearchCounts& counts) {
+[[gnu::hot]] bool searchContacts(const MeshPair<S>& frame, std::size_t limit, PairIds& found,
+                                 SearchCounts& counts) {
   const EnginePair<S> engine(frame, 0, 0);
   if (!engine) return false;
   if (engine.isFar(0)) return true;
@@ -276,13 +288,27 @@ template <typename S>
   return true;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                    \
-  template PairAnswer<S> searchNearest(const MeshPair<S>&, const PairQuery&, SearchCounts&);   \
-  template bool engineServes(const MeshPair<S>&);                                              \
-  template bool searchContacts(const MeshPair<S>&, std::size_t, std::vector<TrianglePairIds>&, \
-                               SearchCounts&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template <typename S>
+[[gnu::hot]] std::optional<PairIds> intersectingPairs(const MeshPair<S>& frame, std::size_t limit,
+                                                      bool any, SearchCounts& counts) {
+  if (frame.a.num_tris == 1 && frame.b.num_tris == 1) {  // bounds would take longer
+    ++counts.exact;
+    return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
+  }
+  const bool few = areFew(frame.a, frame.b);
+  if ((few || !areUnlike(frame)) && frame.rootBound(0) > 0) return PairIds();
+  if (verticesApart(frame, 0)) return PairIds();
+  if (few) return intersectingOfFew(frame, limit, counts);
+  auto walked = touchUnprepared(frame, limit, counts);
+  if (walked && (any || walked->size() < limit)) return walked;
+  PairIds found;
+  if (!searchContacts(frame, limit, found, counts)) return std::nullopt;
+  return found;
+}
+
+KIOS_INSTANTIATE_FUNCTION(searchNearest);
+KIOS_INSTANTIATE_FUNCTION(engineServes);
+KIOS_INSTANTIATE_FUNCTION(searchContacts);
+KIOS_INSTANTIATE_FUNCTION(intersectingPairs);
 
 }  // namespace kios

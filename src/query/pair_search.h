@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
 #include "query/mesh_pair.h"
 #include "search/pair_query.h"
 
-// The two searches about a pair of meshes, behind every call that asks for a distance or a first
+// The searches about a pair of meshes, behind every call that asks for a distance or a first
 // contact. They prepare the models if need be. Pairs that the engine can't serve (models whose
 // BVFitter is not ours, lengths beyond the range of floats) are searched in FCL's tree, with the
 // same answers: exact distances, and of equally near triangles the least ids.
@@ -30,5 +32,13 @@ bool engineServes(const MeshPair<S>& frame);
 template <typename S>
 bool searchContacts(const MeshPair<S>& frame, std::size_t limit,
                     std::vector<engine::TrianglePairIds>& found, SearchCounts& counts);
+
+/// Lists up to `limit` > 0 pairs of triangles that intersect, by whatever is fastest for models of
+/// their sizes. Which pairs a list of exactly `limit` holds doesn't depend on what was prepared,
+/// unless `any` will do. Gives nothing if the engine can't serve the models: FCL's tree must.
+template <typename S>
+std::optional<std::vector<engine::TrianglePairIds>> intersectingPairs(const MeshPair<S>& frame,
+                                                                      std::size_t limit, bool any,
+                                                                      SearchCounts& counts);
 
 }  // namespace kios

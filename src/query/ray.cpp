@@ -11,6 +11,7 @@
 #include "query/ray_walk.h"
 #include "triangle/ray_triangle.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -179,23 +180,12 @@ std::vector<RayHit<S>> allHits(const Model<S>& model, const fcl::Transform3<S>& 
   return hits;
 }
 
-template <typename S>
-using Interval = std::optional<RayInterval<S>>;
-template <typename S>
-using FirstHit = std::optional<RayHit<S>>;
-template <typename S>
-using AllHits = std::vector<RayHit<S>>;
-
-#define KIOS_INSTANTIATE(S)                                                                       \
-  template Interval<S> rayInterval(const kIOS<S>&, const Ray<S>&);                                \
-  template bool overlap(const Ray<S>&, const kIOS<S>&);                                           \
-  template FirstHit<S> firstHit(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&,        \
-                                SearchCounts*);                                                   \
-  template bool anyHit(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&, SearchCounts*); \
-  template AllHits<S> allHits(const Model<S>&, const fcl::Transform3<S>&, const Ray<S>&,          \
-                              std::size_t, SearchCounts*);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template std::optional<RayIntervald> rayInterval(const kIOS<double>&, const Rayd&);
+template std::optional<RayIntervalf> rayInterval(const kIOS<float>&, const Rayf&);
+template bool overlap(const Rayd&, const kIOS<double>&);
+template bool overlap(const Rayf&, const kIOS<float>&);
+KIOS_INSTANTIATE_FUNCTION(firstHit);
+KIOS_INSTANTIATE_FUNCTION(anyHit);
+KIOS_INSTANTIATE_FUNCTION(allHits);
 
 }  // namespace kios

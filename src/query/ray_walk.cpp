@@ -3,8 +3,6 @@
 #include "query/ray_walk.h"
 
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "model/prepared.h"
 #include "model/walk.h"

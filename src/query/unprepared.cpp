@@ -10,6 +10,7 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "query/nearest_candidates.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -45,29 +46,32 @@ class Allowance {
   long long tests_ = 0;
 };
 
-/// A walk of two of FCL's trees, depth first, the nearer of two children first.
-template <typename S, class Walk>
+/// A walk of two of FCL's trees, depth first, the nearer of two children first. Nodes farther apart
+/// than found.cullDistance() don't matter; found.test(ids) tests two triangles, and returns true to
+/// end the walk.
+template <typename S, typename Found>
 class TreeWalk {
  public:
-  TreeWalk(const MeshPair<S>& frame, long long limit) : frame_(frame), limit_(limit) {}
+  TreeWalk(const MeshPair<S>& frame, Found& found, long long limit)
+      : frame_(frame), found_(found), limit_(limit) {}
 
-  /// A test of triangles takes as long as four of volumes.
-  long long tests() const { return volume_tests_ + 4 * leaf_tests_; }
-  bool gaveUp() const { return tests() >= limit_; }
-  void countIn(SearchCounts& counts) const {
+  void run(SearchCounts& counts) {
+    visit(0, 0, -kInfinity);
     counts.volume_tests += volume_tests_;
     counts.leaf_pairs += leaf_tests_;
     counts.exact += leaf_tests_;
   }
+  /// A test of triangles takes as long as four of volumes.
+  long long tests() const { return volume_tests_ + 4 * leaf_tests_; }
+  bool gaveUp() const { return tests() >= limit_; }
 
- protected:
+ private:
   /// True to end the walk. The contents of the two nodes are at least `bound` apart.
   bool visit(int at_a, int at_b, double bound) {
-    Walk& walk = static_cast<Walk&>(*this);
     const auto &node_a = frame_.a.getBV(at_a), &node_b = frame_.b.getBV(at_b);
     if (node_a.isLeaf() && node_b.isLeaf()) {
       ++leaf_tests_;
-      return walk.test({node_a.primitiveId(), node_b.primitiveId()}) || gaveUp();
+      return found_.test({node_a.primitiveId(), node_b.primitiveId()}) || gaveUp();
     }
     const bool split_a =
         node_b.isLeaf() || (!node_a.isLeaf() && node_a.bv.radius0 > node_b.bv.radius0);
@@ -77,68 +81,36 @@ class TreeWalk {
     double bounds[2];
     for (int i = 0; i < 2; ++i) {
       bounds[i] = std::max(bound, separation(frame_.a.getBV(a[i]).bv, frame_.b.getBV(b[i]).bv,
-                                             frame_.X_AB, walk.cullDistance()));
+                                             frame_.X_AB, found_.cullDistance()));
     }
     volume_tests_ += 2;
     const int first = bounds[1] < bounds[0] ? 1 : 0;
     for (const int i : {first, 1 - first}) {
-      if (walk.isFar(bounds[i])) continue;
+      if (bounds[i] > found_.cullDistance()) continue;
       if (visit(a[i], b[i], bounds[i])) return true;
     }
     return gaveUp();
   }
 
   const MeshPair<S>& frame_;
-
- private:
+  Found& found_;
   const long long limit_;
   long long volume_tests_ = 0, leaf_tests_ = 0;
 };
 
+/// The triangles that intersect, up to so many.
 template <typename S>
-class TouchWalk : public TreeWalk<S, TouchWalk<S>> {
-  using Base = TreeWalk<S, TouchWalk<S>>;
+struct TouchingPairs {
+  const MeshPair<S>& frame;
+  const std::size_t limit;
+  std::vector<TrianglePairIds> ids;
 
- public:
-  TouchWalk(const MeshPair<S>& frame, std::size_t max_pairs, long long limit)
-      : Base(frame, limit), max_pairs_(max_pairs) {}
-
-  void run() { this->visit(0, 0, -kInfinity); }
-  std::vector<TrianglePairIds> found;
-
-  double cullDistance() const { return 0; }
-  bool isFar(double bound) const { return bound > 0; }
-  bool test(const TrianglePairIds& ids) {
-    if (!trianglesIntersect(this->frame_.triangleA(ids.a), this->frame_.triangleB(ids.b))) {
-      return false;
-    }
-    found.push_back(ids);
-    return found.size() >= max_pairs_;
+  static constexpr double cullDistance() { return 0; }
+  bool test(const TrianglePairIds& at) {
+    if (!trianglesIntersect(frame.triangleA(at.a), frame.triangleB(at.b))) return false;
+    ids.push_back(at);
+    return ids.size() >= limit;
   }
-
- private:
-  const std::size_t max_pairs_;
-};
-
-template <typename S>
-class NearWalk : public TreeWalk<S, NearWalk<S>> {
-  using Base = TreeWalk<S, NearWalk<S>>;
-
- public:
-  NearWalk(const MeshPair<S>& frame, double far_enough, long long limit)
-      : Base(frame, limit), pairs_(frame, far_enough) {}
-
-  /// Where triangles touch, the walk ends with TouchWalk's first: bounds that exceed 0 differ, but
-  /// nodes as far apart as that hold no such triangles.
-  void run() { this->visit(0, 0, -kInfinity); }
-  const NearestCandidates<S>& pairs() const { return pairs_; }
-
-  double cullDistance() const { return pairs_.cullDistance(); }
-  bool isFar(double bound) const { return bound > pairs_.cullDistance(); }
-  bool test(const TrianglePairIds& ids) { return pairs_.test(ids); }
-
- private:
-  NearestCandidates<S> pairs_;
 };
 
 }  // namespace
@@ -149,48 +121,41 @@ std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<S>& f
                                                             SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
-  TouchWalk<S> walk(frame, limit, allowance.tests());
-  walk.run();
+  TouchingPairs<S> touching{frame, limit, {}};
+  TreeWalk walk(frame, touching, allowance.tests());
+  walk.run(counts);
   allowance.charge(walk.tests());
-  walk.countIn(counts);
-  if (walk.found.size() < limit && walk.gaveUp()) return std::nullopt;
+  if (touching.ids.size() < limit && walk.gaveUp()) return std::nullopt;
   ++counts.tree_searches;
-  std::sort(walk.found.begin(), walk.found.end());
-  return std::move(walk.found);
+  std::sort(touching.ids.begin(), touching.ids.end());
+  return std::move(touching.ids);
 }
 
+// Where triangles touch, the walk ends with firstTouching()'s: bounds that exceed 0 differ, but
+// nodes as far apart as that hold no such triangles.
 template <typename S>
 std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame, double far_enough,
                                                bool any_touching, SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
-  NearWalk<S> walk(frame, far_enough, allowance.tests());
-  walk.run();
+  NearestCandidates<S> near(frame, far_enough);
+  TreeWalk walk(frame, near, allowance.tests());
+  walk.run(counts);
   allowance.charge(walk.tests());
-  walk.countIn(counts);
-  const bool done =
-      walk.pairs().touching() ? any_touching || namesFirstTouching(frame) : !walk.gaveUp();
+  const bool done = near.touching() ? any_touching || namesFirstTouching(frame) : !walk.gaveUp();
   if (!done) return std::nullopt;
-  return walk.pairs().answer();
+  return near.answer();
 }
 
 template <typename S>
 TrianglePairIds firstTouching(const MeshPair<S>& frame, SearchCounts& counts) {
-  TouchWalk<S> walk(frame, 1, std::numeric_limits<long long>::max());
-  walk.run();
-  walk.countIn(counts);
-  return walk.found.at(0);
+  TouchingPairs<S> touching{frame, 1, {}};
+  TreeWalk(frame, touching, std::numeric_limits<long long>::max()).run(counts);
+  return touching.ids.at(0);
 }
 
-template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<double>&,
-                                                                     std::size_t, SearchCounts&);
-template std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<float>&,
-                                                                     std::size_t, SearchCounts&);
-template std::optional<PairAnswer<double>> nearestUnprepared(const MeshPair<double>&, double, bool,
-                                                             SearchCounts&);
-template std::optional<PairAnswer<float>> nearestUnprepared(const MeshPair<float>&, double, bool,
-                                                            SearchCounts&);
-template TrianglePairIds firstTouching(const MeshPair<double>&, SearchCounts&);
-template TrianglePairIds firstTouching(const MeshPair<float>&, SearchCounts&);
+KIOS_INSTANTIATE_FUNCTION(touchUnprepared);
+KIOS_INSTANTIATE_FUNCTION(nearestUnprepared);
+KIOS_INSTANTIATE_FUNCTION(firstTouching);
 
 }  // namespace kios

@@ -108,8 +108,10 @@ void newState(Body<S>& body) {
   body.path = 0;
 }
 
+}  // namespace
+
 template <typename S>
-void measure(Body<S>& body) {
+void renew(Body<S>& body) {
   if (body.model) {
     body.shape = false;
     const kIOS<S>& root = body.model->getBV(0).bv;
@@ -129,8 +131,6 @@ void measure(Body<S>& body) {
   body.box = boxOf(body);
 }
 
-}  // namespace
-
 template <typename S>
 void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geometry,
            const fcl::Transform3<S>& X_W) {
@@ -141,7 +141,7 @@ void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geome
   body.geometry = std::move(geometry);
   body.model = model;
   setPose(body, X_W, rotation_square);
-  measure(body);
+  renew(body);
 }
 
 template <typename S>
@@ -159,13 +159,8 @@ void move(Body<S>& body, const fcl::Transform3<S>& X_W) {
 }
 
 template <typename S>
-void renew(Body<S>& body) {
-  measure(body);
-}
-
-template <typename S>
 void renewIfChanged(Body<S>& body) {
-  if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) measure(body);
+  if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) renew(body);
 }
 
 KIOS_INSTANTIATE_FUNCTION(place);

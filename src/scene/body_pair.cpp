@@ -167,13 +167,6 @@ bool BodyPair<S>::stoodStill() const {
 }
 
 template <typename S>
-std::optional<typename BodyPair<S>::Answer> BodyPair<S>::nearby(double limit) const {
-  const double distance = upperBound();
-  if (!(distance + 2 * roundingOf(distance) <= limit)) return std::nullopt;
-  return Answer{true, static_cast<S>(distance), proof_->triangle_a, proof_->triangle_b};
-}
-
-template <typename S>
 typename BodyPair<S>::Answer BodyPair<S>::proven(double limit) const {
   return {proof_->distance <= limit, proof_->distance, proof_->triangle_a, proof_->triangle_b};
 }
@@ -279,6 +272,20 @@ typename BodyPair<S>::Answer BodyPair<S>::search(double limit, bool exact, Scene
   const Answer answer = ask(limit, exact, counts.search);
   if (!answer.within) ++counts.proven_farther;
   return answer;
+}
+
+template <typename S>
+typename BodyPair<S>::Answer BodyPair<S>::answer(double limit, bool exact, SceneCounts& counts) {
+  PairBound known;
+  if (const std::optional<Answer> decided = decide(limit, known, counts)) return *decided;
+  if (!exact) {
+    const double near = upperBound();
+    if (near + 2 * roundingOf(near) <= limit) {
+      ++counts.near_by_proof;
+      return {true, static_cast<S>(near), proof_->triangle_a, proof_->triangle_b};
+    }
+  }
+  return search(limit, exact, counts);
 }
 
 template <typename S>

@@ -40,24 +40,23 @@ class BodyPair {
   /// Asks the narrow phase for the distance if that is at most `limit`; of two meshes, if `exact`
   /// is false, for any that is at most that.
   Answer search(double limit, bool exact, SceneCounts& counts);
+  /// Decides, of verdicts also by the triangles of the last proof, and searches if need be.
+  Answer answer(double limit, bool exact, SceneCounts& counts);
 
   /// Returns the proof's answer, which has to be exact.
   Answer proven(double limit) const;
 
-  /// Returns the distance of the triangles of the last proof, which lie somewhere near; +infinity
-  /// if there are none.
-  double upperBound() const;
-  /// Returns an upper bound of that, rounding included: the narrow phase computes at most this.
+  /// Returns what the narrow phase computes at most, as the triangles of the last proof tell it.
   double ceiling() const;
   /// Returns true if the narrow phase would compute exactly the proof's distance.
   bool stoodStill() const;
   /// The narrow phase computes at least this, wherever the bodies are.
   double lowerBound() const { return meshes() ? 0 : -kInfinity; }
-  /// Returns an answer with these triangles, if that proves that the narrow phase's is at most the
-  /// limit.
-  std::optional<Answer> nearby(double limit) const;
 
  private:
+  /// Returns the distance of the triangles of the last proof, which lie somewhere near; +infinity
+  /// if there are none.
+  double upperBound() const;
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
   PairBound cachedLowerBound(double limit) const;
   /// An answer holds until something is seen to have changed.

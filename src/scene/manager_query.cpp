@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/scene/manager_query.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_map>
@@ -47,15 +46,13 @@ class ManagerQuery<S>::Impl {
     // A proof of (b, a) is no help: that distance may differ in its last bits.
     scene::BodyPair<S> pair(a.id, a.body, b.id, b.body, memory_);
     const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
-    scene::PairBound known;
-    auto answer = pair.decide(limit, known, counts);
-    if (!answer) answer = pair.search(limit, true, counts);
-    if (answer->within) {
+    const auto answer = pair.answer(limit, true, counts);
+    if (answer.within) {
       if (closest_) {
         pairs.clear();
-        dist = bound_ = answer->distance;
+        dist = bound_ = answer.distance;
       }
-      pairs.push_back({o1, o2, answer->distance, answer->triangle_a, answer->triangle_b});
+      pairs.push_back({o1, o2, answer.distance, answer.triangle_a, answer.triangle_b});
     }
     return done();
   }

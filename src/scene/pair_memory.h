@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <unordered_map>
 
 #include "scene/body.h"
@@ -49,13 +50,26 @@ class PairMemory {
     ++query_;
     used_ = 0;
   }
-  void endQuery();
+  void endQuery() {
+    if (proofs_.size() <= 2 * used_ + kSpare) return;
+    for (auto it = proofs_.begin(); it != proofs_.end();) {
+      it = it->second.used == query_ ? std::next(it) : proofs_.erase(it);
+    }
+  }
   std::uint64_t query() const { return query_; }
 
   /// The proof of the pair in their present states; nullptr if there is none.
-  Proof<S>* find(int id_a, const Body<S>& a, int id_b, const Body<S>& b);
+  Proof<S>* find(int id_a, const Body<S>& a, int id_b, const Body<S>& b) {
+    const auto found = proofs_.find(pairKey(id_a, id_b));
+    if (found == proofs_.end() || !found->second.tellsOf(a, b)) return nullptr;
+    return use(found->second);
+  }
   /// Returns a place for a proof; nullptr if there is no room.
-  Proof<S>* obtain(int id_a, int id_b);
+  Proof<S>* obtain(int id_a, int id_b) {
+    const std::uint64_t key = pairKey(id_a, id_b);
+    if (proofs_.size() >= capacity_ && proofs_.count(key) == 0) return nullptr;
+    return use(proofs_[key]);
+  }
 
   std::size_t size() const { return proofs_.size(); }
   void clear() { proofs_.clear(); }
@@ -67,9 +81,10 @@ class PairMemory {
       return key ^ key >> 32;
     }
   };
-  void use(Proof<S>& proof) {
+  Proof<S>* use(Proof<S>& proof) {
     if (proof.used != query_) ++used_;
     proof.used = query_;
+    return &proof;
   }
 
   std::unordered_map<std::uint64_t, Proof<S>, Hash> proofs_;

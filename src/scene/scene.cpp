@@ -3,8 +3,6 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 #include "model/kios_model.h"

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/scene/scene_distance.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "scene/scene.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <queue>
 
 #include "scene/scene.h"
 #include "volume/rounding.h"
@@ -23,27 +24,14 @@ struct Waiting {
   enum class Kind { kNodes, kBodies } kind;
   PairBound::Source source;
 
-  bool operator<(const Waiting& o) const { return bound > o.bound; }  // least first in a heap
+  bool operator<(const Waiting& o) const { return bound > o.bound; }  // the least is on top
 };
 
-class Queue {
+class Queue : public std::priority_queue<Waiting> {
  public:
-  bool empty() const { return items_.empty(); }
-  double leastBound() const { return items_.empty() ? kInfinity : items_.front().bound; }
-  void push(const Waiting& item) {
-    items_.push_back(item);
-    std::push_heap(items_.begin(), items_.end());
-  }
-  Waiting pop() {
-    std::pop_heap(items_.begin(), items_.end());
-    const Waiting item = items_.back();
-    items_.pop_back();
-    return item;
-  }
-  const std::vector<Waiting>& items() const { return items_; }
-
- private:
-  std::vector<Waiting> items_;
+  double leastBound() const { return empty() ? kInfinity : top().bound; }
+  /// Lists those that wait, in any order.
+  const std::vector<Waiting>& items() const { return c; }
 };
 
 }  // namespace
@@ -175,7 +163,8 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
   }
 
   while (!queue.empty() && !(queue.leastBound() > limit)) {
-    const Waiting next = queue.pop();
+    const Waiting next = queue.top();
+    queue.pop();
     if (next.kind == Waiting::Kind::kNodes) {
       forChildren(next.a, next.b, enqueue);
       continue;
@@ -231,14 +220,8 @@ std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& re
       return;
     }
     BodyPair<S> pair = pairOf(a, b);
-    PairBound known;
-    std::optional<Answer> answer = pair.decide(limit, known, counts);
-    if (!answer && !request.exact) {
-      answer = pair.nearby(limit);
-      if (answer) ++counts.near_by_proof;
-    }
-    if (!answer) answer = pair.search(limit, request.exact, counts);
-    if (answer->within) pairs.push_back(report(a, b, *answer, request));
+    const Answer answer = pair.answer(limit, request.exact, counts);
+    if (answer.within) pairs.push_back(report(a, b, answer, request));
   };
 
   forNearPairs(limit, ask);

@@ -82,10 +82,9 @@ DEFINED_ELSEWHERE = {
 SMALL_OR_USED_ONCE = {
     "clearance/exact_pair.h": "what two .cpp share",
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
-    "linkage/near_pairs.h": "tested alone", "model/memory_to_fill.cpp": "of the operating system",
-    "model/memory_to_fill.h": "likewise", "query/cell_walk.h": "FCL's tree beside the engine's",
-    "query/intersecting_pairs.h": "one function", "shape/simplex.h": "tested alone",
-    "tree/build_budget.h": "tested alone",
+    "fcl/overloads_float.cpp": "FCL's function tables for float, which libfcl lacks",
+    "linkage/near_pairs.h": "tested alone", "query/cell_walk.h": "FCL's tree beside the engine's",
+    "shape/simplex.h": "tested alone", "tree/build_budget.h": "tested alone",
     "tree/compress_table.h": "a table that no target needs twice",
     "tree/root_copy.h": "a lock-free cell", "tree/weld.h": "one function",
     "triangle/common_point.h": "what two .cpp share",

@@ -3,7 +3,7 @@
 //
 // The contact of two triangles is FCL's, bit by bit, wherever FCL's routine finds one.
 
-#include "query/triangle_contact.h"
+#include "query/mesh_contacts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "query/triangle_contact.h"
+#include "query/mesh_contacts.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
