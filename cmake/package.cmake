@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 
 # Two components: `runtime`, what a program that is linked to the shared library needs, and `dev`.
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)
-install(TARGETS fcl_kios fcl_kios_clearance fcl_kios_force_include EXPORT fcl_kiosTargets
+install(TARGETS fcl_kios fcl_kios_force_include EXPORT fcl_kiosTargets
   LIBRARY COMPONENT runtime NAMELINK_COMPONENT dev
   ARCHIVE COMPONENT dev)
 install(DIRECTORY include/ ${PROJECT_BINARY_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}

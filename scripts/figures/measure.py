@@ -51,7 +51,8 @@ def header(root, scenario, command):
         return subprocess.run(words, cwd=root, capture_output=True, text=True).stdout.strip()
     cpu = re.search(r"model name\s*: (.*)", pathlib.Path("/proc/cpuinfo").read_text())
     commit = output("git", "rev-parse", "--short", "HEAD")
-    changed = output("git", "status", "--porcelain", "--", "src", "include", "benchmarks")
+    changed = output("git", "status", "--porcelain", "--", "src", "include", "addons",
+                     "benchmarks")
     return {"run": scenario, "command": command,
             "machine": f"{cpu[1] if cpu else platform.processor()}, {os.cpu_count()} cores",
             "load": round(os.getloadavg()[0], 1), "date": datetime.date.today().isoformat(),

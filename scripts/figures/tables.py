@@ -331,7 +331,7 @@ def preload(rows):
 # docs/python.md
 
 def python(rows):
-    """What python/bench.py measured."""
+    """What addons/python/bench.py measured."""
     def cells(row):
         other, ratio = row.get("other_us"), row.get("ratio")
         return [row["what"], time(row["median_us"]), time(other) if other else "",

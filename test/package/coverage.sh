@@ -39,7 +39,7 @@ done < <(grep -E '^\|' "$doc" | grep -vE '^\|[-:| ]+\|$|^\| (FCL entry point|#) 
 
 while IFS=: read -r page path; do
   compgen -G "${path#\`}*" >/dev/null || { echo "$page: no ${path#\`}" && status=1; }
-done < <(grep -HoE '`(src|include|test|benchmarks|scripts|cmake|examples)/[A-Za-z0-9_./-]+' \
+done < <(grep -HoE '`(src|addons|include|test|benchmarks|scripts|cmake|examples)/[A-Za-z0-9_./-]+' \
   README.md CONTRIBUTING.md docs/*.md | grep -vE '^docs/swapping|NAME')
 
 # So do the headers, wherever a page names them; version.h is made by CMake.

@@ -43,7 +43,7 @@ case ${5-} in
     FCL_KIOS_PRELOAD=stats LD_PRELOAD=libfcl_kios_preload.so "$program" write /dev/null \
       threads 2>&1 | grep -E 'distance: [0-9]{2,} by k-IOS' || fail "nothing was preloaded"
     if [[ -n $(find "$build_dir" -maxdepth 1 -name 'python3-fcl-kios*.deb') ]]; then
-      /usr/bin/python3 "$source_dir/python/examples/clearance_map.py" | grep 'exact distances' ||
+      /usr/bin/python3 "$source_dir/addons/python/examples/clearance_map.py" | grep 'exact distances' ||
         fail "the Python package doesn't work"
       dpkg --purge python3-fcl-kios
     fi
@@ -63,7 +63,7 @@ rm -f "$build_dir"/*.deb
 debs=("$build_dir"/*.deb)
 expected=3
 if [[ -d $build_dir/python/fcl_kios ]]; then expected=4; fi
-if [[ -e $build_dir/robot/libfcl_kios_robot.so ]]; then expected=$((expected + 1)); fi
+if [[ -e $build_dir/addons/robot/libfcl_kios_robot.so ]]; then expected=$((expected + 1)); fi
 ((${#debs[@]} == expected)) || fail "cpack made ${#debs[@]} packages: ${debs[*]}"
 for deb in "${debs[@]}"; do
   depends=$(dpkg-deb -f "$deb" Depends)

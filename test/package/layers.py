@@ -5,19 +5,19 @@
 # usage: layers.py SOURCE_DIR
 # The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
 # those below it only (docs/how-it-works.md, "The folders"). Addons are libraries of their own, which
-# nothing includes but they themselves, and fcl_kios.h. No two folders have files of one name, but
-# those of public headers. FCL's headers are included as <fcl/...>
+# nothing includes but they themselves, and fcl_kios.h; of addons, those in ADDONS are checked. No two
+# folders have files of one name, but those of public headers. FCL's headers are included as <fcl/...>
 # and ours as "...", and every "..." names one file, whichever include directory is searched first.
-# What include/fcl_kios/x.h declares is defined in src/x.cpp. A file of under thirty lines, but for
-# the header of a longer .cpp, and a header without a .cpp that one file includes stand below, with
-# their reason.
+# What include/fcl_kios/x.h declares is defined in src/x.cpp, or addons/x.cpp. A file of under thirty
+# lines, but for the header of a longer .cpp, and a header without a .cpp that one file includes stand
+# below, with their reason.
 import pathlib
 import re
 import sys
 
 LAYERS = ["volume", "triangle", "shape", "build", "tree", "search", "model", "query", "solid",
           "continuous", "linkage", "fcl", "scene", "clearance", "preload"]
-ADDONS = [LAYERS.index("clearance"), LAYERS.index("preload")]
+ADDONS = [LAYERS.index("clearance"), LAYERS.index("preload")]  # in addons, all others in src
 # Public headers of 0.2 that only include their new places.
 MOVED = {"build": ["volume/fit.h"], "clearance": ["query/clearance.h", "volume/exact_distance.h"],
          "continuous": ["motion/continuous.h"], "linkage": ["motion/linkage.h"],
@@ -29,7 +29,7 @@ TOP = {"fcl_own.h": -1, "overloads.h": LAYERS.index("fcl"), "fcl_kios.h": len(LA
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.M)
 
 root = pathlib.Path(sys.argv[1])
-roots = [root / "src", root / "include"]
+roots = [root / "src", root / "addons", root / "include"]
 faults = []
 
 
@@ -98,13 +98,14 @@ SMALL_OR_USED_ONCE = {
     "fcl_kios/search/counts.h": "values", "fcl_kios/triangle/triangle.h": "types",
     "fcl_kios/volume/specialisations.h": "declared with the volume"}
 count, homes, lines, users, listed = 0, {}, {}, {}, set()
-for base in (root / "src", root / "include" / "fcl_kios"):
-    for path in sorted(base.rglob("*")):
-        relative = path.relative_to(base).as_posix()
-        if path.suffix not in (".h", ".cpp") or relative.startswith("tools/"):
+addons = [root / "addons" / LAYERS[addon] for addon in ADDONS]
+for folder in (root / "src", *addons, root / "include" / "fcl_kios"):
+    for path in sorted(folder.rglob("*")):
+        if path.suffix not in (".h", ".cpp"):
             continue
-        own = layer(relative)
-        if own is None:
+        base = next(base for base in roots if path.is_relative_to(base))
+        own = layer(path.relative_to(base).as_posix())
+        if own is None or (base.name != "include" and (base.name == "addons") != (own in ADDONS)):
             faults.append(f"{path}: is in no layer")
             continue
         count += 1
@@ -113,15 +114,15 @@ for base in (root / "src", root / "include" / "fcl_kios"):
         if home != own and path.stem not in NAMED_TWICE:
             faults.append(f"{path}: {LAYERS[home]} has files of this name too")
 for path, length in lines.items():
-    base = root / ("src" if path.is_relative_to(root / "src") else "include")
-    name = path.relative_to(base).as_posix()
+    name = path.relative_to(next(base for base in roots if path.is_relative_to(base))).as_posix()
     moved = any(name.removeprefix("fcl_kios/") in headers for headers in MOVED.values())
     if moved or name.endswith("-inl.h") or name.count("/") == name.startswith("fcl_kios/"):
         continue
-    own_cpp = root / "src" / name.removeprefix("fcl_kios/").replace(".h", ".cpp")
+    sources = root / ("addons" if layer(name) in ADDONS else "src")
+    own_cpp = sources / name.removeprefix("fcl_kios/").replace(".h", ".cpp")
     is_header, has_cpp = path.suffix == ".h", own_cpp in lines
     if name.startswith("fcl_kios/") and not has_cpp and name[9:] not in DEFINED_ELSEWHERE:
-        faults.append(f"{path}: src/{name[9:-2]}.cpp, which would define it, isn't there")
+        faults.append(f"{path}: {own_cpp}, which would define it, isn't there")
     small = length < 30 and not (is_header and has_cpp and lines[own_cpp] >= 60)
     used_once = is_header and not has_cpp and len(users.get(name, ())) == 1
     if small or used_once:

@@ -52,8 +52,6 @@ class Policy {
     bool touched = false;
   };
 
-  static Question ofFirst(const Question& question);
-  static std::uint32_t tagOf(const Question& question);
   std::atomic<Past>& placeOf(const Question& question);
   Past find(const Question& question);
   void noteOne(const Question& question, const Search& search, double limit, bool touches);

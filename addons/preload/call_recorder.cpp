@@ -42,7 +42,7 @@ void CallRecorder::compare(const PosedPair& pair, const CollisionRequest& /*requ
     if (mine.o1 != theirs.o1 || mine.o2 != theirs.o2) what = "the order of the objects";
   }
   if (!what) return;
-  counts_[0].differences.fetch_add(1, std::memory_order_relaxed);
+  countsOf(ours).differences.fetch_add(1, std::memory_order_relaxed);
   std::fprintf(stderr,
                "fcl_kios_preload: collide of %p and %p differs in %s: %zu contacts, FCL %zu.\n",
                static_cast<const void*>(pair.a), static_cast<const void*>(pair.b), what,
@@ -63,7 +63,7 @@ void CallRecorder::compare(const PosedPair& pair, const DistanceRequest& request
   };
   const bool ordered = ours.o1 == fcls.o1 || !isAnswer(ours) || !isAnswer(fcls);
   if (agree && ordered) return;
-  counts_[1].differences.fetch_add(1, std::memory_order_relaxed);
+  countsOf(ours).differences.fetch_add(1, std::memory_order_relaxed);
   std::fprintf(stderr, "fcl_kios_preload: distance of %p and %p differs%s: %.17g, FCL %.17g.\n",
                static_cast<const void*>(pair.a), static_cast<const void*>(pair.b),
                agree ? " in its objects" : "", ours.min_distance, fcls.min_distance);

@@ -161,7 +161,7 @@ VolumePair::Slab VolumePair::slab(const Vector3d& direction) {
 // On the plane that touches the sphere of directions at n, -h has the Hessian H + h I, H >= 0 the
 // bodies' curvature. The step is exact for two spheres and for two vertices.
 VolumePair::Slab VolumePair::widest(Slab best) {
-  const double rounding = 4 * kUlpDouble * size_;
+  const double rounding = converged();
   for (int iteration = 0; iteration < 60; ++iteration) {
     const Vector3d e0 = best.n.unitOrthogonal(), e1 = best.n.cross(e0);
     Eigen::Matrix<double, 3, 2> T;

@@ -20,6 +20,10 @@ enum class By {
   kCopies
 };
 
+/// Returns what FCL's functions return of a result.
+inline std::size_t valueOf(const CollisionResult& result) { return result.numContacts(); }
+inline double valueOf(const DistanceResult& result) { return result.min_distance; }
+
 /// Holds two geometries at poses in the world.
 struct PosedPair {
   const Geometry* a;
@@ -27,12 +31,6 @@ struct PosedPair {
   const Geometry* b;
   const Pose& X_WB;
 };
-
-/// Whether models over a volume have copies.
-inline bool isServed(fcl::NODE_TYPE type) {
-  return type == fcl::BV_OBB || type == fcl::BV_RSS || type == fcl::BV_kIOS ||
-         type == fcl::BV_OBBRSS;
-}
 
 /// Whether a pair can concern us at all: most pairs of FCL's shapes leave here.
 inline bool isServed(const Geometry* a, const Geometry* b) {
@@ -46,8 +44,8 @@ class Implementation {
   explicit Implementation(const Start& start) : start(start), copies(start) {}
 
   /// Answers for pairs that isServed() says.
-  By collide(const PosedPair& pair, const CollisionRequest& request, CollisionResult& result);
-  By distance(const PosedPair& pair, const DistanceRequest& request, DistanceResult& result);
+  By answer(const PosedPair& pair, const CollisionRequest& request, CollisionResult& result);
+  By answer(const PosedPair& pair, const DistanceRequest& request, DistanceResult& result);
 
   const Start start;
   CopyCache copies;
@@ -59,19 +57,26 @@ class Implementation {
   void makeCopy(const Mesh& mesh);
 };
 
-// The parts of Implementation::collide() and Implementation::distance(), for models over BV.
+// The parts of Implementation::answer().
 
+/// Both of the pair are models over BV; model_a is its a.
 template <typename BV>
-By collideModels(Implementation& implementation, const PosedPair& pair,
-                 const CollisionRequest& request, CollisionResult& result);
+By answerModels(Implementation& implementation, const fcl::BVHModel<BV>& model_a,
+                const PosedPair& pair, const CollisionRequest& request, CollisionResult& result);
 template <typename BV>
-By distanceOfModels(Implementation& implementation, const PosedPair& pair,
-                    const DistanceRequest& request, DistanceResult& result);
+By answerModels(Implementation& implementation, const fcl::BVHModel<BV>& model_a,
+                const PosedPair& pair, const DistanceRequest& request, DistanceResult& result);
+
+/// FCL has no distance of models over OBB, and says so.
+inline By answerModels(Implementation&, const fcl::BVHModel<fcl::OBBd>&, const PosedPair&,
+                       const DistanceRequest&, DistanceResult&) {
+  return By::kHandedOn;
+}
 
 /// The mesh is the pair's a, whatever the order of FCL's call.
-By collideWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
-                    const CollisionRequest& request, CollisionResult& result);
-By distanceToOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+By answerWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+                   const CollisionRequest& request, CollisionResult& result);
+By answerWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
                    DistanceResult& result);
 
 /// Whether a pose is surely one that k-IOS takes: finite, rigid, no reflection.
@@ -81,8 +86,5 @@ bool isRigid(const Pose& X);
 inline bool wantsContacts(const CollisionRequest& request) {
   return request.enable_contact || request.num_max_contacts > 1;
 }
-
-/// The exact distance, whatever errors the request allows: FCL ignores those.
-DistanceRequest exact(bool nearest_points);
 
 }  // namespace kios::preload

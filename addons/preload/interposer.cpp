@@ -116,8 +116,8 @@ bool isWorthOpening() {
   return (mode != Mode::kOn && mode != Mode::kTrust) || queries++ >= kFirst;
 }
 
-/// Chooses at the first queries of a process, or of a place in it: FCL's own functions, and the
-/// back's if they are libfcl's.
+/// Chooses at the first queries of a process, or of a place in it: FCL's own functions, or the
+/// implementation's if they are libfcl's.
 const Calls* choose(const void* caller) {
   start();
   pthread_mutex_lock(&choosing);
@@ -155,8 +155,6 @@ const Calls* choose(const void* caller) {
     chosen = callsOf(__builtin_return_address(0));             \
     if (!chosen) chosen = choose(__builtin_return_address(0)); \
   }
-
-#define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
 
 std::size_t collideObjects(const Object*, const Object*, const CollisionRequest&, CollisionResult&)
     KIOS_STANDS_FOR(KIOS_COLLIDE_OBJECTS);

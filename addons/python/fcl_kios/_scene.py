@@ -84,7 +84,7 @@ class Scene:
 
     @property
     def counts(self):
-        """Of the last query: how many pairs there were, and how many of them weren't searched."""
+        """How many pairs the last query had, and how many of them weren't searched."""
         return self._scene.counts()
 
     def __len__(self):

@@ -180,16 +180,20 @@ const kIOS<S>& Cover<S>::volume(int i) const {
   return parts_->volumes.at(static_cast<std::size_t>(i));
 }
 
-/// All pairs of two covers, nearest bounds first, and their exact distances as they are asked for.
+/// All pairs of two covers' volumes.
 template <typename S>
 struct CoverPairs {
-  struct Pair {
-    double bound;
-    int i, j;
-  };
-
-  CoverPairs(const Cover<S>& cover_a, const Cover<S>& cover_b, const RelativePose<S>& pose)
-      : a(*cover_a.parts_), b(*cover_b.parts_), X_AB(pose) {
+  /// Returns the exact distances of all pairs that may be nearer than the minimum plus `margin`,
+  /// nearest bounds first. The result gets the minimum, and how many pairs there are.
+  static std::vector<ExactDistance> within(const Cover<S>& cover_a, const Cover<S>& cover_b,
+                                           const RelativePose<S>& X_AB, double margin,
+                                           Clearance& result) {
+    struct Pair {
+      double bound;
+      int i, j;
+    };
+    const typename Cover<S>::Parts &a = *cover_a.parts_, &b = *cover_b.parts_;
+    std::vector<Pair> pairs;
     pairs.reserve(a.volumes.size() * b.volumes.size());
     for (int i = 0; i < cover_a.size(); ++i) {
       for (int j = 0; j < cover_b.size(); ++j) {
@@ -199,35 +203,24 @@ struct CoverPairs {
     std::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
       return std::pair(p.bound, std::pair(p.i, p.j)) < std::pair(q.bound, std::pair(q.i, q.j));
     });
-  }
-
-  /// Exact distances of all pairs that may be nearer than the minimum plus `margin`.
-  std::vector<ExactDistance> within(double margin, double* minimum) const {
     std::vector<ExactDistance> near;
-    *minimum = kInfinity;
+    result.value = kInfinity;
     for (const Pair& pair : pairs) {
-      if (pair.bound > *minimum + margin) break;
+      if (pair.bound > result.value + margin) break;
       near.push_back(exact::exactDistance(a.volumes[pair.i], a.bodies[pair.i], b.volumes[pair.j],
                                           b.bodies[pair.j], X_AB));
-      *minimum = std::min(*minimum, near.back().distance);
+      result.value = std::min(result.value, near.back().distance);
     }
+    result.pairs = static_cast<int>(pairs.size());
+    result.evaluated = static_cast<int>(near.size());
     return near;
   }
-
-  const typename Cover<S>::Parts& a;
-  const typename Cover<S>::Parts& b;
-  const RelativePose<S>& X_AB;
-  std::vector<Pair> pairs;
 };
 
 template <typename S>
 Clearance minimumClearance(const Cover<S>& a, const Cover<S>& b, const RelativePose<S>& X_AB) {
-  const CoverPairs<S> all(a, b, X_AB);
   Clearance result;
-  const std::vector<ExactDistance> near = all.within(0, &result.value);
-  result.pairs = static_cast<int>(all.pairs.size());
-  result.evaluated = static_cast<int>(near.size());
-  for (const ExactDistance& pair : near) {
+  for (const ExactDistance& pair : CoverPairs<S>::within(a, b, X_AB, 0, result)) {
     if (pair.distance != result.value) continue;
     result.by_translation = pair.normal;
     result.by_rotation = pair.moment;
@@ -243,12 +236,10 @@ Clearance smoothClearance(const Cover<S>& a, const Cover<S>& b, const RelativePo
                           double beta) {
   if (!(beta > 0) || !std::isfinite(beta)) refuse("beta must be positive and finite.");
   constexpr double kNegligible = 60;
-  const CoverPairs<S> all(a, b, X_AB);
   Clearance result;
-  double minimum;
-  const std::vector<ExactDistance> near = all.within(kNegligible / beta, &minimum);
-  result.pairs = static_cast<int>(all.pairs.size());
-  result.evaluated = static_cast<int>(near.size());
+  const std::vector<ExactDistance> near =
+      CoverPairs<S>::within(a, b, X_AB, kNegligible / beta, result);
+  const double minimum = result.value;
   double sum = (result.pairs - result.evaluated) * std::exp(-kNegligible);
   for (const ExactDistance& pair : near) {
     const double weight = std::exp(-beta * (pair.distance - minimum));

@@ -213,13 +213,6 @@ struct CopyCache::Table {
 CopyCache::ModelLease::ModelLease(ModelLease&& o) noexcept
     : cache_(o.cache_), cell_(std::exchange(o.cell_, nullptr)), mesh_(o.mesh_) {}
 
-CopyCache::ModelLease& CopyCache::ModelLease::operator=(ModelLease&& o) noexcept {
-  std::swap(cache_, o.cache_);
-  std::swap(cell_, o.cell_);
-  std::swap(mesh_, o.mesh_);
-  return *this;
-}
-
 CopyCache::ModelLease::~ModelLease() {
   if (cell_) cell_->release();
 }

@@ -23,7 +23,6 @@ class CopyCache {
    public:
     ModelLease() = default;
     ModelLease(ModelLease&& o) noexcept;
-    ModelLease& operator=(ModelLease&& o) noexcept;
     ~ModelLease();
 
     explicit operator bool() const { return cell_ != nullptr; }
@@ -59,7 +58,7 @@ class CopyCache {
   /// meanwhile.
   void pay(const Mesh& mesh, double nanoseconds);
 
-  /// Makes the model's copy now, unless it has a current one.
+  /// Makes the model's copy now, in the place of any that it has.
   void make(const Mesh& mesh);
 
   /// Waits for copies that are being made; no other is until afterFork(). All that threads hold is

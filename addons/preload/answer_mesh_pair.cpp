@@ -47,24 +47,13 @@ void pay(Implementation& implementation, const Mesh& a, const Mesh& b, double na
   if (of_b) implementation.copies.pay(b, of_a ? 0.5 * nanoseconds : nanoseconds);
 }
 
-/// Returns whether the copies touch, and by which triangles. Throws as k-IOS's queries.
-bool touch(const Asked& asked, const PosedPair& pair, int& id_a, int& id_b) {
-  CollisionResult verdict;
-  kios::collideMeshes(asked.lease_a.copy(), pair.X_WA, asked.lease_b.copy(), pair.X_WB,
-                      CollisionRequest(1, false), verdict);
-  if (!verdict.isCollision()) return false;
-  id_a = static_cast<int>(verdict.getContact(0).b1);
-  id_b = static_cast<int>(verdict.getContact(0).b2);
-  return true;
-}
-
 /// Answers by the copies where they are the cheaper, else by FCL. searchByFcl(limit) asks FCL,
 /// touches() says whether it has found a contact, and askCopies(asked) whether the copies' answer
 /// will do; it may throw what k-IOS's queries do.
 template <typename SearchByFcl, typename Touches, typename AskCopies>
-By answer(Implementation& implementation, const PosedPair& pair, const Mesh& a, const Mesh& b,
-          Kind kind, const SearchByFcl& searchByFcl, const Touches& touches,
-          const AskCopies& askCopies) {
+By askTheCheaper(Implementation& implementation, const PosedPair& pair, const Mesh& a,
+                 const Mesh& b, Kind kind, const SearchByFcl& searchByFcl, const Touches& touches,
+                 const AskCopies& askCopies) {
   if (implementation.always()) {
     implementation.makeCopy(a);
     implementation.makeCopy(b);
@@ -103,12 +92,12 @@ constexpr bool kFclCopiesModels = std::is_same<BV, fcl::RSSd>::value;
 }  // namespace
 
 template <typename BV>
-By collideModels(Implementation& implementation, const PosedPair& pair,
-                 const CollisionRequest& request, CollisionResult& result) {
+By answerModels(Implementation& implementation, const fcl::BVHModel<BV>& model_a,
+                const PosedPair& pair, const CollisionRequest& request, CollisionResult& result) {
+  const auto& model_b = modelOf<BV>(*pair.b);
   Mesh a, b;
-  if (!readMesh<BV>(pair.a, a) || !readMesh<BV>(pair.b, b)) return By::kHandedOn;
+  if (!readMesh(model_a, a) || !readMesh(model_b, b)) return By::kHandedOn;
   if (request.isSatisfied(result)) return By::kFclSearch;
-  const auto &model_a = modelOf<BV>(pair.a), &model_b = modelOf<BV>(pair.b);
   if constexpr (!kFclCopiesModels<BV>) {
     if (!rootsOverlap(model_a, pair.X_WA, model_b, pair.X_WB)) return By::kFclSearch;
   }
@@ -129,33 +118,39 @@ By collideModels(Implementation& implementation, const PosedPair& pair,
 
   const auto touches = [&] { return result.numContacts() > before; };
   const auto askCopies = [&](const Asked& asked) {
-    int id_a, id_b;
-    if (!touch(asked, pair, id_a, id_b)) return true;
+    CollisionResult verdict;
+    kios::collideMeshes(asked.lease_a.copy(), pair.X_WA, asked.lease_b.copy(), pair.X_WB,
+                        CollisionRequest(1, false), verdict);
+    if (!verdict.isCollision()) return true;
     implementation.policy.noteContact(asked.question);
     if (wantsContacts(request)) return false;
+    const fcl::Contact<double>& found = verdict.getContact(0);
+    const int id_a = static_cast<int>(found.b1), id_b = static_cast<int>(found.b2);
     const fcl::Vector3d unset = fcl::Vector3d::Zero();  // FCL leaves it uninitialised
     result.addContact(fcl::Contact<double>(pair.a, pair.b, id_a, id_b, unset, unset, 0.0));
     return true;
   };
-  return answer(implementation, pair, a, b,
-                wantsContacts(request) ? Kind::kContacts : Kind::kVerdict, searchByFcl, touches,
-                askCopies);
+  return askTheCheaper(implementation, pair, a, b,
+                       wantsContacts(request) ? Kind::kContacts : Kind::kVerdict, searchByFcl,
+                       touches, askCopies);
 }
 
 template <typename BV>
-By distanceOfModels(Implementation& implementation, const PosedPair& pair,
-                    const DistanceRequest& request, DistanceResult& result) {
+By answerModels(Implementation& implementation, const fcl::BVHModel<BV>& model_a,
+                const PosedPair& pair, const DistanceRequest& request, DistanceResult& result) {
+  const auto& model_b = modelOf<BV>(*pair.b);
   Mesh a, b;
-  if (!readMesh<BV>(pair.a, a) || !readMesh<BV>(pair.b, b)) return By::kHandedOn;
-  const auto &model_a = modelOf<BV>(pair.a), &model_b = modelOf<BV>(pair.b);
+  if (!readMesh(model_a, a) || !readMesh(model_b, b)) return By::kHandedOn;
   const auto searchByFcl = [&](double limit) {
     return distanceByFcl(model_a, pair.X_WA, model_b, pair.X_WB, request, result, limit);
   };
 
   const auto askCopies = [&](const Asked& asked) {
+    // FCL ignores the errors that a request allows.
+    const DistanceRequest exact(request.enable_nearest_points);
     DistanceResult found(result.min_distance);
-    kios::distanceMeshes(asked.lease_a.copy(), pair.X_WA, asked.lease_b.copy(), pair.X_WB,
-                         exact(request.enable_nearest_points), found);
+    kios::distanceMeshes(asked.lease_a.copy(), pair.X_WA, asked.lease_b.copy(), pair.X_WB, exact,
+                         found);
     const int id_a = static_cast<int>(found.b1), id_b = static_cast<int>(found.b2);
     if (request.enable_nearest_points) {
       result.update(found.min_distance, pair.a, pair.b, id_a, id_b, found.nearest_points[0],
@@ -165,23 +160,20 @@ By distanceOfModels(Implementation& implementation, const PosedPair& pair,
     }
     return true;
   };
-  return answer(
+  return askTheCheaper(
       implementation, pair, a, b, Kind::kDistance, searchByFcl, [] { return false; }, askCopies);
 }
 
-template By collideModels<fcl::OBBd>(Implementation&, const PosedPair&, const CollisionRequest&,
-                                     CollisionResult&);
-template By collideModels<fcl::RSSd>(Implementation&, const PosedPair&, const CollisionRequest&,
-                                     CollisionResult&);
-template By collideModels<fcl::kIOSd>(Implementation&, const PosedPair&, const CollisionRequest&,
-                                      CollisionResult&);
-template By collideModels<fcl::OBBRSSd>(Implementation&, const PosedPair&, const CollisionRequest&,
-                                        CollisionResult&);
-template By distanceOfModels<fcl::RSSd>(Implementation&, const PosedPair&, const DistanceRequest&,
-                                        DistanceResult&);
-template By distanceOfModels<fcl::kIOSd>(Implementation&, const PosedPair&, const DistanceRequest&,
-                                         DistanceResult&);
-template By distanceOfModels<fcl::OBBRSSd>(Implementation&, const PosedPair&,
-                                           const DistanceRequest&, DistanceResult&);
+#define KIOS_INSTANTIATE(BV, Query)                                                     \
+  template By answerModels(Implementation&, const fcl::BVHModel<BV>&, const PosedPair&, \
+                           const Query##Request&, Query##Result&);
+KIOS_INSTANTIATE(fcl::OBBd, Collision)
+KIOS_INSTANTIATE(fcl::RSSd, Collision)
+KIOS_INSTANTIATE(fcl::kIOSd, Collision)
+KIOS_INSTANTIATE(fcl::OBBRSSd, Collision)
+KIOS_INSTANTIATE(fcl::RSSd, Distance)
+KIOS_INSTANTIATE(fcl::kIOSd, Distance)
+KIOS_INSTANTIATE(fcl::OBBRSSd, Distance)
+#undef KIOS_INSTANTIATE
 
 }  // namespace kios::preload

@@ -60,24 +60,17 @@ Function* next(std::atomic<Function*>& of_all, const char* name, const void* cal
   return function;
 }
 
-using Covariance = void(const void* vertices, const void* previous, void* triangles,
-                        unsigned int* primitives, int n, void* covariance);
-using Fit = void(const void* points, void* volume);
-using FitN = void(const void* points, int n, void* volume);
-using End = void(void* geometry);
-
 }  // namespace
 
 const Fits& fits() { return ofProcess(); }
 
 void countFits() { counting.store(true, std::memory_order_relaxed); }
 
-#define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
-// NOLINTBEGIN(bugprone-macro-parentheses): types and names of functions stand in none.
-#define KIOS_NEXT(Function, name)               \
-  static constexpr const char* fcl_name = name; \
-  static std::atomic<Function*> of_all{};       \
-  Function* const fcl = next(of_all, fcl_name, __builtin_return_address(0))
+// NOLINTBEGIN(bugprone-macro-parentheses): names of functions and their parameters stand in none.
+#define KIOS_NEXT(function, name)                   \
+  static constexpr const char* fcl_name = name;     \
+  static std::atomic<decltype(function)*> of_all{}; \
+  const auto fcl = next(of_all, fcl_name, __builtin_return_address(0))
 
 void getCovariance(const void* vertices, const void* previous, void* triangles,
                    unsigned int* primitives, int n, void* covariance)
@@ -88,31 +81,23 @@ void getCovariance(const void* vertices, const void* previous, void* triangles,
     placeOf(vertices).store(vertices, std::memory_order_relaxed);
     count();
   }
-  KIOS_NEXT(Covariance, KIOS_GET_COVARIANCE);
+  KIOS_NEXT(getCovariance, KIOS_GET_COVARIANCE);
   fcl(vertices, previous, triangles, primitives, n, covariance);
 }
 
-void endOfGeometry(void* geometry) KIOS_STANDS_FOR(KIOS_END_OF_GEOMETRY);
-void endOfGeometry(void* geometry) {
-  count();
-  KIOS_NEXT(End, KIOS_END_OF_GEOMETRY);
-  fcl(geometry);
-}
+#define KIOS_COUNTED(function, name, parameters, arguments) \
+  void function parameters KIOS_STANDS_FOR(name);           \
+  void function parameters {                                \
+    count();                                                \
+    KIOS_NEXT(function, name);                              \
+    fcl arguments;                                          \
+  }
+#define KIOS_FIT(function, name) \
+  KIOS_COUNTED(function, name, (const void* points, void* volume), (points, volume))
+#define KIOS_FITN(function, name) \
+  KIOS_COUNTED(function, name, (const void* points, int n, void* volume), (points, n, volume))
 
-#define KIOS_FIT(function, name)                                         \
-  void function(const void* points, void* volume) KIOS_STANDS_FOR(name); \
-  void function(const void* points, void* volume) {                      \
-    count();                                                             \
-    KIOS_NEXT(Fit, name);                                                \
-    fcl(points, volume);                                                 \
-  }
-#define KIOS_FITN(function, name)                                               \
-  void function(const void* points, int n, void* volume) KIOS_STANDS_FOR(name); \
-  void function(const void* points, int n, void* volume) {                      \
-    count();                                                                    \
-    KIOS_NEXT(FitN, name);                                                      \
-    fcl(points, n, volume);                                                     \
-  }
+KIOS_COUNTED(endOfGeometry, KIOS_END_OF_GEOMETRY, (void* geometry), (geometry))
 
 KIOS_FIT(fit3OBB, KIOS_FIT_FUNCTION("17OBB_fit_functions", "fit3", "3OBB"))
 KIOS_FIT(fit6OBB, KIOS_FIT_FUNCTION("17OBB_fit_functions", "fit6", "3OBB"))

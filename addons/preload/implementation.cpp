@@ -26,22 +26,10 @@ bool isOther(fcl::NODE_TYPE type) {
 }
 
 bool read(const Geometry* geometry, fcl::NODE_TYPE type, Mesh& mesh) {
-  switch (type) {
-    case fcl::BV_OBB:
-      return readMesh<fcl::OBBd>(geometry, mesh);
-    case fcl::BV_RSS:
-      return readMesh<fcl::RSSd>(geometry, mesh);
-    case fcl::BV_kIOS:
-      return readMesh<fcl::kIOSd>(geometry, mesh);
-    case fcl::BV_OBBRSS:
-      return readMesh<fcl::OBBRSSd>(geometry, mesh);
-    default:
-      return false;
-  }
+  return withModel(*geometry, type, [&](const auto& model) { return readMesh(model, mesh); });
 }
 
-template <typename S>
-bool isKnown(S solver) {
+bool isKnown(fcl::GJKSolverType solver) {
   return solver == fcl::GST_LIBCCD || solver == fcl::GST_INDEP;
 }
 
@@ -60,52 +48,38 @@ By askAboutOther(const PosedPair& pair, fcl::NODE_TYPE type_a, fcl::NODE_TYPE ty
 
 }  // namespace
 
-By Implementation::collide(const PosedPair& pair, const CollisionRequest& request,
-                           CollisionResult& result) {
+By Implementation::answer(const PosedPair& pair, const CollisionRequest& request,
+                          CollisionResult& result) {
   const fcl::NODE_TYPE type_a = pair.a->getNodeType(), type_b = pair.b->getNodeType();
   if (request.enable_cost || request.num_max_contacts == 0 || request.enable_cached_gjk_guess ||
       !isKnown(request.gjk_solver_type)) {
     return By::kHandedOn;
   }
   if (type_a == type_b) {
-    switch (type_a) {
-      case fcl::BV_OBB:
-        return collideModels<fcl::OBBd>(*this, pair, request, result);
-      case fcl::BV_RSS:
-        return collideModels<fcl::RSSd>(*this, pair, request, result);
-      case fcl::BV_kIOS:
-        return collideModels<fcl::kIOSd>(*this, pair, request, result);
-      default:
-        return collideModels<fcl::OBBRSSd>(*this, pair, request, result);
-    }
+    return withModel(*pair.a, type_a, [&](const auto& model_a) {
+      return answerModels(*this, model_a, pair, request, result);
+    });
   }
   return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const PosedPair& ordered) {
-    return collideWithOther(*this, mesh, ordered, request, result);
+    return answerWithOther(*this, mesh, ordered, request, result);
   });
 }
 
-By Implementation::distance(const PosedPair& pair, const DistanceRequest& request,
-                            DistanceResult& result) {
+By Implementation::answer(const PosedPair& pair, const DistanceRequest& request,
+                          DistanceResult& result) {
   const fcl::NODE_TYPE type_a = pair.a->getNodeType(), type_b = pair.b->getNodeType();
   // FCL stops at once at a bound of 0 or less, but may ask for the depth of a negative one.
   if (!isKnown(request.gjk_solver_type) || !(result.min_distance > 0)) return By::kHandedOn;
   if (type_a == type_b) {
-    switch (type_a) {
-      case fcl::BV_OBB:  // FCL has no such distance, and says so
-        return By::kHandedOn;
-      case fcl::BV_RSS:
-        return distanceOfModels<fcl::RSSd>(*this, pair, request, result);
-      case fcl::BV_kIOS:
-        return distanceOfModels<fcl::kIOSd>(*this, pair, request, result);
-      default:
-        return distanceOfModels<fcl::OBBRSSd>(*this, pair, request, result);
-    }
+    return withModel(*pair.a, type_a, [&](const auto& model_a) {
+      return answerModels(*this, model_a, pair, request, result);
+    });
   }
   return askAboutOther(pair, type_a, type_b, [&](const Mesh& mesh, const PosedPair& ordered) {
-    // Nor has it that of OBB and a shape.
+    // Nor has FCL a distance of OBB and a shape.
     const bool octree = ordered.b->getNodeType() == fcl::GEOM_OCTREE;
     if (ordered.a->getNodeType() == fcl::BV_OBB && !octree) return By::kHandedOn;
-    return distanceToOther(*this, mesh, ordered, result);
+    return answerWithOther(*this, mesh, ordered, result);
   });
 }
 
@@ -124,7 +98,5 @@ bool isRigid(const Pose& X) {
   const double error = (R.transpose() * R - fcl::Matrix3d::Identity()).squaredNorm();
   return error <= kMost * kMost && R.determinant() > 0 && X.translation().allFinite();
 }
-
-DistanceRequest exact(bool nearest_points) { return DistanceRequest(nearest_points); }
 
 }  // namespace kios::preload

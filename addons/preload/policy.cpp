@@ -20,6 +20,17 @@ std::uint64_t mixed(const Question& question) {
   return (x ^ x >> 29) * 0xBF58476D1CE4E5B9U;
 }
 
+/// Is never 0.
+std::uint32_t tagOf(const Question& question) {
+  return static_cast<std::uint32_t>(mixed(question)) | 1;
+}
+
+/// Asks about all pairs with the first model that have no history.
+Question ofFirst(Question question) {
+  question.serial_b = 0;
+  return question;
+}
+
 std::uint16_t inUnits(double nanoseconds) {
   return static_cast<std::uint16_t>(std::min(nanoseconds / kUnit, 65535.0));
 }
@@ -36,10 +47,6 @@ double costOfCopies(Kind kind, std::size_t bytes_to_compare) {
   return timeOfComparison(bytes_to_compare) + kSearch[static_cast<std::size_t>(kind)];
 }
 
-std::uint32_t Policy::tagOf(const Question& question) {
-  return static_cast<std::uint32_t>(mixed(question)) | 1;
-}
-
 std::atomic<Policy::Past>& Policy::placeOf(const Question& question) {
   return pasts_[mixed(question) >> 40 & (pasts_.size() - 1)];
 }
@@ -47,13 +54,6 @@ std::atomic<Policy::Past>& Policy::placeOf(const Question& question) {
 Policy::Past Policy::find(const Question& question) {
   const Past past = placeOf(question).load(std::memory_order_relaxed);
   return past.tag == tagOf(question) ? past : Past{};
-}
-
-/// Asks about all pairs with the first model that have no history.
-Question Policy::ofFirst(const Question& question) {
-  Question first = question;
-  first.serial_b = 0;
-  return first;
 }
 
 double Policy::fclLimit(const Question& question) {

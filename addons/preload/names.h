@@ -5,6 +5,9 @@
 // The symbols that the interposer defines in place of libfcl.so.0.7's, as the Itanium ABI mangles
 // them. test/preload/symbols.sh compares them with libfcl's.
 
+/// Follows the declaration of a function of ours that is to have such a name.
+#define KIOS_STANDS_FOR(name) __asm__(name) __attribute__((visibility("default"), used))
+
 // fcl::collide<double> and fcl::distance<double>.
 #define KIOS_COLLIDE_OBJECTS                                                            \
   "_ZN3fcl7collideIdEEmPKNS_15CollisionObjectIT_EES5_RKNS_16CollisionRequestIS2_EERNS_" \

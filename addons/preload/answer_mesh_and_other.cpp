@@ -15,6 +15,7 @@
 #include "fcl_kios/query/octree_queries.h"
 #include "fcl_kios/query/shape_queries.h"
 #include "preload/implementation.h"
+#include "volume/rounding.h"
 
 namespace kios::preload {
 namespace {
@@ -47,6 +48,7 @@ bool isOctree(const Geometry& geometry) { return geometry.getNodeType() == fcl::
 /// Returns the radius of a sphere about the shape's origin that holds it; infinity where that isn't
 /// cheap.
 double radiusOf(const Geometry& shape) {
+  const auto ofRound = [](const auto& round) { return round.radius + round.lz / 2; };
   switch (shape.getNodeType()) {
     case fcl::GEOM_BOX:
       return static_cast<const fcl::Boxd&>(shape).side.norm() / 2;
@@ -54,20 +56,14 @@ double radiusOf(const Geometry& shape) {
       return static_cast<const fcl::Sphered&>(shape).radius;
     case fcl::GEOM_ELLIPSOID:
       return static_cast<const fcl::Ellipsoidd&>(shape).radii.maxCoeff();
-    case fcl::GEOM_CAPSULE: {
-      const auto& capsule = static_cast<const fcl::Capsuled&>(shape);
-      return capsule.radius + capsule.lz / 2;
-    }
-    case fcl::GEOM_CONE: {
-      const auto& cone = static_cast<const fcl::Coned&>(shape);
-      return cone.radius + cone.lz / 2;
-    }
-    case fcl::GEOM_CYLINDER: {
-      const auto& cylinder = static_cast<const fcl::Cylinderd&>(shape);
-      return cylinder.radius + cylinder.lz / 2;
-    }
+    case fcl::GEOM_CAPSULE:
+      return ofRound(static_cast<const fcl::Capsuled&>(shape));
+    case fcl::GEOM_CONE:
+      return ofRound(static_cast<const fcl::Coned&>(shape));
+    case fcl::GEOM_CYLINDER:
+      return ofRound(static_cast<const fcl::Cylinderd&>(shape));
     default:
-      return std::numeric_limits<double>::infinity();
+      return kInfinity;
   }
 }
 
@@ -84,24 +80,12 @@ RootBox boxOf(const fcl::RSSd& bv) {
   return {bv.axis, bv.To + bv.axis * sides, sides + fcl::Vector3d::Constant(bv.r)};
 }
 
-RootBox rootOf(const Geometry* model) {
-  switch (model->getNodeType()) {
-    case fcl::BV_OBB:
-      return boxOf(modelOf<fcl::OBBd>(model).getBV(0).bv);
-    case fcl::BV_RSS:
-      return boxOf(modelOf<fcl::RSSd>(model).getBV(0).bv);
-    case fcl::BV_kIOS:
-      return boxOf(modelOf<fcl::kIOSd>(model).getBV(0).bv);
-    default:
-      return boxOf(modelOf<fcl::OBBRSSd>(model).getBV(0).bv);
-  }
-}
-
 /// Whether the shape is clear of the model's root volume, by more than FCL's solvers are inexact:
 /// FCL's volumes or solvers find no contact either.
 bool isAway(const PosedPair& pair) {
   constexpr double kMargin = 1e-3;
-  const RootBox root = rootOf(pair.a);
+  const RootBox root = withModel(*pair.a, pair.a->getNodeType(),
+                                 [](const auto& model) { return boxOf(model.getBV(0).bv); });
   const fcl::Vector3d center =
       root.axes.transpose() *
       (pair.X_WA.linear().transpose() * (pair.X_WB.translation() - pair.X_WA.translation()) -
@@ -138,8 +122,8 @@ bool askCopy(Implementation& implementation, const Mesh& mesh, double time_to_co
 
 }  // namespace
 
-By collideWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
-                    const CollisionRequest& request, CollisionResult& result) {
+By answerWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+                   const CollisionRequest& request, CollisionResult& result) {
   const bool octree = isOctree(*pair.b);
   if (request.isSatisfied(result) || !pair.b->isOccupied()) return By::kHandedOn;
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
@@ -170,18 +154,20 @@ By collideWithOther(Implementation& implementation, const Mesh& mesh, const Pose
   }
 }
 
-By distanceToOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
+By answerWithOther(Implementation& implementation, const Mesh& mesh, const PosedPair& pair,
                    DistanceResult& result) {
   if (!isRigid(pair.X_WA) || !isRigid(pair.X_WB)) return By::kHandedOn;
   const bool octree = isOctree(*pair.b);
   try {
     DistanceResult found(result.min_distance);
-    const auto ask = [&](const Modeld& copy) {  // FCL gives nearest points, wanted or not
+    // FCL gives nearest points, wanted or not, and ignores the errors that a request allows.
+    const DistanceRequest exact(/*enable_nearest_points=*/true);
+    const auto ask = [&](const Modeld& copy) {
       if (octree) {
-        distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, copy, pair.X_WA,
-                       exact(true), found);
+        distanceOctree(static_cast<const fcl::OcTreed&>(*pair.b), pair.X_WB, copy, pair.X_WA, exact,
+                       found);
       } else {
-        distanceShape(copy, pair.X_WA, *pair.b, pair.X_WB, exact(true), found);
+        distanceShape(copy, pair.X_WA, *pair.b, pair.X_WB, exact, found);
       }
     };
     if (!askCopy(implementation, mesh, kAnyTime, timeOfDistance(mesh), ask)) return By::kHandedOn;

@@ -18,61 +18,18 @@ class CallRecorder {
   explicit CallRecorder(Implementation& implementation)
       : implementation_(implementation), verify_(implementation.start.mode == Mode::kVerify) {}
 
-  template <typename AskFcl>
-  std::size_t collide(const PosedPair& pair, const CollisionRequest& request,
-                      CollisionResult& result, const AskFcl& ask_fcl) {
-    return record(
-        result, counts_[0], ask_fcl,
-        [&](CollisionResult& r) { return implementation_.collide(pair, request, r); },
-        [](const CollisionResult& r) { return r.numContacts(); },
-        [&](const CollisionResult& ours, const CollisionResult& fcls) {
-          compare(pair, request, ours, fcls);
-        });
-  }
-
-  template <typename AskFcl>
-  double distance(const PosedPair& pair, const DistanceRequest& request, DistanceResult& result,
-                  const AskFcl& ask_fcl) {
-    return record(
-        result, counts_[1], ask_fcl,
-        [&](DistanceResult& r) { return implementation_.distance(pair, request, r); },
-        [](const DistanceResult& r) { return r.min_distance; },
-        [&](const DistanceResult& ours, const DistanceResult& fcls) {
-          compare(pair, request, ours, fcls);
-        });
-  }
-
-  /// Prints the counts.
-  void report() const;
-
- private:
-  /// Holds the times of one query by both, in nanoseconds of the thread's CPU.
-  struct Times {
-    float ours, fcl;
-  };
-  struct Counts {
-    std::atomic<std::uint64_t> queries[3] = {};  ///< by who answered
-    std::atomic<std::uint64_t> probes{0};        ///< of which both were timed; the last are kept
-    std::atomic<Times> times[1 << 10] = {};
-    std::atomic<std::uint64_t> differences{0};
-  };
-
-  static double cpuTime() {
-    timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
-  }
-
-  template <typename Result, typename AskFcl, typename AskOurs, typename Value, typename Compare>
-  auto record(Result& result, Counts& counts, const AskFcl& ask_fcl, const AskOurs& ask_ours,
-              const Value& value, const Compare& differ) {
+  /// Returns what the program is told; ask_fcl(result) asks FCL.
+  template <typename Request, typename Result, typename AskFcl>
+  auto answer(const PosedPair& pair, const Request& request, Result& result,
+              const AskFcl& ask_fcl) {
+    Counts& counts = countsOf(result);
     constexpr std::uint64_t kProbeEvery = 100;
     const std::uint64_t n =
         counts.queries[static_cast<int>(By::kCopies)].load(std::memory_order_relaxed);
     const bool may_probe = !verify_ && n % kProbeEvery == kProbeEvery / 2;
     Result ours = result;
     const double start = may_probe ? cpuTime() : 0;
-    const By by = ask_ours(ours);
+    const By by = implementation_.answer(pair, request, ours);
     const double time_of_ours = may_probe ? cpuTime() - start : 0;
     counts.queries[static_cast<int>(by)].fetch_add(1, std::memory_order_relaxed);
     if (by == By::kHandedOn) return ask_fcl(result);
@@ -92,13 +49,37 @@ class CallRecorder {
     }
     if (!verify_) {
       result = ours;
-      return value(ours);
+      return valueOf(ours);
     }
     Result fcls = result;
     const auto fcls_value = ask_fcl(fcls);
-    differ(ours, fcls);
+    compare(pair, request, ours, fcls);
     result = fcls;
     return fcls_value;
+  }
+
+  /// Prints the counts.
+  void report() const;
+
+ private:
+  /// Holds the times of one query by both, in nanoseconds of the thread's CPU.
+  struct Times {
+    float ours, fcl;
+  };
+  struct Counts {
+    std::atomic<std::uint64_t> queries[3] = {};  ///< by who answered
+    std::atomic<std::uint64_t> probes{0};        ///< of which both were timed; the last are kept
+    std::atomic<Times> times[1 << 10] = {};
+    std::atomic<std::uint64_t> differences{0};
+  };
+
+  Counts& countsOf(const CollisionResult&) { return counts_[0]; }
+  Counts& countsOf(const DistanceResult&) { return counts_[1]; }
+
+  static double cpuTime() {
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e9 * static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec);
   }
 
   void compare(const PosedPair& pair, const CollisionRequest& request, const CollisionResult& ours,

@@ -277,11 +277,11 @@ def main():
                              median_us=1e6 * mine, other_us=other and 1e6 * other, ratio=ratio,
                              simd_target=fcl_kios.simd_target()))
     if arguments.json:
-        root = pathlib.Path(__file__).resolve().parent.parent
+        root = pathlib.Path(__file__).resolve().parents[2]
         sys.path.append(str(root / "scripts"))
         from figures.measure import header, slim
 
-        command = " ".join(["python/bench.py"] + ["--cpu"] * arguments.cpu
+        command = " ".join(["addons/python/bench.py"] + ["--cpu"] * arguments.cpu
                            + [f"--repeats {arguments.repeats}", *arguments.rows])
         with open(arguments.json, "w") as file:
             file.writelines(json.dumps(m) + "\n"

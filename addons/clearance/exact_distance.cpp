@@ -14,12 +14,6 @@
 namespace kios {
 namespace {
 
-template <typename S>
-const RelativePose<S>& identityPose() {
-  static const RelativePose<S> identity(fcl::Matrix3<S>::Identity(), fcl::Vector3<S>::Zero());
-  return identity;
-}
-
 fcl::Vector3d scaledBy(const fcl::Vector3d& v, int exponent) {
   return {scaled(v[0], exponent), scaled(v[1], exponent), scaled(v[2], exponent)};
 }
@@ -72,7 +66,8 @@ ExactDistance exactDistance(const kIOS<S>& a, const kIOS<S>& b, const RelativePo
 
 template <typename S>
 ExactDistance exactDistance(const kIOS<S>& a, const kIOS<S>& b) {
-  return exactDistance(a, b, identityPose<S>());
+  static const RelativePose<S> identity(fcl::Matrix3<S>::Identity(), fcl::Vector3<S>::Zero());
+  return exactDistance(a, b, identity);
 }
 
 template <typename S>

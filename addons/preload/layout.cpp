@@ -7,6 +7,7 @@
 #include <exception>
 #include <memory>
 #include <new>
+#include <type_traits>
 
 #include <dlfcn.h>
 #include <elf.h>
@@ -107,13 +108,13 @@ class Constructors {
   /// Whether a constructor makes, of these arguments, what the headers' makes. Objects with a table
   /// of virtual functions differ in that.
   template <typename T, typename... Args>
-  bool makes(const char* name, bool has_table, Args... args) const {
+  bool makes(const char* name, Args... args) const {
     const auto theirs = find<void (*)(void*, Args...)>(name);
     if (!theirs) return false;
     Place<T> by_them, by_us;
     theirs(by_them.bytes, args...);
     new (by_us.bytes) T(args...);
-    const bool equal = by_them.equals(by_us, has_table ? sizeof(void*) : 0);
+    const bool equal = by_them.equals(by_us, std::is_polymorphic<T>::value ? sizeof(void*) : 0);
     by_us.get()->~T();  // nothing that it or theirs holds is allocated
     return equal;
   }
@@ -197,18 +198,17 @@ const char* differenceOf(void* theirs, void* ours) {
     if (size == 0 || size != sizeOf(ours, table)) return "virtual functions";
   }
   const Constructors make(theirs);
-  if (!make.makes<CollisionRequest>(kCollisionRequest, false, std::size_t{3}, true, std::size_t{5},
-                                    true, false, fcl::GST_INDEP, 0.25) ||
-      !make.makes<CollisionResult>(kCollisionResult, false)) {
+  if (!make.makes<CollisionRequest>(kCollisionRequest, std::size_t{3}, true, std::size_t{5}, true,
+                                    false, fcl::GST_INDEP, 0.25) ||
+      !make.makes<CollisionResult>(kCollisionResult)) {
     return "CollisionRequest or CollisionResult";
   }
-  if (!make.makes<DistanceRequest>(kDistanceRequest, false, true, false, 0.25, 0.5, 0.125,
+  if (!make.makes<DistanceRequest>(kDistanceRequest, true, false, 0.25, 0.5, 0.125,
                                    fcl::GST_INDEP) ||
-      !make.makes<DistanceResult>(kDistanceResult, false, 7.0)) {
+      !make.makes<DistanceResult>(kDistanceResult, 7.0)) {
     return "DistanceRequest or DistanceResult";
   }
-  if (!make.makes<fcl::Boxd>(kBox, true, 1.0, 2.0, 3.0) ||
-      !make.makes<fcl::Sphered>(kSphere, true, 0.5)) {
+  if (!make.makes<fcl::Boxd>(kBox, 1.0, 2.0, 3.0) || !make.makes<fcl::Sphered>(kSphere, 0.5)) {
     return "shapes";
   }
   if (!make.makesObjects()) return "CollisionObject";

@@ -28,22 +28,42 @@ struct Mesh {
 };
 
 template <typename BV>
-const fcl::BVHModel<BV>& modelOf(const Geometry* geometry) {
-  return static_cast<const fcl::BVHModel<BV>&>(*geometry);
+const fcl::BVHModel<BV>& modelOf(const Geometry& geometry) {
+  return static_cast<const fcl::BVHModel<BV>&>(geometry);
+}
+
+/// Whether models over a volume have copies.
+inline bool isServed(fcl::NODE_TYPE type) {
+  return type == fcl::BV_OBB || type == fcl::BV_RSS || type == fcl::BV_kIOS ||
+         type == fcl::BV_OBBRSS;
+}
+
+/// Returns ask(model) of a geometry of this type, which isServed(). As FCL does, it is believed.
+template <typename Ask>
+auto withModel(const Geometry& geometry, fcl::NODE_TYPE type, const Ask& ask) {
+  switch (type) {
+    case fcl::BV_OBB:
+      return ask(modelOf<fcl::OBBd>(geometry));
+    case fcl::BV_RSS:
+      return ask(modelOf<fcl::RSSd>(geometry));
+    case fcl::BV_kIOS:
+      return ask(modelOf<fcl::kIOSd>(geometry));
+    default:
+      return ask(modelOf<fcl::OBBRSSd>(geometry));
+  }
 }
 
 /// Finds the arrays of a finished mesh that counts as occupied; false for any other state, of which
-/// FCL makes what it makes. As FCL does, the geometry's node type is believed.
+/// FCL makes what it makes.
 template <typename BV>
-bool readMesh(const Geometry* geometry, Mesh& mesh) {
-  const auto& model = modelOf<BV>(geometry);
+bool readMesh(const fcl::BVHModel<BV>& model, Mesh& mesh) {
   const bool finished = model.build_state == fcl::BVH_BUILD_STATE_PROCESSED ||
                         model.build_state == fcl::BVH_BUILD_STATE_UPDATED;
   if (!finished || model.num_tris <= 0 || model.num_vertices <= 0 || !model.vertices ||
       !model.tri_indices || model.getNumBVs() != 2 * model.num_tris - 1 || !model.isOccupied()) {
     return false;
   }
-  mesh = {geometry, model.vertices, model.tri_indices, static_cast<std::size_t>(model.num_vertices),
+  mesh = {&model, model.vertices, model.tri_indices, static_cast<std::size_t>(model.num_vertices),
           static_cast<std::size_t>(model.num_tris)};
   return true;
 }
