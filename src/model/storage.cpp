@@ -48,7 +48,9 @@ template <typename S>
 std::shared_ptr<Model<S>> rebuilt(const Model<S>& model) {
   const auto copy = makeModel<S>({model.vertices, model.vertices + model.num_vertices},
                                  {model.tri_indices, model.tri_indices + model.num_tris});
-  static_cast<fcl::CollisionGeometry<S>&>(*copy) = model;  // for costs and thresholds
+  copy->cost_density = model.cost_density;
+  copy->threshold_occupied = model.threshold_occupied;
+  copy->threshold_free = model.threshold_free;
   return copy;
 }
 
