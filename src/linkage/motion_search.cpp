@@ -186,8 +186,9 @@ void MotionSearch::tryOrbits(int suspect, const Configuration& c) {
   constexpr int kLooks = 3;
   Suspect& own = suspects_[suspect];
   const bool hopeful = nearestOrbitsApart(path_, own.pair, c, request_.min_separation);
-  own.orbits = hopeful && own.orbits + 1 < kLooks ? own.orbits + 1 : Suspect::kNoOrbits;
-  if (!hopeful || own.orbits != Suspect::kNoOrbits) return;
+  own.orbits = hopeful ? own.orbits + 1 : 0;
+  if (own.orbits < kLooks) return;
+  own.orbits = Suspect::kNoOrbits;
   long long cost = 0;
   const bool proven = orbitsApart(path_, own.pair, c, request_.min_separation, cost);
   counts_.queries += cost / kTestsOfQuery;
@@ -212,7 +213,10 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
       suspect.way <= kFastWay && suspect.looks >= kLooksBeforeOrbits + triangles / kTrianglesOfLook;
   const bool costly =
       suspect.way <= kLittleWay && kTrianglesOfExpansion * suspect.expansions >= triangles;
-  if ((slow || costly) && suspect.orbits != Suspect::kNoOrbits) {
+  // About two pivots: four nodes a triangle, two tests each.
+  const long long attempt = 8LL * triangles / kTestsOfQuery;
+  if ((slow || costly) && suspect.orbits != Suspect::kNoOrbits &&
+      counts_.queries + attempt < request_.max_queries) {
     tryOrbits(task.suspect, at(task.look_at));
     const Look look = knownLocally(task);
     if (look.outcome == Look::Outcome::kProven) return look;

@@ -19,7 +19,7 @@ struct Suspect {
   long long expansions = 0;  ///< of its queries
   double way = 0;            ///< how much of the path a query proves of late
   bool undecided = false;    ///< somewhere
-  /// Looks in a row by which turns may prove it; kNoOrbits once they can't, or were tried.
+  /// Looks in a row by which turns may prove it; kNoOrbits once they were tried.
   int orbits = 0;
   static constexpr int kNoOrbits = -1;
   int place = -1;  ///< of its LocalSlabs, if there are any

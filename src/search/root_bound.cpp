@@ -42,11 +42,16 @@ double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X, doubl
     moved[i][kCenter] += X.t[i] - a.at[i][kCenter];
   }
   bool is_inside = true;  // b's centre within a's box, as a link is within a room
+  const double radius =
+      std::sqrt(b.half[0] * b.half[0] + b.half[1] * b.half[1] + b.half[2] * b.half[2]);
+  double by_ball = 0;  // the ball around b's box
   for (int i = 0; i < 3; ++i) {
     alongA(i, kCenter);
     is_inside &= std::abs(C[i][kCenter]) <= a.half[i];
+    by_ball += square(std::abs(C[i][kCenter]) - (a.half[i] + radius + X.box_pad));
   }
   if (is_inside) return 0;
+  if (by_ball > required * required) return std::sqrt(by_ball);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < kCenter; ++j) moveColumn(i, j);
   }

@@ -18,17 +18,19 @@ namespace kios::engine {
 class RootCopy {
  public:
   /// Copies the root of the tree for this state of the model (TreeKey::root_stamp); false if it is
-  /// not what is held, or is being written. No lock is taken and nothing is written.
+  /// not what is held, or is being written: `root` is unspecified then. No lock is taken and
+  /// nothing is written.
   bool read(std::uint64_t stamp, TreeRoot& root) const {
     // Odd while it is written. Whoever reads a word of another writing sees this changed, as words
     // are acquired.
     const unsigned int version = version_.load(std::memory_order_acquire);
     if ((version & 1U) != 0 || stamp_.load(std::memory_order_acquire) != stamp) return false;
-    std::array<std::uint64_t, kWords> words;
-    for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
-    if (version_.load(std::memory_order_relaxed) != version) return false;
-    std::memcpy(static_cast<void*>(&root), words.data(), sizeof(words));
-    return true;
+    auto* const bytes = static_cast<unsigned char*>(static_cast<void*>(&root));
+    for (std::size_t i = 0; i < kWords; ++i) {
+      const std::uint64_t word = words_[i].load(std::memory_order_acquire);
+      std::memcpy(bytes + sizeof(word) * i, &word, sizeof(word));
+    }
+    return version_.load(std::memory_order_relaxed) == version;
   }
 
   /// By one thread at a time.

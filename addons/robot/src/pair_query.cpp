@@ -159,8 +159,15 @@ std::shared_ptr<const fcl::CollisionGeometryd> triangleOf(const Body& body, std:
   return makeModel(vertices, {{0, 1, 2}});
 }
 
-/// Returns the point of a contact whose ids are known. A query about the whole meshes that asks for
-/// it prepares them, which takes longer than thousands of these.
+/// Returns true if a query that asks for the point of a contact has to prepare a mesh for that.
+bool wouldPrepare(const Body& a, const Body& b) {
+  if (a.kind == BodyKind::kOctree || b.kind == BodyKind::kOctree) return false;  // of its own cell
+  const auto solid = [](const Body& body) { return !body.mesh || isSolid(*body.mesh); };
+  const auto ready = [](const Body& body) { return !body.mesh || preparedBytes(*body.mesh) > 0; };
+  return !(ready(a) && ready(b)) && !(solid(a) && solid(b));
+}
+
+/// Returns the point of a contact whose ids are known, at a small part of what preparing takes.
 Vector3d pointOf(const RobotContact& contact, const Body& a, const Transform3d& X_WA, const Body& b,
                  const Transform3d& X_WB) {
   const auto first = triangleOf(a, contact.id_a), second = triangleOf(b, contact.id_b);
@@ -219,8 +226,8 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     if (near.lower <= 0) nearContact(near);
     return near.lower <= 0;  // free only by proof, as distances round by the larger one's size
   }
-  const bool solids = (!a.mesh || isSolid(*a.mesh)) && (!b.mesh || isSolid(*b.mesh));
-  fcl::CollisionRequestd request(1, contact != nullptr && solids);
+  const bool ids_alone = contact && !shapes && wouldPrepare(a, b);
+  fcl::CollisionRequestd request(1, contact && !ids_alone);
   fcl::CollisionResultd result;
   const auto* const first = a.geometry.get();
   const auto* const second = b.geometry.get();
@@ -233,7 +240,7 @@ bool touching(const Body& a, const Transform3d& X_WA, const Body& b, const Trans
     contact->point = c.pos;
     contact->id_a = same ? c.b1 : c.b2;
     contact->id_b = same ? c.b2 : c.b1;
-    if (!solids) contact->point = pointOf(*contact, a, X_WA, b, X_WB);
+    if (ids_alone) contact->point = pointOf(*contact, a, X_WA, b, X_WB);
     if (a.kind == BodyKind::kShape) contact->id_a = -1;
     if (b.kind == BodyKind::kShape || b.kind == BodyKind::kPlane) contact->id_b = -1;
     if (a.kind == BodyKind::kPlane) contact->id_a = -1;

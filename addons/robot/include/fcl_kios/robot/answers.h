@@ -27,6 +27,8 @@ struct RobotElement {
 };
 
 /// Names two that are in contact: links, obstacles or attached objects.
+/// Of several pairs in contact, and of several triangles of a pair, it is any; which may depend on
+/// what was asked before.
 struct RobotContact {
   std::string a, b;
   int element_a = 0, element_b = 0;  ///< which of a link's or object's collision elements
