@@ -21,9 +21,9 @@ constexpr int kPatience = 40;
 // Where a query proves so much of the path they aren't: at that pace a few more looks decide it.
 constexpr double kFastWay = 1.0 / 256;
 // Turns are tried after so many looks, and one more for so many triangles; or once queries that
-// prove little have taken longer, by the triangles that take as long as an expansion.
+// prove no more than this of the path have made an expansion for each triangle.
 constexpr int kLooksBeforeOrbits = 4;
-constexpr int kTrianglesOfLook = 128, kTrianglesOfExpansion = 1;
+constexpr int kTrianglesOfLook = 128;
 constexpr double kLittleWay = 1.0 / 32;
 constexpr long long kTestsOfQuery = 100;  // take as long as one
 // Where so many intervals can't be decided, no contact is looked for in what else is left.
@@ -211,8 +211,7 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   const int triangles = (a ? a->num_tris : 0) + (b ? b->num_tris : 0);
   const bool slow =
       suspect.way <= kFastWay && suspect.looks >= kLooksBeforeOrbits + triangles / kTrianglesOfLook;
-  const bool costly =
-      suspect.way <= kLittleWay && kTrianglesOfExpansion * suspect.expansions >= triangles;
+  const bool costly = suspect.way <= kLittleWay && suspect.expansions >= triangles;
   // About two pivots: four nodes a triangle, two tests each.
   const long long attempt = 8LL * triangles / kTestsOfQuery;
   if ((slow || costly) && suspect.orbits != Suspect::kNoOrbits &&

@@ -44,7 +44,9 @@ double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X, doubl
   bool is_inside = true;  // b's centre within a's box, as a link is within a room
   const double radius =
       std::sqrt(b.half[0] * b.half[0] + b.half[1] * b.half[1] + b.half[2] * b.half[2]);
-  double by_ball = 0;  // the ball around b's box
+  // By the ball around b's box, whose reach is its radius at most; stored axes are of length 1 to
+  // their rounding, 2^-22 of it, for which box_pad pays.
+  double by_ball = 0;
   for (int i = 0; i < 3; ++i) {
     alongA(i, kCenter);
     is_inside &= std::abs(C[i][kCenter]) <= a.half[i];

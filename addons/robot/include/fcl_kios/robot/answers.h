@@ -26,9 +26,9 @@ struct RobotElement {
   UnalignedPose X = UnalignedPose::Identity();  ///< in the frame that Robot::pose() gives
 };
 
-/// Names two that are in contact: links, obstacles or attached objects.
-/// Of several pairs in contact, and of several triangles of a pair, it is any; which may depend on
-/// what was asked before.
+/// Names two that are in contact: links, obstacles or attached objects. Where several pairs are, or
+/// several triangles of a pair, it names one of them; which one may depend on what was asked
+/// before.
 struct RobotContact {
   std::string a, b;
   int element_a = 0, element_b = 0;  ///< which of a link's or object's collision elements
