@@ -65,7 +65,8 @@ class ContinuousQuestion {
       const double t = std::min(1.0, toc + toc_err * i / 32);
       least = std::min(least, distanceAt(*motion_a, *motion_b, t));
     }
-    const double bound = speed * toc_err / 32 + 0x1p-40 * reach_;
+    // docs/continuous.md says how near counts as contact.
+    const double bound = speed * toc_err / 32 + 0x1p-40 * reach_ + 0x1p-479;
     if (least <= bound) return std::nullopt;
     return failure(Words() << "told contact at " << toc << ", where the distance is " << least
                            << ", allowed " << bound << "; " << counts.steps << " steps, "
