@@ -65,8 +65,7 @@ class ContinuousQuestion {
       const double t = std::min(1.0, toc + toc_err * i / 32);
       least = std::min(least, distanceAt(*motion_a, *motion_b, t));
     }
-    // docs/continuous.md says how near counts as contact.
-    const double bound = speed * toc_err / 32 + 0x1p-40 * reach_ + 0x1p-479;
+    const double bound = speed * toc_err / 32 + 0x1p-40 * reach_;
     if (least <= bound) return std::nullopt;
     return failure(Words() << "told contact at " << toc << ", where the distance is " << least
                            << ", allowed " << bound << "; " << counts.steps << " steps, "
