@@ -2,11 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous/relative_motion.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "volume/rounding.h"
 
 namespace kios::continuous {
 
 using Eigen::Vector3d;
+
+namespace {
+
+// Of what underflows, norms lose most: less than 2^-535, as squares round by up to 2^-1075. A gap
+// loses a few times that, and as much times a turn's speed, its square and its acceleration.
+constexpr double kSubnormal = 0x1p-530;
+constexpr double kLeastSquare = std::numeric_limits<double>::denorm_min();
+
+}  // namespace
 
 RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double t, double window,
                                        double pad)
@@ -27,16 +39,18 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
     field->origin = X_WA_.linear().transpose() * (field->origin - X_WA_.translation());
   }
   // Rotations are orthonormal to 16 u, so that is what the change of frame takes off.
-  pad_ = pad + 64 * kUlpDouble * detail::boundsOf(X_AB_).T_norm1 + 0x1p-480;
+  pad_ = pad + 64 * kUlpDouble * detail::boundsOf(X_AB_).T_norm1 +
+         kSubnormal * ((1 + turn()) * (1 + turn()) + a_.turn_acceleration + b_.turn_acceleration);
 }
 
 // The centres' difference moves on a line, but for the accelerations; the nearest point of that
-// line is found up to a few u of the lengths. A ball that turns stays where it is. The least double
-// > 0 keeps divisions by 0 out: it matters for speeds only that are below 2^-490, less than the
-// pad.
+// line is found up to a few u of the lengths. The square of a speed below 2^-534 may be off by any
+// factor, and the point by the whole way, which is less than the pad. A ball that turns stays where
+// it is. The least double > 0 keeps divisions by 0 out.
 bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double duration) const {
   const Vector3d between = b.center - a.center, velocity = b.velocity - a.velocity;
-  const double approach = -between.dot(velocity), square = velocity.squaredNorm() + 0x1p-1022;
+  const double approach = -between.dot(velocity),
+               square = std::max(velocity.squaredNorm(), kLeastSquare);
   const double s = approach > 0 ? std::min(duration, approach / square) : 0;
   const double length = between.lpNorm<1>() + duration * velocity.lpNorm<1>();
   const double reach =
@@ -57,7 +71,7 @@ bool RelativeVelocities::anyApart(const MovingBall& ball, const FourBalls& four,
   const Array4d approach =
       -(between[0] * velocity[0] + between[1] * velocity[1] + between[2] * velocity[2]);
   const Array4d square =
-      velocity[0].square() + velocity[1].square() + velocity[2].square() + 0x1p-1022;
+      (velocity[0].square() + velocity[1].square() + velocity[2].square()).max(kLeastSquare);
   const Array4d s = (approach / square).max(0.0).min(duration);
   const Array4d length = between[0].abs() + between[1].abs() + between[2].abs() +
                          duration * (velocity[0].abs() + velocity[1].abs() + velocity[2].abs());

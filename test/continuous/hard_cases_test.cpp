@@ -26,7 +26,7 @@ TEST(HardCases, AnyScale) {
   const Mesh torus = scenes::bumpyTorus(200), box = scenes::subdividedBox({1, 1, 1}, 2);
   for (auto type : kMotionTypes) {
     double expected = -1;
-    for (double scale : {1.0, 1e-6, 1e6, 1e-30, 1e30, 0x1p300, 0x1p-400}) {
+    for (double scale : {1.0, 1e-6, 1e6, 1e-30, 1e30, 0x1p300, 0x1p-400, 0x1p-490}) {
       const Pair pair(scaled(torus, scale), scaled(box, scale));
       fcl::ContinuousCollisionResultd result;
       ContinuousCounts counts;
@@ -36,6 +36,39 @@ TEST(HardCases, AnyScale) {
       if (expected < 0) expected = result.time_of_contact;
       EXPECT_NEAR(result.time_of_contact, expected, 1e-6) << scale;
       EXPECT_LT(counts.steps, 300) << scale;
+    }
+  }
+}
+
+// Points that pass each other, or meet halfway, where squares of lengths underflow.
+TEST(HardCases, PointsPassAtAnyScale) {
+  const Mesh point = scenes::singleTriangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
+  const Pair pair(point, point);
+  for (auto type : kMotionTypes) {
+    for (int e : {-20, -300, -420, -480, -490, -500, -510, -520}) {
+      const double clearance = std::ldexp(1, e);
+      for (double way : {0.125, 1.0, 8.0, 128.0, 0x1p20}) {
+        for (const Vector3d& direction :
+             {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(2, -3, 0)}) {
+          const auto from = [&](double gap, double to) {
+            const Vector3d x = clearance * (to * way * direction + Vector3d(0, 0, gap));
+            return at(x.x(), x.y(), x.z());
+          };
+          fcl::ContinuousCollisionResultd result;
+          const auto request = requestFor(type, 1e-6);
+          firstContact(*pair.a, at(0, 0, 0), at(0, 0, 0), *pair.b, from(1, -1), from(1, 1), request,
+                       result);
+          EXPECT_FALSE(result.is_collide) << "2^" << e << " way " << way << " type " << type;
+          firstContact(*pair.a, from(0, 1), from(0, -1), *pair.b, from(0, -1), from(0, 1), request,
+                       result);
+          EXPECT_TRUE(result.is_collide) << "2^" << e << " way " << way << " type " << type;
+          EXPECT_LE(result.time_of_contact, 0.5) << "2^" << e << " way " << way;
+          // Contact may be told 2^-529 before it, which is more than toc_err at 2^-510.
+          const double speed = 4 * clearance * way;
+          EXPECT_GE(result.time_of_contact, 0.5 - 1e-6 - 0x1p-529 / speed)
+              << "2^" << e << " way " << way;
+        }
+      }
     }
   }
 }
