@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fcl_kios/solid/closedness.h"
 
+#include <locale>
 #include <sstream>
 
 #include "model/kios_model.h"
@@ -28,6 +29,7 @@ std::string faultsOf(const Closedness<S>& c) {
   if (c.isSolid()) return {};
   if (c.edges == 0) return "it has no edges";
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   const char* separator = "";
   const auto add = [&](int n, const char* one, const char* many) {
     if (n == 0) return;

@@ -3,6 +3,7 @@
 #include "fcl_kios/solid/repair.h"
 
 #include <algorithm>
+#include <locale>
 #include <sstream>
 #include <unordered_set>
 #include <utility>
@@ -226,6 +227,7 @@ Repaired<S> repair(const std::vector<fcl::Vector3<S>>& vertices,
 template <typename S>
 std::string summaryOf(const Repaired<S>& r) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   const char* separator = "";
   const auto add = [&](auto n, const char* one, const char* many, const std::string& change) {
     if (n == 0) return;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@ namespace kios {
 template <typename Error = std::invalid_argument, typename... Parts>
 [[noreturn, gnu::cold, gnu::noinline]] void refuse(const Parts&... parts) {
   std::ostringstream message;
+  message.imbue(std::locale::classic());
   message << "fcl_kios: ";
   (message << ... << parts);
   throw Error(message.str());

@@ -7,8 +7,10 @@
 #include <ctime>
 
 #include <cmath>
+#include <locale>
 #include <string>
 
+#include "fcl_kios/solid/repair.h"
 #include "solid/solid_meshes.h"
 
 namespace kios {
@@ -45,6 +47,37 @@ TEST(Closedness, SolidsAreClosedAndTheirComponentsCounted) {
       EXPECT_TRUE(refusal(mesh).empty());
     }
   }
+}
+
+/// Writes 1234.5 as 1.234,5.
+struct CommaAndGroups : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Closedness, TextsDontChangeWithTheLocale) {
+  Mesh mesh = scenes::soup(scenes::icosphere(1, 4));
+  mesh.triangles.resize(mesh.triangles.size() / 2);
+  const auto texts = [&] {
+    RepairOptions options;
+    options.absolute_weld = -1234.5;
+    std::string unfit;
+    try {
+      repair(mesh.vertices, mesh.triangles, options);
+    } catch (const std::invalid_argument& error) {
+      unfit = error.what();
+    }
+    return faultsOf(inspect(mesh)) + summaryOf(repair(mesh.vertices, mesh.triangles)) + unfit +
+           refusal(mesh);
+  };
+  const std::string plain = texts();
+  EXPECT_NE(plain.find("-1234.5"), std::string::npos) << plain;
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new CommaAndGroups));
+  const std::string other = texts();
+  std::locale::global(before);
+  EXPECT_EQ(other, plain);
 }
 
 TEST(Closedness, AMissingTriangleOpensThreeEdges) {
