@@ -4,10 +4,10 @@
 #
 # usage: layers.py SOURCE_DIR
 # The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
-# those below it only (docs/how-it-works.md, "The folders"). Addons are libraries of their own, which
-# nothing includes but they themselves, and fcl_kios.h; of addons, those in ADDONS are checked. No two
-# folders have files of one name, but those of public headers. FCL's headers are included as <fcl/...>
-# and ours as "...", and every "..." names one file, whichever include directory is searched first.
+# those below it only (README.md, "The code"). Addons are libraries of their own, which nothing
+# includes but they themselves, and fcl_kios.h; of addons, those in ADDONS are checked. No two folders
+# have files of one name, but those of public headers. FCL's headers are included as <fcl/...> and
+# ours as "...", and every "..." names one file, whichever include directory is searched first.
 # What include/fcl_kios/x.h declares is defined in src/x.cpp, or addons/x.cpp. A file of under thirty
 # lines, but for the header of a longer .cpp, and a header without a .cpp that one file includes stand
 # below, with their reason.
