@@ -62,4 +62,33 @@ template <typename S>
   }
 }
 
+/// Tells what two meshes report for triangles that intersect: contacts if both are occupied, cost
+/// sources if the request asks for them and neither is free.
+template <typename S>
+struct Reports {
+  Reports(const Model<S>& a, const Model<S>& b, const fcl::CollisionRequest<S>& request)
+      : contacts(a.isOccupied() && b.isOccupied()),
+        costs(request.enable_cost && !a.isFree() && !b.isFree()) {}
+  bool contacts, costs;
+};
+
+/// Reports two triangles that intersect as addContacts() does, and as a cost source: the part that
+/// their boxes in the world have in common.
+template <typename S>
+void addReports(const Reports<S>& reports, const Model<S>& a, int id_a,
+                const TriangleVertices<S>& p, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                int id_b, const TriangleVertices<S>& q, const fcl::Transform3<S>& X_WB,
+                const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
+  if (reports.contacts) addContacts(a, id_a, p, b, id_b, q, X_WA, request, result);
+  if (!reports.costs) return;
+  const auto boxOf = [](const Model<S>& model, int id, const fcl::Transform3<S>& X) {
+    const TriangleVertices<S> t = transformed(cornersOf(model, id), X);
+    return fcl::AABB<S>(t[0], t[1], t[2]);
+  };
+  fcl::AABB<S> shared;
+  boxOf(a, id_a, X_WA).overlap(boxOf(b, id_b, X_WB), shared);
+  result.addCostSource(fcl::CostSource<S>(shared, a.cost_density * b.cost_density),
+                       request.num_max_cost_sources);
+}
+
 }  // namespace kios

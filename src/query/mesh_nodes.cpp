@@ -12,11 +12,6 @@
 namespace kios {
 namespace {
 
-template <typename S>
-fcl::AABB<S> boxOf(const TriangleVertices<S>& t) {
-  return fcl::AABB<S>(t[0], t[1], t[2]);
-}
-
 template <typename Node, typename S, typename Request, typename Result>
 void connect(Node& node, const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
              const fcl::Transform3<S>& X_WB, const Request& request, Result& result) {
@@ -50,22 +45,13 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
   auto& result = *this->result;
   const auto& a = *this->model1;
   const auto& b = *this->model2;
-  const bool occupied = a.isOccupied() && b.isOccupied();
-  const bool costs = request.enable_cost && !a.isFree() && !b.isFree();
-  if (!occupied && !costs) return;
+  const Reports<S> reports(a, b, request);
+  if (!reports.contacts && !reports.costs) return;
 
   const int id_a = a.getBV(b1).primitiveId(), id_b = b.getBV(b2).primitiveId();
-  const auto p = cornersOf(a, id_a), q_local = cornersOf(b, id_b);
-  const auto q = transformed(q_local, *X_AB);
+  const auto p = cornersOf(a, id_a), q = transformed(cornersOf(b, id_b), *X_AB);
   if (!trianglesIntersect(p, q)) return;
-
-  if (occupied) addContacts(a, id_a, p, b, id_b, q, this->tf1, request, result);
-  if (costs) {
-    fcl::AABB<S> shared;
-    boxOf(transformed(p, this->tf1)).overlap(boxOf(transformed(q_local, this->tf2)), shared);
-    result.addCostSource(fcl::CostSource<S>(shared, this->cost_density),
-                         request.num_max_cost_sources);
-  }
+  addReports(reports, a, id_a, p, this->tf1, b, id_b, q, this->tf2, request, result);
 }
 
 template <typename S>

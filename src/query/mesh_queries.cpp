@@ -19,7 +19,7 @@
 namespace kios {
 namespace {
 
-/// By FCL's traversal, for cost sources and models that the engine can't serve.
+/// By FCL's traversal, for models that the engine can't serve.
 template <typename S>
 [[gnu::noinline]] void collideByFCL(const MeshPair<S>& frame, const fcl::Transform3<S>& X_WA,
                                     const fcl::Transform3<S>& X_WB,
@@ -40,16 +40,18 @@ template <typename S>
                                              fcl::CollisionResult<S>& result,
                                              SearchCounts& counts) {
   const Model<S>&a = frame.a, &b = frame.b;
-  if (request.enable_cost || !a.isOccupied() || !b.isOccupied()) {
-    return collideByFCL(frame, X_WA, X_WB, request, result, counts);
-  }
-  const std::size_t room = request.num_max_contacts - result.numContacts();
-  const bool verdict = request.num_max_contacts == 1 && !request.enable_contact;
-  const auto found = intersectingPairs(frame, room, verdict, counts);
+  const Reports<S> reports(a, b, request);
+  if (!reports.contacts && !reports.costs) return;
+  const std::size_t room =
+      request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
+  const std::size_t limit = reports.costs ? std::numeric_limits<std::size_t>::max() : room;
+  if (limit == 0) return;
+  const bool verdict = request.num_max_contacts == 1 && !request.enable_contact && !reports.costs;
+  const auto found = intersectingPairs(frame, limit, verdict, counts);
   if (!found) return collideByFCL(frame, X_WA, X_WB, request, result, counts);
   for (const auto& ids : *found) {
-    addContacts(a, ids.a, frame.triangleA(ids.a), b, ids.b, frame.triangleB(ids.b), X_WA, request,
-                result);
+    addReports(reports, a, ids.a, frame.triangleA(ids.a), X_WA, b, ids.b, frame.triangleB(ids.b),
+               X_WB, request, result);
   }
 }
 
