@@ -29,7 +29,7 @@ struct WayOut {
 /// meet.
 template <typename S>
 std::optional<fcl::Vector3<S>> containedIn(const MeshAndOther<S>& o) {
-  if (!o.other_mesh) return shapePointIn(o.mesh, o.X_WM, o.other, o.X_WO);
+  if (!o.other_mesh) return shapePointIn(o);
   const MeshPair<S> frame(o.mesh, o.X_WM, *o.other_mesh, o.X_WO);
   SearchCounts unused;
   if (frame.rootBound(0) > 0) return std::nullopt;
@@ -41,7 +41,7 @@ std::optional<fcl::Vector3<S>> containedIn(const MeshAndOther<S>& o) {
 template <typename S>
 WayOut<S> wayOut(const MeshAndOther<S>& o) {
   return WayOut<S>(o.other_mesh ? penetration(o.mesh, o.X_WM, *o.other_mesh, o.X_WO)
-                                : shapeExit(o.mesh, o.X_WM, o.other, o.X_WO));
+                                : shapeExit(o));
 }
 
 }  // namespace
