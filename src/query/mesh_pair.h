@@ -19,6 +19,11 @@ TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
   return {model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]};
 }
 
+template <typename S>
+TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
+  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
+}
+
 template <typename S, typename Pose>
 TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
   return {X * t[0], X * t[1], X * t[2]};
