@@ -10,7 +10,6 @@
 #include "fcl_kios/triangle/distance.h"
 #include "model/prepared.h"
 #include "query/bracket.h"
-#include "query/mesh_contacts.h"
 #include "solid/mesh_and_other.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"

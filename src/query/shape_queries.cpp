@@ -10,7 +10,7 @@
 #include "model/prepared.h"
 #include "query/collide_with.h"
 #include "query/float_solid.h"
-#include "query/mesh_contacts.h"
+#include "query/mesh_pair.h"
 #include "search/search.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
