@@ -20,8 +20,11 @@ TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
 }
 
 template <typename S>
-TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
-  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
+TriangleVertices<double> cornersInDouble(const Model<S>& model, int triangle) {
+  const fcl::Triangle& t = model.tri_indices[triangle];
+  TriangleVertices<double> corners;
+  for (int k = 0; k < 3; ++k) corners[k] = model.vertices[t[k]].template cast<double>();
+  return corners;
 }
 
 template <typename S, typename Pose>

@@ -111,7 +111,7 @@ template <typename S>
 RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model,
                   const fcl::Transform3<S>& X_WM) {
   const double* const w = found.hit.weights;
-  const auto [p, q, r] = inDouble(cornersOf(model, found.triangle));
+  const auto [p, q, r] = cornersInDouble(model, found.triangle);
   const fcl::Vector3d point =
       detail::transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
   RayHit<S> hit;

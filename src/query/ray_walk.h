@@ -36,7 +36,7 @@ class RayWalk : public engine::RayEvaluator {
   ~RayWalk() = default;
 
   TriangleVertices<double> cornersOf(std::uint32_t triangle) const {
-    return inDouble(kios::cornersOf(model_, static_cast<int>(triangle)));
+    return cornersInDouble(model_, static_cast<int>(triangle));
   }
   /// Hits at a larger t don't matter from now on.
   void endAt(double t);

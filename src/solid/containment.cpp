@@ -22,7 +22,9 @@ bool liesInPosed(const fcl::Vector3d& p, const MeshPair<S>& frame) {
   const RayCrossing ray(p, windingDirection(), largest);
   PointPlace place;
   for (int t = 0; t < frame.b.num_tris && !place.on_surface; ++t) {
-    place.add(ray.cross(inDouble(frame.triangleB(t))));
+    const TriangleVertices<S> corners = frame.triangleB(t);
+    place.add(ray.cross({corners[0].template cast<double>(), corners[1].template cast<double>(),
+                         corners[2].template cast<double>()}));
   }
   return place.inside();
 }

@@ -47,19 +47,6 @@ WayOut<S> wayOut(const MeshAndOther<S>& o) {
 }  // namespace
 
 template <typename S>
-bool areSolids(const Model<S>& mesh, const fcl::CollisionGeometry<S>& other,
-               const Model<S>* other_mesh) {
-  requireFinished(mesh);
-  if (other_mesh) {
-    requireFinished(*other_mesh);
-    return areSolids(mesh, *other_mesh);
-  }
-  SolidMark<S>* const mark = isShape(other) ? markOf(mesh) : nullptr;
-  if (mark) mark->check(mesh);
-  return mark != nullptr;
-}
-
-template <typename S>
 std::size_t MeshAndOther<S>::collideSolids(const fcl::CollisionRequest<S>& request,
                                            fcl::CollisionResult<S>& result) const {
   const std::size_t before = result.numContacts();
@@ -115,11 +102,7 @@ S MeshAndOther<S>::distanceSolids(const fcl::DistanceRequest<S>& request,
   return result.min_distance;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                    \
-  template bool areSolids(const Model<S>&, const fcl::CollisionGeometry<S>&, const Model<S>*); \
-  template struct MeshAndOther<S>;
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template struct MeshAndOther<double>;
+template struct MeshAndOther<float>;
 
 }  // namespace kios

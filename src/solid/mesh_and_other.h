@@ -17,10 +17,20 @@ namespace kios {
 /// if that is a mesh. Throws std::invalid_argument if a marked one is no solid any more.
 template <typename S>
 bool areSolids(const Model<S>& mesh, const fcl::CollisionGeometry<S>& other,
-               const Model<S>* other_mesh);
+               const Model<S>* other_mesh) {
+  requireFinished(mesh);
+  if (other_mesh) {
+    requireFinished(*other_mesh);
+    return areSolids(mesh, *other_mesh);
+  }
+  SolidMark<S>* const mark = isShape(other) ? markOf(mesh) : nullptr;
+  if (mark) mark->check(mesh);
+  return mark != nullptr;
+}
 
 /// A mesh over k-IOS and another geometry, each at its pose: another mesh, one of FCL's nine shapes
-/// or an octree. They are asked about as solids if they are solids, else as surfaces.
+/// or an octree. They are asked about as solids if they are solids, else as surfaces. Most pairs of
+/// a scene take a few dozen instructions, so that what leads there is inlined.
 template <typename S>
 struct MeshAndOther {
   const Model<S>& mesh;
@@ -31,8 +41,8 @@ struct MeshAndOther {
 
   /// Answer fcl::collide and fcl::distance. Results have FCL's order, whatever that of the call:
   /// mesh and shape, octree and mesh. Throw std::invalid_argument for what isn't served.
-  std::size_t collide(const fcl::CollisionRequest<S>& request,
-                      fcl::CollisionResult<S>& result) const {
+  [[gnu::always_inline]] std::size_t collide(const fcl::CollisionRequest<S>& request,
+                                             fcl::CollisionResult<S>& result) const {
     return solids() ? collideSolids(request, result) : collideSurfaces(request, result);
   }
   S distance(const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) const {
@@ -45,8 +55,8 @@ struct MeshAndOther {
   }
 
   /// Answer as for surfaces, solids or not.
-  std::size_t collideSurfaces(const fcl::CollisionRequest<S>& request,
-                              fcl::CollisionResult<S>& result) const {
+  [[gnu::always_inline]] std::size_t collideSurfaces(const fcl::CollisionRequest<S>& request,
+                                                     fcl::CollisionResult<S>& result) const {
     if (other_mesh) return collideMeshes(mesh, X_WM, *other_mesh, X_WO, request, result);
     if (isShape(other)) return collideShape(mesh, X_WM, other, X_WO, request, result);
 #if FCL_HAVE_OCTOMAP

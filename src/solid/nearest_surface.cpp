@@ -103,7 +103,7 @@ NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, dou
       add(bounded(node.leftChild()));
       return false;
     }
-    const NearPoint near = nearestOnTriangle(p, inDouble(cornersOf(model, node.primitiveId())));
+    const NearPoint near = nearestOnTriangle(p, cornersInDouble(model, node.primitiveId()));
     if (!(near.distance < best.upper)) return false;
     best.upper = near.distance;
     best.point = near.at;
