@@ -86,7 +86,7 @@ double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
     engine::TreeCache* const trees = treesOf(*model);
     if (!trees) return 0;
     trees->budget.charge(more);
-    paid &= trees->budget.remaining(static_cast<std::size_t>(model->num_tris)) == 0;
+    paid &= trees->budget.remaining(model->num_tris) == 0;
   }
   if (!paid) return 0;
   const MeshPair<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));
