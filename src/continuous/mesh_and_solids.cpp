@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "query/mesh_contacts.h"
+#include "query/mesh_pair.h"
 #include "shape/triangle_shape.h"
 #include "volume/balls.h"
 #include "volume/errors.h"

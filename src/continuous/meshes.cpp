@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "continuous/heights.h"
-#include "fcl_kios/query/mesh_queries.h"
 #include "fcl_kios/triangle/distance.h"
 #include "model/prepared.h"
 #include "query/bracket.h"
-#include "query/mesh_contacts.h"
-#include "solid/solid_queries.h"
+#include "solid/mesh_and_other.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 #include "volume/unit_vector.h"
@@ -72,11 +70,8 @@ bool capsApart(int k, const MovingBall& central_a, const FourBalls& caps_a,
 }  // namespace
 
 bool MovingMeshes::touching(double t) {
-  fcl::CollisionResultd result;
-  const fcl::CollisionRequestd request;
   const fcl::Transform3d X_WA = motion_.a().pose(t), X_WB = motion_.b().pose(t);
-  return (areSolids(a_, b_) ? collideSolid<double>(a_, X_WA, b_, X_WB, request, result)
-                            : collideMeshes(a_, X_WA, b_, X_WB, request, result)) > 0;
+  return MeshAndOther<double>{a_, X_WA, b_, X_WB, &b_}.touch();
 }
 
 // By the engine, as soon as it has paid to prepare both models.
@@ -91,7 +86,7 @@ double MovingMeshes::wholeApart(double t, const RelativeVelocities& v) {
     engine::TreeCache* const trees = treesOf(*model);
     if (!trees) return 0;
     trees->budget.charge(more);
-    paid &= trees->budget.remaining(static_cast<std::size_t>(model->num_tris)) == 0;
+    paid &= trees->budget.remaining(model->num_tris) == 0;
   }
   if (!paid) return 0;
   const MeshPair<double> frame(a_, motion_.a().pose(t), b_, motion_.b().pose(t));

@@ -14,8 +14,7 @@
 #include "continuous/mesh_and_solids.h"
 #include "continuous/meshes.h"
 #include "model/kios_model.h"
-#include "query/mesh_and_other.h"
-#include "solid/solid_queries.h"
+#include "solid/mesh_and_other.h"
 
 namespace kios::continuous {
 
@@ -162,12 +161,7 @@ std::unique_ptr<StepSearch> movingPair(const CollisionGeometryd& a, const Motion
   }
   const auto touching = [&mesh, &geometry](const fcl::Transform3d& X_mesh,
                                            const fcl::Transform3d& X_solids) {
-    fcl::CollisionResultd result;
-    const fcl::CollisionRequestd request;
-    if (marksExist() && solidPair<double>(&mesh, &geometry, nullptr, &mesh)) {
-      return collideSolid(mesh, X_mesh, geometry, X_solids, request, result) > 0;
-    }
-    return collideOther(mesh, X_mesh, geometry, X_solids, request, result) > 0;
+    return MeshAndOther<double>{mesh, X_mesh, geometry, X_solids, nullptr}.touch();
   };
   return std::make_unique<MovingMeshAndSolids>(mesh, mesh_motion, std::move(solids), motion,
                                                touching, counts);

@@ -6,10 +6,8 @@
 #include <fcl/narrowphase/distance.h>
 #include "fcl_kios/fcl_own.h"
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/query/mesh_queries.h"
 #include "model/kios_model.h"
-#include "query/mesh_and_other.h"
-#include "solid/solid_queries.h"
+#include "solid/mesh_and_other.h"
 #include "volume/errors.h"
 
 namespace kios {
@@ -32,13 +30,8 @@ template <typename S>
                                  const fcl::CollisionRequest<S>& request,
                                  fcl::CollisionResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
-  if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
-    if (!mesh_a) return collideSolid(*mesh_b, X_WB, *a, X_WA, request, result);
-    return collideSolid(*mesh_a, X_WA, *b, X_WB, request, result);
-  }
-  if (mesh_a && mesh_b) return collideMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
-  if (mesh_a) return collideOther(*mesh_a, X_WA, *b, X_WB, request, result);
-  if (mesh_b) return collideOther(*mesh_b, X_WB, *a, X_WA, request, result);
+  if (mesh_a) return MeshAndOther<S>{*mesh_a, X_WA, *b, X_WB, mesh_b}.collide(request, result);
+  if (mesh_b) return MeshAndOther<S>{*mesh_b, X_WB, *a, X_WA, mesh_a}.collide(request, result);
   return fcl_own::collide(a, X_WA, b, X_WB, request, result);
 }
 
@@ -48,13 +41,8 @@ template <typename S>
                         const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) {
   const Model<S>*mesh_a = asModel(a), *mesh_b = asModel(b);
   if (mesh_a || mesh_b) requireRelativeError(request);
-  if (marksExist() && solidPair(mesh_a, b, mesh_b, a)) {
-    if (!mesh_a) return distanceSolid(*mesh_b, X_WB, *a, X_WA, request, result);
-    return distanceSolid(*mesh_a, X_WA, *b, X_WB, request, result);
-  }
-  if (mesh_a && mesh_b) return distanceMeshes(*mesh_a, X_WA, *mesh_b, X_WB, request, result);
-  if (mesh_a) return distanceOther(*mesh_a, X_WA, *b, X_WB, request, result);
-  if (mesh_b) return distanceOther(*mesh_b, X_WB, *a, X_WA, request, result);
+  if (mesh_a) return MeshAndOther<S>{*mesh_a, X_WA, *b, X_WB, mesh_b}.distance(request, result);
+  if (mesh_b) return MeshAndOther<S>{*mesh_b, X_WB, *a, X_WA, mesh_a}.distance(request, result);
   return fcl_own::distance(a, X_WA, b, X_WB, request, result);
 }
 

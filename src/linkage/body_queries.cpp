@@ -9,9 +9,7 @@
 #include "linkage/shape_gap.h"
 #include "model/kios_model.h"
 #include "query/bracket.h"
-#include "query/mesh_and_other.h"
 #include "query/pair_search.h"
-#include "solid/solid_queries.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
 
@@ -140,7 +138,8 @@ Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, do
 bool BodyQueries::areSolids(const Pair& pair) const {
   if (!marksExist()) return false;
   const BodyData &a = body(pair.a), &b = body(pair.b);
-  return solidPair(a.model, b.geometry.get(), b.model, a.geometry.get());
+  if (!a.model) return b.model && kios::areSolids<double>(*b.model, *a.geometry, nullptr);
+  return kios::areSolids<double>(*a.model, *b.geometry, b.model);
 }
 
 bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
@@ -156,15 +155,7 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
     return shapesMeet(a, at.pose(pair.a), b, at.pose(pair.b), 0) &&
            !(gapOfShapes(pair.a, pair.b, at) > 0);
   }
-  if (!a.model || !b.model) {
-    const int mesh = a.model ? pair.a : pair.b, shape = a.model ? pair.b : pair.a;
-    return touchesOther(mesh, shape, at);
-  }
-  if (areSolids(pair)) {
-    fcl::CollisionResultd contacts;
-    return collideSolid<double>(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
-                                fcl::CollisionRequestd(), contacts) > 0;
-  }
+  if (!a.model || !b.model || areSolids(pair)) return meshAndOther(pair, at).touch();
   const MeshPair<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                                path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
   SearchCounts counts;
@@ -174,15 +165,10 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
   return !found.empty();
 }
 
-bool BodyQueries::touchesOther(int mesh, int other, const Configuration& at) const {
-  fcl::CollisionResultd contacts;
-  const Modeld& model = *body(mesh).model;
-  const fcl::CollisionGeometryd& geometry = *body(other).geometry;
-  const fcl::CollisionRequestd request;
-  if (marksExist() && solidPair<double>(&model, &geometry, nullptr, &model)) {
-    return collideSolid(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
-  }
-  return collideOther(model, at.pose(mesh), geometry, at.pose(other), request, contacts) > 0;
+MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configuration& at) const {
+  const int mesh = body(pair.a).model ? pair.a : pair.b, other = mesh == pair.a ? pair.b : pair.a;
+  return {*body(mesh).model, at.pose(mesh), *body(other).geometry, at.pose(other),
+          body(other).model};
 }
 
 Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough,
@@ -223,8 +209,7 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
 
 Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                                       double enough) const {
-  const Modeld& model = *body(mesh).model;
-  const fcl::CollisionGeometryd& geometry = *body(other).geometry;
+  const MeshAndOther<double> bodies = meshAndOther(pair, at);
   const double error =
       path_.pad(mesh, other) + kernelError(body(other), path_.length(mesh) + path_.length(other));
   fcl::DistanceRequestd request;
@@ -233,15 +218,12 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   request.enable_nearest_points = true;
   result.min_distance = (enough + error) * (1 + request.rel_err) * (1 + 0x1p-30);
   const double asked = result.min_distance;
-  const auto search = [&] {
-    return distanceOther(model, at.pose(mesh), geometry, at.pose(other), request, result);
-  };
-  double distance = search();
+  double distance = bodies.distanceSurfaces(request, result);
   if (distance > 0 && distance < asked) {
     const Eigen::Vector3d d = result.nearest_points[1] - result.nearest_points[0];
     pair.direction = unitOrZero(result.o1 == body(pair.a).geometry.get() ? d : -d);
     (mesh == pair.a ? pair.triangle_a : pair.triangle_b) =
-        static_cast<int>(result.o1 == &model ? result.b1 : result.b2);
+        static_cast<int>(result.o1 == &bodies.mesh ? result.b1 : result.b2);
   }
   const double apart = distance / (1 + request.rel_err) * (1 - 0x1p-40) - error;
   if (distance > min_separation_ && apart > min_separation_) return {apart, false};
@@ -250,12 +232,12 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
     if (distance > min_separation_ - error) {  // as fcl::distance() finds it
       request.rel_err = 0;
       result = fcl::DistanceResultd();
-      distance = search();
+      distance = bodies.distanceSurfaces(request, result);
     }
     return {distance - error, distance <= min_separation_};
   }
   if (distance > error) return {apart, false};
-  return {apart, touchesOther(mesh, other, at)};
+  return {apart, bodies.touch()};
 }
 
 double BodyQueries::gapOfShapes(int a, int b, const Configuration& at,

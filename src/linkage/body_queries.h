@@ -3,6 +3,7 @@
 #pragma once
 
 #include "linkage/configuration.h"
+#include "solid/mesh_and_other.h"
 #include "volume/rounding.h"
 
 namespace kios::articulated {
@@ -67,8 +68,8 @@ class BodyQueries {
   Nearness askMeshes(Pair& pair, const Configuration& at, double enough, double roots) const;
   Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                            double enough) const;
-  /// A mesh and a shape or octree, by fcl::collide.
-  bool touchesOther(int mesh, int other, const Configuration& at) const;
+  /// A pair of which one is a mesh.
+  MeshAndOther<double> meshAndOther(const Pair& pair, const Configuration& at) const;
   Nearness askShapes(Pair& pair, const Configuration& at) const;
   /// The width of a slab between two shapes, as shapeGap() finds it; negative if none was found.
   double gapOfShapes(int a, int b, const Configuration& at,

@@ -80,11 +80,7 @@ Hull hullOf(const shape::Solid& solid) {
       break;
     case Kind::kConvex: {
       hull.points = solid.points;
-      Vector3d low = hull.points[0], high = low;
-      for (const Vector3d& p : hull.points) {
-        low = low.cwiseMin(p);
-        high = high.cwiseMax(p);
-      }
+      const auto [low, high] = shape::rangeOf(hull.points);
       hull.center = 0.5 * (low + high);
       break;
     }

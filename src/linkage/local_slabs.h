@@ -6,6 +6,7 @@
 
 #include "continuous/moving_pair.h"
 #include "linkage/body_queries.h"
+#include "linkage/chain.h"
 
 namespace kios::articulated {
 
@@ -14,15 +15,32 @@ namespace kios::articulated {
 /// its socket. Of the bodies one is a mesh.
 class LocalSlabs {
  public:
-  LocalSlabs(const Path& path, const Pair& pair, double min_separation);
+  // What is taken off every gap for rounding is as well the separation that must be left.
+  LocalSlabs(const Path& path, const Pair& pair, double min_separation)
+      : motion_a_(motionOf(path, pair.a, pair.shared, path.pad(pair.a, pair.b) + min_separation)),
+        motion_b_(motionOf(path, pair.b, pair.shared, 0)),
+        search_(continuous::movingPair(*path.linkage().bodies[pair.a].geometry, motion_a_,
+                                       *path.linkage().bodies[pair.b].geometry, motion_b_,
+                                       counts_)) {}
 
   /// The end, at most `to`, of an interval from `from` on that is proven; `from` itself if none is.
   /// Makes little more than `most_tests` tests.
-  double provenFrom(double from, double to, long long most_tests);
+  double provenFrom(double from, double to, long long most_tests) {
+    search_->setLimits(to, most_tests);
+    const double way = search_->apartFor(from, to - from);
+    if (way >= to - from) return to;
+    // Rounded towards the start, as `from` + `way` rounds by less than 2^-53.
+    const double end = from + way - 0x1p-52;
+    return end > from ? end : from;
+  }
   /// Tests made.
   long long cost() const { return search_->cost(); }
 
  private:
+  static continuous::Motion motionOf(const Path& path, int body, int shared, double rounding) {
+    return continuous::Motion::known(std::make_shared<const Chain>(path, body, shared), rounding);
+  }
+
   ContinuousCounts counts_;
   const continuous::Motion motion_a_, motion_b_;
   const std::unique_ptr<continuous::StepSearch> search_;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "linkage/pivot.h"
-#include "model/kios_model.h"
 #include "volume/rounding.h"
 #include "volume/unit_vector.h"
 

@@ -32,12 +32,9 @@ void refreshBounds(fcl::CollisionGeometry<S>& geometry,
   }
 }
 
-#define KIOS_INSTANTIATE(S)                                                  \
-  template void refreshBounds(fcl::CollisionGeometry<S>&,                    \
-                              const std::vector<fcl::CollisionObject<S>*>&); \
-  template void refreshBounds(fcl::CollisionGeometry<S>&, fcl::BroadPhaseCollisionManager<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template void refreshBounds(fcl::CollisionGeometryd&, const std::vector<fcl::CollisionObjectd*>&);
+template void refreshBounds(fcl::CollisionGeometryf&, const std::vector<fcl::CollisionObjectf*>&);
+template void refreshBounds(fcl::CollisionGeometryd&, fcl::BroadPhaseCollisionManagerd&);
+template void refreshBounds(fcl::CollisionGeometryf&, fcl::BroadPhaseCollisionManagerf&);
 
 }  // namespace kios

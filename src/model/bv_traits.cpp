@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "volume/balls.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -95,14 +96,11 @@ void constructBox(const kIOS<S>& bv, fcl::Box<S>& box, fcl::Transform3<S>& tf) {
   constructBox(bv, fcl::Transform3<S>(fcl::Transform3<S>::Identity()), box, tf);
 }
 
-#define KIOS_INSTANTIATE(S)                                                           \
-  template fcl::OBB<S> toOBB(const kIOS<S>&, const fcl::Transform3<S>&);              \
-  template fcl::AABB<S> toAABB(const kIOS<S>&, const fcl::Transform3<S>&);            \
-  template void constructBox(const kIOS<S>&, const fcl::Transform3<S>&, fcl::Box<S>&, \
-                             fcl::Transform3<S>&);                                    \
-  template void constructBox(const kIOS<S>&, fcl::Box<S>&, fcl::Transform3<S>&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(toOBB);
+KIOS_INSTANTIATE_FUNCTION(toAABB);
+template void constructBox(const kIOSd&, const fcl::Transform3d&, fcl::Boxd&, fcl::Transform3d&);
+template void constructBox(const kIOSf&, const fcl::Transform3f&, fcl::Boxf&, fcl::Transform3f&);
+template void constructBox(const kIOSd&, fcl::Boxd&, fcl::Transform3d&);
+template void constructBox(const kIOSf&, fcl::Boxf&, fcl::Transform3f&);
 
 }  // namespace kios

@@ -83,11 +83,9 @@ DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const engine::PairQu
   return answer;
 }
 
-#define KIOS_INSTANTIATE(S)                                                                 \
-  template DistanceAnswer<S> bracketDistance(const MeshPair<S>&, const engine::PairQuery&); \
-  template DistanceAnswer<S> bracketDistance(const MeshPair<S>&, const engine::PairQuery&, double);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template DistanceAnswerd bracketDistance(const MeshPair<double>&, const engine::PairQuery&);
+template DistanceAnswerf bracketDistance(const MeshPair<float>&, const engine::PairQuery&);
+template DistanceAnswerd bracketDistance(const MeshPair<double>&, const engine::PairQuery&, double);
+template DistanceAnswerf bracketDistance(const MeshPair<float>&, const engine::PairQuery&, double);
 
 }  // namespace kios

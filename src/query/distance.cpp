@@ -8,6 +8,7 @@
 #include "query/bracket.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -94,14 +95,10 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
   return !far && (near || answer.distance <= t);
 }
 
-#define KIOS_INSTANTIATE(S)                                                                        \
-  template DistanceAnswer<S> distance(const Model<S>&, const fcl::Transform3<S>&, const Model<S>&, \
-                                      const fcl::Transform3<S>&, const DistanceOptions<S>&);       \
-  template bool closerThan(const Model<S>&, const fcl::Transform3<S>&, const Model<S>&,            \
-                           const fcl::Transform3<S>&, std::common_type_t<S>, DistanceAnswer<S>*,   \
-                           WarmStart*);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template DistanceAnswerd distance(const Modeld&, const fcl::Transform3d&, const Modeld&,
+                                  const fcl::Transform3d&, const DistanceOptionsd&);
+template DistanceAnswerf distance(const Modelf&, const fcl::Transform3f&, const Modelf&,
+                                  const fcl::Transform3f&, const DistanceOptionsf&);
+KIOS_INSTANTIATE_FUNCTION(closerThan);
 
 }  // namespace kios

@@ -16,12 +16,8 @@ namespace {
 using engine::FloatSolid;
 using Form = FloatSolid::Form;
 using shape::Kind;
+using shape::Range;
 using shape::Vec;
-
-/// A box in the solid's frame.
-struct Range {
-  Vec low, high;
-};
 
 /// The box of the core, and the form that bounds it.
 Form formOf(const shape::Solid& s, Range& range) {
@@ -43,11 +39,7 @@ Form formOf(const shape::Solid& s, Range& range) {
       form = s.kind == Kind::kCone ? Form::kCone : Form::kCylinder;
       break;
     case Kind::kConvex:
-      range.low = range.high = s.points[0];
-      for (const Vec& p : s.points) {
-        range.low = range.low.cwiseMin(p);
-        range.high = range.high.cwiseMax(p);
-      }
+      range = shape::rangeOf(s.points);
       return Form::kContained;
     default:
       break;

@@ -19,6 +19,14 @@ TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
   return {model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]};
 }
 
+template <typename S>
+TriangleVertices<double> cornersInDouble(const Model<S>& model, int triangle) {
+  const fcl::Triangle& t = model.tri_indices[triangle];
+  TriangleVertices<double> corners;
+  for (int k = 0; k < 3; ++k) corners[k] = model.vertices[t[k]].template cast<double>();
+  return corners;
+}
+
 template <typename S, typename Pose>
 TriangleVertices<S> transformed(const TriangleVertices<S>& t, const Pose& X) {
   return {X * t[0], X * t[1], X * t[2]};

@@ -57,8 +57,7 @@ class OctreeCollision final : engine::CellSide {
     start_ = cells_.cellsNear(spheres, count, error_);
     if (start_.empty()) return;
     engine::TreeCache* const trees = treesOf(model_);
-    const long long spare =
-        trees ? trees->budget.remaining(static_cast<std::size_t>(model_.num_tris)) : 0;
+    const long long spare = trees ? trees->budget.remaining(model_.num_tris) : 0;
     if (spare > 0) {
       const long long left = walk(2 * spare);  // in four lanes, they take half of the time
       trees->budget.charge(spare - left / 2);

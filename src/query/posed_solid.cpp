@@ -46,12 +46,7 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
     T_ *= per_unit_;
   }
   offsets_ = T_.lpNorm<1>() + solid_.reach();
-  if (solid_.kind != shape::Kind::kConvex) return;
-  low_ = high_ = solid_.points[0];
-  for (const shape::Vec& p : solid_.points) {
-    low_ = low_.cwiseMin(p);
-    high_ = high_.cwiseMax(p);
-  }
+  if (solid_.kind == shape::Kind::kConvex) range_ = shape::rangeOf(solid_.points);
 }
 
 template <typename S>
@@ -115,7 +110,7 @@ double PosedSolid<S>::convexBound(const kIOS<S>& bv, double required, const Ball
                                   double lengths) const {
   constexpr int kSteps = 4;
   const shape::Vec p(central.x, central.y, central.z);
-  const double by_box = (p - p.cwiseMax(low_).cwiseMin(high_)).norm() - central.r;
+  const double by_box = (p - p.cwiseMax(range_.low).cwiseMin(range_.high)).norm() - central.r;
   if (by_box > required) return by_box;
   const shape::CoreDistance core = shape::gjkDistance(solid_, &p, 1, kInfinity, kSteps);
   double best = core.lower - central.r;

@@ -63,9 +63,9 @@ class PosedSolid {
   Eigen::Matrix3d R_, R_WS_;
   shape::Vec T_, t_WS_;
   double per_unit_ = 1, unit_ = 1;
-  double stretch_;         ///< |R|_2 - 1 <= stretch
-  double offsets_;         ///< |T|_1 + the solid's reach
-  shape::Vec low_, high_;  ///< convex: the box of its points, in units
+  double stretch_;      ///< |R|_2 - 1 <= stretch
+  double offsets_;      ///< |T|_1 + the solid's reach
+  shape::Range range_;  ///< convex: the box of its points, in units
 };
 
 }  // namespace kios

@@ -110,11 +110,8 @@ std::vector<typename RayCast<S>::Found> cast(const Model<S>& model, const fcl::T
 template <typename S>
 RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model,
                   const fcl::Transform3<S>& X_WM) {
-  const fcl::Triangle& ids = model.tri_indices[found.triangle];
   const double* const w = found.hit.weights;
-  const fcl::Vector3d p = model.vertices[ids[0]].template cast<double>(),
-                      q = model.vertices[ids[1]].template cast<double>(),
-                      r = model.vertices[ids[2]].template cast<double>();
+  const auto [p, q, r] = cornersInDouble(model, found.triangle);
   const fcl::Vector3d point =
       detail::transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
   RayHit<S> hit;

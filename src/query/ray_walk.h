@@ -3,6 +3,7 @@
 #pragma once
 
 #include "fcl_kios/model/model.h"
+#include "query/mesh_pair.h"
 #include "search/ray_search.h"
 #include "tree/tree.h"
 #include "triangle/ray_triangle.h"
@@ -35,10 +36,7 @@ class RayWalk : public engine::RayEvaluator {
   ~RayWalk() = default;
 
   TriangleVertices<double> cornersOf(std::uint32_t triangle) const {
-    const fcl::Triangle& ids = model_.tri_indices[triangle];
-    TriangleVertices<double> corners;
-    for (int i = 0; i < 3; ++i) corners[i] = model_.vertices[ids[i]].template cast<double>();
-    return corners;
+    return cornersInDouble(model_, static_cast<int>(triangle));
   }
   /// Hits at a larger t don't matter from now on.
   void endAt(double t);

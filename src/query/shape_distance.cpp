@@ -44,9 +44,8 @@ class NearestTriangle final : public engine::SolidEvaluator {
     const double root = boundOf(0);
     if (leftOut(root)) return;
     engine::TreeCache* const trees = treesOf(model_);
-    const long long spare = trees
-                                ? trees->budget.remaining(static_cast<std::size_t>(model_.num_tris))
-                                : std::numeric_limits<long long>::max();
+    const long long spare =
+        trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
     if (spare > 0) {
       const long long tests = walk(root, spare);
       if (trees) trees->budget.charge(tests);

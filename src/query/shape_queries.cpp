@@ -10,7 +10,7 @@
 #include "model/prepared.h"
 #include "query/collide_with.h"
 #include "query/float_solid.h"
-#include "query/mesh_contacts.h"
+#include "query/mesh_pair.h"
 #include "search/search.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
@@ -73,9 +73,8 @@ class ShapeCollision final : public engine::SolidEvaluator {
   void search() {
     faces_.emplace(posed_.solid());
     engine::TreeCache* const trees = costs_ ? nullptr : treesOf(model_);
-    const long long spare = trees
-                                ? trees->budget.remaining(static_cast<std::size_t>(model_.num_tris))
-                                : std::numeric_limits<long long>::max();
+    const long long spare =
+        trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
     if (spare > 0) {
       const long long tests = walk(spare);
       if (trees) trees->budget.charge(tests);

@@ -26,8 +26,8 @@ class Allowance {
   explicit Allowance(const MeshPair<S>& frame)
       : trees_a_(treesOf(frame.a)), trees_b_(treesOf(frame.b)) {
     if (!trees_a_ || !trees_b_) return;
-    tests_ = std::max(trees_a_->budget.remaining(static_cast<std::size_t>(frame.a.num_tris)),
-                      trees_b_->budget.remaining(static_cast<std::size_t>(frame.b.num_tris)));
+    tests_ = std::max(trees_a_->budget.remaining(frame.a.num_tris),
+                      trees_b_->budget.remaining(frame.b.num_tris));
   }
 
   long long tests() const { return tests_; }

@@ -255,14 +255,11 @@ std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
   return pairs;
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): scalars in template arguments
-#define KIOS_INSTANTIATE(S)                                                         \
-  template std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest&);  \
-  template std::vector<ScenePair<S>> Scene<S>::pairsWithin(S, const SceneRequest&); \
-  template std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
-// NOLINTEND(bugprone-macro-parentheses)
+template std::optional<ScenePair<double>> Scene<double>::closestPair(const SceneRequest&);
+template std::optional<ScenePair<float>> Scene<float>::closestPair(const SceneRequest&);
+template std::vector<ScenePair<double>> Scene<double>::pairsWithin(double, const SceneRequest&);
+template std::vector<ScenePair<float>> Scene<float>::pairsWithin(float, const SceneRequest&);
+template std::vector<ScenePair<double>> Scene<double>::clearances(const SceneRequest&);
+template std::vector<ScenePair<float>> Scene<float>::clearances(const SceneRequest&);
 
 }  // namespace kios::scene

@@ -8,6 +8,7 @@
 
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -61,19 +62,6 @@ template <typename S>
   out.scale = roundUpFloat(X_AB.scale);
 }
 
-template <typename S>
-bool makeFloatFrame(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FloatFrame& out) {
-  TreePose pose;
-  if (!makeTreePose(a, b, X_AB, pose)) return false;
-  makeFloatFrame(pose, out);
-  return true;
-}
-
-#define KIOS_INSTANTIATE(S)                                                                        \
-  template bool makeTreePose(const TreeRoot&, const TreeRoot&, const RelativePose<S>&, TreePose&); \
-  template bool makeFloatFrame(const Tree&, const Tree&, const RelativePose<S>&, FloatFrame&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(makeTreePose);
 
 }  // namespace kios::engine

@@ -82,8 +82,4 @@ template <typename S>
 bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB, TreePose& out);
 void makeFloatFrame(const TreePose& X_AB, FloatFrame& out);
 
-/// Both at once.
-template <typename S>
-bool makeFloatFrame(const Tree& a, const Tree& b, const RelativePose<S>& X_AB, FloatFrame& out);
-
 }  // namespace kios::engine

@@ -8,6 +8,7 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "search/feature_distance.h"
 #include "volume/error_bounds.h"
+#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -356,15 +357,8 @@ template <typename S>
   return std::move(evaluator.found);
 }
 
-#define KIOS_INSTANTIATE(S)                                                                        \
-  template TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>&, const MeshView<S>&, \
-                                          const MeshView<S>&, const RelativePose<S>&);             \
-  template PairAnswer<S> nearestTriangles(const PreparedPair<S>&, const PairQuery&,                \
-                                          SearchCounts&);                                          \
-  template std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>&, std::size_t, \
-                                                              SearchCounts&);
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+KIOS_INSTANTIATE_FUNCTION(nearestOfThese);
+KIOS_INSTANTIATE_FUNCTION(nearestTriangles);
+KIOS_INSTANTIATE_FUNCTION(intersectingTriangles);
 
 }  // namespace kios::engine

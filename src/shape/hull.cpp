@@ -89,11 +89,7 @@ Vec middleOf(const Solid& s) {
 /// whichever way the corners of those run.
 bool contains(const Solid& s, const Vec& p) {
   if (s.points.size() <= 3) return false;
-  Vec low = s.points[0], high = low;
-  for (const Vec& q : s.points) {
-    low = low.cwiseMin(q);
-    high = high.cwiseMax(q);
-  }
+  const auto [low, high] = rangeOf(s.points);
   if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) return false;
   return anyFace(s, [&](const Triangle& face) { return inTetrahedron(s.points[0], face, p); });
 }

@@ -84,6 +84,15 @@ double Solid::reach() const {
   }
 }
 
+Range rangeOf(const std::vector<Vec>& points) {
+  Range range = {points[0], points[0]};
+  for (const Vec& p : points) {
+    range.low = range.low.cwiseMin(p);
+    range.high = range.high.cwiseMax(p);
+  }
+  return range;
+}
+
 Vec coreSupport(const Solid& s, const Vec& n) {
   switch (s.kind) {
     case Kind::kCapsule:

@@ -49,6 +49,13 @@ struct Solid {
   double reach() const;
 };
 
+/// A box along the axes.
+struct Range {
+  Vec low, high;
+};
+/// The box around a convex shape's points.
+Range rangeOf(const std::vector<Vec>& points);
+
 /// True if an ellipsoid's radius counts as 0, since its square may vanish beside that of the
 /// largest.
 inline bool isFlat(const Vec& radii, int axis) {

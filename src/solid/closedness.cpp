@@ -8,6 +8,7 @@
 #include "model/kios_model.h"
 #include "model/prepared.h"
 #include "solid/components.h"
+#include "volume/instantiate.h"
 
 namespace kios {
 
@@ -50,15 +51,12 @@ std::string faultsOf(const Closedness<S>& c) {
   return text.str();
 }
 
-// NOLINTBEGIN(bugprone-macro-parentheses): template arguments
-#define KIOS_INSTANTIATE(S)                                                     \
-  template Closedness<S> inspectClosedness(const Model<S>&);                    \
-  template Closedness<S> inspectClosedness(const std::vector<fcl::Vector3<S>>&, \
-                                           const std::vector<fcl::Triangle>&);  \
-  template std::string faultsOf(const Closedness<S>&);
-// NOLINTEND(bugprone-macro-parentheses)
-KIOS_INSTANTIATE(double)
-KIOS_INSTANTIATE(float)
-#undef KIOS_INSTANTIATE
+template Closednessd inspectClosedness(const Modeld&);
+template Closednessf inspectClosedness(const Modelf&);
+template Closednessd inspectClosedness(const std::vector<fcl::Vector3d>&,
+                                       const std::vector<fcl::Triangle>&);
+template Closednessf inspectClosedness(const std::vector<fcl::Vector3f>&,
+                                       const std::vector<fcl::Triangle>&);
+KIOS_INSTANTIATE_FUNCTION(faultsOf);
 
 }  // namespace kios

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -16,11 +15,6 @@
 #include "volume/instantiate.h"
 
 namespace kios {
-namespace {
-
-using boost::multiprecision::cpp_int;
-
-}  // namespace
 
 template <typename S>
 Components<S>::Components(const engine::MeshView<S>& mesh) : mesh_(mesh) {
@@ -123,16 +117,14 @@ bool Components<S>::windsInwards(int component) const {
   });
   const double error = (16 + terms) * 0x1p-52 * permanents;
   if (std::isfinite(volume) && permanents > 0x1p-900 && std::abs(volume) > error) return volume < 0;
-  cpp_int exact = 0, from[3];
-  for (int c = 0; c < 3; ++c) from[c] = integer(origin[c]);
+  Integer exact = 0;
+  const IntegerVector from = integers(origin);
   triangles([&](std::size_t t) {
-    cpp_int p[3][3];
+    IntegerVector p[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      for (int c = 0; c < 3; ++c) p[k][c] = integer(double{mesh_.corner(t, k)[c]}) - from[c];
+      p[k] = integers(mesh_.corner(t, k).template cast<double>()) - from;
     }
-    exact += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
-             p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
-             p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+    exact += dot(p[0], cross(p[1], p[2]));
   });
   return exact < 0;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <Eigen/Geometry>
+#include "query/mesh_pair.h"
 #include "solid/nearest_surface.h"
 #include "solid/winding.h"
 #include "volume/rounding.h"
@@ -27,9 +28,7 @@ std::vector<Sample> samplesOf(const Model<S>& model) {
   std::vector<Sample> samples;
   for (int i = 0; i < count; ++i) {
     const long long t = static_cast<long long>(i) * model.num_tris / count;
-    const fcl::Triangle& ids = model.tri_indices[t];
-    Vec p[3];
-    for (int k = 0; k < 3; ++k) p[k] = model.vertices[ids[k]].template cast<double>();
+    const TriangleVertices<double> p = cornersInDouble(model, static_cast<int>(t));
     const Vec n = (p[2] - p[0]).cross(p[1] - p[0]);
     const double length = n.norm();
     if (length > 0) samples.push_back({(p[0] + p[1] + p[2]) / 3, n / length});

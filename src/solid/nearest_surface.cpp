@@ -103,10 +103,7 @@ NearestSurface nearestSurface(const Model<S>& model, const fcl::Vector3d& p, dou
       add(bounded(node.leftChild()));
       return false;
     }
-    const fcl::Triangle& ids = model.tri_indices[node.primitiveId()];
-    TriangleVertices<double> corners;
-    for (int k = 0; k < 3; ++k) corners[k] = model.vertices[ids[k]].template cast<double>();
-    const NearPoint near = nearestOnTriangle(p, corners);
+    const NearPoint near = nearestOnTriangle(p, cornersInDouble(model, node.primitiveId()));
     if (!(near.distance < best.upper)) return false;
     best.upper = near.distance;
     best.point = near.at;

@@ -5,12 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
-#include <fcl/narrowphase/distance_request.h>
-#include <fcl/narrowphase/distance_result.h>
-#include "fcl_kios/query/shape_queries.h"
 #include "fcl_kios/solid/solids.h"
 #include "fcl_kios/volume/rigid.h"
 #include "query/ray_walk.h"
@@ -34,17 +30,14 @@ Vec pointOf(const shape::Solid& solid) {
 template <typename S>
 class ShapeExit {
  public:
-  ShapeExit(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-            const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS)
-      : model_(model),
-        X_WM_(X_WM),
-        geometry_(geometry),
-        X_WS_(X_WS),
-        solid_(toSolid(geometry)),
-        R_WM_(X_WM.linear().template cast<double>()),
-        t_WM_(X_WM.translation().template cast<double>()),
-        R_WS_(X_WS.linear().template cast<double>()),
-        t_WS_(X_WS.translation().template cast<double>()) {}
+  explicit ShapeExit(const MeshAndOther<S>& pair)
+      : pair_(pair),
+        model_(pair.mesh),
+        solid_(toSolid(pair.other)),
+        R_WM_(pair.X_WM.linear().template cast<double>()),
+        t_WM_(pair.X_WM.translation().template cast<double>()),
+        R_WS_(pair.X_WO.linear().template cast<double>()),
+        t_WS_(pair.X_WO.translation().template cast<double>()) {}
 
   Penetration run() {
     Vec best = Vec::Zero();
@@ -130,22 +123,20 @@ class ShapeExit {
     // NOLINTEND(performance-unnecessary-copy-initialization)
     const double length = translation.norm();
     if (result.upper > 0 && !(length < result.upper)) return false;
-    fcl::Transform3<S> X_WS = X_WS_;
+    fcl::Transform3<S> X_WS = pair_.X_WO;
     X_WS.translation() += rounded;
+    const MeshAndOther<S> moved = {model_, pair_.X_WM, pair_.other, X_WS, nullptr};
     fcl::DistanceRequest<S> request(true);
     fcl::DistanceResult<S> found;
-    if (!(distanceShape(model_, X_WM_, geometry_, X_WS, request, found) > 0)) return false;
-    if (shapePointIn(model_, X_WM_, geometry_, X_WS)) return false;
+    if (!(moved.distanceSurfaces(request, found) > 0) || shapePointIn(moved)) return false;
     result.upper = length;
     result.translation = translation;
     result.point = found.nearest_points[0].template cast<double>();
     return true;
   }
 
+  const MeshAndOther<S>& pair_;
   const Model<S>& model_;
-  const fcl::Transform3<S>& X_WM_;
-  const fcl::CollisionGeometry<S>& geometry_;
-  const fcl::Transform3<S>& X_WS_;
   const shape::Solid solid_;
   const fcl::Matrix3d R_WM_;
   const Vec t_WM_;
@@ -156,20 +147,17 @@ class ShapeExit {
 }  // namespace
 
 template <typename S>
-std::optional<fcl::Vector3<S>> shapePointIn(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
-                                            const fcl::CollisionGeometry<S>& geometry,
-                                            const fcl::Transform3<S>& X_WS) {
-  const shape::Solid shape = toSolid(geometry);
+std::optional<fcl::Vector3<S>> shapePointIn(const MeshAndOther<S>& pair) {
+  const shape::Solid shape = toSolid(pair.other);
   if (!shape.bounded()) return std::nullopt;
-  const fcl::Vector3<S> p = detail::transform<S>(X_WS, pointOf(shape).template cast<S>());
-  if (!contains<S>(solid, X_WM, p)) return std::nullopt;
+  const fcl::Vector3<S> p = detail::transform<S>(pair.X_WO, pointOf(shape).template cast<S>());
+  if (!contains<S>(pair.mesh, pair.X_WM, p)) return std::nullopt;
   return p;
 }
 
 template <typename S>
-Penetration shapeExit(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
-                      const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS) {
-  return ShapeExit<S>(solid, X_WM, shape, X_WS).run();
+Penetration shapeExit(const MeshAndOther<S>& pair) {
+  return ShapeExit<S>(pair).run();
 }
 
 KIOS_INSTANTIATE_FUNCTION(shapePointIn);

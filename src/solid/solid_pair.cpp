@@ -31,9 +31,7 @@ Vec normalOf(const TriangleVertices<S>& t) {
 template <typename S>
 SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                         const fcl::Transform3<S>& X_WB, SearchCounts& counts)
-    : a_(a),
-      b_(b),
-      X_WA_(X_WA),
+    : X_WA_(X_WA),
       X_WB_(X_WB),
       counts_(counts),
       frame_(a, X_WA, b, X_WB),
@@ -54,7 +52,7 @@ template <typename S>
 MeshPair<S> SolidPair<S>::moved(const Vec& translation) const {
   fcl::Transform3<S> X_WB = X_WB_;
   X_WB.translation() += translation.template cast<S>();
-  return {a_, X_WA_, b_, X_WB};
+  return {frame_.a, X_WA_, frame_.b, X_WB};
 }
 
 template <typename S>
@@ -144,8 +142,8 @@ std::vector<Vec> SolidPair<S>::exitDirections() {
       add(way);
       if (way.norm() > 0) walls_.emplace_back(R_WA_ * (way + radius * way.normalized()));
     };
-    addWall(nearestSurface(a_, b_in_a, 0.05).point - b_in_a, double{frame_.rootB().radius0});
-    addWall(R_AB_ * (a_in_b - nearestSurface(b_, a_in_b, 0.05).point),
+    addWall(nearestSurface(frame_.a, b_in_a, 0.05).point - b_in_a, double{frame_.rootB().radius0});
+    addWall(R_AB_ * (a_in_b - nearestSurface(frame_.b, a_in_b, 0.05).point),
             double{frame_.rootA().radius0});
   }
   constexpr std::size_t kMost = 6;

@@ -69,7 +69,6 @@ class SolidPair {
  private:
   MeshPair<S> moved(const fcl::Vector3d& translation) const;
 
-  const Model<S>&a_, &b_;
   const fcl::Transform3<S>&X_WA_, &X_WB_;
   SearchCounts& counts_;
   const MeshPair<S> frame_;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstddef>
 
 namespace kios::engine {
 
@@ -13,12 +12,12 @@ namespace kios::engine {
 class BuildBudget {
  public:
   /// Returns the tests that are left to a model of so many triangles; 0 after exhaust().
-  long long remaining(std::size_t num_triangles) const {
+  long long remaining(long long num_triangles) const {
     // A test takes 50 ns; a tree 0.2 us a triangle, and the first of them 2 us.
     constexpr long long kTestsATriangle = 4, kTestsATree = 32;
     if (exhausted_.load(std::memory_order_relaxed)) return 0;
     constexpr long long kMost = 1 << 28;  // FCL's nodes count in ints
-    const long long price = kTestsATree + kTestsATriangle * static_cast<long long>(num_triangles);
+    const long long price = kTestsATree + kTestsATriangle * num_triangles;
     return std::max(0LL, std::min(price, kMost) - charged_.load(std::memory_order_relaxed));
   }
 

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "build/principal_frame.h"
 #include "tree/box_fit.h"
 #include "tree/leaf_layout.h"
 #include "tree/moment_fit.h"

@@ -3,7 +3,6 @@
 #include "triangle/predicates.h"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 
 #include "triangle/determinant.h"
@@ -12,15 +11,13 @@
 namespace kios {
 namespace {
 
-using boost::multiprecision::cpp_int;
-
 int signOf(double v) { return (v > 0) - (v < 0); }
 
 /// n 2^exponent, rounded to 53 bits.
 template <typename Rounded>
-Rounded roundedInteger(const cpp_int& n, long exponent) {
+Rounded roundedInteger(const Integer& n, long exponent) {
   if (n == 0) return {0, 0};
-  const cpp_int magnitude = abs(n);
+  const Integer magnitude = abs(n);
   const long bits = static_cast<long>(msb(magnitude)) + 1, drop = std::max(0L, bits - 62);
   const double mantissa = static_cast<double>(static_cast<long long>(magnitude >> drop));
   return {n < 0 ? -mantissa : mantissa, exponent + drop};
@@ -164,13 +161,9 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
   if (std::abs(det.rounded()) > margin * det.error()) return {det.rounded(), 0};
 
   if (!expansions_exact_) {
-    cpp_int m[3][3];
-    for (int r = 0; r < 3; ++r) {
-      for (int c = 0; c < 3; ++c) m[r][c] = integer(given_[rows[r]][c]) - integer(given_[l][c]);
-    }
-    const cpp_int det = m[0][2] * (m[1][0] * m[2][1] - m[2][0] * m[1][1]) +
-                        m[1][2] * (m[2][0] * m[0][1] - m[0][0] * m[2][1]) +
-                        m[2][2] * (m[0][0] * m[1][1] - m[1][0] * m[0][1]);
+    IntegerVector m[3];
+    for (int r = 0; r < 3; ++r) m[r] = integers(given_[rows[r]]) - integers(given_[l]);
+    const Integer det = dot(m[0], cross(m[1], m[2]));
     return roundedInteger<Rounded>(det, 3 * (scale_ - 1074));
   }
   Expansion<2> m[3][3];
@@ -197,7 +190,7 @@ PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l,
 
   if (!expansions_exact_) {
     const auto d = [this](int to, int from, int c) {
-      return cpp_int(integer(given_[to][c]) - integer(given_[from][c]));
+      return Integer(integer(given_[to][c]) - integer(given_[from][c]));
     };
     return roundedInteger<Rounded>(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u),
                                    2 * (scale_ - 1074));

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "triangle/ray_crossing.h"
 
-#include <algorithm>
-#include <boost/multiprecision/cpp_int.hpp>
-#include <cmath>
-
 #include "triangle/determinant.h"
 #include "triangle/integer.h"
 #include "triangle/ray_triangle.h"
@@ -13,11 +9,9 @@
 namespace kios {
 namespace {
 
-using boost::multiprecision::cpp_int;
-
 constexpr int kNext[3] = {1, 2, 0};
 
-Sign signOf(const cpp_int& v) { return static_cast<Sign>(v.sign()); }
+Sign signOf(const Integer& v) { return static_cast<Sign>(v.sign()); }
 
 Crossing verdict(Sign height, const Sign (&sides)[3]) {
   for (const Sign side : sides) {
@@ -104,24 +98,14 @@ Crossing RayCrossing::crossExactly(const ScaledOrigin::Corners& t,
 }
 
 Crossing RayCrossing::crossInIntegers(const TriangleVertices<double>& corners) const {
-  cpp_int p[3][3], d[3];
-  for (int c = 0; c < 3; ++c) {
-    d[c] = integer(direction_[c]);
-    for (int i = 0; i < 3; ++i) p[i][c] = integer(corners[i][c]) - integer(given_origin_[c]);
-  }
-  const auto component = [&](int i, int j, int axis) {
-    const int y = kNext[axis], z = kNext[y];
-    return cpp_int(p[i][y] * p[j][z] - p[i][z] * p[j][y]);
-  };
-  const auto dot = [&](const cpp_int* x, int i, int j) {
-    return signOf(
-        cpp_int(x[0] * component(i, j, 0) + x[1] * component(i, j, 1) + x[2] * component(i, j, 2)));
-  };
-  const Sign height = dot(p[0], 1, 2);
+  const IntegerVector origin = integers(given_origin_), d = integers(direction_);
+  IntegerVector p[3];
+  for (int i = 0; i < 3; ++i) p[i] = integers(corners[i]) - origin;
+  const Sign height = signOf(dot(p[0], kios::cross(p[1], p[2])));
   if (height == kZero) return ifOrigin(corners);
   return turnedVerdict(
-      height, [&](int i, int j) { return dot(d, i, j); },
-      [&](int i, int j, int axis) { return signOf(component(i, j, axis)); });
+      height, [&](int i, int j) { return signOf(dot(d, kios::cross(p[i], p[j]))); },
+      [&](int i, int j, int axis) { return signOf(kios::cross(p[i], p[j])[axis]); });
 }
 
 Crossing RayCrossing::ifOrigin(const TriangleVertices<double>& corners) const {

@@ -5,31 +5,16 @@
 // degenerate triangles, hits at the ray's ends, coordinates of very different size.
 
 #include <algorithm>
-#include <array>
-#include <boost/multiprecision/cpp_int.hpp>
 #include <limits>
 #include <vector>
 
+#include "triangle/integer.h"
 #include "triangle/ray_triangle.h"
 
 namespace kios {
 namespace {
 
-using boost::multiprecision::cpp_int;
-using Vector = std::array<cpp_int, 3>;
-
 constexpr int kNext[3] = {1, 2, 0};
-
-int signOf(const cpp_int& v) { return v.sign(); }
-
-Vector operator-(const Vector& a, const Vector& b) {
-  return {cpp_int(a[0] - b[0]), cpp_int(a[1] - b[1]), cpp_int(a[2] - b[2])};
-}
-Vector cross(const Vector& a, const Vector& b) {
-  return {cpp_int(a[1] * b[2] - a[2] * b[1]), cpp_int(a[2] * b[0] - a[0] * b[2]),
-          cpp_int(a[0] * b[1] - a[1] * b[0])};
-}
-cpp_int dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// v = mantissa 2^exponent, the mantissa odd or 0.
 struct Binary {
@@ -50,11 +35,11 @@ struct Units {
       if (p[c] != 0) exponent = std::min(exponent, Binary(p[c]).exponent);
     }
   }
-  Vector in(const Point<double>& p) const {
-    Vector v;
+  IntegerVector in(const Point<double>& p) const {
+    IntegerVector v;
     for (int c = 0; c < 3; ++c) {
       const Binary b(p[c]);
-      if (b.mantissa != 0) v[c] = cpp_int(b.mantissa) << (b.exponent - exponent);
+      if (b.mantissa != 0) v[c] = Integer(b.mantissa) << (b.exponent - exponent);
     }
     return v;
   }
@@ -63,14 +48,14 @@ struct Units {
 
 /// numerator / denominator 2^exponent, denominator > 0.
 struct Fraction {
-  cpp_int numerator, denominator;
+  Integer numerator, denominator;
 
   bool operator<(const Fraction& o) const {
     return numerator * o.denominator < o.numerator * denominator;
   }
 };
 
-Fraction fraction(const cpp_int& n, const cpp_int& d) {
+Fraction fraction(const Integer& n, const Integer& d) {
   return d < 0 ? Fraction{-n, -d} : Fraction{n, d};
 }
 
@@ -78,14 +63,14 @@ Fraction toFraction(double v, int exponent) {
   const Binary b(v);
   const int shift = b.exponent - exponent;
   if (b.mantissa == 0) return {0, 1};
-  return shift >= 0 ? Fraction{cpp_int(b.mantissa) << shift, 1}
-                    : Fraction{b.mantissa, cpp_int(1) << -shift};
+  return shift >= 0 ? Fraction{Integer(b.mantissa) << shift, 1}
+                    : Fraction{b.mantissa, Integer(1) << -shift};
 }
 
 /// To nearest, of two the even; subnormal results too.
 double rounded(const Fraction& f, int exponent) {
   if (f.numerator == 0) return 0;
-  cpp_int n = abs(f.numerator), d = f.denominator;
+  Integer n = abs(f.numerator), d = f.denominator;
   // 55 or 56 bits of the quotient, the last one set if anything is below.
   const int shift = 55 + static_cast<int>(msb(d)) - static_cast<int>(msb(n));
   if (shift > 0) {
@@ -93,11 +78,11 @@ double rounded(const Fraction& f, int exponent) {
   } else {
     d <<= -shift;
   }
-  cpp_int quotient, rest;
+  Integer quotient, rest;
   divide_qr(n, d, quotient, rest);
   auto q = static_cast<unsigned long long>(quotient) | (rest != 0 ? 1U : 0U);
   const int unit = exponent - shift;  // of q's bit 0
-  const int bits = static_cast<int>(msb(cpp_int(q))) + 1;
+  const int bits = static_cast<int>(msb(Integer(q))) + 1;
   const int drop = std::max(bits - 53, -1074 - unit);
   if (drop > bits) return f.numerator < 0 ? -0.0 : 0.0;
   const unsigned long long half = 1ULL << (drop - 1), below = q & (2 * half - 1);
@@ -123,14 +108,14 @@ class IntegerTest {
     if (points.exponent == std::numeric_limits<int>::max()) points.exponent = 0;  // all at zero
     exponent_ = points.exponent - directions.exponent - ray.exponent;
     direction_ = directions.in(ray.direction);
-    const Vector origin = points.in(ray.origin);
+    const IntegerVector origin = points.in(ray.origin);
     for (int i = 0; i < 3; ++i) corner_[i] = points.in(corners[i]) - origin;
     t_min_ = toFraction(ray.t_min, exponent_);
     t_max_ = toFraction(ray.t_max, exponent_);
   }
 
   bool run(TriangleHit& hit) const {
-    cpp_int side[3], slope = 0;
+    Integer side[3], slope = 0;
     bool left = false, right = false;
     for (int i = 0; i < 3; ++i) {
       side[i] = dot(direction_, cross(corner_[i], corner_[kNext[i]]));
@@ -143,7 +128,7 @@ class IntegerTest {
     const Fraction t = fraction(dot(corner_[0], cross(corner_[1], corner_[2])), slope);
     if (t < t_min_ || t_max_ < t) return false;
     hit.t = rounded(t, exponent_);
-    hit.side = signOf(slope);
+    hit.side = slope.sign();
     for (int i = 0; i < 3; ++i) {
       hit.weights[kNext[kNext[i]]] = rounded(fraction(side[i], slope), 0);
     }
@@ -172,7 +157,7 @@ class IntegerTest {
   /// (t - from) / (to - from)
   static double shareOf(const Fraction& t, const Fraction& from, const Fraction& to) {
     const auto difference = [](const Fraction& a, const Fraction& b) {
-      return cpp_int(a.numerator * b.denominator - b.numerator * a.denominator);
+      return Integer(a.numerator * b.denominator - b.numerator * a.denominator);
     };
     return rounded({difference(t, from) * to.denominator, difference(to, from) * t.denominator}, 0);
   }
@@ -183,7 +168,7 @@ class IntegerTest {
       if (abs(direction_[c]) > abs(direction_[along])) along = c;
     }
     // Beside the line each corner lies at a multiple of one vector: any coordinate tells.
-    Vector beside[3];
+    IntegerVector beside[3];
     int axis = 0;
     for (int i = 0; i < 3; ++i) {
       beside[i] = cross(direction_, corner_[i]);
@@ -194,14 +179,14 @@ class IntegerTest {
     std::vector<LinePoint> ends;
     for (int i = 0; i < 3; ++i) {
       const int j = kNext[i];
-      const cpp_int &of_i = beside[i][axis], &of_j = beside[j][axis];
+      const Integer &of_i = beside[i][axis], &of_j = beside[j][axis];
       if (of_i == 0) {
         LinePoint& end = ends.emplace_back();
         end.t = fraction(corner_[i][along], direction_[along]);
         for (int k = 0; k < 3; ++k) end.weights[k] = k == i ? 1 : 0;
-      } else if (signOf(of_i) * signOf(of_j) < 0) {
+      } else if (of_i.sign() * of_j.sign() < 0) {
         LinePoint& end = ends.emplace_back();
-        const cpp_int sum = of_j - of_i;
+        const Integer sum = of_j - of_i;
         end.t =
             fraction(of_j * corner_[i][along] - of_i * corner_[j][along], sum * direction_[along]);
         end.weights[i] = rounded(fraction(of_j, sum), 0);
@@ -214,7 +199,7 @@ class IntegerTest {
 
   const GivenRay& ray_;
   int exponent_;
-  Vector direction_, corner_[3];  ///< corners from the origin
+  IntegerVector direction_, corner_[3];  ///< corners from the origin
   Fraction t_min_, t_max_;
 };
 

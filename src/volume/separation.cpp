@@ -9,7 +9,6 @@
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
 #include "volume/errors.h"
-#include "volume/far_apart.h"
 #include "volume/lanes.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"

@@ -211,7 +211,9 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
   }
   engine::FloatFrame frames;
   const RelativePose<double> pose(fcl::Transform3d::Identity(), X_AB);
-  if (!engine::makeFloatFrame(a, b, pose, frames)) return;
+  engine::TreePose trees;
+  if (!engine::makeTreePose(a, b, pose, trees)) return;
+  engine::makeFloatFrame(trees, frames);
   const Mat R = pose.R().cast<Real>();
   const Vec t = pose.T().cast<Real>();
   for (const bool contact : {false, true}) {

@@ -29,10 +29,9 @@ struct Tally {
 
 void expectKept(const Modeld& a, const Modeld& b, const Transform3d& X, Tally& tally) {
   const MeshPair<double> frame(a, Transform3d::Identity(), b, X);
-  engine::FloatFrame pair;
+  engine::TreePose pair;
   const auto tree_a = preparedTree(a), tree_b = preparedTree(b);
-  const bool served =
-      tree_a && tree_b && engine::makeFloatFrame(*tree_a, *tree_b, frame.X_AB, pair);
+  const bool served = tree_a && tree_b && engine::makeTreePose(*tree_a, *tree_b, frame.X_AB, pair);
   if (!engineServes(frame)) {
     ++tally.refused;
     return;

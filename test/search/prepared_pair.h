@@ -41,7 +41,10 @@ class PosedPair {
   /// Returns false if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
     X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
-    return engine::makeFloatFrame(*tree_a, *tree_b, *X_AB, frames_);
+    engine::TreePose pose;
+    if (!engine::makeTreePose(*tree_a, *tree_b, *X_AB, pose)) return false;
+    engine::makeFloatFrame(pose, frames_);
+    return true;
   }
   engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
     return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, frames_, audit};

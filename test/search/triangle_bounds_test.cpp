@@ -239,7 +239,9 @@ TEST_P(TriangleBounds, PrismsAreBelowTheDistance) {
                                gap * size * inCube(random) - X_AB.linear() * point.cast<double>();
           engine::FloatFrame frames;
           const RelativePose<double> pose(fcl::Transform3d::Identity(), X_AB);
-          if (!engine::makeFloatFrame(a, b, pose, frames)) continue;
+          engine::TreePose trees;
+          if (!engine::makeTreePose(a, b, pose, trees)) continue;
+          engine::makeFloatFrame(trees, frames);
           const Vec p = pose.R().cast<Real>() * point.cast<Real>() + pose.T().cast<Real>();
           const float pad = HWY_DYNAMIC_DISPATCH(engine::padOfPrisms)(frames);
           for (const bool move_point : {false, true}) {
