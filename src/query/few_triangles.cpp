@@ -150,7 +150,7 @@ std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame,
 // All boxes are tested, then triangles by the distance of their boxes. What is left out is farther
 // than NearestCandidates' allowance for rounding, which is far more than that of boxes.
 template <typename S>
-engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
+engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, const engine::PairQuery& query,
                                    SearchCounts& counts) {
   struct Bounded {
     double bound;
@@ -170,7 +170,7 @@ engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
       if (bounded[n].bound < bounded[least].bound) least = n;
     }
   }
-  NearestCandidates<S> pairs(frame, far_enough);
+  NearestCandidates<S> pairs(frame, query.far_enough);
   pairs.test(bounded[least].ids);
   bounded[least] = bounded[--n];
   const double most = pairs.cullDistance();
@@ -185,7 +185,7 @@ engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
     ++counts.exact;
   }
   engine::PairAnswer<S> answer = pairs.answer();
-  if (pairs.touching()) {
+  if (pairs.touching() && !query.any_touching) {
     answer.ids = firstTouching(frame, counts);
     answer.nearest = frame.distanceOf(answer.ids);
   }

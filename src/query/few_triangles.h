@@ -32,6 +32,13 @@ bool areVeryFew(const Model<S>& a, const Model<S>& b) {
   return areFew(a, b) && a.num_tris * b.num_tris <= kVeryFewPairs;
 }
 
+/// Tells it for so few pairs that no bound of them, and no tree, takes less than their triangles.
+template <typename S>
+bool arePairByPair(const Model<S>& a, const Model<S>& b) {
+  constexpr int kMost = 4;
+  return a.num_tris <= kMost && b.num_tris <= kMost && a.num_tris * b.num_tris <= kMost;
+}
+
 /// Returns up to `limit` pairs of few triangles that intersect, all of them if there are no more,
 /// by ids.
 template <typename S>
@@ -39,9 +46,9 @@ std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame,
                                                        SearchCounts& counts);
 
 /// Returns the nearest of very few triangles that the engine serves, of those nearer than
-/// `far_enough`, as searchNearest() names them for exact queries; not found if there are none.
+/// query.far_enough, as searchNearest() names them for exact queries; not found if there are none.
 template <typename S>
-engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, double far_enough,
+engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, const engine::PairQuery& query,
                                    SearchCounts& counts);
 
 /// True only if a plane between the vertices of two models proves their triangles, as placed in the

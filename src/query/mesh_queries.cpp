@@ -55,12 +55,10 @@ template <typename S>
   }
 }
 
-/// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough. With
-/// `any_touching`, which triangles it names at distance 0 may depend on who prepared the models.
+/// The answer of distanceMeshes() to pairs that may be nearer than query.far_enough.
 template <typename S>
 [[gnu::hot]] engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame,
-                                             const engine::PairQuery& query, bool any_touching,
-                                             SearchCounts& counts) {
+                                             const engine::PairQuery& query, SearchCounts& counts) {
   // Almost any triangles are near enough where the error that is allowed is as large as a mesh.
   const bool single = frame.a.num_tris == 1 && frame.b.num_tris == 1;
   if (single || query.abs_err > std::min<double>(frame.rootA().radius0, frame.rootB().radius0)) {
@@ -72,8 +70,12 @@ template <typename S>
     if (single || answer.nearest.distance <= query.abs_err) return answer;
   }
   if (query.isExact() && engineServes(frame)) {
-    if (areVeryFew(frame.a, frame.b)) return nearestOfFew(frame, query.far_enough, counts);
-    const auto answer = nearestUnprepared(frame, query.far_enough, any_touching, counts);
+    const bool two = frame.a.num_tris + frame.b.num_tris == 3;  // pairs
+    if (two || (areVeryFew(frame.a, frame.b) && !treesPay(frame))) {
+      charge(frame);
+      return nearestOfFew(frame, query, counts);
+    }
+    const auto answer = nearestUnprepared(frame, query, counts);
     if (answer) return *answer;
   }
   return searchNearest(frame, query, counts);
@@ -114,6 +116,7 @@ template <typename S>
   engine::PairQuery query;
   query.rel_err = request.rel_err;
   query.abs_err = request.abs_err;
+  query.any_touching = !request.enable_nearest_points;
   const bool bounded = result.min_distance < std::numeric_limits<S>::max();
   if (bounded) {  // as if a pair so far were found
     query.far_enough = query.cullDistance(result.min_distance);
@@ -122,12 +125,12 @@ template <typename S>
     }
   }
   const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);
-  const bool far = bounded && (frame.rootBound(query.far_enough) >= query.far_enough ||
-                               verticesApart(frame, query.far_enough));
+  const bool far = bounded && !arePairByPair(a, b) &&
+                   (frame.rootBound(query.far_enough) >= query.far_enough ||
+                    (!arePrepared(frame) && verticesApart(frame, query.far_enough)));
   if (far || request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
-  const engine::PairAnswer<S> answer =
-      nearestOf(frame, query, !request.enable_nearest_points, counts ? *counts : unused);
+  const engine::PairAnswer<S> answer = nearestOf(frame, query, counts ? *counts : unused);
   const TriangleDistance<S>& nearest = answer.nearest;
   if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
   if (request.enable_nearest_points) {

@@ -20,7 +20,9 @@ class NearestCandidates {
  public:
   /// Pairs as far as `far_enough` don't matter.
   NearestCandidates(const MeshPair<S>& frame, double far_enough)
-      : frame_(frame), cull_distance_(withRounding(far_enough)) {}
+      : frame_(frame), cull_distance_(withRounding(far_enough)) {
+    near_.reserve(8);
+  }
 
   /// Pairs farther than this don't matter.
   double cullDistance() const { return cull_distance_; }
@@ -28,11 +30,14 @@ class NearestCandidates {
 
   /// True if the triangles touch, which ends a search.
   bool test(const engine::TrianglePairIds& ids) {
-    const double distance = double{frame_.distanceOf(ids).distance};
+    const TriangleDistance<S> found = frame_.distanceOf(ids);
+    const double distance = double{found.distance};
     if (!(distance <= cull_distance_)) return false;
     near_.push_back({ids, distance});
     if (distance < best_) {
       best_ = distance;
+      best_ids_ = ids;
+      nearest_ = found;
       cull_distance_ = std::min(cull_distance_, withRounding(distance));
     }
     return distance == 0;
@@ -42,11 +47,14 @@ class NearestCandidates {
   engine::PairAnswer<S> answer() const {
     engine::PairAnswer<S> answer;
     if (near_.empty()) return answer;
+    answer.ids = best_ids_;
+    answer.nearest = nearest_;
+    if (touching()) return answer;
     std::vector<engine::TrianglePairIds> nearest;
-    if (touching()) nearest.push_back(near_.back().ids);
     for (const Found& found : near_) {
-      if (!touching() && found.distance <= cull_distance_) nearest.push_back(found.ids);
+      if (found.distance <= cull_distance_) nearest.push_back(found.ids);
     }
+    if (nearest.size() == 1) return answer;
     answer.ids = engine::nearestOfThese(nearest, viewOf(frame_.a), viewOf(frame_.b), frame_.X_AB);
     answer.nearest = frame_.distanceOf(answer.ids);
     return answer;
@@ -67,6 +75,8 @@ class NearestCandidates {
   const MeshPair<S>& frame_;
   std::vector<Found> near_;
   double best_ = kInfinity, cull_distance_;
+  engine::TrianglePairIds best_ids_;
+  TriangleDistance<S> nearest_ = {};  ///< of these
 };
 
 }  // namespace kios

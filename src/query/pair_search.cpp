@@ -246,8 +246,8 @@ template <typename S>
       return far;
     }
     PairAnswer<S> answer = engine::nearestTriangles(engine.pair(), query, counts);
-    const bool exact = query.isExact() && !query.endsEarly();
-    if (exact && answer.found() && answer.nearest.distance == 0 && namesFirstTouching(frame)) {
+    const bool named = query.isExact() && !query.endsEarly() && !query.any_touching;
+    if (named && answer.found() && answer.nearest.distance == 0 && namesFirstTouching(frame)) {
       answer.ids = firstTouching(frame, counts);
       answer.nearest = frame.distanceOf(answer.ids);
     }
@@ -255,6 +255,30 @@ template <typename S>
   }
   ++counts.tree_searches;
   return TreeSearch<S>(frame, query, counts).run();
+}
+
+template <typename S>
+bool arePrepared(const MeshPair<S>& frame) {
+  const engine::TreeCache *const a = treesOf(frame.a), *const b = treesOf(frame.b);
+  return a && b && a->isPrepared(frame.rootA().stamp) && b->isPrepared(frame.rootB().stamp);
+}
+
+template <typename S>
+bool treesPay(const MeshPair<S>& frame) {
+  const auto pays = [](const Model<S>& model) {
+    const engine::TreeCache* const trees = treesOf(model);
+    return trees &&
+           (trees->isPrepared(model.getBV(0).bv.stamp) || trees->budget.isSpent(model.num_tris));
+  };
+  return pays(frame.a) && pays(frame.b);
+}
+
+template <typename S>
+void charge(const MeshPair<S>& frame) {
+  constexpr long long kTests = 8;
+  engine::TreeCache *const a = treesOf(frame.a), *const b = treesOf(frame.b);
+  if (a) a->budget.charge(kTests);
+  if (b && b != a) b->budget.charge(kTests);
 }
 
 // The tests of preparedTree() and makeFloatFrame() with room for what a tree's reach may be: hardly
@@ -295,18 +319,30 @@ template <typename S>
     ++counts.exact;
     return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
   }
-  const bool few = areFew(frame.a, frame.b);
-  if ((few || !areUnlike(frame)) && frame.rootBound(0) > 0) return PairIds();
-  if (verticesApart(frame, 0)) return PairIds();
-  if (few) return intersectingOfFew(frame, limit, counts);
+  if (!areUnlike(frame) && frame.rootBound(0) > 0) return PairIds();
+  if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
+  // The boxes of prepared roots tell more than planes between vertices, and sooner.
+  const bool few = areFew(frame.a, frame.b), trees = few ? treesPay(frame) : arePrepared(frame);
+  PairIds found;
+  if (trees && searchContacts(frame, limit, found, counts)) {
+    if (!few || any || found.size() < limit) return found;
+  } else if (verticesApart(frame, 0)) {
+    return PairIds();
+  }
+  if (few) {
+    charge(frame);
+    return intersectingOfFew(frame, limit, counts);
+  }
   auto walked = touchUnprepared(frame, limit, counts);
   if (walked && (any || walked->size() < limit)) return walked;
-  PairIds found;
   if (!searchContacts(frame, limit, found, counts)) return std::nullopt;
   return found;
 }
 
 KIOS_INSTANTIATE_FUNCTION(searchNearest);
+KIOS_INSTANTIATE_FUNCTION(arePrepared);
+KIOS_INSTANTIATE_FUNCTION(treesPay);
+KIOS_INSTANTIATE_FUNCTION(charge);
 KIOS_INSTANTIATE_FUNCTION(engineServes);
 KIOS_INSTANTIATE_FUNCTION(searchContacts);
 KIOS_INSTANTIATE_FUNCTION(intersectingPairs);

@@ -23,6 +23,18 @@ template <typename S>
 engine::PairAnswer<S> searchNearest(const MeshPair<S>& frame, const engine::PairQuery& query,
                                     SearchCounts& counts);
 
+/// Returns true if both models are prepared as they are now.
+template <typename S>
+bool arePrepared(const MeshPair<S>& frame);
+
+/// Returns true if both models are prepared, or queries that charge() noted have cost as much.
+template <typename S>
+bool treesPay(const MeshPair<S>& frame);
+
+/// Charges both models for a query that looked at a few triangles instead of trees.
+template <typename S>
+void charge(const MeshPair<S>& frame);
+
 /// True only if the engine serves the pair, told without its trees; false says nothing.
 template <typename S>
 bool engineServes(const MeshPair<S>& frame);

@@ -134,15 +134,17 @@ std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<S>& f
 // Where triangles touch, the walk ends with firstTouching()'s: bounds that exceed 0 differ, but
 // nodes as far apart as that hold no such triangles.
 template <typename S>
-std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame, double far_enough,
-                                               bool any_touching, SearchCounts& counts) {
+std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame,
+                                               const engine::PairQuery& query,
+                                               SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
-  NearestCandidates<S> near(frame, far_enough);
+  NearestCandidates<S> near(frame, query.far_enough);
   TreeWalk walk(frame, near, allowance.tests());
   walk.run(counts);
   allowance.charge(walk.tests());
-  const bool done = near.touching() ? any_touching || namesFirstTouching(frame) : !walk.gaveUp();
+  const bool done =
+      near.touching() ? query.any_touching || namesFirstTouching(frame) : !walk.gaveUp();
   if (!done) return std::nullopt;
   return near.answer();
 }

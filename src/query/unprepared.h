@@ -22,12 +22,13 @@ std::optional<std::vector<engine::TrianglePairIds>> touchUnprepared(const MeshPa
                                                                     std::size_t limit,
                                                                     SearchCounts& counts);
 
-/// The nearest triangles of those nearer than `far_enough`, as searchNearest() names them for exact
-/// queries that the engine serves; not found if there are none. If triangles touch, they are
+/// The nearest triangles of those nearer than query.far_enough, as searchNearest() names them for
+/// exact queries that the engine serves; not found if there are none. If triangles touch, they are
 /// firstTouching()'s: for models of which prepared queries name others, only with `any_touching`.
 template <typename S>
-std::optional<engine::PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame, double far_enough,
-                                                       bool any_touching, SearchCounts& counts);
+std::optional<engine::PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame,
+                                                       const engine::PairQuery& query,
+                                                       SearchCounts& counts);
 
 /// True for models of which exact distance queries name firstTouching()'s triangles at distance 0,
 /// prepared or not.

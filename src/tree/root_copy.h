@@ -33,6 +33,10 @@ class RootCopy {
     return version_.load(std::memory_order_relaxed) == version;
   }
 
+  /// Returns true if a tree's root for this state is held, which read() then will copy unless it is
+  /// being written.
+  bool isOf(std::uint64_t stamp) const { return stamp_.load(std::memory_order_relaxed) == stamp; }
+
   /// By one thread at a time.
   void write(std::uint64_t stamp, const TreeRoot& root) {
     std::array<std::uint64_t, kWords> words;

@@ -78,6 +78,11 @@ class TreeCache {
     return root_stamp != 0 && root_.read(root_stamp, root);
   }
 
+  /// Returns true if the tree that was made last is of this state.
+  bool isPrepared(std::uint64_t root_stamp) const {
+    return root_stamp != 0 && root_.isOf(root_stamp);
+  }
+
   /// Makes a tree, of `old` if that serves: another state of the same triangles, or nothing.
   using Make = std::function<SharedTree(SharedTree old)>;
 
