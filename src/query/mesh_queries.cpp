@@ -72,8 +72,11 @@ template <typename S>
   if (query.isExact() && engineServes(frame)) {
     const bool two = frame.a.num_tris + frame.b.num_tris == 3;  // pairs
     if (two || (areVeryFew(frame.a, frame.b) && !treesPay(frame))) {
-      charge(frame);
-      return nearestOfFew(frame, query, counts);
+      constexpr long long kTests = 6;  // take as long as a pair of triangles
+      const long long before = counts.exact;
+      engine::PairAnswer<S> answer = nearestOfFew(frame, query, counts);
+      charge(frame, kTests * (counts.exact - before));
+      return answer;
     }
     const auto answer = nearestUnprepared(frame, query, counts);
     if (answer) return *answer;

@@ -224,6 +224,8 @@ double leastReach(const Model<S>& model) {
   return std::min(double{root.radius0} / 4, 0.49 * box.sizes().maxCoeff());
 }
 
+constexpr long long kTestsOfFew = 8;  ///< take as long as intersectingOfFew(), more or less
+
 /// Returns true if one model is so much larger than the other, as a floor than a link, that its
 /// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
 template <typename S>
@@ -274,11 +276,10 @@ bool treesPay(const MeshPair<S>& frame) {
 }
 
 template <typename S>
-void charge(const MeshPair<S>& frame) {
-  constexpr long long kTests = 8;
+void charge(const MeshPair<S>& frame, long long tests) {
   engine::TreeCache *const a = treesOf(frame.a), *const b = treesOf(frame.b);
-  if (a) a->budget.charge(kTests);
-  if (b && b != a) b->budget.charge(kTests);
+  if (a) a->budget.charge(tests);
+  if (b && b != a) b->budget.charge(tests);
 }
 
 // The tests of preparedTree() and makeFloatFrame() with room for what a tree's reach may be: hardly
@@ -330,7 +331,7 @@ template <typename S>
     return PairIds();
   }
   if (few) {
-    charge(frame);
+    charge(frame, kTestsOfFew);
     return intersectingOfFew(frame, limit, counts);
   }
   auto walked = touchUnprepared(frame, limit, counts);

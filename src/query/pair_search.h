@@ -31,9 +31,10 @@ bool arePrepared(const MeshPair<S>& frame);
 template <typename S>
 bool treesPay(const MeshPair<S>& frame);
 
-/// Charges both models for a query that looked at a few triangles instead of trees.
+/// Charges both models for a query that looked at a few triangles instead of trees, which took as
+/// long as so many tests of volumes.
 template <typename S>
-void charge(const MeshPair<S>& frame);
+void charge(const MeshPair<S>& frame, long long tests);
 
 /// True only if the engine serves the pair, told without its trees; false says nothing.
 template <typename S>

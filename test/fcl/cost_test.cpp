@@ -57,6 +57,37 @@ class Cost : public ::testing::Test {
   const std::vector<Frame> frames_ = randomFrames(30, pair_.spread, 31);
 };
 
+// Sources don't send prepared models to FCL's tree; contacts are the same with them and without.
+TEST_F(Cost, PreparedModelsAreSearched) {
+  prepare(*kios_a_);
+  prepare(*kios_b_);
+  std::size_t sources = 0;
+  for (const Frame& frame : frames_) {
+    fcl::CollisionRequestd request(kAllContacts, true);
+    fcl::CollisionResultd plain = query(*kios_a_, *kios_b_, frame, request), costly, full;
+    request.enable_cost = true;
+    request.num_max_cost_sources = kAllContacts;
+    SearchCounts counts;
+    collideMeshes(*kios_a_, frame.X_WA, *kios_b_, frame.X_WB, request, costly, &counts);
+    EXPECT_EQ(counts.tree_searches, 0);
+    ASSERT_EQ(costly.numContacts(), plain.numContacts());
+    for (std::size_t i = 0; i < plain.numContacts(); ++i) {
+      EXPECT_EQ(costly.getContact(i).b1, plain.getContact(i).b1);
+      EXPECT_EQ(costly.getContact(i).b2, plain.getContact(i).b2);
+      EXPECT_EQ(costly.getContact(i).pos, plain.getContact(i).pos);
+    }
+    sources += costly.numCostSources();
+    // A result that is full of contacts still gets all sources.
+    request.num_max_contacts = 1;
+    for (int k = 0; k < 2; ++k) {
+      collideMeshes(*kios_a_, frame.X_WA, *kios_b_, frame.X_WB, request, full);
+    }
+    EXPECT_EQ(full.numContacts(), std::min<std::size_t>(1, plain.numContacts()));
+    EXPECT_EQ(full.numCostSources(), costly.numCostSources());
+  }
+  EXPECT_GT(sources, 100u);
+}
+
 TEST_F(Cost, SourcesEqualThoseOfObbrssModels) {
   kios_a_->cost_density = obbrss_a_->cost_density = 3;
   kios_b_->cost_density = obbrss_b_->cost_density = 5;

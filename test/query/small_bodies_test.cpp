@@ -184,6 +184,64 @@ TYPED_TEST(SmallBodies, FreshModelsAnswerAsPreparedOnes) {
   EXPECT_GT(apart, 500);
 }
 
+// Models are prepared on the way, and no answer changes.
+TYPED_TEST(SmallBodies, AnswersStayAsModelsGetPrepared) {
+  using S = TypeParam;
+  Random random(15);
+  int prepared = 0, touching = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto a = modelOf<S>(smallMesh(i, random)), b = modelOf<S>(smallMesh(i / 8, random));
+    const auto X = poseAt<S>(i, random.uniform(0, 1.5), random);
+    const auto nearest = [&](bool points) {
+      fcl::DistanceResult<S> result;
+      distanceMeshes(*a, X.X_WA, *b, X.X_WB, fcl::DistanceRequest<S>(points), result);
+      return result;
+    };
+    const auto distance = nearest(true);
+    const auto one = contactsOf(*a, *b, X, 1), two = contactsOf(*a, *b, X, 2),
+               all = contactsOf(*a, *b, X, 100000);
+    for (int k = 0; k < 40; ++k) contactsOf(*a, *b, X, 1);
+    const auto again = nearest(true);
+    ASSERT_EQ(again.min_distance, distance.min_distance) << i;
+    ASSERT_EQ(nearest(false).min_distance, distance.min_distance) << i;
+    ASSERT_EQ(std::make_pair(again.b1, again.b2), std::make_pair(distance.b1, distance.b2)) << i;
+    ASSERT_EQ(again.nearest_points[0], distance.nearest_points[0]) << i;
+    ASSERT_EQ(contactsOf(*a, *b, X, 1).empty(), one.empty()) << i;
+    ASSERT_EQ(contactsOf(*a, *b, X, 2), two) << i;
+    ASSERT_EQ(contactsOf(*a, *b, X, 100000), all) << i;
+    prepared += preparedBytes(*a) > 0;
+    touching += !one.empty();
+  }
+  EXPECT_GT(prepared, 100);
+  EXPECT_GT(touching, 50);
+}
+
+// A floor's balls reach high above it: the box of its root tells at once that nothing touches it.
+TEST(FewTriangles, PreparedBoxesTellFewTrianglesApart) {
+  Mesh floor;
+  floor.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto a = kiosModel(floor), b = kiosModel(box({0.3, 0.2, 0.15}));
+  fcl::Transform3d X_WB = fcl::Transform3d::Identity();
+  X_WB.translate(fcl::Vector3d(1, 2, 0.2)).rotate(Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()));
+  const auto touch = [&] {
+    SearchCounts counts;
+    fcl::CollisionResultd result;
+    collideMeshes(*a, fcl::Transform3d::Identity(), *b, X_WB, fcl::CollisionRequestd(), result,
+                  &counts);
+    EXPECT_FALSE(result.isCollision());
+    return counts;
+  };
+  int asked = 0;
+  while (preparedBytes(*b) == 0 && asked < 100) {
+    touch();
+    ++asked;
+  }
+  EXPECT_GT(asked, 5) << "queries come first";
+  EXPECT_LT(asked, 20);
+  EXPECT_EQ(touch().exact, 0);
+}
+
 // Bodies moved along a direction to where they just touch, and a few last bits either way: planes
 // between vertices must not tell what rounding hides.
 TYPED_TEST(SmallBodies, PlanesBetweenVerticesTellNothingThatRoundingHides) {

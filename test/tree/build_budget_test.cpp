@@ -34,6 +34,19 @@ TEST(BuildBudget, ExhaustedNothingRemains) {
   EXPECT_EQ(budget.remaining(std::size_t{1} << 40), 0);
 }
 
+TEST(BuildBudget, IsSpentAnewForTheNextTree) {
+  BuildBudget budget;
+  EXPECT_FALSE(budget.isSpent(12));
+  budget.charge(80);
+  EXPECT_TRUE(budget.isSpent(12));
+  EXPECT_FALSE(budget.isSpent(13));
+  budget.exhaust();
+  EXPECT_FALSE(budget.isSpent(12));
+  budget.charge(80);
+  EXPECT_TRUE(budget.isSpent(12));
+  EXPECT_EQ(budget.remaining(1000), 0) << "larger models get their next tree at once";
+}
+
 TEST(BuildBudget, ThreadsChargeOneBudget) {
   BuildBudget budget;
   std::vector<std::thread> threads;

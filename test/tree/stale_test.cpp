@@ -10,6 +10,7 @@
 
 #include "fcl/mesh_cases.h"
 #include "model/deform.h"
+#include "model/prepared.h"
 #include "scenes/foreign_fitter.h"
 
 namespace kios::testing {
@@ -292,6 +293,37 @@ TEST_F(Stale, MadeParentRelative) {
   expectAnswersOf(*model, mesh_.vertices);
   model->makeParentRelative();
   expectAnswersOf(*model, mesh_.vertices);
+}
+
+// Bodies of a few triangles are looked at triangle by triangle: a new state has to pay for its
+// tree.
+TEST(StaleFew, ThatDeformGetNoTreeForOneQuery) {
+  Mesh floor;
+  floor.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
+  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+  const auto a = kiosModel(floor), b = kiosModel(scenes::subdividedBox({0.3, 0.2, 0.15}, 1));
+  prepare(*a);
+  fcl::Transform3d X_WB = fcl::Transform3d::Identity();
+  X_WB.translate(Vector3d(1, 2, 0.1)).rotate(Eigen::AngleAxisd(0.4, Vector3d::UnitX()));
+  const auto touch = [&] {
+    fcl::CollisionResultd result;
+    return collideMeshes(*a, fcl::Transform3d::Identity(), *b, X_WB, fcl::CollisionRequestd(),
+                         result) > 0;
+  };
+  const auto isPrepared = [&] { return treesOf(*b)->isPrepared(b->getBV(0).bv.stamp); };
+  for (int round = 0; round < 2; ++round) {
+    for (int k = 0; k < 20; ++k) EXPECT_TRUE(touch());
+    EXPECT_TRUE(isPrepared());
+    for (int frame = 0; frame < 5; ++frame) {
+      ASSERT_EQ(b->beginReplaceModel(), fcl::BVH_OK);
+      for (int i = 0; i < b->num_vertices; ++i) {
+        ASSERT_EQ(b->replaceVertex(1.01 * b->vertices[i]), fcl::BVH_OK);
+      }
+      ASSERT_EQ(b->endReplaceModel(true, true), fcl::BVH_OK);
+      EXPECT_TRUE(touch());
+      EXPECT_FALSE(isPrepared()) << frame;
+    }
+  }
 }
 
 }  // namespace
