@@ -3,7 +3,6 @@
 #include "continuous/relative_motion.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "volume/rounding.h"
 
@@ -16,7 +15,6 @@ namespace {
 // Norms lose most to underflow: less than 2^-535, as squares round by up to 2^-1075. A gap loses a
 // few times that, and as much times a turn's speed, its square and its acceleration.
 constexpr double kSubnormal = 0x1p-530;
-constexpr double kLeastSquare = std::numeric_limits<double>::denorm_min();
 
 }  // namespace
 
@@ -46,12 +44,11 @@ RelativeVelocities::RelativeVelocities(const Motion& a, const Motion& b, double 
 // The centres' difference moves on a line, but for the accelerations; the nearest point of that
 // line is found up to a few u of the lengths. The square of a speed below 2^-534 may be off by any
 // factor, and the point by the whole way, which is less than the pad. A ball that turns stays where
-// it is. The least double > 0 keeps divisions by 0 out.
+// it is.
 bool RelativeVelocities::apart(const MovingBall& a, const MovingBall& b, double duration) const {
   const Vector3d between = b.center - a.center, velocity = b.velocity - a.velocity;
-  const double approach = -between.dot(velocity),
-               square = std::max(velocity.squaredNorm(), kLeastSquare);
-  const double s = approach > 0 ? std::min(duration, approach / square) : 0;
+  const double approach = -between.dot(velocity), square = velocity.squaredNorm();
+  const double s = approach > 0 && square > 0 ? std::min(duration, approach / square) : 0;
   const double length = between.lpNorm<1>() + duration * velocity.lpNorm<1>();
   const double reach =
       a.radius + b.radius + 0.5 * duration * duration * (a.acceleration + b.acceleration) + pad_;
@@ -70,8 +67,8 @@ bool RelativeVelocities::anyApart(const MovingBall& ball, const FourBalls& four,
   }
   const Array4d approach =
       -(between[0] * velocity[0] + between[1] * velocity[1] + between[2] * velocity[2]);
-  const Array4d square =
-      (velocity[0].square() + velocity[1].square() + velocity[2].square()).max(kLeastSquare);
+  const Array4d squared = velocity[0].square() + velocity[1].square() + velocity[2].square();
+  const Array4d square = (squared > 0).select(squared, 1.0);
   const Array4d s = (approach / square).max(0.0).min(duration);
   const Array4d length = between[0].abs() + between[1].abs() + between[2].abs() +
                          duration * (velocity[0].abs() + velocity[1].abs() + velocity[2].abs());
