@@ -47,6 +47,7 @@ void runRobots(const Options& options, Report& report);
 void runRobotScenes(const Options& options, Report& report);
 void runScene(const Options& options, Report& report);
 void runCrowds(const Options& options, Report& report);
+void runSmall(const Options& options, Report& report);
 void runPaper(const Options& options, Report& report);
 void runFits(const Options& options, Report& report);
 void runPacking(const Options& options, Report& report);
