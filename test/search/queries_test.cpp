@@ -162,16 +162,34 @@ TEST(EngineQueries, OffsetsCostNothing) {
   }
 }
 
-// Costs need FCL's tree.
-TEST(EngineQueries, CostSourcesAreSearchedInFclsTree) {
-  const auto a = kiosModel(scenes::icosphere(1, 1));
-  fcl::CollisionResultd result;
-  SearchCounts counts;
-  const fcl::CollisionRequestd request(kAllContacts, false, 10, true);
-  collideMeshes(*a, kHere, *a, Transform3d(Eigen::Translation3d(0.5, 0, 0)), request, result,
-                &counts);
-  EXPECT_EQ(counts.tree_searches, 1);
-  EXPECT_TRUE(result.isCollision());
+TEST(EngineQueries, CostSourcesAreThoseOfFclsTree) {
+  const auto a = kiosModel(scenes::icosphere(1, 1)), b = kiosModel(scenes::bumpyTorus(140));
+  prepare(*a);
+  prepare(*b);
+  std::size_t sources = 0;
+  for (const Frame& frame : randomFrames(20, 1.2, 28)) {
+    for (const std::size_t most : {std::size_t{3}, kAllContacts}) {
+      const fcl::CollisionRequestd request(kAllContacts, false, most, true);
+      fcl::CollisionResultd ours, trees;
+      SearchCounts counts;
+      collideMeshes(*a, frame.X_WA, *b, frame.X_WB, request, ours, &counts);
+      EXPECT_EQ(counts.tree_searches, 0);
+      MeshCollisionTraversalNode<double> node;
+      initialize(node, *a, frame.X_WA, *b, frame.X_WB, request, trees);
+      fcl::detail::collide(&node);
+      EXPECT_EQ(ours.numContacts(), trees.numContacts());
+      std::vector<fcl::CostSourced> costs, expected;
+      ours.getCostSources(costs);
+      trees.getCostSources(expected);
+      ASSERT_EQ(costs.size(), expected.size());
+      for (std::size_t i = 0; i < costs.size(); ++i) {
+        EXPECT_EQ(costs[i].total_cost, expected[i].total_cost);
+        EXPECT_EQ(costs[i].aabb_min, expected[i].aabb_min);
+      }
+      sources += costs.size();
+    }
+  }
+  EXPECT_GT(sources, 100U);
 }
 
 TEST(EngineQueries, FloatModels) {
