@@ -13,6 +13,7 @@
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
+#include "volume/balls.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
 
@@ -235,6 +236,16 @@ bool areUnlike(const MeshPair<S>& frame) {
   return a > kMuch * b || b > kMuch * a;
 }
 
+/// Returns true if either is so thin, as a rod or a plate, that the spheres of its root reach as
+/// far out as such spheres do: its box tells more than they.
+template <typename S>
+bool isOneThin(const MeshPair<S>& frame) {
+  const auto isThin = [](const kIOS<S>& root) {
+    return scaled(double{root.reach}, root.exponent) > 3.55 * double{root.radius0};
+  };
+  return isThin(frame.rootA()) || isThin(frame.rootB());
+}
+
 }  // namespace
 
 template <typename S>
@@ -320,10 +331,11 @@ template <typename S>
     ++counts.exact;
     return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
   }
-  if (!areUnlike(frame) && frame.rootBound(0) > 0) return PairIds();
-  if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
   const bool few = areFew(frame.a, frame.b), trees = few ? treesPay(frame) : arePrepared(frame);
+  const bool boxes_do = areUnlike(frame) || (trees && isOneThin(frame));
+  if (!boxes_do && frame.rootBound(0) > 0) return PairIds();
+  if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   PairIds found;
   if (trees && searchContacts(frame, limit, found, counts)) {
     if (!few || any || found.size() < limit) return found;
