@@ -12,8 +12,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Norms lose most to underflow: less than 2^-535, as squares round by up to 2^-1075. A gap loses a
-// few times that, and as much times a turn's speed, its square and its acceleration.
+// Norms lose most to gradual underflow: less than 2^-535, as squares round by up to 2^-1075. A gap
+// loses a few times that, and as much times a turn's speed, its square and its acceleration.
 constexpr double kSubnormal = 0x1p-530;
 
 }  // namespace

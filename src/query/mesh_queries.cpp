@@ -70,12 +70,13 @@ template <typename S>
     if (single || answer.nearest.distance <= query.abs_err) return answer;
   }
   if (query.isExact() && engineServes(frame)) {
-    const bool two = frame.a.num_tris + frame.b.num_tris == 3;  // pairs
+    const bool two = frame.a.num_tris <= 2 && frame.b.num_tris <= 2 &&
+                     frame.a.num_tris != frame.b.num_tris;  // pairs
     if (two || (areVeryFew(frame.a, frame.b) && !treesPay(frame))) {
       constexpr long long kTests = 6;  // take as long as a pair of triangles
       const long long before = counts.exact;
       engine::PairAnswer<S> answer = nearestOfFew(frame, query, counts);
-      charge(frame, kTests * (counts.exact - before));
+      if (!two) charge(frame, kTests * (counts.exact - before));
       return answer;
     }
     const auto answer = nearestUnprepared(frame, query, counts);

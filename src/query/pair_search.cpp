@@ -288,9 +288,10 @@ bool treesPay(const MeshPair<S>& frame) {
 
 template <typename S>
 void charge(const MeshPair<S>& frame, long long tests) {
-  engine::TreeCache *const a = treesOf(frame.a), *const b = treesOf(frame.b);
-  if (a) a->budget.charge(tests);
-  if (b && b != a) b->budget.charge(tests);
+  for (const Model<S>* model : {&frame.a, &frame.b}) {
+    engine::TreeCache* const trees = treesOf(*model);
+    if (trees && !trees->isPrepared(model->getBV(0).bv.stamp)) trees->budget.charge(tests);
+  }
 }
 
 // The tests of preparedTree() and makeFloatFrame() with room for what a tree's reach may be: hardly
@@ -331,20 +332,27 @@ template <typename S>
     ++counts.exact;
     return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
   }
-  // The boxes of prepared roots tell more than planes between vertices, and sooner.
-  const bool few = areFew(frame.a, frame.b), trees = few ? treesPay(frame) : arePrepared(frame);
-  const bool boxes_do = areUnlike(frame) || (trees && isOneThin(frame));
+  const bool boxes_do = areUnlike(frame) || (arePrepared(frame) && isOneThin(frame));
   if (!boxes_do && frame.rootBound(0) > 0) return PairIds();
   if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
+  // The boxes of prepared roots tell more than planes between vertices, and sooner.
   PairIds found;
-  if (trees && searchContacts(frame, limit, found, counts)) {
-    if (!few || any || found.size() < limit) return found;
+  if (areFew(frame.a, frame.b)) {
+    const bool all = limit >= static_cast<std::size_t>(frame.a.num_tris * frame.b.num_tris);
+    if (!treesPay(frame)) {
+      charge(frame, kTestsOfFew);
+      if (verticesApart(frame, 0)) return PairIds();
+    } else if (any || all) {
+      if (searchContacts(frame, limit, found, counts)) return found;
+    } else if (const EnginePair<S> engine(frame, 0, 0); engine && engine.isFar(0)) {
+      return PairIds();
+    }
+    return intersectingOfFew(frame, limit, counts);
+  }
+  if (arePrepared(frame)) {
+    if (searchContacts(frame, limit, found, counts)) return found;
   } else if (verticesApart(frame, 0)) {
     return PairIds();
-  }
-  if (few) {
-    charge(frame, kTestsOfFew);
-    return intersectingOfFew(frame, limit, counts);
   }
   auto walked = touchUnprepared(frame, limit, counts);
   if (walked && (any || walked->size() < limit)) return walked;

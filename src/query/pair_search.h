@@ -31,8 +31,8 @@ bool arePrepared(const MeshPair<S>& frame);
 template <typename S>
 bool treesPay(const MeshPair<S>& frame);
 
-/// Charges both models for a query that looked at a few triangles instead of trees, which took as
-/// long as so many tests of volumes.
+/// Charges both models, where they aren't prepared, for a query that looked at a few triangles
+/// instead of trees, which took as long as so many tests of volumes.
 template <typename S>
 void charge(const MeshPair<S>& frame, long long tests);
 
