@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
@@ -225,7 +226,9 @@ double leastReach(const Model<S>& model) {
   return std::min(double{root.radius0} / 4, 0.49 * box.sizes().maxCoeff());
 }
 
-constexpr long long kTestsOfFew = 8;  ///< take as long as intersectingOfFew(), more or less
+constexpr std::size_t kAllPairs = std::numeric_limits<std::size_t>::max();
+constexpr int kPairsWithoutTree = 32;  ///< are listed sooner one by one, unless roots are apart
+constexpr long long kTestsOfFew = 8;   ///< take as long as intersectingOfFew(), more or less
 
 /// Returns true if one model is so much larger than the other, as a floor than a link, that its
 /// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
@@ -338,12 +341,15 @@ template <typename S>
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
   PairIds found;
   if (areFew(frame.a, frame.b)) {
-    const bool all = limit >= static_cast<std::size_t>(frame.a.num_tris * frame.b.num_tris);
+    const int pairs = frame.a.num_tris * frame.b.num_tris;
     if (!treesPay(frame)) {
       charge(frame, kTestsOfFew);
       if (verticesApart(frame, 0)) return PairIds();
-    } else if (any || all) {
-      if (searchContacts(frame, limit, found, counts)) return found;
+    } else if (any || pairs > kPairsWithoutTree) {
+      if (searchContacts(frame, any ? limit : kAllPairs, found, counts)) {
+        if (found.size() > limit) found.resize(limit);  // the least ids, as of pairs one by one
+        return found;
+      }
     } else if (const EnginePair<S> engine(frame, 0, 0); engine && engine.isFar(0)) {
       return PairIds();
     }
