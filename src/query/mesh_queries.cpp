@@ -70,13 +70,13 @@ template <typename S>
     if (single || answer.nearest.distance <= query.abs_err) return answer;
   }
   if (query.isExact() && engineServes(frame)) {
-    const bool two = frame.a.num_tris <= 2 && frame.b.num_tris <= 2 &&
-                     frame.a.num_tris != frame.b.num_tris;  // pairs
-    if (two || (areVeryFew(frame.a, frame.b) && !treesPay(frame))) {
+    const bool two_pairs = frame.a.num_tris <= 2 && frame.b.num_tris <= 2 &&
+                           frame.a.num_tris != frame.b.num_tris;  // no tree is sooner
+    if (two_pairs || (areVeryFew(frame.a, frame.b) && !treesPay(frame))) {
       constexpr long long kTests = 6;  // take as long as a pair of triangles
       const long long before = counts.exact;
       engine::PairAnswer<S> answer = nearestOfFew(frame, query, counts);
-      if (!two) charge(frame, kTests * (counts.exact - before));
+      if (!two_pairs) charge(frame, kTests * (counts.exact - before));
       return answer;
     }
     const auto answer = nearestUnprepared(frame, query, counts);
@@ -129,7 +129,8 @@ template <typename S>
     }
   }
   const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);
-  const bool far = bounded && !arePairByPair(a, b) &&
+  const bool pair_by_pair = query.isExact() && arePairByPair(a, b);
+  const bool far = bounded && !pair_by_pair &&
                    (frame.rootBound(query.far_enough) >= query.far_enough ||
                     (!arePrepared(frame) && verticesApart(frame, query.far_enough)));
   if (far || request.isSatisfied(result)) return result.min_distance;
