@@ -242,6 +242,19 @@ TEST(FewTriangles, PreparedBoxesTellFewTrianglesApart) {
   EXPECT_EQ(touch().exact, 0);
 }
 
+TEST(FewTriangles, ThatRootsTellApartPrepareNothingForAnAllowedError) {
+  const auto a = kiosModel(scenes::sheet(1, 1, 1, 1, 0)),
+             b = kiosModel(scenes::sheet(2, 1, 1, 1, 0));
+  fcl::Transform3d X_WB = fcl::Transform3d::Identity();
+  X_WB.translation() = fcl::Vector3d(0, 0, 1.5);
+  fcl::DistanceRequestd request;
+  request.rel_err = 0.1;
+  fcl::DistanceResultd result;
+  result.min_distance = 0.1;
+  EXPECT_EQ(distanceMeshes(*a, fcl::Transform3d::Identity(), *b, X_WB, request, result), 0.1);
+  EXPECT_EQ(preparedBytes(*a) + preparedBytes(*b), 0U);
+}
+
 // Bodies moved along a direction to where they just touch, and a few last bits either way: planes
 // between vertices must not tell what rounding hides.
 TYPED_TEST(SmallBodies, PlanesBetweenVerticesTellNothingThatRoundingHides) {
