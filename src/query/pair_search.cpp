@@ -31,38 +31,41 @@ using PairIds = std::vector<TrianglePairIds>;
 template <typename S>
 class EnginePair {
  public:
-  /// Pairs at least `far_enough` apart don't matter, and apart() need tell no more than
-  /// `required`. Nothing is prepared in vain.
-  EnginePair(const MeshPair<S>& frame, double far_enough, double required)
-      : frame_(frame), required_(required) {
-    if (tooFar()) return;
-    const bool bounded = far_enough < kInfinity;
-    engine::TreeRoot a, b;
-    engine::TreePose pose;
-    const bool known = bounded && copyRoot(frame.a, a) && copyRoot(frame.b, b);
-    if (known && boundRoots(a, b, pose) && isFar(far_enough)) return;
-    tree_a_ = preparedTree(frame.a);
-    if (tree_a_) tree_b_ = preparedTree(frame.b);
-    // The roots' pose serves, but for a copy of a model that has a tree of its own.
-    const bool same = known && tree_b_ && isRootOf(a, *tree_a_) && isRootOf(b, *tree_b_);
-    if (!same) {
-      usable_ = tree_b_ && engine::makeTreePose(*tree_a_, *tree_b_, frame.X_AB, pose);
-    }
-    if (!usable_) return;
-    if (bounded && !known) {
-      apart_ = engine::rootBound(*tree_a_, *tree_b_, pose, required_);
-    }
-    if (!isFar(far_enough)) engine::makeFloatFrame(pose, frames_);
+  /// apart() need tell no more than `required`.
+  EnginePair(const MeshPair<S>& frame, double required) : frame_(frame), required_(required) {}
+
+  /// Compares the boxes of the roots where both models are prepared.
+  void compareRoots() {
+    if (known_ || !copyRoot(frame_.a, root_a_) || !copyRoot(frame_.b, root_b_)) return;
+    known_ = true;
+    bound(root_a_, root_b_);
   }
 
-  /// False if FCL's tree must do.
-  explicit operator bool() const { return usable_; }
+  /// Takes the trees, which are prepared first if need be, but not in vain; compares their roots
+  /// if that is to be known and isn't. False if FCL's tree must do.
+  bool takeTrees(bool compare) {
+    if (!known_ && tooFar()) return false;
+    tree_a_ = preparedTree(frame_.a);
+    if (tree_a_) tree_b_ = preparedTree(frame_.b);
+    if (!tree_b_) return false;
+    // The roots' pose serves, but for a copy of a model that has a tree of its own.
+    if (!known_ || !isRootOf(root_a_, *tree_a_) || !isRootOf(root_b_, *tree_b_)) {
+      if (compare) {
+        bound(*tree_a_, *tree_b_);
+      } else {
+        usable_ = engine::makeTreePose(*tree_a_, *tree_b_, frame_.X_AB, pose_);
+      }
+    }
+    return usable_;
+  }
 
-  /// Whether the roots alone prove the models so far apart; pair() is not to be asked for then.
+  /// Whether the roots alone prove the models so far apart.
   bool isFar(double far_enough) const { return apart_ > 0 && apart_ >= far_enough; }
   double apart() const { return apart_; }
 
-  engine::PreparedPair<S> pair() const {
+  /// Once the trees are taken.
+  engine::PreparedPair<S> pair() {
+    engine::makeFloatFrame(pose_, frames_);
     return {{*tree_a_, viewOf(frame_.a)}, {*tree_b_, viewOf(frame_.b)}, frame_.X_AB, frames_};
   }
 
@@ -73,14 +76,13 @@ class EnginePair {
            root.origin[1] == tree.origin[1] && root.origin[2] == tree.origin[2];
   }
 
-  bool boundRoots(const engine::TreeRoot& a, const engine::TreeRoot& b, engine::TreePose& pose) {
-    usable_ = engine::makeTreePose(a, b, frame_.X_AB, pose);
-    if (usable_) apart_ = engine::rootBound(a, b, pose, required_);
-    return usable_;
+  void bound(const engine::TreeRoot& a, const engine::TreeRoot& b) {
+    usable_ = engine::makeTreePose(a, b, frame_.X_AB, pose_);
+    if (usable_) apart_ = engine::rootBound(a, b, pose_, required_);
   }
 
-  /// True if the models are so far apart for their size that makeFloatFrame() would refuse them:
-  /// its pad would be as large as the smaller model's radius.
+  /// True if the models are so far apart for their size that makeTreePose() would refuse them: its
+  /// pad would be as large as the smaller model's radius.
   bool tooFar() const {
     const kIOS<S>&a = frame_.rootA(), &b = frame_.rootB();
     const double apart = (frame_.X_AB * b.center0 - a.center0).template cast<double>().norm();
@@ -89,6 +91,9 @@ class EnginePair {
 
   const MeshPair<S>& frame_;
   const double required_;
+  engine::TreeRoot root_a_, root_b_;
+  bool known_ = false;  ///< the roots
+  engine::TreePose pose_;
   engine::TreeCache::Use tree_a_, tree_b_;
   engine::FloatFrame frames_;
   bool usable_ = false;
@@ -249,12 +254,25 @@ bool isOneThin(const MeshPair<S>& frame) {
   return isThin(frame.rootA()) || isThin(frame.rootB());
 }
 
+/// searchContacts() of a pair whose roots may have been compared.
+template <typename S>
+bool searchTrees(EnginePair<S>& engine, std::size_t limit, PairIds& found, SearchCounts& counts) {
+  engine.compareRoots();
+  if (engine.isFar(0)) return true;
+  if (!engine.takeTrees(true)) return false;
+  if (!engine.isFar(0)) found = engine::intersectingTriangles(engine.pair(), limit, counts);
+  return true;
+}
+
 }  // namespace
 
 template <typename S>
 [[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
                                          SearchCounts& counts) {
-  if (const EnginePair<S> engine(frame, query.far_enough, kInfinity); engine) {
+  EnginePair<S> engine(frame, kInfinity);
+  const bool bounded = query.far_enough < kInfinity;
+  if (bounded) engine.compareRoots();
+  if (engine.isFar(query.far_enough) || engine.takeTrees(bounded)) {
     if (engine.isFar(query.far_enough)) {
       PairAnswer<S> far;
       far.nearest.point_a = far.nearest.point_b = fcl::Vector3<S>::Zero();
@@ -321,11 +339,8 @@ bool engineServes(const MeshPair<S>& frame) {
 template <typename S>
 [[gnu::hot]] bool searchContacts(const MeshPair<S>& frame, std::size_t limit, PairIds& found,
                                  SearchCounts& counts) {
-  const EnginePair<S> engine(frame, 0, 0);
-  if (!engine) return false;
-  if (engine.isFar(0)) return true;
-  found = engine::intersectingTriangles(engine.pair(), limit, counts);
-  return true;
+  EnginePair<S> engine(frame, 0);
+  return searchTrees(engine, limit, found, counts);
 }
 
 template <typename S>
@@ -336,7 +351,13 @@ template <typename S>
     return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
   }
   const bool boxes_do = areUnlike(frame) || (arePrepared(frame) && isOneThin(frame));
-  if (!boxes_do && frame.rootBound(0) > 0) return PairIds();
+  EnginePair<S> engine(frame, 0);
+  if (boxes_do) {
+    engine.compareRoots();
+    if (engine.isFar(0)) return PairIds();
+  } else if (frame.rootBound(0) > 0) {
+    return PairIds();
+  }
   if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
   PairIds found;
@@ -346,23 +367,24 @@ template <typename S>
       charge(frame, kTestsOfFew);
       if (verticesApart(frame, 0)) return PairIds();
     } else if (any || pairs > kPairsWithoutTree) {
-      if (searchContacts(frame, any ? limit : kAllPairs, found, counts)) {
+      if (searchTrees(engine, any ? limit : kAllPairs, found, counts)) {
         if (found.size() > limit) found.resize(limit);  // the least ids, as of pairs one by one
         return found;
       }
-    } else if (const EnginePair<S> engine(frame, 0, 0); engine && engine.isFar(0)) {
-      return PairIds();
+    } else {
+      engine.compareRoots();
+      if (engine.isFar(0)) return PairIds();
     }
     return intersectingOfFew(frame, limit, counts);
   }
   if (arePrepared(frame)) {
-    if (searchContacts(frame, limit, found, counts)) return found;
+    if (searchTrees(engine, limit, found, counts)) return found;
   } else if (verticesApart(frame, 0)) {
     return PairIds();
   }
   auto walked = touchUnprepared(frame, limit, counts);
   if (walked && (any || walked->size() < limit)) return walked;
-  if (!searchContacts(frame, limit, found, counts)) return std::nullopt;
+  if (!searchTrees(engine, limit, found, counts)) return std::nullopt;
   return found;
 }
 

@@ -5,96 +5,73 @@
 #include <algorithm>
 #include <cmath>
 
+#include "volume/lanes.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
 
-/// Rows of a box in double.
-struct RootBox {
-  explicit RootBox(const Box& box) {
-    const float* const rows[3] = {box.x, box.y, box.z};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < kBoxColumns; ++j) at[i][j] = double{rows[i][j]};
-      half[i] = double{box.half[i]};
-    }
-  }
-  double at[3][kBoxColumns];  ///< axes and the centre, by coordinate
-  double half[3];
-};
+using lanes::Float4;
 
-double square(double gap) { return gap > 0 ? gap * gap : 0.0; }
+float widest(Float4 gaps) { return std::max({gaps[0], gaps[1], gaps[2]}); }
 
-/// The bound of simd/box_test-inl.h along the axes of both boxes, and along their products where
-/// that proves nothing. Roundings are far fewer than those that box_pad is for: what of it is left
-/// are the stored floats.
-double betweenBoxes(const RootBox& a, const RootBox& b, const TreePose& X, double required) {
-  double moved[3][kBoxColumns];  // b in a's frame, its centre from a's
-  const auto moveColumn = [&](int i, int j) {
-    moved[i][j] = X.R(i, 0) * b.at[0][j] + X.R(i, 1) * b.at[1][j] + X.R(i, 2) * b.at[2][j];
-  };
-  double C[3][kBoxColumns], abs_C[3][3];  // along a's axes
-  const auto alongA = [&](int i, int j) {
-    C[i][j] = a.at[0][i] * moved[0][j] + a.at[1][i] * moved[1][j] + a.at[2][i] * moved[2][j];
-  };
-  for (int i = 0; i < 3; ++i) {
-    moveColumn(i, kCenter);
-    moved[i][kCenter] += X.t[i] - a.at[i][kCenter];
-  }
-  bool is_inside = true;  // b's centre within a's box, as a link is within a room
-  const double radius =
-      std::sqrt(b.half[0] * b.half[0] + b.half[1] * b.half[1] + b.half[2] * b.half[2]);
-  // By the ball around b's box, whose reach is its radius at most; stored axes are of length 1 to
-  // their rounding, 2^-22 of it, for which box_pad pays.
-  double by_ball = 0;
-  for (int i = 0; i < 3; ++i) {
-    alongA(i, kCenter);
-    is_inside &= std::abs(C[i][kCenter]) <= a.half[i];
-    by_ball += square(std::abs(C[i][kCenter]) - (a.half[i] + radius + X.box_pad));
-  }
-  if (is_inside) return 0;
-  if (by_ball > required * required) return std::sqrt(by_ball);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < kCenter; ++j) moveColumn(i, j);
-  }
-  double by_a = 0, by_b = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < kCenter; ++j) {
-      alongA(i, j);
-      abs_C[i][j] = std::abs(C[i][j]);
-    }
-    const double reach =
-        abs_C[i][0] * b.half[0] + abs_C[i][1] * b.half[1] + abs_C[i][2] * b.half[2];
-    by_a += square(std::abs(C[i][kCenter]) - (a.half[i] + reach + X.box_pad));
-  }
-  if (by_a > required * required) return std::sqrt(by_a);
-  for (int j = 0; j < 3; ++j) {
-    const double apart = moved[0][j] * moved[0][kCenter] + moved[1][j] * moved[1][kCenter] +
-                         moved[2][j] * moved[2][kCenter];
-    const double reach =
-        abs_C[0][j] * a.half[0] + abs_C[1][j] * a.half[1] + abs_C[2][j] * a.half[2];
-    by_b += square(std::abs(apart) - (b.half[j] + reach + X.box_pad));
-  }
-  if (by_a > 0 || by_b > 0) return std::sqrt(std::max(by_a, by_b));
-  double widest = -kInfinity;
-  for (int j = 0; j < 3; ++j) {
-    const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-    for (int i = 0; i < 3; ++i) {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-      const double apart = std::abs(C[i2][kCenter] * C[i1][j] - C[i1][kCenter] * C[i2][j]);
-      const double own = a.half[i1] * abs_C[i2][j] + a.half[i2] * abs_C[i1][j];
-      const double reach = b.half[j1] * abs_C[i][j2] + b.half[j2] * abs_C[i][j1];
-      widest = std::max(widest, apart - (own + reach + 2 * X.box_pad));
-    }
-  }
-  return widest;
+float squareOfPositive(Float4 gaps) {
+  const Float4 positive = lanes::max(gaps, Float4{});
+  const Float4 squares = positive * positive;
+  return squares[0] + squares[1] + squares[2];
 }
+
+Float4 next(Float4 v) { return Float4{v[1], v[2], v[0], v[3]}; }
 
 }  // namespace
 
-[[gnu::hot]] double rootBound(const TreeRoot& a, const TreeRoot& b, const TreePose& X_AB,
+// The bound of simd/box_test-inl.h along the axes of both boxes, and along their products where
+// that proves nothing: the same sums in floats, a coordinate or an axis a lane in place of a pair
+// of boxes. box_pad is for both; the centre's way from a's is subtracted once, in double, before it
+// is rounded, which takes less of it.
+[[gnu::hot]] double rootBound(const TreeRoot& root_a, const TreeRoot& root_b, const TreePose& X,
                               double required) {
-  return betweenBoxes(RootBox(a.root_box), RootBox(b.root_box), X_AB, required);
+  const Box &a = root_a.root_box, &b = root_b.root_box;
+  const Float4 half_a = lanes::load(a.half), half_b = lanes::load(b.half);
+  const Float4 pad = lanes::broadcast(roundUpFloat(X.box_pad));
+  const Float4 bx = lanes::load(b.x), by = lanes::load(b.y), bz = lanes::load(b.z);
+  const float center_a[3] = {a.x[kCenter], a.y[kCenter], a.z[kCenter]};
+  const Eigen::Matrix3f R = X.R.cast<float>();
+  Float4 moved[3], C[3],
+      abs_C[3];  // b's axes and the way to its centre in a's frame; along a's axes
+  for (int i = 0; i < 3; ++i) {
+    const float from_a = static_cast<float>(X.t[i] - double{center_a[i]});
+    moved[i] = (R(i, 0) * bx + R(i, 1) * by) + (R(i, 2) * bz + Float4{0, 0, 0, from_a});
+  }
+  for (int i = 0; i < 3; ++i) {
+    C[i] = a.x[i] * moved[0] + a.y[i] * moved[1] + a.z[i] * moved[2];
+    abs_C[i] = lanes::abs(C[i]);
+  }
+  const lanes::Columns columns(abs_C[0], abs_C[1], abs_C[2]);
+  const Float4 along_a = columns.at[kCenter];
+  if (!lanes::any(along_a > half_a)) return 0;  // b's centre is in a's box, as a link's in a room
+  const Float4 reach_b =
+      columns.at[0] * b.half[0] + columns.at[1] * b.half[1] + columns.at[2] * b.half[2];
+  const Float4 gaps_a = along_a - (half_a + pad + reach_b);
+  if (widest(gaps_a) > required) return widest(gaps_a);
+  const Float4 along_b =
+      moved[0] * moved[0][kCenter] + moved[1] * moved[1][kCenter] + moved[2] * moved[2][kCenter];
+  const Float4 reach_a = abs_C[0] * a.half[0] + abs_C[1] * a.half[1] + abs_C[2] * a.half[2];
+  const Float4 gaps_b = lanes::abs(along_b) - (half_b + pad + reach_a);
+  if (widest(gaps_b) > required) return widest(gaps_b);
+  const float squared = std::max(squareOfPositive(gaps_a), squareOfPositive(gaps_b));
+  if (squared > 0) return std::sqrt(double{squared});
+  const Float4 next_b = next(half_b), last_b = next(next_b);
+  Float4 gaps = lanes::broadcast(-kInfinityFloat);
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    const Float4 apart = lanes::abs(C[i2][kCenter] * C[i1] - C[i1][kCenter] * C[i2]);
+    const Float4 own = a.half[i1] * abs_C[i2] + a.half[i2] * abs_C[i1];
+    const Float4 next_C = next(abs_C[i]);
+    const Float4 reach = next_b * next(next_C) + last_b * next_C;
+    gaps = lanes::max(gaps, apart - (own + pad + pad + reach));
+  }
+  return widest(gaps);
 }
 
 }  // namespace kios::engine

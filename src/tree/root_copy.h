@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #include "tree/tree.h"
 
@@ -25,11 +26,8 @@ class RootCopy {
     // are acquired.
     const unsigned int version = version_.load(std::memory_order_acquire);
     if ((version & 1U) != 0 || stamp_.load(std::memory_order_acquire) != stamp) return false;
-    auto* const bytes = static_cast<unsigned char*>(static_cast<void*>(&root));
-    for (std::size_t i = 0; i < kWords; ++i) {
-      const std::uint64_t word = words_[i].load(std::memory_order_acquire);
-      std::memcpy(bytes + sizeof(word) * i, &word, sizeof(word));
-    }
+    copyWords(static_cast<unsigned char*>(static_cast<void*>(&root)),
+              std::make_index_sequence<kWords>());
     return version_.load(std::memory_order_relaxed) == version;
   }
 
@@ -51,6 +49,14 @@ class RootCopy {
   static constexpr std::size_t kWords = 12;
   static_assert(std::is_trivially_copyable_v<TreeRoot> && sizeof(TreeRoot) >= 8 * kWords &&
                 offsetof(TreeRoot, reach) + sizeof(float) <= 8 * kWords);
+
+  template <std::size_t... i>
+  void copyWords(unsigned char* to, std::index_sequence<i...> /*all*/) const {
+    const auto copy = [to](std::size_t at, std::uint64_t word) {
+      std::memcpy(to + sizeof(word) * at, &word, sizeof(word));
+    };
+    (copy(i, words_[i].load(std::memory_order_acquire)), ...);
+  }
 
   std::atomic<unsigned int> version_{0};
   std::atomic<std::uint64_t> stamp_{0};  ///< 0: none

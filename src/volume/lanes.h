@@ -93,8 +93,26 @@ inline Float4 sqrt(Float4 v) {
 #endif
 }
 
-/// Returns the magnitudes, for 0 a zero of either sign.
-inline Float4 abs(Float4 v) { return max(v, -v); }
+inline Float4 abs(Float4 v) {
+  return reinterpret_cast<Float4>(reinterpret_cast<Int4>(v) & 0x7fffffff);
+}
+
+/// The columns of three rows; their last lanes are 0.
+struct Columns {
+  Columns(Float4 a, Float4 b, Float4 c) {
+#if defined(__SSE2__)
+    const __m128 ab_low = _mm_unpacklo_ps(a, b), ab_high = _mm_unpackhi_ps(a, b);
+    const __m128 c_low = _mm_unpacklo_ps(c, Float4{}), c_high = _mm_unpackhi_ps(c, Float4{});
+    at[0] = _mm_movelh_ps(ab_low, c_low);
+    at[1] = _mm_movehl_ps(c_low, ab_low);
+    at[2] = _mm_movelh_ps(ab_high, c_high);
+    at[3] = _mm_movehl_ps(c_high, ab_high);
+#else
+    for (int i = 0; i < 4; ++i) at[i] = Float4{a[i], b[i], c[i], 0};
+#endif
+  }
+  Float4 at[4];
+};
 
 inline Double2 abs(Double2 v) {
 #if defined(__SSE2__)
