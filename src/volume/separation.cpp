@@ -218,7 +218,12 @@ template <typename S>
 [[gnu::hot]] RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA,
                                            const fcl::Transform3<S>& X_WB, double squared_errors) {
   const fcl::Matrix3<S> inverse = X_WA.linear().transpose();
-  for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
+  // R^T R is I but for roundings, by which equal bodies at equal poses would miss each other.
+  if (X_WA.linear() == X_WB.linear()) {
+    R_.setIdentity();
+  } else {
+    for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
+  }
   T_ = detail::rotate<S>(inverse, X_WB.translation() - X_WA.translation());
   computeBounds(squared_errors);
   if (!(bounds_.T_norm1 <= kMaxCoordinate<S>)) refuseTranslations(X_WA, X_WB);

@@ -88,5 +88,40 @@ TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {
   EXPECT_LT(worst, 0.75) << "the figure of docs/guarantees.md";
 }
 
+// R^T R is off from I by some roundings: as a rotation between them, it would move equal bodies
+// apart.
+TYPED_TEST(OwnOrigin, EqualRotationsLeaveNone) {
+  using S = TypeParam;
+  scenes::Random random(17);
+  std::uint64_t seed = 100;
+  for (const double offset : {0.0, 1.0, 1e4}) {
+    for (int k = 0; k < 100; ++k) {
+      const fcl::Transform3<S> X = scenes::randomPoses(1, 1, ++seed)[0].template cast<S>();
+      const fcl::Vector3<S> p = randomPoint<S>(random, offset), x = randomPoint<S>(random, 1);
+      const auto body = scenes::moved(
+          fcl::Transform3d(Eigen::Translation3d(p.template cast<double>())),
+          k % 2 == 0 ? scenes::icosphere(0.5, 1) : scenes::subdividedBox({1, 2, 3}, 1 + k % 3));
+      const auto a = scenes::buildModel<kIOS<S>>(body), b = scenes::buildModel<kIOS<S>>(body);
+      for (const bool prepared : {false, true}) {
+        if (prepared) prepare(*a), prepare(*b);
+        EXPECT_EQ(kios::distance(*a, X, *b, X).distance, 0) << offset << ", " << k;
+        fcl::CollisionResult<S> result;
+        EXPECT_EQ(fcl::collide(a.get(), X, b.get(), X, fcl::CollisionRequest<S>(), result), 1U)
+            << offset << ", " << k;
+      }
+      // Points are apart by what translations leave, whatever R^T R.
+      fcl::Transform3<S> Y = X;
+      Y.translation() += x;
+      const auto at = pointModel<S>(p), too = pointModel<S>(p);
+      const auto apart = static_cast<double>((X.linear().template cast<long double>().transpose() *
+                                              (Y.translation().template cast<long double>() -
+                                               X.translation().template cast<long double>()))
+                                                 .norm());
+      EXPECT_NEAR(double{kios::distance(*at, X, *too, Y).distance}, apart,
+                  16 * std::numeric_limits<S>::epsilon() * (apart + p.template lpNorm<1>()));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kios::testing
