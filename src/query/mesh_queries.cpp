@@ -9,6 +9,7 @@
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include "fcl_kios/query/mesh_nodes.h"
 #include "model/kios_model.h"
+#include "query/ball_off_box.h"
 #include "query/few_triangles.h"
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
@@ -31,7 +32,7 @@ template <typename S>
   fcl::detail::collide(&node);
 }
 
-/// collideMeshes() of models that may touch, for all that farApart() can tell.
+/// collideMeshes() of models that may touch, for all that their roots tell at once.
 template <typename S>
 [[gnu::noinline, gnu::hot]] void collideNear(const MeshPair<S>& frame,
                                              const fcl::Transform3<S>& X_WA,
@@ -96,8 +97,10 @@ template <typename S>
   requireFinished(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
-  if (done || !farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, 0)) {
-    const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where farApart() can't
+  const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
+  if (done ||
+      !(farApart<S>(way, squared_errors, 0) || ballOffBox(a, X_WA, b, X_WB, way, squared_errors))) {
+    const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where they can't tell
     if (request.num_max_contacts == 0) {                        // FCL's warning and answer
       std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
       return 0;
@@ -124,7 +127,8 @@ template <typename S>
   const bool bounded = result.min_distance < std::numeric_limits<S>::max();
   if (bounded) {  // as if a pair so far were found
     query.far_enough = query.cullDistance(result.min_distance);
-    if (farApart(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB, squared_errors, query.far_enough)) {
+    const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
+    if (farApart<S>(way, squared_errors, query.far_enough)) {
       return result.min_distance;
     }
   }

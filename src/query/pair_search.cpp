@@ -9,6 +9,7 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "model/walk.h"
+#include "query/ball_off_box.h"
 #include "query/few_triangles.h"
 #include "query/unprepared.h"
 #include "search/mesh_search.h"
@@ -40,6 +41,8 @@ class EnginePair {
     known_ = true;
     bound(root_a_, root_b_);
   }
+
+  bool knowsRoots() const { return known_; }
 
   /// Takes the trees, which are prepared first if need be, but not in vain; compares their roots
   /// if that is to be known and isn't. False if FCL's tree must do.
@@ -235,25 +238,6 @@ constexpr std::size_t kAllPairs = std::numeric_limits<std::size_t>::max();
 constexpr int kPairsWithoutTree = 32;  ///< are listed sooner one by one, unless roots are apart
 constexpr long long kTestsOfFew = 8;   ///< take as long as intersectingOfFew(), more or less
 
-/// Returns true if one model is so much larger than the other, as a floor than a link, that its
-/// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
-template <typename S>
-bool areUnlike(const MeshPair<S>& frame) {
-  constexpr S kMuch = 16;
-  const S a = frame.rootA().radius0, b = frame.rootB().radius0;
-  return a > kMuch * b || b > kMuch * a;
-}
-
-/// Returns true if either is so thin, as a rod or a plate, that the spheres of its root reach as
-/// far out as such spheres do: its box tells more than they.
-template <typename S>
-bool isOneThin(const MeshPair<S>& frame) {
-  const auto isThin = [](const kIOS<S>& root) {
-    return scaled(double{root.reach}, root.exponent) > 3.55 * double{root.radius0};
-  };
-  return isThin(frame.rootA()) || isThin(frame.rootB());
-}
-
 /// searchContacts() of a pair whose roots may have been compared.
 template <typename S>
 bool searchTrees(EnginePair<S>& engine, std::size_t limit, PairIds& found, SearchCounts& counts) {
@@ -350,14 +334,12 @@ template <typename S>
     ++counts.exact;
     return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
   }
-  const bool boxes_do = areUnlike(frame) || (arePrepared(frame) && isOneThin(frame));
+  const kIOS<S>&root_a = frame.rootA(), &root_b = frame.rootB();
+  const bool unlike = areUnlike(root_a, root_b);
   EnginePair<S> engine(frame, 0);
-  if (boxes_do) {
-    engine.compareRoots();
-    if (engine.isFar(0)) return PairIds();
-  } else if (frame.rootBound(0) > 0) {
-    return PairIds();
-  }
+  if (unlike || isThin(root_a) || isThin(root_b)) engine.compareRoots();
+  if (engine.isFar(0)) return PairIds();
+  if (!unlike && !engine.knowsRoots() && frame.rootBound(0) > 0) return PairIds();
   if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
   PairIds found;

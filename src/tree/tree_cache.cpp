@@ -19,9 +19,7 @@ namespace kios::engine {
   return *this;
 }
 
-[[gnu::hot]] TreeCache::Use::~Use() {
-  if (cell_) cell_->users.fetch_sub(1, std::memory_order_release);
-}
+[[gnu::hot]] void TreeCache::Use::leave() { cell_->users.fetch_sub(1, std::memory_order_release); }
 
 [[gnu::hot]] TreeCache::Use TreeCache::find(const TreeKey& key) {
   for (Cell& cell : cells_) {

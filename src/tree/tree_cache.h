@@ -52,7 +52,9 @@ class TreeCache {
     Use() = default;
     Use(Use&& o) noexcept;
     Use& operator=(Use&& o) noexcept;
-    ~Use();
+    ~Use() {
+      if (cell_) leave();
+    }
 
     explicit operator bool() const { return tree_ != nullptr; }
     /// Also where it is known that no tree can be made.
@@ -64,6 +66,7 @@ class TreeCache {
     friend class TreeCache;
     explicit Use(Cell& cell) : cell_(&cell), tree_(cell.found) {}
     explicit Use(SharedTree own) : own_(std::move(own)), tree_(own_.get()) {}
+    void leave();
 
     Cell* cell_ = nullptr;
     SharedTree own_;  ///< one that found no place

@@ -92,7 +92,6 @@ SMALL_OR_USED_ONCE = {
     "triangle/integer.h": "Boost's integers, which take long to compile",
     "triangle/plain_intersection.h": "the filter before the proof",
     "volume/ball_lanes.h": "tested alone", "volume/errors.h": "the one way to refuse",
-    "volume/far_apart.h": "tested alone",
     "volume/instantiate.h": "macros", "volume/stamp.h": "one function",
     "volume/simd_targets.h": "before Highway's headers",
     "volume/unit_vector.h": "one function",

@@ -58,7 +58,8 @@ struct Spheres {
            X.translation().template cast<double>();
   }
   bool farApart(double margin = 0) const {
-    return kios::farApart(a, X_WA, b, X_WB, squaredRotationErrors(X_WA, X_WB), margin);
+    return kios::farApart<S>(CentralWay(a, X_WA, b, X_WB), squaredRotationErrors(X_WA, X_WB),
+                             margin);
   }
   double separation() const {
     return kios::separation(a, b, RelativePose<S>(X_WA, X_WB), kInfinity);
