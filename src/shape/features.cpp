@@ -24,9 +24,18 @@ class Features {
         t_(triangle),
         required_(required),
         size_(sizeOf(triangle) + solid.reach()),
+        full_ellipsoid_(solid.kind == Kind::kEllipsoid && !isFlat(solid.half, 0) &&
+                        !isFlat(solid.half, 1) && !isFlat(solid.half, 2)),
         core_(core) {}
 
   bool run() {
+    core_.lower = -1;
+    core_.inside = false;
+    if (full_ellipsoid_) {
+      Vec outwards;
+      if (touchesInRadii(outwards)) return false;
+      if (core_.lower > required_ + tolerance() || face(outwards, 0x1p-20)) return true;
+    }
     int least = 0;
     for (int i = 0; i < 3; ++i) {
       corners_[i] = nearestPoint(solid_, t_[i]);
@@ -34,13 +43,11 @@ class Features {
     }
     constexpr double kClear = 0x1p-36;
     if (!(corners_[least].distance > kClear * size_)) return false;
-    core_.lower = -1;
-    core_.inside = false;
     if (decides(t_[least], corners_[least])) return true;
     for (int i = 0; i < 3; ++i) {
       if (edge(i, (i + 1) % 3)) return true;
     }
-    return face(corners_[least].normal);
+    return face(corners_[least].normal, 0);
   }
 
  private:
@@ -62,6 +69,49 @@ class Features {
     return true;
   }
 
+  /// True if the triangle meets an ellipsoid. Else takes the slab across the ellipsoid's normal
+  /// where the two are nearest in units of the radii.
+  bool touchesInRadii(Vec& outwards) {
+    Triangle scaled;
+    for (int i = 0; i < 3; ++i) scaled[i] = t_[i].cwiseQuotient(solid_.half);
+    const Vec nearest = nearestToOrigin(scaled);
+    const double length = nearest.norm();
+    if (!(length > 1)) return true;
+    outwards = nearest.cwiseQuotient(solid_.half).normalized();
+    core_.lower = std::min({outwards.dot(t_[0]), outwards.dot(t_[1]), outwards.dot(t_[2])}) -
+                  extentAlong(solid_, outwards);
+    core_.point = nearest.cwiseProduct(solid_.half);
+    core_.on_core = core_.point / length;
+    core_.upper = (core_.point - core_.on_core).norm();
+    return false;
+  }
+
+  /// Guesses where on an edge an ellipsoid is nearest. x = a + s d has the nearest point e^2 n,
+  /// n = x / (e^2 + t), for s and t of |e n| = 1 and n d = 0: Newton's method for both, as in
+  /// nearestPoint(), from where the edge is nearest in units of the radii.
+  double guessOnEdge(const Vec& a, const Vec& d) const {
+    const Eigen::Array3d e = solid_.half.array(), e2 = e * e;
+    const Vec scaled_a = a.array() / e, scaled_d = d.array() / e;
+    double s = std::clamp(-scaled_a.dot(scaled_d) / scaled_d.squaredNorm(), 0.0, 1.0);
+    double t = std::max(0.0, (e * (a + s * d).array().abs() - e2).maxCoeff());
+    constexpr int kSteps = 12;
+    for (int step = 0; step < kSteps; ++step) {
+      const Eigen::Array3d over = 1 / (e2 + t), n = (a + s * d).array() * over, nd = n * d.array(),
+                           dd = d.array().square() * over;
+      const Eigen::Array3d w2 = e2 * n * n;
+      const double square = w2.sum(), r = (w2 * over).sum();
+      const double h = (std::sqrt(square) - 1) * square;
+      const double g = nd.sum(), a1 = dd.sum(), b = (e2 * nd * over).sum(), c = (nd * over).sum();
+      const double determinant = r * a1 - b * c;
+      if (!(determinant > 0)) break;
+      const double ds = (c * h - r * g) / determinant, dt = (a1 * h - b * g) / determinant;
+      s = std::clamp(s + ds, 0.0, 1.0);
+      t = std::max(0.0, t + dt);
+      if (std::abs(ds) <= 0x1p-30) break;
+    }
+    return s;
+  }
+
   // Half the derivative of the squared distance along the edge is found to be 0 by false position,
   // after Illinois: next to a box and a capsule it is linear but for a few bends.
   bool edge(int i, int j) {
@@ -74,7 +124,9 @@ class Features {
     constexpr int kSteps = 40;
     int kept = 0;  // the end that stayed where it was: -1 low, 1 high
     for (int step = 0; step < kSteps; ++step) {
-      double way = low + (high - low) * (at_low / (at_low - at_high));
+      double way = step == 0 && full_ellipsoid_
+                       ? guessOnEdge(a, along)
+                       : low + (high - low) * (at_low / (at_low - at_high));
       if (!(way > low && way < high)) way = 0.5 * (low + high);
       const Vec x = a + way * along;
       const NearestPoint q = nearestPoint(solid_, x);
@@ -96,8 +148,9 @@ class Features {
     return false;
   }
 
-  /// The face is nearest where the solid's support point along its normal projects into it.
-  bool face(const Vec& outwards) {
+  /// The face is nearest where the solid's support point along its normal projects into it, by
+  /// `inside` of its altitudes, which are that share of all lengths at least.
+  bool face(const Vec& outwards, double inside) {
     Vec n = faceNormal(t_);
     const double length = n.norm();
     if (!(length > 0)) return false;
@@ -111,7 +164,9 @@ class Features {
     const double uw = u.dot(w), vw = v.dot(w), determinant = uu * vv - uv * uv;
     if (!(determinant > 0)) return false;
     const double s = (vv * uw - uv * vw) / determinant, t = (uu * vw - uv * uw) / determinant;
-    if (!(s >= 0 && t >= 0 && s + t <= 1)) return false;
+    if (!(s >= inside && t >= inside && s + t <= 1 - inside)) return false;
+    const double longest = std::max({uu, vv, uu + vv - 2 * uv});
+    if (!(determinant >= inside * inside * size_ * size_ * longest)) return false;
     const Vec x = t_[0] + s * u + t * v;
     q.distance = (x - q.on_shape).norm();
     // A thin face leaves s and t, and x with them, few digits.
@@ -121,6 +176,7 @@ class Features {
   const Solid& solid_;
   const Triangle& t_;
   const double required_, size_;
+  const bool full_ellipsoid_;
   CoreDistance& core_;
   NearestPoint corners_[3];
 };

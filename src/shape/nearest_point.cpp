@@ -56,24 +56,29 @@ NearestPoint turned(const Solid& s, const Vec& p) {
   return nearest;
 }
 
-/// x_i = e_i^2 p_i / (e_i^2 + t), with |x / e| = 1 for one t >= 0 outside. Newton from below: one
-/// coordinate alone has |x_i / e_i| = 1 at most there, which leaves |x / e|^2 at most 3 for a start
-/// however flat the ellipsoid is. Where a radius e_i is 0, that holds of the others; t is 0 for
-/// points above the inside.
+/// x_i = e_i^2 p_i / (e_i^2 + t), with w = x / e of length 1 for one t >= 0 outside. One coordinate
+/// alone has |w_i| = 1 at most at the start, which leaves |w|^2 at most 3 however flat the
+/// ellipsoid is. 1 / |w| is concave in t, by Cauchy and Schwarz, so that Newton's steps to where it
+/// is 1 stay below; and nearly linear: a step of s leaves at most 1.5 s^2 / (least e^2 + t), below
+/// rounding at the last. Where a radius e_i is 0, that holds of the others; t is 0 for points above
+/// the inside.
 NearestPoint onEllipsoid(const Solid& s, const Vec& p) {
   const Eigen::Array<bool, 3, 1> flat(isFlat(s.half, 0), isFlat(s.half, 1), isFlat(s.half, 2));
   const Vec e = flat.select(0.0, s.half), e2 = e.cwiseProduct(e), ep = e.cwiseProduct(p);
   const auto over = [&](const Vec& v, double t) -> Vec {
     return flat.select(0.0, v.array() / (e2.array() + t));
   };
+  const double least = flat.select(kInfinity, e2).minCoeff();
   double t = std::max(0.0, (ep.cwiseAbs() - e2).maxCoeff());
   for (int step = 0; step < 100; ++step) {
     const Vec w = over(ep, t);
-    const double slope = -2 * w.dot(over(w, t));
-    if (!(slope < 0)) break;  // at the centre
-    const double next = t - (w.squaredNorm() - 1) / slope;
+    const double square = w.squaredNorm(), fall = w.dot(over(w, t));
+    if (!(fall > 0)) break;  // at the centre
+    const double next = t + (std::sqrt(square) - 1) * square / fall;
     if (!(next > t)) break;
+    const bool last = next - t <= 0x1p-28 * (least + t);
     t = next;
+    if (last) break;
   }
   const Vec n = over(p, t), from_shape = flat.select(p, t * n);
   const double distance = from_shape.norm();

@@ -67,8 +67,13 @@ TriangleShapeDistance distance(const Solid& s, const Triangle& t, double require
   CoreDistance core = {};
   TriangleShapeDistance answer;
   if (s.kind == Kind::kConvex || !distanceByCertificate(s, t, beyond, core)) {
-    core = gjkDistance(s, t.data(), 3, beyond);
-    if (margin == 0 && core.lower <= clearOf(t, core) && meetsAt(s, t, core, &answer.on_triangle)) {
+    const bool direct = margin == 0 && s.kind != Kind::kConvex;
+    bool touching = direct && meets(s, t, &answer.on_triangle);
+    if (!touching) core = gjkDistance(s, t.data(), 3, beyond);
+    if (s.kind == Kind::kConvex && core.lower <= clearOf(t, core)) {
+      touching = meetsAt(s, t, core, &answer.on_triangle);
+    }
+    if (touching) {
       answer.distance = answer.lower = 0;
       answer.on_shape = answer.on_triangle;
       return answer;
