@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "shape/convex_faces.h"
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
@@ -93,15 +94,15 @@ engine::FloatSlab toTree(const engine::Tree& tree, const PosedSolid<S>& posed, c
 
 template <typename S>
 bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
-                    const shape::ConvexFaces& faces, std::vector<engine::FloatSlab>& planes,
-                    FloatSolid& out) {
+                    std::vector<engine::FloatSlab>& planes, FloatSolid& out) {
   const double reach = tree.reach;
   if (!posed.hasUnit1() || !(reach >= engine::kLeastReach)) return false;
   const shape::Solid& solid = posed.solid();
+  const double solid_reach = solid.reach();
   const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
   // In double: the mesh's points as posed, as PosedSolid bounds them.
   const double points = error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * reach) +
-                                                 posed.T().template lpNorm<1>() + solid.reach());
+                                                 posed.T().template lpNorm<1>() + solid_reach);
   double scale = reach;
   out.margin = roundUpFloat(solid.margin());
   out.tells_inside = solid.kind != Kind::kConvex;
@@ -117,7 +118,7 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
       crop(posed.R() * origin + posed.T(), radius, range);
     } else {
       out.radius = roundUpFloat(solid.radius);
-      scale += solid.reach();
+      scale += solid_reach;
     }
     if (out.form == Form::kCone) setCone(solid, out);
     if (out.form == Form::kEllipsoid) {
@@ -127,11 +128,15 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
     const Vec center = inverse * (middle - posed.T()) - origin;
     setRows(posed.R(), center, half, out.box);
     scale += solid.margin() + half.norm() + center.template lpNorm<1>();
-    constexpr double kMostReach = 64;  // that lets planes tell something
-    if (out.form == Form::kContained && solid.reach() <= kMostReach * reach) {
-      scale += solid.reach();
-      for (std::size_t i = 0; i < faces.size(); ++i) {
-        planes.push_back(toTree(tree, posed, faces.normal(i), faces.offset(i)));
+    constexpr double kMostReach = 64;       // that lets planes tell something
+    constexpr std::size_t kFewLeaves = 32;  // whose triangles take less than the planes
+    if (out.form == Form::kContained && tree.leaves.size() > kFewLeaves &&
+        solid_reach <= kMostReach * reach) {
+      scale += solid_reach;
+      const std::vector<shape::ConvexFaces::Slab> slabs = shape::ConvexFaces(solid).slabs();
+      planes.reserve(slabs.size());
+      for (const auto& slab : slabs) {
+        planes.push_back(toTree(tree, posed, slab.normal, slab.offset));
       }
       out.planes = planes.data();
       out.num_planes = static_cast<int>(planes.size());

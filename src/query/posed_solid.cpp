@@ -34,8 +34,9 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
   t_WS_ = X_WS.translation().template cast<double>();
   R_ = R_WS_.transpose() * X_WM.linear().template cast<double>();
   T_ = R_WS_.transpose() * (X_WM.translation().template cast<double>() - t_WS_);
+  double reach = solid_.reach();
   const double largest =
-      std::max({solid_.reach(), T_.lpNorm<Eigen::Infinity>(),
+      std::max({reach, T_.lpNorm<Eigen::Infinity>(),
                 double{root.center0.template lpNorm<Eigen::Infinity>()}, double{root.radius0}});
   constexpr int kPlain = 100;
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
@@ -44,8 +45,9 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
     unit_ = std::ldexp(1.0, exponent);
     scaleBy(per_unit_, solid_);
     T_ *= per_unit_;
+    reach *= per_unit_;
   }
-  offsets_ = T_.lpNorm<1>() + solid_.reach();
+  offsets_ = T_.lpNorm<1>() + reach;
   if (solid_.kind == shape::Kind::kConvex) range_ = shape::rangeOf(solid_.points);
 }
 

@@ -41,13 +41,12 @@ class NearestTriangle final : public engine::SolidEvaluator {
   }
 
   void run() {
-    const double root = boundOf(0);
-    if (leftOut(root)) return;
+    if (limit_ < kInfinity && leftOut(boundOf(0))) return;
     engine::TreeCache* const trees = treesOf(model_);
     const long long spare =
         trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
     if (spare > 0) {
-      const long long tests = walk(root, spare);
+      const long long tests = walk(spare);
       if (trees) trees->budget.charge(tests);
       if (tests < spare && (best_ > 0 || any_touching_)) {
         ++counts_.tree_searches;
@@ -60,14 +59,13 @@ class NearestTriangle final : public engine::SolidEvaluator {
     }
     const engine::TreeCache::Use tree = preparedTree(model_);
     engine::FloatSolid solid;
-    const shape::ConvexFaces faces(posed_.solid());
     std::vector<engine::FloatSlab> planes;
-    if (tree && makeFloatSolid(*tree, posed_, faces, planes, solid)) {
+    if (tree && makeFloatSolid(*tree, posed_, planes, solid)) {
       tree_ = &*tree;
       engine::kernels().solid({*tree, solid, *this, counts_});
     } else {
       ++counts_.tree_searches;
-      walk(root, std::numeric_limits<long long>::max());
+      walk(std::numeric_limits<long long>::max());
     }
   }
 
@@ -111,7 +109,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
 
   /// In the tree of volumes, the nearer child first, until so many tests were made, of which a
   /// triangle's counts as four. Returns their number.
-  long long walk(double root, long long max_tests) {
+  long long walk(long long max_tests) {
     long long tests = 1;
     const auto skip = [this](const BoundedNode& at) { return leftOut(at.bound); };
     const auto visit = [&](const BoundedNode& at, const auto& add) {
@@ -127,7 +125,8 @@ class NearestTriangle final : public engine::SolidEvaluator {
       }
       return best_ <= 0 || tests >= max_tests;
     };
-    const bool ended = walkNearestFirst(BoundedNode{root, 0}, skip, visit).empty() || best_ <= 0;
+    const bool ended =
+        walkNearestFirst(BoundedNode{-kInfinity, 0}, skip, visit).empty() || best_ <= 0;
     return ended ? std::min(tests, max_tests - 1) : tests;
   }
 

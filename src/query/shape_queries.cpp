@@ -12,9 +12,11 @@
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
 #include "search/search.h"
+#include "shape/convex_faces.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
 #include "volume/instantiate.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -58,9 +60,12 @@ class ShapeCollision final : public engine::SolidEvaluator {
     if (!occupied_ && !costs_) return;
     if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
     ++counts_.volume_tests;
-    if (posed_.bound(model_.getBV(0).bv, 0.0) > 0) return;
+    constexpr int kFew = 16;  // of which a convex shape's own bound takes as long as a triangle
+    const bool few = model_.num_tris <= kFew && posed_.solid().kind == shape::Kind::kConvex;
+    if (posed_.bound(model_.getBV(0).bv, few ? -kInfinity : 0.0) > 0) return;
     search();
     if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
+    std::sort(common_.begin(), common_.end());
     for (const int id : found_) report(id);
   }
 
@@ -69,9 +74,14 @@ class ShapeCollision final : public engine::SolidEvaluator {
   }
 
  private:
+  struct CommonPoint {
+    int id;
+    shape::Vec point;
+    bool operator<(const CommonPoint& o) const { return id < o.id; }
+  };
+
   /// Finds as many triangles as there is room for; all that touch if costs are asked for.
   void search() {
-    faces_.emplace(posed_.solid());
     engine::TreeCache* const trees = costs_ ? nullptr : treesOf(model_);
     const long long spare =
         trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
@@ -89,8 +99,9 @@ class ShapeCollision final : public engine::SolidEvaluator {
     const engine::TreeCache::Use tree = preparedTree(model_);
     engine::FloatSolid solid;
     found_.clear();
+    common_.clear();
     std::vector<engine::FloatSlab> planes;
-    if (tree && makeFloatSolid(*tree, posed_, *faces_, planes, solid)) {
+    if (tree && makeFloatSolid(*tree, posed_, planes, solid)) {
       cull_distance = 0;
       engine::kernels().solid({*tree, solid, *this, counts_});
     } else {
@@ -103,9 +114,12 @@ class ShapeCollision final : public engine::SolidEvaluator {
   bool test(int id, bool meets) {
     if (!meets) {
       ++counts_.leaf_kernels;
-      if (!shape::intersects(posed_.solid(), posed_.place(cornersOf(model_, id)), &*faces_)) {
-        return false;
-      }
+      constexpr int kFewTests = 8;  // that take less than a convex shape's planes
+      if (++num_tests_ > kFewTests) makeFaces();
+      const shape::Triangle t = posed_.place(cornersOf(model_, id));
+      std::optional<shape::Vec> common;
+      if (!shape::intersects(posed_.solid(), t, faces_ ? &*faces_ : nullptr, &common)) return false;
+      if (common && request_.enable_contact) common_.push_back({id, *common});
     }
     found_.push_back(id);
     return isSatisfied();
@@ -156,14 +170,25 @@ class ShapeCollision final : public engine::SolidEvaluator {
     return waiting.empty() ? std::min(tests, max_tests - 1) : tests;
   }
 
+  void makeFaces() {
+    if (!faces_) faces_.emplace(posed_.solid());
+  }
+
+  std::optional<shape::Vec> commonPointOf(int id) const {
+    const auto at = std::lower_bound(common_.begin(), common_.end(), CommonPoint{id, {}});
+    if (at == common_.end() || at->id != id) return std::nullopt;
+    return at->point;
+  }
+
   void report(int id) {
     const TriangleVertices<S> corners = cornersOf(model_, id);
     if (occupied_ && result_.numContacts() < request_.num_max_contacts) {
       fcl::Contact<S> contact(&model_, &geometry_, id, fcl::Contact<S>::NONE,
                               fcl::Vector3<S>::Zero(), fcl::Vector3<S>::Zero(), S(0));
       if (request_.enable_contact) {
+        makeFaces();
         const shape::TriangleShapeContact c =
-            shape::contact(posed_.solid(), posed_.place(corners), &*faces_);
+            shape::contact(posed_.solid(), posed_.place(corners), &*faces_, commonPointOf(id));
         contact.pos = posed_.toWorld(c.position);
         contact.normal = posed_.directionToWorld(-c.normal);  // from the mesh to the shape
         contact.penetration_depth = c.depth > 0 ? posed_.fromUnits(c.depth) : S(0);
@@ -189,6 +214,8 @@ class ShapeCollision final : public engine::SolidEvaluator {
   const bool occupied_, costs_;
   const PosedSolid<S> posed_;
   std::optional<shape::ConvexFaces> faces_;
+  int num_tests_ = 0;
+  std::vector<CommonPoint> common_;  ///< where it is known; by id once reported
   fcl::AABB<S> shape_box_;
   std::vector<int> found_;
 };

@@ -84,12 +84,17 @@ void descend(Exit& exit) {
 
 /// A point of both; for a capsule the pair of nearest points of its segment and the triangle. A box
 /// gets here where its slabs leave nothing of the triangle.
-CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* faces,
+                         const std::optional<Vec>& common) {
   CoreDistance core = {};
   if (s.kind == Kind::kConvex) {
     for (int i = 0; faces && i < 3; ++i) {
       if (!faces->contains(t[i])) continue;
       core.point = core.on_core = t[i];
+      return core;
+    }
+    if (common) {
+      core.point = core.on_core = *common;
       return core;
     }
   } else if (s.kind == Kind::kCapsule) {
@@ -104,18 +109,19 @@ CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* f
   return core;
 }
 
-TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const ConvexFaces* faces,
+                                  const std::optional<Vec>& common) {
   Exit exit(s, t);
   if (faces && !faces->known()) faces = nullptr;
-  const CoreDistance core = commonPoint(s, t, faces);
+  const CoreDistance core = commonPoint(s, t, faces, common);
   const Vec& position = core.point;
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
   if (s.kind == Kind::kConvex && s.num_faces > 0) {
     // The depth is that of all points, not of thin faces.
     if (faces) {
-      const std::size_t face = faces->leastExit(t);
-      exit.offerSlab(faces->normal(face), faces->offset(face));
+      const ConvexFaces::Slab slab = faces->leastExit(t);
+      exit.offerSlab(slab.normal, slab.offset);
     } else {
       exit.offer(leastFaceExit(s, t));
     }
@@ -203,11 +209,12 @@ TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
 
 }  // namespace
 
-TriangleShapeContact contact(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+TriangleShapeContact contact(const Solid& s, const Triangle& t, const ConvexFaces* faces,
+                             const std::optional<Vec>& common) {
   if (!s.bounded()) return planeContact(s, t);
   TriangleShapeContact of_box;
   if (s.kind == Kind::kBox && boxContact(s, t, of_box)) return of_box;
-  if (s.kind != Kind::kSphere) return solidContact(s, t, faces);
+  if (s.kind != Kind::kSphere) return solidContact(s, t, faces, common);
   const Vec q = nearestToOrigin(t);
   const double length = q.norm();
   Vec normal = length > 0 ? Vec(q / length) : faceNormal(t);

@@ -3,10 +3,29 @@
 #include "shape/convex_faces.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "volume/lanes.h"
 
 namespace kios::shape {
 namespace {
 
+using lanes::Double2;
+
+/// Two vectors.
+struct Pair {
+  Double2 x, y, z;
+
+  Pair(Double2 x, Double2 y, Double2 z) : x(x), y(y), z(z) {}
+  Pair(const Vec& a, const Vec& b) : x{a.x(), b.x()}, y{a.y(), b.y()}, z{a.z(), b.z()} {}
+  Pair operator-(const Pair& o) const { return {x - o.x, y - o.y, z - o.z}; }
+};
+Double2 dot(const Pair& a, const Pair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Pair cross(const Pair& a, const Pair& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+constexpr double kLeastSquare = 0x1p-900;       ///< of faces that have a direction
 constexpr std::size_t kMostProducts = 1 << 14;  ///< of faces and points
 
 /// True if p lies in the tetrahedron, and not at its rim.
@@ -28,31 +47,57 @@ ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
   for (const Vec& p : solid.points) middle_ += p;
   middle_ /= static_cast<double>(solid.points.size());
   reach_ = solid.reach();
-  normals_.resize(static_cast<Eigen::Index>(faces), 3);
-  offsets_.resize(static_cast<Eigen::Index>(faces));
-  Eigen::Matrix<double, Eigen::Dynamic, 3> points(static_cast<Eigen::Index>(solid.points.size()),
-                                                  3);
-  for (std::size_t i = 0; i < solid.points.size(); ++i) {
-    points.row(static_cast<Eigen::Index>(i)) = solid.points[i];
-  }
-  Eigen::Index count = 0;
+  faces_.reserve(faces + 1);
   const int* face = solid.faces;
   for (std::size_t f = 0; f < faces; ++f, face += face[0] + 1) {
-    if (face[0] < 3) continue;
-    const Vec& a = solid.points[face[1]];
-    Vec n = (solid.points[face[2]] - a).cross(solid.points[face[3]] - a);
-    const double length = n.norm();
-    if (!(length > 0)) continue;
-    n /= n.dot(middle_ - a) > 0 ? -length : length;
-    normals_.row(count) = n;
-    offsets_[count++] = (n.x() * points.col(0).array() + n.y() * points.col(1).array() +
-                         n.z() * points.col(2).array())
-                            .maxCoeff();
-    faces_.push_back(face);
+    if (face[0] >= 3) faces_.push_back(face);
   }
-  normals_.conservativeResize(count, 3);
-  offsets_.conservativeResize(count);
-  if (count > 0) depths_ = -above(middle_);
+  if (faces_.empty()) return;
+  if (faces_.size() % 2 == 1) faces_.push_back(faces_.back());  // two are made at once
+  const auto count = static_cast<Eigen::Index>(faces_.size());
+  normals_.resize(count, 3);
+  offsets_.resize(count);
+  Eigen::ArrayXd depths(count);
+  for (Eigen::Index i = 0; i < count; i += 2) {
+    const int* const* const two = &faces_[static_cast<std::size_t>(i)];
+    const auto corner = [&](int k) {
+      return Pair(solid.points[static_cast<std::size_t>(two[0][k])],
+                  solid.points[static_cast<std::size_t>(two[1][k])]);
+    };
+    const Pair a = corner(1), n = cross(corner(2) - a, corner(3) - a);
+    const Double2 square = dot(n, n);
+    if (!(square[0] > kLeastSquare && square[1] > kLeastSquare)) {
+      offsets_.resize(0);
+      return;
+    }
+    const Double2 outwards = dot(n, a - Pair(middle_, middle_));
+    const Double2 to_unit = {std::copysign(1 / std::sqrt(square[0]), outwards[0]),
+                             std::copysign(1 / std::sqrt(square[1]), outwards[1])};
+    lanes::store(&normals_(i, 0), to_unit * n.x);
+    lanes::store(&normals_(i, 1), to_unit * n.y);
+    lanes::store(&normals_(i, 2), to_unit * n.z);
+    lanes::store(&offsets_[i], to_unit * dot(n, a));
+    lanes::store(&depths[i], to_unit * outwards);
+  }
+  if (depths.minCoeff() > 0x1p-100 * reach_) per_depth_ = depths.inverse();
+}
+
+std::vector<ConvexFaces::Slab> ConvexFaces::slabs() const {
+  std::vector<Slab> slabs;
+  if (!known()) return slabs;
+  for (const Vec& p : solid_.points) offsets_ = offsets_.max(along(p));
+  slabs.reserve(faces_.size());
+  for (Eigen::Index i = 0; i < offsets_.size(); ++i) slabs.push_back({normal(i), offsets_[i]});
+  return slabs;
+}
+
+template <typename Values>
+Eigen::Index ConvexFaces::largest(const Values& values) const {
+  heights_ = values;
+  const double most = heights_.maxCoeff();
+  Eigen::Index i = 0;
+  while (i + 1 < heights_.size() && heights_[i] < most) ++i;
+  return i;
 }
 
 bool ConvexFaces::inTetrahedra(std::size_t face, const Vec& p) const {
@@ -67,21 +112,22 @@ bool ConvexFaces::inTetrahedra(std::size_t face, const Vec& p) const {
 // Finds the face by which a ray from the middle through p leaves: its tetrahedra hold p. Those of a
 // flat shape hold nothing.
 bool ConvexFaces::contains(const Vec& p) const {
-  if (!known()) return false;
+  if (per_depth_.size() == 0) return false;
   if (inTetrahedra(last_, p)) return true;
-  if (!(depths_.minCoeff() > 0)) return false;
-  const Vec way = p - middle_;
-  std::size_t exit = 0;
-  double most = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    const double depth = depths_[static_cast<Eigen::Index>(i)], out = normal(i).dot(way);
-    if (!(out > most * depth)) continue;
-    most = out / depth;
-    exit = i;
-  }
+  const auto exit = static_cast<std::size_t>(largest(along(p - middle_) * per_depth_));
   if (!inTetrahedra(exit, p)) return false;
   last_ = exit;
   return true;
+}
+
+ConvexFaces::Slab ConvexFaces::leastExit(const Triangle& t) const {
+  const double rounding = 0x1p-50 * reach_;
+  for (;;) {
+    const Eigen::Index i = largest(lowest(t));
+    const Slab slab = {normal(i), extentAlong(solid_, normal(i))};
+    if (slab.offset <= offsets_[i] + rounding) return slab;
+    offsets_[i] = slab.offset;
+  }
 }
 
 ConvexFaces::Verdict ConvexFaces::judge(const Triangle& t) const {
@@ -89,16 +135,14 @@ ConvexFaces::Verdict ConvexFaces::judge(const Triangle& t) const {
     if (inTetrahedra(last_, corner)) return Verdict::kMeets;
   }
   const double clear = 0x1p-40 * (sizeOf(t) + reach_);
-  const auto a = above(t[0]), b = above(t[1]), c = above(t[2]);
-  if (a.min(b).min(c).maxCoeff() > clear) return Verdict::kApart;
+  if (heights_[largest(lowest(t))] > clear) {
+    const Slab slab = leastExit(t);
+    const Vec& n = slab.normal;
+    const double low = std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
+    if (low - slab.offset > clear) return Verdict::kApart;
+  }
   const bool meets = contains(t[0]) || contains(t[1]) || contains(t[2]);
   return meets ? Verdict::kMeets : Verdict::kOpen;
-}
-
-std::size_t ConvexFaces::leastExit(const Triangle& t) const {
-  Eigen::Index least = 0;
-  above(t[0]).min(above(t[1])).min(above(t[2])).maxCoeff(&least);
-  return static_cast<std::size_t>(least);
 }
 
 }  // namespace kios::shape

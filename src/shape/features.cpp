@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shape/nearest_point.h"
+#include "shape/simplex.h"
 
 namespace kios::shape {
 namespace {
@@ -31,14 +32,16 @@ class Features {
   bool run() {
     core_.lower = -1;
     core_.inside = false;
+    int known = kNone;
     if (full_ellipsoid_) {
       Vec outwards;
-      if (touchesInRadii(outwards)) return false;
-      if (core_.lower > required_ + tolerance() || face(outwards, 0x1p-20)) return true;
+      if (touchesInRadii(outwards, known)) return false;
+      if (core_.lower > required_ + tolerance()) return true;
+      if (known == kNone ? face(outwards, 0x1p-20) : cornerAlone(known)) return true;
     }
     int least = 0;
     for (int i = 0; i < 3; ++i) {
-      corners_[i] = nearestPoint(solid_, t_[i]);
+      if (i != known) corners_[i] = nearestPoint(solid_, t_[i]);
       if (corners_[i].distance < corners_[least].distance) least = i;
     }
     constexpr double kClear = 0x1p-36;
@@ -51,6 +54,8 @@ class Features {
   }
 
  private:
+  static constexpr int kNone = -1;
+
   double tolerance() const { return 0x1p-49 * size_; }
 
   /// Takes x, a point of the triangle, if its slab proves that it is the nearest one, or that the
@@ -70,13 +75,16 @@ class Features {
   }
 
   /// True if the triangle meets an ellipsoid. Else takes the slab across the ellipsoid's normal
-  /// where the two are nearest in units of the radii.
-  bool touchesInRadii(Vec& outwards) {
+  /// where the two are nearest in units of the radii, and sets `corner` if that is one.
+  bool touchesInRadii(Vec& outwards, int& corner) {
     Triangle scaled;
     for (int i = 0; i < 3; ++i) scaled[i] = t_[i].cwiseQuotient(solid_.half);
     const Vec nearest = nearestToOrigin(scaled);
     const double length = nearest.norm();
     if (!(length > 1)) return true;
+    for (int i = 0; i < 3; ++i) {
+      if (nearest == scaled[i]) corner = i;
+    }
     outwards = nearest.cwiseQuotient(solid_.half).normalized();
     core_.lower = std::min({outwards.dot(t_[0]), outwards.dot(t_[1]), outwards.dot(t_[2])}) -
                   extentAlong(solid_, outwards);
@@ -86,17 +94,27 @@ class Features {
     return false;
   }
 
+  /// Takes a corner if the others lie so far beyond its slab that rounding can't make them nearer.
+  bool cornerAlone(int i) {
+    const Vec& x = t_[i];
+    const NearestPoint& q = corners_[i] = nearestPoint(solid_, x);
+    const double rise =
+        std::min(q.normal.dot(t_[(i + 1) % 3] - x), q.normal.dot(t_[(i + 2) % 3] - x));
+    return rise > 0x1p-40 * size_ && decides(x, q);
+  }
+
   /// Guesses where on an edge an ellipsoid is nearest. x = a + s d has the nearest point e^2 n,
   /// n = x / (e^2 + t), for s and t of |e n| = 1 and n d = 0: Newton's method for both, as in
   /// nearestPoint(), from where the edge is nearest in units of the radii.
   double guessOnEdge(const Vec& a, const Vec& d) const {
     const Eigen::Array3d e = solid_.half.array(), e2 = e * e;
     const Vec scaled_a = a.array() / e, scaled_d = d.array() / e;
-    double s = std::clamp(-scaled_a.dot(scaled_d) / scaled_d.squaredNorm(), 0.0, 1.0);
-    double t = std::max(0.0, (e * (a + s * d).array().abs() - e2).maxCoeff());
+    double s = nearestOnSegment(scaled_a, scaled_a + scaled_d), t = 0;
     constexpr int kSteps = 12;
     for (int step = 0; step < kSteps; ++step) {
-      const Eigen::Array3d over = 1 / (e2 + t), n = (a + s * d).array() * over, nd = n * d.array(),
+      const Eigen::Array3d x = a + s * d;
+      t = std::max(t, (e * x.abs() - e2).maxCoeff());  // keeps |e_i n_i| within 1
+      const Eigen::Array3d over = 1 / (e2 + t), n = x * over, nd = n * d.array(),
                            dd = d.array().square() * over;
       const Eigen::Array3d w2 = e2 * n * n;
       const double square = w2.sum(), r = (w2 * over).sum();

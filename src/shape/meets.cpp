@@ -192,7 +192,8 @@ bool meetsAt(const Solid& s, const Triangle& t, const CoreDistance& core, Vec* c
   return meets(s, t, core.inside ? nullptr : common);
 }
 
-bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
+bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces,
+                std::optional<Vec>* common) {
   if (!s.bounded()) {
     const double a = s.normal.dot(t[0]), b = s.normal.dot(t[1]), c = s.normal.dot(t[2]);
     if (std::min({a, b, c}) > s.offset) return false;
@@ -210,6 +211,7 @@ bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
   }
   core = gjkDistance(s, t.data(), 3, beyond);
   if (margin > 0) return closedBracket(s, t, margin, core).upper <= margin;
+  if (core.inside && common) *common = core.point;
   return core.lower <= clearOf(t, core) && meetsAt(s, t, core, nullptr);
 }
 

@@ -164,18 +164,18 @@ Descent descend(Simplex& s, const Add& add, double required, int max_steps) {
   for (int step = 0; step < max_steps; ++step) {
     const double length = std::sqrt(found.squared);
     if (!(length > 0)) break;
-    const Simplex before = s;
+    const int before = s.size;
     const double size = add(v);
-    const Eigen::Vector3d y = s.y[s.size - 1];
+    const Eigen::Vector3d y = s.y[before];
     found.lower = std::max(found.lower, v.dot(y) / length);
     bool known = false;  // a point that is there already: nothing is nearer
-    for (int i = 0; i < before.size; ++i) known |= before.y[i] == y;
+    for (int i = 0; i < before; ++i) known |= s.y[i] == y;
     const double closed = 0x1p-48 * length + 0.25 * std::numeric_limits<double>::epsilon() * size;
     Nearest best;
     const bool ends = found.lower > required || known || length - found.lower <= closed;
     if (!ends) best = nearest(s);
     if (!(best.squared < found.squared)) {
-      s = before;
+      s.size = before;
       break;
     }
     reduce(best, s);

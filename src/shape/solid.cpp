@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shape/gjk.h"
+#include "volume/lanes.h"
 #include "volume/rounding.h"
 
 namespace kios::shape {
@@ -57,6 +58,50 @@ double ellipsoidBound(const Solid& s, const Vec& p) {
     t = next;
   }
   return best;
+}
+
+/// The first of the points that lie farthest along n. Two at a time: their six coordinates lie one
+/// after another.
+const Vec& farthestAlong(const std::vector<Vec>& points, const Vec& n) {
+  using lanes::Double2;
+  const Double2 xy = {n.x(), n.y()}, zx = {n.z(), n.x()}, yz = {n.y(), n.z()};
+  constexpr std::size_t kBlock = 64;
+  double heights[kBlock];
+  const Vec* best = points.data();
+  double most = -kInfinity;
+  for (std::size_t from = 0; from < points.size(); from += kBlock) {
+    const std::size_t count = std::min(kBlock, points.size() - from);
+    const Vec* const block = points.data() + from;
+    Double2 highest = {most, most};
+    const auto takeTwo = [&](std::size_t i) {
+      const double* const p = block[i].data();
+      const Double2 a = lanes::load(p) * xy, b = lanes::load(p + 2) * zx,
+                    c = lanes::load(p + 4) * yz;
+      const Double2 height = Double2{a[0], b[1]} + Double2{a[1], c[0]} + Double2{b[0], c[1]};
+      lanes::store(heights + i, height);
+      highest = lanes::max(height, highest);
+    };
+    std::size_t i = 0;
+    for (; i + 3 < count; i += 4) {
+      takeTwo(i);
+      takeTwo(i + 2);
+    }
+    if (i + 1 < count) {
+      takeTwo(i);
+      i += 2;
+    }
+    if (i < count) {
+      heights[i] = n.dot(block[i]);
+      highest[0] = std::max(highest[0], heights[i]);
+    }
+    const double here = std::max(highest[0], highest[1]);
+    if (!(here > most)) continue;
+    most = here;
+    i = 0;
+    while (i + 2 < count && heights[i] < most && heights[i + 1] < most) i += 2;
+    best = block + (i + 1 < count && heights[i] < most ? i + 1 : i);
+  }
+  return *best;
 }
 
 }  // namespace
@@ -115,18 +160,8 @@ Vec coreSupport(const Solid& s, const Vec& n) {
       if (n.z() * 2 * s.half_length > across * s.radius) return {0, 0, s.half_length};
       return {n.x() * scale, n.y() * scale, -s.half_length};
     }
-    case Kind::kConvex: {
-      const Vec* best = s.points.data();
-      double most = n.dot(*best);
-      for (const Vec& p : s.points) {
-        const double along = n.dot(p);
-        if (along > most) {
-          most = along;
-          best = &p;
-        }
-      }
-      return *best;
-    }
+    case Kind::kConvex:
+      return farthestAlong(s.points, n);
     default:
       return Vec::Zero();
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "shape/solid.h"
 
@@ -19,7 +20,9 @@ class ConvexFaces;
 /// True if the closed triangle and the closed, full solid have a point in common. By direct tests,
 /// right but for rounding: a pair whose overlap or gap is below 2^-46 L may be judged either way
 /// (a convex shape without faces: 2^-36 L). `faces`, unless null, are those of a convex shape.
-bool intersects(const Solid& solid, const Triangle& triangle, const ConvexFaces* faces = nullptr);
+/// `common`, unless null, becomes GJK's common point if that decides.
+bool intersects(const Solid& solid, const Triangle& triangle, const ConvexFaces* faces = nullptr,
+                std::optional<Vec>* common = nullptr);
 
 /// Largest |x|_1 of the corners: the size that tolerances of contact are measured by.
 inline double sizeOf(const Triangle& t) {
@@ -47,8 +50,10 @@ struct TriangleShapeContact {
 /// For a pair that intersects(). Moving by depth along the normal always ends the overlap. It is
 /// the least such move for spheres, capsules, boxes, half-spaces and planes (for the plane FCL's:
 /// to the side that has more of the triangle); the least along the normals of the faces and of the
-/// triangle for convex shapes; a local minimum to 2^-7 rad for the others.
+/// triangle for convex shapes; a local minimum to 2^-7 rad for the others. `common`: as
+/// intersects() gave it, which changes nothing.
 TriangleShapeContact contact(const Solid& solid, const Triangle& triangle,
-                             const ConvexFaces* faces = nullptr);
+                             const ConvexFaces* faces = nullptr,
+                             const std::optional<Vec>& common = std::nullopt);
 
 }  // namespace kios::shape

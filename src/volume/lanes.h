@@ -33,6 +33,14 @@ inline Float4 load(const float* p) {
 
 inline void store(float* p, Float4 v) { std::memcpy(p, &v, sizeof(v)); }
 
+inline Double2 load(const double* p) {
+  Double2 v;
+  std::memcpy(&v, p, sizeof(v));
+  return v;
+}
+
+inline void store(double* p, Double2 v) { std::memcpy(p, &v, sizeof(v)); }
+
 inline Float4 select(Int4 mask, Float4 a, Float4 b) {
   return reinterpret_cast<Float4>((mask & reinterpret_cast<Int4>(a)) |
                                   (~mask & reinterpret_cast<Int4>(b)));
@@ -73,6 +81,14 @@ inline Float4 max(Float4 a, Float4 b) {
   return _mm_max_ps(a, b);
 #else
   return select(a > b, a, b);
+#endif
+}
+
+inline Double2 max(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_max_pd(a, b);
+#else
+  return Double2{a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]};
 #endif
 }
 

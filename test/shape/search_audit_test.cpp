@@ -85,10 +85,9 @@ class Auditor {
               const fcl::Transform3d& X_WS, Pads pads, Audited& out) {
     const PosedSolid<S> posed(toSolid(geometry), X_WM.cast<S>(), X_WS.cast<S>(),
                               model_->getBV(0).bv);
-    const shape::ConvexFaces faces(posed.solid());
     std::vector<engine::FloatSlab> planes;
     engine::FloatSolid solid;
-    if (!makeFloatSolid(*tree_, posed, faces, planes, solid)) return false;
+    if (!makeFloatSolid(*tree_, posed, planes, solid)) return false;
     solid.pad *= pads.of_points;
     solid.box_pad *= pads.of_boxes;
     distances_.clear();

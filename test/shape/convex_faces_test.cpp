@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The planes of a convex shape's faces and its farthest points; and close pairs of a triangle and a
+// hull of many faces, which GJK's slab across features decides.
+
+#include "shape/convex_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "not_finite.h"
+#include "scenes/shapes.h"
+#include "shape/solid_cases.h"
+
+namespace kios::testing {
+namespace {
+
+using shape::ConvexFaces;
+using shape::Solid;
+using shape::Triangle;
+using shape::Vec;
+
+/// Holds the hull of a ball's vertices, stretched; every third face runs the other way round.
+struct Hull {
+  std::vector<int> faces;
+  Solid solid;
+
+  Hull(int subdivisions, const Vec& half, const Vec& at = Vec::Zero()) {
+    const auto ball = scenes::icosphere(1, subdivisions);
+    for (const auto& p : ball.vertices) solid.points.push_back(half.cwiseProduct(p) + at);
+    for (const auto& t : ball.triangles) {
+      faces.insert(faces.end(), {3, int(t[0]), int(t[1]), int(t[2])});
+      if (++solid.num_faces % 3 == 0) std::swap(faces.end()[-1], faces.end()[-2]);
+    }
+    solid.kind = shape::Kind::kConvex;
+    solid.faces = faces.data();
+  }
+  void addFace(int a, int b, int c) {
+    faces.insert(faces.end(), {3, a, b, c});
+    ++solid.num_faces;
+    solid.faces = faces.data();
+  }
+};
+
+double depthIn(const ConvexFaces::Slab& slab, const Triangle& t) {
+  const Vec& n = slab.normal;
+  return slab.offset - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
+}
+
+// Small integers make ties, and no rounding.
+TEST(FarthestPoint, IsTheFirstOfTheFarthest) {
+  SolidCases cases(61);
+  Solid s;
+  s.kind = shape::Kind::kConvex;
+  const auto grid = [&] { return Vec((4 * cases.vector()).array().round()); };
+  for (int count = 1; count <= 200; ++count) {
+    s.points.push_back(grid());
+    for (int i = 0; i < 20; ++i) {
+      const Vec n = grid();
+      const Vec* first = &s.points[0];
+      for (const Vec& p : s.points) {
+        if (n.dot(p) > n.dot(*first)) first = &p;
+      }
+      EXPECT_EQ(shape::coreSupport(s, n), *first) << count;
+    }
+  }
+}
+
+TEST(ConvexFaces, SlabsHoldAllPoints) {
+  SolidCases cases(62);
+  for (int i = 0; i < 200; ++i) {
+    Hull hull(1, Vec::Constant(0.1) + cases.vector().cwiseAbs(), cases.vector());
+    const double reach = hull.solid.reach();
+    if (i % 2 == 1) {  // a sliver, whose plane cuts the hull
+      auto& points = hull.solid.points;
+      points.push_back(0.5 * (points[0] + points[1]) + 1e-13 * cases.vector());
+      hull.addFace(0, 1, int(points.size()) - 1);
+    }
+    const ConvexFaces faces(hull.solid), others(hull.solid);
+    ASSERT_TRUE(faces.known());
+    const auto slabs = others.slabs();
+    for (const auto& slab : slabs) {
+      for (const Vec& p : hull.solid.points) {
+        EXPECT_LE(slab.normal.dot(p), slab.offset + 0x1p-50 * reach);
+      }
+    }
+    for (int k = 0; k < 20; ++k) {
+      const Triangle t = cases.triangle(cases.vector(), cases.power(-3, 1));
+      double least = kInfinity;
+      for (const auto& slab : slabs) {
+        least = std::min(least, depthIn(slab, t));
+      }
+      const auto exit = faces.leastExit(t);
+      EXPECT_NEAR(exit.normal.norm(), 1, 1e-14);
+      EXPECT_NEAR(depthIn(exit, t), least, 0x1p-47 * (reach + shape::sizeOf(t)));
+    }
+  }
+}
+
+TEST(ConvexFaces, AreNotKnownWithoutAnArea) {
+  Hull hull(1, Vec::Ones());
+  hull.addFace(1, 1, 2);
+  const ConvexFaces faces(hull.solid);
+  EXPECT_FALSE(faces.known());
+  EXPECT_TRUE(faces.slabs().empty());
+  EXPECT_FALSE(faces.contains(Vec::Zero()));
+  const Triangle t = {Vec(0.9, 0, 0), Vec(2, 1, 0), Vec(2, -1, 0)};
+  EXPECT_TRUE(shape::intersects(hull.solid, t, &faces));
+  EXPECT_LT(shape::contact(hull.solid, t, &faces).depth, 0.2);
+}
+
+// Verdicts of the planes are GJK's, and never those of the band that may be judged either way;
+// close pairs' distances and lower bounds hold against each face in long double.
+TEST(ConvexFaces, ClosePairsAreToldBySlabsAcrossFeatures) {
+  SolidCases cases(63);
+  Real worst = 0, above = 0;
+  int apart = 0, met = 0, told_apart = 0, told_meets = 0, closed = 0;
+  for (int i = 0; i < 1500; ++i) {
+    NearPair pair;
+    const Hull hull(1, Vec::Constant(0.2) + cases.vector().cwiseAbs(), cases.vector());
+    pair.solid = hull.solid;
+    pair.faces = coreFaces(pair.solid);
+    pair.triangle = cases.triangle(2 * cases.vector(), cases.power(-3, 1));
+    setGap(cases.power(-14, -1), pair);
+    if (i % 3 == 0) {
+      for (Vec& p : pair.triangle) p -= 0.3 * cases.unit() * (p - pair.solid.points[0]);
+      measure(pair);
+    }
+    const ConvexFaces faces(pair.solid);
+    const auto verdict = faces.judge(pair.triangle);
+    std::optional<Vec> common;
+    const bool meets = shape::intersects(pair.solid, pair.triangle, nullptr, &common);
+    EXPECT_NE(verdict, meets ? ConvexFaces::Verdict::kApart : ConvexFaces::Verdict::kMeets);
+    told_apart += verdict == ConvexFaces::Verdict::kApart;
+    told_meets += verdict == ConvexFaces::Verdict::kMeets;
+    const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
+    EXPECT_EQ(d.distance == 0, meets);
+    if (meets) {
+      ++met;
+      EXPECT_LE(pair.distance, 0x1p-46L * pair.extent);
+      const auto plain = shape::contact(pair.solid, pair.triangle, &faces);
+      const auto with = shape::contact(pair.solid, pair.triangle, &faces, common);
+      EXPECT_EQ(plain.position, with.position);
+      EXPECT_EQ(plain.normal, with.normal);
+      EXPECT_EQ(plain.depth, with.depth);
+      continue;
+    }
+    EXPECT_LE(pair.depth, 0x1p-46L * pair.extent);
+    ++apart;
+    closed += d.distance - d.lower <= 0x1p-47 * static_cast<double>(pair.extent);
+    worst = std::max(worst, std::abs(d.distance - pair.distance) / pair.extent);
+    above = std::max(above, (d.lower - pair.distance) / pair.extent);
+  }
+  EXPECT_GT(met, 100);
+  EXPECT_GT(told_meets, 50);
+  EXPECT_GT(told_apart, 300);
+  EXPECT_GT(closed, apart * 9 / 10);
+  EXPECT_LE(worst, 0x1p-46L);
+  EXPECT_LE(above, 0x1p-46L);
+}
+
+}  // namespace
+}  // namespace kios::testing
