@@ -4,74 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "fcl_kios/triangle/intersection.h"
-#include "query/nearest_candidates.h"
-#include "query/unprepared.h"
+#include "query/placed_triangles.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
-#include "volume/lanes.h"
 #include "volume/rounding.h"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace kios {
 namespace {
-
-/// By axis: where a box begins, and where it ends, negated; or the other way round.
-struct Sides {
-  lanes::Double2 x, y, z;
-};
-
-/// A box in the common frame, as both sides of a test; empty at first.
-struct Box {
-  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
-
-  template <typename S>
-  static Box of(const TriangleVertices<S>& t) {
-    Box box;
-    for (int c = 0; c < 3; ++c) {
-      const double x = t[0][c], y = t[1][c], z = t[2][c];
-      box.low[c] = std::min(std::min(x, y), z);
-      box.high[c] = std::max(std::max(x, y), z);
-    }
-    return box;
-  }
-  void add(const Box& o) {
-    for (int c = 0; c < 3; ++c) {
-      low[c] = std::min(low[c], o.low[c]);
-      high[c] = std::max(high[c], o.high[c]);
-    }
-  }
-  Sides lower() const { return sides(low, high); }
-  Sides upper() const { return sides(high, low); }
-
- private:
-  static Sides sides(const double* p, const double* q) {
-    using lanes::Double2;
-    return {Double2{p[0], -q[0]}, Double2{p[1], -q[1]}, Double2{p[2], -q[2]}};
-  }
-};
-
-/// The distance of two boxes, right to 4 u; lower() of one, upper() of the other.
-double distance(const Sides& lower, const Sides& upper) {
-  const auto along = [](lanes::Double2 gap) { return std::max(std::max(gap[0], gap[1]), 0.0); };
-  const double x = along(lower.x - upper.x), y = along(lower.y - upper.y),
-               z = along(lower.z - upper.z);
-  return std::sqrt(x * x + y * y + z * z);
-}
-
-/// Whether two boxes have no point in common; lower() of one, upper() of the other.
-bool apart(const Sides& lower, const Sides& upper) {
-  const auto gap = (lower.x > upper.x) | (lower.y > upper.y) | (lower.z > upper.z);
-#if defined(__SSE2__)
-  return _mm_movemask_pd(reinterpret_cast<__m128d>(gap)) != 0;
-#else
-  return (gap[0] | gap[1]) != 0;
-#endif
-}
 
 constexpr int kMostVertices = 64;  ///< of a model
 constexpr int kPlanes = 6;         ///< more find hardly any pair apart
@@ -101,95 +43,80 @@ Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Eigen::Vector3d&
   return {most, at};
 }
 
+/// Calls visit() with the pairs that intersect, by ids, until it returns true.
+// Coordinates are those that the triangles' own test sees, so boxes need no pad, and the signs of
+// planes are proven.
+template <typename S, typename Visit>
+void visitIntersecting(const PlacedPair<S>& pair, SearchCounts& counts, const Visit& visit) {
+  const auto& [a, b] = pair;
+  const Sides lower = a.box().lower(), upper = b.box().upper();
+  if (apart(lower, upper)) return;
+  // By triangle of A, those of B that may meet it.
+  std::uint32_t near[kFewTriangles] = {};
+  if (b.size() <= kFewPlanes) {
+    for (int j = 0; j < b.size(); ++j) {
+      std::uint32_t crossing = a.crossing(b.plane(j));
+      for (; crossing != 0; crossing &= crossing - 1) near[__builtin_ctz(crossing)] |= 1U << j;
+    }
+  } else if (a.size() <= kFewPlanes) {
+    for (int i = 0; i < a.size(); ++i) near[i] = b.crossing(a.plane(i));
+  } else {
+    std::uint32_t of_b = 0;
+    for (int j = 0; j < b.size(); ++j) {
+      if (!apart(lower, b.box(j).upper())) of_b |= 1U << j;
+    }
+    std::fill_n(near, a.size(), of_b);
+  }
+  struct Placed {
+    TriangleVertices<S> triangle;
+    Sides upper;
+    PlainPlane plane;
+  } placed[kFewTriangles];
+  std::uint32_t is_placed = 0;
+  for (int i = 0; i < a.size(); ++i) {
+    if (near[i] == 0) continue;
+    const Sides lower_i = a.box(i).lower();
+    if (apart(lower_i, upper)) continue;
+    const TriangleVertices<S> p = a.triangle(i);
+    const PlainPlane plane = a.plane(i);
+    for (std::uint32_t left = near[i]; left != 0; left &= left - 1) {
+      const int j = __builtin_ctz(left);
+      Placed& q = placed[j];
+      if ((is_placed >> j & 1U) == 0) {
+        is_placed |= 1U << j;
+        q = {b.triangle(j), b.box(j).upper(), b.plane(j)};
+      }
+      if (apart(lower_i, q.upper)) continue;
+      ++counts.exact;
+      const Plainly plain = plainlyMeet(q.triangle, q.plane, p, plane);
+      if (plain == Plainly::kApart) continue;
+      if (plain == Plainly::kUnclear && !trianglesIntersect(p, q.triangle)) continue;
+      if (visit(engine::TrianglePairIds{i, j})) return;
+    }
+  }
+}
+
 }  // namespace
 
-// Coordinates are those that the triangles' own test sees, so boxes need no pad.
 template <typename S>
 std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame, std::size_t limit,
                                                        SearchCounts& counts) {
   std::vector<engine::TrianglePairIds> found;
-  Box boxes_a[kFewTriangles], all_a;
-  const int num_a = frame.a.num_tris, num_b = frame.b.num_tris;
-  for (int i = 0; i < num_a; ++i) all_a.add(boxes_a[i] = Box::of(frame.triangleA(i)));
-
-  struct Placed {
-    TriangleVertices<S> triangle;
-    Sides upper;
-    int id;
-  } near_b[kFewTriangles];
-  const Sides lower = all_a.lower();
-  Box all_b;
-  int num_near = 0;
-  for (int j = 0; j < num_b; ++j) {
-    Placed& placed = near_b[num_near];
-    placed.triangle = frame.triangleB(j);
-    const Box box = Box::of(placed.triangle);
-    placed.upper = box.upper();
-    placed.id = j;
-    if (apart(lower, placed.upper)) continue;
-    ++num_near;
-    all_b.add(box);
-  }
-  if (num_near == 0) return found;
-  const Sides upper = all_b.upper();
-  for (int i = 0; i < num_a; ++i) {
-    const Sides lower_i = boxes_a[i].lower();
-    if (apart(lower_i, upper)) continue;
-    const TriangleVertices<S> p = frame.triangleA(i);
-    for (int j = 0; j < num_near; ++j) {
-      if (apart(lower_i, near_b[j].upper)) continue;
-      ++counts.exact;
-      if (!trianglesIntersect(p, near_b[j].triangle)) continue;
-      found.push_back({i, near_b[j].id});
-      if (found.size() >= limit) return found;
-    }
-  }
+  visitIntersecting(PlacedPair<S>(frame), counts, [&](const engine::TrianglePairIds& ids) {
+    found.push_back(ids);
+    return found.size() >= limit;
+  });
   return found;
 }
 
-// All boxes are tested, then triangles by the distance of their boxes. What is left out is farther
-// than NearestCandidates' allowance for rounding, which is far more than that of boxes.
 template <typename S>
-engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, const engine::PairQuery& query,
-                                   SearchCounts& counts) {
-  struct Bounded {
-    double bound;
-    engine::TrianglePairIds ids;
-    bool operator<(const Bounded& o) const {
-      return bound != o.bound ? bound < o.bound : ids < o.ids;
-    }
-  } bounded[kVeryFewPairs];
-  Sides upper_b[kFewTriangles];
-  const int num_a = frame.a.num_tris, num_b = frame.b.num_tris;
-  for (int j = 0; j < num_b; ++j) upper_b[j] = Box::of(frame.triangleB(j)).upper();
-  int n = 0, least = 0;
-  for (int i = 0; i < num_a; ++i) {
-    const Sides lower = Box::of(frame.triangleA(i)).lower();
-    for (int j = 0; j < num_b; ++j, ++n) {
-      bounded[n] = {distance(lower, upper_b[j]), {i, j}};
-      if (bounded[n].bound < bounded[least].bound) least = n;
-    }
-  }
-  NearestCandidates<S> pairs(frame, query.far_enough);
-  pairs.test(bounded[least].ids);
-  bounded[least] = bounded[--n];
-  const double most = pairs.cullDistance();
-  const auto end = std::partition(bounded, bounded + n,
-                                  [most](const Bounded& pair) { return pair.bound <= most; });
-  std::sort(bounded, end);
-  counts.leaf_pairs += num_a * num_b;
-  ++counts.exact;
-  for (const Bounded* pair = bounded; pair != end && !pairs.touching(); ++pair) {
-    if (pair->bound > pairs.cullDistance()) break;
-    pairs.test(pair->ids);
-    ++counts.exact;
-  }
-  engine::PairAnswer<S> answer = pairs.answer();
-  if (pairs.touching() && !query.any_touching) {
-    answer.ids = firstTouching(frame, counts);
-    answer.nearest = frame.distanceOf(answer.ids);
-  }
-  return answer;
+engine::TrianglePairIds firstIntersecting(const PlacedPair<S>& pair, SearchCounts& counts) {
+  engine::TrianglePairIds found;
+  visitIntersecting(pair, counts, [&](const engine::TrianglePairIds& ids) {
+    found = ids;
+    return true;
+  });
+  return found;
 }
 
 // The direction is turned as Chung and Wang do ("Quick collision detection of polytopes in virtual
@@ -241,7 +168,7 @@ bool verticesApart(const MeshPair<S>& frame, double margin) {
   return false;
 }
 
-KIOS_INSTANTIATE_FUNCTION(nearestOfFew);
+KIOS_INSTANTIATE_FUNCTION(firstIntersecting);
 KIOS_INSTANTIATE_FUNCTION(intersectingOfFew);
 KIOS_INSTANTIATE_FUNCTION(verticesApart);
 

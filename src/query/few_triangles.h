@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
@@ -14,7 +15,7 @@
 
 namespace kios {
 
-constexpr int kFewTriangles = 32, kVeryFewPairs = 64;
+constexpr int kFewTriangles = 32, kVeryFewPairs = 64, kMostPairByPair = 4;
 
 /// True for models of so few triangles that all pairs are looked at for contacts faster than any
 /// tree is walked: boxes against spheres of 40 triangles. Found by trying.
@@ -35,8 +36,8 @@ bool areVeryFew(const Model<S>& a, const Model<S>& b) {
 /// Tells it for so few pairs that no bound of them, and no tree, takes less than their triangles.
 template <typename S>
 bool arePairByPair(const Model<S>& a, const Model<S>& b) {
-  constexpr int kMost = 4;
-  return a.num_tris <= kMost && b.num_tris <= kMost && a.num_tris * b.num_tris <= kMost;
+  return a.num_tris <= kMostPairByPair && b.num_tris <= kMostPairByPair &&
+         a.num_tris * b.num_tris <= kMostPairByPair;
 }
 
 /// Returns up to `limit` pairs of few triangles that intersect, all of them if there are no more,
@@ -45,11 +46,26 @@ template <typename S>
 std::vector<engine::TrianglePairIds> intersectingOfFew(const MeshPair<S>& frame, std::size_t limit,
                                                        SearchCounts& counts);
 
-/// Returns the nearest of very few triangles that the engine serves, of those nearer than
-/// query.far_enough, as searchNearest() names them for exact queries; not found if there are none.
+/// Returns the nearest of very few triangles that the engine serves, and of which touchingOfFew()
+/// found none, of those nearer than query.far_enough, as searchNearest() names them for exact
+/// queries; not found if there are none.
 template <typename S>
 engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, const engine::PairQuery& query,
                                    SearchCounts& counts);
+
+/// Returns the nearest triangles of models that are looked at pair by pair, of those nearer than
+/// query.far_enough, for exact queries, whatever their scale and budget. Where they touch, the
+/// least ids; of pairs that are equally near but for rounding, the first that is found.
+template <typename S>
+engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::PairQuery& query,
+                                        SearchCounts& counts);
+
+/// Returns the answer of exact queries about few triangles that touch: the least ids that do,
+/// prepared or not, with points unless any_touching. Nothing if none do.
+template <typename S>
+std::optional<engine::PairAnswer<S>> touchingOfFew(const MeshPair<S>& frame,
+                                                   const engine::PairQuery& query,
+                                                   SearchCounts& counts);
 
 /// True only if a plane between the vertices of two models proves their triangles, as placed in the
 /// common frame, more than `margin` >= 0 apart; false says nothing. Planes are tried in a few

@@ -70,14 +70,19 @@ template <typename S>
     ++counts.exact;
     if (single || answer.nearest.distance <= query.abs_err) return answer;
   }
+  if (query.isExact() && arePairByPair(frame.a, frame.b)) {
+    return nearestPairByPair(frame, query, counts);
+  }
   if (query.isExact() && engineServes(frame)) {
-    const bool two_pairs = frame.a.num_tris <= 2 && frame.b.num_tris <= 2 &&
-                           frame.a.num_tris != frame.b.num_tris;  // no tree is sooner
-    if (two_pairs || (areVeryFew(frame.a, frame.b) && !treesPay(frame))) {
+    if (areVeryFew(frame.a, frame.b) && !treesPay(frame)) {
       constexpr long long kTests = 6;  // take as long as a pair of triangles
       const long long before = counts.exact;
+      if (auto touching = touchingOfFew(frame, query, counts)) {
+        charge(frame, kTests);
+        return *touching;
+      }
       engine::PairAnswer<S> answer = nearestOfFew(frame, query, counts);
-      if (!two_pairs) charge(frame, kTests * (counts.exact - before));
+      charge(frame, kTests * (counts.exact - before));
       return answer;
     }
     const auto answer = nearestUnprepared(frame, query, counts);
@@ -133,11 +138,12 @@ template <typename S>
     }
   }
   const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);
+  if (request.isSatisfied(result)) return result.min_distance;
   const bool pair_by_pair = query.isExact() && arePairByPair(a, b);
   const bool far = bounded && !pair_by_pair &&
                    (frame.rootBound(query.far_enough) >= query.far_enough ||
                     (!arePrepared(frame) && verticesApart(frame, query.far_enough)));
-  if (far || request.isSatisfied(result)) return result.min_distance;
+  if (far) return result.min_distance;
   SearchCounts unused;
   const engine::PairAnswer<S> answer = nearestOf(frame, query, counts ? *counts : unused);
   const TriangleDistance<S>& nearest = answer.nearest;

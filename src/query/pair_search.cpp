@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
@@ -234,9 +233,7 @@ double leastReach(const Model<S>& model) {
   return std::min(double{root.radius0} / 4, 0.49 * box.sizes().maxCoeff());
 }
 
-constexpr std::size_t kAllPairs = std::numeric_limits<std::size_t>::max();
-constexpr int kPairsWithoutTree = 32;  ///< are listed sooner one by one, unless roots are apart
-constexpr long long kTestsOfFew = 8;   ///< take as long as intersectingOfFew(), more or less
+constexpr long long kTestsOfFew = 8;  ///< take as long as intersectingOfFew(), more or less
 
 /// searchContacts() of a pair whose roots may have been compared.
 template <typename S>
@@ -253,6 +250,13 @@ bool searchTrees(EnginePair<S>& engine, std::size_t limit, PairIds& found, Searc
 template <typename S>
 [[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
                                          SearchCounts& counts) {
+  const bool exact = query.isExact() && !query.endsEarly();
+  if (query.isExact() && arePairByPair(frame.a, frame.b)) {
+    return nearestPairByPair(frame, query, counts);
+  }
+  if (exact) {
+    if (auto touching = touchingOfFew(frame, query, counts)) return *touching;
+  }
   EnginePair<S> engine(frame, kInfinity);
   const bool bounded = query.far_enough < kInfinity;
   if (bounded) engine.compareRoots();
@@ -263,13 +267,7 @@ template <typename S>
       far.least_other = engine.apart();
       return far;
     }
-    PairAnswer<S> answer = engine::nearestTriangles(engine.pair(), query, counts);
-    const bool named = query.isExact() && !query.endsEarly() && !query.any_touching;
-    if (named && answer.found() && answer.nearest.distance == 0 && namesFirstTouching(frame)) {
-      answer.ids = firstTouching(frame, counts);
-      answer.nearest = frame.distanceOf(answer.ids);
-    }
-    return answer;
+    return engine::nearestTriangles(engine.pair(), query, counts);
   }
   ++counts.tree_searches;
   return TreeSearch<S>(frame, query, counts).run();
@@ -342,23 +340,20 @@ template <typename S>
   if (!unlike && !engine.knowsRoots() && frame.rootBound(0) > 0) return PairIds();
   if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
-  PairIds found;
   if (areFew(frame.a, frame.b)) {
-    const int pairs = frame.a.num_tris * frame.b.num_tris;
     if (!treesPay(frame)) {
       charge(frame, kTestsOfFew);
       if (verticesApart(frame, 0)) return PairIds();
-    } else if (any || pairs > kPairsWithoutTree) {
-      if (searchTrees(engine, any ? limit : kAllPairs, found, counts)) {
-        if (found.size() > limit) found.resize(limit);  // the least ids, as of pairs one by one
-        return found;
-      }
     } else {
+      for (const Model<S>* model : {&frame.a, &frame.b}) {
+        if (!engine.knowsRoots()) preparedTree(*model);
+      }
       engine.compareRoots();
       if (engine.isFar(0)) return PairIds();
     }
     return intersectingOfFew(frame, limit, counts);
   }
+  PairIds found;
   if (arePrepared(frame)) {
     if (searchTrees(engine, limit, found, counts)) return found;
   } else if (verticesApart(frame, 0)) {

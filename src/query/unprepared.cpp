@@ -3,12 +3,12 @@
 #include "query/unprepared.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
+#include "query/few_triangles.h"
 #include "query/nearest_candidates.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
@@ -131,33 +131,22 @@ std::optional<std::vector<TrianglePairIds>> touchUnprepared(const MeshPair<S>& f
   return std::move(touching.ids);
 }
 
-// Where triangles touch, the walk ends with firstTouching()'s: bounds that exceed 0 differ, but
-// nodes as far apart as that hold no such triangles.
 template <typename S>
 std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame,
                                                const engine::PairQuery& query,
                                                SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
+  if (auto touching = touchingOfFew(frame, query, counts)) return touching;
   NearestCandidates<S> near(frame, query.far_enough);
   TreeWalk walk(frame, near, allowance.tests());
   walk.run(counts);
   allowance.charge(walk.tests());
-  const bool done =
-      near.touching() ? query.any_touching || namesFirstTouching(frame) : !walk.gaveUp();
-  if (!done) return std::nullopt;
+  if (near.touching() ? !query.any_touching : walk.gaveUp()) return std::nullopt;
   return near.answer();
-}
-
-template <typename S>
-TrianglePairIds firstTouching(const MeshPair<S>& frame, SearchCounts& counts) {
-  TouchingPairs<S> touching{frame, 1, {}};
-  TreeWalk(frame, touching, std::numeric_limits<long long>::max()).run(counts);
-  return touching.ids.at(0);
 }
 
 KIOS_INSTANTIATE_FUNCTION(touchUnprepared);
 KIOS_INSTANTIATE_FUNCTION(nearestUnprepared);
-KIOS_INSTANTIATE_FUNCTION(firstTouching);
 
 }  // namespace kios

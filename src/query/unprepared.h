@@ -23,23 +23,11 @@ std::optional<std::vector<engine::TrianglePairIds>> touchUnprepared(const MeshPa
                                                                     SearchCounts& counts);
 
 /// The nearest triangles of those nearer than query.far_enough, as searchNearest() names them for
-/// exact queries that the engine serves; not found if there are none. If triangles touch, they are
-/// firstTouching()'s: for models of which prepared queries name others, only with `any_touching`.
+/// exact queries that the engine serves; not found if there are none. Nothing is returned of more
+/// than few triangles that touch, unless any may be named: which it is only the engine knows.
 template <typename S>
 std::optional<engine::PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame,
                                                        const engine::PairQuery& query,
                                                        SearchCounts& counts);
-
-/// True for models of which exact distance queries name firstTouching()'s triangles at distance 0,
-/// prepared or not.
-template <typename S>
-bool namesFirstTouching(const MeshPair<S>& frame) {
-  constexpr int kMost = 256;  // of more triangles the engine names a pair sooner
-  return frame.a.num_tris <= kMost && frame.b.num_tris <= kMost - frame.a.num_tris;
-}
-
-/// The triangles that FCL's trees lead to first of those that intersect. Some must.
-template <typename S>
-engine::TrianglePairIds firstTouching(const MeshPair<S>& frame, SearchCounts& counts);
 
 }  // namespace kios

@@ -325,7 +325,11 @@ template <typename S>
   if (!done) (exact ? kernels().distance : kernels().bracket)(search);
   PairAnswer<S> result;
   result.ids = evaluator.ids();
-  if (result.ids.a >= 0) result.nearest = evaluator.certified();
+  if (query.any_touching && evaluator.least() == 0) {  // no points are asked for
+    result.nearest.point_a = result.nearest.point_b = fcl::Vector3<S>::Zero();
+  } else if (result.ids.a >= 0) {
+    result.nearest = evaluator.certified();
+  }
   if (has_bound && result.ids.a >= 0 &&
       result.nearest.distance == 0) {  // any pair that intersects: which must not depend
     PairQuery cold = query;            // on where it began

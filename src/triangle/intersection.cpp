@@ -331,7 +331,7 @@ template <typename S>
 template <typename S>
 [[gnu::hot]] bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   if (boxesApart(a, b)) return false;
-  const Plainly plain = plainlyMeet(a, b);
+  const Plainly plain = plainlyMeet(a, planeOf(a), b, planeOf(b));
   if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;
   return PairIntersection(coordinatesOf(a, b)).common(nullptr);
 }

@@ -13,6 +13,7 @@ namespace kios {
 /// Signs of determinants by plain arithmetic: (p - origin) . (e x f).
 class PlainPlane {
  public:
+  PlainPlane() = default;
   template <typename S>
   PlainPlane(const Point<S>& origin, const Point<S>& to_e, const Point<S>& to_f)
       : origin_(origin.template cast<double>()) {
@@ -40,13 +41,20 @@ class PlainPlane {
   double size_;
 };
 
+/// The plane of a triangle.
+template <typename S>
+PlainPlane planeOf(const TriangleVertices<S>& t) {
+  return {t[2], t[1], t[0]};
+}
+
 enum class Plainly { kApart, kMeet, kUnclear };
 
-/// Whether two triangles intersect, where every sign that decides is clear by plain arithmetic:
-/// nearly always. The steps are those of PairIntersection (Guigue and Devillers, 2003).
+/// Whether two triangles, in these planes, intersect, where every sign that decides is clear by
+/// plain arithmetic: nearly always. The steps are those of PairIntersection (Guigue and Devillers,
+/// 2003).
 template <typename S>
-[[gnu::hot]] Plainly plainlyMeet(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  const PlainPlane plane_a(a[2], a[1], a[0]), plane_b(b[2], b[1], b[0]);
+[[gnu::hot]] Plainly plainlyMeet(const TriangleVertices<S>& a, const PlainPlane& plane_a,
+                                 const TriangleVertices<S>& b, const PlainPlane& plane_b) {
   int side_a[3], side_b[3];
   for (int i = 0; i < 3; ++i) side_b[i] = plane_a.side(b[i]);
   if (std::abs(side_b[0] + side_b[1] + side_b[2]) == 3) return Plainly::kApart;

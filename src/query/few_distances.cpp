@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "query/few_triangles.h"
+#include "query/nearest_candidates.h"
+#include "query/placed_triangles.h"
+#include "triangle/known_distance.h"
+#include "volume/error_bounds.h"
+#include "volume/instantiate.h"
+#include "volume/rounding.h"
+
+namespace kios {
+namespace {
+
+/// Returns a lower bound of the distance of two triangles by a slab between them, across `normal`,
+/// which is a unit vector but for 4 u. Heights are those of differences within the pair, so that
+/// each is off by 8 u of its extent: one rounding of the difference, three of products and sums,
+/// four of the normal. 4 eps of a height are added, so that triangles which share the nearest
+/// vertex get no less than its distance: no bound is too large by more than 12 eps of the extent.
+template <typename S>
+double slabBetween(const TriangleVertices<S>& p, const TriangleVertices<S>& q,
+                   const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d origin = p[0].template cast<double>();
+  const auto height = [&](const Point<S>& x) {
+    return detail::dot<double>(normal, x.template cast<double>() - origin);
+  };
+  const double p1 = height(p[1]), p2 = height(p[2]);
+  const double q0 = height(q[0]), q1 = height(q[1]), q2 = height(q[2]);
+  const double low = std::min(std::min(q0, q1), q2);
+  return low - std::max(std::max(p1, p2), 0.0) + 8 * error_bounds::kUlp<S> * std::abs(low);
+}
+
+/// The answer where these triangles touch. Their common point takes as long as the rest.
+template <typename S>
+engine::PairAnswer<S> touchingAnswer(const PlacedPair<S>& pair, const engine::PairQuery& query,
+                                     const engine::TrianglePairIds& ids) {
+  engine::PairAnswer<S> answer;
+  answer.ids = ids;
+  answer.least_evaluated = 0;
+  answer.nearest.point_a = answer.nearest.point_b = Point<S>::Zero();
+  if (!query.any_touching) {
+    answer.nearest = touchingDistance(pair.a.triangle(ids.a), pair.b.triangle(ids.b));
+  }
+  return answer;
+}
+
+}  // namespace
+
+// The pair of the least bound comes next: that of the boxes, or of a slab across the line between
+// the nearest points so far. A pair is left out if its bound exceeds the least distance by more
+// than rounding may: kernelError() is 16 eps of any pair's extent. One of greater ids than those
+// that are nearest, such as another at their vertex, is left out where it is nearer by no more than
+// what the slab is off by, 12 eps; the contract is 16.
+template <typename S>
+engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::PairQuery& query,
+                                        SearchCounts& counts) {
+  const PlacedPair<S> placed(frame);
+  // Lengths whose squares over- or underflow bound nothing.
+  const auto isLength = [](double v) { return v > 0x1p-500 && v < 0x1p500; };
+  struct Bounded {
+    double bound;
+    engine::TrianglePairIds ids;
+  } pairs[kMostPairByPair] = {};
+  Bounded* end = pairs;
+  Sides upper_b[kMostPairByPair];
+  for (int j = 0; j < placed.b.size(); ++j) upper_b[j] = placed.b.box(j).upper();
+  bool touching = false;
+  for (int i = 0; i < placed.a.size(); ++i) {
+    const Sides lower = placed.a.box(i).lower();
+    for (int j = 0; j < placed.b.size(); ++j, ++end) {
+      const double bound = distance(lower, upper_b[j]);
+      *end = {isLength(bound) ? bound : 0, {i, j}};
+      touching |= end->bound == 0;
+    }
+  }
+  counts.leaf_pairs += end - pairs;
+  if (touching) {
+    const engine::TrianglePairIds found = firstIntersecting(placed, counts);
+    if (found.a >= 0) return touchingAnswer(placed, query, found);
+  }
+  engine::PairAnswer<S> answer;
+  answer.nearest.point_a = answer.nearest.point_b = Point<S>::Zero();
+  double best = query.far_enough, error = best < kInfinity ? frame.distanceError(best) : 0;
+  double left_out = kInfinity;
+  while (end != pairs) {
+    Bounded* next = pairs;
+    for (Bounded* pair = pairs + 1; pair != end; ++pair) {
+      if (pair->bound < next->bound) next = pair;
+    }
+    const auto [bound, ids] = *next;
+    *next = *--end;
+    const bool later = answer.found() && answer.ids < ids;
+    if (bound >= (later ? best : best + 2 * error)) {
+      left_out = std::min(left_out, bound - frame.distanceError(bound));  // of poses as given
+      continue;
+    }
+    ++counts.exact;
+    const auto found = disjointDistance(placed.a.triangle(ids.a), placed.b.triangle(ids.b));
+    const double d = double{found.distance};
+    if (answer.found() && (d > best || (d == best && answer.ids < ids))) continue;
+    answer.ids = ids;
+    answer.nearest = found;
+    answer.least_evaluated = best = d;
+    error = frame.kernelError(d);
+    const Eigen::Vector3d across = (found.point_b - found.point_a).template cast<double>();
+    const double length = std::sqrt(detail::dot<double>(across, across));
+    if (!isLength(length)) continue;
+    for (Bounded* pair = pairs; pair != end; ++pair) {
+      const double slab = slabBetween(placed.a.triangle(pair->ids.a),
+                                      placed.b.triangle(pair->ids.b), across / length);
+      if (isLength(slab)) pair->bound = std::max(pair->bound, slab);
+    }
+  }
+  answer.least_other = std::max(0.0, left_out);
+  if (query.near_enough > 0 && answer.found() && best <= query.near_enough) {
+    answer.end = engine::SearchEnd::kNear;
+  }
+  return answer;
+}
+
+template <typename S>
+std::optional<engine::PairAnswer<S>> touchingOfFew(const MeshPair<S>& frame,
+                                                   const engine::PairQuery& query,
+                                                   SearchCounts& counts) {
+  if (!areFew(frame.a, frame.b)) return std::nullopt;
+  // Without planes that tell most pairs apart, trees lead to some pair sooner.
+  const bool by_planes = std::min(frame.a.num_tris, frame.b.num_tris) <= kFewPlanes;
+  if ((query.any_touching && !by_planes) || frame.rootBound(0) > 0) return std::nullopt;
+  const PlacedPair<S> placed(frame);
+  const engine::TrianglePairIds found = firstIntersecting(placed, counts);
+  if (found.a < 0) return std::nullopt;
+  return touchingAnswer(placed, query, found);
+}
+
+// All boxes are tested, then triangles by the distance of their boxes. What is left out is farther
+// than NearestCandidates' allowance for rounding, which is far more than that of boxes.
+template <typename S>
+engine::PairAnswer<S> nearestOfFew(const MeshPair<S>& frame, const engine::PairQuery& query,
+                                   SearchCounts& counts) {
+  struct Bounded {
+    double bound;
+    engine::TrianglePairIds ids;
+    bool operator<(const Bounded& o) const {
+      return bound != o.bound ? bound < o.bound : ids < o.ids;
+    }
+  } bounded[kVeryFewPairs];
+  const PlacedPair<S> placed(frame);
+  Sides upper_b[kFewTriangles];
+  const int num_a = placed.a.size(), num_b = placed.b.size();
+  for (int j = 0; j < num_b; ++j) upper_b[j] = placed.b.box(j).upper();
+  int n = 0, least = 0;
+  for (int i = 0; i < num_a; ++i) {
+    const Sides lower = placed.a.box(i).lower();
+    for (int j = 0; j < num_b; ++j, ++n) {
+      bounded[n] = {distance(lower, upper_b[j]), {i, j}};
+      if (bounded[n].bound < bounded[least].bound) least = n;
+    }
+  }
+  NearestCandidates<S> pairs(frame, query.far_enough);
+  pairs.test(bounded[least].ids);
+  bounded[least] = bounded[--n];
+  const double most = pairs.cullDistance();
+  const auto end = std::partition(bounded, bounded + n,
+                                  [most](const Bounded& pair) { return pair.bound <= most; });
+  std::sort(bounded, end);
+  counts.leaf_pairs += num_a * num_b;
+  ++counts.exact;
+  for (const Bounded* pair = bounded; pair != end && !pairs.touching(); ++pair) {
+    if (pair->bound > pairs.cullDistance()) break;
+    pairs.test(pair->ids);
+    ++counts.exact;
+  }
+  return pairs.answer();
+}
+
+KIOS_INSTANTIATE_FUNCTION(nearestPairByPair);
+KIOS_INSTANTIATE_FUNCTION(touchingOfFew);
+KIOS_INSTANTIATE_FUNCTION(nearestOfFew);
+
+}  // namespace kios
