@@ -66,6 +66,9 @@ class CellTree {
   /// Where the search's origin is, in the octree's frame.
   Eigen::Vector3d origin() const { return {at(0), at(1), at(2)}; }
 
+  /// Tells of a node, null where there is none, what open() tells of the children.
+  bool matters(const Node* node);
+  static bool isLeaf(const Node* node);
   /// As engine::CellSide::open().
   std::uint32_t open(const void* node, std::uint32_t wanted, const void* (&children)[8],
                      std::uint32_t& leaves);
@@ -78,8 +81,6 @@ class CellTree {
   fcl::AABB<S> boxAt(const Cell& cell) const;
 
  private:
-  bool matters(const Node* node);
-  static bool isLeaf(const Node* node);
   void collect(Cell cell, std::vector<Cell>& found);
   double at(int axis) const { return origin_[axis] * unit_; }
 

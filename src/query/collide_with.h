@@ -36,11 +36,10 @@ void addApproximateCost(const Model<S>& model, const fcl::Transform3<S>& X_WM,
 
 /// The part that collisions of a model with shapes and with octrees share. search(request) adds
 /// contacts, and cost sources if that request wants them; false if there was nothing to do.
-template <typename S, class Search>
-std::size_t collideWith(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                        const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
-                        const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
-                        const Search& search) {
+template <typename S, class Other, class Search>
+std::size_t collideWith(const Model<S>& model, const fcl::Transform3<S>& X_WM, const Other& other,
+                        const fcl::Transform3<S>& X_WO, const fcl::CollisionRequest<S>& request,
+                        fcl::CollisionResult<S>& result, const Search& search) {
   requireFinished(model);
   if (request.num_max_contacts == 0) {  // FCL's warning and answer
     std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";

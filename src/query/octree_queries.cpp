@@ -12,6 +12,7 @@
 #include "query/cell_walk.h"
 #include "query/collide_with.h"
 #include "query/mesh_pair.h"
+#include "query/octree_costs.h"
 #include "query/posed_solid.h"
 #include "search/cell_search.h"
 #include "search/search.h"
@@ -278,8 +279,7 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
                           const Model<S>& model, const fcl::Transform3<S>& X_WM,
                           const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                           SearchCounts* counts) {
-  const fcl::CollisionGeometry<S>& other = octree;
-  return collideWith(model, X_WM, other, X_WO, request, result, [&](const auto& asked) {
+  return collideWith(model, X_WM, octree, X_WO, request, result, [&](const auto& asked) {
     SearchCounts unused;
     OctreeCollision<S> search(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
     if (asked.isSatisfied(result)) return false;
