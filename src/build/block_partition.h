@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <boost/container/small_vector.hpp>
 #include <cstdint>
-#include <vector>
 
 #include "volume/lanes.h"
 
 namespace kios::engine {
+
+/// Holds the few elements of a mesh of one to four triangles in place: to allocate a dozen arrays
+/// takes as long as the rest of its build.
+template <typename T>
+using SmallVector = boost::container::small_vector<T, 4>;
 
 /// Corners of a triangle in lanes x, y, z, 0, relative to some origin.
 struct Corners {
@@ -58,7 +63,7 @@ class BlockPartition {
   /// balance.
   int split(int first, int n, bool in_halves);
 
-  const std::vector<std::uint32_t>& order() const { return order_; }
+  const SmallVector<std::uint32_t>& order() const { return order_; }
 
   /// The best plane for many triangles of which these are a sample, each for `weight` of them, and
   /// the frame that it is meant in.
@@ -80,9 +85,9 @@ class BlockPartition {
   int halve(std::uint32_t* items, int n) const;
 
   const Corners* triangles_ = nullptr;
-  std::vector<std::uint32_t> order_;
-  std::vector<Item> items_;        ///< by triangle
-  std::vector<int> frame_shared_;  ///< by triangle: by how many its frame is shared
+  SmallVector<std::uint32_t> order_;
+  SmallVector<Item> items_;        ///< by triangle
+  SmallVector<int> frame_shared_;  ///< by triangle: by how many its frame is shared
 };
 
 }  // namespace kios::engine

@@ -83,7 +83,7 @@ class MeshTree {
   }
 
   /// Numbers the children as FCL does: in pairs, depth first, left before right.
-  void branch(const Part& part, int left, std::vector<Part>& stack) {
+  void branch(const Part& part, int left, SmallVector<Part>& stack) {
     const int child = num_nodes_;
     num_nodes_ += 2;
     nodes_[part.node].first_child = child;
@@ -100,7 +100,7 @@ class MeshTree {
   }
 
   void divide(int n) {
-    std::vector<Part> stack = {{0, 0, n, 1}};
+    SmallVector<Part> stack = {{0, 0, n, 1}};
     while (!stack.empty()) {
       const Part part = stack.back();
       stack.pop_back();
@@ -316,18 +316,18 @@ class MeshTree {
   VolumeFit<S> fit_;
   PointFrame frame_;  ///< of the mesh: coordinates are at most 1
   int num_nodes_ = 1;
-  std::vector<Centroid> centroids_;
+  SmallVector<Centroid> centroids_;
   BlockPartition partition_;
-  std::vector<Corners> corners_;  ///< of the sample, or the block
+  SmallVector<Corners> corners_;  ///< of the sample, or the block
 
   // These are of a block, by triangle in the order of the leaves, or by node.
-  std::vector<Part> stack_;
-  std::vector<PointQuad> quads_;    ///< three corners, and the first again
-  std::vector<int> cluster_sizes_;  ///< at the first triangle of a leaf of the prepared tree
-  std::vector<PointQuad> chunks_;   ///< the distinct points of each cluster
-  std::vector<int> chunk_at_;       ///< likewise: the cluster's first chunk
+  SmallVector<Part> stack_;
+  SmallVector<PointQuad> quads_;    ///< three corners, and the first again
+  SmallVector<int> cluster_sizes_;  ///< at the first triangle of a leaf of the prepared tree
+  SmallVector<PointQuad> chunks_;   ///< the distinct points of each cluster
+  SmallVector<int> chunk_at_;       ///< likewise: the cluster's first chunk
   std::vector<Extremes> extremes_;
-  std::vector<int> extremes_of_;
+  SmallVector<int> extremes_of_;
 
   // Above the blocks.
   std::vector<int> large_;                                ///< nodes, parents first

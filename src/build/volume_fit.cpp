@@ -21,7 +21,7 @@ void VolumeFit<S>::addSmall(int node, SmallNode content, const PointQuad* quads,
   while (count > kRoom[which]) ++which;
   Batch& batch = batches_[which];
   FourSets& sets = batch.sets;
-  sets.count = kRoom[which];
+  sets.count = batch.used == 0 ? count : std::max(sets.count, count);
   const int lane = batch.used;
   batch.nodes[lane] = node;
   int at = 0;
@@ -33,7 +33,7 @@ void VolumeFit<S>::addSmall(int node, SmallNode content, const PointQuad* quads,
       sets.weight[at][lane] = 1;
     }
   }
-  for (; at < sets.count; ++at) {
+  for (; at < kRoom[which]; ++at) {
     sets.x[at][lane] = quads[0].x[0];
     sets.y[at][lane] = quads[0].y[0];
     sets.z[at][lane] = quads[0].z[0];

@@ -127,12 +127,10 @@ class RecursiveBuild {
   int num_nodes_ = 1;
 };
 
-/// The tree of the engine's own partition, which queries read: a copy where an equal mesh lives.
-/// False where there is none.
+/// Copies the volumes of an equal mesh that lives, or builds them for others to copy. False if that
+/// can't be.
 template <typename S>
-bool buildByCost(const Members<S>& m) {
-  const engine::MeshView<S> mesh = viewOf(m.model);
-  if (mesh.num_triangles == 0) return false;
+bool buildShared(const Members<S>& m, const engine::MeshView<S>& mesh) {
   const engine::ContentHash content = engine::contentHash(mesh);
   if (copySharedVolumes<S>(content, mesh.num_triangles, {m.nodes, m.primitives})) {
     m.nodes[0].bv.stamp = nextStamp();
@@ -140,10 +138,20 @@ bool buildByCost(const Members<S>& m) {
     return false;
   }
   shareVolumes(content, m.nodes, m.primitives);
-  engine::TreeCache& trees = *treesOf(m.model);
-  trees.noteBuilt(m.nodes[0].bv.stamp);
-  if (engine::SharedTree::isHeld(content)) trees.budget.exhaust();
+  if (engine::SharedTree::isHeld(content)) treesOf(m.model)->budget.exhaust();
   return true;
+}
+
+/// The tree of the engine's own partition, which queries read. False where there is none.
+template <typename S>
+bool buildByCost(const Members<S>& m) {
+  const engine::MeshView<S> mesh = viewOf(m.model);
+  if (mesh.num_triangles == 0) return false;
+  const bool built = m.model.num_tris < kLeastShared
+                         ? engine::buildVolumes<S>(mesh, m.nodes, m.primitives)
+                         : buildShared(m, mesh);
+  if (built) treesOf(m.model)->noteBuilt(m.nodes[0].bv.stamp);
+  return built;
 }
 
 /// FCL's calls take any index, and its build reads what that refers to.
@@ -162,7 +170,7 @@ void requireIndices(const Model<S>& model) {
 /// Makes room for a tree over all primitives, where geometry was added since there was one.
 template <typename S>
 void makeRoom(const Members<S>& m) {
-  releaseVolumes(m.nodes);
+  releaseVolumes(m);
   m.num_nodes = 0;
   const int n = m.numNodes();
   if (n == 0) throw std::bad_alloc();
@@ -249,7 +257,7 @@ namespace fcl {
       const int failed = buildTree();                                         \
       if (failed || !prev_vertices) return failed;                            \
     }                                                                         \
-    kios::releaseVolumes(bvs);                                                \
+    kios::releaseVolumes(KIOS_MEMBERS(S));                                    \
     const int failed = bottomup ? refitTree_bottomup() : refitTree_topdown(); \
     bvs[0].bv.stamp = kios::nextStamp();                                      \
     return failed;                                                            \

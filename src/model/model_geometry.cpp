@@ -75,7 +75,7 @@ int add(Members<S> m, const char* call, Span<fcl::Vector3<S>> vertices,
     return outOfMemory(call);
   }
   // The tree is one of fewer primitives: it is shared no more until it is built or refitted.
-  if (m.num_nodes > 0) releaseVolumes(m.nodes);
+  if (m.num_nodes > 0) releaseVolumes(m);
   m.num_nodes = 0;
   const auto offset = static_cast<std::size_t>(model.num_vertices);
   std::copy_n(vertices.first, vertices.count, model.vertices + offset);

@@ -26,12 +26,22 @@ void shrink(T*& array, int& allocated, int n) {
   allocated = n;
 }
 
-/// `to` is an empty model. What it got is its own if the rest finds no memory.
+/// `to` is a model without arrays, fitter and splitter. It gets nothing if memory runs out.
 template <typename S>
 void copy(const Model<S>& from, int num_vertices_given, const unsigned int* primitives,
           const fcl::BVNode<kIOS<S>>* nodes, int num_nodes, Members<S> to) {
   Model<S>& model = to.model;
-  static_cast<fcl::CollisionGeometry<S>&>(model) = from;
+  auto vertices = copyOf(from.vertices, from.num_vertices);
+  auto triangles = copyOf(from.tri_indices, from.num_tris);
+  auto previous = copyOf(from.prev_vertices, from.num_vertices);
+  if (num_nodes > 0) {
+    auto copied_nodes = copyOf(nodes, num_nodes);
+    replace(to.primitives, copyOf(primitives, (num_nodes + 1) / 2));
+    replace(to.nodes, std::move(copied_nodes));
+  }
+  replace(model.vertices, std::move(vertices));
+  replace(model.tri_indices, std::move(triangles));
+  replace(model.prev_vertices, std::move(previous));
   model.num_tris = to.num_tris_allocated = from.num_tris;
   model.num_vertices = to.num_vertices_allocated = from.num_vertices;
   to.num_nodes = to.num_nodes_allocated = num_nodes;
@@ -39,20 +49,16 @@ void copy(const Model<S>& from, int num_vertices_given, const unsigned int* prim
   model.build_state = from.build_state;
   model.bv_splitter = from.bv_splitter;
   model.bv_fitter = from.bv_fitter;
-  replace(model.vertices, copyOf(from.vertices, from.num_vertices));
-  replace(model.tri_indices, copyOf(from.tri_indices, from.num_tris));
-  replace(model.prev_vertices, copyOf(from.prev_vertices, from.num_vertices));
-  if (num_nodes == 0) return;
-  replace(to.primitives, copyOf(primitives, (num_nodes + 1) / 2));
-  replace(to.nodes, copyOf(nodes, num_nodes));
-  shareCopy(nodes, to.nodes, to.primitives);
+  if (from.num_tris >= kLeastSharedCopy && num_nodes > 0) {
+    shareCopy(nodes, to.nodes, to.primitives);
+  }
 }
 
 /// Frees all arrays.
 template <typename S>
 void clear(Members<S> m) {
   Model<S>& model = m.model;
-  releaseVolumes(m.nodes);
+  releaseVolumes(m);
   replace(model.vertices, {});
   replace(model.tri_indices, {});
   replace(model.prev_vertices, {});
@@ -102,7 +108,7 @@ int end(Members<S> m) {
   }
   const int num_nodes = m.numNodes();
   if (num_nodes == 0) return outOfMemory("endModel()");
-  releaseVolumes(m.nodes);
+  releaseVolumes(m);
   try {
     shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
     shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
@@ -146,8 +152,7 @@ int beginUpdate(Members<S> m) {
 
 namespace fcl {
 
-// Explicit specialisations can't have the scalar as a parameter. The copy owns its arrays one by
-// one as they come, since it is a whole, empty model before.
+// Explicit specialisations can't have the scalar as a parameter.
 // NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
 #define KIOS_SPECIALISE(S)                                                                         \
   template <>                                                                                      \
@@ -168,7 +173,13 @@ namespace fcl {
         bvs(nullptr),                                                                              \
         num_bvs(0) {}                                                                              \
   template <>                                                                                      \
-  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other) : BVHModel() {                          \
+  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other)                                         \
+      : CollisionGeometry<S>(other),                                                               \
+        vertices(nullptr),                                                                         \
+        tri_indices(nullptr),                                                                      \
+        prev_vertices(nullptr),                                                                    \
+        primitive_indices(nullptr),                                                                \
+        bvs(nullptr) {                                                                             \
     kios::copy(other, other.num_vertex_updated, other.primitive_indices, other.bvs, other.num_bvs, \
                KIOS_MEMBERS(S));                                                                   \
   }                                                                                                \

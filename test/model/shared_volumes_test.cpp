@@ -42,6 +42,40 @@ TEST_F(SharedVolumes, AsLongAsAModelLives) {
   EXPECT_TRUE(areShared(mesh_));  // of the copy
   copy.reset();
   EXPECT_FALSE(areShared(mesh_));
+
+  const Mesh box = scenes::subdividedBox({1, 1, 1}, 1);  // fewer than kLeastSharedCopy
+  auto built = kiosModel(box);
+  const Modeld of_few(*built);
+  EXPECT_TRUE(areShared(box));
+  built.reset();
+  EXPECT_FALSE(areShared(box));
+}
+
+// A model may be built anew, and grow or shrink, across the number of triangles from which on it
+// shares. releaseVolumes() tells by the room of its tree whether it did.
+TEST_F(SharedVolumes, NeverThoseOfFewTriangles) {
+  const auto first = [this](int n) {
+    return Mesh{mesh_.vertices, {mesh_.triangles.begin(), mesh_.triangles.begin() + n}};
+  };
+  Modeld model;
+  for (const int n : {1, 5, 2, 4, 3, 4, 6, 3, 1, 4}) {
+    const Mesh mesh = first(n);
+    if (model.build_state != fcl::BVH_BUILD_STATE_EMPTY) {
+      ::testing::internal::CaptureStderr();
+      model.beginModel();  // only resets it
+      ::testing::internal::GetCapturedStderr();
+    }
+    for (int other = 1; other < 8; ++other) EXPECT_FALSE(areShared(first(other))) << other;
+    ASSERT_EQ(model.beginModel(), fcl::BVH_OK);
+    ASSERT_EQ(model.addSubModel(mesh.vertices, mesh.triangles), fcl::BVH_OK);
+    ASSERT_EQ(model.endModel(), fcl::BVH_OK);
+    EXPECT_EQ(areShared(mesh), n >= kLeastShared) << n;
+    const Modeld copy(model);
+    EXPECT_TRUE(sameTree(copy, nodesOf(model)));
+    if (n % 2 == 1) continue;
+    replace(model, swayed(mesh_, 1), true, n == 4);
+    EXPECT_FALSE(areShared(mesh)) << n;
+  }
 }
 
 TEST_F(SharedVolumes, UntilTheyChange) {
