@@ -279,12 +279,15 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
                           const Model<S>& model, const fcl::Transform3<S>& X_WM,
                           const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                           SearchCounts* counts) {
-  return collideWith(model, X_WM, octree, X_WO, request, result, [&](const auto& asked) {
+  const auto search = [&](const fcl::CollisionRequest<S>& asked) {
     SearchCounts unused;
-    OctreeCollision<S> search(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
+    OctreeCollision<S> of(octree, X_WO, model, X_WM, asked, result, counts ? *counts : unused);
     if (asked.isSatisfied(result)) return false;
-    search.run();
+    of.run();
     return true;
+  };
+  return collideWith(model, request, result, search, [&](bool /*touches*/) {
+    addApproximateCost(model, X_WM, octree, X_WO, request, result);
   });
 }
 

@@ -11,6 +11,7 @@
 #include "query/collide_with.h"
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
+#include "query/shape_costs.h"
 #include "search/search.h"
 #include "shape/convex_faces.h"
 #include "shape/shape_solid.h"
@@ -227,12 +228,15 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                          const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
                          const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
                          SearchCounts* counts) {
-  return collideWith(model, X_WM, shape, X_WS, request, result, [&](const auto& asked) {
+  const auto search = [&](const fcl::CollisionRequest<S>& asked) {
     SearchCounts unused;
-    ShapeCollision<S> search(model, X_WM, shape, X_WS, asked, result, counts ? *counts : unused);
+    ShapeCollision<S> of(model, X_WM, shape, X_WS, asked, result, counts ? *counts : unused);
     if (request.isSatisfied(result)) return false;
-    search.run();
+    of.run();
     return true;
+  };
+  return collideWith(model, request, result, search, [&](bool touches) {
+    addApproximateCost(model, X_WM, shape, X_WS, touches, request, result);
   });
 }
 
