@@ -206,5 +206,37 @@ TEST(ShapeCosts, OccupancyDecidesBetweenContactsAndSources) {
   }
 }
 
+// Approximate ones are FCL's for the root volume's box and the shape, found by fewer tests.
+TEST(ShapeCosts, ApproximateOnesAreThoseOfTheRootsBox) {
+  scenes::Random random(5);
+  for (const Mesh& mesh : {scenes::icosphere(0.5, 1), scenes::randomSoup(2, 1, 1, 1, 3)}) {
+    const auto model = kiosModel(mesh);
+    for (const Shape kind : kShapes) {
+      SCOPED_TRACE(nameOf(kind));
+      std::size_t with = 0, without = 0;
+      for (const Frame& frame : randomFrames(40, 1.5, 11)) {
+        const auto shape = makeShape<double>(randomShape(kind, random));
+        shape->cost_density = 3;
+        model->cost_density = 0.25 * static_cast<double>((with + without) % 5);  // 0: free
+        const fcl::CollisionGeometryd *a = model.get(), *b = shape.get();
+        fcl::Boxd box;
+        Transform3d X_WBox;
+        constructBox(model->getBV(0).bv, frame.X_WA, box, X_WBox);
+        box.cost_density = model->cost_density;
+        const fcl::CollisionGeometryd* const root = &box;
+        fcl::CollisionResultd ours, theirs;
+        fcl::CollisionRequestd request(1, false, 10, true, true);
+        fcl::collide(a, frame.X_WA, b, frame.X_WB, request, ours);
+        request.use_approximate_cost = false;
+        fcl::collide(root, X_WBox, b, frame.X_WB, request, theirs);
+        expectSameCosts(ours, theirs);
+        ++(ours.numCostSources() > 0 ? with : without);
+      }
+      EXPECT_GT(with, 0u);
+      EXPECT_GT(without, 0u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kios::testing
