@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "query/placed_triangles.h"
@@ -41,6 +43,20 @@ Farthest farthest(const fcl::Vector3<S>* vertices, int n, const Eigen::Vector3d&
   int at = 0;
   while (at + 1 < n && !(heights[at] == most)) ++at;
   return {most, at};
+}
+
+/// In integers, as NaN would raise flags: vertices of no triangle may be anything.
+template <typename S>
+bool areFinite(const fcl::Vector3<S>* vertices, int n) {
+  using Bits = std::conditional_t<sizeof(S) == 8, std::uint64_t, std::uint32_t>;
+  constexpr Bits kExponent = sizeof(S) == 8 ? Bits(0x7FF0000000000000) : Bits(0x7F800000);
+  bool finite = true;
+  for (int i = 0; i < n; ++i) {
+    Bits coordinates[3];
+    std::memcpy(coordinates, vertices[i].data(), sizeof(coordinates));
+    for (const Bits bits : coordinates) finite &= (bits & kExponent) != kExponent;
+  }
+  return finite;
 }
 
 /// Calls visit() with the pairs that intersect, by ids, until it returns true.
@@ -127,12 +143,15 @@ engine::TrianglePairIds firstIntersecting(const PlacedPair<S>& pair, SearchCount
 // stored; n and R^T n by 4 u a coordinate; products and sums by 4 u of the 1-norms: below 32 u of
 // all lengths that enter, twice for n's own length in `margin`. Vertices of no triangle, which the
 // root volumes need not hold, are computed worse, but those of triangles make the heights as large
-// as they must be whatever others add. NaN proves nothing.
+// as they must be whatever others add.
 template <typename S>
 bool verticesApart(const MeshPair<S>& frame, double margin) {
   using Vec = Eigen::Vector3d;
   const Model<S>&a = frame.a, &b = frame.b;
   if (std::max(a.num_vertices, b.num_vertices) > kMostVertices) return false;
+  if (!areFinite<S>(a.vertices, a.num_vertices) || !areFinite<S>(b.vertices, b.num_vertices)) {
+    return false;
+  }
   const kIOS<S>&root_a = frame.rootA(), &root_b = frame.rootB();
   const double norm1_a = norm1Of<S>(root_a.center0) + 1.8 * double{root_a.radius0};
   const double norm1_b = norm1Of<S>(root_b.center0) + 1.8 * double{root_b.radius0};

@@ -85,20 +85,26 @@ class PlacedTriangles {
   /// `place` maps a vertex to that frame.
   template <typename Place>
   PlacedTriangles(const Model<S>& model, const Place& place) : size_(model.num_tris) {
-    // More vertices than triangles may have are of none.
-    const bool all = model.num_vertices <= kMostCorners;
-    for (int i = 0; all && i < model.num_vertices; ++i) add(place(model.vertices[i]));
+    // Vertices of no triangle may be anything, NaN too, and more than there is room for.
+    constexpr std::uint8_t kNone = 0xFF;
+    std::uint8_t places[kMostCorners];
+    const bool fit = model.num_vertices <= kMostCorners;
+    if (fit) std::fill_n(places, model.num_vertices, kNone);
     for (int t = 0; t < size_; ++t) {
       for (int k = 0; k < 3; ++k) {
         const auto vertex = model.tri_indices[t][k];
-        corners_[t][k] = static_cast<std::uint8_t>(all ? vertex : num_vertices_);
-        if (!all) add(place(model.vertices[vertex]));
+        if (fit && places[vertex] != kNone) {
+          corners_[t][k] = places[vertex];
+          continue;
+        }
+        corners_[t][k] = static_cast<std::uint8_t>(num_vertices_);
+        if (fit) places[vertex] = corners_[t][k];
+        vertices_[num_vertices_++] = place(model.vertices[vertex]);
       }
     }
   }
 
   int size() const { return size_; }
-  /// All vertices', which may be larger than the triangles'.
   Box box() const {
     Box box;
     for (int i = 0; i < num_vertices_; ++i) box.add(vertices_[i]);
@@ -124,8 +130,6 @@ class PlacedTriangles {
 
  private:
   static constexpr int kMostCorners = 3 * kFewTriangles;
-
-  void add(const Point<S>& x) { vertices_[num_vertices_++] = x; }
 
   const int size_;
   int num_vertices_ = 0;

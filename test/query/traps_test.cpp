@@ -41,6 +41,51 @@ std::vector<fcl::Transform3<S>> posesAbout(const Mesh& a, const Mesh& b, std::ui
 
 KIOS_SCALAR_SUITE(QueryTraps);
 
+// kios::validate() refuses them, FCL's calls do not.
+TYPED_TEST(QueryTraps, VerticesOfNoTriangleMayBeAnything) {
+  using S = TypeParam;
+  Flags flags;
+  const auto modelWith = [](const Mesh& mesh, S unused) {
+    auto model = std::make_shared<Model<S>>();
+    std::vector<fcl::Vector3<S>> vertices;
+    for (const auto& v : mesh.vertices) vertices.push_back(v.template cast<S>());
+    vertices.insert(vertices.begin() + 1, fcl::Vector3<S>::Constant(unused));
+    std::vector<fcl::Triangle> triangles;
+    for (const auto& t : mesh.triangles) {
+      const auto at = [](std::size_t i) { return i == 0 ? i : i + 1; };
+      triangles.emplace_back(at(t[0]), at(t[1]), at(t[2]));
+    }
+    model->beginModel();
+    model->addSubModel(vertices, triangles);
+    EXPECT_EQ(model->endModel(), fcl::BVH_OK);
+    return model;
+  };
+  const fcl::Transform3<S> here = fcl::Transform3<S>::Identity();
+  const S infinity = std::numeric_limits<S>::infinity();
+  for (const std::size_t size : {1, 2, 3, 4, 12, 30, 80}) {
+    const Mesh soup = scenes::randomSoup(static_cast<int>(size), 1, 1, 1, 5);
+    for (const S unused : {std::numeric_limits<S>::quiet_NaN(), infinity, -infinity,
+                           std::numeric_limits<S>::max()}) {
+      const auto a = modelWith(soup, unused), b = modelWith(soup, unused);
+      const auto plain = modelOf<S>(soup);
+      for (const auto& X : posesAbout<S>(soup, soup, size)) {
+        const std::string name = std::to_string(size) + ", " + std::to_string(double{unused});
+        fcl::DistanceResult<S> distance, expected;
+        fcl::CollisionResult<S> contacts, expected_contacts;
+        flags.during(name, [&] {
+          fcl::distance(a.get(), here, b.get(), X, fcl::DistanceRequest<S>(true), distance);
+          fcl::collide(a.get(), here, b.get(), X, fcl::CollisionRequest<S>(1), contacts);
+        });
+        fcl::distance(plain.get(), here, plain.get(), X, fcl::DistanceRequest<S>(true), expected);
+        fcl::collide(plain.get(), here, plain.get(), X, fcl::CollisionRequest<S>(1),
+                     expected_contacts);
+        EXPECT_EQ(distance.min_distance, expected.min_distance) << name;
+        EXPECT_EQ(contacts.numContacts(), expected_contacts.numContacts()) << name;
+      }
+    }
+  }
+}
+
 TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
   using S = TypeParam;
   Flags flags;
