@@ -103,8 +103,8 @@ template <typename S>
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
   const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
-  if (done ||
-      !(farApart<S>(way, squared_errors, 0) || ballOffBox(a, X_WA, b, X_WB, way, squared_errors))) {
+  if (done || !(farApart<S>(way, squared_errors, 0) ||
+                ballOffBox(a, X_WA, b, X_WB, way, squared_errors, 0))) {
     const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where they can't tell
     if (request.num_max_contacts == 0) {                        // FCL's warning and answer
       std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
@@ -133,7 +133,8 @@ template <typename S>
   if (bounded) {  // as if a pair so far were found
     query.far_enough = query.cullDistance(result.min_distance);
     const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
-    if (farApart<S>(way, squared_errors, query.far_enough)) {
+    if (farApart<S>(way, squared_errors, query.far_enough) ||
+        ballOffBox(a, X_WA, b, X_WB, way, squared_errors, query.far_enough)) {
       return result.min_distance;
     }
   }

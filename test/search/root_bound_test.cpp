@@ -28,9 +28,9 @@ struct Outcome {
 
 template <typename S>
 bool isOff(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-           const fcl::Transform3<S>& X_WB) {
+           const fcl::Transform3<S>& X_WB, double margin) {
   const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
-  return ballOffBox(a, X_WA, b, X_WB, way, squaredRotationErrors(X_WA, X_WB));
+  return ballOffBox(a, X_WA, b, X_WB, way, squaredRotationErrors(X_WA, X_WB), margin);
 }
 
 /// Both meshes at poses where they are `gap` apart, or nearly so.
@@ -65,8 +65,14 @@ void tryPoses(const Mesh& a, const Mesh& b, double size, double offset, bool par
       sum.apart += double{all.distance} > 0.2 * size;
       sum.told += double{all.distance} > 0.2 * size && bound > 0.1 * size;
       const fcl::Transform3<S> I = fcl::Transform3<S>::Identity(), X = X_AB.cast<S>();
-      const bool off = isOff(*model_a, I, *model_b, X);
-      sum.wrong += (off || isOff(*model_b, X, *model_a, I)) && !(all.distance > 0);
+      bool off = false;
+      for (const double margin : {0.0, 0.5, 0.99999, 1.00001}) {
+        const double far = margin * double{all.distance};
+        const bool is_off =
+            isOff(*model_a, I, *model_b, X, far) || isOff(*model_b, X, *model_a, I, far);
+        sum.wrong += is_off && (margin > 1 || !(all.distance > 0));
+        off |= is_off && margin == 0.5;
+      }
       sum.off += off;
       pose.pad = pose.box_pad = 0;
       const double without_pad = rootBound(*posed.tree_a, *posed.tree_b, pose);
