@@ -46,7 +46,7 @@ class EnginePair {
   /// Takes the trees, which are prepared first if need be, but not in vain; compares their roots
   /// if that is to be known and isn't. False if FCL's tree must do.
   bool takeTrees(bool compare) {
-    if (!known_ && tooFar()) return false;
+    if (tooFar()) return false;
     tree_a_ = preparedTree(frame_.a);
     if (tree_a_) tree_b_ = preparedTree(frame_.b);
     if (!tree_b_) return false;

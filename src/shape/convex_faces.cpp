@@ -79,7 +79,7 @@ ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
     lanes::store(&offsets_[i], to_unit * dot(n, a));
     lanes::store(&depths[i], to_unit * outwards);
   }
-  if (depths.minCoeff() > 0x1p-100 * reach_) per_depth_ = depths.inverse();
+  if (depths.minCoeff() > 0x1p-40 * reach_) per_depth_ = depths.inverse();
 }
 
 std::vector<ConvexFaces::Slab> ConvexFaces::slabs() const {
@@ -131,8 +131,9 @@ ConvexFaces::Slab ConvexFaces::leastExit(const Triangle& t) const {
 }
 
 ConvexFaces::Verdict ConvexFaces::judge(const Triangle& t) const {
+  const bool flat = per_depth_.size() == 0;  // the tetrahedra are noise
   for (const Vec& corner : t) {
-    if (inTetrahedra(last_, corner)) return Verdict::kMeets;
+    if (!flat && inTetrahedra(last_, corner)) return Verdict::kMeets;
   }
   const double clear = 0x1p-40 * (sizeOf(t) + reach_);
   if (heights_[largest(lowest(t))] > clear) {

@@ -147,9 +147,14 @@ bool meetsHull(const Solid& s, const Triangle& t, Vec* common) {
   });
   if (meets) return true;
   // Without a common point with the surface the triangle is inside as a whole, or not at all.
-  const bool inside = s.kind == Kind::kConvex && contains(s, t[0]);
-  if (inside && common) *common = t[0];
-  return inside;
+  // Points may round faces so that a few between tetrahedra, as some about the middle, are in none.
+  if (s.kind != Kind::kConvex) return false;
+  for (const Vec& corner : t) {
+    if (!contains(s, corner)) continue;
+    if (common) *common = corner;
+    return true;
+  }
+  return false;
 }
 
 TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t, double within) {

@@ -19,8 +19,8 @@ class PlainPlane {
       : origin_(origin.template cast<double>()) {
     const Point<double> e = to_e.template cast<double>() - origin_,
                         f = to_f.template cast<double>() - origin_;
-    normal_ = e.cross(f);
     size_ = e.lpNorm<1>() * f.lpNorm<1>();
+    if (size_ <= kMostSize) normal_ = e.cross(f);  // infinities would raise flags
   }
 
   /// -1 or 1, or 0 if rounding might have made the sign.
@@ -30,13 +30,15 @@ class PlainPlane {
   template <typename S>
   int side(const Point<S>& p) const {
     const Point<double> d = p.template cast<double>() - origin_;
-    const double reach = d.lpNorm<Eigen::Infinity>(), height = normal_.dot(d);
-    const double error = 16 * 0x1p-53 * size_ * reach + 0x1p-700;
-    if (!(size_ <= 0x1p600 && reach <= 0x1p300)) return 0;
+    const double reach = d.lpNorm<Eigen::Infinity>();
+    if (!(size_ <= kMostSize && reach <= 0x1p300)) return 0;
+    const double height = normal_.dot(d), error = 16 * 0x1p-53 * size_ * reach + 0x1p-700;
     return (height > error) - (height < -error);
   }
 
  private:
+  static constexpr double kMostSize = 0x1p600;
+
   Point<double> origin_, normal_;
   double size_;
 };

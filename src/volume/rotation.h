@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 #include <fcl/common/types.h>
 #include "volume/lanes.h"
@@ -19,6 +20,35 @@ template <typename Entry>
   const auto xx = dot(0, 0) - 1, yy = dot(1, 1) - 1, zz = dot(2, 2) - 1;
   const auto xy = dot(0, 1), xz = dot(0, 2), yz = dot(1, 2);
   return xx * xx + yy * yy + zz * zz + 2 * (xy * xy + xz * xz + yz * yz);
+}
+
+/// Returns true if each row of R^T R - I, R a rotation in S, is at most 7 u long. Products of the
+/// leading 26 bits of entries are exact, and so are their sums, which are below 2.
+template <typename S>
+bool isRoundedRotation(const fcl::Matrix3<S>& R) {
+  constexpr double kSplit = 0x1.8p26, kUlp = 0.5 * double{std::numeric_limits<S>::epsilon()};
+  double high[3][3], low[3][3];
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double r = R(i, j);
+      high[j][i] = (r + kSplit) - kSplit;
+      low[j][i] = r - high[j][i];
+    }
+  }
+  double squares[3] = {};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) {
+      const auto dot = [](const double(&a)[3], const double(&b)[3]) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+      };
+      const double error = (dot(high[i], high[j]) - (i == j ? 1 : 0)) +
+                           (dot(high[i], low[j]) + dot(low[i], high[j]) + dot(low[i], low[j]));
+      squares[i] += error * error;
+      if (i != j) squares[j] += error * error;
+    }
+  }
+  constexpr double kMost = 7 * kUlp * (7 * kUlp);
+  return squares[0] <= kMost && squares[1] <= kMost && squares[2] <= kMost;
 }
 
 /// Returns the determinant. Where the norm above is small, it is near 1, or near -1 for a

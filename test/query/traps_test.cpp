@@ -86,6 +86,32 @@ TYPED_TEST(QueryTraps, VerticesOfNoTriangleMayBeAnything) {
   }
 }
 
+// Products of such coordinates are beyond the scalar's range, or vanish.
+TYPED_TEST(QueryTraps, FewTrianglesAtAnyScale) {
+  using S = TypeParam;
+  Flags flags;
+  const int most = sizeof(S) == sizeof(double) ? 990 : 110;
+  for (const int size : {1, 2, 4, 12}) {
+    const Mesh soup = scenes::randomSoup(size, 0.3, 1, 1, 9);
+    for (int k = -most; k <= most; k += 10) {
+      const Mesh mesh = scenes::moved(fcl::Transform3d(Eigen::Scaling(std::ldexp(1.0, k))), soup);
+      const auto a = modelOf<S>(mesh), b = modelOf<S>(mesh);
+      fcl::Transform3<S> X = fcl::Transform3<S>::Identity(), far = X;
+      far.translation() = fcl::Vector3<S>(S(std::ldexp(5.0, k)), 0, 0);
+      for (const auto* const at : {&X, &far}) {
+        flags.during(std::to_string(size) + " at 2^" + std::to_string(k), [&] {
+          fcl::DistanceResult<S> distance;
+          fcl::CollisionResult<S> contacts;
+          fcl::distance(a.get(), X, b.get(), *at, fcl::DistanceRequest<S>(true), distance);
+          fcl::collide(a.get(), X, b.get(), *at, fcl::CollisionRequest<S>(3), contacts);
+          EXPECT_EQ(contacts.isCollision(), at == &X) << k;
+          EXPECT_EQ(distance.min_distance == 0, at == &X) << k;
+        });
+      }
+    }
+  }
+}
+
 TYPED_TEST(QueryTraps, MeshesAgainstMeshes) {
   using S = TypeParam;
   Flags flags;

@@ -111,6 +111,37 @@ TEST(ConvexFaces, AreNotKnownWithoutAnArea) {
   EXPECT_LT(shape::contact(hull.solid, t, &faces).depth, 0.2);
 }
 
+// What is left of a plate's depth in an inclined plane is rounding, as are coordinates in it.
+TEST(ConvexFaces, OfPlatesHoldNothing) {
+  SolidCases cases(65);
+  for (int i = 0; i < 500; ++i) {
+    const int n = 3 + i % 8;
+    const Eigen::Matrix3d R =
+        Eigen::Quaterniond::FromTwoVectors(Vec::UnitZ(), cases.vector()).toRotationMatrix();
+    const auto at = [&](double radius, double angle) {
+      return Vec(R * Vec(radius * std::cos(angle), radius * std::sin(angle), 0));
+    };
+    Hull plate(0, Vec::Ones());
+    plate.solid.points.clear();
+    plate.faces = {n};
+    for (int k = 0; k < n; ++k) {
+      plate.solid.points.push_back(at(0.7, 2 * M_PI * k / n));
+      plate.faces.push_back(k);
+    }
+    plate.faces.push_back(n);
+    for (int k = n; k-- > 0;) plate.faces.push_back(k);
+    plate.solid.faces = plate.faces.data();
+    plate.solid.num_faces = 2;
+    const ConvexFaces faces(plate.solid);
+    if (!faces.known()) continue;
+    for (int k = 0; k < 20; ++k) {
+      const Triangle beside = {at(0.8, 0.3 * k), at(0.9, 0.3 * k + 0.05), at(0.85, 0.3 * k + 0.1)};
+      EXPECT_NE(faces.judge(beside), ConvexFaces::Verdict::kMeets) << n;
+      EXPECT_FALSE(faces.contains(beside[0])) << n;
+    }
+  }
+}
+
 // Verdicts of the planes are GJK's, and never those of the band that may be judged either way;
 // close pairs' distances and lower bounds hold against each face in long double.
 TEST(ConvexFaces, ClosePairsAreToldBySlabsAcrossFeatures) {

@@ -32,10 +32,10 @@ class RelativePose {
   /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float), and a reflection is not rigid.
   RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
   /// Computes the pose x -> R_WA^T (R_WB x + (t_WB - t_WA)) of every query, for poses in a common
-  /// frame W, each of which must be rigid; for equal rotations R = I. A coordinate of a point is
-  /// off by at most 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T |t_WB - t_WA|), absolute
-  /// values by entry, so by 4 eps (|x|_1 + |t_WB - t_WA|) with room for rotations that aren't quite
-  /// orthonormal.
+  /// frame W, each of which must be rigid; R = I for equal rotations that are ones but for
+  /// rounding. A coordinate of a point is off by at most 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps
+  /// (|R_WA|^T |t_WB - t_WA|), absolute values by entry, so by 4 eps (|x|_1 + |t_WB - t_WA|) with
+  /// room for rotations that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB);
   /// Takes rotations that were checked: `squared_errors` is at least the sum of the squares
   /// of their errors, |R^T R - I| each (Frobenius).
