@@ -219,8 +219,9 @@ template <typename S>
                                            const fcl::Transform3<S>& X_WB, double squared_errors) {
   const fcl::Matrix3<S> inverse = X_WA.linear().transpose();
   for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
-  // By the roundings of R^T R equal bodies at equal poses would miss each other. If I takes its
-  // place, a coordinate of R x is off by at most 7 u |x|, as it is otherwise, but for nothing else.
+  // By the roundings of R^T R equal bodies at equal poses would miss each other. With I in its
+  // place a coordinate of R x is off by the row of R^T R - I, 7 u |x| at most, and by no rounding:
+  // by no more than any other.
   if (X_WA.linear() == X_WB.linear() && R_ != fcl::Matrix3<S>::Identity() &&
       isRoundedRotation<S>(X_WA.linear())) {
     R_.setIdentity();
