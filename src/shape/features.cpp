@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape/meets.h"
 #include "shape/nearest_point.h"
 #include "shape/simplex.h"
 
@@ -77,6 +78,7 @@ class Features {
   /// True if the triangle meets an ellipsoid. Else takes the slab across the ellipsoid's normal
   /// where the two are nearest in units of the radii, and sets `corner` if that is one.
   bool touchesInRadii(Vec& outwards, int& corner) {
+    if (isLargeInRadii(solid_.half, t_) && meets(solid_, t_, nullptr)) return true;
     Triangle scaled;
     for (int i = 0; i < 3; ++i) scaled[i] = t_[i].cwiseQuotient(solid_.half);
     const Vec nearest = nearestToOrigin(scaled);

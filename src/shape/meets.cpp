@@ -4,6 +4,7 @@
 #include "shape/meets.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "shape/convex_faces.h"
@@ -134,7 +135,7 @@ bool meetsTurned(const Solid& s, const Triangle& t, Vec* common) {
 }
 
 /// In units of the radii the ellipsoid is the unit ball.
-bool meetsEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
+bool meetsInRadii(const Vec& e, const Triangle& t, Vec* common) {
   Triangle scaled;
   for (int i = 0; i < 3; ++i) scaled[i] = t[i].cwiseQuotient(e);
   const Vec nearest = nearestToOrigin(scaled);
@@ -142,23 +143,38 @@ bool meetsEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
   return nearest.squaredNorm() <= 1;
 }
 
-/// Decides it for an ellipse, segment or point, by what lies in its plane or line of the triangle.
+/// Decides it by what the ellipsoid's box leaves of the triangle, which is at most 1 large in units
+/// of the radii. The least radius comes first: later crossings lie between points that are within
+/// it, so that none is off by more than rounding of L across another. Radii of 0 leave what lies in
+/// the ellipse's plane, a segment's line or a point.
 bool meetsFlatEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
+  std::array<int, 3> axes = {0, 1, 2};
+  std::sort(axes.begin(), axes.end(), [&e](int a, int b) { return e[a] < e[b]; });
   Polygon polygon(t);
   Vec radii = e;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!isFlat(e, axis)) continue;
-    polygon.clip(axis, 0);
-    radii[axis] = 1;  // of coordinates that are 0
+  for (const int axis : axes) {
+    const bool flat = isFlat(e, axis);
+    polygon.clip(axis, flat ? 0.0 : e[axis]);
+    if (flat) radii[axis] = 1;  // of coordinates that are 0
   }
   const auto corner = [&](int k) { return polygon.corner[std::min(k, polygon.size - 1)]; };
   for (int i = 2; polygon.size > 0 && i < std::max(3, polygon.size); ++i) {
-    if (meetsEllipsoid(radii, {corner(0), corner(i - 1), corner(i)}, common)) return true;
+    if (meetsInRadii(radii, {corner(0), corner(i - 1), corner(i)}, common)) return true;
   }
   return false;
 }
 
 }  // namespace
+
+// The nearest point of a triangle of size S is off by 2^-48 S, in units of the radii as well.
+bool isLargeInRadii(const Vec& e, const Triangle& t) {
+  const double most = e.maxCoeff();
+  if (isFlat(e, 0) || isFlat(e, 1) || isFlat(e, 2)) return true;
+  if (4 * e.minCoeff() >= most) return false;
+  double size = 0;
+  for (const Vec& p : t) size = std::max(size, p.cwiseQuotient(e).lpNorm<1>());
+  return size * most > 4 * (sizeOf(t) + most);
+}
 
 bool meets(const Solid& s, const Triangle& t, Vec* common) {
   switch (s.kind) {
@@ -170,9 +186,8 @@ bool meets(const Solid& s, const Triangle& t, Vec* common) {
     case Kind::kBox:
       return meetsBox(s, t, common);
     case Kind::kEllipsoid:
-      return isFlat(s.half, 0) || isFlat(s.half, 1) || isFlat(s.half, 2)
-                 ? meetsFlatEllipsoid(s.half, t, common)
-                 : meetsEllipsoid(s.half, t, common);
+      return isLargeInRadii(s.half, t) ? meetsFlatEllipsoid(s.half, t, common)
+                                       : meetsInRadii(s.half, t, common);
     case Kind::kCylinder:
     case Kind::kCone:
       return meetsTurned(s, t, common);

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +33,15 @@ bool isRound(Kind kind) {
 Real offTriangle(const Vec& p, const Triangle& t) {
   const ExactPoint x = p.cast<Real>();
   return scenes::triangleDistance({x, x, x}, exact(t));
+}
+
+/// Ellipsoids are judged in units of their radii, of which the least doesn't matter.
+Real unsureWithin(const NearPair& pair) {
+  const Vec& e = pair.solid.half;
+  const Real band = 0x1p-46L * pair.extent;
+  if (pair.solid.kind != Kind::kEllipsoid || e.isZero(0)) return band;
+  const double middle = std::max(std::min(e[0], e[1]), std::min(std::max(e[0], e[1]), e[2]));
+  return band * e.maxCoeff() / std::max(1e-40, middle);
 }
 
 Real outside(const NearPair& pair, const Vec& p) {
@@ -61,11 +71,7 @@ TEST_P(NearContact, PromisesAreKept) {
     for (int i = 0; i < count; ++i) {
       const NearPair pair = nearPair(cases, kind, size);
       const Real L = pair.extent;
-      // Ellipsoids are judged in units of their radii.
-      Real band = 0x1p-46L * L;
-      if (kind == Kind::kEllipsoid && !pair.solid.half.isZero(0)) {
-        band *= pair.solid.half.maxCoeff() / std::max(1e-40, pair.solid.half.minCoeff());
-      }
+      const Real band = unsureWithin(pair);
       const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
       const bool meets = shape::intersects(pair.solid, pair.triangle);
       EXPECT_EQ(d.distance == 0, meets);
@@ -118,8 +124,7 @@ TEST_P(NearContact, NeedlesAreJudgedAsWell) {
   for (int i = 0; i < (isRound(kind) ? 300 : 4000); ++i) {
     const NearPair pair = nearNeedle(cases, kind);
     if (!pair.judged) continue;
-    Real band = 0x1p-46L * pair.extent;
-    if (kind == Kind::kEllipsoid) band *= pair.solid.half.maxCoeff() / pair.solid.half.minCoeff();
+    const Real band = unsureWithin(pair);
     const bool meets = shape::intersects(pair.solid, pair.triangle);
     const auto d = shape::distance(pair.solid, pair.triangle, kInfinity);
     EXPECT_EQ(d.distance == 0, meets);
@@ -222,7 +227,8 @@ TEST(FacelessConvex, PromisesAreKept) {
 }
 
 // A triangle that cuts the plane of an elliptic disk along a tangent of the disk, moved by a part
-// of the disk's size: in units of the radii it is that far from the disk.
+// of the disk's size: in units of the radii it is that far from the disk. As it stands across the
+// plane, it is also that far from an ellipsoid of any thickness.
 TEST(FlatEllipsoid, VerdictsAreSure) {
   SolidCases cases(44);
   for (int i = 0; i < 20000; ++i) {
@@ -231,6 +237,7 @@ TEST(FlatEllipsoid, VerdictsAreSure) {
     const int axis = cases.pick(3), x = (axis + 1) % 3, y = (axis + 2) % 3;
     disk.half[x] = 0.2 + 0.8 * cases.unit();
     disk.half[y] = disk.half[x] * cases.power(-3, 0);
+    if (i % 2 == 1) disk.half[axis] = disk.half[y] * cases.power(-25, 0);
     const double a = 6.3 * cases.unit(), gap = cases.power(-15, -1) * (cases.pick(2) ? 1 : -1);
     Vec at = Vec::Zero(), tangent = Vec::Zero(), up = Vec::Zero();
     at[x] = disk.half[x] * std::cos(a) * (1 + gap);
@@ -245,6 +252,27 @@ TEST(FlatEllipsoid, VerdictsAreSure) {
     if (std::abs(gap) * disk.half[y] <= 0x1p-46 * extent) continue;
     EXPECT_EQ(shape::intersects(disk, t), gap < 0) << gap;
     EXPECT_EQ(shape::distance(disk, t, kInfinity).distance == 0, gap < 0) << gap;
+  }
+}
+
+// A triangle through a point well inside an ellipsoid that is flat, or a needle.
+TEST(FlatEllipsoid, PiercedOnesAreMet) {
+  SolidCases cases(45);
+  for (int i = 0; i < 20000; ++i) {
+    Solid s;
+    s.kind = Kind::kEllipsoid;
+    const int axis = cases.pick(3);
+    s.half = Vec::Constant(cases.power(-22, -3));
+    if (i % 2 == 0) s.half *= cases.power(-3, 0);
+    s.half[axis] = i % 4 < 2 ? 1.0 : s.half[axis];
+    s.half[(axis + 1) % 3] = 0.2 + 0.8 * cases.unit();
+    const Vec at = 0.5 * cases.vector().normalized().cwiseProduct(s.half);
+    const double size = cases.power(-2, 3);
+    const Vec n = cases.vector().normalized(), u = n.unitOrthogonal(), v = n.cross(u);
+    const Triangle t = {Vec(at + size * u), Vec(at + size * (-0.4 * u + 0.9 * v)),
+                        Vec(at + size * (-0.6 * u - 0.8 * v))};
+    const double extent = shape::sizeOf(t) + s.reach();
+    EXPECT_LE(shape::distance(s, t, kInfinity).distance, 0x1p-46 * extent) << s.half.transpose();
   }
 }
 
