@@ -32,14 +32,20 @@ double slabBetween(const TriangleVertices<S>& p, const TriangleVertices<S>& q,
   return low - std::max(std::max(p1, p2), 0.0) + 8 * error_bounds::kUlp<S> * std::abs(low);
 }
 
+template <typename S>
+engine::PairAnswer<S> noAnswer() {
+  engine::PairAnswer<S> answer;
+  answer.nearest.point_a = answer.nearest.point_b = Point<S>::Zero();
+  return answer;
+}
+
 /// The answer where these triangles touch. Their common point takes as long as the rest.
 template <typename S>
 engine::PairAnswer<S> touchingAnswer(const PlacedPair<S>& pair, const engine::PairQuery& query,
                                      const engine::TrianglePairIds& ids) {
-  engine::PairAnswer<S> answer;
+  auto answer = noAnswer<S>();
   answer.ids = ids;
   answer.least_evaluated = 0;
-  answer.nearest.point_a = answer.nearest.point_b = Point<S>::Zero();
   if (!query.any_touching) {
     answer.nearest = touchingDistance(pair.a.triangle(ids.a), pair.b.triangle(ids.b));
   }
@@ -80,8 +86,7 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
     const engine::TrianglePairIds found = firstIntersecting(placed, counts);
     if (found.a >= 0) return touchingAnswer(placed, query, found);
   }
-  engine::PairAnswer<S> answer;
-  answer.nearest.point_a = answer.nearest.point_b = Point<S>::Zero();
+  auto answer = noAnswer<S>();
   double best = query.far_enough, error = best < kInfinity ? frame.distanceError(best) : 0;
   double left_out = kInfinity;
   while (end != pairs) {
@@ -127,11 +132,11 @@ std::optional<engine::PairAnswer<S>> touchingOfFew(const MeshPair<S>& frame,
   if (!areFew(frame.a, frame.b)) return std::nullopt;
   // Without planes that tell most pairs apart, trees lead to some pair sooner.
   const bool by_planes = std::min(frame.a.num_tris, frame.b.num_tris) <= kFewPlanes;
-  if ((query.any_touching && !by_planes) || frame.rootBound(0) > 0) return std::nullopt;
+  if (query.any_touching && !by_planes) return std::nullopt;
+  if (frame.rootBound(0) > 0) return noAnswer<S>();
   const PlacedPair<S> placed(frame);
   const engine::TrianglePairIds found = firstIntersecting(placed, counts);
-  if (found.a < 0) return std::nullopt;
-  return touchingAnswer(placed, query, found);
+  return found.a < 0 ? noAnswer<S>() : touchingAnswer(placed, query, found);
 }
 
 // All boxes are tested, then triangles by the distance of their boxes. What is left out is farther

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <type_traits>
 
-#include "fcl_kios/triangle/intersection.h"
 #include "query/placed_triangles.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
@@ -106,7 +105,7 @@ void visitIntersecting(const PlacedPair<S>& pair, SearchCounts& counts, const Vi
       ++counts.exact;
       const Plainly plain = plainlyMeet(q.triangle, q.plane, p, plane);
       if (plain == Plainly::kApart) continue;
-      if (plain == Plainly::kUnclear && !trianglesIntersect(p, q.triangle)) continue;
+      if (plain == Plainly::kUnclear && !exactlyIntersect(p, q.triangle)) continue;
       if (visit(engine::TrianglePairIds{i, j})) return;
     }
   }

@@ -61,7 +61,8 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
                                         SearchCounts& counts);
 
 /// Returns the answer of exact queries about few triangles that touch: the least ids that do,
-/// prepared or not, with points unless any_touching. Nothing if none do.
+/// prepared or not, with points unless any_touching; an answer without ids if none do, and nothing
+/// where a search tells it sooner.
 template <typename S>
 std::optional<engine::PairAnswer<S>> touchingOfFew(const MeshPair<S>& frame,
                                                    const engine::PairQuery& query,

@@ -77,7 +77,8 @@ template <typename S>
     if (areVeryFew(frame.a, frame.b) && !treesPay(frame)) {
       constexpr long long kTests = 6;  // take as long as a pair of triangles
       const long long before = counts.exact;
-      if (auto touching = touchingOfFew(frame, query, counts)) {
+      const auto touching = touchingOfFew(frame, query, counts);
+      if (touching && touching->found()) {
         charge(frame, kTests);
         return *touching;
       }

@@ -248,14 +248,17 @@ bool searchTrees(EnginePair<S>& engine, std::size_t limit, PairIds& found, Searc
 }  // namespace
 
 template <typename S>
-[[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
+[[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& asked,
                                          SearchCounts& counts) {
+  PairQuery query = asked;
   const bool exact = query.isExact() && !query.endsEarly();
   if (query.isExact() && arePairByPair(frame.a, frame.b)) {
     return nearestPairByPair(frame, query, counts);
   }
   if (exact) {
-    if (auto touching = touchingOfFew(frame, query, counts)) return *touching;
+    const auto touching = touchingOfFew(frame, query, counts);
+    if (touching && touching->found()) return *touching;
+    query.apart = touching.has_value();
   }
   EnginePair<S> engine(frame, kInfinity);
   const bool bounded = query.far_enough < kInfinity;

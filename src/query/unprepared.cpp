@@ -137,7 +137,8 @@ std::optional<PairAnswer<S>> nearestUnprepared(const MeshPair<S>& frame,
                                                SearchCounts& counts) {
   const Allowance<S> allowance(frame);
   if (allowance.tests() == 0) return std::nullopt;
-  if (auto touching = touchingOfFew(frame, query, counts)) return touching;
+  const auto touching = touchingOfFew(frame, query, counts);
+  if (touching && touching->found()) return touching;
   NearestCandidates<S> near(frame, query.far_enough);
   TreeWalk walk(frame, near, allowance.tests());
   walk.run(counts);

@@ -3,10 +3,13 @@
 #include "search/mesh_search.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "fcl_kios/triangle/intersection.h"
 #include "search/feature_distance.h"
+#include "triangle/known_distance.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
@@ -50,12 +53,15 @@ class Corners {
   TriangleVertices<S> triangleOfB(std::uint32_t t) const {
     return {X_AB_ * b_.corner(t, 0), X_AB_ * b_.corner(t, 1), X_AB_ * b_.corner(t, 2)};
   }
-  TriangleDistance<S> distanceOf(const TrianglePairIds& ids) const {
-    return triangleDistance(triangleOfA(static_cast<std::uint32_t>(ids.a)),
-                            triangleOfB(static_cast<std::uint32_t>(ids.b)));
+  /// `apart`: the triangles are known not to intersect.
+  TriangleDistance<S> distanceOf(const TrianglePairIds& ids, bool apart = false) const {
+    const auto a = triangleOfA(static_cast<std::uint32_t>(ids.a)),
+               b = triangleOfB(static_cast<std::uint32_t>(ids.b));
+    return apart ? disjointDistance(a, b) : triangleDistance(a, b);
   }
-  bool intersect(const Candidate& c) const {
-    return trianglesIntersect(triangleOfA(c.a.triangle()), triangleOfB(c.b.triangle()));
+  bool intersect(const TrianglePairIds& ids) const {
+    return trianglesIntersect(triangleOfA(static_cast<std::uint32_t>(ids.a)),
+                              triangleOfB(static_cast<std::uint32_t>(ids.b)));
   }
 
  private:
@@ -71,6 +77,28 @@ TrianglePairIds idsOf(const Candidate& c) {
   return {static_cast<int>(c.a.triangle()), static_cast<int>(c.b.triangle())};
 }
 
+/// Triangles that don't intersect.
+struct PairApart {
+  TrianglePairIds ids;
+  double distance = -1;  ///< unknown if < 0
+};
+
+/// Remembers some of these: triangles that nearly touch are named by many of their features, and by
+/// edges that may cross faces.
+class PairsApart {
+ public:
+  /// Returns the entry of a pair. It has other ids if nothing is known of this one.
+  PairApart& of(const TrianglePairIds& ids) {
+    if (!known_) known_.emplace();
+    const auto a = static_cast<std::uint32_t>(ids.a), b = static_cast<std::uint32_t>(ids.b);
+    return (*known_)[(a * 0x9E3779B1U + b * 0x85EBCA6BU) >> (32 - kBits)];
+  }
+
+ private:
+  static constexpr std::uint32_t kBits = 6, kNumber = 1U << kBits;
+  std::optional<std::array<PairApart, kNumber>> known_;  // most searches need none
+};
+
 template <typename S>
 class NearestEvaluator final : public RefineCallback {
  public:
@@ -85,9 +113,10 @@ class NearestEvaluator final : public RefineCallback {
 
   [[gnu::hot]] bool evaluate(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
-      if (!corners_.intersect(c)) return false;
+      const TrianglePairIds ids = idsOf(c);
+      if (!intersect(ids)) return false;
       least_ = 0;
-      take(0, idsOf(c));
+      take(0, ids);
       return true;
     }
     if (c.kind == PairKind::kFaces) return evaluateFaces(idsOf(c));
@@ -97,7 +126,7 @@ class NearestEvaluator final : public RefineCallback {
     // Features that are as near as rounding can tell, or so small that their squares vanish: their
     // triangles decide.
     if (distance <= featureError<S>(found.extent) || found.extent < kLeastExtent) {
-      distance = double{corners_.distanceOf(ids).distance};
+      distance = triangleDistanceOf(ids);
     }
     least_ = std::min(least_, distance);
     if (by_faces_) return distance < best_ && evaluateFaces(ids);
@@ -154,6 +183,24 @@ class NearestEvaluator final : public RefineCallback {
                         {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
   }
 
+  bool intersect(const TrianglePairIds& ids) {
+    if (query_.apart) return false;
+    PairApart& known = apart_.of(ids);
+    if (known.ids == ids) return false;
+    if (corners_.intersect(ids)) return true;
+    known = {ids};
+    return false;
+  }
+
+  double triangleDistanceOf(const TrianglePairIds& ids) {
+    PairApart& known = apart_.of(ids);
+    const bool apart = known.ids == ids;
+    if (apart && known.distance > 0) return known.distance;
+    const double distance = double{corners_.distanceOf(ids, apart || query_.apart).distance};
+    if (distance > 0) known = {ids, distance};
+    return distance;
+  }
+
   /// Triangles as a whole: they may be nearer than the features that named them.
   bool evaluateFaces(const TrianglePairIds& ids) {
     faces_ = ids;
@@ -196,6 +243,7 @@ class NearestEvaluator final : public RefineCallback {
   TriangleDistance<S> of_faces_;
   bool ended_near_ = false;
   NearestEnds ends_;
+  PairsApart apart_;
   const double least_shared_;  ///< nearer edges need their own extent; see evaluate()
 };
 
@@ -248,9 +296,19 @@ class IntersectionEvaluator final : public RefineCallback {
   }
 
   [[gnu::hot]] bool evaluate(const Candidate& c) override {
-    if (!corners_.intersect(c)) return false;
-    found.push_back(idsOf(c));
-    return found.size() >= limit_;
+    const TrianglePairIds ids = idsOf(c);
+    if (limit_ > 1) {  // every pair is evaluated once
+      if (corners_.intersect(ids)) found.push_back(ids);
+      return found.size() >= limit_;
+    }
+    PairApart& known = apart_.of(ids);
+    if (known.ids == ids) return false;
+    if (corners_.intersect(ids)) {
+      found.push_back(ids);
+      return true;
+    }
+    known = {ids};
+    return false;
   }
 
   void addUpperBound(float /*upper_bound*/) override {}
@@ -260,6 +318,7 @@ class IntersectionEvaluator final : public RefineCallback {
  private:
   const Corners<S> corners_;
   const std::size_t limit_;
+  PairsApart apart_;
 };
 
 }  // namespace

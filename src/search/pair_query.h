@@ -34,6 +34,7 @@ struct PairQuery {
   long long max_expansions = std::numeric_limits<long long>::max();
   TrianglePairIds start;  ///< triangles to begin with, if any; exact answers don't depend on them
   bool any_touching = false;  ///< of triangles that touch, any may be named, of all models
+  bool apart = false;         ///< it is known that none touch
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
   /// The search of exact answers is then as fast as that of brackets.

@@ -69,20 +69,27 @@ void CertifiedDistance::orderEdges(const Vec (&v)[3], const Vec& direction, int 
 }
 
 bool CertifiedDistance::crossing() {
-  setPlane(pair_.p, e_, pair_.q, plane_p_);
-  setPlane(pair_.q, f_, pair_.p, plane_q_);
+  plane_p_.face = pair_.p;
+  plane_p_.edges = e_;
+  plane_p_.squares = ee_;
+  plane_q_.face = pair_.q;
+  plane_q_.edges = f_;
+  plane_q_.squares = ff_;
+  setPlane(pair_.q, plane_p_);
+  setPlane(pair_.p, plane_q_);
   return plane_p_.side == 0 && plane_q_.side == 0;
 }
 
-void CertifiedDistance::setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3],
-                                 Plane& plane) {
-  plane.normal = edges[0].cross(edges[1]);
+void CertifiedDistance::setPlane(const Vec (&other)[3], Plane& plane) const {
+  plane.normal = plane.edges[0].cross(plane.edges[1]);
   plane.square = plane.normal.squaredNorm();
+  plane.length = std::sqrt(plane.square);
+  const double in_plane = tolerance_ * plane.length;
   int above = 0, below = 0;
   for (int i = 0; i < 3; ++i) {
-    plane.heights[i] = (other[i] - face[0]).dot(plane.normal);
-    above += plane.heights[i] > 0;
-    below += plane.heights[i] < 0;
+    plane.heights[i] = (other[i] - plane.face[0]).dot(plane.normal);
+    above += plane.heights[i] > in_plane;
+    below += plane.heights[i] < -in_plane;
   }
   plane.side = above == 3 ? 1 : (below == 3 ? -1 : 0);
 }
@@ -98,17 +105,30 @@ bool CertifiedDistance::nearestEdges(int begin, int end, PairDistance& found) {
 }
 
 bool CertifiedDistance::nearestFace(PairDistance& found) const {
-  if (facePair(plane_p_, pair_.p, e_, ee_, pair_.q, found.on_p, found.on_q, found.feature_q,
-               found.distance)) {
-    found.feature_p = {PairFeature::kFace, 0};
-    return true;
-  }
-  if (facePair(plane_q_, pair_.q, f_, ff_, pair_.p, found.on_q, found.on_p, found.feature_p,
-               found.distance)) {
-    found.feature_q = {PairFeature::kFace, 0};
-    return true;
-  }
-  return false;
+  return takeFoot(kNone, facePair(plane_p_, pair_.q), found) ||
+         takeFoot(facePair(plane_q_, pair_.p), kNone, found);
+}
+
+bool CertifiedDistance::nearestFlush(PairDistance& found) const {
+  return takeFoot(kNone, flushPair(plane_p_, pair_.q), found) ||
+         takeFoot(flushPair(plane_q_, pair_.p), kNone, found);
+}
+
+/// A vertex of either and its foot on the other's face; false if there is none.
+bool CertifiedDistance::takeFoot(int vertex_of_p, int vertex_of_q, PairDistance& found) const {
+  if (vertex_of_p == kNone && vertex_of_q == kNone) return false;
+  const bool of_q = vertex_of_p == kNone;
+  const int i = of_q ? vertex_of_q : vertex_of_p;
+  const Plane& plane = of_q ? plane_p_ : plane_q_;
+  found.distance = std::abs(plane.heights[i]) / plane.length;
+  const Vec& vertex = (of_q ? pair_.q : pair_.p)[i];
+  const Vec foot = vertex - (plane.heights[i] / plane.square) * plane.normal;
+  const PairFeature face = {PairFeature::kFace, 0}, corner = {PairFeature::kVertex, i};
+  found.on_p = of_q ? foot : vertex;
+  found.on_q = of_q ? vertex : foot;
+  found.feature_p = of_q ? face : corner;
+  found.feature_q = of_q ? corner : face;
+  return true;
 }
 
 /// Nearest points of edges i and j; true if they are those of the triangles.
@@ -175,43 +195,53 @@ bool CertifiedDistance::certified(const Vec& direction, const Vec& x, double dis
   return length > 1e-140 && distance * length - (low - high) <= tolerance_ * length;
 }
 
-/// The vertex of `other` nearest to the plane of `face`, if all lie on one side of it and that
-/// vertex above the face.
-bool CertifiedDistance::facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
-                                 const double (&squares)[3], const Vec (&other)[3], Vec& on_face,
-                                 Vec& on_other, PairFeature& feature, double& distance) const {
-  const Vec& n = plane.normal;
-  const double square = plane.square;
-  const double longest = std::max({squares[0], squares[1], squares[2]});
-  if (plane.side == 0 || !(square > 1e-6 * longest * longest))
-    return false;  // height / edge > 1e-3
-  const double length = std::sqrt(square);
-  const double* const h = plane.heights;
-  int nearest = std::abs(h[1]) < std::abs(h[0]) ? 1 : 0;
-  if (std::abs(h[2]) < std::abs(h[nearest])) nearest = 2;
-  distance = std::abs(h[nearest]) / length;
-  if (!(distance > least_)) return false;
-  // Inside every edge by more than the rounding of this test: near a sharp corner that rounding
-  // would reach far beyond the corner.
-  for (int i = 0; i < 3; ++i) {
-    const double inside = n.cross(edges[i]).dot(other[nearest] - face[i]);
-    const double margin = 2 * tolerance_;
-    if (!(inside > 0 && inside * inside > margin * margin * square * squares[i])) {
-      return false;
-    }
-  }
-  // The face itself must lie within the slab's one side, else n is too inaccurate.
+/// The face is no sliver, and it lies within the slab's one side: else its normal is too
+/// inaccurate.
+bool CertifiedDistance::isAccurate(const Plane& plane) const {
+  const double longest = std::max({plane.squares[0], plane.squares[1], plane.squares[2]});
+  if (!(plane.square > 1e-6 * longest * longest)) return false;  // height / edge > 1e-3
   double low = 0, high = 0;
   for (int i = 1; i < 3; ++i) {
-    const double offset = (face[i] - face[0]).dot(n);
+    const double offset = (plane.face[i] - plane.face[0]).dot(plane.normal);
     low = std::min(low, offset);
     high = std::max(high, offset);
   }
-  if (!(high - low <= 0.5 * tolerance_ * length)) return false;
-  on_other = other[nearest];
-  on_face = on_other - (h[nearest] / square) * n;
-  feature = {PairFeature::kVertex, nearest};
+  return high - low <= 0.5 * tolerance_ * plane.length;
+}
+
+/// Inside every edge by more than the rounding of this test: near a sharp corner that rounding
+/// would reach far beyond the corner.
+bool CertifiedDistance::isAbove(const Plane& plane, const Vec& vertex) const {
+  const double margin = 2 * tolerance_;
+  for (int i = 0; i < 3; ++i) {
+    const double inside = plane.normal.cross(plane.edges[i]).dot(vertex - plane.face[i]);
+    if (!(inside > 0 && inside * inside > margin * margin * plane.square * plane.squares[i])) {
+      return false;
+    }
+  }
   return true;
+}
+
+/// The vertex of `other` nearest to the plane of a face, if all lie on one side of it and that
+/// vertex above the face.
+int CertifiedDistance::facePair(const Plane& plane, const Vec (&other)[3]) const {
+  const double* const h = plane.heights;
+  int nearest = std::abs(h[1]) < std::abs(h[0]) ? 1 : 0;
+  if (std::abs(h[2]) < std::abs(h[nearest])) nearest = 2;
+  const bool far = std::abs(h[nearest]) > least_ * plane.length;
+  const bool found = plane.side != 0 && far && isAbove(plane, other[nearest]) && isAccurate(plane);
+  return found ? nearest : kNone;
+}
+
+/// The first vertex of `other` that is no farther from a face than the tolerance. The triangles are
+/// no farther apart than the vertex and its foot, whose distance is off by half the tolerance for
+/// the face and by 7 eps magnitude for the height: less than twice the tolerance in all.
+int CertifiedDistance::flushPair(const Plane& plane, const Vec (&other)[3]) const {
+  for (int i = 0; i < 3; ++i) {
+    const bool near = std::abs(plane.heights[i]) <= tolerance_ * plane.length;
+    if (near && isAbove(plane, other[i])) return isAccurate(plane) ? i : kNone;
+  }
+  return kNone;
 }
 
 }  // namespace kios

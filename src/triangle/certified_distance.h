@@ -22,9 +22,12 @@ class CertifiedDistance {
   bool touching() const { return nearest_square_ <= least_ * least_; }
   /// Least distance of edges so far, off by less than 16 eps magnitude; infinite without any.
   double nearest() const { return std::sqrt(nearest_square_); }
-  /// Computes the planes; true if each triangle has vertices on both sides of the other's, as far
-  /// as rounding tells, when it pays to ask for an intersection before going on.
+  /// Computes the planes; true if each triangle has vertices in the other's or on both sides, as
+  /// far as rounding tells, when it pays to ask for an intersection before going on.
   bool crossing();
+  /// Of triangles that are disjoint, after crossing(): a vertex so near to the other's face that
+  /// the distance, between 0 and this, needs no slab.
+  bool nearestFlush(PairDistance& found) const;
   /// Vertices against faces, after crossing().
   bool nearestFace(PairDistance& found) const;
 
@@ -32,16 +35,22 @@ class CertifiedDistance {
   using Vec = Eigen::Vector3d;
   /// One triangle's plane, and the heights of the other's vertices above it times |normal|.
   struct Plane {
+    const Vec *face, *edges;
+    const double* squares;  ///< of the edges
     Vec normal;
-    double square, heights[3];
-    int side;  ///< of all three vertices, 0 if they differ
+    double square, length, heights[3];
+    int side;  ///< of all three vertices, 0 if they differ or one lies in the plane
   };
-  void setPlane(const Vec (&face)[3], const Vec (&edges)[3], const Vec (&other)[3], Plane& plane);
+  static constexpr int kNone = -1;
+
+  void setPlane(const Vec (&other)[3], Plane& plane) const;
   static void orderEdges(const Vec (&v)[3], const Vec& direction, int (&order)[3]);
   bool edgePair(int i, int j, PairDistance& found);
-  bool facePair(const Plane& plane, const Vec (&face)[3], const Vec (&edges)[3],
-                const double (&squares)[3], const Vec (&other)[3], Vec& on_face, Vec& on_other,
-                PairFeature& feature, double& distance) const;
+  bool isAccurate(const Plane& plane) const;
+  bool isAbove(const Plane& plane, const Vec& vertex) const;
+  int facePair(const Plane& plane, const Vec (&other)[3]) const;
+  int flushPair(const Plane& plane, const Vec (&other)[3]) const;
+  bool takeFoot(int vertex_of_p, int vertex_of_q, PairDistance& found) const;
   bool certified(const Vec& direction, const Vec& x, double distance) const;
 
   const TrianglePair& pair_;

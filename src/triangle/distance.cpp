@@ -129,9 +129,10 @@ TriangleDistance<S> distanceOf(const TriangleVertices<S>& a, const TriangleVerti
   PairDistance found;
   CertifiedDistance fast(pair);
   bool certified = fast.nearestEdges(0, 1, found);
-  if (!certified && (fast.touching() || fast.crossing())) {
+  if (!certified && (fast.crossing() || fast.touching())) {
     if (!disjoint && commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
     disjoint = true;
+    certified = fast.nearestFlush(found);
   }
   if (!certified && !fast.touching()) {
     certified = fast.nearestEdges(1, 3, found) || (!fast.touching() && fast.nearestFace(found));

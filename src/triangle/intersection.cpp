@@ -3,6 +3,7 @@
 #include "fcl_kios/triangle/intersection.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "triangle/common_point.h"
@@ -19,9 +20,11 @@ using Coordinates = std::array<double, 3>;
 
 /// Vertices of a triangle of the pair, and their sides of the other's plane.
 struct Face {
-  int v[3], side[3];
+  int v[3];
+  std::array<int, 3> side;
   bool degenerate = false;  ///< no area: the triangle is the segment from v[0] to v[1]
 
+  bool isBeside() const { return std::abs(side[0] + side[1] + side[2]) == 3; }
   bool inPlane() const { return (side[0] | side[1] | side[2]) == 0; }
 };
 
@@ -65,23 +68,35 @@ class PairIntersection {
   /// Sides of every vertex with respect to the other plane; false if one plane has a triangle
   /// strictly on one side.
   bool crossesPlanes() {
-    findSides(b_, a_);
-    if (std::abs(b_.side[0] + b_.side[1] + b_.side[2]) == 3) return false;
-    findSides(a_, b_);
-    if (std::abs(a_.side[0] + a_.side[1] + a_.side[2]) == 3) return false;
-    // A vertex beside a triangle's plane shows that there is one.
-    if (b_.inPlane()) findDegenerate(a_);
-    if (a_.inPlane()) findDegenerate(b_);
+    // The plane of the larger one is that which tells more often.
+    const bool larger = sizeOf(a_) >= sizeOf(b_);
+    Face &first = larger ? b_ : a_, &second = larger ? a_ : b_;
+    findSides(first, second);
+    if (first.isBeside()) return false;
+    // A vertex beside a triangle's plane shows that there is one. What lies in it is coplanar.
+    if (first.inPlane()) findDegenerate(second);
+    if (first.inPlane() && !second.degenerate) {
+      second.side = {0, 0, 0};
+    } else {
+      findSides(second, first);
+      if (second.isBeside()) return false;
+    }
+    if (second.inPlane()) findDegenerate(first);
     return true;
+  }
+
+  double sizeOf(const Face& f) const {
+    double size = 0;
+    for (int c = 0; c < 3; ++c) {
+      const double at = points_[f.v[0]][c];
+      size += std::abs(points_[f.v[1]][c] - at) + std::abs(points_[f.v[2]][c] - at);
+    }
+    return size;
   }
 
   /// From a vertex of the plane: its differences are the plane's own, however small the triangle.
   void findSides(Face& f, const Face& plane) const {
-    for (int i = 0; i < 3; ++i) {
-      const bool repeated = i > 0 && points_[f.v[i]] == points_[f.v[i - 1]];
-      f.side[i] =
-          repeated ? f.side[i - 1] : signs_.orient3d(f.v[i], plane.v[1], plane.v[0], plane.v[2]);
-    }
+    f.side = signs_.sides(f.v, plane.v[1], plane.v[0], plane.v[2]);
   }
 
   /// Collinear vertices lie along their line as they do by coordinates.
@@ -136,7 +151,11 @@ class PairIntersection {
   bool coplanarMeet(Coordinates* point) const {
     const int axis = axisOf(a_);
     int in_a[3][3], in_b[3][3];
-    if (!insides(a_, b_, axis, in_a) || !insides(b_, a_, axis, in_b)) return false;
+    if (!insides(a_, b_, axis, in_a)) return false;
+    for (int i = 0; i < 3 && !point; ++i) {
+      if (in_a[0][i] >= 0 && in_a[1][i] >= 0 && in_a[2][i] >= 0) return true;
+    }
+    if (!insides(b_, a_, axis, in_b)) return false;
     if (!point) return true;
     for (int i = 0; i < 3; ++i) {
       if (in_a[0][i] >= 0 && in_a[1][i] >= 0 && in_a[2][i] >= 0) {
@@ -333,6 +352,11 @@ template <typename S>
   if (boxesApart(a, b)) return false;
   const Plainly plain = plainlyMeet(a, planeOf(a), b, planeOf(b));
   if (plain != Plainly::kUnclear) return plain == Plainly::kMeet;
+  return exactlyIntersect(a, b);
+}
+
+template <typename S>
+bool exactlyIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   return PairIntersection(coordinatesOf(a, b)).common(nullptr);
 }
 
@@ -352,6 +376,7 @@ Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<
 }
 
 KIOS_INSTANTIATE_FUNCTION(trianglesIntersect);
+KIOS_INSTANTIATE_FUNCTION(exactlyIntersect);
 KIOS_INSTANTIATE_FUNCTION(intersectionPoint);
 
 }  // namespace kios

@@ -82,4 +82,8 @@ template <typename S>
   return first < 0 && last > 0 ? Plainly::kMeet : Plainly::kUnclear;
 }
 
+/// trianglesIntersect() of triangles of which that isn't clear.
+template <typename S>
+bool exactlyIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
+
 }  // namespace kios

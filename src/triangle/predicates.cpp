@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "triangle/predicates.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "triangle/determinant.h"
 #include "triangle/integer.h"
@@ -11,7 +14,14 @@
 namespace kios {
 namespace {
 
-int signOf(double v) { return (v > 0) - (v < 0); }
+/// Returns the largest power of two that is at most v, which is normal; 0 for 0.
+double powerOfTwoBelow(double v) {
+  std::uint64_t bits;
+  std::memcpy(&bits, &v, sizeof v);
+  bits &= 0x7FF0000000000000;
+  std::memcpy(&v, &bits, sizeof v);
+  return v;
+}
 
 /// n 2^exponent, rounded to 53 bits.
 template <typename Rounded>
@@ -33,10 +43,8 @@ Rounded roundedExpansion(const Expansion<N>& e) {
 }  // namespace
 
 PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scaled_(points) {
-  double largest = 0, least = 1;
-  for (const auto& p : points) {
-    for (const double v : p) largest = std::max(largest, std::abs(v));
-  }
+  using All = Eigen::Map<const Eigen::Array<double, 18, 1>>;
+  double largest = All(points[0].data()).abs().maxCoeff();
   if (!(largest >= 0x1p-200 && largest <= 0x1p200) && largest > 0) {
     scale_ = -std::ilogb(largest);
     const double half = std::ldexp(1.0, scale_ / 2), rest = std::ldexp(1.0, scale_ - scale_ / 2);
@@ -47,23 +55,27 @@ PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scal
   }
   // Multiples of one unit by factors of at most 15 bits: no result of a determinant has more
   // than 53.
-  const double unit = largest > 0 ? std::ldexp(1.0, std::ilogb(largest) - 14) : 1;
-  const double rounder = 0x1.8p52 * unit;
-  plain_exact_ = true;
-  for (int i = 0; i < 6; ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const double v = scaled_[i][c];
-      if (points[i][c] != 0) least = std::min(least, std::abs(v));
-      plain_exact_ &= (v + rounder) - rounder == v;
+  const double rounder = 0x1.8p38 * powerOfTwoBelow(largest);
+  const All v(scaled_[0].data());
+  plain_exact_ = ((v + rounder) - rounder - v).abs().maxCoeff() == 0;
+  double least = v.abs().minCoeff();
+  if (least == 0) {
+    least = 1;
+    for (int i = 0; i < 6; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        if (points[i][c] != 0) least = std::min(least, std::abs(scaled_[i][c]));
+      }
     }
+    plain_exact_ &= least > 0;  // else one has underflowed
   }
-  plain_exact_ &= least > 0;  // else one has underflowed
   // Bits of coordinates lie above 2^-324, those of triple products above 2^-972.
   expansions_exact_ = least >= 0x1p-270;
 }
 
-// Filters: |det - exact| <= (7 + 56 u) u permanent for orient3d with rounded differences, (3 + 16
-// u) u for the 2x2 (Shewchuk); products that underflow add less than 2^-800 at this scale.
+constexpr double kBound3d = 8 * 0x1p-53;
+
+// The filter: |det - exact| <= (7 + 56 u) u permanent with rounded differences (Shewchuk); products
+// that underflow add less than 2^-800 at this scale.
 PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, int l) const {
   const auto &a = scaled_[i], &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
   const double adx = a[0] - d[0], ady = a[1] - d[1], adz = a[2] - d[2];
@@ -75,32 +87,45 @@ PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, i
   const double permanent = (std::abs(bxcy) + std::abs(cxby)) * std::abs(adz) +
                            (std::abs(cxay) + std::abs(axcy)) * std::abs(bdz) +
                            (std::abs(axby) + std::abs(bxay)) * std::abs(cdz);
-  constexpr double kBound = 8 * 0x1p-53;
-  return {det, kBound * permanent + 0x1p-800, permanent == 0};
+  return {det, kBound3d * permanent + 0x1p-800, permanent == 0};
 }
 
 int PairPredicates::orient3d(int i, int j, int k, int l) const {
   const Filtered det = filteredOrient3d(i, j, k, l);
-  if (std::abs(det.value) > det.error) return signOf(det.value);
-  if (plain_exact_ || (det.vanishes && expansions_exact_)) return signOf(det.value);
+  return std::abs(det.value) > det.error ? signOf(det.value) : signOf(det, i, j, k, l);
+}
+
+// The same filter for the determinant by its first row.
+std::array<int, 3> PairPredicates::sides(const int (&points)[3], int j, int k, int l) const {
+  const auto &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
+  double minors[3], sizes[3];
+  for (int u = 0; u < 3; ++u) {
+    const int v = u == 2 ? 0 : u + 1, w = u == 0 ? 2 : u - 1;
+    const double left = (b[v] - d[v]) * (c[w] - d[w]), right = (b[w] - d[w]) * (c[v] - d[v]);
+    minors[u] = left - right;
+    sizes[u] = std::abs(left) + std::abs(right);
+  }
+  std::array<int, 3> sides;
+  for (int p = 0; p < 3; ++p) {
+    const auto& a = scaled_[points[p]];
+    const double x = a[0] - d[0], y = a[1] - d[1], z = a[2] - d[2];
+    const double value = x * minors[0] + y * minors[1] + z * minors[2];
+    const double permanent =
+        std::abs(x) * sizes[0] + std::abs(y) * sizes[1] + std::abs(z) * sizes[2];
+    const Filtered det = {value, kBound3d * permanent + 0x1p-800, permanent == 0};
+    sides[p] = std::abs(value) > det.error ? signOf(value) : signOf(det, points[p], j, k, l);
+  }
+  return sides;
+}
+
+int PairPredicates::signOf(const Filtered& orient3d, int i, int j, int k, int l) const {
+  if (plain_exact_ || (orient3d.vanishes && expansions_exact_)) return signOf(orient3d.value);
   if (same(i, j) || same(i, k) || same(i, l) || same(j, k) || same(j, l) || same(k, l)) return 0;
   return signOf(exactOrient3d(i, j, k, l, 1).mantissa);
 }
 
-PairPredicates::Filtered PairPredicates::filteredCross2d(int i, int j, int k, int l,
-                                                         int axis) const {
-  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const double left = (scaled_[j][u] - scaled_[i][u]) * (scaled_[l][v] - scaled_[k][v]);
-  const double right = (scaled_[j][v] - scaled_[i][v]) * (scaled_[l][u] - scaled_[k][u]);
-  constexpr double kBound = 4 * 0x1p-53;
-  return {left - right, kBound * (std::abs(left) + std::abs(right)) + 0x1p-800,
-          left == 0 && right == 0};
-}
-
-int PairPredicates::cross2d(int i, int j, int k, int l, int axis) const {
-  const Filtered det = filteredCross2d(i, j, k, l, axis);
-  if (std::abs(det.value) > det.error) return signOf(det.value);
-  if (plain_exact_ || (det.vanishes && expansions_exact_)) return signOf(det.value);
+int PairPredicates::signOf(const Filtered& cross2d, int i, int j, int k, int l, int axis) const {
+  if (plain_exact_ || (cross2d.vanishes && expansions_exact_)) return signOf(cross2d.value);
   if (same(i, j) || same(k, l) || (same(i, k) && same(j, l)) || (same(i, l) && same(j, k)))
     return 0;
   return signOf(exactCross2d(i, j, k, l, axis, 1).mantissa);

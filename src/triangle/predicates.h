@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "fcl_kios/triangle/triangle.h"
 
@@ -18,12 +19,17 @@ class PairPredicates {
 
   /// Sign of det(p_i - p_l, p_j - p_l, p_k - p_l).
   int orient3d(int i, int j, int k, int l) const;
+  /// orient3d(i, j, k, l) of three points i.
+  std::array<int, 3> sides(const int (&points)[3], int j, int k, int l) const;
   /// Sign of the area of (i, j, k) in the projection along `axis`.
   int orient2d(int i, int j, int k, int axis) const { return cross2d(i, j, i, k, axis); }
   /// The axis along which the projection of (i, j, k) has an area, -1 if there is none.
   int projectionAxis(int i, int j, int k) const;
   /// Sign of component `axis` of (p_j - p_i) x (p_l - p_k).
-  int cross2d(int i, int j, int k, int l, int axis) const;
+  int cross2d(int i, int j, int k, int l, int axis) const {
+    const Filtered det = filteredCross2d(i, j, k, l, axis);
+    return std::abs(det.value) > det.error ? signOf(det.value) : signOf(det, i, j, k, l, axis);
+  }
   /// Returns the parameter from p_i at which p_i p_j crosses the plane of (k, l, m), on whose two
   /// sides they lie, to about 8 eps of the segment however small the angle is.
   double crossing3d(int i, int j, int k, int l, int m) const;
@@ -39,7 +45,19 @@ class PairPredicates {
     bool vanishes;  ///< every product is 0; where none can underflow, so is the determinant
   };
   Filtered filteredOrient3d(int i, int j, int k, int l) const;
-  Filtered filteredCross2d(int i, int j, int k, int l, int axis) const;
+  // The filter: |det - exact| <= (3 + 16 u) u permanent (Shewchuk).
+  Filtered filteredCross2d(int i, int j, int k, int l, int axis) const {
+    const int u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
+    const double left = (scaled_[j][u] - scaled_[i][u]) * (scaled_[l][v] - scaled_[k][v]);
+    const double right = (scaled_[j][v] - scaled_[i][v]) * (scaled_[l][u] - scaled_[k][u]);
+    constexpr double kBound = 4 * 0x1p-53;
+    return {left - right, kBound * (std::abs(left) + std::abs(right)) + 0x1p-800,
+            left == 0 && right == 0};
+  }
+  static int signOf(double v) { return (v > 0) - (v < 0); }
+  /// Signs where the filter isn't sure.
+  int signOf(const Filtered& cross2d, int i, int j, int k, int l, int axis) const;
+  int signOf(const Filtered& orient3d, int i, int j, int k, int l) const;
 
   /// Holds the value with the right sign, and nearly all digits: mantissa 2^exponent.
   struct Rounded {
