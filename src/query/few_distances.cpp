@@ -63,44 +63,40 @@ template <typename S>
 engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::PairQuery& query,
                                         SearchCounts& counts) {
   const PlacedPair<S> placed(frame);
+  const engine::TrianglePairIds touching = firstIntersecting(placed, counts);
+  if (touching.a >= 0) return touchingAnswer(placed, query, touching);
   // Lengths whose squares over- or underflow bound nothing.
   const auto isLength = [](double v) { return v > 0x1p-500 && v < 0x1p500; };
   struct Bounded {
     double bound;
     engine::TrianglePairIds ids;
-  } pairs[kMostPairByPair] = {};
+  } pairs[kMostPairByPair];
   Bounded* end = pairs;
   Sides upper_b[kMostPairByPair];
   for (int j = 0; j < placed.b.size(); ++j) upper_b[j] = placed.b.box(j).upper();
-  bool touching = false;
   for (int i = 0; i < placed.a.size(); ++i) {
     const Sides lower = placed.a.box(i).lower();
     for (int j = 0; j < placed.b.size(); ++j, ++end) {
       const double bound = distance(lower, upper_b[j]);
       *end = {isLength(bound) ? bound : 0, {i, j}};
-      touching |= end->bound == 0;
     }
   }
   counts.leaf_pairs += end - pairs;
-  if (touching) {
-    const engine::TrianglePairIds found = firstIntersecting(placed, counts);
-    if (found.a >= 0) return touchingAnswer(placed, query, found);
-  }
   auto answer = noAnswer<S>();
   double best = query.far_enough, error = best < kInfinity ? frame.distanceError(best) : 0;
   double left_out = kInfinity;
+  const auto isLeftOut = [&](const Bounded& pair) {
+    const bool later = answer.found() && answer.ids < pair.ids;
+    if (!(pair.bound >= (later ? best : best + 2 * error))) return false;
+    left_out = std::min(left_out, pair.bound - frame.distanceError(pair.bound));  // as given
+    return true;
+  };
+  end = std::remove_if(pairs, end, isLeftOut);
   while (end != pairs) {
-    Bounded* next = pairs;
-    for (Bounded* pair = pairs + 1; pair != end; ++pair) {
-      if (pair->bound < next->bound) next = pair;
-    }
-    const auto [bound, ids] = *next;
+    const auto least = [](const Bounded& x, const Bounded& y) { return x.bound < y.bound; };
+    Bounded* const next = std::min_element(pairs, end, least);
+    const engine::TrianglePairIds ids = next->ids;
     *next = *--end;
-    const bool later = answer.found() && answer.ids < ids;
-    if (bound >= (later ? best : best + 2 * error)) {
-      left_out = std::min(left_out, bound - frame.distanceError(bound));  // of poses as given
-      continue;
-    }
     ++counts.exact;
     const auto found = disjointDistance(placed.a.triangle(ids.a), placed.b.triangle(ids.b));
     const double d = double{found.distance};
@@ -109,6 +105,7 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
     answer.nearest = found;
     answer.least_evaluated = best = d;
     error = frame.kernelError(d);
+    end = std::remove_if(pairs, end, isLeftOut);
     const Eigen::Vector3d across = (found.point_b - found.point_a).template cast<double>();
     const double length = std::sqrt(detail::dot<double>(across, across));
     if (!isLength(length)) continue;
@@ -117,6 +114,7 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
                                       placed.b.triangle(pair->ids.b), across / length);
       if (isLength(slab)) pair->bound = std::max(pair->bound, slab);
     }
+    end = std::remove_if(pairs, end, isLeftOut);
   }
   answer.least_other = std::max(0.0, left_out);
   if (query.near_enough > 0 && answer.found() && best <= query.near_enough) {

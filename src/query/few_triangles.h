@@ -15,7 +15,7 @@
 
 namespace kios {
 
-constexpr int kFewTriangles = 32, kVeryFewPairs = 64, kMostPairByPair = 4;
+constexpr int kFewTriangles = 32, kVeryFewPairs = 64, kMostPairByPair = 24, kFewestPairs = 4;
 
 /// True for models of so few triangles that all pairs are looked at for contacts faster than any
 /// tree is walked: boxes against spheres of 40 triangles. Found by trying.
@@ -33,11 +33,16 @@ bool areVeryFew(const Model<S>& a, const Model<S>& b) {
   return areFew(a, b) && a.num_tris * b.num_tris <= kVeryFewPairs;
 }
 
-/// Tells it for so few pairs that no bound of them, and no tree, takes less than their triangles.
+/// Tells it for so few pairs that no tree tells their distance sooner than their triangles.
 template <typename S>
 bool arePairByPair(const Model<S>& a, const Model<S>& b) {
-  return a.num_tris <= kMostPairByPair && b.num_tris <= kMostPairByPair &&
-         a.num_tris * b.num_tris <= kMostPairByPair;
+  return areFew(a, b) && a.num_tris * b.num_tris <= kMostPairByPair;
+}
+
+/// Tells it for so few pairs that no bound of the models takes less than their triangles.
+template <typename S>
+bool areFewest(const Model<S>& a, const Model<S>& b) {
+  return areFew(a, b) && a.num_tris * b.num_tris <= kFewestPairs;
 }
 
 /// Returns up to `limit` pairs of few triangles that intersect, all of them if there are no more,

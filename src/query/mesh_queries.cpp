@@ -141,8 +141,8 @@ template <typename S>
   }
   const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);
   if (request.isSatisfied(result)) return result.min_distance;
-  const bool pair_by_pair = query.isExact() && arePairByPair(a, b);
-  const bool far = bounded && !pair_by_pair &&
+  const bool fewest = query.isExact() && areFewest(a, b);
+  const bool far = bounded && !fewest &&
                    (frame.rootBound(query.far_enough) >= query.far_enough ||
                     (!arePrepared(frame) && verticesApart(frame, query.far_enough)));
   if (far) return result.min_distance;

@@ -341,7 +341,7 @@ template <typename S>
   if (unlike || isThin(root_a) || isThin(root_b)) engine.compareRoots();
   if (engine.isFar(0)) return PairIds();
   if (!unlike && !engine.knowsRoots() && frame.rootBound(0) > 0) return PairIds();
-  if (arePairByPair(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
+  if (areFewest(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
   if (areFew(frame.a, frame.b)) {
     if (!treesPay(frame)) {

@@ -25,7 +25,7 @@ class CertifiedDistance {
   /// Computes the planes; true if each triangle has vertices in the other's or on both sides, as
   /// far as rounding tells, when it pays to ask for an intersection before going on.
   bool crossing();
-  /// Of triangles that are disjoint, after crossing(): a vertex so near to the other's face that
+  /// After crossing(), of triangles that are disjoint: finds a vertex so near to the other one that
   /// the distance, between 0 and this, needs no slab.
   bool nearestFlush(PairDistance& found) const;
   /// Vertices against faces, after crossing().

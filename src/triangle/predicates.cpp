@@ -95,7 +95,7 @@ int PairPredicates::orient3d(int i, int j, int k, int l) const {
   return std::abs(det.value) > det.error ? signOf(det.value) : signOf(det, i, j, k, l);
 }
 
-// The same filter for the determinant by its first row.
+// The filter holds for the determinant by its first row, too.
 std::array<int, 3> PairPredicates::sides(const int (&points)[3], int j, int k, int l) const {
   const auto &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
   double minors[3], sizes[3];
