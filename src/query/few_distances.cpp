@@ -58,7 +58,8 @@ engine::PairAnswer<S> touchingAnswer(const PlacedPair<S>& pair, const engine::Pa
 // the nearest points so far. A pair is left out if its bound exceeds the least distance by more
 // than rounding may: kernelError() is 16 eps of any pair's extent. One of greater ids than those
 // that are nearest, such as another at their vertex, is left out where it is nearer by no more than
-// what the slab is off by, 12 eps; the contract is 16.
+// what the slab is off by, 12 eps; the contract is 16. Which of these is named depends on the
+// order, and so not on what is far enough, but that it may leave out all.
 template <typename S>
 engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::PairQuery& query,
                                         SearchCounts& counts) {
@@ -83,15 +84,22 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
   }
   counts.leaf_pairs += end - pairs;
   auto answer = noAnswer<S>();
-  double best = query.far_enough, error = best < kInfinity ? frame.distanceError(best) : 0;
-  double left_out = kInfinity;
+  double best = kInfinity, error = 0, left_out = kInfinity;
   const auto isLeftOut = [&](const Bounded& pair) {
     const bool later = answer.found() && answer.ids < pair.ids;
     if (!(pair.bound >= (later ? best : best + 2 * error))) return false;
     left_out = std::min(left_out, pair.bound - frame.distanceError(pair.bound));  // as given
     return true;
   };
-  end = std::remove_if(pairs, end, isLeftOut);
+  if (query.far_enough < kInfinity) {
+    best = query.far_enough;
+    error = frame.distanceError(best);
+    if (std::all_of(pairs, end, isLeftOut)) {
+      end = pairs;
+    } else {
+      best = left_out = kInfinity;
+    }
+  }
   while (end != pairs) {
     const auto least = [](const Bounded& x, const Bounded& y) { return x.bound < y.bound; };
     Bounded* const next = std::min_element(pairs, end, least);
