@@ -301,6 +301,14 @@ TYPED_TEST(SmallBodies, PairByPairTheyAreAsNearAsAllPairsTell) {
     const auto not_near = kios::distance(*a, XS.X_WA, *b, XS.X_WB, near);
     ASSERT_EQ(not_near.distance, d) << i;
     ASSERT_EQ(not_near.triangle_a, ids.first) << i;
+    for (const S more : {S(1), S(1.01), S(1.5)}) {  // as if a pair so far were known
+      if (d == 0) break;
+      fcl::DistanceResult<S> known;
+      known.min_distance = std::nextafter(more * d, std::numeric_limits<S>::infinity());
+      distanceMeshes(*a, XS.X_WA, *b, XS.X_WB, fcl::DistanceRequest<S>(false), known);
+      ASSERT_EQ(known.min_distance, d) << i;
+      ASSERT_EQ(std::make_pair(static_cast<int>(known.b1), static_cast<int>(known.b2)), ids) << i;
+    }
     prepare(*a);
     prepare(*b);
     const auto again = ask(true);
