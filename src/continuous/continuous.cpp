@@ -26,8 +26,8 @@ using fcl::CollisionGeometryd;
 std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
                               ContinuousCounts& counts) {
   require(toc_err >= 0, "ContinuousCollisionRequest::toc_err", toc_err, ">= 0");
-  constexpr long long kMostSteps = 20000;
-  constexpr double kSmall = 0.25, kShort = 0x1p-13;  // there are few longer steps
+  constexpr long long kMostSteps = 20000, kMostTests = 1 << 21;  // of short steps
+  constexpr double kSmall = 0.25, kShort = 0x1p-13;              // there are few longer steps
   const double tolerance = std::clamp(toc_err, 0x1p-48, 1.0);
   const double least = std::max(0x1p-20 * tolerance, 0x1p-52);
 
@@ -37,7 +37,10 @@ std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
   };
   if (touching(0)) return 0;
   double t = 0, look_from = 0;
-  for (long long short_steps = 0;;) {
+  const auto tests = [&] { return counts.volume_tests + counts.leaf_tests; };
+  long long short_steps = 0, short_tests = 0;
+  while (true) {
+    const long long before = tests();
     const double h = pair.apartFor(t, kSmall * tolerance);
     ++counts.steps;
     if (h >= 1 - t) return std::nullopt;
@@ -46,8 +49,11 @@ std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
       if (touching(std::min(1.0, t + tolerance))) return t;
       look_from = t + 0.5 * tolerance;
     }
-    short_steps += h < kShort ? 1 : 0;
-    if (h < least || short_steps > kMostSteps) return t;
+    if (h < kShort) {
+      ++short_steps;
+      short_tests += tests() - before;
+    }
+    if (h < least || short_steps > kMostSteps || short_tests > kMostTests) return t;
     double next = t + h;
     if (next - t > h) next = std::nextafter(next, 0.0);
     t = next;

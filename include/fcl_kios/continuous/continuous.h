@@ -25,8 +25,8 @@ struct ContinuousCounts {
 /// `result.is_collide == false` proves that they never touch. If it is true, time_of_contact is at
 /// most the time of the first contact, which lies at most request.toc_err later. A pair that comes
 /// so near without touching that no interval of toc_err / 2^20 can be proven free (or after 20000
-/// steps below 2^-13) counts as contact too. contact_tf1 and contact_tf2 are the poses at
-/// time_of_contact, 1 if there is no contact, which is also what is returned.
+/// steps below 2^-13, or 2^21 tests in them) counts as contact too. contact_tf1 and contact_tf2 are
+/// the poses at time_of_contact, 1 if there is no contact, which is also what is returned.
 ///
 /// Only toc_err and ccd_motion_type of the request count: all solver types get this answer, which
 /// is what each of them promises, and num_max_iterations would make answers unsound. toc_err = 0 is

@@ -57,7 +57,10 @@ class ContinuousQuestion {
                      call);
     }
     if (!result.is_collide || first <= toc + toc_err) return std::nullopt;
-    if (counts.steps > 20000) return std::nullopt;  // counts as contact
+    // Such count as contact.
+    if (counts.steps > 20000 || counts.volume_tests + counts.leaf_tests > 1 << 21) {
+      return std::nullopt;
+    }
     // A contact between samples, or so near that no interval of toc_err / 2^20 is proven free.
     const double speed = speedOf();
     double least = distanceAt(*motion_a, *motion_b, toc);
