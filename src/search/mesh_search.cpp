@@ -93,6 +93,14 @@ class PairsApart {
     const auto a = static_cast<std::uint32_t>(ids.a), b = static_cast<std::uint32_t>(ids.b);
     return (*known_)[(a * 0x9E3779B1U + b * 0x85EBCA6BU) >> (32 - kBits)];
   }
+  template <typename S>
+  bool intersect(const Corners<S>& corners, const TrianglePairIds& ids) {
+    PairApart& known = of(ids);
+    if (known.ids == ids) return false;
+    if (corners.intersect(ids)) return true;
+    known = {ids};
+    return false;
+  }
 
  private:
   static constexpr std::uint32_t kBits = 6, kNumber = 1U << kBits;
@@ -114,7 +122,7 @@ class NearestEvaluator final : public RefineCallback {
   [[gnu::hot]] bool evaluate(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
       const TrianglePairIds ids = idsOf(c);
-      if (!intersect(ids)) return false;
+      if (query_.apart || !apart_.intersect(corners_, ids)) return false;
       least_ = 0;
       take(0, ids);
       return true;
@@ -181,15 +189,6 @@ class NearestEvaluator final : public RefineCallback {
     }
     return faceDistance(corners_.ofB(c.b),
                         {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
-  }
-
-  bool intersect(const TrianglePairIds& ids) {
-    if (query_.apart) return false;
-    PairApart& known = apart_.of(ids);
-    if (known.ids == ids) return false;
-    if (corners_.intersect(ids)) return true;
-    known = {ids};
-    return false;
   }
 
   double triangleDistanceOf(const TrianglePairIds& ids) {
@@ -297,18 +296,9 @@ class IntersectionEvaluator final : public RefineCallback {
 
   [[gnu::hot]] bool evaluate(const Candidate& c) override {
     const TrianglePairIds ids = idsOf(c);
-    if (limit_ > 1) {  // every pair is evaluated once
-      if (corners_.intersect(ids)) found.push_back(ids);
-      return found.size() >= limit_;
-    }
-    PairApart& known = apart_.of(ids);
-    if (known.ids == ids) return false;
-    if (corners_.intersect(ids)) {
-      found.push_back(ids);
-      return true;
-    }
-    known = {ids};
-    return false;
+    const bool once = limit_ > 1;  // every pair is evaluated once
+    if (once ? corners_.intersect(ids) : apart_.intersect(corners_, ids)) found.push_back(ids);
+    return found.size() >= limit_;
   }
 
   void addUpperBound(float /*upper_bound*/) override {}
