@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "fcl_kios/triangle/intersection.h"
+#include "search/mesh_search.h"
+#include "triangle/known_distance.h"
+
+// The triangles that a search asks the exact kernels about, and what it remembers of the answers.
+
+namespace kios::engine {
+
+/// Features in the common frame, whose coordinates are rounded to S.
+template <typename S>
+class Corners {
+ public:
+  Corners(const MeshView<S>& a, const MeshView<S>& b, const RelativePose<S>& X_AB)
+      : a_(a), b_(b), X_AB_(X_AB) {}
+  explicit Corners(const PreparedPair<S>& pair) : Corners(pair.a.mesh, pair.b.mesh, pair.X_AB) {}
+
+  Eigen::Vector3d ofA(FeatureId id, std::uint32_t step = 0) const {
+    return a_.corner(id.triangle(), next(id, step)).template cast<double>();
+  }
+  Eigen::Vector3d ofB(FeatureId id, std::uint32_t step = 0) const {
+    const fcl::Vector3<S> q = X_AB_ * b_.corner(id.triangle(), next(id, step));
+    return q.template cast<double>();
+  }
+  TriangleVertices<S> triangleOfA(std::uint32_t t) const {
+    return {a_.corner(t, 0), a_.corner(t, 1), a_.corner(t, 2)};
+  }
+  TriangleVertices<S> triangleOfB(std::uint32_t t) const {
+    return {X_AB_ * b_.corner(t, 0), X_AB_ * b_.corner(t, 1), X_AB_ * b_.corner(t, 2)};
+  }
+  /// `apart`: the triangles are known not to intersect.
+  TriangleDistance<S> distanceOf(const TrianglePairIds& ids, bool apart = false) const {
+    const auto a = triangleOfA(static_cast<std::uint32_t>(ids.a)),
+               b = triangleOfB(static_cast<std::uint32_t>(ids.b));
+    return apart ? disjointDistance(a, b) : triangleDistance(a, b);
+  }
+  bool intersect(const TrianglePairIds& ids) const {
+    return trianglesIntersect(triangleOfA(static_cast<std::uint32_t>(ids.a)),
+                              triangleOfB(static_cast<std::uint32_t>(ids.b)));
+  }
+
+ private:
+  static std::uint32_t next(FeatureId id, std::uint32_t step) {
+    const std::uint32_t k = id.corner() + step;
+    return k < 3 ? k : k - 3;
+  }
+  const MeshView<S> a_, b_;
+  const RelativePose<S>& X_AB_;
+};
+
+/// Triangles that don't intersect.
+struct PairApart {
+  TrianglePairIds ids;
+  double distance = -1;  ///< unknown if < 0
+};
+
+/// Remembers some of these: triangles that nearly touch are named by many of their features, and by
+/// edges that may cross faces.
+class PairsApart {
+ public:
+  /// Returns the entry of a pair. It has other ids if nothing is known of this one.
+  PairApart& of(const TrianglePairIds& ids) {
+    if (!known_) known_.emplace();
+    const auto a = static_cast<std::uint32_t>(ids.a), b = static_cast<std::uint32_t>(ids.b);
+    return (*known_)[(a * 0x9E3779B1U + b * 0x85EBCA6BU) >> (32 - kBits)];
+  }
+  /// Asks the triangles, unless they are known.
+  template <typename S>
+  bool intersect(const Corners<S>& corners, const TrianglePairIds& ids) {
+    PairApart& known = of(ids);
+    if (known.ids == ids) return false;
+    if (corners.intersect(ids)) return true;
+    known = {ids};
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kBits = 6, kNumber = 1U << kBits;
+  std::optional<std::array<PairApart, kNumber>> known_;  // most searches need none
+};
+
+}  // namespace kios::engine
