@@ -11,8 +11,8 @@ namespace kios::shape {
 /// not null, becomes one, to a few eps of the extent. A convex shape must have faces.
 bool meets(const Solid& solid, const Triangle& triangle, Vec* common);
 
-/// True if the coordinates of a triangle close to an ellipsoid of such radii are too large, in units
-/// of the radii, for distances in those units.
+/// True if the coordinates of a triangle close to an ellipsoid of such radii are too large, in
+/// units of the radii, for distances in those units.
 bool isLargeInRadii(const Vec& radii, const Triangle& triangle);
 
 /// Slabs wider than this prove a pair apart, whatever the rounding.

@@ -30,8 +30,8 @@ world:
 END
 "${run[@]}" arm.urdf - scene.yaml 0.6,0 -0.6,0 >path.txt
 cat path.txt
-head -1 path.txt | grep -qx '0.6,0'
-tail -1 path.txt | grep -qx -- '-0.6,0'
+[[ $(head -n 1 path.txt) == 0.6,0 ]]
+[[ $(tail -n 1 path.txt) == -0.6,0 ]]
 # The straight path meets the post: there is a configuration between.
 (($(wc -l <path.txt) > 2))
 "${run[@]}" arm.urdf - - 0.6,0 -0.6,0 >straight.txt

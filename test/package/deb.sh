@@ -32,7 +32,7 @@ case ${5-} in
     ;;
   install) # in the view
     dpkg -i "$build_dir"/*.deb
-    ldconfig -p | grep -q 'libfcl_kios\.so\.' || fail "ldconfig doesn't know the library"
+    ldconfig -p | grep 'libfcl_kios\.so\.' >/dev/null || fail "ldconfig doesn't know the library"
     "$source_dir/test/consumer/use.sh" "$source_dir" /usr "$(mktemp -d)" "$cmake" "$cxx" ""
     # A program that was compiled for FCL alone.
     program=$(mktemp -d)/fcl_program

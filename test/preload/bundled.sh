@@ -24,7 +24,7 @@ bundle() {
   patchelf --set-soname "$1" "$work/$1/$1"
   patchelf --set-rpath "\$ORIGIN" "$work/$1/plugin.so"
   patchelf --replace-needed libfcl.so.0.7 "$1" "$work/$1/plugin.so"
-  if readelf -d "$work/$1/plugin.so" | grep -qF '[libfcl.so.0.7]'; then
+  if readelf -d "$work/$1/plugin.so" | grep -F '[libfcl.so.0.7]' >/dev/null; then
     echo "$1: patchelf failed"
     exit 1
   fi
