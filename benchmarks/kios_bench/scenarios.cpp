@@ -37,7 +37,8 @@ const std::vector<Scenario>& scenarios() {
        "2,000 different small bodies in FCL's manager, the first time and again; one triangle "
        "against one",
        runCrowds, 1},
-      {"small", "bodies of 2 to 500 triangles at, near and off a floor of two and a box of twelve",
+      {"small",
+       "bodies of 2 to 500 triangles at, near, off, on and a hair above floors, a box and a yard",
        runSmall, 70},
       {"paper",
        "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "

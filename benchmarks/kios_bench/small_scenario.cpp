@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -11,6 +12,7 @@
 
 #include "contest.h"
 #include "scenario.h"
+#include "scenes/cad_shapes.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
@@ -24,17 +26,46 @@ struct Named {
   scenes::Mesh mesh;
 };
 
-std::vector<Named> places() {
+/// A place, and the height that bodies stand at.
+struct Place {
+  const char* name;
+  scenes::Mesh mesh;
+  double top;
+};
+
+/// A quad, and four posts that rise above what stands on it.
+scenes::Mesh yard(const scenes::Mesh& quad) {
+  scenes::Mesh mesh = quad;
+  for (const double x : {-1.5, 1.5}) {
+    for (const double y : {-1.5, 1.5}) {
+      const scenes::Mesh post = scenes::moved(fcl::Transform3d(Eigen::Translation3d(x, y, 0.5)),
+                                              scenes::subdividedBox({0.2, 0.2, 1}, 1));
+      const std::size_t n = mesh.vertices.size();
+      mesh.vertices.insert(mesh.vertices.end(), post.vertices.begin(), post.vertices.end());
+      for (const fcl::Triangle& t : post.triangles) {
+        mesh.triangles.emplace_back(n + t[0], n + t[1], n + t[2]);
+      }
+    }
+  }
+  return mesh;
+}
+
+std::vector<Place> places() {
   scenes::Mesh quad;
   quad.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
   quad.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return {{"quad", quad}, {"box", scenes::subdividedBox({1.2, 0.8, 0.5}, 1)}};
+  return {{"quad", quad, 0},
+          {"box", scenes::subdividedBox({1.2, 0.8, 0.5}, 1), 0.25},
+          {"grid", scenes::sheet(10, 10, 20, 20, 0), 0},
+          {"yard", yard(quad), 0}};
 }
 
 std::vector<Named> bodies() {
   return {{"quad", scenes::sheet(0.5, 0.4, 1, 1, 0)},
           {"box", scenes::subdividedBox({0.3, 0.2, 0.15}, 1)},
           {"ball", scenes::uvSphere(0.2, 4, 5)},
+          {"can", scenes::stripCylinder(12, 0.3, 0.05)},
+          {"drum", scenes::stripCylinder(100, 0.4, 0.01)},
           {"ring", scenes::bumpyTorus(500)}};
 }
 
@@ -45,21 +76,18 @@ struct Gaps {
 };
 const Gaps kGaps[] = {{"touching", {0, 2}}, {"near", {1, 3}}, {"off", {4, 5, 6}}};
 
-/// The body stands on the place, in worlds turned at random: they touch but for rounding, also that
-/// of the poses, so that no verdict is wrong.
-std::vector<scenes::Frame> standing(const scenes::Mesh& place, const scenes::Mesh& body, int count,
-                                    std::uint64_t seed) {
-  const auto height = [](const scenes::Mesh& mesh, double side) {
-    double most = -std::numeric_limits<double>::infinity();
-    for (const fcl::Vector3d& v : mesh.vertices) most = std::max(most, side * v.z());
-    return side * most;
-  };
+/// The body stands on the place, `gap(random)` above it, in worlds turned at random.
+template <class GapOf>
+std::vector<scenes::Frame> standing(const Place& place, const scenes::Mesh& body, int count,
+                                    std::uint64_t seed, const GapOf& gap) {
+  double low = std::numeric_limits<double>::infinity();
+  for (const fcl::Vector3d& v : body.vertices) low = std::min(low, v.z());
   scenes::Random random(seed);
   std::vector<scenes::Frame> frames;
   for (const fcl::Transform3d& X_WA : scenes::randomPoses(count, 1, seed)) {
     fcl::Transform3d X_AB = fcl::Transform3d::Identity();
-    X_AB.translation() = fcl::Vector3d(random.uniform(-0.3, 0.3), random.uniform(-0.2, 0.2),
-                                       height(place, 1) - height(body, -1));
+    const double x = random.uniform(-0.3, 0.3), y = random.uniform(-0.2, 0.2);
+    X_AB.translation() = fcl::Vector3d(x, y, place.top - low + gap(random));
     X_AB.rotate(Eigen::AngleAxisd(random.uniform(0, 6.28), fcl::Vector3d::UnitZ()));
     frames.push_back({X_WA, X_WA * X_AB});
   }
@@ -70,7 +98,7 @@ std::vector<scenes::Frame> standing(const scenes::Mesh& place, const scenes::Mes
 
 void runSmall(const Options& options, Report& report) {
   const int count = options.frames > 0 ? options.frames : (options.quick ? 28 : 700);
-  for (const Named& place : places()) {
+  for (const Place& place : places()) {
     for (const Named& body : bodies()) {
       scenes::World world;
       world.name = place.name;
@@ -99,7 +127,14 @@ void runSmall(const Options& options, Report& report) {
         }
         ask(gaps.name, frames, true);
       }
-      ask("standing", standing(place.mesh, body.mesh, count / 7, options.seed), false);
+      // They touch but for rounding, also that of the poses, so that no verdict is wrong.
+      ask("standing",
+          standing(place, body.mesh, count / 7, options.seed, [](scenes::Random&) { return 0.0; }),
+          false);
+      ask("hovering",
+          standing(place, body.mesh, count / 7, options.seed,
+                   [](scenes::Random& random) { return std::pow(10, random.uniform(-6, -2)); }),
+          true);
       report.add(rows);
     }
   }

@@ -11,6 +11,7 @@
 #include "query/ball_off_box.h"
 #include "query/few_triangles.h"
 #include "query/unprepared.h"
+#include "search/double_bound.h"
 #include "search/mesh_search.h"
 #include "search/root_bound.h"
 #include "tree/prepare.h"
@@ -68,7 +69,8 @@ class EnginePair {
   /// Once the trees are taken.
   engine::PreparedPair<S> pair() {
     engine::makeFloatFrame(pose_, frames_);
-    return {{*tree_a_, viewOf(frame_.a)}, {*tree_b_, viewOf(frame_.b)}, frame_.X_AB, frames_};
+    return {
+        {*tree_a_, viewOf(frame_.a)}, {*tree_b_, viewOf(frame_.b)}, frame_.X_AB, pose_, frames_};
   }
 
  private:
@@ -80,7 +82,21 @@ class EnginePair {
 
   void bound(const engine::TreeRoot& a, const engine::TreeRoot& b) {
     usable_ = engine::makeTreePose(a, b, frame_.X_AB, pose_);
-    if (usable_) apart_ = engine::rootBound(a, b, pose_, required_);
+    if (!usable_) return;
+    apart_ = engine::rootBound(a, b, pose_, required_);
+    if (!(apart_ > 0)) apart_ = boxOffBall(a, b);
+  }
+
+  /// The bound by the central sphere of the smaller model, which isn't thin, and the other's box.
+  double boxOffBall(const engine::TreeRoot& a, const engine::TreeRoot& b) const {
+    const kIOS<S>&root_a = frame_.rootA(), &root_b = frame_.rootB();
+    const bool a_larger = root_a.radius0 > root_b.radius0;
+    const kIOS<S>& smaller = a_larger ? root_b : root_a;
+    if (isThin(smaller)) return 0;
+    const Eigen::Map<const Eigen::Vector3d> origin(a_larger ? b.origin : a.origin);
+    return engine::ballBound(a_larger ? a.root_box : b.root_box, a_larger,
+                             smaller.center0.template cast<double>() - origin,
+                             double{smaller.radius0}, pose_);
   }
 
   /// True if the models are so far apart for their size that makeTreePose() would refuse them: its
@@ -335,13 +351,13 @@ template <typename S>
     ++counts.exact;
     return trianglesIntersect(frame.triangleA(0), frame.triangleB(0)) ? PairIds{{0, 0}} : PairIds();
   }
+  if (areFewest(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   const kIOS<S>&root_a = frame.rootA(), &root_b = frame.rootB();
   const bool unlike = areUnlike(root_a, root_b);
   EnginePair<S> engine(frame, 0);
   if (unlike || isThin(root_a) || isThin(root_b)) engine.compareRoots();
   if (engine.isFar(0)) return PairIds();
   if (!unlike && !engine.knowsRoots() && frame.rootBound(0) > 0) return PairIds();
-  if (areFewest(frame.a, frame.b)) return intersectingOfFew(frame, limit, counts);
   // The boxes of prepared roots tell more than planes between vertices, and sooner.
   if (areFew(frame.a, frame.b)) {
     if (!treesPay(frame)) {

@@ -39,9 +39,9 @@ template <typename S>
       error_bounds::volumeError<S>(origin_b.template lpNorm<1>() + 2 * reach_b,
                                    bounds.T_norm1 + origin_a.template lpNorm<1>(), 2 * reach_a, 0);
   out.stretch = bounds.stretch;
-  const double rest = 2 * bounds.stretch * out.scale + points;
-  out.pad = error_bounds::laneError(out.scale) + rest;
-  out.box_pad = error_bounds::boxError(out.scale) + rest;
+  out.frame_error = 2 * bounds.stretch * out.scale + points;
+  out.pad = error_bounds::laneError(out.scale) + out.frame_error;
+  out.box_pad = error_bounds::boxError(out.scale) + out.frame_error;
   return out.pad <= 0x1p-4 * std::min(reach_a, reach_b);
 }
 

@@ -74,6 +74,7 @@ struct TreePose {
   Eigen::Matrix3d R;
   Eigen::Vector3d t;
   double stretch, pad, box_pad, scale;
+  double frame_error;  ///< the last two items of FloatFrame's list, which double pays, too
 };
 
 /// False if floats can't serve the pair: lengths out of range, or a pad that is not small against

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "search/cell_search.h"
+#include "search/double_bound.h"
 #include "search/ray_search.h"
 #include "search/search.h"
 #include "search/solid_search.h"

@@ -296,7 +296,8 @@ template <typename S>
       has_bound = true;
     }
   }
-  Search search = {pair.a.tree, pair.b.tree, pair.frames, evaluator, counts, pair.audit, &bracket};
+  Search search = {pair.a.tree, pair.b.tree, pair.pose,  pair.frames,
+                   evaluator,   counts,      pair.audit, &bracket};
   if (!done) (exact ? kernels().distance : kernels().bracket)(search);
   PairAnswer<S> result;
   result.ids = evaluator.ids();
@@ -326,7 +327,8 @@ template <typename S>
                                                                 std::size_t limit,
                                                                 SearchCounts& counts) {
   IntersectionEvaluator<S> evaluator(pair, limit);
-  const Search search = {pair.a.tree, pair.b.tree, pair.frames, evaluator, counts, pair.audit};
+  const Search search = {pair.a.tree, pair.b.tree, pair.pose, pair.frames,
+                         evaluator,   counts,      pair.audit};
   if (limit == 1) {
     kernels().contact(search);
   } else {

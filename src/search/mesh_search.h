@@ -26,6 +26,7 @@ template <typename S>
 struct PreparedPair {
   PreparedMesh<S> a, b;
   const RelativePose<S>& X_AB;
+  const TreePose& pose;  ///< of the trees
   FloatFrame frames;
   Audit* audit = nullptr;
 };

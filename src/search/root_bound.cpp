@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "search/double_bound.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
@@ -23,12 +24,17 @@ float squareOfPositive(Float4 gaps) {
 
 Float4 next(Float4 v) { return Float4{v[1], v[2], v[0], v[3]}; }
 
+int indexOfWidest(Float4 gaps) {
+  const float least = widest(gaps);
+  return gaps[0] == least ? 0 : gaps[1] == least ? 1 : 2;
+}
+
 }  // namespace
 
 // The bound of simd/box_test-inl.h along the axes of both boxes, and along their products where
 // that proves nothing: the same sums in floats, a coordinate or an axis a lane in place of a pair
 // of boxes. box_pad is for both; the centre's way from a's is subtracted once, in double, before it
-// is rounded, which takes less of it.
+// is rounded, which takes less of it. Where floats are too coarse, the same axes tell it in double.
 [[gnu::hot]] double rootBound(const TreeRoot& root_a, const TreeRoot& root_b, const TreePose& X,
                               double required) {
   const Box &a = root_a.root_box, &b = root_b.root_box;
@@ -61,17 +67,27 @@ Float4 next(Float4 v) { return Float4{v[1], v[2], v[0], v[3]}; }
   if (widest(gaps_b) > required) return widest(gaps_b);
   const float squared = std::max(squareOfPositive(gaps_a), squareOfPositive(gaps_b));
   if (squared > 0) return std::sqrt(double{squared});
+  // Bounds are off by twice a pad at most: what is farther from 0 is no gap.
+  const auto inDouble = [&] { return DoubleBound(a, b, X); };
+  const float open = -2 * pad[0];
+  double bound = 0;
+  if (widest(gaps_a) > open) bound = inDouble().alongA(indexOfWidest(gaps_a));
+  if (bound > 0) return bound;
+  if (widest(gaps_b) > open) bound = inDouble().alongB(indexOfWidest(gaps_b));
+  if (bound > 0) return bound;
   const Float4 next_b = next(half_b), last_b = next(next_b);
-  Float4 gaps = lanes::broadcast(-kInfinityFloat);
   for (int i = 0; i < 3; ++i) {
     const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
     const Float4 apart = lanes::abs(C[i2][kCenter] * C[i1] - C[i1][kCenter] * C[i2]);
     const Float4 own = a.half[i1] * abs_C[i2] + a.half[i2] * abs_C[i1];
     const Float4 next_C = next(abs_C[i]);
     const Float4 reach = next_b * next(next_C) + last_b * next_C;
-    gaps = lanes::max(gaps, apart - (own + pad + pad + reach));
+    const Float4 gaps = apart - (own + pad + pad + reach);
+    double gap = double{widest(gaps)};
+    if (gap <= 0 && gap > 2 * open) gap = inDouble().acrossEdges(i, indexOfWidest(gaps));
+    bound = std::max(bound, gap);
   }
-  return widest(gaps);
+  return bound;
 }
 
 }  // namespace kios::engine

@@ -81,6 +81,7 @@ struct SolidSearch;
 struct Search {
   const Tree& a;
   const Tree& b;
+  const TreePose& pose;
   const FloatFrame& frames;
   RefineCallback& evaluator;
   SearchCounts& counts;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "tree/leaf_layout.h"
 #include "tree/node_layout.h"
@@ -72,6 +73,33 @@ double surface(const Box& box) {
   return x * y + y * z + z * x;
 }
 
+/// Measures the halves anew, in double: the allowance for floats is more than gaps between bodies
+/// that are put on each other. A height is off by 2^-50 of the box's extent at most.
+void tighten(const PointChunk* chunks, std::size_t num_chunks, Box& box) {
+  const double error = 0x1p-50 * (double{box.half[0]} + box.half[1] + box.half[2]);
+  for (int k = 0; k < 3; ++k) {
+    double most = 0;
+    for (std::size_t i = 0; i < num_chunks; ++i) {
+      for (int l = 0; l < kLanes; ++l) {
+        const double x = double{chunks[i].x.v[l]} - box.x[kCenter];
+        const double y = double{chunks[i].y.v[l]} - box.y[kCenter];
+        const double z = double{chunks[i].z.v[l]} - box.z[kCenter];
+        most = std::max(most, std::abs(x * box.x[k] + y * box.y[k] + z * box.z[k]));
+      }
+    }
+    box.half[k] = std::min(box.half[k], roundUpFloat(most + error));
+  }
+}
+
+/// Takes one of the other boxes around a node's content where it has less surface than `best`.
+void takeLeast(const Content& content, const PointChunk* chunks, std::size_t num_chunks,
+               Box& best) {
+  for (const Box& box : {alongModel(content),
+                         boxAround(axesAlong(content.edge, content.normal), chunks, num_chunks)}) {
+    if (surface(box) < surface(best)) best = box;
+  }
+}
+
 }  // namespace
 
 // Nodes lie before their children.
@@ -116,17 +144,44 @@ bool fitBoxes(const TreePoints& points, Tree& tree) {
       for (int i = 1; i < count; ++i) content.add(contents[node.first_child + i]);
     }
     Box& best = tree.boxes[n];
-    const auto consider = [&](const Box& box) {
-      if (surface(box) < surface(best)) best = box;
-    };
-    consider(alongModel(content));
-    consider(boxAround(axesAlong(content.edge, content.normal), points.chunksOf(n),
-                       points.numChunks(n)));
+    takeLeast(content, points.chunksOf(n), points.numChunks(n), best);
     node.flat = isFlat(best);
     any_flat |= node.flat != 0;
   }
   writeBoxBlocks(tree);
   return any_flat;
+}
+
+void fitRootBox(const TreePoints& points, Tree& tree) {
+  const PointChunk* const chunks = points.chunksOf(0);
+  const std::size_t num_chunks = points.numChunks(0);
+  if (tree.boxes.empty()) {
+    Content content = contentOf(tree.leaves[0], tree);
+    for (const Leaf& leaf : tree.leaves) content.add(contentOf(leaf, tree));
+    takeLeast(content, chunks, num_chunks, tree.root_box);
+    tighten(chunks, num_chunks, tree.root_box);
+  } else {
+    tighten(chunks, num_chunks, tree.boxes[0]);
+    tree.root_box = tree.boxes[0];
+  }
+}
+
+Box triangleBox(const Tree& tree, const Leaf& leaf, std::uint32_t face) {
+  Eigen::Vector3f corners[3];
+  for (std::uint32_t k = 0; k < 3; ++k)
+    corners[k] = vertexOf(tree, leaf, leaf.corners[3 * face + k]);
+  PointChunk chunk;
+  for (int l = 0; l < kLanes; ++l) {
+    const Eigen::Vector3f& p = corners[std::min(l, 2)];
+    chunk.x.v[l] = p[0];
+    chunk.y.v[l] = p[1];
+    chunk.z.v[l] = p[2];
+  }
+  const Eigen::Vector3f edge = corners[1] - corners[0];
+  const Eigen::Vector3f normal = edge.cross(corners[2] - corners[0]);
+  Box box = boxAround(axesAlong(normal, edge), &chunk, 1);
+  tighten(&chunk, 1, box);
+  return box;
 }
 
 }  // namespace kios::engine

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tree/moment_fit.h"
@@ -32,5 +33,12 @@ class TreePoints {
 /// least surface stays. Marks the nodes that are flat, and writes the boxes of the blocks. Returns
 /// whether any node is flat.
 bool fitBoxes(const TreePoints& points, Tree& tree);
+
+/// Sets the root's box: that of a tree which has boxes, else chosen likewise, beginning with
+/// root_box; more exactly than others.
+void fitRootBox(const TreePoints& points, Tree& tree);
+
+/// Fits a box to a triangle of a leaf, as exactly.
+Box triangleBox(const Tree& tree, const Leaf& leaf, std::uint32_t face);
 
 }  // namespace kios::engine

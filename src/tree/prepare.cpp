@@ -153,13 +153,12 @@ class Preparation {
       any_flat |= node.flat != 0;
       tree_->reach = std::max(tree_->reach, reachOf(node));
     }
-    tree_->root_box = tree_->boxes[0];
-    if (any_flat && fitBoxes(points, *tree_)) {
+    if (!any_flat || !fitBoxes(points, *tree_)) {
       tree_->root_box = tree_->boxes[0];
-      return;
+      tree_->boxes = {};
+      tree_->box_blocks = {};
     }
-    tree_->boxes = {};
-    tree_->box_blocks = {};
+    fitRootBox(points, *tree_);
   }
 
   /// The spheres of `bv`, moved to the tree's origin and measured.

@@ -30,10 +30,8 @@ class Refit {
     // Nodes lie before their children.
     tree_.reach = 0;
     for (std::size_t n = tree_.nodes.size(); n-- > 0;) fit(n, points);
-    if (!tree_.boxes.empty()) {
-      fitBoxes(points, tree_);  // none need be flat now
-      tree_.root_box = tree_.boxes[0];
-    }
+    if (!tree_.boxes.empty()) fitBoxes(points, tree_);  // none need be flat now
+    fitRootBox(points, tree_);
     measureLeaves(tree_);
     return searchCost(tree_) <= kPoor * tree_.cost;
   }

@@ -41,13 +41,12 @@ class PosedPair {
   /// Returns false if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
     X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
-    engine::TreePose pose;
-    if (!engine::makeTreePose(*tree_a, *tree_b, *X_AB, pose)) return false;
-    engine::makeFloatFrame(pose, frames_);
+    if (!engine::makeTreePose(*tree_a, *tree_b, *X_AB, pose_)) return false;
+    engine::makeFloatFrame(pose_, frames_);
     return true;
   }
   engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
-    return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, frames_, audit};
+    return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, pose_, frames_, audit};
   }
   AllPairs<S> all() const { return {trianglesOf(a), trianglesOf(b), *X_AB}; }
   TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
@@ -66,6 +65,7 @@ class PosedPair {
     auto tree = treeOf(shape, refitted ? &before : nullptr);
     return tree ? std::move(tree) : engine::prepare(viewOf(shape));
   }
+  engine::TreePose pose_;
   engine::FloatFrame frames_;
 };
 

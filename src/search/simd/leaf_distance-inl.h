@@ -233,8 +233,12 @@ class LeafDistances {
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;
-  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab);
+  Gap widest;
+  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab, widest);
   if (slab.apart) return false;
+  if (HWY_UNLIKELY(widest.isOpen(frames.pad)) && areApartInDouble(search, a, b, widest)) {
+    return false;
+  }
   ++search.counts.leaf_kernels;
   return edgesCross(search, a, b, moved_b.vertices, slab);
 }
@@ -270,8 +274,12 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
   MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
   Slab slab;
-  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab);
+  Gap widest;
+  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab, widest);
   if (slab.apart) return false;
+  if (HWY_UNLIKELY(widest.isOpen(frames.pad)) && areApartInDouble(search, a, b, widest)) {
+    return false;
+  }
   ++search.counts.leaf_kernels;
   VertexRows moved_a;
   const Points vertices_a = moveVertices(a, frames.b_from_a, moved_a);

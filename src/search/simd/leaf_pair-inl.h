@@ -162,10 +162,19 @@ HWY_INLINE void betweenHulls(const Points& a, const Points& b, const Look& look)
   }
 }
 
+/// A direction from one leaf to another, and the gap along it, times its length.
+struct Gap {
+  float width;
+  Direction along;
+
+  /// Whether the gap may be wider than nothing, for all that float tells.
+  bool isOpen(float pad) const { return width > -2 * pad * along.length; }
+};
+
 /// A slab between two leaves, b moved by X: along the line of centres, the mean normals, and steps
-/// of Frank-Wolfe.
+/// of Frank-Wolfe. If it doesn't prove them apart, `widest` is the gap that comes closest to it.
 HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const FloatPose& X,
-                               float distance, Slab& slab) {
+                               float distance, Slab& slab, Gap& widest) {
   betweenHulls(a.vertices, b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     const Vec3 between = b.centroid - vec3(a.leaf.centroid);
     const auto by_normals = [&] {
@@ -175,10 +184,26 @@ HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const Floa
       const Across of_a = turned(acrossA(a.leaf)), of_b = turned(acrossB(*b.leaf, X));
       const float gap_a = -hull_b.top(-1.0F * of_a.along.w) - of_a.top;
       if (provesApart(gap_a, of_a.along, distance)) return true;
-      return provesApart(of_b.bottom - hull_a.top(of_b.along.w), of_b.along, distance);
+      const float gap_b = of_b.bottom - hull_a.top(of_b.along.w);
+      widest = gap_a * of_b.along.length > gap_b * of_a.along.length ? Gap{gap_a, of_a.along}
+                                                                     : Gap{gap_b, of_b.along};
+      return provesApart(gap_b, of_b.along, distance);
     };
     separate(hull_a, hull_b, between, distance, by_normals, slab);
   });
+  if (slab.apart) return;
+  const float gap = slab.bottom_b - slab.top_a;
+  if (gap * widest.along.length > widest.width * slab.along.length) widest = {gap, slab.along};
+}
+
+/// Whether leaves that float leaves open are apart in double, along the widest gap.
+HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& a, const LeafView& b,
+                                   const Gap& widest) {
+  const Vec3 w = widest.along.w;
+  const float direction[3] = {w.x, w.y, w.z};
+  const StoredPoints points_a = {a.vertices.rows, a.leaf.num_vertices},
+                     points_b = {b.vertices.rows, b.leaf.num_vertices};
+  return boundAlong(direction, points_a, points_b, search.pose) > 0;
 }
 
 /// Vertices with w . p >= least, as bits.

@@ -238,16 +238,30 @@ class Expander {
     search_.counts.volume_tests += e.children.count;
   }
 
+  /// The children that matter whose bounds are at most so far below 0.
+  uint32_t openOf(const Expansion& e, float pads) const {
+    uint32_t open = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      open |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), hn::Set(d, -pads))) << l;
+    }
+    return e.near & open;
+  }
+
   /// Spheres against prisms. Where most triangles of a leaf matter, it isn't split after all: the
   /// node is to be expanded, and tested, in its place.
   [[gnu::hot]] HWY_NOINLINE void testTriangles(Expansion& e) const {
     e.near = 0;
     if (e.kind == Expanded::kNodeTriangle) {
       testAgainstTriangle(e);
-      return endTest(e);
+    } else {
+      testLeaf(e);
     }
-    testLeaf(e);
     endTest(e);
+    if (!hasBoxes(e) && search_.evaluator.cull_distance == 0) {
+      const uint32_t open = openOf(e, 2 * prismPad(search_.frames));
+      if (HWY_UNLIKELY(open != 0)) testInDouble(e, open);
+    }
+    if (e.kind == Expanded::kNodeTriangle) return;
     if (!(search_.evaluator.cull_distance < kInfinityFloat)) return;
     tighten(e);
     if (2 * hwy::PopCount(e.near) <= e.children.count) return;
@@ -341,6 +355,7 @@ class Expander {
     const BoxLanes other(moved);
     const bool contact = search_.evaluator.cull_distance == 0;
     const uint32_t near = e.near;
+    uint32_t open = 0;
     e.near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
       const BoxLanes boxes(block, l);
@@ -348,8 +363,22 @@ class Expander {
           contact ? contactBounds(boxes, other, pad) : distanceBounds(boxes, other, pad);
       const V bounds = hn::Load(d, e.bounds + l);
       keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
+      open |= bitsOf(hn::Gt(lower, hn::Set(d, -2 * pad))) << l;
     }
     e.near &= near;
+    if (HWY_UNLIKELY(contact && (open & e.near) != 0)) testInDouble(e, open & e.near);
+  }
+
+  /// Raises bounds that twice their pads leave open, a child at a time.
+  HWY_NOINLINE void testInDouble(Expansion& e, uint32_t open) const {
+    for (; open != 0; open &= open - 1) {
+      const uint32_t lane = firstOf(open);
+      const NodePair child = childPair(e, lane);
+      const double bound = boundInDouble(search_, child.a, child.b);
+      if (!(bound > 0)) continue;
+      e.bounds[lane] = std::max(e.bounds[lane], roundDown<float>(bound));
+      e.near &= ~(1U << lane);
+    }
   }
   /// The boxes of the children, and the other's in their frame.
   [[gnu::hot]] HWY_NOINLINE const BoxBlock& boxesOfTriangles(const Expansion& e, Box& moved) const {

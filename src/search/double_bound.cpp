@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/double_bound.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "tree/box_fit.h"
+#include "volume/rounding.h"
+
+namespace kios::engine {
+namespace {
+
+Eigen::Vector3d columnOf(const Box& box, int column) {
+  return {box.x[column], box.y[column], box.z[column]};
+}
+
+/// How far a box reaches from its tree's origin, and more.
+double extentOf(const Box& box) {
+  return columnOf(box, kCenter).lpNorm<1>() +
+         1.01 * (double{box.half[0]} + box.half[1] + box.half[2]);
+}
+
+/// How far a box reaches along `w`, of any length, from its centre. Its axes e_i are orthonormal
+/// but for the rounding of each, so w is the sum of (w . d_i) e_i with d_i dual to them, and |w .
+/// (p
+/// - centre)| at most that of |w . d_i| h_i.
+double reachAlong(const Box& box, const Eigen::Vector3d& w) {
+  const Eigen::Vector3d e0 = columnOf(box, 0), e1 = columnOf(box, 1), e2 = columnOf(box, 2);
+  const Eigen::Vector3d n0 = e1.cross(e2), n1 = e2.cross(e0), n2 = e0.cross(e1);
+  const double sum = std::abs(w.dot(n0)) * box.half[0] + std::abs(w.dot(n1)) * box.half[1] +
+                     std::abs(w.dot(n2)) * box.half[2];
+  return sum / std::abs(e0.dot(n0));
+}
+
+// In double, content is within a box but for the rounding of stored vertices, of kStored times what
+// extentOf() gives; all else is 2^-53 of the lengths that enter, some sixty times.
+constexpr double kStored = 1.01 * kUlpFloat, kDouble = 0x1p-44;
+
+bool isBoxed(const Tree& tree, std::uint32_t id) { return isTriangle(id) || !tree.boxes.empty(); }
+
+Box boxOf(const Tree& tree, std::uint32_t id) {
+  if (!isTriangle(id)) return tree.boxes[id];
+  return triangleBox(tree, tree.leaves[leafOfTriangle(id)], laneOfTriangle(id));
+}
+
+double ballBound(const Box& box, bool is_of_a, const Node& ball, const TreePose& X) {
+  const Eigen::Vector3d center(ball.x[kCentral], ball.y[kCentral], ball.z[kCentral]);
+  return ballBound(box, is_of_a, center, double{ball.r[kCentral]}, X);
+}
+
+}  // namespace
+
+DoubleBound::DoubleBound(const Box& a, const Box& b, const TreePose& X)
+    : a_(a), b_(b), R_(X.R), way_(X.R * columnOf(b, kCenter) + X.t - columnOf(a, kCenter)) {
+  const double extents = extentOf(a) + extentOf(b);
+  pad_ = kStored * extents + X.frame_error + kDouble * (extents + X.t.lpNorm<1>());
+}
+
+double DoubleBound::alongA(int i) const {
+  const Eigen::Vector3d w = columnOf(a_, i);
+  return along(w, double{a_.half[i]}, reachAlong(b_, R_.transpose() * w));
+}
+
+double DoubleBound::alongB(int j) const { return along(R_ * columnOf(b_, j)); }
+
+double DoubleBound::acrossEdges(int i, int j) const {
+  return along(columnOf(a_, i).cross(R_ * columnOf(b_, j)));
+}
+
+double DoubleBound::along(const Eigen::Vector3d& w) const {
+  return along(w, reachAlong(a_, w), reachAlong(b_, R_.transpose() * w));
+}
+
+double DoubleBound::along(const Eigen::Vector3d& w, double reach_a, double reach_b) const {
+  constexpr double kLeast = 0x1p-20;  // of products that are not nearly parallel
+  const double square = w.squaredNorm();
+  if (!(square > kLeast)) return -kInfinity;
+  return (std::abs(w.dot(way_)) - (reach_a + reach_b)) / std::sqrt(square) - pad_;
+}
+
+// The axes' lengths are 1 but for 2 u, u = 2^-24.
+[[gnu::hot]] double boxBound(const Box& box, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d v = point - columnOf(box, kCenter);
+  double most = -kInfinity;
+  for (int i = 0; i < 3; ++i) {
+    const double along = v[0] * box.x[i] + v[1] * box.y[i] + v[2] * box.z[i];
+    most = std::max(most, std::abs(along) - box.half[i]);
+  }
+  const double extent = extentOf(box);
+  return (1 - 4 * kUlpFloat) * most - kStored * extent - kDouble * (extent + point.lpNorm<1>());
+}
+
+// The transpose serves as the inverse, which frame_error has room for.
+double ballBound(const Box& box, bool is_of_a, const Eigen::Vector3d& center, double radius,
+                 const TreePose& X) {
+  const Eigen::Vector3d moved = is_of_a ? Eigen::Vector3d(X.R * center + X.t)
+                                        : Eigen::Vector3d(X.R.transpose() * (center - X.t));
+  const double stored = kStored * (center.lpNorm<1>() + radius);
+  return boxBound(box, moved) - (radius + stored) - X.frame_error - kDouble * X.scale;
+}
+
+// Along w, b's points are at w . (R q + t) = (R^T w) . q + w . t.
+double boundAlong(const float (&direction)[3], const StoredPoints& a, const StoredPoints& b,
+                  const TreePose& X) {
+  const Eigen::Vector3d w(direction[0], direction[1], direction[2]);
+  double farthest = 0;  // from the origins
+  const auto least = [&farthest](const StoredPoints& points, const Eigen::Vector3d& along) {
+    double result = kInfinity;
+    for (int i = 0; i < points.count; ++i) {
+      const Lanes* const chunk = points.rows + 3 * (i / kLanes);
+      const double x = chunk[0].v[i % kLanes], y = chunk[1].v[i % kLanes],
+                   z = chunk[2].v[i % kLanes];
+      result = std::min(result, x * along[0] + y * along[1] + z * along[2]);
+      farthest = std::max(farthest, std::abs(x) + std::abs(y) + std::abs(z));
+    }
+    return result;
+  };
+  const double gap = w.dot(X.t) + least(b, X.R.transpose() * w) + least(a, -w);
+  return gap / w.norm() - 2 * kStored * farthest - X.frame_error - kDouble * X.scale;
+}
+
+double boundInDouble(const Search& search, std::uint32_t node_a, std::uint32_t node_b) {
+  const Tree &a = search.a, &b = search.b;
+  if (!isBoxed(a, node_a)) {
+    return ballBound(boxOf(b, node_b), false, a.nodes[node_a], search.pose);
+  }
+  const Box box_a = boxOf(a, node_a);
+  if (!isBoxed(b, node_b)) return ballBound(box_a, true, b.nodes[node_b], search.pose);
+  const Box box_b = boxOf(b, node_b);
+  const DoubleBound bound(box_a, box_b, search.pose);
+  for (int i = 0; i < 3; ++i) {
+    const double along = std::max(bound.alongA(i), bound.alongB(i));
+    if (along > 0) return along;
+  }
+  return 0;
+}
+
+}  // namespace kios::engine

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "search/float_frame.h"
+#include "search/search.h"
+#include "tree/tree.h"
+
+// Bounds by boxes in double, of a pair at a time, where those in floats leave open whether there is
+// anything between the contents, as where bodies all but lie on each other.
+
+namespace kios::engine {
+
+/// Lower bounds of the distance of what two boxes hold; not positive where they prove nothing.
+class DoubleBound {
+ public:
+  DoubleBound(const Box& a, const Box& b, const TreePose& X_AB);
+
+  /// Along an axis of a, of b, or the product of two.
+  double alongA(int i) const;
+  double alongB(int j) const;
+  double acrossEdges(int i, int j) const;
+
+ private:
+  double along(const Eigen::Vector3d& w) const;
+  double along(const Eigen::Vector3d& w, double reach_a, double reach_b) const;
+
+  const Box &a_, &b_;
+  const Eigen::Matrix3d& R_;
+  Eigen::Vector3d way_;
+  double pad_;
+};
+
+/// Lower bound of the distance of what a box of a tree holds from a point in the tree's frame.
+double boxBound(const Box& box, const Eigen::Vector3d& point);
+
+/// Lower bound of the distance of what a box of one tree holds from a ball in the other's frame.
+double ballBound(const Box& box, bool is_of_a, const Eigen::Vector3d& center, double radius,
+                 const TreePose& X_AB);
+
+/// Points as a leaf stores them: rows x, y, z by chunk.
+struct StoredPoints {
+  const Lanes* rows;
+  int count;
+};
+
+/// Lower bound of the distance of points of a and of b along a direction in a's frame, of any
+/// length, from a to b.
+double boundAlong(const float (&w)[3], const StoredPoints& a, const StoredPoints& b,
+                  const TreePose& X_AB);
+
+/// Lower bound of the distance of two nodes, or triangles of leaves: by boxes, along an axis of
+/// either, or by the central sphere of a node that has none. Not the best; not positive where it
+/// proves nothing.
+double boundInDouble(const Search& search, std::uint32_t node_a, std::uint32_t node_b);
+
+}  // namespace kios::engine
