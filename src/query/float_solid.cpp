@@ -20,33 +20,20 @@ using shape::Kind;
 using shape::Range;
 using shape::Vec;
 
-/// The box of the core, and the form that bounds it.
-Form formOf(const shape::Solid& s, Range& range) {
-  Vec half = s.half;
-  Form form = Form::kBox;
-  switch (s.kind) {
-    case Kind::kSphere:
-      half.setZero();
-      break;
-    case Kind::kCapsule:
-      half = {0, 0, s.half_length};
-      break;
+/// The form that bounds a solid.
+Form formOf(Kind kind) {
+  switch (kind) {
     case Kind::kEllipsoid:
-      form = Form::kEllipsoid;
-      break;
+      return Form::kEllipsoid;
     case Kind::kCylinder:
+      return Form::kCylinder;
     case Kind::kCone:
-      half = {s.radius, s.radius, s.half_length};
-      form = s.kind == Kind::kCone ? Form::kCone : Form::kCylinder;
-      break;
+      return Form::kCone;
     case Kind::kConvex:
-      range = shape::rangeOf(s.points);
       return Form::kContained;
     default:
-      break;
+      return Form::kBox;
   }
-  range = {-half, half};
-  return form;
 }
 
 /// What of the box is nearest to anything in a ball: each coordinate of the nearest point depends
@@ -111,8 +98,8 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
   out.num_planes = 0;
   if (solid.bounded()) {
     const Eigen::Matrix3d inverse = posed.R().inverse();
-    Range range;
-    out.form = formOf(solid, range);
+    Range range = posed.range();
+    out.form = formOf(solid.kind);
     if (out.form == Form::kBox || out.form == Form::kContained) {
       const double radius = reach * (1 + posed.stretch()) * (1 + 0x1p-20) + points;
       crop(posed.R() * origin + posed.T(), radius, range);

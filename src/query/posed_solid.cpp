@@ -48,7 +48,7 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
     reach *= per_unit_;
   }
   offsets_ = T_.lpNorm<1>() + reach;
-  if (solid_.kind == shape::Kind::kConvex) range_ = shape::rangeOf(solid_.points);
+  if (solid_.bounded()) range_ = shape::rangeOf(solid_);
 }
 
 template <typename S>

@@ -22,6 +22,8 @@ class PosedSolid {
 
   /// The solid, in units.
   const shape::Solid& solid() const { return solid_; }
+  /// The box of a bounded solid's core, in its frame.
+  const shape::Range& range() const { return range_; }
   /// The pose x -> R x + T of the mesh in the solid's frame, in units of 1 only if hasUnit1().
   const Eigen::Matrix3d& R() const { return R_; }
   const shape::Vec& T() const { return T_; }
@@ -65,7 +67,7 @@ class PosedSolid {
   double per_unit_ = 1, unit_ = 1;
   double stretch_;      ///< |R|_2 - 1 <= stretch
   double offsets_;      ///< |T|_1 + the solid's reach
-  shape::Range range_;  ///< convex: the box of its points, in units
+  shape::Range range_;  ///< of a bounded solid's core, in units
 };
 
 }  // namespace kios

@@ -12,6 +12,7 @@
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
 #include "query/shape_costs.h"
+#include "query/solid_off_box.h"
 #include "search/search.h"
 #include "shape/convex_faces.h"
 #include "shape/shape_solid.h"
@@ -64,6 +65,7 @@ class ShapeCollision final : public engine::SolidEvaluator {
     constexpr int kFew = 16;  // of which a convex shape's own bound takes as long as a triangle
     const bool few = model_.num_tris <= kFew && posed_.solid().kind == shape::Kind::kConvex;
     if (posed_.bound(model_.getBV(0).bv, few ? -kInfinity : 0.0) > 0) return;
+    if (solidOffBox(model_, posed_)) return;
     search();
     if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
     std::sort(common_.begin(), common_.end());

@@ -12,32 +12,6 @@
 namespace kios::engine {
 namespace {
 
-Eigen::Vector3d columnOf(const Box& box, int column) {
-  return {box.x[column], box.y[column], box.z[column]};
-}
-
-/// How far a box reaches from its tree's origin, and more.
-double extentOf(const Box& box) {
-  return columnOf(box, kCenter).lpNorm<1>() +
-         1.01 * (double{box.half[0]} + box.half[1] + box.half[2]);
-}
-
-/// How far a box reaches along `w`, of any length, from its centre. Its axes e_i are orthonormal
-/// but for the rounding of each, so w is the sum of (w . d_i) e_i with d_i dual to them, and |w .
-/// (p
-/// - centre)| at most that of |w . d_i| h_i.
-double reachAlong(const Box& box, const Eigen::Vector3d& w) {
-  const Eigen::Vector3d e0 = columnOf(box, 0), e1 = columnOf(box, 1), e2 = columnOf(box, 2);
-  const Eigen::Vector3d n0 = e1.cross(e2), n1 = e2.cross(e0), n2 = e0.cross(e1);
-  const double sum = std::abs(w.dot(n0)) * box.half[0] + std::abs(w.dot(n1)) * box.half[1] +
-                     std::abs(w.dot(n2)) * box.half[2];
-  return sum / std::abs(e0.dot(n0));
-}
-
-// In double, content is within a box but for the rounding of stored vertices, of kStored times what
-// extentOf() gives; all else is 2^-53 of the lengths that enter, some sixty times.
-constexpr double kStored = 1.01 * kUlpFloat, kDouble = 0x1p-44;
-
 bool isBoxed(const Tree& tree, std::uint32_t id) { return isTriangle(id) || !tree.boxes.empty(); }
 
 Box boxOf(const Tree& tree, std::uint32_t id) {
@@ -51,6 +25,21 @@ double ballBound(const Box& box, bool is_of_a, const Node& ball, const TreePose&
 }
 
 }  // namespace
+
+double extentOf(const Box& box) {
+  return columnOf(box, kCenter).lpNorm<1>() +
+         1.01 * (double{box.half[0]} + box.half[1] + box.half[2]);
+}
+
+// The axes e_i are orthonormal but for the rounding of each, so w is the sum of (w . d_i) e_i with
+// d_i dual to them, and |w . (p - centre)| at most that of |w . d_i| h_i.
+double reachAlong(const Box& box, const Eigen::Vector3d& w) {
+  const Eigen::Vector3d e0 = columnOf(box, 0), e1 = columnOf(box, 1), e2 = columnOf(box, 2);
+  const Eigen::Vector3d n0 = e1.cross(e2), n1 = e2.cross(e0), n2 = e0.cross(e1);
+  const double sum = std::abs(w.dot(n0)) * box.half[0] + std::abs(w.dot(n1)) * box.half[1] +
+                     std::abs(w.dot(n2)) * box.half[2];
+  return sum / std::abs(e0.dot(n0));
+}
 
 DoubleBound::DoubleBound(const Box& a, const Box& b, const TreePose& X)
     : a_(a), b_(b), R_(X.R), way_(X.R * columnOf(b, kCenter) + X.t - columnOf(a, kCenter)) {

@@ -8,11 +8,24 @@
 #include "search/float_frame.h"
 #include "search/search.h"
 #include "tree/tree.h"
+#include "volume/rounding.h"
 
 // Bounds by boxes in double, of a pair at a time, where those in floats leave open whether there is
 // anything between the contents, as where bodies all but lie on each other.
 
 namespace kios::engine {
+
+// In double, content is within a box but for the rounding of stored vertices, of kStored times what
+// extentOf() gives; all else is 2^-53 of the lengths that enter, some sixty times.
+inline constexpr double kStored = 1.01 * kUlpFloat, kDouble = 0x1p-44;
+
+inline Eigen::Vector3d columnOf(const Box& box, int column) {
+  return {box.x[column], box.y[column], box.z[column]};
+}
+/// How far a box reaches from its tree's origin, and more.
+double extentOf(const Box& box);
+/// How far it reaches along `w`, of any length, from its centre.
+double reachAlong(const Box& box, const Eigen::Vector3d& w);
 
 /// Lower bounds of the distance of what two boxes hold; not positive where they prove nothing.
 class DoubleBound {

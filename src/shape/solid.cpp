@@ -138,6 +138,27 @@ Range rangeOf(const std::vector<Vec>& points) {
   return range;
 }
 
+Range rangeOf(const Solid& s) {
+  Vec half = s.half;
+  switch (s.kind) {
+    case Kind::kSphere:
+      half.setZero();
+      break;
+    case Kind::kCapsule:
+      half = {0, 0, s.half_length};
+      break;
+    case Kind::kCylinder:
+    case Kind::kCone:
+      half = {s.radius, s.radius, s.half_length};
+      break;
+    case Kind::kConvex:
+      return rangeOf(s.points);
+    default:
+      break;
+  }
+  return {-half, half};
+}
+
 Vec coreSupport(const Solid& s, const Vec& n) {
   switch (s.kind) {
     case Kind::kCapsule:

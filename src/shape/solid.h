@@ -55,6 +55,8 @@ struct Range {
 };
 /// The box around a convex shape's points.
 Range rangeOf(const std::vector<Vec>& points);
+/// That around the core of a bounded shape.
+Range rangeOf(const Solid& solid);
 
 /// True if an ellipsoid's radius counts as 0, since its square may vanish beside that of the
 /// largest.
