@@ -85,6 +85,7 @@ SMALL_OR_USED_ONCE = {
     "fcl/overloads_float.cpp": "FCL's function tables for float, which libfcl lacks",
     "linkage/local_slabs.h": "tested alone",
     "linkage/near_pairs.h": "tested alone", "query/cell_walk.h": "FCL's tree beside the engine's",
+    "query/solid_off_box.h": "a proof by boxes, beside a search that reports contacts",
     "search/pairs_apart.h": "memory of exact answers, beside the evaluators that ask for them",
     "tree/build_budget.h": "tested alone",
     "tree/compress_table.h": "a table that no target needs twice",
