@@ -17,6 +17,7 @@
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 #include "scenes/worlds.h"
+#include "scenes/yard.h"
 
 namespace kios::bench {
 namespace {
@@ -33,23 +34,6 @@ struct Place {
   double top;
 };
 
-/// A quad, and four posts that rise above what stands on it.
-scenes::Mesh yard(const scenes::Mesh& quad) {
-  scenes::Mesh mesh = quad;
-  for (const double x : {-1.5, 1.5}) {
-    for (const double y : {-1.5, 1.5}) {
-      const scenes::Mesh post = scenes::moved(fcl::Transform3d(Eigen::Translation3d(x, y, 0.5)),
-                                              scenes::subdividedBox({0.2, 0.2, 1}, 1));
-      const std::size_t n = mesh.vertices.size();
-      mesh.vertices.insert(mesh.vertices.end(), post.vertices.begin(), post.vertices.end());
-      for (const fcl::Triangle& t : post.triangles) {
-        mesh.triangles.emplace_back(n + t[0], n + t[1], n + t[2]);
-      }
-    }
-  }
-  return mesh;
-}
-
 std::vector<Place> places() {
   scenes::Mesh quad;
   quad.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
@@ -57,7 +41,7 @@ std::vector<Place> places() {
   return {{"quad", quad, 0},
           {"box", scenes::subdividedBox({1.2, 0.8, 0.5}, 1), 0.25},
           {"grid", scenes::sheet(10, 10, 20, 20, 0), 0},
-          {"yard", yard(quad), 0}};
+          {"yard", scenes::withPosts(quad, 1.5), 0}};
 }
 
 std::vector<Named> bodies() {

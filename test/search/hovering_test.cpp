@@ -15,6 +15,7 @@
 
 #include "scalars.h"
 #include "scenes/cad_shapes.h"
+#include "scenes/yard.h"
 #include "search/double_bound.h"
 #include "search/prepared_pair.h"
 #include "search/root_bound.h"
@@ -23,27 +24,16 @@
 namespace kios::testing {
 namespace {
 
-/// Four posts of height 1 on what reaches to +-2: nothing on it is above the whole.
-Mesh withPosts(Mesh place) {
-  for (const double x : {-1.85, 1.85}) {
-    for (const double y : {-1.85, 1.85}) {
-      const fcl::Transform3d X(Eigen::Translation3d(x, y, 0.5));
-      const Mesh post = scenes::moved(X, scenes::subdividedBox({0.2, 0.2, 1}, 1));
-      const std::size_t n = place.vertices.size();
-      place.vertices.insert(place.vertices.end(), post.vertices.begin(), post.vertices.end());
-      for (const fcl::Triangle& t : post.triangles) {
-        place.triangles.emplace_back(n + t[0], n + t[1], n + t[2]);
-      }
-    }
-  }
-  return place;
-}
-
 std::vector<Mesh> standingPlaces() {
   const Mesh slab = scenes::moved(fcl::Transform3d(Eigen::Translation3d(0, 0, -0.05)),
                                   scenes::subdividedBox({4, 4, 0.1}, 1));
   const Mesh floor = scenes::sheet(4, 4, 1, 1, 0), grid = scenes::sheet(4, 4, 8, 8, 0);
-  return {floor, slab, grid, withPosts(floor), withPosts(slab), withPosts(grid)};
+  return {floor,
+          slab,
+          grid,
+          scenes::withPosts(floor, 1.85),
+          scenes::withPosts(slab, 1.85),
+          scenes::withPosts(grid, 1.85)};
 }
 
 std::vector<Mesh> standingBodies() {
