@@ -77,18 +77,18 @@ double surface(const Box& box) {
 /// that are put on each other. A height is off by 2^-50 of the box's extent at most.
 void tighten(const PointChunk* chunks, std::size_t num_chunks, Box& box) {
   const double error = 0x1p-50 * (double{box.half[0]} + box.half[1] + box.half[2]);
-  for (int k = 0; k < 3; ++k) {
-    double most = 0;
-    for (std::size_t i = 0; i < num_chunks; ++i) {
-      for (int l = 0; l < kLanes; ++l) {
-        const double x = double{chunks[i].x.v[l]} - box.x[kCenter];
-        const double y = double{chunks[i].y.v[l]} - box.y[kCenter];
-        const double z = double{chunks[i].z.v[l]} - box.z[kCenter];
-        most = std::max(most, std::abs(x * box.x[k] + y * box.y[k] + z * box.z[k]));
+  double most[3] = {};
+  for (std::size_t i = 0; i < num_chunks; ++i) {
+    for (int l = 0; l < kLanes; ++l) {
+      const double x = double{chunks[i].x.v[l]} - box.x[kCenter];
+      const double y = double{chunks[i].y.v[l]} - box.y[kCenter];
+      const double z = double{chunks[i].z.v[l]} - box.z[kCenter];
+      for (int k = 0; k < 3; ++k) {
+        most[k] = std::max(most[k], std::abs(x * box.x[k] + y * box.y[k] + z * box.z[k]));
       }
     }
-    box.half[k] = std::min(box.half[k], roundUpFloat(most + error));
   }
+  for (int k = 0; k < 3; ++k) box.half[k] = std::min(box.half[k], roundUpFloat(most[k] + error));
 }
 
 /// Takes one of the other boxes around a node's content where it has less surface than `best`.

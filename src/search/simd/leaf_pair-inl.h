@@ -175,6 +175,7 @@ struct Gap {
 /// of Frank-Wolfe. If it doesn't prove them apart, `widest` is the gap that comes closest to it.
 HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const FloatPose& X,
                                float distance, Slab& slab, Gap& widest) {
+  widest = {-kInfinityFloat, {{1, 0, 0}, 1}};
   betweenHulls(a.vertices, b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     const Vec3 between = b.centroid - vec3(a.leaf.centroid);
     const auto by_normals = [&] {
