@@ -67,13 +67,15 @@ int indexOfWidest(Float4 gaps) {
   if (widest(gaps_b) > required) return widest(gaps_b);
   const float squared = std::max(squareOfPositive(gaps_a), squareOfPositive(gaps_b));
   if (squared > 0) return std::sqrt(double{squared});
-  // Bounds are off by twice a pad at most: what is farther from 0 is no gap.
+  // Bounds are off by twice a pad at most: what is farther from 0 is no gap. Where faces are as
+  // near as that, products of axes tell nothing more, which are mostly across them.
   const auto inDouble = [&] { return DoubleBound(a, b, X); };
   const float open = -2 * pad[0];
+  const bool a_open = widest(gaps_a) > open, b_open = widest(gaps_b) > open;
   double bound = 0;
-  if (widest(gaps_a) > open) bound = inDouble().alongA(indexOfWidest(gaps_a));
+  if (a_open) bound = inDouble().alongA(indexOfWidest(gaps_a));
   if (bound > 0) return bound;
-  if (widest(gaps_b) > open) bound = inDouble().alongB(indexOfWidest(gaps_b));
+  if (b_open) bound = inDouble().alongB(indexOfWidest(gaps_b));
   if (bound > 0) return bound;
   const Float4 next_b = next(half_b), last_b = next(next_b);
   for (int i = 0; i < 3; ++i) {
@@ -84,7 +86,8 @@ int indexOfWidest(Float4 gaps) {
     const Float4 reach = next_b * next(next_C) + last_b * next_C;
     const Float4 gaps = apart - (own + pad + pad + reach);
     double gap = double{widest(gaps)};
-    if (gap <= 0 && gap > 2 * open) gap = inDouble().acrossEdges(i, indexOfWidest(gaps));
+    if (gap <= 0 && gap > 2 * open && !a_open && !b_open)
+      gap = inDouble().acrossEdges(i, indexOfWidest(gaps));
     bound = std::max(bound, gap);
   }
   return bound;

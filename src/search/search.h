@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -43,8 +44,21 @@ class RefineCallback {
   float candidate_limit = kInfinityFloat;  ///< feature pairs at most so far apart
                                            ///< are candidates
 
+  /// Whether a bound in double may be asked for, which tells what floats leave open: bodies that
+  /// hover are apart each time, those that touch almost never.
+  bool triesDouble() const { return doubles_left_ > 0; }
+  /// Tells whether it proved anything. Returns that.
+  bool triedDouble(bool apart) {
+    doubles_left_ = apart ? std::min(doubles_left_ + 1, kMostDoubles) : doubles_left_ - 1;
+    return apart;
+  }
+
  protected:
   ~RefineCallback() = default;
+
+ private:
+  static constexpr int kMostDoubles = 4, kFirstDoubles = 1;
+  int doubles_left_ = kFirstDoubles;
 };
 
 /// Where the leaf of one tree is much larger than a node of the other, its triangles take its

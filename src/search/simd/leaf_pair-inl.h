@@ -200,11 +200,13 @@ HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const Floa
 /// Whether leaves that float leaves open are apart in double, along the widest gap.
 HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& a, const LeafView& b,
                                    const Gap& widest) {
+  if (!search.evaluator.triesDouble()) return false;
   const Vec3 w = widest.along.w;
   const float direction[3] = {w.x, w.y, w.z};
   const StoredPoints points_a = {a.vertices.rows, a.leaf.num_vertices},
                      points_b = {b.vertices.rows, b.leaf.num_vertices};
-  return boundAlong(direction, points_a, points_b, search.pose) > 0;
+  const double bound = boundAlong(direction, points_a, points_b, search.pose);
+  return search.evaluator.triedDouble(bound > 0);
 }
 
 /// Vertices with w . p >= least, as bits.

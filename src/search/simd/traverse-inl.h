@@ -371,11 +371,11 @@ class Expander {
 
   /// Raises bounds that twice their pads leave open, a child at a time.
   HWY_NOINLINE void testInDouble(Expansion& e, uint32_t open) const {
-    for (; open != 0; open &= open - 1) {
+    for (; open != 0 && search_.evaluator.triesDouble(); open &= open - 1) {
       const uint32_t lane = firstOf(open);
       const NodePair child = childPair(e, lane);
       const double bound = boundInDouble(search_, child.a, child.b);
-      if (!(bound > 0)) continue;
+      if (!search_.evaluator.triedDouble(bound > 0)) continue;
       e.bounds[lane] = std::max(e.bounds[lane], roundDown<float>(bound));
       e.near &= ~(1U << lane);
     }
