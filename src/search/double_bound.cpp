@@ -81,13 +81,15 @@ double DoubleBound::along(const Eigen::Vector3d& w, double reach_a, double reach
   return (1 - 4 * kUlpFloat) * most - kStored * extent - kDouble * (extent + point.lpNorm<1>());
 }
 
-// The transpose serves as the inverse, which frame_error has room for.
+// In b's frame the transpose serves as the inverse: |R^-1 - R^T| <= 2 stretch, but for its square,
+// and lengths there are up to 1 + stretch times a's. frame_error has 2 stretch S of these.
 double ballBound(const Box& box, bool is_of_a, const Eigen::Vector3d& center, double radius,
                  const TreePose& X) {
   const Eigen::Vector3d moved = is_of_a ? Eigen::Vector3d(X.R * center + X.t)
                                         : Eigen::Vector3d(X.R.transpose() * (center - X.t));
   const double stored = kStored * (center.lpNorm<1>() + radius);
-  return boxBound(box, moved) - (radius + stored) - X.frame_error - kDouble * X.scale;
+  const double more = is_of_a ? 0 : 2 * X.stretch * X.scale;
+  return boxBound(box, moved) - (radius + stored) - X.frame_error - more - kDouble * X.scale;
 }
 
 // Along w, b's points are at w . (R q + t) = (R^T w) . q + w . t.
