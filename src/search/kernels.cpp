@@ -45,6 +45,8 @@
 //
 #include "search/simd/triangle_bounds-inl.h"
 //
+#include "search/simd/expansion-inl.h"
+//
 #include "search/simd/traverse-inl.h"
 //
 #include "search/simd/descent-inl.h"

@@ -5,36 +5,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Which tests a pair takes.
-enum class Expanded : uint32_t {
-  kNode,          ///< children of a node against a node
-  kNodeTriangle,  ///< children of a node against a triangle of a leaf
-  kLeaf           ///< triangles of a leaf against a node
-};
-
-/// A pair of nodes under test: the children of one against the other.
-struct Expansion {
-  NodePair at;
-  uint32_t side;  ///< whose node is expanded: 0 of a, 1 of b
-  Expanded kind;
-  const Node* parent;    ///< of the children
-  const Node* other;     ///< of a triangle: a stand-in
-  uint32_t first_child;  ///< the node that lane 0 is
-  Children children;
-  uint32_t near;  ///< children that matter, as bits
-  bool tight;     ///< whether boxes were tested
-  float bound;    ///< of the pair
-  alignas(32) float bounds[kLanes];
-};
-
-/// A triangle that stands for a node: a leaf that spheres bound badly.
-inline constexpr Node kTriangleStandIn = [] {
-  Node node;
-  node.child = -1;
-  node.flat = 1;
-  return node;
-}();
-
 /// Leaves are split into their triangles in searches where a leaf of one tree is so many times as
 /// wide as the mean leaf of the other is large; elsewhere it would cost more than it saves. Found
 /// by trying.
@@ -98,7 +68,7 @@ class Expander {
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
-    if (search_.evaluator.cull_distance == 0) {
+    if (isContact()) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
       const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -227,6 +197,9 @@ class Expander {
     e.first_child = kTriangleNode | static_cast<uint32_t>(leaf) << 3;
   }
 
+  /// Whether nothing matters but what overlaps.
+  bool isContact() const { return search_.evaluator.cull_distance == 0; }
+
   /// Notes the bounds of some lanes.
   HWY_INLINE void keep(Expansion& e, size_t l, V bounds) const {
     hn::Store(bounds, d, e.bounds + l);
@@ -257,7 +230,7 @@ class Expander {
       testLeaf(e);
     }
     endTest(e);
-    if (!hasBoxes(e) && search_.evaluator.cull_distance == 0) {
+    if (!hasBoxes(e) && isContact()) {
       const uint32_t open = openOf(e, 2 * prismPad(search_.frames));
       if (HWY_UNLIKELY(open != 0)) testInDouble(e, open);
     }
@@ -353,7 +326,7 @@ class Expander {
     if (nodes) move(otherBox(e), *to_[e.side], moved);
     const float pad = nodes ? search_.frames.box_pad : trianglePad(search_.frames);
     const BoxLanes other(moved);
-    const bool contact = search_.evaluator.cull_distance == 0;
+    const bool contact = isContact();
     const uint32_t near = e.near;
     uint32_t open = 0;
     e.near = 0;
