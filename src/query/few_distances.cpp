@@ -64,25 +64,31 @@ template <typename S>
 engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::PairQuery& query,
                                         SearchCounts& counts) {
   const PlacedPair<S> placed(frame);
-  const engine::TrianglePairIds touching = firstIntersecting(placed, counts);
-  if (touching.a >= 0) return touchingAnswer(placed, query, touching);
+  const int num_a = placed.a.size(), num_b = placed.b.size();
   // Lengths whose squares over- or underflow bound nothing.
   const auto isLength = [](double v) { return v > 0x1p-500 && v < 0x1p500; };
+  double bounds[kMostPairByPair], least = kInfinity;
+  double* bound = bounds;
+  Sides upper_b[kFewTriangles];
+  for (int j = 0; j < num_b; ++j) upper_b[j] = placed.b.box(j).upper();
+  for (int i = 0; i < num_a; ++i) {
+    const Sides lower = placed.a.box(i).lower();
+    for (int j = 0; j < num_b; ++j) {
+      const double apart = distance(lower, upper_b[j]);
+      *bound = isLength(apart) ? apart : 0;
+      least = std::min(least, *bound++);
+    }
+  }
+  counts.leaf_pairs += num_a * num_b;
+  if (least == 0) {  // else no boxes touch
+    const engine::TrianglePairIds touching = firstIntersecting(placed, counts);
+    if (touching.a >= 0) return touchingAnswer(placed, query, touching);
+  }
   struct Bounded {
     double bound;
     engine::TrianglePairIds ids;
   } pairs[kMostPairByPair];
   Bounded* end = pairs;
-  Sides upper_b[kMostPairByPair];
-  for (int j = 0; j < placed.b.size(); ++j) upper_b[j] = placed.b.box(j).upper();
-  for (int i = 0; i < placed.a.size(); ++i) {
-    const Sides lower = placed.a.box(i).lower();
-    for (int j = 0; j < placed.b.size(); ++j, ++end) {
-      const double bound = distance(lower, upper_b[j]);
-      *end = {isLength(bound) ? bound : 0, {i, j}};
-    }
-  }
-  counts.leaf_pairs += end - pairs;
   auto answer = noAnswer<S>();
   double best = kInfinity, error = 0, left_out = kInfinity;
   const auto isLeftOut = [&](const Bounded& pair) {
@@ -91,38 +97,55 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
     left_out = std::min(left_out, pair.bound - frame.distanceError(pair.bound));  // as given
     return true;
   };
-  if (query.far_enough < kInfinity) {
-    best = query.far_enough;
-    error = frame.distanceError(best);
-    if (std::all_of(pairs, end, isLeftOut)) {
-      end = pairs;
-    } else {
-      best = left_out = kInfinity;
-    }
-  }
-  while (end != pairs) {
-    const auto least = [](const Bounded& x, const Bounded& y) { return x.bound < y.bound; };
-    Bounded* const next = std::min_element(pairs, end, least);
-    const engine::TrianglePairIds ids = next->ids;
-    *next = *--end;
+  /// Whether they are the nearest so far.
+  const auto evaluate = [&](const engine::TrianglePairIds& ids) {
     ++counts.exact;
     const auto found = disjointDistance(placed.a.triangle(ids.a), placed.b.triangle(ids.b));
     const double d = double{found.distance};
-    if (answer.found() && (d > best || (d == best && answer.ids < ids))) continue;
+    if (answer.found() && (d > best || (d == best && answer.ids < ids))) return false;
     answer.ids = ids;
     answer.nearest = found;
     answer.least_evaluated = best = d;
     error = frame.kernelError(d);
-    end = std::remove_if(pairs, end, isLeftOut);
-    const Eigen::Vector3d across = (found.point_b - found.point_a).template cast<double>();
-    const double length = std::sqrt(detail::dot<double>(across, across));
-    if (!isLength(length)) continue;
-    for (Bounded* pair = pairs; pair != end; ++pair) {
-      const double slab = slabBetween(placed.a.triangle(pair->ids.a),
-                                      placed.b.triangle(pair->ids.b), across / length);
-      if (isLength(slab)) pair->bound = std::max(pair->bound, slab);
+    return true;
+  };
+  if (query.far_enough < kInfinity) {
+    best = query.far_enough;
+    error = frame.distanceError(best);
+    if (isLeftOut({least, {}})) {
+      answer.least_other = std::max(0.0, left_out);
+      return answer;
     }
-    end = std::remove_if(pairs, end, isLeftOut);
+    best = kInfinity;
+  }
+  const auto first = static_cast<int>(std::find(bounds, bound, least) - bounds);
+  evaluate({first / num_b, first % num_b});
+  bound = bounds;
+  for (int i = 0; i < num_a; ++i) {
+    for (int j = 0; j < num_b; ++j, ++bound) {
+      const Bounded pair = {*bound, {i, j}};
+      if (!(pair.ids == answer.ids) && !isLeftOut(pair)) *end++ = pair;
+    }
+  }
+  for (bool nearer = true; end != pairs;) {
+    const Eigen::Vector3d across =
+        (answer.nearest.point_b - answer.nearest.point_a).template cast<double>();
+    const double length = std::sqrt(detail::dot<double>(across, across));
+    if (nearer && isLength(length)) {
+      for (Bounded* pair = pairs; pair != end; ++pair) {
+        const double slab = slabBetween(placed.a.triangle(pair->ids.a),
+                                        placed.b.triangle(pair->ids.b), across / length);
+        if (isLength(slab)) pair->bound = std::max(pair->bound, slab);
+      }
+      end = std::remove_if(pairs, end, isLeftOut);
+      if (end == pairs) break;
+    }
+    Bounded* const next = std::min_element(
+        pairs, end, [](const Bounded& x, const Bounded& y) { return x.bound < y.bound; });
+    const engine::TrianglePairIds ids = next->ids;
+    *next = *--end;
+    nearer = evaluate(ids);
+    if (nearer) end = std::remove_if(pairs, end, isLeftOut);
   }
   answer.least_other = std::max(0.0, left_out);
   if (query.near_enough > 0 && answer.found() && best <= query.near_enough) {

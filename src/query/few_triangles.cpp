@@ -67,18 +67,20 @@ void visitIntersecting(const PlacedPair<S>& pair, SearchCounts& counts, const Vi
   const Sides lower = a.box().lower(), upper = b.box().upper();
   if (apart(lower, upper)) return;
   // By triangle of A, those of B that may meet it.
-  std::uint32_t near[kFewTriangles] = {};
+  Bits near[kFewTriangles];
+  std::fill_n(near, a.size(), 0);
   if (b.size() <= kFewPlanes) {
     for (int j = 0; j < b.size(); ++j) {
-      std::uint32_t crossing = a.crossing(b.plane(j));
-      for (; crossing != 0; crossing &= crossing - 1) near[__builtin_ctz(crossing)] |= 1U << j;
+      Bits crossing = a.crossing(b.plane(j));
+      for (; crossing != 0; crossing &= crossing - 1)
+        near[__builtin_ctzll(crossing)] |= Bits{1} << j;
     }
   } else if (a.size() <= kFewPlanes) {
     for (int i = 0; i < a.size(); ++i) near[i] = b.crossing(a.plane(i));
   } else {
-    std::uint32_t of_b = 0;
+    Bits of_b = 0;
     for (int j = 0; j < b.size(); ++j) {
-      if (!apart(lower, b.box(j).upper())) of_b |= 1U << j;
+      if (!apart(lower, b.box(j).upper())) of_b |= Bits{1} << j;
     }
     std::fill_n(near, a.size(), of_b);
   }
@@ -87,18 +89,18 @@ void visitIntersecting(const PlacedPair<S>& pair, SearchCounts& counts, const Vi
     Sides upper;
     PlainPlane plane;
   } placed[kFewTriangles];
-  std::uint32_t is_placed = 0;
+  Bits is_placed = 0;
   for (int i = 0; i < a.size(); ++i) {
     if (near[i] == 0) continue;
     const Sides lower_i = a.box(i).lower();
     if (apart(lower_i, upper)) continue;
     const TriangleVertices<S> p = a.triangle(i);
     const PlainPlane plane = a.plane(i);
-    for (std::uint32_t left = near[i]; left != 0; left &= left - 1) {
-      const int j = __builtin_ctz(left);
+    for (Bits left = near[i]; left != 0; left &= left - 1) {
+      const int j = __builtin_ctzll(left);
       Placed& q = placed[j];
-      if ((is_placed >> j & 1U) == 0) {
-        is_placed |= 1U << j;
+      if ((is_placed >> j & 1) == 0) {
+        is_placed |= Bits{1} << j;
         q = {b.triangle(j), b.box(j).upper(), b.plane(j)};
       }
       if (apart(lower_i, q.upper)) continue;

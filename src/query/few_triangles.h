@@ -15,15 +15,20 @@
 
 namespace kios {
 
-constexpr int kFewTriangles = 32, kVeryFewPairs = 64, kMostPairByPair = 24, kFewestPairs = 4;
+constexpr int kFewTriangles = 64, kVeryFewPairs = 64, kMostPairByPair = 128, kFewestPairs = 4;
 
 /// True for models of so few triangles that all pairs are looked at for contacts faster than any
-/// tree is walked: boxes against spheres of 40 triangles. Found by trying.
+/// tree is walked: boxes against spheres of 40 triangles, a quadrilateral among four posts. Found
+/// by trying.
 template <typename S>
 bool areFew(const Model<S>& a, const Model<S>& b) {
-  constexpr int kFewPairs = 512;
-  return a.num_tris <= kFewTriangles && b.num_tris <= kFewTriangles &&
-         a.num_tris * b.num_tris <= kFewPairs;
+  constexpr int kFewPairs = 512, kFewOfEach = 32, kFewOfOne = 2;
+  const bool a_fewer = a.num_tris < b.num_tris;
+  const Model<S>&fewer = a_fewer ? a : b, &other = a_fewer ? b : a;
+  if (other.num_tris <= kFewOfEach) return fewer.num_tris * other.num_tris <= kFewPairs;
+  // What is smaller than the other model lies near few of its triangles.
+  return fewer.num_tris <= kFewOfOne && other.num_tris <= kFewTriangles &&
+         fewer.getBV(0).bv.radius0 < other.getBV(0).bv.radius0;
 }
 
 /// Tells it for distances, which take more of each pair: of two boxes they take ten times as long

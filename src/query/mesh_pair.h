@@ -8,6 +8,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/volume/separation.h"
 #include "model/kios_model.h"
+#include "model/prepared.h"
 #include "search/pair_query.h"
 #include "volume/error_bounds.h"
 
@@ -15,16 +16,15 @@ namespace kios {
 
 template <typename S>
 TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
-  const fcl::Triangle& t = model.tri_indices[triangle];
-  return {model.vertices[t[0]], model.vertices[t[1]], model.vertices[t[2]]};
+  const engine::MeshView<S> mesh = viewOf(model);
+  const auto t = static_cast<std::size_t>(triangle);
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
 }
 
 template <typename S>
 TriangleVertices<double> cornersInDouble(const Model<S>& model, int triangle) {
-  const fcl::Triangle& t = model.tri_indices[triangle];
-  TriangleVertices<double> corners;
-  for (int k = 0; k < 3; ++k) corners[k] = model.vertices[t[k]].template cast<double>();
-  return corners;
+  const TriangleVertices<S> t = cornersOf(model, triangle);
+  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
 }
 
 template <typename S, typename Pose>

@@ -9,10 +9,10 @@
 #include <fcl/narrowphase/detail/traversal/collision_node.h>
 #include "fcl_kios/query/mesh_nodes.h"
 #include "model/kios_model.h"
-#include "query/ball_off_box.h"
 #include "query/few_triangles.h"
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
+#include "query/smaller_off_box.h"
 #include "query/unprepared.h"
 #include "volume/far_apart.h"
 #include "volume/instantiate.h"
@@ -71,7 +71,7 @@ template <typename S>
     if (single || answer.nearest.distance <= query.abs_err) return answer;
   }
   if (query.isExact() && arePairByPair(frame.a, frame.b)) {
-    return nearestPairByPair(frame, query, counts);
+    return searchNearest(frame, query, counts);
   }
   if (query.isExact() && engineServes(frame)) {
     if (areVeryFew(frame.a, frame.b) && !treesPay(frame)) {
@@ -105,7 +105,7 @@ template <typename S>
   const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
   const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
   if (done || !(farApart<S>(way, squared_errors, 0) ||
-                ballOffBox(a, X_WA, b, X_WB, way, squared_errors, 0))) {
+                smallerOffBox(a, X_WA, b, X_WB, way, squared_errors, 0))) {
     const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where they can't tell
     if (request.num_max_contacts == 0) {                        // FCL's warning and answer
       std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
@@ -135,7 +135,7 @@ template <typename S>
     query.far_enough = query.cullDistance(result.min_distance);
     const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
     if (farApart<S>(way, squared_errors, query.far_enough) ||
-        ballOffBox(a, X_WA, b, X_WB, way, squared_errors, query.far_enough)) {
+        smallerOffBox(a, X_WA, b, X_WB, way, squared_errors, query.far_enough)) {
       return result.min_distance;
     }
   }

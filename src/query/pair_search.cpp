@@ -8,8 +8,8 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "model/walk.h"
-#include "query/ball_off_box.h"
 #include "query/few_triangles.h"
+#include "query/smaller_off_box.h"
 #include "query/unprepared.h"
 #include "search/double_bound.h"
 #include "search/mesh_search.h"
@@ -267,18 +267,18 @@ template <typename S>
 [[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& asked,
                                          SearchCounts& counts) {
   PairQuery query = asked;
-  const bool exact = query.isExact() && !query.endsEarly();
-  if (query.isExact() && arePairByPair(frame.a, frame.b)) {
-    return nearestPairByPair(frame, query, counts);
-  }
-  if (exact) {
+  EnginePair<S> engine(frame, kInfinity);
+  const bool bounded = query.far_enough < kInfinity;
+  const bool pair_by_pair = query.isExact() && arePairByPair(frame.a, frame.b);
+  if (query.isExact() && !query.endsEarly() && !pair_by_pair) {
     const auto touching = touchingOfFew(frame, query, counts);
     if (touching && touching->found()) return *touching;
     query.apart = touching.has_value();
   }
-  EnginePair<S> engine(frame, kInfinity);
-  const bool bounded = query.far_enough < kInfinity;
   if (bounded) engine.compareRoots();
+  if (pair_by_pair && !engine.isFar(query.far_enough)) {
+    return nearestPairByPair(frame, query, counts);
+  }
   if (engine.isFar(query.far_enough) || engine.takeTrees(bounded)) {
     if (engine.isFar(query.far_enough)) {
       PairAnswer<S> far;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 
 #include "fcl_kios/model/model.h"
 #include "query/few_triangles.h"
@@ -78,6 +79,10 @@ inline bool apart(const Sides& lower, const Sides& upper) {
 /// Planes of so few triangles tell more than the boxes of all.
 constexpr int kFewPlanes = 4;
 
+/// Triangles of a model.
+using Bits = std::uint64_t;
+static_assert(kFewTriangles <= std::numeric_limits<Bits>::digits);
+
 /// A model of few triangles with its vertices in the common frame, each placed once.
 template <typename S>
 class PlacedTriangles {
@@ -90,16 +95,17 @@ class PlacedTriangles {
     std::uint8_t places[kMostCorners];
     const bool fit = model.num_vertices <= kMostCorners;
     if (fit) std::fill_n(places, model.num_vertices, kNone);
+    const engine::MeshView<S> mesh = viewOf(model);
     for (int t = 0; t < size_; ++t) {
       for (int k = 0; k < 3; ++k) {
-        const auto vertex = model.tri_indices[t][k];
+        const std::size_t vertex = mesh.index(static_cast<std::size_t>(t), k);
         if (fit && places[vertex] != kNone) {
           corners_[t][k] = places[vertex];
           continue;
         }
         corners_[t][k] = static_cast<std::uint8_t>(num_vertices_);
         if (fit) places[vertex] = corners_[t][k];
-        vertices_[num_vertices_++] = place(model.vertices[vertex]);
+        vertices_[num_vertices_++] = place(mesh.vertices[vertex]);
       }
     }
   }
@@ -116,14 +122,14 @@ class PlacedTriangles {
   Box box(int t) const { return Box::of(triangle(t)); }
   PlainPlane plane(int t) const { return planeOf(triangle(t)); }
 
-  /// The triangles that a plane doesn't prove to lie on one side of it, as bits.
-  std::uint32_t crossing(const PlainPlane& plane) const {
+  /// The triangles that a plane doesn't prove to lie on one side of it.
+  Bits crossing(const PlainPlane& plane) const {
     int sides[kMostCorners];
     for (int i = 0; i < num_vertices_; ++i) sides[i] = plane.side(vertices_[i]);
-    std::uint32_t bits = 0;
+    Bits bits = 0;
     for (int t = 0; t < size_; ++t) {
       const auto& [u, v, w] = corners_[t];
-      if (std::abs(sides[u] + sides[v] + sides[w]) < 3) bits |= 1U << t;
+      if (std::abs(sides[u] + sides[v] + sides[w]) < 3) bits |= Bits{1} << t;
     }
     return bits;
   }

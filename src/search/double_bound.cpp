@@ -26,11 +26,6 @@ double ballBound(const Box& box, bool is_of_a, const Node& ball, const TreePose&
 
 }  // namespace
 
-double extentOf(const Box& box) {
-  return columnOf(box, kCenter).lpNorm<1>() +
-         1.01 * (double{box.half[0]} + box.half[1] + box.half[2]);
-}
-
 // The axes e_i are orthonormal but for the rounding of each, so w is the sum of (w . d_i) e_i with
 // d_i dual to them, and |w . (p - centre)| at most that of |w . d_i| h_i.
 double reachAlong(const Box& box, const Eigen::Vector3d& w) {
@@ -70,15 +65,10 @@ double DoubleBound::along(const Eigen::Vector3d& w, double reach_a, double reach
 }
 
 // The axes' lengths are 1 but for 2 u, u = 2^-24.
-[[gnu::hot]] double boxBound(const Box& box, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d v = point - columnOf(box, kCenter);
-  double most = -kInfinity;
-  for (int i = 0; i < 3; ++i) {
-    const double along = v[0] * box.x[i] + v[1] * box.y[i] + v[2] * box.z[i];
-    most = std::max(most, std::abs(along) - box.half[i]);
-  }
+[[gnu::hot]] double boxBound(const Box& box, const Eigen::Vector3d& point, const OutOfBox& out) {
   const double extent = extentOf(box);
-  return (1 - 4 * kUlpFloat) * most - kStored * extent - kDouble * (extent + point.lpNorm<1>());
+  return (1 - 4 * kUlpFloat) * out.height - kStored * extent -
+         kDouble * (extent + point.lpNorm<1>());
 }
 
 // In b's frame the transpose serves as the inverse: |R^-1 - R^T| <= 2 stretch, but for its square,

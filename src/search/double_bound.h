@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "search/float_frame.h"
@@ -23,7 +25,10 @@ inline Eigen::Vector3d columnOf(const Box& box, int column) {
   return {box.x[column], box.y[column], box.z[column]};
 }
 /// How far a box reaches from its tree's origin, and more.
-double extentOf(const Box& box);
+inline double extentOf(const Box& box) {
+  return columnOf(box, kCenter).lpNorm<1>() +
+         1.01 * (double{box.half[0]} + box.half[1] + box.half[2]);
+}
 /// How far it reaches along `w`, of any length, from its centre.
 double reachAlong(const Box& box, const Eigen::Vector3d& w);
 
@@ -47,8 +52,28 @@ class DoubleBound {
   double pad_;
 };
 
+/// Where a point lies along the axes of a box from its centre, and how far out of it: below 0
+/// inside.
+struct OutOfBox {
+  OutOfBox(const Box& box, const Eigen::Vector3d& point) {
+    const Eigen::Vector3d v = point - columnOf(box, kCenter);
+    for (int i = 0; i < 3; ++i) {
+      along[i] = v[0] * box.x[i] + v[1] * box.y[i] + v[2] * box.z[i];
+      heights[i] = std::abs(along[i]) - box.half[i];
+    }
+    height = std::max(std::max(heights[0], heights[1]), heights[2]);
+  }
+  /// The axis along which it is farthest out.
+  int axis() const { return heights[0] == height ? 0 : heights[1] == height ? 1 : 2; }
+
+  double along[3], heights[3], height;
+};
+
 /// Lower bound of the distance of what a box of a tree holds from a point in the tree's frame.
-double boxBound(const Box& box, const Eigen::Vector3d& point);
+double boxBound(const Box& box, const Eigen::Vector3d& point, const OutOfBox& out);
+inline double boxBound(const Box& box, const Eigen::Vector3d& point) {
+  return boxBound(box, point, OutOfBox(box, point));
+}
 
 /// Lower bound of the distance of what a box of one tree holds from a ball in the other's frame.
 double ballBound(const Box& box, bool is_of_a, const Eigen::Vector3d& center, double radius,

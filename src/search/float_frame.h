@@ -48,7 +48,8 @@ struct FloatPose {
 ///   4 u |t|; their sum, of 7 roundings: 12 u (r + r'); the difference and the quotient by |w|,
 ///   or the root of a sum of squares: 7 u S.
 /// These are 54 u of the reach that stands still, 90 u of that which moves, and 25 u |t|: below
-/// 96 u S. What vanishes below 2^-126 is far below 128 u S, as S >= 2^-35: see distanceBounds().
+/// 96 u S. A ball in place of either box takes fewer, and its bound pays the pad twice. What
+/// vanishes below 2^-126 is far below 128 u S, as S >= 2^-35: see distanceBounds().
 ///
 /// Products of axes (acrossEdges()) take w = C_1j e_2 - C_2j e_1, with C_ij = e_i . e'_j, C as
 /// computed, off by 3 u. It is e_0 x e'_j but for rounding, no longer than 1, and its dots with all

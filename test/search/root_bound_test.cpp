@@ -4,17 +4,20 @@
 // The bound of two models by the boxes of their roots is at most their distance, measured over all
 // pairs of triangles: boxes whose faces, edges and corners meet or all but meet, far from their
 // origins for their size too; and it tells boxes that are apart. A ball off the box of a body that
-// is thin or much larger is off what is in it, which is told before.
+// is thin or much larger is off what is in it, which is told before, and so are bodies that stand a
+// hair above it, whose balls reach into it.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "fcl_kios/model/prepare.h"
-#include "query/ball_off_box.h"
+#include "query/smaller_off_box.h"
 #include "scalars.h"
+#include "scenes/cad_shapes.h"
 #include "search/prepared_pair.h"
 #include "search/root_bound.h"
 #include "volume/rotation.h"
@@ -30,7 +33,7 @@ template <typename S>
 bool isOff(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
            const fcl::Transform3<S>& X_WB, double margin) {
   const CentralWay way(a.getBV(0).bv, X_WA, b.getBV(0).bv, X_WB);
-  return ballOffBox(a, X_WA, b, X_WB, way, squaredRotationErrors(X_WA, X_WB), margin);
+  return smallerOffBox(a, X_WA, b, X_WB, way, squaredRotationErrors(X_WA, X_WB), margin);
 }
 
 /// Both meshes at poses where they are `gap` apart, or nearly so.
@@ -129,6 +132,35 @@ TYPED_TEST(RootBound, IsAtMostTheDistance) {
   EXPECT_GT(sum.off, 100);
   // A ball fills its box badly, and bodies in the ground are apart from its surface.
   EXPECT_GT(sum.told, 0.5 * static_cast<double>(sum.apart));
+}
+
+TYPED_TEST(RootBound, TellsBodiesThatHover) {
+  using S = TypeParam;
+  const double gap = sizeof(S) == sizeof(double) ? 1e-6 : 1e-2;
+  for (const double depth : {0.0, 0.1}) {
+    const Mesh place =
+        depth > 0 ? scenes::subdividedBox({8, 8, depth}, 1) : scenes::sheet(8, 8, 2, 3, 0);
+    for (const Mesh& body :
+         {scenes::subdividedBox({0.3, 0.2, 0.15}, 2), scenes::stripCylinder(12, 0.3, 0.05)}) {
+      double low = std::numeric_limits<double>::infinity();
+      for (const fcl::Vector3d& v : body.vertices) low = std::min(low, v.z());
+      const MeshIn<S> a(place), b(body);
+      const auto model_a = makeModel<S>(a.vertices, a.triangles),
+                 model_b = makeModel<S>(b.vertices, b.triangles);
+      prepare(*model_a);
+      prepare(*model_b);
+      Random random(5);
+      for (const fcl::Transform3d& X_W : scenes::randomPoses(20, 3, 7)) {
+        const fcl::Transform3d X =
+            X_W * Eigen::Translation3d(random.uniform(-1, 1), 0, depth / 2 - low + gap) *
+            Eigen::AngleAxisd(random.uniform(0, 6), fcl::Vector3d::UnitZ());
+        const fcl::Transform3<S> X_A = X_W.cast<S>(), X_B = X.cast<S>();
+        EXPECT_TRUE(isOff(*model_a, X_A, *model_b, X_B, 0.0));
+        EXPECT_TRUE(isOff(*model_b, X_B, *model_a, X_A, 0.0));
+        EXPECT_FALSE(isOff(*model_a, X_A, *model_b, X_B, 2 * gap));
+      }
+    }
+  }
 }
 
 }  // namespace

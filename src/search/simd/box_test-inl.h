@@ -176,5 +176,17 @@ HWY_INLINE V distanceBounds(const BoxLanes& a, const BoxLanes& b, float pad) {
   return hn::Max(by_axes, hn::IfThenElseZero(usable, along_w));
 }
 
+/// Likewise, of boxes and balls: over the box's three axes, the gaps between it and the centre.
+HWY_INLINE V ballBounds(const BoxLanes& box, const V3& center, V radius, float pad) {
+  const V3 at = abs(box.along(center - box.center));
+  const V padding = hn::Set(d, pad), zero = hn::Zero(d);
+  const auto gap = [&](V apart, V half) {
+    return hn::Max(hn::Sub(apart, hn::Add(half, padding)), zero);
+  };
+  return hn::Sub(
+      hn::Sqrt(square(gap(at.x, box.half.x), gap(at.y, box.half.y), gap(at.z, box.half.z))),
+      hn::Add(radius, padding));
+}
+
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

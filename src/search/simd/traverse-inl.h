@@ -63,14 +63,16 @@ class Expander {
     ++search_.counts.expansions;
   }
 
-  /// The children that matter and that spheres bound badly: flat ones, and in contact those that
-  /// overlap by little.
+  /// The children that matter and that spheres bound badly: flat ones, and those that overlap, or
+  /// are within what matters, by little, where that pays: in contact, and of balls and boxes, but
+  /// for brackets, whose bounds may not depend on what was found when.
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
-    if (isContact()) {
+    const float cull = search_.evaluator.cull_distance;
+    if (isContact() || (cull < kInfinityFloat && !hasBoxes() && !search_.bracket)) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
-      const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
+      const V least = hn::Set(d, cull - kLittle * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
         flat |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), least)) << l;
       }
@@ -79,9 +81,14 @@ class Expander {
   }
   /// Tests boxes too, once, if that helps any child.
   void tighten(Expansion& e) const {
-    if (flatOf(e) == 0 || !hasBoxes(e) || e.tight) return;
-    e.tight = true;
-    testBoxes(e);
+    if (flatOf(e) == 0 || e.tight) return;
+    if (hasBoxes(e)) {
+      e.tight = true;
+      testBoxes(e);
+    } else if (e.kind == Expanded::kNode && (has_boxes_[0] || has_boxes_[1])) {
+      e.tight = true;
+      testBalls(e);
+    }
   }
 
   /// Whether both trees have boxes: those of CAD meshes.
@@ -340,6 +347,43 @@ class Expander {
     }
     e.near &= near;
     if (HWY_UNLIKELY(contact && (open & e.near) != 0)) testInDouble(e, open & e.near);
+  }
+
+  /// Raises bounds by the boxes of one tree and the central spheres of the other, which has none.
+  [[gnu::hot]] HWY_NOINLINE void testBalls(Expansion& e) const {
+    const float pad = search_.frames.box_pad;
+    const FloatPose& to = *to_[e.side];
+    const bool boxed = has_boxes_[e.side];
+    Box moved;
+    Vec3 ball = {};
+    if (boxed) {
+      const Node& other = *e.other;
+      ball = engine::HWY_NAMESPACE::moved(
+          to, {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
+    } else {
+      move(otherBox(e), to, moved);
+    }
+    const Block& block = blockOf(e);
+    const uint32_t near = e.near;
+    uint32_t open = 0;
+    e.near = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      V lower;
+      if (boxed) {
+        const V3 center = {hn::Set(d, ball.x), hn::Set(d, ball.y), hn::Set(d, ball.z)};
+        lower =
+            ballBounds(BoxLanes(boxBlockOf(e), l), center, hn::Set(d, e.other->r[kCentral]), pad);
+      } else {
+        const V3 centers = {load(block.x[kCentral], l), load(block.y[kCentral], l),
+                            load(block.z[kCentral], l)};
+        lower = ballBounds(BoxLanes(moved), centers, load(block.r[kCentral], l), pad);
+      }
+      const V bounds = hn::Load(d, e.bounds + l);
+      keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
+      open |= bitsOf(hn::Gt(lower, hn::Set(d, -4 * pad))) << l;
+    }
+    e.near &= near;
+    if (HWY_UNLIKELY(isContact() && (open & e.near) != 0)) testInDouble(e, open & e.near);
   }
 
   /// Raises bounds that twice their pads leave open, a child at a time.

@@ -11,12 +11,12 @@ namespace kios {
 
 /// True only if the central sphere of the smaller model, which isn't thin, proves it farther than
 /// `margin` >= 0 from the box of the larger one, which is much larger or thin, as a floor or a rod
-/// is: nothing else of the pair need be looked at. False says nothing; nothing is prepared. The
-/// other arguments are farApart()'s.
+/// is, or if its own box does, next to one that is much larger: nothing else of the pair need be
+/// looked at. False says nothing; nothing is prepared. The other arguments are farApart()'s.
 template <typename S>
-bool ballOffBox(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                const fcl::Transform3<S>& X_WB, const CentralWay& way, double squared_errors,
-                double margin);
+bool smallerOffBox(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                   const fcl::Transform3<S>& X_WB, const CentralWay& way, double squared_errors,
+                   double margin);
 
 /// Returns true if one model is so much larger than the other, as a floor than a link, that its
 /// spheres are of no use near it: where both balls don't prove the models apart, boxes must.
