@@ -15,6 +15,7 @@ namespace {
 bool isBoxed(const Tree& tree, std::uint32_t id) { return isTriangle(id) || !tree.boxes.empty(); }
 
 Box boxOf(const Tree& tree, std::uint32_t id) {
+  if (id == 0) return tree.root_box;
   if (!isTriangle(id)) return tree.boxes[id];
   return triangleBox(tree, tree.leaves[leafOfTriangle(id)], laneOfTriangle(id));
 }
@@ -105,11 +106,13 @@ double boundAlong(const float (&direction)[3], const StoredPoints& a, const Stor
 double boundInDouble(const Search& search, std::uint32_t node_a, std::uint32_t node_b) {
   const Tree &a = search.a, &b = search.b;
   if (!isBoxed(a, node_a)) {
-    return ballBound(boxOf(b, node_b), false, a.nodes[node_a], search.pose);
+    const double bound = ballBound(boxOf(b, node_b), false, a.nodes[node_a], search.pose);
+    if (bound > 0 || node_a != 0) return bound;
+  } else if (!isBoxed(b, node_b)) {
+    const double bound = ballBound(boxOf(a, node_a), true, b.nodes[node_b], search.pose);
+    if (bound > 0 || node_b != 0) return bound;
   }
-  const Box box_a = boxOf(a, node_a);
-  if (!isBoxed(b, node_b)) return ballBound(box_a, true, b.nodes[node_b], search.pose);
-  const Box box_b = boxOf(b, node_b);
+  const Box box_a = boxOf(a, node_a), box_b = boxOf(b, node_b);
   const DoubleBound bound(box_a, box_b, search.pose);
   for (int i = 0; i < 3; ++i) {
     const double along = std::max(bound.alongA(i), bound.alongB(i));

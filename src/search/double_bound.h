@@ -91,8 +91,8 @@ double boundAlong(const float (&w)[3], const StoredPoints& a, const StoredPoints
                   const TreePose& X_AB);
 
 /// Lower bound of the distance of two nodes, or triangles of leaves: by boxes, along an axis of
-/// either, or by the central sphere of a node that has none. Not the best; not positive where it
-/// proves nothing.
+/// either, or by the central sphere of a node whose tree has none; by both of such a root. Not the
+/// best; not positive where it proves nothing.
 double boundInDouble(const Search& search, std::uint32_t node_a, std::uint32_t node_b);
 
 }  // namespace kios::engine

@@ -86,6 +86,8 @@ struct Bracket {
   /// All that was not evaluated is at least so far apart.
   float proven = -kInfinityFloat;
   bool out_of_budget = false;
+
+  bool hasBudget() const { return max_expansions < std::numeric_limits<long long>::max(); }
 };
 
 struct CellSearch;

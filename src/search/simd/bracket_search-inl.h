@@ -136,7 +136,7 @@ class BracketSearch {
     return false;
   }
 
-  bool budgeted() const { return bracket_.max_expansions != std::numeric_limits<long long>::max(); }
+  bool budgeted() const { return bracket_.hasBudget(); }
 
   /// True to end the search.
   bool evaluateFeatures(const Bracketed& pair, float bound) {

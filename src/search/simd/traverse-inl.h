@@ -27,6 +27,7 @@ class Expander {
         to_{&search.frames.a_from_b, &search.frames.b_from_a},
         has_boxes_{!search.a.boxes.empty(), !search.b.boxes.empty()},
         splits_(splitsLeaves(search)),
+        tells_balls_(onlyOneHasBoxes() && !(search.bracket && search.bracket->hasBudget())),
         large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
 
   /// e.bound is that of the pair.
@@ -64,13 +65,13 @@ class Expander {
   }
 
   /// The children that matter and that spheres bound badly: flat ones, and those that overlap, or
-  /// are within what matters, by little, where that pays: in contact, and of balls and boxes, but
-  /// for brackets, whose bounds may not depend on what was found when.
+  /// are within what matters, by little, where that pays: in contact of boxes, and in distances of
+  /// boxes and balls, but where a budget ends the search: it may not depend on what was found when.
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
     const float cull = search_.evaluator.cull_distance;
-    if (isContact() || (cull < kInfinityFloat && !hasBoxes() && !search_.bracket)) {
+    if (isContact() ? hasBoxes() : cull < kInfinityFloat && tells_balls_) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
       const V least = hn::Set(d, cull - kLittle * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -82,17 +83,14 @@ class Expander {
   /// Tests boxes too, once, if that helps any child.
   void tighten(Expansion& e) const {
     if (flatOf(e) == 0 || e.tight) return;
-    if (hasBoxes(e)) {
-      e.tight = true;
-      testBoxes(e);
-    } else if (e.kind == Expanded::kNode && (has_boxes_[0] || has_boxes_[1])) {
-      e.tight = true;
-      testBalls(e);
-    }
+    e.tight = true;
+    if (e.kind == Expanded::kNode && onlyOneHasBoxes()) testBalls(e);
+    if (hasBoxes(e) && e.near != 0) testBoxes(e);
   }
 
   /// Whether both trees have boxes: those of CAD meshes.
   bool hasBoxes() const { return has_boxes_[0] && has_boxes_[1]; }
+  bool onlyOneHasBoxes() const { return has_boxes_[0] != has_boxes_[1]; }
   /// Whether the trees are more than a core's caches hold, so that it pays to fetch what is needed
   /// next, as much of it at once as there is; a limit found by trying.
   bool isLarge() const { return large_; }
@@ -237,7 +235,7 @@ class Expander {
       testLeaf(e);
     }
     endTest(e);
-    if (!hasBoxes(e) && isContact()) {
+    if (isContact() && !has_boxes_[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side]) {
       const uint32_t open = openOf(e, 2 * prismPad(search_.frames));
       if (HWY_UNLIKELY(open != 0)) testInDouble(e, open);
     }
@@ -317,12 +315,19 @@ class Expander {
     return trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
   }
   uint32_t otherId(const Expansion& e) const { return e.side == 0 ? e.at.b : e.at.a; }
-  const Box& otherBox(const Expansion& e) const { return trees_[1 - e.side]->boxes[otherId(e)]; }
+  /// A root has a box in any tree, which pays in contact.
+  bool hasOtherBox(const Expansion& e) const {
+    return has_boxes_[1 - e.side] || (otherId(e) == 0 && isContact());
+  }
+  const Box& otherBox(const Expansion& e) const {
+    const Tree& tree = *trees_[1 - e.side];
+    return has_boxes_[1 - e.side] ? tree.boxes[otherId(e)] : tree.root_box;
+  }
 
-  /// Triangles have boxes wherever the other tree has.
+  /// Triangles have boxes wherever the other has one.
   bool hasBoxes(const Expansion& e) const {
-    if (e.kind == Expanded::kNode) return hasBoxes();
-    return has_boxes_[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side];
+    if (e.kind == Expanded::kNodeTriangle) return has_boxes_[e.side];
+    return hasOtherBox(e) && (e.kind == Expanded::kLeaf || has_boxes_[e.side]);
   }
 
   /// Raises bounds by boxes.
@@ -422,7 +427,7 @@ class Expander {
   const Tree* trees_[2];
   const FloatPose* to_[2];   ///< the frame of a side from the other's
   const bool has_boxes_[2];  ///< which trees have them
-  const bool splits_, large_;
+  const bool splits_, tells_balls_, large_;
   mutable BoxedTriangles boxed_[2];
 };
 
