@@ -72,7 +72,7 @@ template <typename S>
   const kIOS<S>&root_a = a.getBV(0).bv, &root_b = b.getBV(0).bv;
   const bool a_larger = root_a.radius0 > root_b.radius0;
   const kIOS<S>&larger = a_larger ? root_a : root_b, &smaller = a_larger ? root_b : root_a;
-  if (isThin(smaller) || !(areUnlike(larger, smaller) || isThin(larger))) return false;
+  if (!areUnlike(larger, smaller) && (isThin(smaller) || !isThin(larger))) return false;
   if (!CentralWay::canProve<S>(way.lengths + margin, squared_errors)) return false;
   const fcl::Vector3d w(way.w[0], way.w[1], way.w[2]);
   return a_larger ? isOff<S>(a, X_WA, b, X_WB, w, way.lengths, margin)

@@ -9,10 +9,11 @@
 
 namespace kios {
 
-/// True only if the central sphere of the smaller model, which isn't thin, proves it farther than
-/// `margin` >= 0 from the box of the larger one, which is much larger or thin, as a floor or a rod
-/// is, or if its own box does, next to one that is much larger: nothing else of the pair need be
-/// looked at. False says nothing; nothing is prepared. The other arguments are farApart()'s.
+/// True only if the central sphere of the smaller model proves it farther than `margin` >= 0 from
+/// the box of the larger one, or its own box does: nothing else of the pair need be looked at.
+/// Asked next to what is much larger, as a floor is, and by spheres next to what is thin, as a rod
+/// is, unless both are. False says nothing; nothing is prepared. The other arguments are
+/// farApart()'s.
 template <typename S>
 bool smallerOffBox(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                    const fcl::Transform3<S>& X_WB, const CentralWay& way, double squared_errors,
