@@ -141,7 +141,8 @@ TYPED_TEST(RootBound, TellsBodiesThatHover) {
     const Mesh place =
         depth > 0 ? scenes::subdividedBox({8, 8, depth}, 1) : scenes::sheet(8, 8, 2, 3, 0);
     for (const Mesh& body :
-         {scenes::subdividedBox({0.3, 0.2, 0.15}, 2), scenes::stripCylinder(12, 0.3, 0.05)}) {
+         {scenes::subdividedBox({0.3, 0.2, 0.15}, 2), scenes::stripCylinder(12, 0.3, 0.05),
+          scenes::subdividedBox({0.5, 0.02, 0.02}, 1), scenes::sheet(0.3, 0.2, 1, 1, 0)}) {
       double low = std::numeric_limits<double>::infinity();
       for (const fcl::Vector3d& v : body.vertices) low = std::min(low, v.z());
       const MeshIn<S> a(place), b(body);
