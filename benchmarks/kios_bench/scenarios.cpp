@@ -38,7 +38,8 @@ const std::vector<Scenario>& scenarios() {
        "against one",
        runCrowds, 1},
       {"small",
-       "bodies of 2 to 500 triangles at, near, off, on and a hair above floors, a box and a yard",
+       "bodies of 2 to 500 triangles at, near, off, on and a hair above floors, rough ground, a "
+       "box and a yard",
        runSmall, 70},
       {"paper",
        "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "

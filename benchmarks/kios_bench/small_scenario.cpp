@@ -34,6 +34,13 @@ struct Place {
   double top;
 };
 
+scenes::Mesh roughGround(double height) {
+  scenes::Mesh mesh = scenes::sheet(10, 10, 20, 20, 0);
+  scenes::Random random(3);
+  for (fcl::Vector3d& v : mesh.vertices) v.z() = random.uniform(-height, height);
+  return mesh;
+}
+
 std::vector<Place> places() {
   scenes::Mesh quad;
   quad.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
@@ -41,6 +48,7 @@ std::vector<Place> places() {
   return {{"quad", quad, 0},
           {"box", scenes::subdividedBox({1.2, 0.8, 0.5}, 1), 0.25},
           {"grid", scenes::sheet(10, 10, 20, 20, 0), 0},
+          {"rough", roughGround(0.05), 0.05},
           {"yard", scenes::withPosts(quad, 1.5), 0}};
 }
 
@@ -50,6 +58,7 @@ std::vector<Named> bodies() {
           {"ball", scenes::uvSphere(0.2, 4, 5)},
           {"can", scenes::stripCylinder(12, 0.3, 0.05)},
           {"drum", scenes::stripCylinder(100, 0.4, 0.01)},
+          {"stone", scenes::icosphere(0.2, 2)},
           {"ring", scenes::bumpyTorus(500)}};
 }
 
@@ -93,8 +102,14 @@ void runSmall(const Options& options, Report& report) {
       const std::string pair = std::string("small/") + place.name + "/" + body.name + "/";
       const auto ask = [&](const std::string& state, const std::vector<scenes::Frame>& frames,
                            bool judged) {
-        for (const Query query : {Query::kDistance, Query::kCollide}) {
-          std::vector<Row> asked = contest.queryRows(pairTask(pair + state, query, frames));
+        for (const Query query : {Query::kDistance, Query::kThreshold, Query::kCollide}) {
+          Task task = pairTask(pair + state, query, frames);
+          if (query == Query::kThreshold) {
+            constexpr double kNear = 0.01;
+            task.threshold = kNear;
+            for (Question& question : task.questions) question.threshold = kNear;
+          }
+          std::vector<Row> asked = contest.queryRows(task);
           for (Row& row : asked) {
             if (!judged) row.errors.wrong.reset();
           }
