@@ -97,7 +97,7 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
     left_out = std::min(left_out, pair.bound - frame.distanceError(pair.bound));  // as given
     return true;
   };
-  /// Whether they are the nearest so far.
+  // Whether they are the nearest so far.
   const auto evaluate = [&](const engine::TrianglePairIds& ids) {
     ++counts.exact;
     const auto found = disjointDistance(placed.a.triangle(ids.a), placed.b.triangle(ids.b));

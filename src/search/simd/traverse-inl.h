@@ -27,7 +27,8 @@ class Expander {
         to_{&search.frames.a_from_b, &search.frames.b_from_a},
         has_boxes_{!search.a.boxes.empty(), !search.b.boxes.empty()},
         splits_(splitsLeaves(search)),
-        tells_balls_(onlyOneHasBoxes() && !(search.bracket && search.bracket->hasBudget())),
+        balls_(hasSmallBalls()),
+        budgeted_(search.bracket && search.bracket->hasBudget()),
         large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
 
   /// e.bound is that of the pair.
@@ -71,7 +72,7 @@ class Expander {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
     const float cull = search_.evaluator.cull_distance;
-    if (isContact() ? hasBoxes() : cull < kInfinityFloat && tells_balls_) {
+    if (isContact() ? hasBoxes() : balls_ && cull < kInfinityFloat && !budgeted_) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
       const V least = hn::Set(d, cull - kLittle * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -84,13 +85,12 @@ class Expander {
   void tighten(Expansion& e) const {
     if (flatOf(e) == 0 || e.tight) return;
     e.tight = true;
-    if (e.kind == Expanded::kNode && onlyOneHasBoxes()) testBalls(e);
+    if (e.kind == Expanded::kNode && balls_) testBalls(e);
     if (hasBoxes(e) && e.near != 0) testBoxes(e);
   }
 
   /// Whether both trees have boxes: those of CAD meshes.
   bool hasBoxes() const { return has_boxes_[0] && has_boxes_[1]; }
-  bool onlyOneHasBoxes() const { return has_boxes_[0] != has_boxes_[1]; }
   /// Whether the trees are more than a core's caches hold, so that it pays to fetch what is needed
   /// next, as much of it at once as there is; a limit found by trying.
   bool isLarge() const { return large_; }
@@ -173,6 +173,14 @@ class Expander {
   }
 
  private:
+  /// Whether the smaller tree alone has no boxes: a round body, whose spheres fit better than those
+  /// of ground.
+  bool hasSmallBalls() const {
+    if (has_boxes_[0] == has_boxes_[1]) return false;
+    const Tree &boxed = *trees_[has_boxes_[0] ? 0 : 1], &other = *trees_[has_boxes_[0] ? 1 : 0];
+    return other.nodes[0].size < boxed.nodes[0].size;
+  }
+
   void startNode(Expansion& e, Expanded kind) const {
     e.kind = kind;
     e.children = trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
@@ -354,19 +362,19 @@ class Expander {
     if (HWY_UNLIKELY(contact && (open & e.near) != 0)) testInDouble(e, open & e.near);
   }
 
-  /// Raises bounds by the boxes of one tree and the central spheres of the other, which has none.
+  /// Raises bounds by the boxes of one tree and the central spheres of the other: see
+  /// hasSmallBalls().
   [[gnu::hot]] HWY_NOINLINE void testBalls(Expansion& e) const {
     const float pad = search_.frames.box_pad;
     const FloatPose& to = *to_[e.side];
     const bool boxed = has_boxes_[e.side];
-    Box moved;
-    Vec3 ball = {};
+    const Node& other = *e.other;
+    Vec3 center = {};
+    Box box;
     if (boxed) {
-      const Node& other = *e.other;
-      ball = engine::HWY_NAMESPACE::moved(
-          to, {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
+      center = moved(to, {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
     } else {
-      move(otherBox(e), to, moved);
+      move(otherBox(e), to, box);
     }
     const Block& block = blockOf(e);
     const uint32_t near = e.near;
@@ -375,13 +383,12 @@ class Expander {
     for (size_t l = 0; l < kLanes; l += step()) {
       V lower;
       if (boxed) {
-        const V3 center = {hn::Set(d, ball.x), hn::Set(d, ball.y), hn::Set(d, ball.z)};
-        lower =
-            ballBounds(BoxLanes(boxBlockOf(e), l), center, hn::Set(d, e.other->r[kCentral]), pad);
+        const V3 ball = {hn::Set(d, center.x), hn::Set(d, center.y), hn::Set(d, center.z)};
+        lower = ballBounds(BoxLanes(boxBlockOf(e), l), ball, hn::Set(d, other.r[kCentral]), pad);
       } else {
-        const V3 centers = {load(block.x[kCentral], l), load(block.y[kCentral], l),
-                            load(block.z[kCentral], l)};
-        lower = ballBounds(BoxLanes(moved), centers, load(block.r[kCentral], l), pad);
+        const V3 balls = {load(block.x[kCentral], l), load(block.y[kCentral], l),
+                          load(block.z[kCentral], l)};
+        lower = ballBounds(BoxLanes(box), balls, load(block.r[kCentral], l), pad);
       }
       const V bounds = hn::Load(d, e.bounds + l);
       keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
@@ -427,7 +434,7 @@ class Expander {
   const Tree* trees_[2];
   const FloatPose* to_[2];   ///< the frame of a side from the other's
   const bool has_boxes_[2];  ///< which trees have them
-  const bool splits_, tells_balls_, large_;
+  const bool splits_, balls_, budgeted_, large_;
   mutable BoxedTriangles boxed_[2];
 };
 
