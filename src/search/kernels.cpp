@@ -47,6 +47,8 @@
 //
 #include "search/simd/expansion-inl.h"
 //
+#include "search/simd/tighten-inl.h"
+//
 #include "search/simd/traverse-inl.h"
 //
 #include "search/simd/descent-inl.h"
@@ -203,7 +205,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   constexpr size_t kBatch = 4;
   Leaves leaves_a(search.a), leaves_b(search.b);
   const Expander expander(search);
-  const size_t batch_size = expander.hasBoxes() ? 2 : kBatch;
+  const size_t batch_size = expander.tightener().hasBoxes() ? 2 : kBatch;
   Frontier frontier(/*keeps_apart=*/false);
   expander.pushRoots(frontier);
   for (;;) {

@@ -42,10 +42,11 @@ class Descent {
     Expansion& e = path_[steps_];
     e.bound = end_.bound;
     expander_.start(end_.pair, e);
-    if (expander_.isLarge()) expander_.fetchBoxes(e);
+    if (expander_.isLarge()) expander_.tightener().fetchBoxes(e);
     expander_.test(e);
     // Where few are flat it costs less to wait for the bound that excludes most.
-    if (2 * hwy::PopCount(expander_.flatOf(e)) >= hwy::PopCount(e.near)) expander_.tighten(e);
+    const Tightener& tightener = expander_.tightener();
+    if (2 * hwy::PopCount(tightener.flatOf(e)) >= hwy::PopCount(e.near)) tightener.tighten(e);
     taken_[steps_++] = 0;
     if (e.near == 0) return false;
     uint32_t nearest = firstOf(e.near);
@@ -58,7 +59,7 @@ class Descent {
     }
     passed_ = std::min(passed_, std::max(second, e.bound));
     taken_[steps_ - 1] = 1U << nearest;
-    end_ = {std::max(end_.bound, e.bounds[nearest]), expander_.childPair(e, nearest)};
+    end_ = {std::max(end_.bound, e.bounds[nearest]), Sides::childPair(e, nearest)};
     return true;
   }
 

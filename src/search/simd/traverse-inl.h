@@ -23,13 +23,12 @@ class Expander {
  public:
   explicit Expander(const Search& search)
       : search_(search),
-        trees_{&search.a, &search.b},
-        to_{&search.frames.a_from_b, &search.frames.b_from_a},
-        has_boxes_{!search.a.boxes.empty(), !search.b.boxes.empty()},
+        sides_(search),
+        tightener_(sides_),
         splits_(splitsLeaves(search)),
-        balls_(hasSmallBalls()),
-        budgeted_(search.bracket && search.bracket->hasBudget()),
         large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
+
+  const Tightener& tightener() const { return tightener_; }
 
   /// e.bound is that of the pair.
   void start(NodePair at, Expansion& e) const {
@@ -57,40 +56,14 @@ class Expander {
       }
     }
     MovedNode moved;
-    move(*e.other, *to_[e.side], search_.frames.pad, moved);
-    const Block& block = blockOf(e);
+    move(*e.other, *sides_.to[e.side], search_.frames.pad, moved);
+    const Block& block = sides_.blockOf(e);
     e.near = 0;
-    for (size_t l = 0; l < kLanes; l += step()) keep(e, l, lowerBounds(block, l, moved));
+    for (size_t l = 0; l < kLanes; l += step()) sides_.keep(e, l, lowerBounds(block, l, moved));
     endTest(e);
     ++search_.counts.expansions;
   }
 
-  /// The children that matter and that spheres bound badly: flat ones, and those that overlap, or
-  /// are within what matters, by little, where that pays: in contact of boxes, and in distances of
-  /// boxes and balls, but where a budget ends the search: it may not depend on what was found when.
-  uint32_t flatOf(const Expansion& e) const {
-    if (e.other->flat != 0) return e.near;
-    uint32_t flat = e.children.flat;
-    const float cull = search_.evaluator.cull_distance;
-    if (isContact() ? hasBoxes() : balls_ && cull < kInfinityFloat && !budgeted_) {
-      constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
-      const V least = hn::Set(d, cull - kLittle * std::min(e.parent->size, e.other->size));
-      for (size_t l = 0; l < kLanes; l += step()) {
-        flat |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), least)) << l;
-      }
-    }
-    return e.near & flat;
-  }
-  /// Tests boxes too, once, if that helps any child.
-  void tighten(Expansion& e) const {
-    if (flatOf(e) == 0 || e.tight) return;
-    e.tight = true;
-    if (e.kind == Expanded::kNode && balls_) testBalls(e);
-    if (hasBoxes(e) && e.near != 0) testBoxes(e);
-  }
-
-  /// Whether both trees have boxes: those of CAD meshes.
-  bool hasBoxes() const { return has_boxes_[0] && has_boxes_[1]; }
   /// Whether the trees are more than a core's caches hold, so that it pays to fetch what is needed
   /// next, as much of it at once as there is; a limit found by trying.
   bool isLarge() const { return large_; }
@@ -99,13 +72,6 @@ class Expander {
     if (!isTriangle(at.a)) fetch(search_.a.nodes[at.a]);
     if (!isTriangle(at.b)) fetch(search_.b.nodes[at.b]);
   }
-  /// The boxes that may be tested.
-  HWY_INLINE void fetchBoxes(const Expansion& e) const {
-    if (e.kind != Expanded::kNode || !hasBoxes() || (e.children.flat | e.other->flat) == 0) return;
-    fetch(boxBlockOf(e));
-    fetch(otherBox(e));
-  }
-
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
   template <bool kInherit, size_t kMax>
@@ -119,13 +85,13 @@ class Expander {
       batch[n].bound = pairs[i].bound;
       start(pairs[i].pair, batch[n++]);
     }
-    for (size_t i = 0; large_ && i < n; ++i) fetchBoxes(batch[i]);
+    for (size_t i = 0; large_ && i < n; ++i) tightener_.fetchBoxes(batch[i]);
     for (size_t i = 0; i < n; ++i) test(batch[i]);
     for (size_t i = 0; i < n; ++i) spread<kInherit>(batch[i], frontier);
   }
 
   void pushRoots(Frontier& frontier) const {
-    const bool leaves = trees_[0]->nodes[0].isLeaf() && trees_[1]->nodes[0].isLeaf();
+    const bool leaves = sides_.trees[0]->nodes[0].isLeaf() && sides_.trees[1]->nodes[0].isLeaf();
     (leaves ? frontier.leaves : frontier.inner).push(-kInfinityFloat, {0, 0});
   }
 
@@ -134,11 +100,6 @@ class Expander {
       return isTriangle(node) || tree.nodes[node].isLeaf();
     };
     return isLeaf(search_.a, at.a) && isLeaf(search_.b, at.b);
-  }
-
-  NodePair childPair(const Expansion& e, uint32_t lane) const {
-    const uint32_t child = e.first_child + lane;
-    return e.side == 0 ? NodePair{child, e.at.b} : NodePair{e.at.a, child};
   }
 
   /// The children that matter join the frontier. If kInherit, bounds are at least the pair's, and
@@ -155,7 +116,7 @@ class Expander {
       }
       e.near &= near & ~taken;
     }
-    tighten(e);
+    tightener_.tighten(e);
     if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
     const uint32_t leaves = e.children.leaves & (e.other->isLeaf() ? ~0U : 0U);
     const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U), first = hn::Set(du, e.first_child);
@@ -173,23 +134,15 @@ class Expander {
   }
 
  private:
-  /// Whether the smaller tree alone has no boxes: a round body, whose spheres fit better than those
-  /// of ground.
-  bool hasSmallBalls() const {
-    if (has_boxes_[0] == has_boxes_[1]) return false;
-    const Tree &boxed = *trees_[has_boxes_[0] ? 0 : 1], &other = *trees_[has_boxes_[0] ? 1 : 0];
-    return other.nodes[0].size < boxed.nodes[0].size;
-  }
-
   void startNode(Expansion& e, Expanded kind) const {
     e.kind = kind;
-    e.children = trees_[e.side]->children[static_cast<size_t>(e.parent->child)];
+    e.children = sides_.trees[e.side]->children[static_cast<size_t>(e.parent->child)];
     e.first_child = e.parent->first_child;
-    fetch(blockOf(e));
+    fetch(sides_.blockOf(e));
   }
   [[gnu::hot]] HWY_NOINLINE void startAgainstTriangle(Expansion& e) const {
     e.side = isTriangle(e.at.a) ? 1 : 0;
-    e.parent = &trees_[e.side]->nodes[e.side == 0 ? e.at.a : e.at.b];
+    e.parent = &sides_.trees[e.side]->nodes[e.side == 0 ? e.at.a : e.at.b];
     e.other = &kTriangleStandIn;
     startNode(e, Expanded::kNodeTriangle);
   }
@@ -205,19 +158,11 @@ class Expander {
     e.side = 1 - e.side;
     e.kind = Expanded::kLeaf;
     const size_t leaf = e.parent->leaf();
-    e.children.count = trees_[e.side]->leaves[leaf].num_faces;
+    e.children.count = sides_.trees[e.side]->leaves[leaf].num_faces;
     e.children.flat = e.children.leaves = 0xFF;
     e.first_child = kTriangleNode | static_cast<uint32_t>(leaf) << 3;
   }
 
-  /// Whether nothing matters but what overlaps.
-  bool isContact() const { return search_.evaluator.cull_distance == 0; }
-
-  /// Notes the bounds of some lanes.
-  HWY_INLINE void keep(Expansion& e, size_t l, V bounds) const {
-    hn::Store(bounds, d, e.bounds + l);
-    e.near |= bitsOf(hn::Lt(bounds, hn::Set(d, search_.evaluator.cull_distance))) << l;
-  }
   HWY_INLINE void endTest(Expansion& e) const {
     e.near &= e.children.all();
     e.tight = false;
@@ -243,13 +188,14 @@ class Expander {
       testLeaf(e);
     }
     endTest(e);
-    if (isContact() && !has_boxes_[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side]) {
+    if (sides_.isContact() &&
+        !sides_.has_boxes[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side]) {
       const uint32_t open = openOf(e, 2 * prismPad(search_.frames));
-      if (HWY_UNLIKELY(open != 0)) testInDouble(e, open);
+      if (HWY_UNLIKELY(open != 0)) tightener_.testInDouble(e, open);
     }
     if (e.kind == Expanded::kNodeTriangle) return;
     if (!(search_.evaluator.cull_distance < kInfinityFloat)) return;
-    tighten(e);
+    tightener_.tighten(e);
     if (2 * hwy::PopCount(e.near) <= e.children.count) return;
     std::swap(e.parent, e.other);
     e.side = 1 - e.side;
@@ -257,27 +203,28 @@ class Expander {
   }
   [[gnu::hot]] void testLeaf(Expansion& e) const {
     const Node& other = *e.other;
-    const Vec3 c = moved(*to_[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
+    const Vec3 c =
+        moved(*sides_.to[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
     const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
     const V reach = hn::Set(d, other.r[kCentral] + prismPad(search_.frames));
-    const LeafView leaf(*trees_[e.side], trees_[e.side]->leaves[e.parent->leaf()]);
+    const LeafView leaf(*sides_.trees[e.side], sides_.trees[e.side]->leaves[e.parent->leaf()]);
     for (size_t l = 0; l < kLanes; l += step()) {
-      keep(e, l, hn::Sub(prismsOf(leaf, l).distances(center), reach));
+      sides_.keep(e, l, hn::Sub(prismsOf(leaf, l).distances(center), reach));
     }
   }
   [[gnu::hot]] void testAgainstTriangle(Expansion& e) const {
-    const Tree& tree = *trees_[1 - e.side];
-    const uint32_t triangle = otherId(e);
+    const Tree& tree = *sides_.trees[1 - e.side];
+    const uint32_t triangle = Sides::otherId(e);
     const LeafView leaf(tree, tree.leaves[leafOfTriangle(triangle)]);
-    const Prisms prism = movedPrism(leaf, laneOfTriangle(triangle), *to_[e.side]);
-    const Block& block = blockOf(e);
+    const Prisms prism = movedPrism(leaf, laneOfTriangle(triangle), *sides_.to[e.side]);
+    const Block& block = sides_.blockOf(e);
     const V pad = hn::Set(d, prismPad(search_.frames));
     for (size_t l = 0; l < kLanes; l += step()) {
       const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
                     load(block.z[kCentral], l)};
       V lower = hn::Sub(prism.distances(c), load(block.r[kCentral], l));
-      if (!has_boxes_[e.side]) lower = hn::Max(lower, byCaps(block, l, prism, c));
-      keep(e, l, hn::Sub(lower, pad));
+      if (!sides_.has_boxes[e.side]) lower = hn::Max(lower, byCaps(block, l, prism, c));
+      sides_.keep(e, l, hn::Sub(lower, pad));
     }
   }
   /// Bounds by the caps whose centres lie on the far sides of the triangle's plane from c.
@@ -316,126 +263,18 @@ class Expander {
   }
   static uint32_t firstBit(uint32_t bits) { return bits & (0U - bits); }  // 0 for none
 
-  const Block& blockOf(const Expansion& e) const {
-    return trees_[e.side]->blocks[static_cast<size_t>(e.parent->child)];
-  }
-  const BoxBlock& boxBlockOf(const Expansion& e) const {
-    return trees_[e.side]->box_blocks[static_cast<size_t>(e.parent->child)];
-  }
-  uint32_t otherId(const Expansion& e) const { return e.side == 0 ? e.at.b : e.at.a; }
-  /// A root has a box in any tree, which pays in contact.
-  bool hasOtherBox(const Expansion& e) const {
-    return has_boxes_[1 - e.side] || (otherId(e) == 0 && isContact());
-  }
-  const Box& otherBox(const Expansion& e) const {
-    const Tree& tree = *trees_[1 - e.side];
-    return has_boxes_[1 - e.side] ? tree.boxes[otherId(e)] : tree.root_box;
-  }
-
-  /// Triangles have boxes wherever the other has one.
-  bool hasBoxes(const Expansion& e) const {
-    if (e.kind == Expanded::kNodeTriangle) return has_boxes_[e.side];
-    return hasOtherBox(e) && (e.kind == Expanded::kLeaf || has_boxes_[e.side]);
-  }
-
-  /// Raises bounds by boxes.
-  [[gnu::hot]] HWY_NOINLINE void testBoxes(Expansion& e) const {
-    Box moved;
-    const bool nodes = HWY_LIKELY(e.kind == Expanded::kNode);
-    const BoxBlock& block = nodes ? boxBlockOf(e) : boxesOfTriangles(e, moved);
-    if (nodes) move(otherBox(e), *to_[e.side], moved);
-    const float pad = nodes ? search_.frames.box_pad : trianglePad(search_.frames);
-    const BoxLanes other(moved);
-    const bool contact = isContact();
-    const uint32_t near = e.near;
-    uint32_t open = 0;
-    e.near = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const BoxLanes boxes(block, l);
-      const V lower =
-          contact ? contactBounds(boxes, other, pad) : distanceBounds(boxes, other, pad);
-      const V bounds = hn::Load(d, e.bounds + l);
-      keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
-      open |= bitsOf(hn::Gt(lower, hn::Set(d, -2 * pad))) << l;
-    }
-    e.near &= near;
-    if (HWY_UNLIKELY(contact && (open & e.near) != 0)) testInDouble(e, open & e.near);
-  }
-
-  /// Raises bounds by the boxes of one tree and the central spheres of the other: see
-  /// hasSmallBalls().
-  [[gnu::hot]] HWY_NOINLINE void testBalls(Expansion& e) const {
-    const float pad = search_.frames.box_pad;
-    const FloatPose& to = *to_[e.side];
-    const bool boxed = has_boxes_[e.side];
-    const Node& other = *e.other;
-    Vec3 center = {};
-    Box box;
-    if (boxed) {
-      center = moved(to, {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
-    } else {
-      move(otherBox(e), to, box);
-    }
-    const Block& block = blockOf(e);
-    const uint32_t near = e.near;
-    uint32_t open = 0;
-    e.near = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      V lower;
-      if (boxed) {
-        const V3 ball = {hn::Set(d, center.x), hn::Set(d, center.y), hn::Set(d, center.z)};
-        lower = ballBounds(BoxLanes(boxBlockOf(e), l), ball, hn::Set(d, other.r[kCentral]), pad);
-      } else {
-        const V3 balls = {load(block.x[kCentral], l), load(block.y[kCentral], l),
-                          load(block.z[kCentral], l)};
-        lower = ballBounds(BoxLanes(box), balls, load(block.r[kCentral], l), pad);
-      }
-      const V bounds = hn::Load(d, e.bounds + l);
-      keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
-      open |= bitsOf(hn::Gt(lower, hn::Set(d, -4 * pad))) << l;
-    }
-    e.near &= near;
-    if (HWY_UNLIKELY(isContact() && (open & e.near) != 0)) testInDouble(e, open & e.near);
-  }
-
-  /// Raises bounds that twice their pads leave open, a child at a time.
-  HWY_NOINLINE void testInDouble(Expansion& e, uint32_t open) const {
-    for (; open != 0 && search_.evaluator.triesDouble(); open &= open - 1) {
-      const uint32_t lane = firstOf(open);
-      const NodePair child = childPair(e, lane);
-      const double bound = boundInDouble(search_, child.a, child.b);
-      if (!search_.evaluator.triedDouble(bound > 0)) continue;
-      e.bounds[lane] = std::max(e.bounds[lane], roundDown<float>(bound));
-      e.near &= ~(1U << lane);
-    }
-  }
-  /// The boxes of the children, and the other's in their frame.
-  [[gnu::hot]] HWY_NOINLINE const BoxBlock& boxesOfTriangles(const Expansion& e, Box& moved) const {
-    if (e.kind == Expanded::kLeaf) {
-      move(otherBox(e), *to_[e.side], moved);
-      return boxed_[e.side].of(*trees_[e.side], static_cast<uint32_t>(e.parent->leaf()));
-    }
-    Box box;
-    const uint32_t triangle = otherId(e), other = 1 - e.side;
-    boxed_[other].of(*trees_[other], leafOfTriangle(triangle), laneOfTriangle(triangle), box);
-    move(box, *to_[e.side], moved);
-    return boxBlockOf(e);
-  }
-
   HWY_NOINLINE void reportPruned(const Expansion& e, uint32_t taken) const {
     for (uint32_t left = e.children.all() & ~e.near & ~taken; left != 0; left &= left - 1) {
       const uint32_t lane = firstOf(left);
-      const NodePair child = childPair(e, lane);
+      const NodePair child = Sides::childPair(e, lane);
       search_.audit->pruned(child.a, child.b, e.bounds[lane]);
     }
   }
 
   const Search& search_;
-  const Tree* trees_[2];
-  const FloatPose* to_[2];   ///< the frame of a side from the other's
-  const bool has_boxes_[2];  ///< which trees have them
-  const bool splits_, balls_, budgeted_, large_;
-  mutable BoxedTriangles boxed_[2];
+  const Sides sides_;
+  const Tightener tightener_;
+  const bool splits_, large_;
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE

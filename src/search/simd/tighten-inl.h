@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+// Included once a target, within kernels.cpp.
+
+HWY_BEFORE_NAMESPACE();
+namespace kios::engine::HWY_NAMESPACE {
+
+/// Raises the bounds of children that spheres bound badly: by boxes, by boxes of one tree and balls
+/// of the other, and in contact, if those leave a child open, in double.
+class Tightener {
+ public:
+  explicit Tightener(const Sides& sides)
+      : sides_(sides),
+        balls_(hasSmallBalls()),
+        budgeted_(sides.search.bracket && sides.search.bracket->hasBudget()) {}
+
+  /// Whether both trees have boxes: those of CAD meshes.
+  bool hasBoxes() const { return sides_.has_boxes[0] && sides_.has_boxes[1]; }
+
+  /// The boxes that may be tested.
+  HWY_INLINE void fetchBoxes(const Expansion& e) const {
+    if (e.kind != Expanded::kNode || !hasBoxes() || (e.children.flat | e.other->flat) == 0) return;
+    fetch(sides_.boxBlockOf(e));
+    fetch(otherBox(e));
+  }
+
+  /// The children that matter and that spheres bound badly: flat ones, and those that overlap, or
+  /// are within what matters, by little, where that pays: in contact of boxes, and in distances of
+  /// boxes and balls, but where a budget ends the search: it may not depend on what was found when.
+  uint32_t flatOf(const Expansion& e) const {
+    if (e.other->flat != 0) return e.near;
+    uint32_t flat = e.children.flat;
+    const float cull = sides_.search.evaluator.cull_distance;
+    if (sides_.isContact() ? hasBoxes() : balls_ && cull < kInfinityFloat && !budgeted_) {
+      constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
+      const V least = hn::Set(d, cull - kLittle * std::min(e.parent->size, e.other->size));
+      for (size_t l = 0; l < kLanes; l += step()) {
+        flat |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), least)) << l;
+      }
+    }
+    return e.near & flat;
+  }
+
+  /// Tests boxes too, once, if that helps any child.
+  void tighten(Expansion& e) const {
+    if (flatOf(e) == 0 || e.tight) return;
+    e.tight = true;
+    if (e.kind == Expanded::kNode && balls_) testBalls(e);
+    if (hasBoxes(e) && e.near != 0) testBoxes(e);
+  }
+
+  /// Raises bounds that other tests left open, a child at a time.
+  HWY_NOINLINE void testInDouble(Expansion& e, uint32_t open) const {
+    const Search& search = sides_.search;
+    for (; open != 0 && search.evaluator.triesDouble(); open &= open - 1) {
+      const uint32_t lane = firstOf(open);
+      const NodePair child = Sides::childPair(e, lane);
+      const double bound = boundInDouble(search, child.a, child.b);
+      if (!search.evaluator.triedDouble(bound > 0)) continue;
+      e.bounds[lane] = std::max(e.bounds[lane], roundDown<float>(bound));
+      e.near &= ~(1U << lane);
+    }
+  }
+
+ private:
+  /// Whether the smaller tree alone has no boxes: a round body, whose spheres fit better than those
+  /// of ground.
+  bool hasSmallBalls() const {
+    if (sides_.has_boxes[0] == sides_.has_boxes[1]) return false;
+    const int boxed = sides_.has_boxes[0] ? 0 : 1;
+    return sides_.trees[1 - boxed]->nodes[0].size < sides_.trees[boxed]->nodes[0].size;
+  }
+
+  /// A root has a box in any tree, which pays in contact.
+  bool hasOtherBox(const Expansion& e) const {
+    return sides_.has_boxes[1 - e.side] || (Sides::otherId(e) == 0 && sides_.isContact());
+  }
+  const Box& otherBox(const Expansion& e) const {
+    const Tree& tree = *sides_.trees[1 - e.side];
+    return sides_.has_boxes[1 - e.side] ? tree.boxes[Sides::otherId(e)] : tree.root_box;
+  }
+  /// Triangles have boxes wherever the other has one.
+  bool hasBoxes(const Expansion& e) const {
+    if (e.kind == Expanded::kNodeTriangle) return sides_.has_boxes[e.side];
+    return hasOtherBox(e) && (e.kind == Expanded::kLeaf || sides_.has_boxes[e.side]);
+  }
+
+  [[gnu::hot]] HWY_NOINLINE void testBoxes(Expansion& e) const {
+    Box moved;
+    const bool nodes = HWY_LIKELY(e.kind == Expanded::kNode);
+    const BoxBlock& block = nodes ? sides_.boxBlockOf(e) : boxesOfTriangles(e, moved);
+    if (nodes) move(otherBox(e), *sides_.to[e.side], moved);
+    const float pad = nodes ? sides_.search.frames.box_pad : trianglePad(sides_.search.frames);
+    const BoxLanes other(moved);
+    const bool contact = sides_.isContact();
+    raise(e, 2 * pad, [&](size_t l) {
+      const BoxLanes boxes(block, l);
+      return contact ? contactBounds(boxes, other, pad) : distanceBounds(boxes, other, pad);
+    });
+  }
+
+  /// The boxes of one tree against the nodes' central spheres of the other: see hasSmallBalls().
+  [[gnu::hot]] HWY_NOINLINE void testBalls(Expansion& e) const {
+    const float pad = sides_.search.frames.box_pad;
+    const FloatPose& to = *sides_.to[e.side];
+    if (sides_.has_boxes[e.side]) {
+      const Node& other = *e.other;
+      const Vec3 c = moved(to, {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
+      const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
+      const V radius = hn::Set(d, other.r[kCentral]);
+      const BoxBlock& block = sides_.boxBlockOf(e);
+      raise(e, 4 * pad, [&](size_t l) { return ballBounds({block, l}, center, radius, pad); });
+    } else {
+      Box moved;
+      move(otherBox(e), to, moved);
+      const BoxLanes box(moved);
+      const Block& block = sides_.blockOf(e);
+      raise(e, 4 * pad, [&](size_t l) {
+        const V3 centers = {load(block.x[kCentral], l), load(block.y[kCentral], l),
+                            load(block.z[kCentral], l)};
+        return ballBounds(box, centers, load(block.r[kCentral], l), pad);
+      });
+    }
+  }
+
+  /// Raises bounds to those of each chunk of lanes, which say nothing where they aren't positive.
+  /// What they leave open by so much at most, twice their pads, is tried in double, in contact.
+  template <typename LowerBounds>
+  HWY_INLINE void raise(Expansion& e, float by, const LowerBounds& lowerBounds) const {
+    const uint32_t near = e.near;
+    uint32_t open = 0;
+    e.near = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      const V lower = lowerBounds(l), bounds = hn::Load(d, e.bounds + l);
+      sides_.keep(e, l, hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, lower), bounds));
+      open |= bitsOf(hn::Gt(lower, hn::Set(d, -by))) << l;
+    }
+    e.near &= near;
+    if (HWY_UNLIKELY(sides_.isContact() && (open & e.near) != 0)) testInDouble(e, open & e.near);
+  }
+
+  /// The boxes of the children, and the other's in their frame.
+  [[gnu::hot]] HWY_NOINLINE const BoxBlock& boxesOfTriangles(const Expansion& e, Box& moved) const {
+    const FloatPose& to = *sides_.to[e.side];
+    if (e.kind == Expanded::kLeaf) {
+      move(otherBox(e), to, moved);
+      return boxed_[e.side].of(*sides_.trees[e.side], static_cast<uint32_t>(e.parent->leaf()));
+    }
+    Box box;
+    const uint32_t triangle = Sides::otherId(e), other = 1 - e.side;
+    boxed_[other].of(*sides_.trees[other], leafOfTriangle(triangle), laneOfTriangle(triangle), box);
+    move(box, to, moved);
+    return sides_.boxBlockOf(e);
+  }
+
+  const Sides sides_;
+  const bool balls_, budgeted_;
+  mutable BoxedTriangles boxed_[2];
+};
+
+}  // namespace kios::engine::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
