@@ -78,6 +78,14 @@ class Slabs {
     return proves(along, a_.top(along.w), -b_.top(-1.0F * along.w));
   }
 
+  /// Tries directions across the points of a and of b.
+  HWY_INLINE bool provesAcrossA(const Across& a) {
+    return proves(a.along, a.top, -b_.top(-1.0F * a.along.w));
+  }
+  HWY_INLINE bool provesAcrossB(const Across& b) {
+    return proves(b.along, a_.top(b.along.w), b.bottom);
+  }
+
   /// Steps of Frank-Wolfe towards the nearest points of the hulls.
   HWY_INLINE bool steps(Vec3 v, int count) {
     for (int i = 0;; ++i) {
@@ -155,7 +163,8 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
 }
 
 /// Brackets the distance of two leaves, or proves them at least cull_distance apart: by the last
-/// direction, then the line of centres and steps of Frank-Wolfe.
+/// direction, across a leaf that is several times as wide as the other, as those of ground are, and
+/// by steps of Frank-Wolfe from the line of centres.
 [[gnu::hot]] HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a,
                                              const Leaf& leaf_b, LastLeaves& last, Bracketed& out) {
   const LeafView a(search.a, leaf_a);
@@ -164,8 +173,17 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
   if (last.b.leaf != &leaf_b) last.b.move(LeafView(search.b, leaf_b), frames.a_from_b);
   betweenHulls(a.vertices, last.b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
-    out.slab.apart = slabs.proves(last.along) ||
-                     slabs.steps(last.b.centroid - vec3(a.leaf.centroid), kFrankWolfeSteps);
+    const Vec3 between = last.b.centroid - vec3(leaf_a.centroid);
+    const auto byGround = [&] {
+      constexpr float kTimes = 2;  // found by trying
+      if (search.a.mean_leaf > kTimes * search.b.mean_leaf) {
+        return slabs.provesAcrossA(acrossA(leaf_a).turnedTo(between));
+      }
+      return search.b.mean_leaf > kTimes * search.a.mean_leaf &&
+             slabs.provesAcrossB(acrossB(leaf_b, frames.a_from_b).turnedTo(between));
+    };
+    out.slab.apart =
+        slabs.proves(last.along) || byGround() || slabs.steps(between, kFrankWolfeSteps);
   });
   finishBracket(frames, last, out);
 }

@@ -131,6 +131,10 @@ struct Slab {
 
 /// A direction across a leaf, and where its points lie along it.
 struct Across {
+  Across turnedTo(Vec3 way) const {
+    return dot(along.w, way) > 0 ? *this : Across{-along, -top, -bottom};
+  }
+
   Direction along;
   float bottom, top;
 };

@@ -179,10 +179,8 @@ HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const Floa
   betweenHulls(a.vertices, b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     const Vec3 between = b.centroid - vec3(a.leaf.centroid);
     const auto by_normals = [&] {
-      const auto turned = [&](const Across& x) {
-        return dot(x.along.w, between) > 0 ? x : Across{-x.along, -x.top, -x.bottom};
-      };
-      const Across of_a = turned(acrossA(a.leaf)), of_b = turned(acrossB(*b.leaf, X));
+      const Across of_a = acrossA(a.leaf).turnedTo(between);
+      const Across of_b = acrossB(*b.leaf, X).turnedTo(between);
       const float gap_a = -hull_b.top(-1.0F * of_a.along.w) - of_a.top;
       if (provesApart(gap_a, of_a.along, distance)) return true;
       const float gap_b = of_b.bottom - hull_a.top(of_b.along.w);
