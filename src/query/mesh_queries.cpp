@@ -60,7 +60,8 @@ template <typename S>
 template <typename S>
 [[gnu::hot]] engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame,
                                              const engine::PairQuery& query, SearchCounts& counts) {
-  // Almost any triangles are near enough where the error that is allowed is as large as a mesh.
+  // Almost any triangles are near enough where the error that is allowed is as large as a mesh: no
+  // nearer ones are nearer than the volumes.
   const bool single = frame.a.num_tris == 1 && frame.b.num_tris == 1;
   if (single || query.abs_err > std::min<double>(frame.rootA().radius0, frame.rootB().radius0)) {
     engine::PairAnswer<S> answer;
@@ -68,7 +69,9 @@ template <typename S>
     answer.nearest = frame.distanceOf(answer.ids);
     ++counts.leaf_pairs;
     ++counts.exact;
-    if (single || answer.nearest.distance <= query.abs_err) return answer;
+    const double distance = double{answer.nearest.distance};
+    if (single || distance <= query.abs_err) return answer;
+    if (distance <= query.abs_err + frame.rootBound(distance)) return answer;
   }
   if (query.isExact() && arePairByPair(frame.a, frame.b)) {
     return searchNearest(frame, query, counts);
