@@ -66,21 +66,22 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
   const PlacedPair<S> placed(frame);
   const int num_a = placed.a.size(), num_b = placed.b.size();
   // Lengths whose squares over- or underflow bound nothing.
+  const auto isSquare = [](double v) { return v > 0x1p-1000 && v < 0x1p1000; };
   const auto isLength = [](double v) { return v > 0x1p-500 && v < 0x1p500; };
-  double bounds[kMostPairByPair], least = kInfinity;
-  double* bound = bounds;
+  double squares[kMostPairByPair], least_square = kInfinity;
+  double* square = squares;
   Sides upper_b[kFewTriangles];
   for (int j = 0; j < num_b; ++j) upper_b[j] = placed.b.box(j).upper();
   for (int i = 0; i < num_a; ++i) {
     const Sides lower = placed.a.box(i).lower();
     for (int j = 0; j < num_b; ++j) {
-      const double apart = distance(lower, upper_b[j]);
-      *bound = isLength(apart) ? apart : 0;
-      least = std::min(least, *bound++);
+      const double apart = squaredDistance(lower, upper_b[j]);
+      *square = isSquare(apart) ? apart : 0;
+      least_square = std::min(least_square, *square++);
     }
   }
   counts.leaf_pairs += num_a * num_b;
-  if (least == 0) {  // else no boxes touch
+  if (least_square == 0) {  // else no boxes touch
     const engine::TrianglePairIds touching = firstIntersecting(placed, counts);
     if (touching.a >= 0) return touchingAnswer(placed, query, touching);
   }
@@ -112,18 +113,18 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
   if (query.far_enough < kInfinity) {
     best = query.far_enough;
     error = frame.distanceError(best);
-    if (isLeftOut({least, {}})) {
+    if (isLeftOut({std::sqrt(least_square), {}})) {
       answer.least_other = std::max(0.0, left_out);
       return answer;
     }
     best = kInfinity;
   }
-  const auto first = static_cast<int>(std::find(bounds, bound, least) - bounds);
+  const auto first = static_cast<int>(std::find(squares, square, least_square) - squares);
   evaluate({first / num_b, first % num_b});
-  bound = bounds;
+  square = squares;
   for (int i = 0; i < num_a; ++i) {
-    for (int j = 0; j < num_b; ++j, ++bound) {
-      const Bounded pair = {*bound, {i, j}};
+    for (int j = 0; j < num_b; ++j, ++square) {
+      const Bounded pair = {std::sqrt(*square), {i, j}};
       if (!(pair.ids == answer.ids) && !isLeftOut(pair)) *end++ = pair;
     }
   }

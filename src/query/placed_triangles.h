@@ -58,12 +58,17 @@ struct Box {
   }
 };
 
-/// The distance of two boxes, right to 4 u; lower() of one, upper() of the other.
-inline double distance(const Sides& lower, const Sides& upper) {
+/// The squared distance of two boxes, right to 5 u; lower() of one, upper() of the other.
+inline double squaredDistance(const Sides& lower, const Sides& upper) {
   const auto along = [](lanes::Double2 gap) { return std::max(std::max(gap[0], gap[1]), 0.0); };
   const double x = along(lower.x - upper.x), y = along(lower.y - upper.y),
                z = along(lower.z - upper.z);
-  return std::sqrt(x * x + y * y + z * z);
+  return x * x + y * y + z * z;
+}
+
+/// The distance, right to 4 u.
+inline double distance(const Sides& lower, const Sides& upper) {
+  return std::sqrt(squaredDistance(lower, upper));
 }
 
 /// Whether two boxes have no point in common; lower() of one, upper() of the other.
