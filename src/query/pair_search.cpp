@@ -275,7 +275,7 @@ template <typename S>
     if (touching && touching->found()) return *touching;
     query.apart = touching.has_value();
   }
-  if (bounded) engine.compareRoots();
+  if (bounded && !(pair_by_pair && areFewest(frame.a, frame.b))) engine.compareRoots();
   if (pair_by_pair && !engine.isFar(query.far_enough)) {
     return nearestPairByPair(frame, query, counts);
   }
