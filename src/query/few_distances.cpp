@@ -95,8 +95,12 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
   const auto isLeftOut = [&](const Bounded& pair) {
     const bool later = answer.found() && answer.ids < pair.ids;
     if (!(pair.bound >= (later ? best : best + 2 * error))) return false;
-    left_out = std::min(left_out, pair.bound - frame.distanceError(pair.bound));  // as given
+    left_out = std::min(left_out, pair.bound);
     return true;
+  };
+  const auto leastOther = [&] {  // as given; the larger bound is the larger with its error, too
+    return left_out < kInfinity ? std::max(0.0, left_out - frame.distanceError(left_out))
+                                : kInfinity;
   };
   // Whether they are the nearest so far.
   const auto evaluate = [&](const engine::TrianglePairIds& ids) {
@@ -114,7 +118,7 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
     best = query.far_enough;
     error = frame.distanceError(best);
     if (isLeftOut({std::sqrt(least_square), {}})) {
-      answer.least_other = std::max(0.0, left_out);
+      answer.least_other = leastOther();
       return answer;
     }
     best = kInfinity;
@@ -148,7 +152,7 @@ engine::PairAnswer<S> nearestPairByPair(const MeshPair<S>& frame, const engine::
     nearer = evaluate(ids);
     if (nearer) end = std::remove_if(pairs, end, isLeftOut);
   }
-  answer.least_other = std::max(0.0, left_out);
+  answer.least_other = leastOther();
   if (query.near_enough > 0 && answer.found() && best <= query.near_enough) {
     answer.end = engine::SearchEnd::kNear;
   }
