@@ -77,7 +77,11 @@ namespace kios::engine::HWY_NAMESPACE {
 class DistanceSearch {
  public:
   explicit DistanceSearch(const Search& search)
-      : search_(search), expander_(search), leaves_a_(search.a), leaves_b_(search.b) {}
+      : search_(search),
+        expander_(search),
+        leaves_a_(search.a),
+        leaves_b_(search.b),
+        last_(search) {}
 
   void run() {
     if (descend()) return;

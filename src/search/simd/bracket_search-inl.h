@@ -22,7 +22,8 @@ class BracketSearch {
         expander_(search),
         leaves_a_(search.a),
         leaves_b_(search.b),
-        budget_(search.bracket->max_expansions) {}
+        budget_(search.bracket->max_expansions),
+        last_(search) {}
 
   void run() {
     // Any triangles, so that even the smallest budget has an upper bound.

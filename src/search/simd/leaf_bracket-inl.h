@@ -146,9 +146,24 @@ class Slabs {
   Bracketed& out_;
 };
 
+/// The tree whose leaves are several times as wide, as those of ground are, in a search that
+/// nothing far away matters to: the direction across such a leaf tells most of what isn't near
+/// then.
+enum class Ground { kNone, kA, kB };
+
+HWY_INLINE Ground groundOf(const Search& search) {
+  constexpr float kTimes = 2;  // found by trying
+  if (!(search.evaluator.cull_distance < kInfinityFloat)) return Ground::kNone;
+  if (search.a.mean_leaf > kTimes * search.b.mean_leaf) return Ground::kA;
+  return search.b.mean_leaf > kTimes * search.a.mean_leaf ? Ground::kB : Ground::kNone;
+}
+
 /// What pairs of leaves that follow each other share: often the leaf of b, and often the direction
 /// that proves them apart.
 struct LastLeaves {
+  explicit LastLeaves(const Search& search) : ground(groundOf(search)) {}
+
+  const Ground ground;
   MovedLeaf b;
   uint32_t triangle = 0;             ///< the node if b is a triangle's leaf, else 0
   Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
@@ -163,8 +178,7 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
 }
 
 /// Brackets the distance of two leaves, or proves them at least cull_distance apart: by the last
-/// direction, across a leaf that is several times as wide as the other, as those of ground are, and
-/// by steps of Frank-Wolfe from the line of centres.
+/// direction, across the ground, and by steps of Frank-Wolfe from the line of centres.
 [[gnu::hot]] HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a,
                                              const Leaf& leaf_b, LastLeaves& last, Bracketed& out) {
   const LeafView a(search.a, leaf_a);
@@ -175,11 +189,10 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
     Slabs slabs(hull_a, hull_b, distance, out);
     const Vec3 between = last.b.centroid - vec3(leaf_a.centroid);
     const auto byGround = [&] {
-      constexpr float kTimes = 2;  // found by trying
-      if (search.a.mean_leaf > kTimes * search.b.mean_leaf) {
+      if (last.ground == Ground::kA) {
         return slabs.provesAcrossA(acrossA(leaf_a).turnedTo(between));
       }
-      return search.b.mean_leaf > kTimes * search.a.mean_leaf &&
+      return last.ground == Ground::kB &&
              slabs.provesAcrossB(acrossB(leaf_b, frames.a_from_b).turnedTo(between));
     };
     out.slab.apart =
