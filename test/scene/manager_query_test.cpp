@@ -8,6 +8,7 @@
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
 
+#include "fcl_kios/scene/scene_distance.h"
 #include "model/deform.h"
 #include "scenes/random.h"
 
@@ -161,6 +162,37 @@ TEST(ManagerQuery, SearchesNothingTwice) {
   manager.distance(&query, Query::callback);
   EXPECT_EQ(query.counts().queried, 0);
   EXPECT_THROW(query.findWithin(std::nan("")), std::invalid_argument);
+}
+
+// A rotation within 1e-12 of none moves content 1e4 from its origin by 1e-8; not its box in FCL.
+TEST(ManagerQuery, MissesWhatRotationsThatFclLeavesOutBringNear) {
+  static constexpr double kFar = 1e4, kAngle = 9e-13;
+  const auto plate = [](double z) {
+    return kiosModel({{{kFar, 0, z}, {kFar + 1, 0, z}, {kFar, 1, z}}, {{0, 1, 2}}});
+  };
+  const Transform3d still = Transform3d::Identity();
+  Transform3d turned = still;
+  turned.rotate(Eigen::AngleAxisd(kAngle, fcl::Vector3d::UnitY()));
+  Object a(plate(0), still), below(plate(-5e-9), still), above(plate(1e-8), turned);
+  const double least = Bodies::distance(&a, &above);
+  EXPECT_LT(least, 2e-9);
+  EXPECT_GT(above.getAABB().min_.z(), least);  // its content is outside of its box
+
+  fcl::NaiveCollisionManagerd manager;
+  SceneDistance<double> scene;
+  for (Object* const object : {&a, &below, &above}) {
+    manager.registerObject(object);
+    scene.add(object);
+  }
+  Query query;
+  query.findClosest();
+  manager.distance(&query, Query::callback);
+  ASSERT_EQ(query.pairs().size(), 1u);
+  EXPECT_GT(query.pairs()[0].distance, least);
+  EXPECT_LE(query.pairs()[0].distance, least + 4e-12 * (kFar + 1));
+  const auto closest = scene.closestPair();
+  ASSERT_TRUE(closest.has_value());
+  EXPECT_EQ(closest->distance, least);
 }
 
 }  // namespace

@@ -37,7 +37,10 @@ class ManagerQuestion {
       for (const auto& frame : c.frames) {
         reach_ = std::max(reach_, frame[m].translation().norm());
         const Eigen::Matrix3d R = frame[m].linear();
-        skew_ = std::max(skew_, (R.transpose() * R - Eigen::Matrix3d::Identity()).norm());
+        const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
+        skew_ = std::max(skew_, (R.transpose() * R - I).norm());
+        // What FCL's CollisionObject::computeAABB() takes for no rotation.
+        if (R.isIdentity()) ignored_ = std::max(ignored_, (R - I).norm());
       }
     }
     manager_.setup();
@@ -59,7 +62,7 @@ class ManagerQuestion {
   Verdict askFrame(std::size_t f) {
     const std::string call = "ManagerQuery in frame " + std::to_string(f);
     // FCL's boxes, and the orders of a pair, differ by rounding; of a rotation that is none, by it.
-    const double slack = (0x1p-45 + 8 * skew_) * 4 * reach_;
+    const double slack = ((0x1p-45 + 8 * skew_) * 4 + 2 * ignored_) * reach_;
     double least = std::numeric_limits<double>::infinity();
     std::vector<double> all;
     for (std::size_t a = 0; a < objects_.size(); ++a) {
@@ -115,7 +118,7 @@ class ManagerQuestion {
   std::vector<std::unique_ptr<Object>> objects_;
   fcl::DynamicAABBTreeCollisionManagerd manager_;
   ManagerQuery<double> query_;
-  double reach_ = 0, skew_ = 0;
+  double reach_ = 0, skew_ = 0, ignored_ = 0;
 };
 
 }  // namespace
