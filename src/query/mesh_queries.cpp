@@ -60,8 +60,8 @@ template <typename S>
 template <typename S>
 [[gnu::hot]] engine::PairAnswer<S> nearestOf(const MeshPair<S>& frame,
                                              const engine::PairQuery& query, SearchCounts& counts) {
-  // Almost any triangles are near enough where the error that is allowed is as large as a mesh: no
-  // nearer ones are nearer than the volumes.
+  // Almost any triangles are near enough where the error that is allowed is as large as a mesh, as
+  // the nearest are no nearer than the root volumes.
   const bool single = frame.a.num_tris == 1 && frame.b.num_tris == 1;
   if (single || query.abs_err > std::min<double>(frame.rootA().radius0, frame.rootB().radius0)) {
     engine::PairAnswer<S> answer;

@@ -275,7 +275,8 @@ template <typename S>
     if (touching && touching->found()) return *touching;
     query.apart = touching.has_value();
   }
-  if (bounded && !(pair_by_pair && areFewest(frame.a, frame.b))) engine.compareRoots();
+  const bool roots_pay = !(pair_by_pair && areFewest(frame.a, frame.b));
+  if (bounded && roots_pay) engine.compareRoots();
   if (pair_by_pair && !engine.isFar(query.far_enough)) {
     return nearestPairByPair(frame, query, counts);
   }

@@ -146,9 +146,9 @@ class Slabs {
   Bracketed& out_;
 };
 
-/// The tree whose leaves are several times as wide, as those of ground are, in a search that
-/// nothing far away matters to: the direction across such a leaf tells most of what isn't near
-/// then.
+/// The tree whose leaves are several times as wide as the other's, as those of ground are, in a
+/// search with a bound on entry: the direction across such a leaf proves most pairs that far apart.
+/// Without a bound it costs more than it tells.
 enum class Ground { kNone, kA, kB };
 
 HWY_INLINE Ground groundOf(const Search& search) {

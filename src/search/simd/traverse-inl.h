@@ -22,8 +22,7 @@ HWY_INLINE bool splitsLeaves(const Search& search) {
 class Expander {
  public:
   explicit Expander(const Search& search)
-      : search_(search),
-        sides_(search),
+      : sides_(search),
         tightener_(sides_),
         splits_(splitsLeaves(search)),
         large_(search.a.blocks.size() + search.b.blocks.size() > 300) {}
@@ -34,7 +33,7 @@ class Expander {
   void start(NodePair at, Expansion& e) const {
     e.at = at;
     if (HWY_UNLIKELY(isTriangle(at.a | at.b))) return startAgainstTriangle(e);
-    const Node* const nodes[2] = {&search_.a.nodes[at.a], &search_.b.nodes[at.b]};
+    const Node* const nodes[2] = {&sides_.search.a.nodes[at.a], &sides_.search.b.nodes[at.b]};
     const auto rank = [](const Node& n) {  // sizes order like their bits; a leaf comes below all
       int32_t bits;
       std::memcpy(&bits, &n.size, sizeof(bits));
@@ -51,17 +50,17 @@ class Expander {
     if (HWY_UNLIKELY(e.kind != Expanded::kNode)) {
       testTriangles(e);
       if (e.kind != Expanded::kNode) {
-        ++search_.counts.expansions;
+        ++sides_.search.counts.expansions;
         return;
       }
     }
     MovedNode moved;
-    move(*e.other, *sides_.to[e.side], search_.frames.pad, moved);
+    move(*e.other, *sides_.to[e.side], sides_.search.frames.pad, moved);
     const Block& block = sides_.blockOf(e);
     e.near = 0;
     for (size_t l = 0; l < kLanes; l += step()) sides_.keep(e, l, lowerBounds(block, l, moved));
     endTest(e);
-    ++search_.counts.expansions;
+    ++sides_.search.counts.expansions;
   }
 
   /// Whether the trees are more than a core's caches hold, so that it pays to fetch what is needed
@@ -69,8 +68,8 @@ class Expander {
   bool isLarge() const { return large_; }
 
   HWY_INLINE void fetchNodes(NodePair at) const {
-    if (!isTriangle(at.a)) fetch(search_.a.nodes[at.a]);
-    if (!isTriangle(at.b)) fetch(search_.b.nodes[at.b]);
+    if (!isTriangle(at.a)) fetch(sides_.search.a.nodes[at.a]);
+    if (!isTriangle(at.b)) fetch(sides_.search.b.nodes[at.b]);
   }
   /// Tests pairs, several at once as their steps overlap; the children that matter join the
   /// frontier.
@@ -81,7 +80,7 @@ class Expander {
     size_t n = 0;
     for (size_t i = 0; large_ && i < count; ++i) fetchNodes(pairs[i].pair);
     for (size_t i = 0; i < count; ++i) {
-      if (pairs[i].bound >= search_.evaluator.cull_distance) continue;
+      if (pairs[i].bound >= sides_.search.evaluator.cull_distance) continue;
       batch[n].bound = pairs[i].bound;
       start(pairs[i].pair, batch[n++]);
     }
@@ -99,7 +98,7 @@ class Expander {
     const auto isLeaf = [](const Tree& tree, uint32_t node) {
       return isTriangle(node) || tree.nodes[node].isLeaf();
     };
-    return isLeaf(search_.a, at.a) && isLeaf(search_.b, at.b);
+    return isLeaf(sides_.search.a, at.a) && isLeaf(sides_.search.b, at.b);
   }
 
   /// The children that matter join the frontier. If kInherit, bounds are at least the pair's, and
@@ -107,7 +106,8 @@ class Expander {
   template <bool kInherit>
   void spread(Expansion& e, Frontier& frontier, uint32_t taken = 0) const {
     if constexpr (kInherit) {
-      const V limit = hn::Set(d, search_.evaluator.cull_distance), least = hn::Set(d, e.bound);
+      const V limit = hn::Set(d, sides_.search.evaluator.cull_distance),
+              least = hn::Set(d, e.bound);
       uint32_t near = 0;
       for (size_t l = 0; l < kLanes; l += step()) {
         const V bounds = hn::Max(hn::Load(d, e.bounds + l), least);
@@ -117,7 +117,7 @@ class Expander {
       e.near &= near & ~taken;
     }
     tightener_.tighten(e);
-    if (HWY_UNLIKELY(search_.audit != nullptr)) reportPruned(e, taken);
+    if (HWY_UNLIKELY(sides_.search.audit != nullptr)) reportPruned(e, taken);
     const uint32_t leaves = e.children.leaves & (e.other->isLeaf() ? ~0U : 0U);
     const VU expanded = hn::Set(du, e.side == 0 ? ~0U : 0U), first = hn::Set(du, e.first_child);
     const VU a = hn::Set(du, e.at.a), b = hn::Set(du, e.at.b);
@@ -166,7 +166,7 @@ class Expander {
   HWY_INLINE void endTest(Expansion& e) const {
     e.near &= e.children.all();
     e.tight = false;
-    search_.counts.volume_tests += e.children.count;
+    sides_.search.counts.volume_tests += e.children.count;
   }
 
   /// The children that matter whose bounds are at most so far below 0.
@@ -190,11 +190,11 @@ class Expander {
     endTest(e);
     if (sides_.isContact() &&
         !sides_.has_boxes[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side]) {
-      const uint32_t open = openOf(e, 2 * prismPad(search_.frames));
+      const uint32_t open = openOf(e, 2 * prismPad(sides_.search.frames));
       if (HWY_UNLIKELY(open != 0)) tightener_.testInDouble(e, open);
     }
     if (e.kind == Expanded::kNodeTriangle) return;
-    if (!(search_.evaluator.cull_distance < kInfinityFloat)) return;
+    if (!(sides_.search.evaluator.cull_distance < kInfinityFloat)) return;
     tightener_.tighten(e);
     if (2 * hwy::PopCount(e.near) <= e.children.count) return;
     std::swap(e.parent, e.other);
@@ -206,7 +206,7 @@ class Expander {
     const Vec3 c =
         moved(*sides_.to[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
     const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
-    const V reach = hn::Set(d, other.r[kCentral] + prismPad(search_.frames));
+    const V reach = hn::Set(d, other.r[kCentral] + prismPad(sides_.search.frames));
     const LeafView leaf(*sides_.trees[e.side], sides_.trees[e.side]->leaves[e.parent->leaf()]);
     for (size_t l = 0; l < kLanes; l += step()) {
       sides_.keep(e, l, hn::Sub(prismsOf(leaf, l).distances(center), reach));
@@ -218,7 +218,7 @@ class Expander {
     const LeafView leaf(tree, tree.leaves[leafOfTriangle(triangle)]);
     const Prisms prism = movedPrism(leaf, laneOfTriangle(triangle), *sides_.to[e.side]);
     const Block& block = sides_.blockOf(e);
-    const V pad = hn::Set(d, prismPad(search_.frames));
+    const V pad = hn::Set(d, prismPad(sides_.search.frames));
     for (size_t l = 0; l < kLanes; l += step()) {
       const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
                     load(block.z[kCentral], l)};
@@ -267,11 +267,10 @@ class Expander {
     for (uint32_t left = e.children.all() & ~e.near & ~taken; left != 0; left &= left - 1) {
       const uint32_t lane = firstOf(left);
       const NodePair child = Sides::childPair(e, lane);
-      search_.audit->pruned(child.a, child.b, e.bounds[lane]);
+      sides_.search.audit->pruned(child.a, child.b, e.bounds[lane]);
     }
   }
 
-  const Search& search_;
   const Sides sides_;
   const Tightener tightener_;
   const bool splits_, large_;
