@@ -27,9 +27,9 @@ namespace kios {
 /// The manager leaves out pairs by the objects' AABBs, which are the caller's to keep up to date:
 /// computeAABB() and update() after moves and, as FCL doesn't, computeLocalAABB() after a model was
 /// replaced or updated. These boxes have no margin, and FCL takes a rotation R for none if no entry
-/// of R - I is above 1e-12 (float: 1e-5): a pair nearer than the answer by up to 4e-12 (4e-5) of the
-/// distance of the content from its object's origin, or by rounding, may be left out. SceneDistance
-/// has its own boxes. Not to be used from two threads at once.
+/// of R - I is above 1e-12 (float: 1e-5): a pair nearer than the answer by up to 4e-12 (4e-5) of
+/// the distance of the content from its object's origin, or by rounding, may be left out.
+/// SceneDistance has its own boxes. Not to be used from two threads at once.
 template <typename S>
 class ManagerQuery {
  public:
