@@ -21,6 +21,15 @@ HWY_INLINE Vec3 rotated(const FloatPose& X, Vec3 v) {
 }
 HWY_INLINE Vec3 moved(const FloatPose& X, Vec3 v) { return rotated(X, v) + vec3(X.t); }
 
+HWY_INLINE V3 inAllLanes(Vec3 v) { return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)}; }
+/// Lanes from l on of a chunk of points, rows x, y, z.
+HWY_INLINE V3 rowsAt(const Lanes* rows, size_t l) {
+  return {load(rows[0], l), load(rows[1], l), load(rows[2], l)};
+}
+
+/// The first `count` lanes, all if there are more, as bits.
+HWY_INLINE uint32_t firstLanes(int count) { return count >= kLanes ? 0xFFU : (1U << count) - 1; }
+
 /// Moves a chunk of points, rows x, y, z, to another frame.
 HWY_INLINE void moveRows(const Lanes* from, const FloatPose& X, Lanes* to) {
   for (size_t l = 0; l < kLanes; l += step()) {

@@ -55,17 +55,16 @@ HWY_INLINE V edgeDistances(const Edges& a, const Edges& b) {
   return hn::Sub(square(wx, wy, wz), excess);
 }
 
-/// Squared heights of a point above the faces that it may project into, infinity elsewhere.
-HWY_INLINE V faceDistances(const Faces& faces, size_t l, Vec3 point, V minus_pad) {
-  const V x = hn::Set(d, point.x), y = hn::Set(d, point.y), z = hn::Set(d, point.z);
-  const V h = faces.height(l, x, y, z);
-  const V inside = hn::Min(hn::Min(faces.inside(0, l, x, y, z), faces.inside(1, l, x, y, z)),
-                           faces.inside(2, l, x, y, z));
+/// Squared heights of points above the faces that they may project into, infinity elsewhere.
+HWY_INLINE V faceDistances(const Faces& faces, const V3& p, V minus_pad) {
+  const V h = faces.height(p);
+  const V inside = hn::Min(hn::Min(faces.inside(0, p), faces.inside(1, p)), faces.inside(2, p));
   return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h), hn::Set(d, kInfinityFloat));
 }
 
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
-/// of b's edges; a vertex of a against b's faces; a vertex of b against a's faces.
+/// of b's edges; a vertex of one against the other's faces; a chunk of its vertices against the
+/// other's face, if that is the only one.
 class LeafDistances {
  public:
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
@@ -81,15 +80,25 @@ class LeafDistances {
     gatherEdges(b_, vertices_b, near_b, edges_b_);
     V least = edgeRows(0x1p-24F * frames.scale);
     const V minus_pad = hn::Set(d, -frames.pad);
-    for (uint32_t left = near_a & owned(a_); left != 0; left &= left - 1) {
-      const int i = static_cast<int>(firstOf(left));
-      const Vec3 p = moved(frames.b_from_a, a_.vertices.at(i));
-      least = hn::Min(least, faceRow({PairKind::kVertexFace, i, 0}, b_, p, minus_pad));
+    const uint32_t of_a = near_a & owned(a_), of_b = near_b & owned(b_);
+    if (b_.leaf.num_faces == 1 && of_a != 0) {
+      VertexRows moved_a;
+      const Points vertices_a = moveVertices(a_, frames.b_from_a, moved_a);
+      least = hn::Min(least, chunkRows(PairKind::kVertexFace, of_a, vertices_a, b_, minus_pad));
+    } else {
+      for (uint32_t left = of_a; left != 0; left &= left - 1) {
+        const int i = static_cast<int>(firstOf(left));
+        const Vec3 point = moved(frames.b_from_a, a_.vertices.at(i));
+        least = hn::Min(least, faceRow(PairKind::kVertexFace, i, b_, point, minus_pad));
+      }
     }
-    for (uint32_t left = near_b & owned(b_); left != 0; left &= left - 1) {
-      const int i = static_cast<int>(firstOf(left));
-      least =
-          hn::Min(least, faceRow({PairKind::kFaceVertex, i, 0}, a_, vertices_b.at(i), minus_pad));
+    if (a_.leaf.num_faces == 1) {
+      least = hn::Min(least, chunkRows(PairKind::kFaceVertex, of_b, vertices_b, a_, minus_pad));
+    } else {
+      for (uint32_t left = of_b; left != 0; left &= left - 1) {
+        const int i = static_cast<int>(firstOf(left));
+        least = hn::Min(least, faceRow(PairKind::kFaceVertex, i, a_, vertices_b.at(i), minus_pad));
+      }
     }
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
@@ -104,11 +113,19 @@ class LeafDistances {
   }
 
  private:
-  /// A row tests one feature against lanes: vertex `index`, or edge `index` of those gathered.
+  /// A row tests edge `index` of those gathered, or vertex `index`, or kChunk, against lanes: edges
+  /// of the chunk, faces, or, against the only face, vertices of the chunk.
   struct Row {
     PairKind kind;
-    int index, chunk;
+    uint8_t index, chunk;
+    uint8_t lanes;  ///< those that are features, as bits
   };
+  static constexpr uint8_t kChunk = 0xFF;
+
+  void addRow(PairKind kind, int index, int chunk, uint32_t lanes) {
+    row_[rows_++] = {kind, static_cast<uint8_t>(index), static_cast<uint8_t>(chunk),
+                     static_cast<uint8_t>(lanes)};
+  }
 
   static uint32_t owned(const LeafView& leaf) { return (1U << leaf.leaf.num_owned) - 1; }
 
@@ -125,7 +142,8 @@ class LeafDistances {
     }
     for (int c = 0; c < edges_b_.chunks(); ++c) {
       const int first = rows_;
-      for (int i = 0; i < edges_a_.count; ++i) row_[rows_++] = {PairKind::kEdgeEdge, i, c};
+      const uint32_t lanes = firstLanes(edges_b_.count - kLanes * c);
+      for (int i = 0; i < edges_a_.count; ++i) addRow(PairKind::kEdgeEdge, i, c, lanes);
       for (size_t l = 0; l < kLanes; l += step()) {
         const Edges eb = edgesIn(edges_b_.rows + 6 * c, l, least_square);
         for (int i = 0; i < edges_a_.count; ++i) {
@@ -144,14 +162,35 @@ class LeafDistances {
     return least;
   }
 
-  V faceRow(const Row& row, const LeafView& on, Vec3 point, V minus_pad) {
+  /// A vertex against the faces of the other leaf, in whose frame it is.
+  V faceRow(PairKind kind, int vertex, const LeafView& on, Vec3 point, V minus_pad) {
+    const V3 p = inAllLanes(point);
     V least = hn::Set(d, kInfinityFloat);
     for (size_t l = 0; l < kLanes; l += step()) {
-      const V square = faceDistances(Faces{on.faces}, l, point, minus_pad);
+      const V square = faceDistances({on.faces, l}, p, minus_pad);
       hn::Store(square, d, squares_[rows_].v + l);
       least = hn::Min(least, square);
     }
-    row_[rows_++] = row;
+    addRow(kind, vertex, 0, firstLanes(on.leaf.num_faces));
+    return least;
+  }
+
+  /// Vertices, as bits, of one leaf against the only face of the other, in whose frame they are.
+  HWY_NOINLINE V chunkRows(PairKind kind, uint32_t vertices, const Points& points,
+                           const LeafView& on, V minus_pad) {
+    const V infinity = hn::Set(d, kInfinityFloat);
+    V least = infinity;
+    for (int c = 0; c < points.chunks; ++c) {
+      const uint32_t lanes = vertices >> (kLanes * c) & firstLanes(kLanes);
+      if (lanes == 0) continue;
+      for (size_t l = 0; l < kLanes; l += step()) {
+        const V above = faceDistances({on.faces, l}, rowsAt(points.rows + 3 * c, l), minus_pad);
+        const V square = hn::IfThenElse(hn::RebindMask(d, maskOf(lanes >> l)), above, infinity);
+        hn::Store(square, d, squares_[rows_].v + l);
+        least = hn::Min(least, square);
+      }
+      addRow(kind, kChunk, c, lanes);
+    }
     return least;
   }
 
@@ -171,7 +210,7 @@ class LeafDistances {
         near |= bitsOf(nearest ? match : hn::AndNot(match, hn::Le(square, hn::Set(d, limit)))) << l;
       }
       if (HWY_LIKELY(near == 0)) continue;
-      for (near &= validLanes(row_[r]); near != 0; near &= near - 1) {
+      for (near &= row_[r].lanes; near != 0; near &= near - 1) {
         const uint32_t lane = firstOf(near);
         if (squares_[r].v[lane] > limit) continue;
         ++exact;
@@ -182,23 +221,17 @@ class LeafDistances {
     return false;
   }
 
-  uint32_t validLanes(const Row& row) const {
-    if (row.kind == PairKind::kEdgeEdge) {
-      const int left = edges_b_.count - kLanes * row.chunk;
-      return left >= kLanes ? 0xFFU : (1U << left) - 1;
-    }
-    return (1U << (row.kind == PairKind::kVertexFace ? b_ : a_).leaf.num_faces) - 1;
-  }
-
   Candidate candidate(const Row& row, uint32_t lane) const {
-    const uint32_t i = static_cast<uint32_t>(row.index);
     if (row.kind == PairKind::kEdgeEdge) {
-      const uint32_t j = static_cast<uint32_t>(kLanes * row.chunk) + lane;
-      return {row.kind, a_.edge(edges_a_.index(row.index)),
-              b_.edge(edges_b_.index(static_cast<int>(j)))};
+      const int j = kLanes * row.chunk + static_cast<int>(lane);
+      return {row.kind, a_.edge(edges_a_.index(row.index)), b_.edge(edges_b_.index(j))};
     }
-    if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(i), b_.face(lane)};
-    return {row.kind, a_.face(lane), b_.vertex(i)};
+    const bool chunk = row.index == kChunk;
+    const uint32_t vertex =
+        static_cast<uint32_t>(chunk ? kLanes * row.chunk : row.index) + (chunk ? lane : 0);
+    const uint32_t face = chunk ? 0 : lane;
+    if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(vertex), b_.face(face)};
+    return {row.kind, a_.face(face), b_.vertex(vertex)};
   }
 
   static constexpr int kMaxRows = kMaxLeafFeatures * kMaxChunks + 2 * kMaxLeafFeatures;
@@ -246,18 +279,17 @@ class LeafDistances {
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.
 HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float pad) {
   uint32_t result = 0;
-  const Faces faces = {on.faces};
   const V pads = hn::Set(d, pad), minus_pads = hn::Set(d, -pad);
   for (size_t l = 0; l < kLanes; l += step()) {
+    const Faces faces = {on.faces, l};
     V low, high, inside[3];
     for (int c = 0; c < 3; ++c) {
-      const V x = hn::Set(d, corners[c].x), y = hn::Set(d, corners[c].y),
-              z = hn::Set(d, corners[c].z);
-      const V h = faces.height(l, x, y, z);
+      const V3 p = inAllLanes(corners[c]);
+      const V h = faces.height(p);
       low = c == 0 ? h : hn::Min(low, h);
       high = c == 0 ? h : hn::Max(high, h);
       for (int k = 0; k < 3; ++k) {
-        const V e = faces.inside(k, l, x, y, z);
+        const V e = faces.inside(k, p);
         inside[k] = c == 0 ? e : hn::Max(inside[k], e);
       }
     }

@@ -222,48 +222,40 @@ HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
   return result;
 }
 
+/// The faces of a leaf in the lanes from l on. Where a leaf has one, it is in all of them.
 struct Faces {
+  V height(const V3& p) const { return plane(kFacePlane, p); }
+  V inside(int k, const V3& p) const { return plane(kEdgePlanes + 4 * k, p); }
+  V slope(int row, const V3& v) const {
+    return dot(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l), v.x, v.y, v.z);
+  }
+  V plane(int row, const V3& p) const { return hn::Add(slope(row, p), load(rows[row + 3], l)); }
+
   const Lanes* rows;
-  V height(size_t l, V x, V y, V z) const { return plane(kFacePlane, l, x, y, z); }
-  V inside(int k, size_t l, V x, V y, V z) const { return plane(kEdgePlanes + 4 * k, l, x, y, z); }
-  V slope(int row, size_t l, V x, V y, V z) const {
-    return dot(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l), x, y, z);
-  }
-  V plane(int row, size_t l, V x, V y, V z) const {
-    return hn::Add(slope(row, l, x, y, z), load(rows[row + 3], l));
-  }
+  size_t l;
 };
 
-/// Faces (lanes of the result) that an edge (point p, direction a, in the faces' frame) may cross
-/// or touch. Heights and distances to the edge planes are right to `pad`. Where the edge is steep,
-/// its crossing point is right to pad (2 + 8 |a| / |dh|) along it.
-HWY_INLINE uint32_t mayCross(const Faces& faces, Vec3 p, Vec3 a, float pad) {
-  const V px = hn::Set(d, p.x), py = hn::Set(d, p.y), pz = hn::Set(d, p.z);
-  const V ax = hn::Set(d, a.x), ay = hn::Set(d, a.y), az = hn::Set(d, a.z);
+/// Lanes in which an edge (from p along a, in the face's frame) may cross or touch a face. Heights
+/// and distances to the edge planes are right to `pad`. Where the edge is steep, its crossing point
+/// is right to pad (2 + 8 |a| / |dh|) along it.
+HWY_INLINE uint32_t mayCross(const Faces& faces, const V3& p, const V3& a, float pad) {
   const V pads = hn::Set(d, pad), minus_pads = hn::Set(d, -pad);
-  const V length = hn::Sqrt(hn::Set(d, dot(a, a)));
-  uint32_t result = 0;
-  for (size_t l = 0; l < kLanes; l += step()) {
-    const V h0 = faces.height(l, px, py, pz), dh = faces.slope(kFacePlane, l, ax, ay, az);
-    const V h1 = hn::Add(h0, dh);
-    auto may = hn::And(hn::Le(hn::Min(h0, h1), pads), hn::Ge(hn::Max(h0, h1), minus_pads));
-    if (bitsOf(may) == 0) continue;
-    const V steepness = hn::Abs(dh);
-    const auto flat = hn::Lt(steepness, hn::Mul(hn::Set(d, 8), pads));
-    const V divisor = hn::IfThenElse(flat, hn::Set(d, 1), dh);
-    const V s = hn::Min(hn::Max(hn::Div(hn::Neg(h0), divisor), hn::Zero(d)), hn::Set(d, 1));
-    const V slack =
-        hn::Mul(minus_pads,
-                hn::Add(hn::Set(d, 2), hn::Div(hn::Mul(hn::Set(d, 8), length), hn::Abs(divisor))));
-    for (int k = 0; k < 3; ++k) {
-      const V e0 = faces.inside(k, l, px, py, pz);
-      const V de = faces.slope(kEdgePlanes + 4 * k, l, ax, ay, az);
-      may = hn::And(may, hn::Ge(hn::Max(e0, hn::Add(e0, de)), minus_pads));
-      may = hn::And(may, hn::Or(flat, hn::Ge(hn::Add(e0, hn::Mul(s, de)), slack)));
-    }
-    result |= bitsOf(may) << l;
+  const V h0 = faces.height(p), dh = faces.slope(kFacePlane, a), h1 = hn::Add(h0, dh);
+  auto may = hn::And(hn::Le(hn::Min(h0, h1), pads), hn::Ge(hn::Max(h0, h1), minus_pads));
+  if (bitsOf(may) == 0) return 0;
+  const V steepness = hn::Abs(dh), length = hn::Sqrt(dot(a, a));
+  const auto flat = hn::Lt(steepness, hn::Mul(hn::Set(d, 8), pads));
+  const V divisor = hn::IfThenElse(flat, hn::Set(d, 1), dh);
+  const V s = hn::Min(hn::Max(hn::Div(hn::Neg(h0), divisor), hn::Zero(d)), hn::Set(d, 1));
+  const V slack =
+      hn::Mul(minus_pads,
+              hn::Add(hn::Set(d, 2), hn::Div(hn::Mul(hn::Set(d, 8), length), hn::Abs(divisor))));
+  for (int k = 0; k < 3; ++k) {
+    const V e0 = faces.inside(k, p), de = faces.slope(kEdgePlanes + 4 * k, a);
+    may = hn::And(may, hn::Ge(hn::Max(e0, hn::Add(e0, de)), minus_pads));
+    may = hn::And(may, hn::Or(flat, hn::Ge(hn::Add(e0, hn::Mul(s, de)), slack)));
   }
-  return result;
+  return bitsOf(may) << faces.l;
 }
 
 /// Evaluates some edges of one leaf, in rows moved to the frame of the other, against its
@@ -272,19 +264,36 @@ template <bool kEdgesOfA>
 [[gnu::hot]] HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some,
                                          const LeafView& faces, float pad,
                                          RefineCallback& evaluator, long long& exact) {
-  const uint32_t used = (1U << faces.leaf.num_faces) - 1;
+  const auto cross = [&](int i, uint32_t lane) {
+    ++exact;
+    const FeatureId face = faces.face(lane), edge = edges.edge(some.index(i));
+    return evaluator.evaluate(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edge, face}
+                                        : Candidate{PairKind::kFaceEdge, face, edge});
+  };
+  if (faces.leaf.num_faces == 1) {  // lanes are edges
+    for (int c = 0; c < some.chunks(); ++c) {
+      const Lanes* const rows = some.rows + 6 * c;
+      uint32_t may = 0;
+      for (size_t l = 0; l < kLanes; l += step()) {
+        may |= mayCross({faces.faces, l}, rowsAt(rows, l), rowsAt(rows + 3, l), pad);
+      }
+      for (may &= firstLanes(some.count - kLanes * c); may != 0; may &= may - 1) {
+        if (cross(kLanes * c + static_cast<int>(firstOf(may)), 0)) return true;
+      }
+    }
+    return false;
+  }
+  const uint32_t used = firstLanes(faces.leaf.num_faces);
   for (int i = 0; i < some.count; ++i) {
     const Points chunk = {some.rows + 6 * (i / kLanes), 1};
     const Points directions = {chunk.rows + 3, 1};
-    const int lane = i % kLanes;
-    uint32_t may = mayCross(Faces{faces.faces}, chunk.at(lane), directions.at(lane), pad) & used;
-    for (; may != 0; may &= may - 1) {
-      ++exact;
-      const FeatureId face = faces.face(firstOf(may)), edge = edges.edge(some.index(i));
-      if (evaluator.evaluate(kEdgesOfA ? Candidate{PairKind::kEdgeFace, edge, face}
-                                       : Candidate{PairKind::kFaceEdge, face, edge})) {
-        return true;
-      }
+    const V3 p = inAllLanes(chunk.at(i % kLanes)), a = inAllLanes(directions.at(i % kLanes));
+    uint32_t may = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      may |= mayCross({faces.faces, l}, p, a, pad);
+    }
+    for (may &= used; may != 0; may &= may - 1) {
+      if (cross(i, firstOf(may))) return true;
     }
   }
   return false;
