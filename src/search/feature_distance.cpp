@@ -73,30 +73,34 @@ bool nearestAt(const NearestEnds& ends, const Vec& p0, const Vec& p1, const Vec&
   return leadAway(p, p0 == p ? p1 : p0, q, q0 == q ? q1 : q0);
 }
 
-// The plane by Gram-Schmidt on the longest edge, twice: right for any aspect.
-FeatureDistance faceDistance(const Vec& point, const Vec (&face)[3]) {
+// By Gram-Schmidt on the longest edge, twice: right for any aspect.
+FacePlane::FacePlane(const Vec (&face)[3]) {
   int longest = 0;
-  double square = -1;
+  edge2_ = -1;
   for (int k = 0; k < 3; ++k) {
     const double s = (face[(k + 1) % 3] - face[k]).squaredNorm();
-    if (s > square) {
-      square = s;
+    if (s > edge2_) {
+      edge2_ = s;
       longest = k;
     }
   }
-  const Vec edge = face[(longest + 1) % 3] - face[longest];
-  Vec height = face[(longest + 2) % 3] - face[longest];
-  double foot = removePart(edge, square, height);
-  foot += removePart(edge, square, height);
-  Vec residual = point - face[longest];
-  const double extent = std::sqrt(square) + residual.lpNorm<Eigen::Infinity>();
-  const double height2 = height.squaredNorm();
-  double s = removePart(edge, square, residual), c = removePart(height, height2, residual);
-  s += removePart(edge, square, residual);
-  c += removePart(height, height2, residual);
-  s += removePart(edge, square, residual);
-  const double side = s - c * foot;
-  const bool inside = height2 > 0 && c >= 0 && side >= 0 && side + c <= 1;
+  corner_ = face[longest];
+  edge_ = face[(longest + 1) % 3] - corner_;
+  height_ = face[(longest + 2) % 3] - corner_;
+  foot_ = removePart(edge_, edge2_, height_);
+  foot_ += removePart(edge_, edge2_, height_);
+  height2_ = height_.squaredNorm();
+}
+
+FeatureDistance FacePlane::distance(const Vec& point) const {
+  Vec residual = point - corner_;
+  const double extent = std::sqrt(edge2_) + residual.lpNorm<Eigen::Infinity>();
+  double s = removePart(edge_, edge2_, residual), c = removePart(height_, height2_, residual);
+  s += removePart(edge_, edge2_, residual);
+  c += removePart(height_, height2_, residual);
+  s += removePart(edge_, edge2_, residual);
+  const double side = s - c * foot_;
+  const bool inside = height2_ > 0 && c >= 0 && side >= 0 && side + c <= 1;
   return {inside ? residual.norm() : kInfinity, extent};
 }
 

@@ -3,6 +3,7 @@
 #include "search/mesh_search.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "search/feature_distance.h"
@@ -33,6 +34,23 @@ TrianglePairIds idsOf(const Candidate& c) {
   return {static_cast<int>(c.a.triangle()), static_cast<int>(c.b.triangle())};
 }
 
+/// The plane of the face that was asked for last: a large one is near many vertices of a mesh.
+class LastPlane {
+ public:
+  template <class Corner>
+  const FacePlane& of(FeatureId face, const Corner& corner) {
+    if (face.packed != face_) {
+      face_ = face.packed;
+      plane_ = FacePlane({corner(0), corner(1), corner(2)});
+    }
+    return plane_;
+  }
+
+ private:
+  std::uint32_t face_ = ~0U;  ///< none
+  FacePlane plane_;
+};
+
 template <typename S>
 class NearestEvaluator final : public RefineCallback {
  public:
@@ -57,10 +75,15 @@ class NearestEvaluator final : public RefineCallback {
     const FeatureDistance found = distanceOf(c);
     const TrianglePairIds ids = idsOf(c);
     double distance = found.distance;
-    // Features that are as near as rounding can tell, or so small that their squares vanish: their
-    // triangles decide.
-    if (distance <= featureError<S>(found.extent) || found.extent < kLeastExtent) {
-      distance = triangleDistanceOf(ids);
+    // As near as rounding can tell, or so small that squares vanish: do their triangles meet?
+    const bool vanishing = found.extent < kLeastExtent;
+    if (distance <= featureError<S>(found.extent) || vanishing) {
+      if (!query_.apart && apart_.intersect(corners_, ids)) {
+        distance = 0;
+      } else {
+        if (vanishing) distance = double{corners_.distanceOf(ids).distance};
+        distance = std::max(distance, std::numeric_limits<double>::denorm_min());
+      }
     }
     least_ = std::min(least_, distance);
     if (by_faces_) return distance < best_ && evaluateFaces(ids);
@@ -110,20 +133,11 @@ class NearestEvaluator final : public RefineCallback {
       return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
-      return faceDistance(corners_.ofA(c.a),
-                          {corners_.ofB(c.b), corners_.ofB(c.b, 1), corners_.ofB(c.b, 2)});
+      const auto corner = [&](std::uint32_t k) { return corners_.ofB(c.b, k); };
+      return plane_of_b_.of(c.b, corner).distance(corners_.ofA(c.a));
     }
-    return faceDistance(corners_.ofB(c.b),
-                        {corners_.ofA(c.a), corners_.ofA(c.a, 1), corners_.ofA(c.a, 2)});
-  }
-
-  double triangleDistanceOf(const TrianglePairIds& ids) {
-    PairApart& known = apart_.of(ids);
-    const bool apart = known.ids == ids;
-    if (apart && known.distance > 0) return known.distance;
-    const double distance = double{corners_.distanceOf(ids, apart || query_.apart).distance};
-    if (distance > 0) known = {ids, distance};
-    return distance;
+    const auto corner = [&](std::uint32_t k) { return corners_.ofA(c.a, k); };
+    return plane_of_a_.of(c.a, corner).distance(corners_.ofB(c.b));
   }
 
   /// Triangles as a whole: they may be nearer than the features that named them.
@@ -169,6 +183,7 @@ class NearestEvaluator final : public RefineCallback {
   bool ended_near_ = false;
   NearestEnds ends_;
   PairsApart apart_;
+  LastPlane plane_of_a_, plane_of_b_;
   const double least_shared_;  ///< nearer edges need their own extent; see evaluate()
 };
 

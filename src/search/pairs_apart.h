@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "search/mesh_search.h"
-#include "triangle/known_distance.h"
 
 // The triangles that a search asks the exact kernels about, and what it remembers of the answers.
 
@@ -35,11 +35,9 @@ class Corners {
   TriangleVertices<S> triangleOfB(std::uint32_t t) const {
     return {X_AB_ * b_.corner(t, 0), X_AB_ * b_.corner(t, 1), X_AB_ * b_.corner(t, 2)};
   }
-  /// `apart`: the triangles are known not to intersect.
-  TriangleDistance<S> distanceOf(const TrianglePairIds& ids, bool apart = false) const {
-    const auto a = triangleOfA(static_cast<std::uint32_t>(ids.a)),
-               b = triangleOfB(static_cast<std::uint32_t>(ids.b));
-    return apart ? disjointDistance(a, b) : triangleDistance(a, b);
+  TriangleDistance<S> distanceOf(const TrianglePairIds& ids) const {
+    return triangleDistance(triangleOfA(static_cast<std::uint32_t>(ids.a)),
+                            triangleOfB(static_cast<std::uint32_t>(ids.b)));
   }
   bool intersect(const TrianglePairIds& ids) const {
     return trianglesIntersect(triangleOfA(static_cast<std::uint32_t>(ids.a)),
@@ -55,35 +53,25 @@ class Corners {
   const RelativePose<S>& X_AB_;
 };
 
-/// Triangles that don't intersect.
-struct PairApart {
-  TrianglePairIds ids;
-  double distance = -1;  ///< unknown if < 0
-};
-
-/// Remembers some of these: triangles that nearly touch are named by many of their features, and by
-/// edges that may cross faces.
+/// Remembers some triangles that don't intersect: those that nearly touch are named by many of
+/// their features, and by edges that may cross faces.
 class PairsApart {
  public:
-  /// Returns the entry of a pair. It has other ids if nothing is known of this one.
-  PairApart& of(const TrianglePairIds& ids) {
-    if (!known_) known_.emplace();
-    const auto a = static_cast<std::uint32_t>(ids.a), b = static_cast<std::uint32_t>(ids.b);
-    return (*known_)[(a * 0x9E3779B1U + b * 0x85EBCA6BU) >> (32 - kBits)];
-  }
   /// Asks the triangles, unless they are known.
   template <typename S>
   bool intersect(const Corners<S>& corners, const TrianglePairIds& ids) {
-    PairApart& known = of(ids);
-    if (known.ids == ids) return false;
+    if (!known_) known_.emplace();
+    const auto a = static_cast<std::uint32_t>(ids.a), b = static_cast<std::uint32_t>(ids.b);
+    TrianglePairIds& known = (*known_)[(a * 0x9E3779B1U + b * 0x85EBCA6BU) >> (32 - kBits)];
+    if (known == ids) return false;
     if (corners.intersect(ids)) return true;
-    known = {ids};
+    known = ids;
     return false;
   }
 
  private:
   static constexpr std::uint32_t kBits = 6, kNumber = 1U << kBits;
-  std::optional<std::array<PairApart, kNumber>> known_;  // most searches need none
+  std::optional<std::array<TrianglePairIds, kNumber>> known_;  // most searches need none
 };
 
 }  // namespace kios::engine

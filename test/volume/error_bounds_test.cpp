@@ -206,12 +206,12 @@ TYPED_TEST(ErrorBounds, TrianglesAndTheirFeatures) {
                                                      rounded.b[m], rounded.b[(m + 1) % 3], ends)
                                     .distance);
         }
-        nearest = std::min(
-            nearest, engine::faceDistance(rounded.a[k], {rounded.b[0], rounded.b[1], rounded.b[2]})
-                         .distance);
-        nearest = std::min(
-            nearest, engine::faceDistance(rounded.b[k], {rounded.a[0], rounded.a[1], rounded.a[2]})
-                         .distance);
+        nearest = std::min(nearest, engine::FacePlane({rounded.b[0], rounded.b[1], rounded.b[2]})
+                                        .distance(rounded.a[k])
+                                        .distance);
+        nearest = std::min(nearest, engine::FacePlane({rounded.a[0], rounded.a[1], rounded.a[2]})
+                                        .distance(rounded.b[k])
+                                        .distance);
       }
       if (oracle.intersect) continue;
       features.add(std::abs(nearest - distance), error_bounds::featureError<S>(extent));
