@@ -234,6 +234,35 @@ TYPED_TEST(BruteForce, SpikesOnASheet) {
   EXPECT_GT(seen.touching, 20);
 }
 
+// The corner of a large triangle, or of a pair of them, among spikes of one leaf whose tips are
+// beyond its plane, or all but: it is met by one spike alone, each in turn.
+TYPED_TEST(BruteForce, OneSpikeMeetsALargeTriangle) {
+  constexpr int kSpikes = 8;
+  for (const bool floor_first : {true, false}) {
+    Seen seen;
+    for (int i = 0; i < 4 * kSpikes; ++i) {
+      const int met = i % kSpikes;
+      const double tip = i % 4 < 2 ? -0.05 : 1e-4;
+      std::vector<Mesh> spikes;
+      for (int k = 0; k < kSpikes; ++k) {
+        const double x = 0.1 * (k - met);
+        spikes.push_back(scenes::singleTriangle({x, 0, tip}, {x + 0.03, 0, 0.3}, {x, 0.03, 0.3}));
+      }
+      Mesh floor = scenes::singleTriangle({0, 0.03, 0}, {-5, -8, 0}, {5, -8, 0});
+      if (i % 2 == 0) {
+        floor =
+            scenes::merged({floor, scenes::singleTriangle({5, -8, 0}, {-5, -8, 0}, {0, -9, 0})});
+      }
+      const Mesh body = scenes::merged(spikes);
+      Searches<TypeParam> searches(floor_first ? floor : body, floor_first ? body : floor);
+      const fcl::Transform3d X = scenes::randomPoses(1, 2, static_cast<std::uint64_t>(i))[0];
+      searches.check(X, X, seen);
+    }
+    EXPECT_EQ(seen.touching, 2 * kSpikes);
+    EXPECT_EQ(seen.apart, 2 * kSpikes);
+  }
+}
+
 // Sheets that cross at angles down to none.
 TYPED_TEST(BruteForce, GrazingSheets) {
   const Mesh a = scenes::sheet(2, 2, 6, 6, 0), b = scenes::sheet(1.5, 1.7, 5, 5, 0);
