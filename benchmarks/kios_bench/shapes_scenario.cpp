@@ -74,7 +74,8 @@ void runShapes(const Options& options, Report& report) {
       {"cylinder", std::make_shared<fcl::Cylinderd>(0.3, 0.8)},
       {"capsule", std::make_shared<fcl::Capsuled>(0.25, 0.6)},
       {"ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.3, 0.4, 0.5)},
-      {"convex", convexOf(scenes::icosphere(0.4, 1))}};
+      {"convex", convexOf(scenes::icosphere(0.4, 1))},
+      {"hull", convexOf(scenes::icosphere(0.4, 3))}};
   for (const auto& [shape, geometry] : shapes) {
     reportGeometry(std::string("shapes/") + shape, mesh, geometry, frameCount(options), options,
                    report);

@@ -129,6 +129,7 @@ bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Mo
   if (isShape(geometry)) {
     solids.resize(1);
     solids[0].solid = toSolid(geometry);
+    shape::makeRows(solids[0].solid);
     return true;
   }
 #if FCL_HAVE_OCTOMAP

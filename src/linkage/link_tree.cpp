@@ -131,6 +131,7 @@ Hull measure(BodyData& body) {
   if (isShape(geometry)) {
     body.kind = BodyKind::kShape;
     body.solid = toSolid(geometry);
+    shape::makeRows(body.solid);
     body.shape_values = shapeValues(geometry);
     body.bounded = body.solid.bounded();
     return hullOf(body.solid);

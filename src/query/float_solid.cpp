@@ -5,7 +5,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "shape/convex_faces.h"
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
@@ -65,27 +64,15 @@ void setCone(const shape::Solid& s, FloatSolid& out) {
   out.slant_length = static_cast<float>(slant);
 }
 
-// n y <= offset is n' x <= offset - n T - n' origin for y = R x + T and n' = R^T n.
-template <typename S>
-engine::FloatSlab toTree(const engine::Tree& tree, const PosedSolid<S>& posed, const Vec& n,
-                         double offset) {
-  engine::FloatSlab slab;
-  const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
-  const Vec across = posed.R().transpose() * n;
-  for (int c = 0; c < 3; ++c) slab.n[c] = static_cast<float>(across[c]);
-  slab.offset = static_cast<float>(offset - n.dot(posed.T()) - across.dot(origin));
-  return slab;
-}
-
 }  // namespace
 
 template <typename S>
-bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
-                    std::vector<engine::FloatSlab>& planes, FloatSolid& out) {
+bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool any_slab,
+                    FloatSolid& out) {
   const double reach = tree.reach;
   if (!posed.hasUnit1() || !(reach >= engine::kLeastReach)) return false;
   const shape::Solid& solid = posed.solid();
-  const double solid_reach = solid.reach();
+  const double solid_reach = posed.reach();
   const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
   // In double: the mesh's points as posed, as PosedSolid bounds them.
   const double points = error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * reach) +
@@ -94,8 +81,6 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
   out.margin = roundUpFloat(solid.margin());
   out.tells_inside = solid.kind != Kind::kConvex;
   out.radius = 0;
-  out.planes = nullptr;
-  out.num_planes = 0;
   if (solid.bounded()) {
     const Eigen::Matrix3d inverse = posed.R().inverse();
     Range range = posed.range();
@@ -115,19 +100,7 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
     const Vec center = inverse * (middle - posed.T()) - origin;
     setRows(posed.R(), center, half, out.box);
     scale += solid.margin() + half.norm() + center.template lpNorm<1>();
-    constexpr double kMostReach = 64;       // that lets planes tell something
-    constexpr std::size_t kFewLeaves = 32;  // whose triangles take less than the planes
-    if (out.form == Form::kContained && tree.leaves.size() > kFewLeaves &&
-        solid_reach <= kMostReach * reach) {
-      scale += solid_reach;
-      const std::vector<shape::ConvexFaces::Slab> slabs = shape::ConvexFaces(solid).slabs();
-      planes.reserve(slabs.size());
-      for (const auto& slab : slabs) {
-        planes.push_back(toTree(tree, posed, slab.normal, slab.offset));
-      }
-      out.planes = planes.data();
-      out.num_planes = static_cast<int>(planes.size());
-    }
+    if (any_slab) scale += solid_reach;
   } else {
     out.form = solid.kind == Kind::kPlane ? Form::kPlane : Form::kHalfspace;
     const Vec n = posed.R().transpose() * solid.normal;
@@ -146,12 +119,19 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed,
   return true;
 }
 
+// n y <= offset is n' x <= offset - n T - n' origin for y = R x + T and n' = R^T n.
 template <typename S>
-engine::FloatSlab slabAcross(const engine::Tree& tree, const PosedSolid<S>& posed, const Vec& n) {
-  return toTree(tree, posed, n, shape::extentAlong(posed.solid(), n));
+engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid<S>& posed, const Vec& n,
+                             double offset) {
+  engine::FloatSlab slab;
+  const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
+  const Vec across = posed.R().transpose() * n;
+  for (int c = 0; c < 3; ++c) slab.n[c] = static_cast<float>(across[c]);
+  slab.offset = static_cast<float>(offset - n.dot(posed.T()) - across.dot(origin));
+  return slab;
 }
 
 KIOS_INSTANTIATE_FUNCTION(makeFloatSolid);
-KIOS_INSTANTIATE_FUNCTION(slabAcross);
+KIOS_INSTANTIATE_FUNCTION(slabInTree);
 
 }  // namespace kios

@@ -34,9 +34,9 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
   t_WS_ = X_WS.translation().template cast<double>();
   R_ = R_WS_.transpose() * X_WM.linear().template cast<double>();
   T_ = R_WS_.transpose() * (X_WM.translation().template cast<double>() - t_WS_);
-  double reach = solid_.reach();
+  reach_ = solid_.reach();
   const double largest =
-      std::max({reach, T_.lpNorm<Eigen::Infinity>(),
+      std::max({reach_, T_.lpNorm<Eigen::Infinity>(),
                 double{root.center0.template lpNorm<Eigen::Infinity>()}, double{root.radius0}});
   constexpr int kPlain = 100;
   const int exponent = largest > 0 ? std::ilogb(largest) : 0;
@@ -45,10 +45,11 @@ PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
     unit_ = std::ldexp(1.0, exponent);
     scaleBy(per_unit_, solid_);
     T_ *= per_unit_;
-    reach *= per_unit_;
+    reach_ *= per_unit_;
   }
-  offsets_ = T_.lpNorm<1>() + reach;
+  offsets_ = T_.lpNorm<1>() + reach_;
   if (solid_.bounded()) range_ = shape::rangeOf(solid_);
+  shape::makeRows(solid_);
 }
 
 template <typename S>

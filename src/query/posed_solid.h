@@ -22,6 +22,8 @@ class PosedSolid {
 
   /// The solid, in units.
   const shape::Solid& solid() const { return solid_; }
+  /// Its Solid::reach(), in units.
+  double reach() const { return reach_; }
   /// The box of a bounded solid's core, in its frame.
   const shape::Range& range() const { return range_; }
   /// The pose x -> R x + T of the mesh in the solid's frame, in units of 1 only if hasUnit1().
@@ -65,7 +67,8 @@ class PosedSolid {
   Eigen::Matrix3d R_, R_WS_;
   shape::Vec T_, t_WS_;
   double per_unit_ = 1, unit_ = 1;
-  double stretch_;      ///< |R|_2 - 1 <= stretch
+  double stretch_;  ///< |R|_2 - 1 <= stretch
+  double reach_;
   double offsets_;      ///< |T|_1 + the solid's reach
   shape::Range range_;  ///< of a bounded solid's core, in units
 };

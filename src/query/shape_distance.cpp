@@ -11,6 +11,7 @@
 #include "query/mesh_contacts.h"
 #include "search/pair_query.h"
 #include "search/search.h"
+#include "shape/separating_slabs.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
 #include "volume/instantiate.h"
@@ -36,6 +37,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
         far_enough_(far_enough),
         any_touching_(any_touching),
         counts_(counts),
+        slabs_(posed.solid()),
         slack_(rel_err == 0 && abs_err == 0 ? posed.kernelError(model.getBV(0).bv) : 0) {
     lowerTo(far_enough);
   }
@@ -59,8 +61,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
     }
     const engine::TreeCache::Use tree = preparedTree(model_);
     engine::FloatSolid solid;
-    std::vector<engine::FloatSlab> planes;
-    if (tree && makeFloatSolid(*tree, posed_, planes, solid)) {
+    if (tree && makeFloatSolid(*tree, posed_, /*any_slab=*/false, solid)) {
       tree_ = &*tree;
       engine::kernels().solid({*tree, solid, *this, counts_});
     } else {
@@ -87,16 +88,24 @@ class NearestTriangle final : public engine::SolidEvaluator {
 
   /// True if nothing can be nearer.
   bool test(int id) {
-    const auto d =
-        shape::distance(posed_.solid(), posed_.place(cornersOf(model_, id)), limit_ + slack_);
+    const shape::Triangle t = posed_.place(cornersOf(model_, id));
+    if (slabs_.proveFarther(t, limit_ + slack_)) return best_ <= 0;
+    const auto d = shape::distance(posed_.solid(), t, limit_ + slack_);
+    const shape::Vec way = d.on_triangle - d.on_shape;
+    if (posed_.solid().kind == shape::Kind::kConvex) {
+      const auto* const added = slabs_.add(way);
+      if (added && tree_) addSlab(slabInTree(*tree_, posed_, added->normal, added->offset));
+    }
     if (!(d.distance < best_ || (d.distance == best_ && id < id_))) return best_ <= 0;
     nearest_ = d;
     id_ = id;
     lowerTo(d.distance);
     if (tree_ && posed_.solid().bounded() && d.distance > 0) {
-      const shape::Vec way = d.on_triangle - d.on_shape;
       const double length = way.norm();
-      if (length > 0) slab = slabAcross(*tree_, posed_, way / length);
+      if (length > 0) {
+        const shape::Vec n = way / length;
+        slab = slabInTree(*tree_, posed_, n, shape::extentAlong(posed_.solid(), n));
+      }
     }
     return best_ <= 0;
   }
@@ -135,6 +144,7 @@ class NearestTriangle final : public engine::SolidEvaluator {
   const double rel_err_, abs_err_, far_enough_;
   const bool any_touching_;
   SearchCounts& counts_;
+  shape::SeparatingSlabs slabs_;  ///< of a convex shape, as other bounds cost less than GJK
   const double slack_;
   const engine::Tree* tree_ = nullptr;
   double best_, limit_;

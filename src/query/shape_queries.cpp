@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "model/prepared.h"
@@ -15,6 +16,7 @@
 #include "query/solid_off_box.h"
 #include "search/search.h"
 #include "shape/convex_faces.h"
+#include "shape/separating_slabs.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
 #include "volume/instantiate.h"
@@ -56,7 +58,8 @@ class ShapeCollision final : public engine::SolidEvaluator {
         counts_(counts),
         occupied_(model.isOccupied() && geometry.isOccupied()),
         costs_(request.enable_cost && !model.isFree() && !geometry.isFree()),
-        posed_(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv) {}
+        posed_(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv),
+        slabs_(posed_.solid()) {}
 
   void run() {
     if (!occupied_ && !costs_) return;
@@ -103,8 +106,10 @@ class ShapeCollision final : public engine::SolidEvaluator {
     engine::FloatSolid solid;
     found_.clear();
     common_.clear();
-    std::vector<engine::FloatSlab> planes;
-    if (tree && makeFloatSolid(*tree, posed_, planes, solid)) {
+    const bool by_faces = tree && facesPay(*tree);
+    if (tree && makeFloatSolid(*tree, posed_, by_faces, solid)) {
+      tree_ = &*tree;
+      if (by_faces) setFaces();
       cull_distance = 0;
       engine::kernels().solid({*tree, solid, *this, counts_});
     } else {
@@ -117,15 +122,50 @@ class ShapeCollision final : public engine::SolidEvaluator {
   bool test(int id, bool meets) {
     if (!meets) {
       ++counts_.leaf_kernels;
-      constexpr int kFewTests = 8;  // that take less than a convex shape's planes
-      if (++num_tests_ > kFewTests) makeFaces();
+      constexpr int kFewTests = 8;     // that take less than a convex shape's planes
+      constexpr int kMostFaces = 256;  // whose planes take less than GJK
+      if (++num_tests_ > kFewTests && posed_.solid().num_faces <= kMostFaces) makeFaces();
       const shape::Triangle t = posed_.place(cornersOf(model_, id));
-      std::optional<shape::Vec> common;
-      if (!shape::intersects(posed_.solid(), t, faces_ ? &*faces_ : nullptr, &common)) return false;
-      if (common && request_.enable_contact) common_.push_back({id, *common});
+      const double clear = 0x1p-40 * (shape::sizeOf(t) + posed_.reach());
+      if (slabs_.proveFarther(t, clear)) return false;
+      shape::Witness witness;
+      if (!shape::intersects(posed_.solid(), t, faces_ ? &*faces_ : nullptr, &witness)) {
+        if (witness.across) addSlab(*witness.across);
+        return false;
+      }
+      if (witness.common && request_.enable_contact) common_.push_back({id, *witness.common});
     }
     found_.push_back(id);
     return isSatisfied();
+  }
+
+  /// Whether the slabs of all of a convex shape's faces, made at once, take less than those that
+  /// are found on the way: in lists of contacts.
+  bool facesPay(const engine::Tree& tree) const {
+    constexpr std::size_t kFewContacts = 8, kFewLeaves = 32, kMostProducts = 1 << 14;
+    constexpr double kMostReach = 64;  // that lets the slabs tell something
+    const shape::Solid& solid = posed_.solid();
+    return solid.kind == shape::Kind::kConvex &&
+           (costs_ || request_.num_max_contacts > kFewContacts) &&
+           tree.leaves.size() > kFewLeaves && posed_.reach() <= kMostReach * double{tree.reach} &&
+           static_cast<std::size_t>(solid.num_faces) * solid.points.size() <= kMostProducts;
+  }
+
+  void setFaces() {
+    makeFaces();
+    std::vector<engine::FloatSlab> slabs;
+    for (const auto& slab : faces_->slabs()) {
+      slabs.push_back(slabInTree(*tree_, posed_, slab.normal, slab.offset));
+    }
+    by_faces_ = !slabs.empty();
+    setSlabs(std::move(slabs));
+  }
+
+  void addSlab(const shape::Vec& across) {
+    const auto* const slab = slabs_.add(across);
+    if (slab && tree_ && !by_faces_) {
+      engine::SolidEvaluator::addSlab(slabInTree(*tree_, posed_, slab->normal, slab->offset));
+    }
   }
 
   /// A list of all that touch has one order, whichever tree was searched.
@@ -216,6 +256,9 @@ class ShapeCollision final : public engine::SolidEvaluator {
   SearchCounts& counts_;
   const bool occupied_, costs_;
   const PosedSolid<S> posed_;
+  shape::SeparatingSlabs slabs_;
+  const engine::Tree* tree_ = nullptr;
+  bool by_faces_ = false;  ///< the search has the slabs of all faces
   std::optional<shape::ConvexFaces> faces_;
   int num_tests_ = 0;
   std::vector<CommonPoint> common_;  ///< where it is known; by id once reported

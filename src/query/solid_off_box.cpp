@@ -35,10 +35,9 @@ template <typename S>
   const double extent = engine::extentOf(box);
   const double slack = 0x1p-20 * extent;
   const auto isGap = [&](const Vec& w) {
-    const double pad =
-        engine::kStored * extent +
-        error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * extent) +
-                                 posed.T().template lpNorm<1>() + posed.solid().reach());
+    const double pad = engine::kStored * extent +
+                       error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * extent) +
+                                                posed.T().template lpNorm<1>() + posed.reach());
     const double reach = engine::reachAlong(box, R.transpose() * w) + w.cwiseAbs().dot(half);
     return std::abs(w.dot(way)) - reach > pad * w.norm();
   };

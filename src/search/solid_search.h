@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "fcl_kios/search/counts.h"
 #include "tree/tree.h"
@@ -46,7 +48,7 @@ struct FloatSolid {
     kCylinder,   ///< of `radius` about the box's third axis, as long as the box
     kCone,       ///< its apex at the end of that axis
     kEllipsoid,  ///< of radii that are the box's halves
-    kContained,  ///< by the box and the planes
+    kContained,  ///< by the box
     kHalfspace,  ///< {normal x <= offset}: there is no box
     kPlane       ///< {normal x = offset}
   };
@@ -57,8 +59,6 @@ struct FloatSolid {
   float radius;
   float slant_radial, slant_axial, slant_length;  ///< cone: unit normal of its side, the side
   float normal[3], offset;
-  const FloatSlab* planes;  ///< kContained: slabs that contain it, if any
-  int num_planes;
   float pad;      ///< of bounds of points and spheres
   float box_pad;  ///< of bounds of boxes
 };
@@ -73,8 +73,29 @@ class SolidEvaluator {
   float cull_distance;  ///< triangles at least so far away don't matter; 0: those that don't touch
   FloatSlab slab;       ///< of the solid: best across what is nearest so far
 
+  /// Adds a slab of a solid that its box says little of, across some triangle: the last few are
+  /// kept.
+  void addSlab(const FloatSlab& added) {
+    if (slabs_.size() < kMostAdded) {
+      slabs_.push_back(added);
+    } else {
+      slabs_[num_added_ % kMostAdded] = added;
+    }
+    ++num_added_;
+  }
+  /// Takes all slabs that matter in the place of such.
+  void setSlabs(std::vector<FloatSlab> slabs) { slabs_ = std::move(slabs); }
+  const std::vector<FloatSlab>& slabs() const { return slabs_; }
+  std::uint32_t numAdded() const { return num_added_; }
+
  protected:
   ~SolidEvaluator() = default;
+
+ private:
+  static constexpr std::uint32_t kMostAdded = 16;
+
+  std::vector<FloatSlab> slabs_;
+  std::uint32_t num_added_ = 0;
 };
 
 /// Hears of every bound of a search for triangles near a solid, for tests.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape/point_rows.h"
 #include "volume/lanes.h"
 
 namespace kios::shape {
@@ -25,8 +26,7 @@ Pair cross(const Pair& a, const Pair& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-constexpr double kLeastSquare = 0x1p-900;       ///< of faces that have a direction
-constexpr std::size_t kMostProducts = 1 << 14;  ///< of faces and points
+constexpr double kLeastSquare = 0x1p-900;  ///< of faces that have a direction
 
 /// True if p lies in the tetrahedron, and not at its rim.
 bool deepIn(const Vec& apex, const Vec& a, const Vec& b, const Vec& c, const Vec& p) {
@@ -43,7 +43,6 @@ bool deepIn(const Vec& apex, const Vec& a, const Vec& b, const Vec& c, const Vec
 ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
   const std::size_t faces = static_cast<std::size_t>(std::max(0, solid.num_faces));
   if (solid.kind != Kind::kConvex || solid.points.size() < 4) return;
-  if (faces * solid.points.size() > kMostProducts) return;
   for (const Vec& p : solid.points) middle_ += p;
   middle_ /= static_cast<double>(solid.points.size());
   reach_ = solid.reach();
@@ -53,7 +52,7 @@ ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
     if (face[0] >= 3) faces_.push_back(face);
   }
   if (faces_.empty()) return;
-  if (faces_.size() % 2 == 1) faces_.push_back(faces_.back());  // two are made at once
+  while (faces_.size() % 8 != 0) faces_.push_back(faces_.back());  // as PlaneRows asks
   const auto count = static_cast<Eigen::Index>(faces_.size());
   normals_.resize(count, 3);
   offsets_.resize(count);
@@ -71,8 +70,9 @@ ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
       return;
     }
     const Double2 outwards = dot(n, a - Pair(middle_, middle_));
-    const Double2 to_unit = {std::copysign(1 / std::sqrt(square[0]), outwards[0]),
-                             std::copysign(1 / std::sqrt(square[1]), outwards[1])};
+    const Double2 per_length = 1.0 / lanes::sqrt(square);
+    const Double2 to_unit = {std::copysign(per_length[0], outwards[0]),
+                             std::copysign(per_length[1], outwards[1])};
     lanes::store(&normals_(i, 0), to_unit * n.x);
     lanes::store(&normals_(i, 1), to_unit * n.y);
     lanes::store(&normals_(i, 2), to_unit * n.z);
@@ -91,13 +91,9 @@ std::vector<ConvexFaces::Slab> ConvexFaces::slabs() const {
   return slabs;
 }
 
-template <typename Values>
-Eigen::Index ConvexFaces::largest(const Values& values) const {
-  heights_ = values;
-  const double most = heights_.maxCoeff();
-  Eigen::Index i = 0;
-  while (i + 1 < heights_.size() && heights_[i] < most) ++i;
-  return i;
+Eigen::Index ConvexFaces::highestOver(const Triangle& t, double& height) const {
+  const PlaneRows planes = {normals_.data(), offsets_.data(), faces_.size()};
+  return static_cast<Eigen::Index>(planes.highestOver(t, height));
 }
 
 bool ConvexFaces::inTetrahedra(std::size_t face, const Vec& p) const {
@@ -114,7 +110,10 @@ bool ConvexFaces::inTetrahedra(std::size_t face, const Vec& p) const {
 bool ConvexFaces::contains(const Vec& p) const {
   if (per_depth_.size() == 0) return false;
   if (inTetrahedra(last_, p)) return true;
-  const auto exit = static_cast<std::size_t>(largest(along(p - middle_) * per_depth_));
+  heights_ = along(p - middle_) * per_depth_;
+  const double most = heights_.maxCoeff();
+  std::size_t exit = 0;
+  while (exit + 1 < faces_.size() && heights_[static_cast<Eigen::Index>(exit)] < most) ++exit;
   if (!inTetrahedra(exit, p)) return false;
   last_ = exit;
   return true;
@@ -123,7 +122,8 @@ bool ConvexFaces::contains(const Vec& p) const {
 ConvexFaces::Slab ConvexFaces::leastExit(const Triangle& t) const {
   const double rounding = 0x1p-50 * reach_;
   for (;;) {
-    const Eigen::Index i = largest(lowest(t));
+    double height;
+    const Eigen::Index i = highestOver(t, height);
     const Slab slab = {normal(i), extentAlong(solid_, normal(i))};
     if (slab.offset <= offsets_[i] + rounding) return slab;
     offsets_[i] = slab.offset;
@@ -136,7 +136,9 @@ ConvexFaces::Verdict ConvexFaces::judge(const Triangle& t) const {
     if (!flat && inTetrahedra(last_, corner)) return Verdict::kMeets;
   }
   const double clear = 0x1p-40 * (sizeOf(t) + reach_);
-  if (heights_[largest(lowest(t))] > clear) {
+  double highest;
+  highestOver(t, highest);
+  if (highest > clear) {
     const Slab slab = leastExit(t);
     const Vec& n = slab.normal;
     const double low = std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});

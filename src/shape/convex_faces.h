@@ -13,8 +13,8 @@ namespace kios::shape {
 /// face and the points' middle. For one thread.
 class ConvexFaces {
  public:
-  /// None for other solids, for those without faces or with one without an area, and where there
-  /// are so many of them that making planes doesn't pay. The solid must outlive this.
+  /// None for other solids, and for those without faces or with one without an area. The solid must
+  /// outlive this.
   explicit ConvexFaces(const Solid& solid);
 
   bool known() const { return offsets_.size() > 0; }
@@ -24,7 +24,7 @@ class ConvexFaces {
     Vec normal;
     double offset;
   };
-  /// Those of all faces.
+  /// Those of all faces. Takes as long as faces times points.
   std::vector<Slab> slabs() const;
   /// That by which a triangle leaves the hull on the shortest way; there must be faces.
   Slab leastExit(const Triangle& triangle) const;
@@ -38,9 +38,8 @@ class ConvexFaces {
 
  private:
   bool inTetrahedra(std::size_t face, const Vec& p) const;
-  /// Keeps values of all planes in heights_, and returns where they are the largest.
-  template <typename Values>
-  Eigen::Index largest(const Values& values) const;
+  /// The face over whose plane by offsets_ a triangle lies highest, and how high.
+  Eigen::Index highestOver(const Triangle& t, double& height) const;
   Vec normal(Eigen::Index i) const { return normals_.row(i); }
 
   /// Along all normals, evaluated where it is used.
@@ -48,13 +47,8 @@ class ConvexFaces {
     return v.x() * normals_.col(0).array() + v.y() * normals_.col(1).array() +
            v.z() * normals_.col(2).array();
   }
-  /// A triangle's least heights over the planes of offsets_.
-  auto lowest(const Triangle& t) const {
-    return along(t[0]).min(along(t[1])).min(along(t[2])) - offsets_;
-  }
-
   const Solid& solid_;
-  std::vector<const int*> faces_;  ///< as in Solid::faces
+  std::vector<const int*> faces_;  ///< as in Solid::faces; repeated up to a multiple of 8
   Eigen::Matrix<double, Eigen::Dynamic, 3> normals_;
   /// By one corner of each face, until leastExit() finds points beyond: thin faces lie askew.
   mutable Eigen::ArrayXd offsets_;

@@ -60,8 +60,22 @@ double ellipsoidBound(const Solid& s, const Vec& p) {
   return best;
 }
 
-/// The first of the points that lie farthest along n. Two at a time: their six coordinates lie one
-/// after another.
+/// Calls visit(xy, zx, yz) for two points at a time, whose six coordinates lie one after another;
+/// an odd last one is there twice.
+template <typename Visit>
+void visitTwos(const std::vector<Vec>& points, const Visit& visit) {
+  using lanes::Double2;
+  const auto visitAt = [&](const double* p) {
+    visit(lanes::load(p), lanes::load(p + 2), lanes::load(p + 4));
+  };
+  const std::size_t even = points.size() / 2 * 2;
+  for (std::size_t i = 0; i < even; i += 2) visitAt(points[i].data());
+  if (even == points.size()) return;
+  const Vec last[2] = {points.back(), points.back()};
+  visitAt(last[0].data());
+}
+
+/// The first of the points that lie farthest along n. Two at a time, as visitTwos().
 const Vec& farthestAlong(const std::vector<Vec>& points, const Vec& n) {
   using lanes::Double2;
   const Double2 xy = {n.x(), n.y()}, zx = {n.z(), n.x()}, yz = {n.y(), n.z()};
@@ -120,9 +134,13 @@ double Solid::reach() const {
     case Kind::kCone:
       return std::sqrt(radius * radius + half_length * half_length);
     case Kind::kConvex: {
-      double squared = 0;
-      for (const Vec& p : points) squared = std::max(squared, p.squaredNorm());
-      return std::sqrt(squared);
+      using lanes::Double2;
+      Double2 squared = {0, 0};
+      visitTwos(points, [&](Double2 xy, Double2 zx, Double2 yz) {
+        const Double2 a = xy * xy, b = zx * zx, c = yz * yz;
+        squared = lanes::max(Double2{a[0] + a[1] + b[0], b[1] + c[0] + c[1]}, squared);
+      });
+      return std::sqrt(std::max(squared[0], squared[1]));
     }
     default:
       return std::abs(offset);
@@ -130,12 +148,21 @@ double Solid::reach() const {
 }
 
 Range rangeOf(const std::vector<Vec>& points) {
-  Range range = {points[0], points[0]};
-  for (const Vec& p : points) {
-    range.low = range.low.cwiseMin(p);
-    range.high = range.high.cwiseMax(p);
-  }
-  return range;
+  using lanes::Double2;
+  const Vec& first = points[0];
+  const Double2 start[3] = {{first.x(), first.y()}, {first.z(), first.x()}, {first.y(), first.z()}};
+  Double2 low[3] = {start[0], start[1], start[2]}, high[3] = {start[0], start[1], start[2]};
+  visitTwos(points, [&](Double2 xy, Double2 zx, Double2 yz) {
+    const Double2 two[3] = {xy, zx, yz};
+    for (int i = 0; i < 3; ++i) {
+      low[i] = lanes::min(two[i], low[i]);
+      high[i] = lanes::max(two[i], high[i]);
+    }
+  });
+  return {{std::min(low[0][0], low[1][1]), std::min(low[0][1], low[2][0]),
+           std::min(low[1][0], low[2][1])},
+          {std::max(high[0][0], high[1][1]), std::max(high[0][1], high[2][0]),
+           std::max(high[1][0], high[2][1])}};
 }
 
 Range rangeOf(const Solid& s) {
@@ -157,6 +184,11 @@ Range rangeOf(const Solid& s) {
       break;
   }
   return {-half, half};
+}
+
+void makeRows(Solid& s) {
+  constexpr std::size_t kFew = 16;
+  if (s.kind == Kind::kConvex && s.points.size() > kFew) s.rows = PointRows(s.points);
 }
 
 Vec coreSupport(const Solid& s, const Vec& n) {
@@ -182,7 +214,7 @@ Vec coreSupport(const Solid& s, const Vec& n) {
       return {n.x() * scale, n.y() * scale, -s.half_length};
     }
     case Kind::kConvex:
-      return farthestAlong(s.points, n);
+      return s.rows.empty() ? farthestAlong(s.points, n) : s.points[s.rows.farthestAlong(n)];
     default:
       return Vec::Zero();
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fcl_kios/triangle/triangle.h"
+#include "shape/point_rows.h"
 
 namespace kios::shape {
 
@@ -35,6 +36,7 @@ struct Solid {
       Vec::Zero();  ///< half-space {normal x <= offset} and plane {normal x = offset}: unit
   double offset = 0;
   std::vector<Vec> points;  ///< convex: their hull is the shape
+  PointRows rows;           ///< of these, if made by makeRows()
   /// Convex: the hull's faces, each the number of its corners and their indices, as FCL's. Not
   /// owned. They decide where GJK can't.
   const int* faces = nullptr;
@@ -63,6 +65,10 @@ Range rangeOf(const Solid& solid);
 inline bool isFlat(const Vec& radii, int axis) {
   return radii[axis] <= 0x1p-100 * radii.maxCoeff();
 }
+
+/// Makes the rows of a convex shape's points, by which those that are extreme are found sooner if
+/// there are more than a few. Points mustn't change thereafter.
+void makeRows(Solid& solid);
 
 /// A point of the core that is extreme along n (bounded shapes; n need not be unit).
 Vec coreSupport(const Solid& solid, const Vec& n);

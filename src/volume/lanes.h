@@ -101,11 +101,27 @@ inline Float4 min(Float4 a, Float4 b) {
 #endif
 }
 
+inline Double2 min(Double2 a, Double2 b) {
+#if defined(__SSE2__)
+  return _mm_min_pd(a, b);
+#else
+  return Double2{a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
+#endif
+}
+
 inline Float4 sqrt(Float4 v) {
 #if defined(__SSE2__)
   return _mm_sqrt_ps(v);
 #else
   return Float4{std::sqrt(v[0]), std::sqrt(v[1]), std::sqrt(v[2]), std::sqrt(v[3])};
+#endif
+}
+
+inline Double2 sqrt(Double2 v) {
+#if defined(__SSE2__)
+  return _mm_sqrt_pd(v);
+#else
+  return Double2{std::sqrt(v[0]), std::sqrt(v[1])};
 #endif
 }
 

@@ -5,6 +5,8 @@
 // hull of many faces, which GJK's slab across features decides.
 
 #include "shape/convex_faces.h"
+#include "shape/point_rows.h"
+#include "shape/separating_slabs.h"
 
 #include <gtest/gtest.h>
 
@@ -49,14 +51,18 @@ double depthIn(const ConvexFaces::Slab& slab, const Triangle& t) {
   return slab.offset - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])});
 }
 
-// Small integers make ties, and no rounding.
+// Small integers make ties, and no rounding. Rows are looked at by whole chunks.
 TEST(FarthestPoint, IsTheFirstOfTheFarthest) {
   SolidCases cases(61);
   Solid s;
   s.kind = shape::Kind::kConvex;
   const auto grid = [&] { return Vec((4 * cases.vector()).array().round()); };
-  for (int count = 1; count <= 200; ++count) {
+  for (int count = 1; count <= 700; ++count) {
     s.points.push_back(grid());
+    if (count > 200 && count % 61 != 0 && count != 256 && count != 512) continue;
+    Solid in_rows = s;
+    shape::makeRows(in_rows);
+    EXPECT_EQ(in_rows.rows.empty(), count <= 16);
     for (int i = 0; i < 20; ++i) {
       const Vec n = grid();
       const Vec* first = &s.points[0];
@@ -64,8 +70,71 @@ TEST(FarthestPoint, IsTheFirstOfTheFarthest) {
         if (n.dot(p) > n.dot(*first)) first = &p;
       }
       EXPECT_EQ(shape::coreSupport(s, n), *first) << count;
+      EXPECT_EQ(shape::coreSupport(in_rows, n), *first) << count;
+      const Vec any = cases.vector();  // rounded alike
+      EXPECT_EQ(shape::coreSupport(in_rows, any), shape::coreSupport(s, any)) << count;
+      if (!in_rows.rows.empty()) {
+        EXPECT_EQ(in_rows.rows.farthestAlong(n), first - s.points.data()) << count;
+      }
     }
   }
+  const shape::PointRows rows(s.points);
+  EXPECT_EQ(rows.farthestAlong(Vec(std::numeric_limits<double>::quiet_NaN(), 0, 0)), 0U);
+}
+
+TEST(PlaneRows, TellTheFirstThatATriangleLiesHighestOver) {
+  SolidCases cases(66);
+  for (const std::size_t count : {8, 16, 256, 264, 1000}) {
+    std::vector<double> normals(3 * count), offsets(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec n = (2 * cases.vector()).array().round();
+      for (std::size_t c = 0; c < 3; ++c) normals[count * c + i] = n[static_cast<int>(c)];
+      offsets[i] = std::round(2 * cases.vector().x());
+    }
+    const shape::PlaneRows planes = {normals.data(), offsets.data(), count};
+    for (int k = 0; k < 50; ++k) {
+      const Triangle t = cases.triangle(cases.vector(), 1);
+      const auto heightOver = [&](std::size_t i) {
+        const Vec n(normals[i], normals[count + i], normals[2 * count + i]);
+        return std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])}) - offsets[i];
+      };
+      std::size_t first = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (heightOver(i) > heightOver(first)) first = i;
+      }
+      double height;
+      EXPECT_EQ(planes.highestOver(t, height), first);
+      EXPECT_EQ(height, heightOver(first));
+    }
+  }
+}
+
+// Each across a triangle beside the hull: what they prove is so by the kernel of one triangle.
+TEST(SeparatingSlabs, ProveNoMoreThanThereIs) {
+  SolidCases cases(67);
+  int proven = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Hull hull(2, Vec::Constant(0.2) + cases.vector().cwiseAbs(), cases.vector());
+    shape::SeparatingSlabs slabs(hull.solid);
+    EXPECT_EQ(slabs.add(Vec::Zero()), nullptr);
+    for (int k = 0; k < 100; ++k) {
+      const Triangle t = cases.triangle(2 * cases.vector(), cases.power(-3, 0));
+      const auto d = shape::distance(hull.solid, t, kInfinity);
+      const double rounding = 0x1p-46 * (hull.solid.reach() + shape::sizeOf(t));
+      for (const double share : {0.0, 0.5, 0.9}) {
+        proven += slabs.proveFarther(t, share * d.distance + (d.distance == 0 ? rounding : 0));
+      }
+      EXPECT_FALSE(slabs.proveFarther(t, d.distance + rounding)) << i << ' ' << k;
+      if (d.distance == 0) continue;
+      const auto* const slab = slabs.add(d.on_triangle - d.on_shape);
+      ASSERT_NE(slab, nullptr);
+      EXPECT_TRUE(slabs.proveFarther(t, d.distance - rounding));
+      for (const Vec& p : hull.solid.points) {
+        EXPECT_LE(slab->normal.dot(p), slab->offset + rounding);
+      }
+    }
+  }
+  EXPECT_GT(proven, 3000);
 }
 
 TEST(ConvexFaces, SlabsHoldAllPoints) {
@@ -161,8 +230,8 @@ TEST(ConvexFaces, ClosePairsAreToldBySlabsAcrossFeatures) {
     }
     const ConvexFaces faces(pair.solid);
     const auto verdict = faces.judge(pair.triangle);
-    std::optional<Vec> common;
-    const bool meets = shape::intersects(pair.solid, pair.triangle, nullptr, &common);
+    shape::Witness witness;
+    const bool meets = shape::intersects(pair.solid, pair.triangle, nullptr, &witness);
     EXPECT_NE(verdict, meets ? ConvexFaces::Verdict::kApart : ConvexFaces::Verdict::kMeets);
     told_apart += verdict == ConvexFaces::Verdict::kApart;
     told_meets += verdict == ConvexFaces::Verdict::kMeets;
@@ -172,7 +241,7 @@ TEST(ConvexFaces, ClosePairsAreToldBySlabsAcrossFeatures) {
       ++met;
       EXPECT_LE(pair.distance, 0x1p-46L * pair.extent);
       const auto plain = shape::contact(pair.solid, pair.triangle, &faces);
-      const auto with = shape::contact(pair.solid, pair.triangle, &faces, common);
+      const auto with = shape::contact(pair.solid, pair.triangle, &faces, witness.common);
       EXPECT_EQ(plain.position, with.position);
       EXPECT_EQ(plain.normal, with.normal);
       EXPECT_EQ(plain.depth, with.depth);

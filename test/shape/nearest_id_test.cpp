@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
+#include <random>
 #include <set>
 
 #include "fcl/mesh_cases.h"
@@ -166,6 +169,37 @@ TEST_P(NearestId, IsTheLeastAroundAVertex) {
   }
   EXPECT_GT(around, 10);
 }
+
+// Hulls of many points, in any order, are searched by slabs that are found on the way.
+template <typename S>
+void compareManyFaced() {
+  Compare<S> compare;
+  scenes::Random random(37);
+  std::mt19937_64 order(38);
+  for (const Mesh& ball :
+       {scenes::icosphere(1, 2), scenes::icosphere(1, 3), scenes::stripCylinder(60, 1, 0.02)}) {
+    for (const Mesh& mesh : {scenes::bumpyTorus(300), scenes::subdividedBox({2, 2, 0.2}, 1)}) {
+      for (const Frame& frame : randomFrames(6, 1.6, 5)) {
+        ShapeSpec spec = randomShape(Shape::kConvex, random);
+        std::vector<std::size_t> place(ball.vertices.size());
+        std::iota(place.begin(), place.end(), std::size_t{0});
+        std::shuffle(place.begin(), place.end(), order);
+        spec.hull = ball;
+        for (std::size_t i = 0; i < place.size(); ++i) {
+          spec.hull.vertices[place[i]] =
+              ball.vertices[i].cwiseProduct(spec.size).cast<float>().cast<double>();
+        }
+        for (auto& t : spec.hull.triangles) t.set(place[t[0]], place[t[1]], place[t[2]]);
+        compare(mesh, spec, frame.X_WA, frame.X_WB);
+      }
+    }
+  }
+  EXPECT_GT(compare.apart, 10);
+  EXPECT_GT(compare.contacts, 100);
+}
+
+TEST(ManyFacedHulls, AnswerAsBruteForce) { compareManyFaced<double>(); }
+TEST(ManyFacedHulls, AnswerAsBruteForceInFloat) { compareManyFaced<float>(); }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, NearestId, ::testing::ValuesIn(kShapes), NameOfShape());
 

@@ -19,6 +19,7 @@
 #include "query/mesh_contacts.h"
 #include "scenes/cad_shapes.h"
 #include "search/search.h"
+#include "shape/convex_faces.h"
 #include "shape/shape_oracle.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
@@ -85,14 +86,18 @@ class Auditor {
               const fcl::Transform3d& X_WS, Pads pads, Audited& out) {
     const PosedSolid<S> posed(toSolid(geometry), X_WM.cast<S>(), X_WS.cast<S>(),
                               model_->getBV(0).bv);
-    std::vector<engine::FloatSlab> planes;
+    const bool by_faces = ++calls_ % 2 == 0;  // every other time of a convex shape
+    const auto of_faces = shape::ConvexFaces(posed.solid()).slabs();
     engine::FloatSolid solid;
-    if (!makeFloatSolid(*tree_, posed, planes, solid)) return false;
+    if (!makeFloatSolid(*tree_, posed, by_faces, solid)) return false;
     solid.pad *= pads.of_points;
     solid.box_pad *= pads.of_boxes;
     distances_.clear();
     std::size_t nearest = 0;
-    engine::FloatSlab slab;
+    std::vector<engine::FloatSlab> slabs;
+    for (const auto& face : of_faces) {
+      if (by_faces) slabs.push_back(slabInTree(*tree_, posed, face.normal, face.offset));
+    }
     double reach = posed.solid().reach();
     for (int i = 0; i < model_->num_tris; ++i) {
       const shape::Triangle t = posed.place(cornersOf(*model_, i));
@@ -102,7 +107,8 @@ class Auditor {
       if (distances_.back() < distances_[nearest]) nearest = distances_.size() - 1;
       const shape::Vec way = d.on_triangle - d.on_shape;
       if (i % 7 == 0 && d.distance > 0 && posed.solid().bounded()) {
-        slab = slabAcross(*tree_, posed, way.normalized());
+        const shape::Vec n = way.normalized();
+        slabs.push_back(slabInTree(*tree_, posed, n, shape::extentAlong(posed.solid(), n)));
       }
     }
     error_ = 0x1p-43 * reach;
@@ -115,7 +121,12 @@ class Auditor {
       if (limit < kInfinity && limit > 0) {
         listener.cull_distance = std::nextafter(listener.cull_distance, 2 * listener.cull_distance);
       }
-      if (limit > 0) listener.slab = slab;
+      if (limit > 0 && !slabs.empty()) listener.slab = slabs.back();
+      if (by_faces) {
+        listener.setSlabs(slabs);
+      } else {
+        for (const engine::FloatSlab& slab : slabs) listener.addSlab(slab);
+      }
       SearchCounts counts;
       const float asked = listener.cull_distance;
       engine::kernels().solid({*tree_, solid, listener, counts, &listener});
@@ -158,6 +169,7 @@ class Auditor {
   std::vector<std::vector<std::uint32_t>> below_;
   std::vector<double> distances_;
   double error_ = 0;
+  int calls_ = 0;
 };
 
 /// Returns points in heaps of eight: volumes of size 0, whose bounds are as wide as the pads let

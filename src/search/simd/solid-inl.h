@@ -111,8 +111,8 @@ class SolidTraversal {
         bounds = bounds_.boxes(tree_.box_blocks[at], l, contact_, bounds);
         near &= bitsOf(hn::Lt(bounds, limit));
       }
-      if (near != 0 && bounds_.hasPlanes()) {
-        bounds = bounds_.spheresOverPlanes(block, l, bounds);
+      if (near != 0 && !search_.evaluator.slabs().empty()) {
+        bounds = bounds_.spheresOverSlabs(block, l, search_.evaluator.slabs(), bounds);
         near &= bitsOf(hn::Lt(bounds, limit));
       }
       const VU child =
@@ -198,26 +198,33 @@ class SolidTraversal {
     boxTriangles(view, boxes);
     uint32_t near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
-      V lower = bounds_.boxes(boxes, l, contact_, hn::Load(d, out.bounds + l));
-      if (bounds_.hasPlanes()) lower = overPlanes(view, l, lower);
+      const V lower = bounds_.boxes(boxes, l, contact_, hn::Load(d, out.bounds + l));
       hn::Store(lower, d, out.bounds + l);
       near |= bitsOf(hn::Lt(lower, hn::Set(d, search_.evaluator.cull_distance))) << l;
     }
     out.near &= near | out.meeting;
   }
 
-  V overPlanes(const LeafView& view, size_t l, V bounds) const {
-    V3 p[3];
-    alignas(32) uint32_t at[kLanes];
-    for (uint32_t k = 0; k < 3; ++k) {
-      for (uint32_t i = 0; i < kLanes; ++i) {
-        at[i] = view.leaf.corners[3 * std::min(i, view.leaf.num_faces - 1U) + k];
-      }
-      const VU corners = hn::Load(du, at + l);
-      p[k] = {lookUp(view.vertices, 0, corners), lookUp(view.vertices, 1, corners),
-              lookUp(view.vertices, 2, corners)};
+  HWY_NOINLINE void boundBySlabs(const LeafView& view, Triangles& out) const {
+    alignas(32) uint32_t at[3][kLanes];
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      const uint32_t face = std::min(i, view.leaf.num_faces - 1U);
+      for (uint32_t k = 0; k < 3; ++k) at[k][i] = view.leaf.corners[3 * face + k];
     }
-    return bounds_.trianglesOverPlanes(p, bounds);
+    uint32_t near = 0;
+    for (size_t l = 0; l < kLanes; l += step()) {
+      V3 p[3];
+      for (int k = 0; k < 3; ++k) {
+        const VU corners = hn::Load(du, at[k] + l);
+        p[k] = {lookUp(view.vertices, 0, corners), lookUp(view.vertices, 1, corners),
+                lookUp(view.vertices, 2, corners)};
+      }
+      const V lower =
+          bounds_.trianglesOverSlabs(p, search_.evaluator.slabs(), hn::Load(d, out.bounds + l));
+      hn::Store(lower, d, out.bounds + l);
+      near |= bitsOf(hn::Lt(lower, hn::Set(d, search_.evaluator.cull_distance))) << l;
+    }
+    out.near &= near | out.meeting;
   }
 
   /// True to end the search.
@@ -232,18 +239,23 @@ class SolidTraversal {
     if (bounds_.isBounded() && (triangles.near & ~triangles.meeting) != 0) {
       boundByBoxes(view, triangles);
     }
+    const auto hasSlabs = [&] { return triangles.near != 0 && !search_.evaluator.slabs().empty(); };
+    if (hasSlabs()) boundBySlabs(view, triangles);
     if (search_.audit) tellTriangles(view, triangles);
     if (triangles.near == 0) return false;
     ++search_.counts.leaf_kernels;
-    for (uint32_t near = triangles.near; near != 0; near &= near - 1) {
-      const uint32_t lane = firstOf(near), triangle = view.face(lane).triangle();
+    while (triangles.near != 0) {
+      const uint32_t lane = firstOf(triangles.near), triangle = view.face(lane).triangle();
       const float bound = triangles.bounds[lane];
       const bool meets = (triangles.meeting >> lane & 1U) != 0;
+      triangles.near &= triangles.near - 1;
       if (bound > 0 && !meets) {
         frontier_.keep(bound, triangle);
-      } else if (evaluate(triangle, meets)) {
-        return true;
+        continue;
       }
+      const uint32_t added = search_.evaluator.numAdded();
+      if (evaluate(triangle, meets)) return true;
+      if (search_.evaluator.numAdded() != added && hasSlabs()) boundBySlabs(view, triangles);
     }
     return false;
   }

@@ -76,28 +76,26 @@ class SolidBounds {
     return hn::IfThenElse(hn::Gt(lower, hn::Zero(d)), hn::Max(bounds, apart), bounds);
   }
 
-  /// Raises the bounds of spheres, or of triangles, by the solid's planes.
-  V spheresOverPlanes(const Block& block, size_t l, V bounds) const {
+  /// Raises the bounds of spheres, or of triangles, by the slabs that were added.
+  V spheresOverSlabs(const Block& block, size_t l, const std::vector<FloatSlab>& slabs,
+                     V bounds) const {
     const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
                   load(block.z[kCentral], l)};
     V highest = hn::Set(d, -kInfinityFloat);
-    for (int i = 0; i < solid_.num_planes; ++i) {
-      const FloatSlab& plane = solid_.planes[i];
-      highest = hn::Max(highest, hn::Sub(dot(vec(plane.n), c), set(plane.offset)));
+    for (const FloatSlab& slab : slabs) {
+      highest = hn::Max(highest, hn::Sub(dot(vec(slab.n), c), set(slab.offset)));
     }
     return hn::Max(bounds, hn::Sub(highest, hn::Add(load(block.r[kCentral], l), set(solid_.pad))));
   }
-  V trianglesOverPlanes(const V3 (&p)[3], V bounds) const {
+  V trianglesOverSlabs(const V3 (&p)[3], const std::vector<FloatSlab>& slabs, V bounds) const {
     V highest = hn::Set(d, -kInfinityFloat);
-    for (int i = 0; i < solid_.num_planes; ++i) {
-      const FloatSlab& plane = solid_.planes[i];
-      const V3 n = vec(plane.n);
+    for (const FloatSlab& slab : slabs) {
+      const V3 n = vec(slab.n);
       const V low = hn::Min(hn::Min(dot(n, p[0]), dot(n, p[1])), dot(n, p[2]));
-      highest = hn::Max(highest, hn::Sub(low, set(plane.offset)));
+      highest = hn::Max(highest, hn::Sub(low, set(slab.offset)));
     }
     return hn::Max(bounds, hn::Sub(highest, set(solid_.pad)));
   }
-  bool hasPlanes() const { return solid_.num_planes > 0; }
 
   bool isBounded() const { return solid_.form < Form::kHalfspace; }
   /// points() is the distance, but for the pad.

@@ -80,8 +80,8 @@ class ShapeQuestion {
     const double relative = chance(random_, 0.3) ? 1 : power(random_, -5, 2);
     ShapeSpec spec = testing::randomShape(kind, random_, size * relative);
     if (kind == Shape::kConvex) {
-      spec.hull =
-          chance(random_, 0.5) ? scenes::icosphere(1, 0) : scenes::subdividedBox({1, 1, 1}, 1);
+      spec.hull = chance(random_, 0.3) ? scenes::subdividedBox({1, 1, 1}, 1)
+                                       : scenes::icosphere(1, below(random_, 3));
       if (chance(random_, 0.2)) {  // flat
         spec.hull = scenes::singleTriangle({1, 0, 0}, {-1, 1, 0}, {0, -1, 0});
         spec.hull.triangles.emplace_back(0, 2, 1);
