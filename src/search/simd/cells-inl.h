@@ -54,20 +54,14 @@ struct MovedTriangles {
   Lanes p[3][3];  ///< by corner and coordinate
 
   HWY_NOINLINE void place(const LeafView& view, const FloatPose& X) {
-    alignas(32) uint32_t corners[3][kLanes];
-    for (uint32_t i = 0; i < kLanes; ++i) {
-      const uint32_t face = std::min(i, view.leaf.num_faces - 1U);
-      for (uint32_t k = 0; k < 3; ++k) corners[k][i] = view.leaf.corners[3 * face + k];
-    }
+    const CornerLanes corners(view.leaf);
     used = (1U << view.leaf.num_faces) - 1;
     for (size_t l = 0; l < kLanes; l += step()) {
       for (int k = 0; k < 3; ++k) {
-        const VU at = hn::Load(du, corners[k] + l);
-        const V x = lookUp(view.vertices, 0, at), y = lookUp(view.vertices, 1, at),
-                z = lookUp(view.vertices, 2, at);
+        const V3 corner = corners.pointOf(view.vertices, k, l);
         for (int i = 0; i < 3; ++i) {
           const V moved =
-              dot(hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2]), x, y, z);
+              dot({hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2])}, corner);
           hn::Store(hn::Add(moved, hn::Set(d, X.t[i])), d, p[k][i].v + l);
         }
       }

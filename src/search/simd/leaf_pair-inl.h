@@ -76,6 +76,26 @@ HWY_INLINE V lookUp(const Points& points, int i, hn::Vec<DU> at) {
   }
 }
 
+/// The corners of a leaf's triangles, by vertex, one triangle a lane; the last is repeated.
+struct CornerLanes {
+  HWY_INLINE explicit CornerLanes(const Leaf& leaf) {
+    for (uint32_t i = 0; i < kLanes; ++i) {
+      const uint32_t face = std::min(i, leaf.num_faces - 1U);
+      for (uint32_t k = 0; k < 3; ++k) vertices[k][i] = leaf.corners[3 * face + k];
+    }
+  }
+
+  /// Row `row` of chunks as Points, at corner k.
+  HWY_INLINE V valueOf(const Points& rows, int row, int k, size_t l) const {
+    return lookUp(rows, row, hn::Load(du, vertices[k] + l));
+  }
+  HWY_INLINE V3 pointOf(const Points& points, int k, size_t l) const {
+    return {valueOf(points, 0, k, l), valueOf(points, 1, k, l), valueOf(points, 2, k, l)};
+  }
+
+  alignas(32) uint32_t vertices[3][kLanes];
+};
+
 /// The bits shifted right by a number < 32 in each lane.
 HWY_INLINE hn::Vec<DU> shiftedRight(uint32_t bits, hn::Vec<DU> by) {
 #if HWY_TARGET == HWY_SSE4

@@ -160,17 +160,11 @@ class SolidTraversal {
   /// By the vertices' bounds and heights.
   HWY_INLINE void boundByVertices(const LeafView& view, const Lanes* values, float bound,
                                   Triangles& out) const {
-    alignas(32) uint32_t corners[3][kLanes];
-    for (uint32_t i = 0; i < kLanes; ++i) {
-      const uint32_t face = std::min(i, view.leaf.num_faces - 1U);
-      for (uint32_t k = 0; k < 3; ++k) corners[k][i] = view.leaf.corners[3 * face + k];
-    }
+    const CornerLanes corners(view.leaf);
     const Points vertices = {values, view.vertices.chunks};
     const V limit = hn::Set(d, search_.evaluator.cull_distance), inside = hn::Neg(pad());
     for (size_t l = 0; l < kLanes; l += step()) {
-      const VU at[3] = {hn::Load(du, corners[0] + l), hn::Load(du, corners[1] + l),
-                        hn::Load(du, corners[2] + l)};
-      const auto of = [&](int row, int k) { return lookUp(vertices, row, at[k]); };
+      const auto of = [&](int row, int k) { return corners.valueOf(vertices, row, k, l); };
       const auto leastOf = [](V a, V b, V c) { return hn::Min(hn::Min(a, b), c); };
       const V low = leastOf(of(kBound, 0), of(kBound, 1), of(kBound, 2));
       auto meeting = hn::Lt(low, inside);
@@ -206,19 +200,11 @@ class SolidTraversal {
   }
 
   HWY_NOINLINE void boundBySlabs(const LeafView& view, Triangles& out) const {
-    alignas(32) uint32_t at[3][kLanes];
-    for (uint32_t i = 0; i < kLanes; ++i) {
-      const uint32_t face = std::min(i, view.leaf.num_faces - 1U);
-      for (uint32_t k = 0; k < 3; ++k) at[k][i] = view.leaf.corners[3 * face + k];
-    }
+    const CornerLanes corners(view.leaf);
     uint32_t near = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
       V3 p[3];
-      for (int k = 0; k < 3; ++k) {
-        const VU corners = hn::Load(du, at[k] + l);
-        p[k] = {lookUp(view.vertices, 0, corners), lookUp(view.vertices, 1, corners),
-                lookUp(view.vertices, 2, corners)};
-      }
+      for (int k = 0; k < 3; ++k) p[k] = corners.pointOf(view.vertices, k, l);
       const V lower =
           bounds_.trianglesOverSlabs(p, search_.evaluator.slabs(), hn::Load(d, out.bounds + l));
       hn::Store(lower, d, out.bounds + l);

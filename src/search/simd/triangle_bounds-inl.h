@@ -47,19 +47,11 @@ HWY_INLINE Axes axesAlong(const V3& direction) {
 /// The halves are measured from the centre as stored, along the axes as stored, by 5 roundings of
 /// terms that add up to at most 1.8 times the sum of the halves; they grow by 32 u of that sum.
 [[gnu::hot]] HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
-  alignas(32) uint32_t corners[3][kLanes];
-  for (uint32_t i = 0; i < kLanes; ++i) {
-    const uint32_t face = std::min(i, leaf.leaf.num_faces - 1U);
-    for (uint32_t k = 0; k < 3; ++k) corners[k][i] = leaf.leaf.corners[3 * face + k];
-  }
+  const CornerLanes corners(leaf.leaf);
   const V zero = hn::Zero(d);
   for (size_t l = 0; l < kLanes; l += step()) {
     V3 p[3];
-    for (int k = 0; k < 3; ++k) {
-      const VU at = hn::Load(du, corners[k] + l);
-      p[k] = {lookUp(leaf.vertices, 0, at), lookUp(leaf.vertices, 1, at),
-              lookUp(leaf.vertices, 2, at)};
-    }
+    for (int k = 0; k < 3; ++k) p[k] = corners.pointOf(leaf.vertices, k, l);
     const auto row = [&](int i) {
       return V3{load(leaf.faces[i], l), load(leaf.faces[i + 1], l), load(leaf.faces[i + 2], l)};
     };
