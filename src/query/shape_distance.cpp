@@ -44,6 +44,10 @@ class NearestTriangle final : public engine::SolidEvaluator {
 
   void run() {
     if (limit_ < kInfinity && leftOut(boundOf(0))) return;
+    if (model_.num_tris == 1) {
+      test(0);
+      return;
+    }
     engine::TreeCache* const trees = treesOf(model_);
     const long long spare =
         trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();

@@ -65,9 +65,7 @@ class ShapeCollision final : public engine::SolidEvaluator {
     if (!occupied_ && !costs_) return;
     if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
     ++counts_.volume_tests;
-    constexpr int kFew = 16;  // of which a convex shape's own bound takes as long as a triangle
-    const bool few = model_.num_tris <= kFew && posed_.solid().kind == shape::Kind::kConvex;
-    if (posed_.bound(model_.getBV(0).bv, few ? -kInfinity : 0.0) > 0) return;
+    if (posed_.bound(model_.getBV(0).bv, capsPay() ? 0.0 : -kInfinity) > 0) return;
     if (solidOffBox(model_, posed_)) return;
     search();
     if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
@@ -88,6 +86,8 @@ class ShapeCollision final : public engine::SolidEvaluator {
 
   /// Finds as many triangles as there is room for; all that touch if costs are asked for.
   void search() {
+    constexpr int kFew = 2;  // triangles, of which any search takes longer than looking at each
+    if (model_.num_tris <= kFew) return lookAtEach();
     engine::TreeCache* const trees = costs_ ? nullptr : treesOf(model_);
     const long long spare =
         trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
@@ -115,6 +115,25 @@ class ShapeCollision final : public engine::SolidEvaluator {
     } else {
       ++counts_.tree_searches;
       walk(std::numeric_limits<long long>::max());
+    }
+  }
+
+  /// Whether more than the root's central sphere is worth a look before boxes are: where a sphere
+  /// takes little.
+  bool capsPay() const {
+    const shape::Kind kind = posed_.solid().kind;
+    return !posed_.solid().bounded() || kind == shape::Kind::kSphere ||
+           kind == shape::Kind::kCapsule || kind == shape::Kind::kBox;
+  }
+
+  /// Of large triangles most are told by their own plane.
+  void lookAtEach() {
+    const bool by_plane = posed_.solid().bounded() && posed_.solid().kind != shape::Kind::kConvex;
+    for (int id = 0; id < model_.num_tris; ++id) {
+      const shape::Triangle t = posed_.place(cornersOf(model_, id));
+      const shape::Vec n = (t[1] - t[0]).cross(t[2] - t[0]);
+      if (by_plane) slabs_.add(n.dot(t[0]) < 0 ? shape::Vec(-n) : n);
+      if (test(id, false)) return;
     }
   }
 
