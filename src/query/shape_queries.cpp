@@ -65,8 +65,10 @@ class ShapeCollision final : public engine::SolidEvaluator {
     if (!occupied_ && !costs_) return;
     if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
     ++counts_.volume_tests;
-    if (posed_.bound(model_.getBV(0).bv, capsPay() ? 0.0 : -kInfinity) > 0) return;
+    const kIOS<S>& root = model_.getBV(0).bv;
+    if (spheresPay() && posed_.bound(root, 0.0) > 0) return;
     if (solidOffBox(model_, posed_)) return;
+    if (!spheresPay() && posed_.bound(root, -kInfinity) > 0) return;  // the central one's
     search();
     if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
     std::sort(common_.begin(), common_.end());
@@ -118,15 +120,14 @@ class ShapeCollision final : public engine::SolidEvaluator {
     }
   }
 
-  /// Whether more than the root's central sphere is worth a look before boxes are: where a sphere
-  /// takes little.
-  bool capsPay() const {
+  /// Whether the root's spheres are worth a look before boxes are: each takes little.
+  bool spheresPay() const {
     const shape::Kind kind = posed_.solid().kind;
-    return !posed_.solid().bounded() || kind == shape::Kind::kSphere ||
-           kind == shape::Kind::kCapsule || kind == shape::Kind::kBox;
+    return kind != shape::Kind::kEllipsoid && kind != shape::Kind::kCone &&
+           kind != shape::Kind::kConvex;
   }
 
-  /// Of large triangles most are told by their own plane.
+  /// Most large triangles are told apart by their own plane.
   void lookAtEach() {
     const bool by_plane = posed_.solid().bounded() && posed_.solid().kind != shape::Kind::kConvex;
     for (int id = 0; id < model_.num_tris; ++id) {

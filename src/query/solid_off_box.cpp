@@ -28,7 +28,8 @@ template <typename S>
   const Vec h(box.half[0], box.half[1], box.half[2]);
   const Eigen::Map<const Vec> origin(root.origin);
   const shape::Range& range = posed.range();
-  const Vec half = (0.5 * (range.high - range.low)).array() + posed.solid().margin();
+  const Vec half = 0.5 * (range.high - range.low);
+  const double margin = posed.solid().margin();
   const Vec middle = 0.5 * (range.high + range.low);
   const Vec center = R * (engine::columnOf(box, engine::kCenter) + origin) + posed.T();
   const Vec way = center - middle;
@@ -39,13 +40,14 @@ template <typename S>
                        error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * extent) +
                                                 posed.T().template lpNorm<1>() + posed.reach());
     const double reach = engine::reachAlong(box, R.transpose() * w) + w.cwiseAbs().dot(half);
-    return std::abs(w.dot(way)) - reach > pad * w.norm();
+    return std::abs(w.dot(way)) - reach > (margin + pad) * w.norm();
   };
   for (int k = 0; k < 3; ++k) {
-    const double own = std::abs(way[k]) - half[k] - C.row(k).cwiseAbs().dot(h);
+    const double own = std::abs(way[k]) - half[k] - margin - C.row(k).cwiseAbs().dot(h);
     if (own > -slack && isGap(Vec::Unit(k))) return true;
     const Vec w = C.col(k);
-    if (std::abs(w.dot(way)) - h[k] - w.cwiseAbs().dot(half) > -slack && isGap(w)) return true;
+    const double other = std::abs(w.dot(way)) - h[k] - margin - w.cwiseAbs().dot(half);
+    if (other > -slack && isGap(w)) return true;
   }
   return false;
 }
