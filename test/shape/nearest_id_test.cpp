@@ -60,7 +60,8 @@ std::vector<int> contactsOf(const fcl::CollisionResult<S>& result) {
 template <typename S>
 class Compare {
  public:
-  int apart = 0, contacts = 0, ties = 0;
+  int apart = 0, contacts = 0;
+  std::set<int> last_hits;  ///< the triangles of the last call that met
 
   void operator()(const Mesh& mesh, const ShapeSpec& spec, const fcl::Transform3d& X_M,
                   const fcl::Transform3d& X_S) {
@@ -106,6 +107,7 @@ class Compare {
       }
     }
     contacts += static_cast<int>(brute.hits.size());
+    last_hits = brute.hits;
   }
 
  private:
@@ -135,9 +137,67 @@ void compareAll(Shape kind) {
   EXPECT_GT(compare.contacts, 10);
 }
 
+/// One and two triangles, larger and smaller than the shape; many lie beyond the first alone.
+template <typename S>
+void compareFew(Shape kind) {
+  Compare<S> compare;
+  scenes::Random random(41);
+  int by_second = 0;
+  for (const double size : {0.1, 1.0, 8.0}) {
+    for (const int count : {1, 2}) {
+      for (const Frame& frame : randomFrames(40, 0.5 + 0.2 * size, 7)) {
+        Mesh mesh = scenes::sheet(size, 1.25 * size, 1, 1, 0);
+        mesh.triangles.resize(static_cast<std::size_t>(count));
+        const ShapeSpec spec = randomShape(kind, random);
+        compare(mesh, spec, frame.X_WA, frame.X_WB);
+        by_second += compare.last_hits == std::set<int>{1};
+      }
+    }
+  }
+  EXPECT_GT(compare.apart, 20);
+  EXPECT_GT(compare.contacts, 20);
+  EXPECT_GT(by_second, 0);
+}
+
 class NearestId : public ::testing::TestWithParam<Shape> {};
 TEST_P(NearestId, IsThatOfBruteForce) { compareAll<double>(GetParam()); }
 TEST_P(NearestId, IsThatOfBruteForceInFloat) { compareAll<float>(GetParam()); }
+TEST_P(NearestId, IsThatOfBruteForceAmongFew) { compareFew<double>(GetParam()); }
+TEST_P(NearestId, IsThatOfBruteForceAmongFewInFloat) { compareFew<float>(GetParam()); }
+
+// What dips a little into a body's flat side, or all but touches it, as the body's box tells.
+TEST(RoundedShapes, DipIntoBoxes) {
+  scenes::Random random(43);
+  int met = 0, missed = 0;
+  const auto turns = scenes::randomPoses(600, 1, 53);
+  std::size_t turn = 0;
+  const Mesh thin = scenes::subdividedBox({1.5, 1, 0.02}, 6), slab = scenes::sheet(2, 2, 12, 12, 0);
+  for (const Mesh& mesh : {thin, slab}) {
+    const auto model = kiosModel(mesh);
+    prepare(*model);
+    for (const fcl::Transform3d& X_WM : scenes::randomPoses(300, 3, 47)) {
+      const double r = random.uniform(0.05, 0.5), length = random.uniform(0, 0.5);
+      const bool ball = random.unit() < 0.5;
+      std::shared_ptr<fcl::CollisionGeometryd> shape = std::make_shared<fcl::Sphered>(r);
+      if (!ball) shape = std::make_shared<fcl::Capsuled>(r, length);
+      fcl::Transform3d X_MS = fcl::Transform3d::Identity();
+      X_MS.linear() = turns[turn++].linear();
+      const double reach = ball ? r : r + 0.5 * length * std::abs(X_MS.linear()(2, 2));
+      const double dip = r * std::pow(10, random.uniform(-8, -0.3));
+      const double top = mesh.vertices.size() == thin.vertices.size() ? 0.01 : 0.0;
+      for (const double gap : {-dip, dip}) {
+        X_MS.translation() =
+            Vector3d(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3), top + reach + gap);
+        fcl::CollisionResultd result;
+        collideShape(*model, X_WM, *shape, fcl::Transform3d(X_WM * X_MS), fcl::CollisionRequestd(),
+                     result);
+        (gap < 0 ? met : missed) += result.isCollision() == (gap < 0);
+      }
+    }
+  }
+  EXPECT_EQ(met, 600);
+  EXPECT_EQ(missed, 600);
+}
 
 // Around the vertex or along the edge of a mesh that is nearest, all triangles are as near,
 // bitwise, and the least id is named.
