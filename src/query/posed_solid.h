@@ -67,8 +67,8 @@ class PosedSolid {
   Eigen::Matrix3d R_, R_WS_;
   shape::Vec T_, t_WS_;
   double per_unit_ = 1, unit_ = 1;
-  double stretch_;  ///< |R|_2 - 1 <= stretch
-  double reach_;
+  double stretch_;      ///< |R|_2 - 1 <= stretch
+  double reach_;        ///< of the solid, in units
   double offsets_;      ///< |T|_1 + the solid's reach
   shape::Range range_;  ///< of a bounded solid's core, in units
 };

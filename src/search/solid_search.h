@@ -35,7 +35,9 @@ struct FloatSlab {
 ///   radius, u r, and products with the direction of the slanted side, 4 u S; where on that side
 ///   the nearest point lies is off by 6 u S, which only turns the difference: 16 u S in all;
 /// - an ellipsoid's slab n: n x by 4 u S, the support by 6 u S, the quotient by 2 u S; any other
-///   slab: n rounded 2 u reach, n x 4 u reach, the offset u S;
+///   slab: n rounded 2 u reach, n x 4 u reach, the offset 2 u S. That of one across a triangle of
+///   the tree lies between heights of the triangle and of a point of the box, if it proves
+///   anything; where other slabs are added, S has the solid's reach;
 /// - margin and radius are subtracted: 3 u S.
 /// All in all below 40 u S. `pad` has 64 u S, which also covers the rounding of thresholds.
 /// - the double rounding of the posed points, in both ways of posing them: below, as float_frame.h;
