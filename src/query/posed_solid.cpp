@@ -7,9 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "fcl_kios/volume/separation.h"
 #include "shape/gjk.h"
 #include "volume/error_bounds.h"
+#include "volume/rotation.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -28,12 +28,18 @@ void scaleBy(double factor, shape::Solid& solid) {
 template <typename S>
 PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
                           const fcl::Transform3<S>& X_WS, const kIOS<S>& root)
-    : solid_(std::move(solid)),
-      stretch_(detail::boundsOf(RelativePose<S>(X_WS, X_WM)).stretch) {  // checks both poses
+    : PosedSolid(std::move(solid), X_WM, X_WS, root, squaredRotationErrors(X_WS, X_WM)) {}
+
+template <typename S>
+PosedSolid<S>::PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM,
+                          const fcl::Transform3<S>& X_WS, const kIOS<S>& root,
+                          double squared_errors)
+    : solid_(std::move(solid)), stretch_(error_bounds::stretchOf<S>(squared_errors)) {
   R_WS_ = X_WS.linear().template cast<double>();
   t_WS_ = X_WS.translation().template cast<double>();
   R_ = R_WS_.transpose() * X_WM.linear().template cast<double>();
   T_ = R_WS_.transpose() * (X_WM.translation().template cast<double>() - t_WS_);
+  if (!(T_.lpNorm<1>() <= kMaxCoordinate<S>)) refuseTranslations(X_WS, X_WM);
   reach_ = solid_.reach();
   const double largest =
       std::max({reach_, T_.lpNorm<Eigen::Infinity>(),

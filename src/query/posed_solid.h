@@ -19,6 +19,9 @@ class PosedSolid {
   /// `root` is the mesh's root volume. Throws std::invalid_argument if a pose is not rigid.
   PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM, const fcl::Transform3<S>& X_WS,
              const kIOS<S>& root);
+  /// Takes rotations that were checked: `squared_errors` is squaredRotationErrors(X_WS, X_WM).
+  PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM, const fcl::Transform3<S>& X_WS,
+             const kIOS<S>& root, double squared_errors);
 
   /// The solid, in units.
   const shape::Solid& solid() const { return solid_; }

@@ -9,12 +9,14 @@
 #include "model/walk.h"
 #include "query/float_solid.h"
 #include "query/mesh_contacts.h"
+#include "query/root_off_shape.h"
 #include "search/pair_query.h"
 #include "search/search.h"
 #include "shape/separating_slabs.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
 #include "volume/instantiate.h"
+#include "volume/rotation.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -165,10 +167,17 @@ S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                 SearchCounts* counts) {
   requireErrorBounds(request);
   requireFinished(model);
-  const PosedSolid<S> posed(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv);
-  if (request.isSatisfied(result)) return result.min_distance;
-  SearchCounts unused;
+  const double squared_errors = squaredRotationErrors(X_WS, X_WM);
+  const bool done = request.isSatisfied(result);
   const bool limited = result.min_distance < std::numeric_limits<S>::max();
+  if (limited && !done &&
+      rootOffShape(model, X_WM, geometry, X_WS, squared_errors, result.min_distance)) {
+    if (counts) ++counts->volume_tests;
+    return result.min_distance;
+  }
+  const PosedSolid<S> posed(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv, squared_errors);
+  if (done) return result.min_distance;
+  SearchCounts unused;
   NearestTriangle<S> search(model, posed, request.rel_err, posed.toUnits(request.abs_err),
                             limited ? posed.toUnits(result.min_distance) : kInfinity,
                             !request.enable_nearest_points, counts ? *counts : unused);

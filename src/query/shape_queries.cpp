@@ -12,6 +12,7 @@
 #include "query/collide_with.h"
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
+#include "query/root_off_shape.h"
 #include "query/shape_costs.h"
 #include "query/solid_off_box.h"
 #include "search/search.h"
@@ -20,6 +21,7 @@
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"
 #include "volume/instantiate.h"
+#include "volume/rotation.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -47,8 +49,8 @@ class ShapeCollision final : public engine::SolidEvaluator {
  public:
   ShapeCollision(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                  const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3<S>& X_WS,
-                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result,
-                 SearchCounts& counts)
+                 double squared_errors, const fcl::CollisionRequest<S>& request,
+                 fcl::CollisionResult<S>& result, SearchCounts& counts)
       : model_(model),
         geometry_(geometry),
         X_WM_(X_WM),
@@ -58,18 +60,21 @@ class ShapeCollision final : public engine::SolidEvaluator {
         counts_(counts),
         occupied_(model.isOccupied() && geometry.isOccupied()),
         costs_(request.enable_cost && !model.isFree() && !geometry.isFree()),
-        posed_(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv),
+        posed_(toSolid(geometry), X_WM, X_WS, model.getBV(0).bv, squared_errors),
         slabs_(posed_.solid()) {}
 
   void run() {
     if (!occupied_ && !costs_) return;
     if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
-    ++counts_.volume_tests;
     const kIOS<S>& root = model_.getBV(0).bv;
-    if (spheresPay() && posed_.bound(root, 0.0) > 0) return;
-    if (solidOffBox(model_, posed_)) return;
-    if (!spheresPay() && posed_.bound(root, -kInfinity) > 0) return;  // the central one's
-    search();
+    if (model_.num_tris > kFew) {
+      if (spheresPay() && posed_.bound(root, 0.0) > 0) return;
+      if (solidOffBox(model_, posed_)) return;
+      if (!spheresPay() && posed_.bound(root, -kInfinity) > 0) return;  // the central one's
+      search();
+    } else {
+      lookAtEach();
+    }
     if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
     std::sort(common_.begin(), common_.end());
     for (const int id : found_) report(id);
@@ -80,6 +85,9 @@ class ShapeCollision final : public engine::SolidEvaluator {
   }
 
  private:
+  /// So many triangles take less to look at than any search.
+  static constexpr int kFew = 2;
+
   struct CommonPoint {
     int id;
     shape::Vec point;
@@ -88,8 +96,6 @@ class ShapeCollision final : public engine::SolidEvaluator {
 
   /// Finds as many triangles as there is room for; all that touch if costs are asked for.
   void search() {
-    constexpr int kFew = 2;  // triangles, of which any search takes longer than looking at each
-    if (model_.num_tris <= kFew) return lookAtEach();
     engine::TreeCache* const trees = costs_ ? nullptr : treesOf(model_);
     const long long spare =
         trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
@@ -295,10 +301,16 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                          SearchCounts* counts) {
   const auto search = [&](const fcl::CollisionRequest<S>& asked) {
     SearchCounts unused;
-    ShapeCollision<S> of(model, X_WM, shape, X_WS, asked, result, counts ? *counts : unused);
-    if (request.isSatisfied(result)) return false;
-    of.run();
-    return true;
+    SearchCounts& counted = counts ? *counts : unused;
+    const double squared_errors = squaredRotationErrors(X_WS, X_WM);
+    const bool done = request.isSatisfied(result);
+    if (!done) {
+      ++counted.volume_tests;
+      if (rootOffShape(model, X_WM, shape, X_WS, squared_errors, 0)) return true;
+    }
+    ShapeCollision<S> of(model, X_WM, shape, X_WS, squared_errors, asked, result, counted);
+    if (!done) of.run();
+    return !done;
   };
   return collideWith(model, request, result, search, [&](bool touches) {
     addApproximateCost(model, X_WM, shape, X_WS, touches, request, result);

@@ -14,8 +14,14 @@ namespace kios {
 /// The way from the centre of one volume's central sphere to that of another's, in W: w = (t_B -
 /// t_A) + (R_B c_b - R_A c_a).
 struct CentralWay {
+  /// Stands for a volume that is the origin of its frame.
   template <typename S>
-  [[gnu::always_inline]] inline CentralWay(const kIOS<S>& a, const fcl::Transform3<S>& X_WA,
+  struct Origin {
+    S center0[3] = {0, 0, 0}, radius0 = 0;
+  };
+
+  template <typename A, typename S>
+  [[gnu::always_inline]] inline CentralWay(const A& a, const fcl::Transform3<S>& X_WA,
                                            const kIOS<S>& b, const fcl::Transform3<S>& X_WB)
       : radii(double{a.radius0} + double{b.radius0}) {
     const auto &m_a = X_WA.matrix(), &m_b = X_WB.matrix();

@@ -116,4 +116,10 @@ template <typename S>
   return squares[0] + squares[1];
 }
 
+/// Throws std::invalid_argument: |R_A^T (t_B - t_A)|_1 is NaN or beyond kMaxCoordinate. The pose to
+/// blame is the one that is wrong by itself.
+template <typename S>
+[[noreturn]] void refuseTranslations(const fcl::Transform3<S>& X_WA,
+                                     const fcl::Transform3<S>& X_WB);
+
 }  // namespace kios

@@ -166,18 +166,6 @@ const RelativePose<S>& identityPose() {
   refuse("the ", what, " is NaN, infinite or too large to be bounded.");
 }
 
-/// The one to blame is the one that is wrong by itself.
-template <typename S>
-[[noreturn, gnu::noinline]] void refuseTranslations(const fcl::Transform3<S>& X_WA,
-                                                    const fcl::Transform3<S>& X_WB) {
-  const auto fits = [](const fcl::Transform3<S>& X) {
-    return X.translation().template cast<double>().template lpNorm<1>() <= kMaxCoordinate<S>;
-  };
-  if (!fits(X_WA)) refuseTranslation("first object's translation");
-  if (!fits(X_WB)) refuseTranslation("second object's translation");
-  refuseTranslation("difference of the two objects' translations");
-}
-
 }  // namespace
 
 void refuseRotation(const char* what, double error, double allowed) {
@@ -198,6 +186,16 @@ void requireRotations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& 
   };
   requireRotation<S>(squares[0], determinantOf(X_WA), "first object's pose");
   requireRotation<S>(squares[1], determinantOf(X_WB), "second object's pose");
+}
+
+template <typename S>
+void refuseTranslations(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB) {
+  const auto fits = [](const fcl::Transform3<S>& X) {
+    return X.translation().template cast<double>().template lpNorm<1>() <= kMaxCoordinate<S>;
+  };
+  if (!fits(X_WA)) refuseTranslation("first object's translation");
+  if (!fits(X_WB)) refuseTranslation("second object's translation");
+  refuseTranslation("difference of the two objects' translations");
 }
 
 template <typename S>
@@ -288,6 +286,7 @@ S kIOS<S>::distance(const kIOS& other, fcl::Vector3<S>* P, fcl::Vector3<S>* Q) c
 #define KIOS_INSTANTIATE(S)                                                                        \
   template void requireRotations(const fcl::Transform3<S>&, const fcl::Transform3<S>&,             \
                                  const lanes::Double2&);                                           \
+  template void refuseTranslations(const fcl::Transform3<S>&, const fcl::Transform3<S>&);          \
   template class RelativePose<S>;                                                                  \
   template double separation(const kIOS<S>&, const kIOS<S>&, const RelativePose<S>&, double);      \
   template bool overlap(const fcl::Matrix3<S>&, const fcl::Vector3<S>&, const kIOS<S>&,            \
