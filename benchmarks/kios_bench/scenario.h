@@ -42,6 +42,7 @@ void runSoup(const Options& options, Report& report);
 void runThreshold(const Options& options, Report& report);
 void runRootReject(const Options& options, Report& report);
 void runWorld(const Options& options, Report& report);
+void runCoal(const Options& options, Report& report);
 void runStrips(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);
 void runRobotScenes(const Options& options, Report& report);

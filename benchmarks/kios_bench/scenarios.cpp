@@ -26,6 +26,8 @@ const std::vector<Scenario>& scenarios() {
        "a UR5's links (data) and parts of machines about tables, shelves, rooms, terrain, a "
        "building, as meshes, shapes and octrees; hot and cold; world/SCENE for one of them",
        runWorld, 14},
+      {"coal", "four of these worlds as meshes, with Coal's OBBRSS beside FCL's, where it is found",
+       runCoal, 0},
       {"robot_scenes",
        "scene queries of two arms, UR5s (data) or humanoids, self-distance too: closest pair, "
        "pairs "

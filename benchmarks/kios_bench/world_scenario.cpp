@@ -84,7 +84,7 @@ void reportWorld(const scenes::World& world, std::vector<LinkSet> sets, const Op
   for (const LinkSet& set : sets) {
     std::vector<Row> rows;
     Task task;
-    task.scenario = "world/" + world.name + "/" + set.name;
+    task.scenario = options.scenario + "/" + world.name + "/" + set.name;
     task.questions =
         questionsOf(placedLinks(world, set.meshes, poseCount(kPoses, options), options.seed),
                     first_link, meshes.size() - 1, large);
@@ -111,6 +111,14 @@ void reportWorld(const scenes::World& world, std::vector<LinkSet> sets, const Op
     first_link += set.meshes.size();
     report.add(rows);
   }
+}
+
+std::vector<scenes::World> allWorlds(const Options& options) {
+  std::vector<scenes::World> worlds = scenes::boxWorlds();
+  for (scenes::World& world : scenes::meshWorlds(options.quick ? 5000 : 200000)) {
+    worlds.push_back(std::move(world));
+  }
+  return worlds;
 }
 
 }  // namespace
@@ -194,17 +202,28 @@ bool wanted(const Options& options, const std::string& scene) {
 void runWorld(const Options& options, Report& report) {
   const Options ours = worldOptions(options);
   const std::vector<LinkSet> sets = linkSets(options);
-  std::vector<scenes::World> worlds = scenes::boxWorlds();
-  for (scenes::World& world : scenes::meshWorlds(options.quick ? 5000 : 200000)) {
-    worlds.push_back(std::move(world));
-  }
   const auto before = report.rows().size();
-  for (const scenes::World& world : worlds) {
+  for (const scenes::World& world : allWorlds(options)) {
     if (wanted(options, world.name)) reportWorld(world, sets, ours, report);
   }
   reportWorldShapes(sets, ours, report);
   if (report.rows().size() == before) {
     throw std::invalid_argument("'world' has no scene called '" + options.part + "'");
+  }
+}
+
+void runCoal(const Options& options, Report& report) {
+  const std::vector<std::string> volumes = volumeNames();
+  if (std::count(volumes.begin(), volumes.end(), kCoal) == 0) {
+    throw Skipped("Coal was not found when kios_bench was built");
+  }
+  Options ours = worldOptions(options);
+  ours.bvs = {"kios", "fcl_obbrss", kCoal};
+  const std::vector<std::string> named = {"table", "shelf", "terrain_1m", "building"};
+  const std::vector<LinkSet> sets = linkSets(options);
+  for (const scenes::World& world : allWorlds(options)) {
+    if (std::count(named.begin(), named.end(), world.name) == 0) continue;
+    reportWorld(world, sets, ours, report);
   }
 }
 

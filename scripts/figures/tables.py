@@ -43,6 +43,8 @@ first contact, falling tori                      | falling collide fcl_obbrss
 first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
 distance, UR5's links and a room                 | world/room/ur5 distance fcl_obbrss
 first contact, UR5's links and a shelf           | world/shelf/ur5 collide fcl_obbrss
+distance, UR5's links and a building             | coal/building/ur5 distance coal_obbrss
+first contact, UR5's links and a building        | coal/building/ur5 collide coal_obbrss
 first contact, links off a floor                 | world/floor/ur5/apart collide fcl_obbrss
 nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_obbrss threshold=1.1
 closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
@@ -54,7 +56,8 @@ build and prepare a torus of 80,000 triangles    | build/welded/80000 prepared f
 build and prepare an equal one                   | build/welded/80000 again fcl_obbrss
 """)
 OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree":
-          "Embree, single precision", "fcl_obbrss_sampling": "FCL OBBRSS, 1,000 samples",
+          "Embree, single precision", "coal_obbrss": "Coal OBBRSS",
+          "fcl_obbrss_sampling": "FCL OBBRSS, 1,000 samples",
           "fcl_obbrss_advancement": "FCL OBBRSS, advancement"}
 
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of docs/world.md."""
-from figures.rows import OBBRSS, OURS, grid, number, spec, time
+from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
 
 FCL = (OBBRSS, "fcl_rss")
 QUERIES = """
@@ -95,10 +95,10 @@ two triangles, contact   | crowds/one_triangle collide
 def coal(rows):
     """Ours / Coal's / FCL's OBBRSS, and how Coal's answers stand against the oracle."""
     lines = spec("""
-UR5's links and a table | world/table/ur5
-a shelf                 | world/shelf/ur5
-terrain                 | world/terrain_1m/ur5
-a building              | world/building/ur5
+UR5's links and a table | coal/table/ur5
+a shelf                 | coal/shelf/ur5
+terrain                 | coal/terrain_1m/ur5
+a building              | coal/building/ur5
 """)
     columns = spec("""
 distance            | distance
@@ -116,4 +116,6 @@ Coal's wrong        | wrong
                            for query in ("distance", "collide")))
         return " / ".join(number(rows.us(line[0], column[0], bv, **settings))
                           for bv in (OURS, "coal_obbrss", OBBRSS))
-    return grid("us: k-IOS / Coal / FCL's OBBRSS", lines, columns, entry)
+    return table(["us: k-IOS / Coal / FCL's OBBRSS", *(label for label, _ in columns)],
+                 [[label, *(entry(line[0], column[0], column[1]) for _, column in columns)]
+                  for label, line in lines])
