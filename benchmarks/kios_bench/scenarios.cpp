@@ -41,7 +41,7 @@ const std::vector<Scenario>& scenarios() {
        runCrowds, 1},
       {"small",
        "bodies of 2 to 500 triangles at, near, off, on and a hair above floors, rough ground, a "
-       "box and a yard",
+       "box, a yard and needles",
        runSmall, 70},
       {"paper",
        "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "

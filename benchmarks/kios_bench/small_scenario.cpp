@@ -41,6 +41,27 @@ scenes::Mesh roughGround(double height) {
   return mesh;
 }
 
+/// A hundred needles through a box, in all directions.
+scenes::Mesh brush() {
+  std::vector<scenes::Mesh> needles;
+  scenes::Random random(7);
+  const auto vector = [&](double most) {
+    const double x = random.uniform(-most, most), y = random.uniform(-most, most);
+    return fcl::Vector3d(x, y, random.uniform(-most, most));
+  };
+  for (int i = 0; i < 100; ++i) {
+    const fcl::Vector3d p = vector(0.5), along = 0.5 * vector(1).normalized();
+    needles.push_back(scenes::singleTriangle(p - along, p + along, p - along + vector(0.002)));
+  }
+  return scenes::merged(needles);
+}
+
+double highest(const scenes::Mesh& mesh) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const fcl::Vector3d& v : mesh.vertices) most = std::max(most, v.z());
+  return most;
+}
+
 std::vector<Place> places() {
   scenes::Mesh quad;
   quad.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
@@ -49,7 +70,8 @@ std::vector<Place> places() {
           {"box", scenes::subdividedBox({1.2, 0.8, 0.5}, 1), 0.25},
           {"grid", scenes::sheet(10, 10, 20, 20, 0), 0},
           {"rough", roughGround(0.05), 0.05},
-          {"yard", scenes::withPosts(quad, 1.5), 0}};
+          {"yard", scenes::withPosts(quad, 1.5), 0},
+          {"brush", brush(), highest(brush())}};
 }
 
 std::vector<Named> bodies() {

@@ -46,7 +46,7 @@ double searchCost(const Tree& tree);
 /// leaf's centroid and its farthest vertex, Tree::mean_leaf, and Tree::widest_leaf. A leaf of long
 /// strips side by side is narrow, and one of two large triangles or of needles in any direction is
 /// wide: a node of another tree that is small beside its width may be near to only a few of its
-/// triangles.
+/// triangles. That of needles, which leave most of it empty, counts several times.
 void measureLeaves(Tree& tree);
 
 }  // namespace kios::engine
