@@ -76,7 +76,7 @@ template <typename S>
   if (query.isExact() && arePairByPair(frame.a, frame.b)) {
     return searchNearest(frame, query, counts);
   }
-  if (query.isExact() && engineServes(frame)) {
+  if (query.isExact() && !arePrepared(frame) && engineServes(frame)) {
     if (areVeryFew(frame.a, frame.b) && !treesPay(frame)) {
       constexpr long long kTests = 6;  // take as long as a pair of triangles
       const long long before = counts.exact;
