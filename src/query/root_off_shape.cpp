@@ -19,6 +19,8 @@ namespace {
 using shape::Kind;
 using shape::Vec;
 
+constexpr double kFar = 0x1p40;  ///< from where CentralWay proves nothing
+
 /// A shape in its frame and a point p, of a convex one without a copy of its points.
 template <typename S>
 class ShapeAndPoint {
@@ -32,11 +34,13 @@ class ShapeAndPoint {
     for (const fcl::Vector3<S>& vertex : vertices()) {
       const Vec& x = vertex.template cast<double>();
       reach_ += x.lpNorm<1>();
+      if (!(reach_ < kFar)) return;  // products might be infinite
       highest_ = std::max(highest_, p.dot(x));
     }
   }
 
-  /// At least the largest distance of its points from its origin; NaN if there are such vertices.
+  /// At least the largest distance of its points from its origin, or above kFar; NaN if there are
+  /// such vertices.
   double reach() const { return reach_; }
   /// Lower bound of p's distance: of a convex shape by the slab across the way there, of an
   /// ellipsoid by its box if that is more than `enough`.
@@ -146,6 +150,7 @@ template <typename S>
   constexpr double kNear = 0x1p-90;
   const kIOS<S>& root = model.getBV(0).bv;
   const CentralWay way(CentralWay::Origin<S>(), X_WS, root, X_WM);
+  if (!(way.lengths < kFar)) return false;
   const Vec w(way.w[0], way.w[1], way.w[2]);
   const Eigen::Matrix3d R_WS = X_WS.linear().template cast<double>();
   const ShapeAndPoint<S> shape(geometry, R_WS.transpose() * w);

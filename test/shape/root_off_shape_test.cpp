@@ -13,6 +13,7 @@
 
 #include "fcl/mesh_cases.h"
 #include "fcl_kios/model/prepare.h"
+#include "floating_point_flags.h"
 #include "not_finite.h"
 #include "query/mesh_contacts.h"
 #include "query/posed_solid.h"
@@ -149,6 +150,31 @@ TEST(RootOffShape, IsNeverProvenOfVerticesThatAreNone) {
       spec.hull.vertices[static_cast<std::size_t>(3 * i % 6)][i] = value;
       EXPECT_FALSE(
           rootOffShape(*model, X_WS, *makeShape<double>(spec), fcl::Transform3d::Identity(), 0, 0));
+    }
+  }
+}
+
+// Products of such lengths overflow, and their sums are then none.
+TEST_P(RootOffShape, RaisesNoFlagsAtTheLargestLengths) {
+  const double lengths[] = {0x1p-990, 0x1p36, 0x1p600, 0x1p998};
+  Flags flags;
+  Random random(5);
+  for (const double scale : lengths) {
+    ShapeSpec spec = randomShape(GetParam(), random);
+    if (GetParam() < Shape::kHalfspace) spec.size *= scale;
+    spec.offset *= scale;
+    for (auto& p : spec.hull.vertices) p *= scale;
+    const auto shape = makeShape<double>(spec);
+    for (const double size : {1.0, 0x1p990}) {
+      const auto model = scenes::buildModel<kIOS<double>>(
+          scenes::singleTriangle({0, 0, 0}, {size, 0, 0}, {0, size, size}));
+      for (const double far : lengths) {
+        fcl::Transform3d X_WS = scenes::randomPoses(1, 1, 7)[0];
+        X_WS.translation() = far * Vector3d(1, -1, 1);
+        flags.during("rootOffShape", [&] {
+          rootOffShape(*model, fcl::Transform3d::Identity(), *shape, X_WS, 0, 0);
+        });
+      }
     }
   }
 }
