@@ -19,8 +19,6 @@ namespace {
 using shape::Kind;
 using shape::Vec;
 
-constexpr double kFar = 0x1p40;  ///< from where CentralWay proves nothing
-
 /// A shape in its frame and a point p, of a convex one without a copy of its points.
 template <typename S>
 class ShapeAndPoint {
@@ -31,16 +29,17 @@ class ShapeAndPoint {
       reach_ = solid_.reach();
       return;
     }
+    if (vertices().empty()) reach_ = kInfinity;  // toSolid() refuses it
     for (const fcl::Vector3<S>& vertex : vertices()) {
       const Vec& x = vertex.template cast<double>();
       reach_ += x.lpNorm<1>();
-      if (!(reach_ < kFar)) return;  // products might be infinite
+      if (!(reach_ < CentralWay::kFar)) return;  // products might be infinite
       highest_ = std::max(highest_, p.dot(x));
     }
   }
 
-  /// At least the largest distance of its points from its origin, or above kFar; NaN if there are
-  /// such vertices.
+  /// At least the largest distance of its points from its origin, or above CentralWay::kFar, as
+  /// for a convex shape without any; NaN if there are such vertices.
   double reach() const { return reach_; }
   /// Lower bound of p's distance: of a convex shape by the slab across the way there, of an
   /// ellipsoid by its box if that is more than `enough`.
@@ -52,7 +51,7 @@ class ShapeAndPoint {
     if (solid_.kind != Kind::kConvex) return shape::pointBound(solid_, p_);
     constexpr double kLeastSquare = 0x1p-200;
     const double square = p_.squaredNorm();
-    if (!(square > kLeastSquare) || vertices().empty()) return -kInfinity;
+    if (!(square > kLeastSquare)) return -kInfinity;
     return (square - highest_) / std::sqrt(square);
   }
   /// As shape::extentAlong(); +infinity for convex shapes of many points.
@@ -66,8 +65,8 @@ class ShapeAndPoint {
     }
     return most;
   }
-  /// A direction in which it reaches to `extent` and that tells what is at p apart, of the shapes
-  /// that have faces without corners or few; false for others.
+  /// The unit normal of the face of a box, half-space or plane that faces p, and how far the shape
+  /// reaches along it; false for other shapes.
   bool faceTowards(const Vec& p, Vec& n, double& extent) const {
     switch (solid_.kind) {
       case Kind::kBox: {
@@ -150,7 +149,7 @@ template <typename S>
   constexpr double kNear = 0x1p-90;
   const kIOS<S>& root = model.getBV(0).bv;
   const CentralWay way(CentralWay::Origin<S>(), X_WS, root, X_WM);
-  if (!(way.lengths < kFar)) return false;
+  if (!(way.lengths < CentralWay::kFar)) return false;
   const Vec w(way.w[0], way.w[1], way.w[2]);
   const Eigen::Matrix3d R_WS = X_WS.linear().template cast<double>();
   const ShapeAndPoint<S> shape(geometry, R_WS.transpose() * w);

@@ -7,11 +7,13 @@
 
 namespace kios {
 
-/// True only if the central sphere of a finished model's root proves it farther than `margin` >= 0
-/// from one of FCL's nine shapes, the rounding of poses included: nothing else of the pair need be
-/// looked at; or the box of its tree does, if that is prepared. `squared_errors` is
-/// squaredRotationErrors(X_WS, X_WM). False says nothing. Throws std::invalid_argument if the shape
-/// has a size that is none; a convex shape with such a vertex gives false.
+/// True only if a finished model is farther than `margin` >= 0 from one of FCL's nine shapes, told
+/// by the central sphere of its root, or by its root's box if it is prepared, along the axis of
+/// either that faces the other. Roundings of the poses are paid for; nothing else of the pair need
+/// be looked at. False says nothing: solidOffBox() tries all axes of both. `squared_errors` is
+/// squaredRotationErrors(X_WS, X_WM), and lengths are in the unit of the coordinates. Throws
+/// std::invalid_argument if a size of the shape is none; a convex shape with such a vertex, or
+/// without any, gives false.
 template <typename S>
 bool rootOffShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                   const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,

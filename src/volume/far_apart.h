@@ -46,13 +46,14 @@ struct CentralWay {
   /// R_A^T w is the way in A but for |R_A^T R_A - I| |c_a|, |R_A^T w| >= (1 - e) |w|, and b's
   /// radius in A is (1 + e) r_b: these terms with e are below 3 e m, and all roundings, here and in
   /// the common frame (volume/error_bounds.h), below 256 u m. kSlack m is more than both where e is
-  /// at most kSlack / 4. NaN, infinities, and lengths of 2^40 and more prove nothing: the common
+  /// at most kSlack / 4. NaN, infinities, and lengths of kFar and more prove nothing: the common
   /// frame judges them.
   template <typename S>
   static constexpr double kSlack = sizeof(S) == sizeof(double) ? 0x1p-36 : 0x1p-12;
+  static constexpr double kFar = 0x1p40;
   template <typename S>
   static bool canProve(double m, double squared_errors) {
-    constexpr double kFar = 0x1p40, kMost = kSlack<S> / 4;
+    constexpr double kMost = kSlack<S> / 4;
     return m < kFar && squared_errors <= kMost * kMost;
   }
 

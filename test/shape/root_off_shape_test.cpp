@@ -10,9 +10,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <stdexcept>
+#include <vector>
 
 #include "fcl/mesh_cases.h"
 #include "fcl_kios/model/prepare.h"
+#include "fcl_kios/query/shape_queries.h"
 #include "floating_point_flags.h"
 #include "not_finite.h"
 #include "query/mesh_contacts.h"
@@ -152,6 +156,31 @@ TEST(RootOffShape, IsNeverProvenOfVerticesThatAreNone) {
           rootOffShape(*model, X_WS, *makeShape<double>(spec), fcl::Transform3d::Identity(), 0, 0));
     }
   }
+}
+
+TEST(RootOffShape, IsNeverProvenOfNoVertices) {
+  const auto model = scenes::buildModel<kIOS<double>>(scenes::bumpyTorus(200));
+  prepare(*model);
+  const scenes::Mesh hull = scenes::icosphere(1, 0);
+  const auto vertices = std::make_shared<std::vector<fcl::Vector3d>>(hull.vertices);
+  const auto faces = std::make_shared<std::vector<int>>();
+  for (const fcl::Triangle& t : hull.triangles) {
+    faces->push_back(3);
+    for (int i = 0; i < 3; ++i) faces->push_back(static_cast<int>(t[i]));
+  }
+  const fcl::Convexd shape(vertices, static_cast<int>(hull.triangles.size()), faces);
+  fcl::Transform3d X_WM = fcl::Transform3d::Identity();
+  X_WM.translation().x() = 100;
+  const auto isOff = [&] {
+    return rootOffShape<double>(*model, X_WM, shape, fcl::Transform3d::Identity(), 0, 0);
+  };
+  EXPECT_TRUE(isOff());
+  vertices->clear();
+  EXPECT_FALSE(isOff());
+  fcl::CollisionResultd result;
+  EXPECT_THROW(collideShape<double>(*model, X_WM, shape, fcl::Transform3d::Identity(),
+                                    fcl::CollisionRequestd(), result),
+               std::invalid_argument);
 }
 
 // Products of such lengths overflow, and their sums are then none.
