@@ -38,13 +38,11 @@ distance, falling tori                           | falling distance fcl_obbrss
 distance, spinning bunny and torus               | spinning distance fcl_obbrss
 distance, two UR5 arms, a pair of links          | robots/ur5 distance fcl_obbrss
 distance, tori of 80,000 triangles, gap 0.001    | scaling/80000/gap_1e-3 distance fcl_obbrss
-distance, strips 600 times as long as wide       | strips distance fcl_obbrss
 first contact, falling tori                      | falling collide fcl_obbrss
 first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
 distance, UR5's links and a room                 | world/room/ur5 distance fcl_obbrss
 first contact, UR5's links and a shelf           | world/shelf/ur5 collide fcl_obbrss
 distance, UR5's links and a building             | coal/building/ur5 distance coal_obbrss
-first contact, UR5's links and a building        | coal/building/ur5 collide coal_obbrss
 first contact, links off a floor                 | world/floor/ur5/apart collide fcl_obbrss
 nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_obbrss threshold=1.1
 closest of all pairs, two humanoids              | robots/humanoids/smooth/closest scene fcl_manager
