@@ -11,7 +11,7 @@ install(TARGETS fcl_kios fcl_kios_force_include EXPORT fcl_kiosTargets
   ARCHIVE COMPONENT dev)
 install(DIRECTORY include/ ${PROJECT_BINARY_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN *.h)
-install(FILES package.xml LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/fcl_kios)
+install(FILES package.xml LICENSE examples/cube.stl DESTINATION ${CMAKE_INSTALL_DATADIR}/fcl_kios)
 
 # The empty file by which ROS 2 knows that a package is installed in this prefix.
 file(WRITE ${PROJECT_BINARY_DIR}/ament_marker "")
@@ -58,3 +58,8 @@ endif()
 
 configure_file(cmake/fcl_kios.pc.in fcl_kios.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/fcl_kios.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+foreach(addon IN ITEMS clearance paper)
+  configure_file(cmake/addon.pc.in fcl_kios_${addon}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/fcl_kios_${addon}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

@@ -100,7 +100,7 @@ Defects findDefects(const Mesh& mesh) {
 }
 
 std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
-  std::vector<std::string> result;
+  std::vector<std::string> result = mesh.warnings;
   if (defects.zero_area > 0) {
     result.push_back(triangles(defects.zero_area) + " of no area, the first is " +
                      std::to_string(defects.first_zero_area) +
@@ -127,9 +127,6 @@ std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
   }
   if (surface.closed && !surface.oriented) {
     result.push_back("closed, but no solid: " + faultsOf(surface));
-  }
-  if (mesh.other_faces > 0) {
-    result.push_back(counted(mesh.other_faces, "point or line", "points or lines") + " left out");
   }
   return result;
 }

@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "fcl_kios/model/prepare.h"
-#include "mesh_file.h"
 
 namespace kios::inspect {
 namespace {
@@ -26,7 +25,11 @@ Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& 
   Inspection result;
   result.file = file.string();
   progress.step("reading " + result.file);
-  result.mesh = readMesh(file);
+  try {
+    result.mesh = files::readMesh(result.file);
+  } catch (const std::exception& error) {
+    throw InputError(error.what());
+  }
   result.read_seconds = progress.done();
   if (repair) {
     progress.step("repairing " + result.file);

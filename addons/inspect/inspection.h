@@ -36,9 +36,9 @@ struct Inspection {
   int nodes() const { return model->getNumBVs(); }
 };
 
-/// Reads and examines a file. Throws InputError as readMesh() does, and where a mesh is beyond the
-/// library's range. `tightness`: measure the levels. With `repair` it is the repaired mesh that is
-/// examined.
+/// Reads and examines a file. Throws InputError with what readMesh() says, and where a mesh is
+/// beyond the library's range. `tightness`: measure the levels. With `repair` it is the repaired
+/// mesh that is examined.
 Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress,
                    const RepairOptions* repair = nullptr);
 

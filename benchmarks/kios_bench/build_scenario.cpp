@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// From vertices to the first answer: time and memory, for every volume of FCL.
+// From vertices to a finished model: time and memory, for every volume of FCL.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -12,7 +12,6 @@
 #include <fcl/fcl.h>
 
 #include "allocations.h"
-#include "calls.h"
 #include "fcl_kios/model/prepare.h"
 #include "fcl_kios/model/storage.h"
 #include "model/prepared.h"
@@ -28,13 +27,13 @@ using Meshes = std::vector<scenes::Mesh>;
 
 constexpr char kReference[] = "fcl_obbrss";
 
-/// Says what is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kFirstQuery: endModel()
-/// and whether the last mesh and the first, side by side, touch. kAgain: as kPrepared, while equal
-/// models live. kLoaded: kios::load() of what kios::save() stored, in place of kPrepared.
-enum class Stage { kBuild, kPrepared, kFirstQuery, kAgain, kLoaded };
+/// Says what is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kAgain: as kPrepared,
+/// while equal models live. kLoaded: kios::load() of what kios::save() stored, in place of
+/// kPrepared.
+enum class Stage { kBuild, kPrepared, kAgain, kLoaded };
 
 const char* nameOf(Stage stage) {
-  constexpr const char* kNames[] = {"build", "prepared", "first_query", "again", "loaded"};
+  constexpr const char* kNames[] = {"build", "prepared", "again", "loaded"};
   return kNames[static_cast<int>(stage)];
 }
 
@@ -50,7 +49,7 @@ class Builder {
   virtual void run(Stage stage) = 0;
 };
 
-template <typename BV, typename Calls>
+template <typename BV>
 class BuilderOf final : public Builder {
  public:
   void begin(const Meshes& meshes) override {
@@ -61,7 +60,6 @@ class BuilderOf final : public Builder {
                         static_cast<int>(mesh.vertices.size()));
       model->addSubModel(mesh.vertices, mesh.triangles);
     }
-    aside_ = meshes.empty() ? 0 : scenes::extent(meshes.front());
   }
 
   void store(const Meshes& meshes) override {
@@ -90,19 +88,11 @@ class BuilderOf final : public Builder {
         if (stage == Stage::kPrepared || stage == Stage::kAgain) prepare(*model);
       }
     }
-    if (stage != Stage::kFirstQuery) return;
-    const fcl::CollisionObjectd a(models_.back());
-    const fcl::CollisionObjectd b(
-        models_.front(), fcl::Transform3d(fcl::Translation3d(0.6 * aside_, 0.1 * aside_, 0)));
-    const fcl::CollisionRequestd request;
-    fcl::CollisionResultd result;
-    Calls::collide(&a, &b, request, result);
   }
 
  private:
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
   std::vector<std::vector<unsigned char>> stored_;
-  double aside_ = 0;
 };
 
 struct Volume {
@@ -110,17 +100,20 @@ struct Volume {
   std::unique_ptr<Builder> (*make)();
 };
 
-template <typename BV, typename Calls = FclCalls>
+template <typename BV>
 std::unique_ptr<Builder> make() {
-  return std::make_unique<BuilderOf<BV, Calls>>();
+  return std::make_unique<BuilderOf<BV>>();
 }
 
-constexpr Volume kVolumes[] = {
-    {"kios", make<kIOSd, KiosCalls>},       {kReference, make<fcl::OBBRSSd>},
-    {"fcl_obb", make<fcl::OBBd>},           {"fcl_rss", make<fcl::RSSd>},
-    {"fcl_kios_builtin", make<fcl::kIOSd>}, {"fcl_aabb", make<fcl::AABBd>},
-    {"fcl_kdop16", make<fcl::KDOPd<16>>},   {"fcl_kdop18", make<fcl::KDOPd<18>>},
-    {"fcl_kdop24", make<fcl::KDOPd<24>>}};
+constexpr Volume kVolumes[] = {{"kios", make<kIOSd>},
+                               {kReference, make<fcl::OBBRSSd>},
+                               {"fcl_obb", make<fcl::OBBd>},
+                               {"fcl_rss", make<fcl::RSSd>},
+                               {"fcl_kios_builtin", make<fcl::kIOSd>},
+                               {"fcl_aabb", make<fcl::AABBd>},
+                               {"fcl_kdop16", make<fcl::KDOPd<16>>},
+                               {"fcl_kdop18", make<fcl::KDOPd<18>>},
+                               {"fcl_kdop24", make<fcl::KDOPd<24>>}};
 
 /// Returns meshes whose models share nothing with those before.
 Meshes unlike(const Meshes& meshes) {
@@ -152,10 +145,8 @@ std::vector<Entrant> entrants(const Options& options) {
   for (const Volume& volume : kVolumes) {
     const bool ours = volume.make == kVolumes[0].make;
     if (options.quick && !ours && std::string(volume.name) != kReference) continue;
-    for (const Stage stage :
-         {Stage::kBuild, Stage::kPrepared, Stage::kFirstQuery, Stage::kAgain, Stage::kLoaded}) {
-      const bool any = stage == Stage::kBuild || stage == Stage::kFirstQuery;
-      if (!any && !ours) continue;  // it would be kBuild
+    for (const Stage stage : {Stage::kBuild, Stage::kPrepared, Stage::kAgain, Stage::kLoaded}) {
+      if (stage != Stage::kBuild && !ours) continue;  // it would be kBuild
       all.push_back(
           {volume.name, stage, volume.make(), stage == Stage::kAgain ? volume.make() : nullptr});
     }
@@ -163,11 +154,10 @@ std::vector<Entrant> entrants(const Options& options) {
   return all;
 }
 
-/// Returns bytes of a run, with those of the arrays that it begins with. None of a query: FCL's own
-/// copies models by malloc, which isn't counted.
+/// Returns bytes of a run, with those of the arrays that it begins with.
 Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles) {
   Volumes volumes;
-  if (entrant.stage == Stage::kFirstQuery || entrant.stage == Stage::kLoaded) return volumes;
+  if (entrant.stage == Stage::kLoaded) return volumes;
   const Meshes fresh = unlike(meshes);
   entrant.begin(fresh);
   entrant.builder->begin({});
@@ -197,6 +187,7 @@ void race(const std::string& scenario, const Meshes& meshes, const Options& opti
   base.seed = options.seed;
   for (const scenes::Mesh& mesh : meshes) {
     base.triangles += mesh.triangles.size();
+    base.largest_mesh = std::max(base.largest_mesh, mesh.triangles.size());
     base.extent = std::max(base.extent, scenes::extent(mesh));
   }
   const auto triangles = static_cast<double>(base.triangles);
@@ -217,7 +208,7 @@ void race(const std::string& scenario, const Meshes& meshes, const Options& opti
 void reportBytes(const std::string& scenario, const scenes::Mesh& mesh, const Options& options,
                  Report& report) {
   const auto model = scenes::buildModel<kIOSd>(mesh);
-  const auto tree = preparedTree(*model);
+  const engine::Tree* const tree = &treeOf(*model);
   const auto n = static_cast<double>(mesh.triangles.size());
   const auto bytesOf = [](const auto& array) {
     return static_cast<double>(array.capacity() * sizeof(array[0]));

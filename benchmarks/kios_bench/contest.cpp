@@ -3,10 +3,12 @@
 #include "contest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
 
+#include "library.h"
 #include "scenes/shapes.h"
 #include "scenes/unlike.h"
 #include "verdicts.h"
@@ -44,6 +46,19 @@ void stream(std::size_t bytes) {
   static std::vector<unsigned char> data;
   data.resize(std::max(data.size(), bytes));
   for (std::size_t i = 0; i < bytes; i += kLine) ++data[i];
+}
+
+/// Says how many answers have other bits, and how many differ by more than two that are each right
+/// to 16 eps; numbers of contacts and verdicts in any case.
+Changes changesOf(const std::vector<double>& before, const std::vector<double>& now) {
+  constexpr double kTolerance = 32 * std::numeric_limits<double>::epsilon();
+  Changes changes;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double difference = std::abs(now[i] - before[i]);
+    changes.bits += now[i] != before[i] ? 1 : 0;
+    changes.answers += difference > kTolerance * std::abs(before[i]) ? 1 : 0;
+  }
+  return changes;
 }
 
 void askOne(MeshSet& set, const Question& question) {
@@ -103,7 +118,9 @@ std::vector<Competitor> Contest::serving(Query query, Make make) const {
   std::vector<Competitor> competitors;
   for (const std::string& bv : options_.bvs) {
     MeshSet& set = *sets_.at(bv);
-    if (set.serves(query)) competitors.push_back(make(bv, set));
+    if (!set.serves(query)) continue;
+    competitors.push_back(make(bv, set));
+    competitors.back().rounds = roundsOf(bv);
   }
   return competitors;
 }
@@ -147,6 +164,9 @@ std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::
   base.frames = frames;
   base.seed = options_.seed;
   base.extent = extent_;
+  for (const scenes::Mesh& mesh : meshes_) {
+    base.largest_mesh = std::max(base.largest_mesh, mesh.triangles.size());
+  }
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
     const auto found = sets_.find(competitor.name);
@@ -207,6 +227,16 @@ std::vector<Row> Contest::refitRows(const std::string& scenario,
   return rowsOf(scenario, Query::kRefit, 1, competitors, named(kReference, competitors));
 }
 
+std::size_t Contest::largestOf(const std::vector<Question>& questions) const {
+  std::size_t largest = 0;
+  for (const Question& question : questions) {
+    for (const std::size_t body : {question.a, question.b}) {
+      if (body < meshes_.size()) largest = std::max(largest, meshes_[body].triangles.size());
+    }
+  }
+  return largest;
+}
+
 std::vector<Row> Contest::queryRows(const Task& task) {
   const std::size_t size = task.questions.size();
   if (size == 0) return {};
@@ -227,19 +257,26 @@ std::vector<Row> Contest::queryRows(const Task& task) {
       });
   if (task.ours_alone) {
     competitors.erase(std::remove_if(competitors.begin(), competitors.end(),
-                                     [](const Competitor& c) { return c.name != "kios"; }),
+                                     [](const Competitor& c) { return !isOurs(c.name); }),
                       competitors.end());
+  }
+  for (Competitor& competitor : competitors) {
+    const double start = nowMicroseconds();
+    competitor.answer(0, size);  // what models leave to their first query belongs to no repeat
+    if (!task.cold) competitor.rounds = roundsOf(competitor.name, nowMicroseconds() - start);
   }
   const std::size_t of_frame = size / task.frames;
   const std::size_t block = task.cold ? of_frame : std::max(kBlock, kBlockFrames * of_frame);
-  Race{size, options_.repeats, block, Race::kAll, true}.run(competitors);
+  Race{size, options_.repeats, block}.run(competitors);
 
   const Verdicts verdicts =
       judge([this](Query query, const Question& question) { return truthOf(query, question); },
             task.query, task.questions, options_.oracle_frames);
   std::vector<Row> rows =
       rowsOf(task.scenario, task.query, task.frames, competitors, named(kReference, competitors));
+  const std::size_t largest = largestOf(task.questions);
   for (Row& row : rows) {
+    row.largest_mesh = largest;
     row.asked.threshold = task.threshold;
     if (task.query != Query::kCollide && task.query != Query::kContacts)
       row.asked.rel_err = row.asked.abs_err = 0;
@@ -250,6 +287,8 @@ std::vector<Row> Contest::queryRows(const Task& task) {
     row.errors = compare(answers[row.bv], verdicts, task.query, task.questions, extent_);
     if (others_.empty() && task.query != Query::kCloserThan)
       row.tests = sets_[row.bv]->count(task.query, task.questions, task.frames);
+    const auto before = answers.find(row.bv + kBefore);
+    if (before != answers.end()) row.changes = changesOf(before->second, answers[row.bv]);
   }
   return rows;
 }

@@ -73,6 +73,7 @@ class Contest {
   std::vector<Competitor> serving(Query query, Make make) const;
   /// The oracles' answers, each found once.
   double truthOf(Query query, const Question& question);
+  std::size_t largestOf(const std::vector<Question>& questions) const;
   double findTruth(Query query, const Question& question);
   /// Returns the competitors' rows, with what is known of all models and no answers.
   std::vector<Row> rowsOf(const std::string& scenario, Query query, std::size_t frames,

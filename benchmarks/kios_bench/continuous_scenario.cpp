@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,8 +12,8 @@
 #include <fcl/math/motion/translation_motion.h>
 
 #include "calls.h"
-#include "fcl_kios/continuous/continuous.h"
-#include "fcl_kios/model/model.h"
+#include "continuous_way.h"
+#include "library.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/oracle.h"
@@ -23,11 +22,6 @@
 
 namespace kios::bench {
 namespace {
-
-/// Both meshes on their way, from t = 0 to 1.
-struct Motions {
-  std::shared_ptr<fcl::MotionBased> a, b;
-};
 
 constexpr struct {
   fcl::CCDMotionType type;
@@ -95,27 +89,6 @@ bool isWrong(const fcl::ContinuousCollisionResultd& result, const scenes::MeshOr
   return oracle.distance(frame.X_WA, frame.X_WB) > kFastest * time_error;
 }
 
-using Result = fcl::ContinuousCollisionResultd;
-
-/// Holds a way to find the first contact in time of two models.
-struct Way {
-  const char* name;
-  double time_error;
-  bool splines;  // whether it serves them
-  std::function<Result(const Motions& motions, ContinuousCounts* counts)> answer;
-};
-
-Way kiosWay(const scenes::Mesh& mesh_a, const scenes::Mesh& mesh_b) {
-  constexpr double kTimeError = 1e-4;
-  const auto a = scenes::buildModel<kIOSd>(mesh_a), b = scenes::buildModel<kIOSd>(mesh_b);
-  return {"kios", kTimeError, true, [a, b](const Motions& motions, ContinuousCounts* counts) {
-            const fcl::ContinuousCollisionRequestd request(10, kTimeError);
-            Result result;
-            firstContact(*a, motions.a.get(), *b, motions.b.get(), request, result, counts);
-            return result;
-          }};
-}
-
 /// FCL's over OBBRSS: 1000 samples, which may miss what is between them, and its conservative
 /// advancement, which can't serve splines.
 Way obbrssWay(const scenes::Mesh& mesh_a, const scenes::Mesh& mesh_b, fcl::CCDSolverType solver) {
@@ -124,10 +97,10 @@ Way obbrssWay(const scenes::Mesh& mesh_a, const scenes::Mesh& mesh_b, fcl::CCDSo
              b = scenes::buildModel<fcl::OBBRSSd>(mesh_b);
   const bool sampling = solver == fcl::CCDC_NAIVE;
   return {sampling ? "fcl_obbrss_sampling" : "fcl_obbrss_advancement", kTimeError, sampling,
-          [a, b, solver](const Motions& motions, ContinuousCounts* /*counts*/) {
+          [a, b, solver](const Motions& motions, Tests* /*work*/) {
             const fcl::ContinuousCollisionRequestd request(1000, kTimeError, fcl::CCDM_TRANS,
                                                            fcl::GST_LIBCCD, solver);
-            Result result;
+            fcl::ContinuousCollisionResultd result;
             FclCalls::continuousCollide(a.get(), motions.a.get(), b.get(), motions.b.get(), request,
                                         result);
             return result;
@@ -142,8 +115,11 @@ void runContinuous(const Options& options, Report& report) {
   const int size = options.quick ? 400 : 2000;
   const scenes::Mesh a = scenes::bumpyTorus(size), b = scenes::bumpyTorus(size / 2);
   const scenes::MeshOracle oracle(a, b);
-  const Way ways[] = {kiosWay(a, b), obbrssWay(a, b, fcl::CCDC_NAIVE),
-                      obbrssWay(a, b, fcl::CCDC_CONSERVATIVE_ADVANCEMENT)};
+  std::vector<Way> ways = {obbrssWay(a, b, fcl::CCDC_NAIVE),
+                           obbrssWay(a, b, fcl::CCDC_CONSERVATIVE_ADVANCEMENT)};
+  for (const std::string& name : compared({kOurs})) {
+    ways.insert(ways.begin(), libraryOf(name).continuous(name, a, b));
+  }
 
   for (const auto& [type, motion_name] : kMotions) {
     scenes::Random random(options.seed);
@@ -163,6 +139,7 @@ void runContinuous(const Options& options, Report& report) {
                                  way.answer(motions[i], nullptr);
                                }
                              }});
+      competitors.back().rounds = roundsOf(way.name);
     }
     Race{motions.size(), options.repeats}.run(competitors);
     Row base;
@@ -177,15 +154,12 @@ void runContinuous(const Options& options, Report& report) {
       Row row = base.of(competitors[w]);
       row.asked.abs_err = way.time_error;  // of the time
       row.errors.wrong = 0;
-      double bvs = 0, leaves = 0;
+      Tests work;
       for (std::size_t i = 0; i < motions.size(); ++i) {
-        ContinuousCounts counts;
-        const Result result = way.answer(motions[i], &counts);
+        const auto result = way.answer(motions[i], &work);
         if (isWrong(result, oracle, motions[i], first[i], way.time_error)) ++*row.errors.wrong;
-        bvs += static_cast<double>(counts.volume_tests);
-        leaves += static_cast<double>(counts.leaf_tests);
       }
-      if (bvs > 0) row.tests = {bvs / queries, leaves / queries};
+      if (work.bvs) row.tests = {*work.bvs / queries, *work.leaves / queries};
       rows.push_back(row);
     }
     report.add(rows);

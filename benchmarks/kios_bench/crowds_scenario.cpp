@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Many different small bodies in FCL's manager, the first time that anyone asks about them and
-// again; and the smallest bodies there are.
+// Many different small bodies in FCL's manager: made and asked about, and asked again.
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -11,12 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/math/bv/OBBRSS.h>
-#include <fcl_kios/fcl_kios.h>
+#include <fcl_kios/model/prepare.h>
 
 #include "contest.h"
-#include "fcl_models.h"
+#include "crowd.h"
+#include "library.h"
 #include "scenario.h"
 #include "scenes/robots.h"
 #include "scenes/shapes.h"
@@ -25,83 +24,8 @@
 namespace kios::bench {
 namespace {
 
-using Object = fcl::CollisionObjectd;
-
-/// Queries of a manager whose models are fresh, in turn.
-constexpr const char* kQueries[] = {"/cold", "/again", "/third"};
-
-struct BodyPair {
-  int a, b;
-  bool hit;
-};
-
-/// Bodies in FCL's manager.
-class Crowd {
- public:
-  virtual ~Crowd() = default;
-  virtual std::string name() const = 0;
-  /// Makes models that share nothing with those before, and a manager for them.
-  virtual void make(const std::vector<scenes::Mesh>& meshes,
-                    const std::vector<fcl::Transform3d>& poses) = 0;
-  /// Every pair that the manager brings, first contact.
-  virtual void collide(std::vector<BodyPair>& pairs) = 0;
-  /// Returns the least distance.
-  virtual double distance() = 0;
-};
-
-template <typename BV, typename Calls>
-class CrowdOf final : public Crowd {
- public:
-  explicit CrowdOf(std::string name) : name_(std::move(name)) {}
-  std::string name() const override { return name_; }
-
-  void make(const std::vector<scenes::Mesh>& meshes,
-            const std::vector<fcl::Transform3d>& poses) override {
-    manager_ = std::make_unique<fcl::DynamicAABBTreeCollisionManagerd>();
-    objects_.clear();
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
-      objects_.emplace_back(scenes::buildModel<BV>(meshes[i]), poses[i]);
-    }
-    for (Object& object : objects_) manager_->registerObject(&object);
-    manager_->setup();
-  }
-
-  void collide(std::vector<BodyPair>& pairs) override {
-    struct Pass {
-      const Object* first;
-      std::vector<BodyPair>& pairs;
-    } pass{objects_.data(), pairs};
-    pairs.clear();
-    manager_->collide(&pass, [](Object* a, Object* b, void* data) {
-      Pass& to = *static_cast<Pass*>(data);
-      const fcl::CollisionRequestd request;
-      fcl::CollisionResultd result;
-      Calls::collide(a, b, request, result);
-      to.pairs.push_back(
-          {static_cast<int>(a - to.first), static_cast<int>(b - to.first), result.isCollision()});
-      return false;
-    });
-  }
-
-  double distance() override {
-    fcl::DistanceResultd result;
-    manager_->distance(&result, [](Object* a, Object* b, void* data, double& distance) {
-      fcl::DistanceResultd& least = *static_cast<fcl::DistanceResultd*>(data);
-      const fcl::DistanceRequestd request;
-      distance = least.min_distance;
-      if (distance <= 0) return true;
-      Calls::distance(a, b, request, least);
-      distance = least.min_distance;
-      return distance <= 0;
-    });
-    return result.min_distance;
-  }
-
- private:
-  std::string name_;
-  std::vector<Object> objects_;
-  std::unique_ptr<fcl::DynamicAABBTreeCollisionManagerd> manager_;
-};
+/// Questions of a repeat: all is made and asked, and asked again.
+constexpr const char* kQueries[] = {"/cold", "/again"};
 
 double trueDistance(const scenes::BodyScene& scene) {
   const auto& poses = scene.frames[0];
@@ -146,7 +70,7 @@ std::size_t wrongOf(const std::vector<BodyPair>& pairs, const scenes::BodyScene&
 std::vector<std::unique_ptr<Crowd>> crowdsOf(const Options& options) {
   std::vector<std::unique_ptr<Crowd>> crowds;
   for (const std::string& bv : options.bvs) {
-    if (bv == "kios") crowds.push_back(std::make_unique<CrowdOf<kIOSd, KiosCalls>>(bv));
+    if (isOurs(bv)) crowds.push_back(libraryOf(bv).crowd(bv));
     if (bv == "fcl_obbrss") {
       crowds.push_back(std::make_unique<CrowdOf<fcl::OBBRSSd, FclCalls>>(bv));
     }
@@ -161,27 +85,26 @@ Competitor part(const Competitor& of, std::size_t query) {
   return one;
 }
 
-/// Rows of the first query of a fresh crowd, `/cold`, of the next, `/again`, and of the one after
-/// that, `/third`: models may prepare at any of them. Whoever comes first in a repeat finds the
-/// caches no better: making the models comes between.
+/// Rows of making models, as nobody has, and a manager with the first query, `/cold`, and of the
+/// next query, `/again`.
 void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Query query,
                  const Options& options, Report& report) {
   const std::vector<std::unique_ptr<Crowd>> crowds = crowdsOf(options);
   std::vector<std::vector<BodyPair>> pairs(crowds.size());
   std::vector<double> distances(crowds.size());
+  std::vector<scenes::Mesh> meshes = scene.meshes;
   std::vector<Competitor> competitors;
   for (std::size_t i = 0; i < crowds.size(); ++i) {
-    const auto answer = [&, i, query](std::size_t, std::size_t) {
+    const auto answer = [&, i, query](std::size_t number, std::size_t) {
+      if (number == 0) crowds[i]->make(meshes, scene.frames[0]);
       if (query == Query::kCollide) {
         crowds[i]->collide(pairs[i]);
       } else {
         distances[i] = crowds[i]->distance();
       }
     };
-    const auto before = [&, i](std::size_t, std::size_t) {
-      std::vector<scenes::Mesh> meshes = scene.meshes;
-      std::transform(meshes.begin(), meshes.end(), meshes.begin(), scenes::unlike);
-      crowds[i]->make(meshes, scene.frames[0]);
+    const auto before = [&](std::size_t, std::size_t) {
+      std::transform(scene.meshes.begin(), scene.meshes.end(), meshes.begin(), scenes::unlike);
     };
     competitors.push_back({crowds[i]->name(), answer, before});
   }
@@ -192,6 +115,7 @@ void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Qu
   base.seed = options.seed;
   for (const scenes::Mesh& mesh : scene.meshes) {
     base.triangles += mesh.triangles.size();
+    base.largest_mesh = std::max(base.largest_mesh, mesh.triangles.size());
     base.extent = std::max(base.extent, scenes::extent(mesh));
   }
   const double truth = query == Query::kDistance ? trueDistance(scene) : 0;
@@ -212,24 +136,9 @@ void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Qu
         row.errors.max_abs = std::abs(distances[i] - truth);
         row.errors.wrong = (distances[i] == 0) == (truth == 0) ? 0 : 1;
       }
-      if (row.bv == "kios") row.simd_target = simdTarget();
+      if (row.bv == kOurs) row.simd_target = simdTarget();
       rows.push_back(std::move(row));
     }
-  }
-  report.add(rows);
-}
-
-/// One triangle against one, near and touching.
-void reportTriangles(const Options& options, Report& report) {
-  const scenes::Mesh a = scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 0.7, 0});
-  const scenes::Mesh b = scenes::singleTriangle({0, 0, 0}, {0.8, 0, 0}, {0.3, 0.9, 0.2});
-  const int frames = options.quick ? 50 : 1000;
-  Contest contest({a, b}, options);
-  std::vector<Row> rows;
-  for (const Query query : {Query::kDistance, Query::kCollide}) {
-    append(contest.queryRows(pairTask("crowds/one_triangle", query,
-                                      scenes::farMotion(frames, 0.05, 1.5, options.seed))),
-           rows);
   }
   report.add(rows);
 }
@@ -240,15 +149,14 @@ void runCrowds(const Options& options, Report& report) {
   constexpr double kTouching = 0.28, kApart = 0.6;  // spacing
   const int count = options.quick ? 200 : 2000;
   Options ours = options;
-  if (options.bvs == defaultVolumeNames()) ours.bvs = {"kios", "fcl_obbrss"};
-  for (const int triangles : {12, 100, 900}) {
+  if (options.bvs == defaultVolumeNames()) ours.bvs = {kOurs, "fcl_obbrss"};
+  for (const int triangles : {100, 900}) {
     const std::string size = std::to_string(triangles);
     reportCrowd("crowds/" + size, scenes::packedCrowd(count, triangles, kTouching, options.seed),
                 Query::kCollide, ours, report);
     reportCrowd("crowds/" + size, scenes::packedCrowd(count, triangles, kApart, options.seed),
                 Query::kDistance, ours, report);
   }
-  reportTriangles(ours, report);
 }
 
 }  // namespace kios::bench

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "fcl_kios/paper/fit.h"
 #include "paper/fcl_policies.h"
 #include "paper/kios_policy.h"
 #include "paper/packed_policy.h"

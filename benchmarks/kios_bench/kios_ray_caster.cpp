@@ -3,20 +3,17 @@
 
 #include "fcl_kios/model/prepare.h"
 #include "ray_caster.h"
-#include "scenes/foreign_fitter.h"
 
 namespace kios::bench {
 namespace {
 
 class KiosCaster : public RayCaster {
  public:
-  KiosCaster(const scenes::Mesh& mesh, bool prepared)
-      : model_(scenes::buildModel<kIOSd>(mesh)), prepared_(prepared) {
-    if (!prepared) model_->bv_fitter.reset(new scenes::ForeignFitter<kIOSd>());
+  explicit KiosCaster(const scenes::Mesh& mesh) : model_(scenes::buildModel<kIOSd>(mesh)) {
     prepare(*model_);
   }
 
-  std::string name() const override { return prepared_ ? "kios" : "kios_fcl_tree"; }
+  std::string name() const override { return "kios"; }
 
   std::optional<CastHit> first(const Rayd& ray) override {
     const auto hit = firstHit(*model_, pose_, ray, &counts_);
@@ -35,15 +32,14 @@ class KiosCaster : public RayCaster {
 
  private:
   const std::shared_ptr<Modeld> model_;
-  const bool prepared_;
   const fcl::Transform3d pose_ = fcl::Transform3d::Identity();
   SearchCounts counts_;
 };
 
 }  // namespace
 
-std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh, bool prepared) {
-  return std::make_unique<KiosCaster>(mesh, prepared);
+std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh) {
+  return std::make_unique<KiosCaster>(mesh);
 }
 
 #ifndef KIOS_HAVE_EMBREE

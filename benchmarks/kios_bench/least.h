@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "report.h"
@@ -18,14 +19,29 @@ struct Standing {
   const char* why = nullptr;  ///< why ours may be slower there, nullptr if it may not
 };
 
-/// Returns all rows called `kios` that have a row of FCL's volumes, or of Embree, beside them, by
-/// their ratios, least first. AABB and k-DOPs are no rivals in building.
+/// Says what rows have in common that answer the same: scenario, query, and what was asked.
+using Setting = std::tuple<std::string, std::string, Maybe, Maybe, Maybe, Maybe>;
+Setting settingOf(const Row& row);
+
+/// Returns the setting in words.
+std::string words(const Row& row);
+
+/// Returns whether the row is work that programs do: a mesh of 64 triangles or more takes part. No
+/// code exists for others, which need only be right.
+bool isRealWork(const Row& row);
+
+/// Returns the ratio below which a row fails: 1, and 0.8 for a first contact with cold caches, most
+/// of whose time is that of reading code.
+double leastRatio(const Row& row);
+
+/// Returns all rows of real work called `kios` that have a row of FCL's volumes, or of Embree,
+/// beside them, by their ratios, least first. AABB and k-DOPs are no rivals in building.
 std::vector<Standing> byRatio(const std::vector<Row>& rows);
 
 /// Returns why ours may be slower than others in rows of this scenario; nullptr if it may not.
 const char* whySlower(const std::string& scenario);
 
-/// Returns how many are below 1 without a reason.
+/// Returns how many are below leastRatio() without a reason.
 int countSlower(const std::vector<Standing>& standings);
 
 /// Prints a line for each of the first `count`.

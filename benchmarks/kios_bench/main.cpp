@@ -4,18 +4,20 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "compare.h"
 #include "least.h"
+#include "library.h"
 #include "mesh_set.h"
 #include "options.h"
 #include "report.h"
 #include "scenario.h"
-#include "summary.h"
 
 namespace kios::bench {
 namespace {
@@ -87,30 +89,51 @@ bool runOne(const std::string& name, Options options, Report& report) {
   return true;
 }
 
-// Runs the scenarios with few frames each, all that have rows of FCL's if none is named, and
-// compares. Returns how many of our rows are slower than the fastest other's without a reason.
-int runLeast(std::vector<std::string> wanted, const Options& options, bool own_repeats,
-             Report& report) {
-  constexpr std::size_t kShown = 10;
+// Runs the scenarios with few frames each; all that have rows of FCL's if none is named.
+void runFew(std::vector<std::string> wanted, Options options, bool own_repeats, Report& report) {
   if (wanted.empty()) {
     for (const Scenario& scenario : scenarios()) {
       if (scenario.least_frames > 0) wanted.emplace_back(scenario.name);
     }
   }
+  if (!own_repeats) options.repeats = 3;
+  options.oracle_frames = 20;
   for (const std::string& name : wanted) {
     Options few = options;
-    if (few.bvs == defaultVolumeNames()) {
-      // FCL's own k-IOS is nowhere its fastest by much, and takes a hundred times OBBRSS's time.
-      few.bvs.erase(std::remove(few.bvs.begin(), few.bvs.end(), "fcl_kios_builtin"), few.bvs.end());
-    }
     if (few.frames == 0) few.frames = scenarioOf(name.substr(0, name.find('/'))).least_frames;
-    if (!own_repeats) few.repeats = 3;
-    few.oracle_frames = 20;
     runOne(name, few, report);
   }
+}
+
+// Compares with FCL. Returns how many of our rows are slower than the fastest other's without a
+// reason.
+int runLeast(const std::vector<std::string>& wanted, Options options, bool own_repeats,
+             Report& report) {
+  constexpr std::size_t kShown = 10;
+  if (options.bvs == defaultVolumeNames()) {
+    // FCL's own k-IOS is nowhere its fastest by much, and takes a hundred times OBBRSS's time.
+    options.bvs.erase(std::remove(options.bvs.begin(), options.bvs.end(), "fcl_kios_builtin"),
+                      options.bvs.end());
+  }
+  runFew(wanted, options, own_repeats, report);
   const std::vector<Standing> standings = byRatio(report.rows());
   printLeast(standings, kShown);
   return countSlower(standings);
+}
+
+// Compares with the library of an earlier revision. Returns how many of our rows are slower than
+// kLeastRatio or answer otherwise.
+int runCompared(std::vector<std::string> wanted, Options options, bool own_repeats,
+                Report& report) {
+  constexpr std::size_t kShown = 10;
+  if (wanted.empty()) {
+    wanted = {"generated", "strips",  "robots", "world", "threshold",  "shapes",
+              "octrees",   "scaling", "refit",  "scene", "continuous", "motions"};
+  }
+  if (options.bvs == defaultVolumeNames()) options.bvs = {kOurs, "fcl_obbrss"};
+  options.bvs = compared(options.bvs);
+  runFew(std::move(wanted), options, own_repeats, report);
+  return summarize(report.rows(), kShown);
 }
 
 int run(int argc, char** argv) {
@@ -129,8 +152,7 @@ int run(int argc, char** argv) {
   std::string json;
   std::string markdown;
   std::string robot;
-  std::string page;
-  bool words = false;
+  std::vector<std::filesystem::path> libraries;
   bool least = false;
   bool list = false;
   bool check_rows = false;
@@ -164,15 +186,19 @@ int run(int argc, char** argv) {
   app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
   app.add_option("--json", json, "file for one JSON object a row");
   app.add_option("--markdown", markdown, "file for the table of 'stability'");
-  app.add_flag("--words", words, "say at the end in words what was measured");
-  app.add_option("--page", page, "file for a page of what was measured; says it in words, too");
   app.add_flag("--quick", options.quick, "few frames and repeats: a smoke test");
   app.add_flag(
       "--least", least,
       "run several scenarios, or all, with few frames, and print where ours is least ahead "
       "of FCL's fastest volume");
+  app.add_option("--compare", libraries,
+                 "two shared objects, of an earlier revision and of this one (scripts/compare): "
+                 "ask both in turn, as --least, and print where this one is least ahead")
+      ->expected(2)
+      ->check(CLI::ExistingFile);
   app.add_flag("--check", check_rows,
-               "exit with 1 if an answer of kios is wrong, or with --least if a row is slower");
+               "exit with 1 if an answer of kios is wrong, with --least or --compare if a row is "
+               "slower");
   app.add_flag("--list", list, "list scenarios and bounding volumes");
   CLI11_PARSE(app, argc, argv);
 
@@ -190,29 +216,26 @@ int run(int argc, char** argv) {
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
   if (!markdown.empty()) options.markdown = markdown;
-  if (wanted.empty() && !least) wanted = {"generated"};
+  if (!libraries.empty()) loadLibraries(libraries[0], libraries[1]);
+  if (wanted.empty() && !least && libraries.empty()) wanted = {"generated"};
   if (!robot.empty() && wanted != std::vector<std::string>{"robots"}) {
     throw std::invalid_argument("--robot is an option of the scenario 'robots'");
   }
   if (!robot.empty()) options.robot = robot;
-  Report report(json.empty() ? std::nullopt : std::optional<std::filesystem::path>(json));
+  Report report(json.empty() ? std::nullopt : std::optional<std::filesystem::path>(json),
+                libraries.empty() ? printTable : printCompared);
   int slower = 0;
-  if (least) {
+  if (!libraries.empty()) {
+    slower = runCompared(wanted, options, app.count("--repeats") > 0, report);
+  } else if (least) {
     slower = runLeast(wanted, options, app.count("--repeats") > 0, report);
   } else {
     for (const std::string& name : wanted) runOne(name, options, report);
     if (report.rows().empty()) return 0;
     std::printf("%s", kColumns);
   }
-  if (words || !page.empty()) {
-    std::printf("\n");
-    for (const std::string& sentence : inWords(report.rows())) {
-      std::printf("%s.\n", sentence.c_str());
-    }
-  }
-  if (!page.empty()) writePage(report.rows(), page);
   if (!check_rows) return 0;
-  if (slower > 0) std::fprintf(stderr, "kios_bench: %d rows are slower than FCL's\n", slower);
+  if (slower > 0) std::fprintf(stderr, "kios_bench: %d rows are slower\n", slower);
   return std::max(check(report.rows()), slower > 0 ? 1 : 0);
 }
 

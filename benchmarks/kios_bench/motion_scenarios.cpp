@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Two meshes along a motion.
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "contest.h"
 #include "scenario.h"
+#include "scenes/motions.h"
 #include "scenes/pqp_data.h"
 #include "scenes/shapes.h"
 
@@ -56,31 +59,26 @@ void runFalling(const Options& options, Report& report) {
   reportShuffled("falling_shuffled", falling(options), options, report);
 }
 
-void runFallingShuffled(const Options& options, Report& report) {
-  reportShuffled("falling_shuffled", falling(options), options, report);
-}
-
 void runSpinning(const Options& options, Report& report) {
   reportMotion("spinning", spinning(options), options, report);
-  reportShuffled("spinning_shuffled", spinning(options), options, report);
-}
-
-void runSpinningShuffled(const Options& options, Report& report) {
   reportShuffled("spinning_shuffled", spinning(options), options, report);
 }
 
 void runGenerated(const Options& options, Report& report) {
   reportMotion("generated/falling", generatedFalling(), options, report);
   reportMotion("generated/spinning", generatedSpinning(), options, report);
-}
-
-void runSoup(const Options& options, Report& report) {
-  constexpr double kLeast = 1e-6;
-  constexpr double kMost = 1e-3;
+  // Beside each other: what a pair costs that the roots decide.
   scenes::MovingPair pair = generatedFalling();
-  pair.a = scenes::shrunkSoup(pair.a, kLeast, kMost, options.seed);
-  pair.b = scenes::shrunkSoup(pair.b, kLeast, kMost, options.seed + 1);
-  reportMotion("soup", pair, options, report);
+  double radii = 0;
+  for (const scenes::Mesh* mesh : {&pair.a, &pair.b}) {
+    double squared = 0;
+    for (const fcl::Vector3d& p : mesh->vertices) squared = std::max(squared, p.squaredNorm());
+    radii += std::sqrt(squared);
+  }
+  pair.frames = scenes::farMotion(4000, 1.2 * radii, 1.5 * radii, options.seed);
+  Contest contest({pair.a, pair.b}, options);
+  report.add(contest.queryRows(
+      pairTask("generated/beside", Query::kCollide, chosenFrames(pair.frames, options))));
 }
 
 }  // namespace kios::bench

@@ -34,7 +34,10 @@ class MotionSet {
   std::string name_;
 };
 
-/// By their names in rows: `kios`, checkMotion(); `sampled_kios` and `fcl_obbrss`, samples at most
+/// By checkMotion(), `kios` in rows. The cell must outlive it.
+std::unique_ptr<MotionSet> makeCertified(const std::string& name, const scenes::Cell& cell);
+
+/// By their names in rows: `sampled_kios` and `fcl_obbrss`, samples at most
 /// 0.01 rad apart in the largest joint, each with FCL's dynamic AABB trees over k-IOS and OBBRSS;
 /// `sampled_scene`, the same samples by SceneDistance. Samples are taken in the order of
 /// OMPL's discrete validator: the end, the middle, the middles of the halves. The cell must outlive

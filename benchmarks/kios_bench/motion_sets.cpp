@@ -197,8 +197,11 @@ std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& c
   return [set](const scenes::Joints& q) { return set->isFreeAt(q); };
 }
 
+std::unique_ptr<MotionSet> makeCertified(const std::string& name, const scenes::Cell& cell) {
+  return std::make_unique<Certified>(name, cell);
+}
+
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell) {
-  if (name == "kios") return std::make_unique<Certified>(name, cell);
   if (name == "sampled_scene") return std::make_unique<SceneSampled>(name, cell);
   if (name == "sampled_kios") return std::make_unique<Managed<kIOSd, KiosCalls>>(name, cell);
   return std::make_unique<Managed<fcl::OBBRSSd, FclCalls>>(name, cell);

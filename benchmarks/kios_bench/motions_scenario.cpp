@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "library.h"
 #include "motion_set.h"
 #include "scenario.h"
 #include "scenes/ur5_data.h"
@@ -21,7 +22,15 @@ struct Edge {
 
 constexpr double kStep = 0.01;  // of the samples, in the largest joint
 constexpr double kLengths[] = {0.05, 0.2, 0.8};
-constexpr const char* kSets[] = {"kios", "sampled_kios", "sampled_scene", "fcl_obbrss"};
+
+std::vector<std::unique_ptr<MotionSet>> setsOf(const scenes::Cell& cell) {
+  std::vector<std::unique_ptr<MotionSet>> sets;
+  for (const std::string& name : compared({kOurs, "sampled_kios", "sampled_scene", "fcl_obbrss"})) {
+    sets.push_back(isOurs(name) ? libraryOf(name).motion_set(name, cell)
+                                : makeMotionSet(name, cell));
+  }
+  return sets;
+}
 
 /// Holds the truth: an exact static query at so many configurations, and of those that
 /// checkMotion() names.
@@ -107,8 +116,7 @@ void reportMissed(const std::string& scenario, const scenes::Cell& cell, const O
   std::printf("%s: %d paths, %d of them free, by %d samples each\n", scenario.c_str(), count,
               static_cast<int>(std::count(free.begin(), free.end(), 1)), samples);
   std::vector<Row> rows;
-  for (const char* name : kSets) {
-    const auto set = makeMotionSet(name, cell);
+  for (const auto& set : setsOf(cell)) {
     int missed = 0, extra = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const bool found = set->isFree(edges[i].q0, edges[i].q1);
@@ -116,9 +124,10 @@ void reportMissed(const std::string& scenario, const scenes::Cell& cell, const O
       extra += !found && free[i] != 0 ? 1 : 0;
     }
     const long long unresolved = set->takeUnresolved();
-    std::printf("  %-20s missed %d, more %d, unresolved %lld\n", name, missed, extra, unresolved);
+    std::printf("  %-20s missed %d, more %d, unresolved %lld\n", set->name().c_str(), missed, extra,
+                unresolved);
     Row row = rowOf(scenario, cell, edges.size(), options);
-    row.bv = name;
+    row.bv = set->name();
     row.errors.wrong = static_cast<std::size_t>(missed);
     rows.push_back(row);
   }
@@ -137,19 +146,16 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
                  const std::vector<Edge>& edges, double length, bool free, const Options& options,
                  Report& report) {
   if (edges.empty()) return;
-  std::vector<std::unique_ptr<MotionSet>> sets;
+  const auto sets = setsOf(cell);
   std::vector<Competitor> competitors;
-  std::vector<std::vector<char>> verdicts;
-  for (const char* name : kSets) {
-    sets.push_back(makeMotionSet(name, cell));
-    verdicts.emplace_back(edges.size(), 0);
-  }
+  std::vector<std::vector<char>> verdicts(sets.size(), std::vector<char>(edges.size(), 0));
   for (std::size_t i = 0; i < sets.size(); ++i) {
     competitors.push_back({sets[i]->name(), [&, i](std::size_t begin, std::size_t end) {
                              for (std::size_t e = begin; e < end; ++e) {
                                verdicts[i][e] = sets[i]->isFree(edges[e].q0, edges[e].q1) ? 1 : 0;
                              }
                            }});
+    competitors.back().rounds = roundsOf(sets[i]->name());
   }
   Race race{edges.size(), options.repeats, 20};
   race.warm_up = true;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fcl_kios/model/model.h"
+#include "fcl_kios/paper/fit.h"
 #include "fcl_kios/volume/separation.h"
 #include "paper/packing_tests.h"
 #include "scenario.h"
@@ -59,7 +60,7 @@ void descendants(const Modelf& model, int at, int levels, Nodes& out) {
 }
 
 std::shared_ptr<Modelf> modelOf(const scenes::Mesh& mesh, FitMethod method) {
-  return scenes::buildModel<kIOSf>(mesh, std::make_shared<fcl::detail::BVFitter<kIOSf>>(method));
+  return scenes::buildModel<kIOSf>(mesh, std::make_shared<PaperFitter<float>>(method));
 }
 
 /// Pairs as a search meets them: children of a node whose S0 meets that of a node of its size, in

@@ -13,6 +13,7 @@
 
 #include "contest.h"
 #include "fcl_kios/model/model.h"
+#include "fcl_kios/paper/fit.h"
 #include "scenario.h"
 #include "scenes/robots.h"
 #include "scenes/shapes.h"
@@ -33,7 +34,7 @@ struct Spheres {
 
   void add(const scenes::Mesh& mesh, FitMethod method) {
     const auto model =
-        scenes::buildModel<kIOSd>(mesh, std::make_shared<fcl::detail::BVFitter<kIOSd>>(method));
+        scenes::buildModel<kIOSd>(mesh, std::make_shared<PaperFitter<double>>(method));
     for (int i = 0; i < model->getNumBVs(); ++i) {
       const int k = model->getBV(i).bv.k();
       const bool shared = method == FitMethod::kMethodII && k > 1;

@@ -28,16 +28,24 @@ void Race::run(std::vector<Competitor>& competitors) const {
     for (Competitor& competitor : competitors) {
       competitor.us.emplace_back((questions + of_step - 1) / of_step, 0.0);
     }
-    for (std::size_t begin = 0, number = 0; begin < questions; begin += of_block, ++number) {
-      const std::size_t end = std::min(begin + of_block, questions);
-      for (std::size_t turn = 0; turn < competitors.size(); ++turn) {
-        Competitor& competitor = competitors[(turn + number + repeat) % competitors.size()];
-        if (competitor.before) competitor.before(begin, end);
-        for (std::size_t at = begin; at < end; at += of_step) {
-          if (at / of_step % competitor.stride != 0) continue;
-          const double start = now();
-          competitor.answer(at, std::min(at + of_step, end));
-          competitor.us.back()[at / of_step] = now() - start;
+    int rounds = 1;
+    for (const Competitor& competitor : competitors) rounds = std::max(rounds, competitor.rounds);
+    for (int round = 0; round < rounds; ++round) {
+      for (std::size_t begin = 0, number = 0; begin < questions; begin += of_block, ++number) {
+        const std::size_t end = std::min(begin + of_block, questions);
+        for (std::size_t turn = 0; turn < competitors.size(); ++turn) {
+          Competitor& competitor =
+              competitors[(turn + number + repeat + round) % competitors.size()];
+          if (round >= competitor.rounds) continue;
+          if (competitor.before) competitor.before(begin, end);
+          for (std::size_t at = begin; at < end; at += of_step) {
+            if (at / of_step % competitor.stride != 0) continue;
+            const double start = now();
+            competitor.answer(at, std::min(at + of_step, end));
+            const double us = now() - start;
+            double& least = competitor.us.back()[at / of_step];
+            least = round == 0 ? us : std::min(least, us);
+          }
         }
       }
     }
@@ -60,6 +68,7 @@ Times timesOf(const Competitor& competitor, std::size_t frames, const Competitor
   }
   Times times = {median(repeats), *std::min_element(repeats.begin(), repeats.end()), {}};
   if (reference) times.ratio_to_fcl_obbrss = median(std::move(ratios));
+  times.repeats_us = std::move(repeats);
   return times;
 }
 

@@ -20,6 +20,9 @@ struct Competitor {
   std::function<void(std::size_t begin, std::size_t end)> before = {};
   /// A slow competitor answers one step in so many.
   std::size_t stride = 1;
+  /// It answers so many times in a repeat, and the least time of each step counts: noise that comes
+  /// and goes is left out.
+  int rounds = 1;
   /// Microseconds by repeat and step, 0 where it did not answer.
   std::vector<std::vector<double>> us = {};
 };
@@ -45,6 +48,7 @@ struct Race {
 struct Times {
   double median_us = 0, min_us = 0;           ///< over repeats
   std::optional<double> ratio_to_fcl_obbrss;  ///< above 1: faster than FCL's OBBRSS
+  std::vector<double> repeats_us = {};        ///< by repeat
 };
 
 /// Returns the time of each repeat by the number of frames that it answers. The ratio is to the

@@ -33,8 +33,8 @@ class RayCaster {
   virtual std::optional<SearchCounts> counts() const { return std::nullopt; }
 };
 
-/// Returns ours: by the prepared tree, and by FCL's tree.
-std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh, bool prepared);
+/// Returns ours.
+std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh);
 
 /// Returns embree, single precision with its robust flag; nullptr if this program was built without
 /// it.

@@ -208,8 +208,7 @@ void castAt(const std::string& name, scenes::Mesh mesh, const Options& options, 
   const int count = options.frames > 0 ? options.frames : (options.quick ? 100 : 4096);
   for (Vector& p : mesh.vertices) p = toFloats(p);
   std::vector<std::unique_ptr<RayCaster>> casters;
-  casters.push_back(makeKiosCaster(mesh, true));
-  casters.push_back(makeKiosCaster(mesh, false));
+  casters.push_back(makeKiosCaster(mesh));
   if (auto embree = makeEmbreeCaster(mesh)) casters.push_back(std::move(embree));
   const Oracle oracle(mesh);
   std::vector<Row> rows;

@@ -79,6 +79,10 @@ std::string cell(const Maybe& value, const char* format) {
   return text;
 }
 
+std::string timeText(double us) {
+  return us < 9999.5 ? cell(us, us < 999.5 ? "%.3g us" : "%.0f us") : cell(us / 1000, "%.4g ms");
+}
+
 void append(std::vector<Row> rows, std::vector<Row>& all) {
   std::move(rows.begin(), rows.end(), std::back_inserter(all));
 }
@@ -118,7 +122,6 @@ std::string toJson(const Row& row) {
       {"skipped_pairs", orNull(row.pairs.skipped)},
       {"total_pairs", orNull(row.pairs.total)},
       {"narrow_queries", orNull(row.pairs.narrow_queries)},
-      {"prepared_models", orNull(row.pairs.prepared_models)},
       {"solved", orNull(row.plans.solved)},
       {"in_contact", orNull(row.plans.in_contact)},
       {"mean_us", orNull(row.plans.mean_us)},
@@ -129,16 +132,20 @@ std::string toJson(const Row& row) {
   return json.dump();
 }
 
-Report::Report(const std::optional<std::filesystem::path>& json_file) {
+void printTable(const std::vector<Row>& rows) {
+  printHeading();
+  for (const Row& row : rows) print(row);
+  std::printf("\n");
+}
+
+Report::Report(const std::optional<std::filesystem::path>& json_file, Print print) : print_(print) {
   if (!json_file) return;
   json_.open(*json_file);
   if (!json_) throw std::runtime_error(json_file->string() + ": cannot be written");
 }
 
 void Report::add(const std::vector<Row>& rows) {
-  printHeading();
-  for (const Row& row : rows) print(row);
-  std::printf("\n");
+  print_(rows);
   std::fflush(stdout);
   addUnprinted(rows);
 }

@@ -33,9 +33,10 @@ struct Errors {
   MaybeCount wrong;                        ///< verdicts
 };
 
-/// Tests of bounding volumes and of triangle pairs, of a frame.
+/// Tests of bounding volumes, of triangle pairs (ours: of leaves), and pairs evaluated in double,
+/// of a frame.
 struct Tests {
-  Maybe bvs, leaves;
+  Maybe bvs = {}, leaves = {}, exact = {};
 };
 
 /// Holds properties of the models and their volumes.
@@ -58,7 +59,6 @@ struct Pairs {
   MaybeCount skipped;
   MaybeCount total;      ///< of all frames, where a frame has several
   Maybe narrow_queries;  ///< of a frame
-  MaybeCount prepared_models;
 };
 
 /// Counts planning problems, whose times are those of a plan: median, the budget where it ran out.
@@ -68,10 +68,16 @@ struct Plans {
   Maybe mean_us, edges_per_second;
 };
 
+/// Counts answers that aren't those of the library before.
+struct Changes {
+  std::size_t bits = 0, answers = 0;  ///< not bit for bit; beyond rounding
+};
+
 /// Holds one measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
 struct Row {
   std::string scenario, query, bv;
-  std::size_t triangles = 0;  ///< of all meshes
+  std::size_t triangles = 0;     ///< of all meshes
+  std::size_t largest_mesh = 0;  ///< triangles of the largest one asked about; 0: unsaid
   std::size_t frames = 0;
   std::uint64_t seed = 0;
   /// Is that of the larger mesh, the scale of its errors; in the table only. 1 for pairs of
@@ -85,6 +91,7 @@ struct Row {
   ToSsv to_ssv;
   Pairs pairs;
   Plans plans;
+  std::optional<Changes> changes;  ///< not in JSON
   std::optional<std::string> simd_target;
 
   /// Returns a copy for a competitor, with its times.
@@ -97,17 +104,25 @@ void append(std::vector<Row> rows, std::vector<Row>& all);
 /// Returns a number as the tables print it, by printf's format; `-` if it is unknown or not finite.
 std::string cell(const Maybe& value, const char* format);
 
+/// Returns a time for readers: in us, or in ms where those have five digits.
+std::string timeText(double us);
+
 /// Returns the row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);
 
-/// Receives rows as they are measured: an aligned table on stdout and, if a file is named, one JSON
-/// object a line.
+/// Prints rows as an aligned table.
+void printTable(const std::vector<Row>& rows);
+
+/// Receives rows as they are measured: prints those of a scene and, if a file is named, writes one
+/// JSON object a line.
 class Report {
  public:
-  /// Throws std::runtime_error if the file cannot be written.
-  explicit Report(const std::optional<std::filesystem::path>& json_file);
+  using Print = void (*)(const std::vector<Row>& rows);
 
-  /// Adds the rows of one scene, with the table's heading above them.
+  /// Throws std::runtime_error if the file cannot be written.
+  explicit Report(const std::optional<std::filesystem::path>& json_file, Print print = printTable);
+
+  /// Adds the rows of one scene and prints them.
   void add(const std::vector<Row>& rows);
 
   /// Adds rows of a scenario that prints a table of its own.
@@ -116,6 +131,7 @@ class Report {
   const std::vector<Row>& rows() const { return rows_; }
 
  private:
+  Print print_;
   std::vector<Row> rows_;
   std::ofstream json_;
 };

@@ -7,18 +7,15 @@ namespace kios::bench {
 
 const std::vector<Scenario>& scenarios() {
   static const std::vector<Scenario> all = {
-      {"falling", "the k-IOS paper's falling tori, from the PQP data", runFalling, 240},
-      {"spinning", "the k-IOS paper's spinning bunny and torus, from the PQP data", runSpinning,
-       240},
-      {"falling_shuffled", "distances of 'falling' in a random order of its frames",
-       runFallingShuffled, 240},
-      {"spinning_shuffled", "the same of 'spinning'", runSpinningShuffled, 240},
-      {"generated", "the same kind of scenes, made by the program", runGenerated, 100},
-      {"soup", "the generated falling tori, their triangles shrunk apart", runSoup, 100},
+      {"falling", "the k-IOS paper's falling tori, from the PQP data, in order and shuffled",
+       runFalling, 240},
+      {"spinning",
+       "the k-IOS paper's spinning bunny and torus, from the PQP data, in order and shuffled",
+       runSpinning, 240},
+      {"generated", "the same kind of scenes, made by the program; tori that the roots tell apart",
+       runGenerated, 100},
       {"threshold", "distances with a bound on entry, from far to touching, of falling tori",
        runThreshold, 60},
-      {"rootreject", "pairs that the roots decide: collide, and distance with a bound on entry",
-       runRootReject, 500},
       {"strips", "two chains of cylinders made of 100 to 400 long thin strips", runStrips, 5},
       {"robots", "two arms side by side, all pairs of links: UR5 (data) and generated 7-link arms",
        runRobots, 10},
@@ -36,13 +33,8 @@ const std::vector<Scenario>& scenarios() {
       {"scene", "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles",
        runScene, 20},
       {"crowds",
-       "2,000 different small bodies in FCL's manager, the first time and again; one triangle "
-       "against one",
+       "2,000 different small bodies in FCL's manager: made and asked about, and asked again",
        runCrowds, 1},
-      {"small",
-       "bodies of 2 to 500 triangles at, near, off, on and a hair above floors, rough ground, a "
-       "box, a yard and needles",
-       runSmall, 70},
       {"paper",
        "the k-IOS paper's Table I and Figures 5 and 6 in its own units: published fit, tuned fit, "
        "engine, FCL's RSS",
@@ -76,7 +68,7 @@ const std::vector<Scenario>& scenarios() {
        "preparation and memory",
        runScaling, 8},
       {"build",
-       "endModel, preparation, first query, the same mesh again, memory, for every volume of FCL: "
+       "endModel, preparation, the same mesh again, memory, for every volume of FCL: "
        "tori of 1k to 80k triangles (1M by --max-triangles), welded and not, and the UR5 (data)",
        runBuild, 1},
       {"solids",

@@ -9,6 +9,7 @@
 #include <map>
 #include <numeric>
 
+#include "library.h"
 #include "scenario.h"
 #include "scene_set.h"
 #include "scenes/ur5_data.h"
@@ -102,6 +103,7 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
       if (frame == 0) set.forget();
     };
     competitors.push_back({set.name(), answer, before, entrant.stride});
+    competitors.back().rounds = roundsOf(set.name());
     of.push_back(&entrant);
     set.answer(query, 0, kMargin);  // what models leave to their first query belongs to no repeat
   }
@@ -124,7 +126,6 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
     row.pairs.total = all_pairs * row.frames;
     row.pairs.skipped = *row.pairs.total - queried;
     row.pairs.narrow_queries = static_cast<double>(queried) / static_cast<double>(row.frames);
-    row.pairs.prepared_models = set.preparedModels();
     row.volumes.bytes_per_triangle =
         static_cast<double>(set.bytes()) / static_cast<double>(row.triangles);
     row.simd_target = set.simdTarget();
@@ -146,7 +147,10 @@ void reportScene(const std::string& scenario, const scenes::BodyScene& scene, st
                  const Options& options, Report& report) {
   std::vector<Entrant> entrants;
   for (const auto& [bv, stride] : sets) {
-    entrants.push_back({makeSceneSet(bv, scene), stride, {}, {}});
+    for (const std::string& name : compared({bv})) {
+      auto set = isOurs(name) ? libraryOf(name).scene_set(name, scene) : makeSceneSet(name, scene);
+      entrants.push_back({std::move(set), stride, {}, {}});
+    }
   }
   Row base;
   base.query = "scene";

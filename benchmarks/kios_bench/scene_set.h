@@ -37,8 +37,7 @@ class SceneSet {
   /// Returns pairs for which the last answer() asked the narrow phase.
   virtual long long queried() const = 0;
   virtual std::size_t bytes() const = 0;
-  /// Returns models that hold something prepared, and the SIMD target, where there are such things.
-  virtual MaybeCount preparedModels() const { return std::nullopt; }
+  /// Returns the SIMD target, where there is one.
   virtual std::optional<std::string> simdTarget() const { return std::nullopt; }
 
  private:
@@ -48,7 +47,10 @@ class SceneSet {
 /// By their names in rows. FCL's OBBRSS: `fcl_obbrss`, every pair with a result of its own;
 /// `fcl_obbrss_bounded`, every pair with the best so far, or the margin, as bound on entry;
 /// `fcl_manager`, its dynamic AABB tree. Ours: `kios_pairs` and `kios_bounded`, every pair as
-/// FCL's, and `kios`, SceneDistance.
+/// FCL's.
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene);
+
+/// Ours by SceneDistance, `kios`.
+std::unique_ptr<SceneSet> makeKiosScene(const std::string& name, const scenes::BodyScene& scene);
 
 }  // namespace kios::bench

@@ -207,11 +207,6 @@ class KiosScene final : public SceneSet {
     for (const auto& model : bodies_.models) sum += preparedBytes(*model);
     return sum;
   }
-  MaybeCount preparedModels() const override {
-    std::size_t prepared = 0;
-    for (const auto& model : bodies_.models) prepared += preparedBytes(*model) > 0 ? 1 : 0;
-    return prepared;
-  }
   std::optional<std::string> simdTarget() const override { return kios::simdTarget(); }
 
  private:
@@ -221,11 +216,14 @@ class KiosScene final : public SceneSet {
 
 }  // namespace
 
+std::unique_ptr<SceneSet> makeKiosScene(const std::string& name, const scenes::BodyScene& scene) {
+  return std::make_unique<KiosScene>(name, scene);
+}
+
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene) {
   using FclPairs = ScenePairs<fcl::OBBRSSd, FclCalls>;
   using KiosPairs = ScenePairs<kIOSd, KiosCalls>;
   const bool bounded = name == "fcl_obbrss_bounded" || name == "kios_bounded";
-  if (name == "kios") return std::make_unique<KiosScene>(name, scene);
   if (name == "fcl_manager") return std::make_unique<FclManager>(name, scene);
   if (name.rfind("kios_", 0) == 0) return std::make_unique<KiosPairs>(name, scene, bounded);
   return std::make_unique<FclPairs>(name, scene, bounded);

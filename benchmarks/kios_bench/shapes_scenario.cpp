@@ -14,6 +14,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include "contest.h"
+#include "library.h"
 #include "scenario.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
@@ -39,7 +40,7 @@ std::vector<Question> questionsOf(Query query, int count, std::uint64_t seed) {
 void reportGeometry(const std::string& scenario, const scenes::Mesh& mesh, const Geometry& geometry,
                     int frames, const Options& options, Report& report) {
   Options pair = options;
-  pair.bvs = {"kios", "fcl_obbrss"};
+  pair.bvs = compared({kOurs, "fcl_obbrss"});
   pair.oracle_frames = options.quick ? 5 : 20;
   Contest contest({mesh}, pair, {geometry});
   std::vector<Row> rows;

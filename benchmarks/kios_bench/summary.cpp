@@ -137,7 +137,7 @@ void writePage(const std::vector<Row>& rows, const std::filesystem::path& file) 
       page << "<div" << (row->bv == "kios" ? " class=\"kios\"" : "") << "><span>"
            << escaped(row->bv)
            << "</span><i style=\"width:" << text("%.2fem", 30 * row->times.median_us / longest)
-           << "\"></i>" << text("%.4g us", row->times.median_us) << "</div>\n";
+           << "\"></i>" << timeText(row->times.median_us) << "</div>\n";
     }
   }
   page.close();

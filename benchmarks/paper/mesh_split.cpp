@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "build/sphere_fitter.h"
+#include "paper/sphere_centers.h"
 
 namespace kios::paper {
 namespace {
@@ -73,14 +73,15 @@ std::vector<fcl::Vector3d> MeshSplit::points(const Node& node) const {
 
 /// Orders the node's triangles; returns how many go left, by halves if a side would be empty.
 int MeshSplit::partition(const Node& node, const std::vector<fcl::Vector3d>& points) {
-  SphereFitter<double>::Split split;
-  SphereFitter<double> fitter;
-  fitter.fit(points.data(), static_cast<int>(points.size()), FitMethod::kTuned, &split);
+  Eigen::Matrix3Xd in_frame;
+  const PrincipalFrame frame =
+      principalFrame(RelativePoints(points.data(), static_cast<int>(points.size())).p, in_frame);
+  const Eigen::Vector3d axis = frame.axes.col(frame.order[0]);
   // Three times the height of a centroid above the first vertex, along the longest axis.
   const auto height = [&](unsigned int id) {
     double sum = 0;
     for (const Point<double>& p : corners(static_cast<int>(id))) {
-      sum += split.axis.dot(p - points[0]);
+      sum += axis.dot(p - points[0]);
     }
     return sum;
   };

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "build/sphere_fitter.h"
+#include "paper/sphere_centers.h"
 #include "paper/visit_caps.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
@@ -84,10 +84,12 @@ PackedPolicy::Shared PackedPolicy::share(const fcl::Vector3d* points, int n) con
     model.directions = {fcl::Vector3f::UnitX(), fcl::Vector3f::UnitY(), fcl::Vector3f::UnitZ()};
   }
   if (n == 0) return model;
-  SphereFitter<double>::Split split;  // refuses what can't be bounded
-  SphereFitter<double> fitter;
-  fitter.fit(points, n, FitMethod::kTuned, &split);
-  for (int i = 0; axes_ == Axes::kOfTheModel && i < 3; ++i) model.directions[i] = split.axes.col(i);
+  const RelativePoints relative(points, n);  // refuses what can't be bounded
+  if (axes_ == Axes::kOfTheModel) {
+    Eigen::Matrix3Xd in_frame;
+    const PrincipalFrame frame = principalFrame(relative.p, in_frame);
+    for (int i = 0; i < 3; ++i) model.directions[i] = frame.axes.col(i).cast<float>();
+  }
   fcl::Vector3d lower = points[0], upper = points[0];
   for (int i = 1; i < n; ++i) {
     lower = lower.cwiseMin(points[i]);
@@ -112,9 +114,9 @@ PackedPolicy::Volume PackedPolicy::fit(const fcl::Vector3d* points, int n,
     options = FitMethod::kTuned;
     options.count = SphereCount::kAll;
   }
-  SphereFitter<double> fitter;
-  const SphereCenters spheres = fitter.place(points, n, options, v.by_height ? 1 : most_spheres_);
-  const auto inModel = [&](float x) { return scaled(double{x}, fitter.exponent()); };
+  const RelativePoints relative(points, n);
+  const SphereCenters spheres = placeCenters(relative.p, options, v.by_height ? 1 : most_spheres_);
+  const auto inModel = [&](double x) { return scaled(x, relative.exponent); };
   const double unit = scaled(1.0, -model.exponent);
   std::vector<fcl::Vector3d> q(n);
   for (int i = 0; i < n; ++i) q[i] = (points[i] - model.origin) * unit;
@@ -126,7 +128,7 @@ PackedPolicy::Volume PackedPolicy::fit(const fcl::Vector3d* points, int n,
     placeAlong(directions(model), q, v);
   } else {
     for (v.caps = 0; v.caps < spheres.k - 1; ++v.caps) {
-      const float* const o = spheres.sphere[v.caps + 1];
+      const Eigen::Vector3d& o = spheres.sphere[v.caps + 1];
       v.x[v.caps] = static_cast<float>(inModel(o[0]) * unit);
       v.y[v.caps] = static_cast<float>(inModel(o[1]) * unit);
       v.z[v.caps] = static_cast<float>(inModel(o[2]) * unit);

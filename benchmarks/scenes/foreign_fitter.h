@@ -7,8 +7,7 @@
 
 namespace kios::scenes {
 
-/// A fitter of the user's own that fits as FCL's does: a model over k-IOS with it has no prepared
-/// tree.
+/// A fitter of the user's own that fits as FCL's does.
 template <typename BV>
 class ForeignFitter final : public fcl::detail::BVFitterBase<BV> {
  public:

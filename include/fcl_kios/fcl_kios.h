@@ -36,6 +36,7 @@
 #include "fcl_kios/solid/closedness.h"
 #include "fcl_kios/solid/penetration.h"
 #include "fcl_kios/solid/repair.h"
+#include "fcl_kios/solid/self_intersections.h"
 #include "fcl_kios/solid/solids.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"

@@ -3,14 +3,20 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <type_traits>
 
 #include "fcl_kios/fcl_own.h"
 
 // fcl::collide, fcl::distance and fcl::continuousCollide for objects that may hold a kios::kIOS
 // model. FCL dispatches through tables inside libfcl that a foreign volume can't join; these
-// non-template overloads are preferred by overload resolution, also where FCL's default broadphase
-// callbacks call them, and hand every pair without a kIOS model to FCL.
+// overloads are preferred by overload resolution, also where FCL's default broadphase callbacks
+// call them, and hand every pair without a kIOS model to FCL.
+//
+// libfcl holds FCL's queries in double alone. Those in float are templates, of FCL's and of ours: a
+// file that calls them includes <fcl/narrowphase/collision.h> or <fcl/narrowphase/distance.h> and
+// compiles FCL's tables, as without us. Where many files do, `extern template` lines in a header
+// and one file that instantiates them spare the time (docs/swapping.md).
 //
 // A translation unit that sees objects only through FCL's headers needs this (light) header too:
 // link the CMake target fcl_kios::force_include. Before C++20, explicit template arguments, and
@@ -29,6 +35,19 @@ bool holdsModel(const fcl::CollisionGeometry<float>* geometry);
 namespace detail {
 /// Throws std::invalid_argument if either is null.
 void requireObjects(const void* object1, const void* object2);
+/// Answers a pair with a kIOS model, and returns nothing for any other.
+std::optional<std::size_t> collideModel(const fcl::CollisionGeometry<float>* o1,
+                                        const fcl::Transform3<float>& tf1,
+                                        const fcl::CollisionGeometry<float>* o2,
+                                        const fcl::Transform3<float>& tf2,
+                                        const fcl::CollisionRequest<float>& request,
+                                        fcl::CollisionResult<float>& result);
+std::optional<float> distanceOfModel(const fcl::CollisionGeometry<float>* o1,
+                                     const fcl::Transform3<float>& tf1,
+                                     const fcl::CollisionGeometry<float>* o2,
+                                     const fcl::Transform3<float>& tf2,
+                                     const fcl::DistanceRequest<float>& request,
+                                     fcl::DistanceResult<float>& result);
 }  // namespace detail
 }  // namespace kios
 
@@ -40,11 +59,6 @@ std::size_t collide(const CollisionObject<double>* o1, const CollisionObject<dou
 std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
                     const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
                     const CollisionRequest<double>& request, CollisionResult<double>& result);
-std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
-                    const CollisionRequest<float>& request, CollisionResult<float>& result);
-std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
-                    const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
-                    const CollisionRequest<float>& request, CollisionResult<float>& result);
 
 /// Returns result.min_distance: 0 for meshes that intersect (polygon soups have no inside, so
 /// enable_signed_distance adds nothing, but for marked solids: solid/solids.h), unchanged if the
@@ -54,11 +68,45 @@ double distance(const CollisionObject<double>* o1, const CollisionObject<double>
 double distance(const CollisionGeometry<double>* o1, const Transform3<double>& tf1,
                 const CollisionGeometry<double>* o2, const Transform3<double>& tf2,
                 const DistanceRequest<double>& request, DistanceResult<double>& result);
-float distance(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
-               const DistanceRequest<float>& request, DistanceResult<float>& result);
+
+/// Names CollisionObject<float>, which is complete where a template is instantiated.
+template <int kLate>
+using LateObject = std::enable_if_t<kLate == 0, CollisionObject<float>>;
+
+/// These serve floats. They are templates, so that FCL's tables are instantiated where they are
+/// called, and more specialised than FCL's, so that they are preferred.
+template <int = 0>
+std::size_t collide(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
+                    const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
+                    const CollisionRequest<float>& request, CollisionResult<float>& result) {
+  const auto contacts = kios::detail::collideModel(o1, tf1, o2, tf2, request, result);
+  return contacts ? *contacts : kios::fcl_own::collide(o1, tf1, o2, tf2, request, result);
+}
+template <int kLate = 0>
+std::size_t collide(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
+                    const CollisionRequest<float>& request, CollisionResult<float>& result) {
+  kios::detail::requireObjects(o1, o2);
+  const LateObject<kLate>& a = *o1;
+  const LateObject<kLate>& b = *o2;
+  return kios_overloads::collide(a.collisionGeometry().get(), a.getTransform(),
+                                 b.collisionGeometry().get(), b.getTransform(), request, result);
+}
+template <int = 0>
 float distance(const CollisionGeometry<float>* o1, const Transform3<float>& tf1,
                const CollisionGeometry<float>* o2, const Transform3<float>& tf2,
-               const DistanceRequest<float>& request, DistanceResult<float>& result);
+               const DistanceRequest<float>& request, DistanceResult<float>& result) {
+  const auto apart = kios::detail::distanceOfModel(o1, tf1, o2, tf2, request, result);
+  return apart ? *apart : kios::fcl_own::distance(o1, tf1, o2, tf2, request, result);
+}
+template <int kLate = 0>
+float distance(const CollisionObject<float>* o1, const CollisionObject<float>* o2,
+               const DistanceRequest<float>& request, DistanceResult<float>& result) {
+  kios::detail::requireObjects(o1, o2);
+  const LateObject<kLate>& a = *o1;
+  const LateObject<kLate>& b = *o2;
+  return kios_overloads::distance(a.collisionGeometry().get(), a.getTransform(),
+                                  b.collisionGeometry().get(), b.getTransform(), request, result);
+}
 
 /// Finds the first contact of two moving objects: kios::firstContact's contract, by one method for
 /// every solver and motion type; FCL's own misses contacts. Motions and models are only read.

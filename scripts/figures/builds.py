@@ -4,29 +4,29 @@
 from figures.rows import OBBRSS, grid, number, spec, table, time
 
 
-def building(rows):
-    lines = spec("""
+BUILDERS = spec("""
 k-IOS: `endModel`            | build kios
 with `kios::prepare`         | prepared kios
-with a first query           | first_query kios
 the same again, and prepared | again kios
 OBBRSS: `endModel`           | build fcl_obbrss
 FCL's kIOS                   | build fcl_kios_builtin
 AABB                         | build fcl_aabb
 k-DOP, 24 planes             | build fcl_kdop24
 """)
-    columns = spec("""
-1k triangles        | welded/1000
-20k                 | welded/20000
-80k                 | welded/80000
+BUILT = spec("""
+1k triangles          | welded/1000
+20k                   | welded/20000
+80k                   | welded/80000
 80k, no shared vertex | soup/80000
-UR5, 7 links        | ur5
+UR5, 7 links          | ur5
 """)
 
+
+def building(rows):
     def cell(line, column, _):
         us = rows.us(f"build/{column[0]}", *line)
         return f"{time(us)} ({number(us / rows.us(f'build/{column[0]}', 'build', OBBRSS))})"
-    return grid("time (by OBBRSS's `endModel`)", lines, columns, cell)
+    return grid("time (by OBBRSS's `endModel`)", BUILDERS, BUILT, cell)
 
 
 def memory(rows):

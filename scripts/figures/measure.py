@@ -16,7 +16,6 @@ RUNS = {  # scenario: options
     "falling": f"--frames 2400 --repeats 5 {PAPER}",
     "spinning": f"--frames 2400 --repeats 5 {PAPER}",
     "generated": f"--frames 300 --repeats 5 {PAIR}",
-    "rootreject": f"--frames 2000 --repeats 5 {PAIR}",
     "strips": f"--frames 20 --repeats 5 {PAIR}",
     "robots": f"--frames 60 --repeats 3 --oracle 100 {PAIR}",
     "world": "--repeats 3 --oracle 20 --bv kios,fcl_rss,fcl_obbrss",

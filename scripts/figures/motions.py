@@ -42,6 +42,13 @@ def missed(rows):
             f"{total('wrong_verdicts', OBBRSS)}")
 
 
+MBM = [(f"{label}, {kind.replace('_', ' ')}" if kind else label,
+        [f"mbm/{kind}_{robot}" if kind else f"mbm/{robot}"])
+       for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
+       for kind in ("bookshelf_small", "bookshelf_tall", "bookshelf_thin", "box", "cage",
+                    "table_pick", "table_under_pick", "")]
+
+
 def mbm(rows):
     """MotionBenchMaker's problems by robot and kind."""
     columns = spec("""
@@ -63,12 +70,8 @@ contacts called free   | wrong_verdicts fcl_obbrss
             return number(value)
         base = rows.find(line[0], "plan")[column[0]]
         return time(value) + (f" ({number(value / base)})" if column[1] == OBBRSS else "")
-    lines = [f"{label}, {kind.replace('_', ' ')} | mbm/{kind}_{robot}" if kind else
-             f"**{label}** | mbm/{robot}"
-             for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
-             for kind in ("bookshelf_small", "bookshelf_tall", "bookshelf_thin", "box", "cage",
-                          "table_pick", "table_under_pick", "")]
-    return grid("problems", spec("\n".join(lines)), columns, cell)
+    lines = [(label if "," in label else f"**{label}**", (words, {})) for label, words in MBM]
+    return grid("problems", lines, columns, cell)
 
 
 def mbm_cores(rows, robot):

@@ -6,6 +6,7 @@ A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several wor
 `<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
 from figures.builds import building, memory, refits  # noqa: F401
 from figures.motions import mbm, mbm_contact, mbm_cores, mbm_questions, missed, motions  # noqa: F401
+from figures.names import default, names  # noqa: F401
 from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
 from figures.robots import links  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
@@ -34,14 +35,14 @@ def ratios(rows, query, *scenarios):
 # README.md
 
 README = spec("""
+distance, UR5's links and a room                 | world/room/ur5 distance fcl_obbrss
+first contact, UR5's links and a shelf           | world/shelf/ur5 collide fcl_obbrss
 distance, falling tori                           | falling distance fcl_obbrss
 distance, spinning bunny and torus               | spinning distance fcl_obbrss
 distance, two UR5 arms, a pair of links          | robots/ur5 distance fcl_obbrss
 distance, tori of 80,000 triangles, gap 0.001    | scaling/80000/gap_1e-3 distance fcl_obbrss
 first contact, falling tori                      | falling collide fcl_obbrss
 first contact, two UR5 arms, a pair of links     | robots/ur5 collide fcl_obbrss
-distance, UR5's links and a room                 | world/room/ur5 distance fcl_obbrss
-first contact, UR5's links and a shelf           | world/shelf/ur5 collide fcl_obbrss
 distance, UR5's links and a building             | coal/building/ur5 distance coal_obbrss
 first contact, links off a floor                 | world/floor/ur5/apart collide fcl_obbrss
 nearer than 1.1 times the distance? falling tori | error/falling threshold fcl_obbrss threshold=1.1
@@ -59,14 +60,19 @@ OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree"
           "fcl_obbrss_advancement": "FCL OBBRSS, advancement"}
 
 
-def readme(rows):
-    out = []
+def against(rows):
+    """The questions of the README as (label, our time, the other's, its name)."""
     for label, ((scenario, query, bv), settings) in README:
         # FCL has nothing to prepare, nor to share.
         theirs = "build" if query in ("prepared", "again", "loaded") else query
-        ours = rows.us(scenario, query, **settings)
-        other = rows.us(scenario, theirs, bv, **settings)
-        out.append([label, time(ours), time(other), OTHERS[bv], number(other / ours)])
+        yield (label, rows.us(scenario, query, **settings),
+               rows.us(scenario, theirs, bv, **settings), OTHERS[bv])
+
+
+def readme(rows, count=None):
+    """All questions, or the first ones."""
+    out = [[label, time(ours), time(other), name, number(other / ours)]
+           for label, ours, other, name in list(against(rows))[:count and int(count)]]
     return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
 
 
@@ -121,13 +127,15 @@ touching, contact   | touching collide
 
 # docs/scene.md
 
+SCENES = [(f"{name}: {label}", ([f"robots/{robot}", query], {}))
+          for name, robot in (("two UR5s", "ur5"), ("two humanoids", "humanoids"))
+          for label, query in (("closest pair", "closest"), ("within 0.1, exact", "within"),
+                               ("within 0.1, which", "verdicts"),
+                               ("every clearance", "clearances"))]
+
+
 def scenes(rows):
     """Smooth motion / random poses."""
-    queries = {"closest pair": "closest", "within 0.1, exact": "within",
-               "within 0.1, which": "verdicts", "every clearance": "clearances"}
-    robots = {"two UR5s": "ur5", "two humanoids": "humanoids"}
-    lines = spec("\n".join(f"{name}: {label} | robots/{robot} {query}"
-                           for name, robot in robots.items() for label, query in queries.items()))
     columns = spec("""
 SceneDistance | us kios
 pairs         | us kios_pairs
@@ -148,7 +156,7 @@ searches      | searches
     def cell(line, column, _):
         return " / ".join(number(entry(f"{line[0]}/{motion}/{line[1]}", column))
                           for motion in ("smooth", "random"))
-    return grid("us a frame: smooth / random", lines, columns, cell)
+    return grid("us a frame: smooth / random", SCENES, columns, cell)
 
 
 def crowds(rows):
@@ -164,7 +172,6 @@ FCL's manager      | median_us fcl_manager
 manager / ours     | ratio
 searches           | narrow_queries kios
 manager's searches | narrow_queries fcl_manager
-models prepared    | prepared_models kios
 """)
     return grid("us a frame", lines, columns, lambda line, column, _: number(
         rows.ratio(line[0], "scene", "fcl_manager") if column == ["ratio"]
@@ -181,7 +188,7 @@ nearer than 1.1 times | threshold kios threshold=1.1
 how far, exactly? `fcl::distance`, `kios::distance` | distance kios rel_err=0 abs_err=0
 how far, within a tenth? `rel_err = 0.1` | distance kios rel_err=0.1 abs_err=0
 how far, within 0.1? `abs_err = 0.1` | distance kios rel_err=0 abs_err=0.1
-what do 32 expansions tell? `max_expansions = 32` | budget kios budget=32
+a bracket after 32 expansions: `max_expansions = 32` | budget kios budget=32
 FCL's OBBRSS: do they touch? | collide fcl_obbrss
 FCL's OBBRSS: how far? | distance fcl_obbrss rel_err=0 abs_err=0
 """)
@@ -241,7 +248,6 @@ def rays(rows):
              for scenario in rows.scenarios("rays/*") if "/5000/" not in scenario]
     columns = spec("""
 k-IOS          | us kios
-in FCL's tree  | us kios_fcl_tree
 Embree         | us embree
 volume tests   | bv_tests
 triangle tests | leaf_tests

@@ -33,14 +33,22 @@ def cells_of(lines):
                     yield number, cell.strip()
 
 
+# A default and its value, in either order.
+DEFAULT = re.compile(rf"\bdefaults?(?:\s+(?:is|are|of|to))?[:=]?\s+(?:a\s+)?(?:{COUNT}|million)\b"
+                     rf"|\b(?:{COUNT}|million)\s+(?:by default|is the default)", re.I)
+
+
 def typed(text):
-    """Measured figures outside of blocks, code and links, as (number of the line, figure, the line
-    with its neighbours)."""
+    """Measured figures and defaults outside of blocks, code and links, as (number of the line,
+    figure, the line with its neighbours)."""
     lines = text.splitlines()
     for hidden in HIDDEN:
         text = re.sub(hidden, lambda match: re.sub(r"[^\n]", " ", match[0]), text, flags=re.DOTALL)
     shown = text.splitlines()
     found = [(number, match[0]) for number, line in enumerate(shown, 1)
              for match in FIGURE.finditer(line)]
+    joined = "\n".join(shown)
+    found += [(joined.count("\n", 0, match.start()) + 1, " ".join(match[0].split()))
+              for match in DEFAULT.finditer(joined)]
     for number, figure in sorted({*found, *cells_of(shown)}):
         yield number, figure, " ".join(map(str.strip, lines[max(0, number - 2):number + 1]))

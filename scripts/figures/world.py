@@ -72,24 +72,16 @@ parts                | contacts parts
 
 def crowd_of_small(rows):
     lines = spec("""
-all pairs, 12 triangles  | crowds/12 collide
 all pairs, 100 triangles | crowds/100 collide
 all pairs, 900 triangles | crowds/900 collide
 least distance, 900      | crowds/900 distance
-two triangles, distance  | crowds/one_triangle distance
-two triangles, contact   | crowds/one_triangle collide
 """)
-    columns = spec("cold | /cold\nagain | /again\nthird | /third")
 
     def entry(line, column, _):
-        scenario = line[0] + column[0]
-        if line[0].endswith("one_triangle"):  # is asked again and again, as one row
-            if column[0] != "/again":
-                return ""
-            scenario = line[0]
-        ours, theirs = (rows.find(scenario, line[1], bv)["median_us"] for bv in (OURS, OBBRSS))
+        ours, theirs = (rows.find(line[0] + column[0], line[1], bv)["median_us"]
+                        for bv in (OURS, OBBRSS))
         return f"{time(ours)} ({number(theirs / ours)})"
-    return grid("2,000 bodies (OBBRSS / k-IOS)", lines, columns, entry)
+    return grid("2,000 bodies (OBBRSS / k-IOS)", lines, spec("cold | /cold\nagain | /again"), entry)
 
 
 def coal(rows):

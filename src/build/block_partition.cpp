@@ -26,7 +26,7 @@ constexpr int kNoFrame = std::numeric_limits<int>::max();
 /// Leaves that n triangles fill.
 float leavesOf(int n) {
   const int leaves = (n + kLeafTriangles - 1) / kLeafTriangles;
-  return static_cast<float>(leaves);
+  return roundedTo<float>(leaves);
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ LaneFrame BlockPartition::principalFrame(const std::uint32_t* items, int n) cons
     s += d;
     for (int r = 0; r < 3; ++r) row[r] += d[r] * d;
   }
-  const float part = 1.0F / static_cast<float>(n);
+  const float part = 1.0F / roundedTo<float>(n);
   const Eigen::Matrix3f axes = principalAxes(
       Scatter<float>{0, 0, 0, row[0][0] - s[0] * s[0] * part, row[0][1] - s[0] * s[1] * part,
                      row[0][2] - s[0] * s[2] * part, row[1][1] - s[1] * s[1] * part,
@@ -142,7 +142,7 @@ CutPlane BlockPartition::bestBin(const std::uint32_t* items, int n, float weight
     }
   }
   const auto sizeOf = [weight](int of) {
-    return leavesOf(weight == 1 ? of : static_cast<int>(weight * static_cast<float>(of)));
+    return leavesOf(weight == 1 ? of : static_cast<int>(weight * roundedTo<float>(of)));
   };
   CutPlane best;
   float best_cost = kInfinityFloat;
@@ -163,7 +163,7 @@ CutPlane BlockPartition::bestBin(const std::uint32_t* items, int n, float weight
       const float cost = box.squaredDiagonal() * sizeOf(left) + suffix[b] * sizeOf(n - left);
       if (cost < best_cost) {
         best_cost = cost;
-        best = {axis, centers.low[axis] + static_cast<float>(b) / scale[axis]};
+        best = {axis, centers.low[axis] + roundedTo<float>(b) / scale[axis]};
       }
     }
   }
@@ -196,7 +196,7 @@ int BlockPartition::sweep(std::uint32_t* items, int n) const {
   if (!(extent[axes[0]] > 0)) return n / 2;  // the centroids are one
   float sizes[kSweep];
   for (int i = 1; i < n; ++i) {
-    sizes[i] = n > kLeafTriangles ? leavesOf(i) : static_cast<float>(i);
+    sizes[i] = n > kLeafTriangles ? leavesOf(i) : roundedTo<float>(i);
   }
   float best_cost = kInfinityFloat;
   int best_left = n / 2;

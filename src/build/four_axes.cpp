@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "build/four_axes.h"
 
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "volume/rounding.h"
+
 namespace kios {
 namespace {
 
@@ -118,6 +123,24 @@ Eigen::Matrix3f principalAxes(const Scatter<float>& s) {
     for (int r = 0; r < 3; ++r) axes(r, k) = four.column[k][r][0];
   }
   return axes;
+}
+
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();
+  const double square = first.dot(first), square_b = second.dot(second);
+  if (square > 0 && square < kInfinity) axes.col(0) = first / std::sqrt(square);
+  Eigen::Vector3d across = second - axes.col(0).dot(second) * axes.col(0);
+  double left = across.dot(across);
+  if (!(left > 1e-6 * square_b && left < kInfinity)) {  // any direction across the first
+    int least = 0;
+    axes.col(0).cwiseAbs().minCoeff(&least);
+    across = Eigen::Vector3d::Unit(least) - axes(least, 0) * axes.col(0);
+    left = across.dot(across);
+  }
+  axes.col(1) = across / std::sqrt(left);
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  return roundedTo<float>(axes);
 }
 
 }  // namespace kios

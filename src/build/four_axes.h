@@ -62,6 +62,10 @@ std::array<int, 3> longestFirst(const Extents& extents) {
   return order;
 }
 
+/// Orthonormal axes, the first along a, the second towards b, each rounded once: a box's slabs add
+/// up only if its axes are so. Either may be 0 or not finite, or parallel to the other.
+Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b);
+
 /// A unit vector across each unit vector e.
 void acrossAny(const lanes::Float4 (&e)[3], lanes::Float4 (&out)[3]);
 

@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "build/block_partition.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
 
 using lanes::Float4;
 
-constexpr int kBlock = 2048;   ///< a block of so many triangles fits the cache
-constexpr int kSample = 512;   ///< triangles by which a larger node is cut
-constexpr int kGathered = 64;  ///< up to so many triangles spheres are placed by all points
+constexpr int kBlock = 2048;  ///< a block of so many triangles fits the cache
+constexpr int kSample = 512;  ///< triangles by which a larger node is cut
 
 template <typename S>
 class MeshTree {
@@ -131,7 +131,7 @@ class MeshTree {
     }
     LaneFrame axes;
     const CutPlane plane =
-        partition_.cut(corners_.data(), kSample, static_cast<float>(part.count) / kSample, axes);
+        partition_.cut(corners_.data(), kSample, roundedTo<float>(part.count) / kSample, axes);
     const int axis = std::max(plane.axis, 0);
     const float x = axes.columns[0][axis], y = axes.columns[1][axis], z = axes.columns[2][axis];
     const auto height = [=](const Centroid& c) {
@@ -255,11 +255,11 @@ class MeshTree {
     }
     const PointQuad* const chunks = &chunks_[chunk_at_[first]];
     const int num_chunks = chunk_at_[first + n] - chunk_at_[first];
-    if (4 * num_chunks <= FourSets::kMost) {
+    if (4 * num_chunks <= PointRows::kMost) {
       fit_.addSmall(index, SmallNode::kCluster, chunks, num_chunks);
       return -1;
     }
-    if (n <= kGathered) {
+    if (num_chunks <= PointRows::kMost) {
       fit_.fit(index, chunks, static_cast<std::size_t>(num_chunks));
       return -1;
     }
@@ -270,9 +270,8 @@ class MeshTree {
       const int begin = chunk_at_[from], end = chunk_at_[from + nodes_[child].num_primitives];
       return extremesOf(&chunks_[begin], static_cast<std::size_t>(end - begin));
     };
-    const Extremes left = extremesBelow(node.first_child);
-    const Extremes right = extremesBelow(node.first_child + 1);
-    extremes_.push_back(fit_.fit(index, left, right, chunks, static_cast<std::size_t>(num_chunks)));
+    const Extremes parts[] = {extremesBelow(node.first_child), extremesBelow(node.first_child + 1)};
+    extremes_.push_back(fit_.fit(index, parts, chunks, static_cast<std::size_t>(num_chunks)));
     return static_cast<int>(extremes_.size()) - 1;
   }
 
@@ -303,7 +302,8 @@ class MeshTree {
       const auto right = above_blocks_.find(at.first_child + 1);
       const std::size_t begin = chunkAt(at.first_primitive);
       const std::size_t end = chunkAt(at.first_primitive + at.num_primitives);
-      const Extremes e = fit_.fit(*node, left->second, right->second, &all_[begin], end - begin);
+      const Extremes parts[] = {left->second, right->second};
+      const Extremes e = fit_.fit(*node, parts, &all_[begin], end - begin);
       above_blocks_.erase(left);
       above_blocks_.erase(right);
       above_blocks_.emplace(*node, e);

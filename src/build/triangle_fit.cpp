@@ -1,120 +1,99 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "build/triangle_fit.h"
-
-#include <Eigen/Geometry>
-
-#include "build/measure.h"
-#include "build/principal_frame.h"
+#include "build/four_axes.h"
+#include "build/lane_fit.h"
 #include "volume/assemble.h"
 
 namespace kios {
-namespace {
 
-using Vec = Eigen::Vector3d;
+using lanes::broadcast;
+using lanes::Float4;
+using lanes::Int4;
+using lanes::select;
 
-/// Longest edge from (-a, 0) to (a, 0), apex at (x, h), |x| <= a.
-struct PlaneTriangle {
-  float a, x, h;
-  double rise;  ///< of the apex over the ball over the longest edge, squared: > 0 if outside
-};
-
-/// Centres in the triangle's plane: S0 at (0, v0), its caps along the normal at the same place,
-/// those across the longest edge at (u, v).
-struct PlaneCenters {
-  float v0;
-  float height;  ///< of the caps along the normal
-  float u[2], v[2];
-};
-
-PlaneCenters centersOf(const PlaneTriangle& t) {
-  PlaneCenters c;
-  // Acute if the apex lies outside the ball over the longest edge: then the circumcentre, which is
-  // at most a / sqrt(3) above that edge, is the minimal circle's.
-  c.v0 = t.rise > 0 && t.h > 0 ? std::min(0.5774F * t.a, static_cast<float>(0.5 * t.rise / t.h))
-                               : 0.0F;
-  c.height = kCot30 * std::sqrt(t.a * t.a + c.v0 * c.v0);
-  for (int i = 0; i < 2; ++i) {
-    const float from_box = kCot30 * t.a - 0.5F * t.h;
-    const float v = 0.5F * t.h + (i == 0 ? from_box : -from_box);
-    // Along the edge: its middle, unless the apex is farther; then level with the far end.
-    const float weight_edge = v * v, weight_apex = (t.h - v) * (t.h - v);
-    float u = 0;
-    if (t.x * t.x + weight_apex > t.a * t.a + weight_edge) {
-      const float end = t.x > 0 ? -t.a : t.a;
-      u = 0.5F * (t.x * t.x - t.a * t.a + weight_apex - weight_edge) / (t.x - end);
-      u = t.x > 0 ? std::min(u, t.x) : std::max(u, t.x);
-    }
-    c.u[i] = u;
-    c.v[i] = v;
+/// Longest edge from (-a, 0) to (a, 0), apex at (x, h), |x| <= a: S0 at (0, v0), its caps along the
+/// normal at the same place, those across the longest edge at (u, v).
+SphereSites placeTriangles(const PointRows& t) {
+  using Vec = Float4[3];
+  const auto dot = [](const Vec& a, const Vec& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  Vec p[3];
+  for (int k = 0; k < 3; ++k) {
+    p[k][0] = t.points[k].x - t.points[0].x;
+    p[k][1] = t.points[k].y - t.points[0].y;
+    p[k][2] = t.points[k].z - t.points[0].z;
   }
-  return c;
-}
-
-}  // namespace
-
-template <typename S>
-kIOS<S> fitTriangle(const fcl::Vector3<S>* points) {
-  kIOS<S> bv;
-  Vec p[3] = {Vec::Zero(), points[1].template cast<double>() - points[0].template cast<double>(),
-              points[2].template cast<double>() - points[0].template cast<double>()};
-  const int exponent =
-      capExponent(std::max(p[1].cwiseAbs().maxCoeff(), p[2].cwiseAbs().maxCoeff()));
-  if (exponent != 0) {
-    for (int c = 0; c < 3; ++c) {
-      p[1][c] = scaled(p[1][c], -exponent);
-      p[2][c] = scaled(p[2][c], -exponent);
-    }
+  Vec opposite;
+  for (int k = 0; k < 3; ++k) {
+    Vec e;
+    for (int r = 0; r < 3; ++r) e[r] = p[(k + 2) % 3][r] - p[(k + 1) % 3][r];
+    opposite[k] = dot(e, e);
   }
-  const double squares[3] = {(p[2] - p[1]).squaredNorm(), p[2].squaredNorm(), p[1].squaredNorm()};
-  int apex = squares[0] >= squares[1] ? 0 : 1;  // opposite the longest edge
-  if (squares[2] > squares[apex]) apex = 2;
-  const Vec &from = p[(apex + 1) % 3], &to = p[(apex + 2) % 3];
-  const double square = squares[apex], length = std::sqrt(square);
-  if (!(length > 0)) {
-    bv.center0 = points[0];
-    measure(points, 3, exponent, 1, 0, bv);
-    return bv;
+  const Int4 second = opposite[1] > opposite[0];
+  const Int4 third = opposite[2] > lanes::max(opposite[0], opposite[1]);
+  const auto pick = [&](Float4 zeroth, Float4 one, Float4 two) {
+    return select(third, two, select(second, one, zeroth));
+  };
+  Vec apex, from, to, edge, middle;
+  for (int r = 0; r < 3; ++r) {
+    apex[r] = pick(p[0][r], p[1][r], p[2][r]);
+    from[r] = pick(p[1][r], p[2][r], p[0][r]);
+    to[r] = pick(p[2][r], p[0][r], p[1][r]);
+    edge[r] = to[r] - from[r];
+    middle[r] = 0.5F * (from[r] + to[r]);
   }
-  const Vec middle = 0.5 * (from + to), edge = to - from;
+  const Float4 zero = broadcast(0), tiny = broadcast(1e-30F);
+  const Float4 square = lanes::max(dot(edge, edge), tiny), length = lanes::sqrt(square);
+  Vec to_apex, from_end, from_start;
+  for (int r = 0; r < 3; ++r) {
+    to_apex[r] = apex[r] - middle[r];
+    from_start[r] = apex[r] - from[r];
+    from_end[r] = apex[r] - to[r];
+  }
   // A small height is measured from the nearer end: for slivers, rounding would swallow it if it
   // were measured from the middle.
-  const double along = (p[apex] - middle).dot(edge);
-  const Vec from_nearer = p[apex] - (along > 0 ? to : from);
-  const Vec across = from_nearer - from_nearer.dot(edge) / square * edge;
-  const double height = across.norm();
-  Eigen::Vector3f e0, e1, e2;
-  if (height > 1e-3 * length) {
-    e0 = (edge / length).template cast<float>();
-    e1 = (across / height).template cast<float>();
-    e2 = e0.cross(e1);
-  } else {
-    const Eigen::Matrix3f axes =
-        axesAlong(edge.template cast<float>(), across.template cast<float>());
-    e0 = axes.col(0);
-    e1 = axes.col(1);
-    e2 = axes.col(2);
+  const Float4 along = dot(to_apex, edge), rise = dot(from_start, from_end);
+  Vec across;
+  for (int r = 0; r < 3; ++r) across[r] = select(along > zero, from_end[r], from_start[r]);
+  const Float4 part = dot(across, edge) / square;
+  for (int r = 0; r < 3; ++r) across[r] -= part * edge[r];
+  const Float4 h = lanes::sqrt(dot(across, across));
+  const Int4 thick = h > 1e-3F * length;
+  Vec e0, any, e1, e2;
+  for (int r = 0; r < 3; ++r) e0[r] = edge[r] / length;
+  acrossAny(e0, any);
+  const Float4 by_height = 1 / lanes::max(h, tiny);
+  for (int r = 0; r < 3; ++r) e1[r] = select(thick, across[r] * by_height, any[r]);
+  for (int r = 0; r < 3; ++r) {
+    e2[r] = e0[(r + 1) % 3] * e1[(r + 2) % 3] - e0[(r + 2) % 3] * e1[(r + 1) % 3];
   }
-  const PlaneCenters c =
-      centersOf({static_cast<float>(0.5 * length), static_cast<float>(along / length),
-                 static_cast<float>(height), (p[apex] - from).dot(p[apex] - to)});
-  for (int k = 0; k < 3; ++k) {
-    bv.center0[k] =
-        static_cast<S>(double{points[0][k]} + scaled(middle[k] + double{c.v0 * e1[k]}, exponent));
+  // Acute if the apex lies outside the ball over the longest edge: then the circumcentre, which is
+  // at most h / 2 above that edge, is the minimal circle's.
+  const Float4 a = 0.5F * length, x = along / length;
+  const Float4 v0 = select(rise > zero, lanes::min(0.5F * h, 0.5F * rise * by_height), zero);
+  const Float4 height = kCot30 * lanes::sqrt(a * a + v0 * v0);
+  const Float4 first[3] = {t.points[0].x, t.points[0].y, t.points[0].z};
+  SphereSites sites;
+  for (int& k : sites.k) k = 5;
+  for (int r = 0; r < 3; ++r) {
+    sites.center[r] = first[r] + middle[r] + v0 * e1[r];
+    sites.cap[0][r] = height * e2[r];
+    sites.cap[1][r] = -sites.cap[0][r];
   }
-  const Eigen::Vector3f caps[4] = {c.height * e2, -c.height * e2,
-                                   c.u[0] * e0 + (c.v[0] - c.v0) * e1,
-                                   c.u[1] * e0 + (c.v[1] - c.v0) * e1};
-  for (int i = 0; i < 4; ++i) {
-    bv.cap_x[i] = caps[i][0];
-    bv.cap_y[i] = caps[i][1];
-    bv.cap_z[i] = caps[i][2];
+  for (int side = 0; side < 2; ++side) {
+    const Float4 from_box = kCot30 * a - 0.5F * h;
+    const Float4 v = 0.5F * h + (side == 0 ? from_box : -from_box);
+    // Along the edge: its middle, unless the apex is farther; then level with the far end.
+    const Float4 weight_edge = v * v, weight_apex = (h - v) * (h - v);
+    const Int4 leans = x * x + weight_apex > a * a + weight_edge, right = x > zero;
+    const Float4 gap = select(right, lanes::max(x + a, tiny), lanes::min(x - a, -tiny));
+    Float4 u = 0.5F * (x * x - a * a + weight_apex - weight_edge) / gap;
+    u = select(right, lanes::min(u, x), lanes::max(u, x));
+    u = select(leans, u, zero);
+    for (int r = 0; r < 3; ++r) sites.cap[2 + side][r] = u * e0[r] + (v - v0) * e1[r];
   }
-  measure(points, 3, exponent, 5, 0, bv);
-  return bv;
+  return sites;
 }
-
-template kIOS<double> fitTriangle(const fcl::Vector3<double>*);
-template kIOS<float> fitTriangle(const fcl::Vector3<float>*);
 
 }  // namespace kios

@@ -6,10 +6,10 @@
 #include <cstddef>
 
 #include <fcl/geometry/bvh/BV_node.h>
-#include "build/four_fit.h"
 #include "build/lane_fit.h"
 #include "build/mesh_view.h"
-#include "build/sphere_fitter.h"
+#include "fcl_kios/volume/kios.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 
@@ -26,7 +26,7 @@ struct PointFrame {
   /// Returns p in the frame as x, y, z, 0: rounded once, to floats, but for the double differences.
   template <typename S>
   lanes::Float4 place(const fcl::Vector3<S>& p) const {
-    const auto at = [&](int c) { return static_cast<float>((p[c] - origin[c]) * to_frame); };
+    const auto at = [&](int c) { return roundedTo<float>((p[c] - origin[c]) * to_frame); };
     return lanes::Float4{at(0), at(1), at(2), 0};
   }
 };
@@ -65,28 +65,27 @@ class VolumeFit {
   void addSmall(int node, SmallNode content, const PointQuad* quads, int n);
   void finishSmall();
 
-  /// Places spheres by all points.
+  /// Places spheres by all points, of PointRows::kMost quads at most.
   void fit(int node, const PointQuad* quads, std::size_t n);
 
   /// Places spheres by the extreme points of the node's two children; returns the node's.
-  Extremes fit(int node, const Extremes& left, const Extremes& right, const PointQuad* quads,
-               std::size_t n);
+  Extremes fit(int node, const Extremes (&parts)[2], const PointQuad* quads, std::size_t n);
 
  private:
   /// Four nodes of about as many points.
   struct Batch {
     int used = 0;
     int nodes[4] = {};
-    FourSets sets;
+    PointRows rows;
   };
-  /// Points that the sets of each batch have: of triangles, then of parts, then of clusters.
+  /// Rows that the sets of each batch have: of triangles, then of parts, then of clusters.
   static constexpr int kBatches = 11, kParts = 1, kClusters = 6;
   static constexpr int kRoom[kBatches] = {3, 6, 9, 12, 18, 24, 8, 12, 16, 24, 32};
 
   void fitBatch(int which);
-  float storeCenter(float center, int c, kIOS<S>& bv) const;
-  void place(int node, SphereSites sites, const PointQuad* quads, std::size_t n);
-  void complete(int node, const SphereSites& sites, const FarthestSquares& far);
+  void fit(int node, const PointRows& rows, const PointQuad* quads, std::size_t n);
+  void storeCenter(int node, int lane, SphereSites& sites) const;
+  void complete(int node, int lane, const SphereSites& sites, const FarthestSquares& far);
   void fitToVertices(int node);
 
   const MeshView<S> mesh_;
@@ -95,8 +94,6 @@ class VolumeFit {
   PointFrame frame_;
   float reach_ = 0;
   Batch batches_[kBatches];
-  PointLanes points_, scratch_;
-  SphereFitter<S> fitter_;
 };
 
 }  // namespace kios::engine

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "continuous/relative_motion.h"
+#include "continuous/tuning.h"
 #include "volume/rounding.h"
 
 namespace kios::continuous {
@@ -19,7 +20,7 @@ namespace kios::continuous {
 /// frame.
 class Chords {
  public:
-  static constexpr int kParts = 4;
+  static constexpr int kParts = tuning::kChords;
 
   void set(const RelativeMotion& motion, double t, double h);
   double duration() const { return duration_; }  ///< -1 if it isn't set
@@ -42,43 +43,6 @@ class Chords {
   static MovingBall alongChord(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                                double radius, double sagitta) {
     return {from, radius, to - from, 2 * sagitta};
-  }
-
-  /// Two polygons, their vertices at the ends of the parts.
-  struct Triangles {
-    Triangles(const Chords& chords, const std::array<Eigen::Vector3d, 3>& a,
-              const std::array<Eigen::Vector3d, 3>& b) {
-      for (int i = 0; i <= kParts; ++i) {
-        for (int k = 0; k < 3; ++k) {
-          of_a[i][k] = chords.of_a_[i].R * a[k] + chords.of_a_[i].T;
-          of_b[i][k] = chords.of_b_[i].R * b[k] + chords.of_b_[i].T;
-        }
-      }
-    }
-    std::array<Eigen::Vector3d, 3> of_a[kParts + 1], of_b[kParts + 1];
-  };
-  /// Returns true if a slab across n, |n| = 1, stays between two triangles in a part of the time.
-  /// Along the chords the gap is concave, so that it is least at an end.
-  bool slabStays(const RelativeVelocities& v, const Triangles& triangles, int part,
-                 const Eigen::Vector3d& n) const {
-    double gap = kInfinity, length = 0, change_a = 0, change_b = 0;
-    for (int i = part; i <= part + 1; ++i) {
-      double high = -kInfinity, low = kInfinity;
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d &x = triangles.of_a[i][k], &y = triangles.of_b[i][k];
-        high = std::max(high, n.dot(x));
-        low = std::min(low, n.dot(y));
-        length = std::max(length, x.lpNorm<1>() + y.lpNorm<1>());
-      }
-      gap = std::min(gap, low - high);
-    }
-    if (!(gap > 0)) return false;
-    for (int k = 0; k < 3; ++k) {
-      change_a = std::max(change_a, v.a().accelerationAlong(n, triangles.of_a[0][k], 0));
-      change_b = std::max(change_b, v.b().accelerationAlong(n, triangles.of_b[0][k], 0));
-    }
-    return gap >
-           (sagitta_ * (change_a + change_b) + rounding_ * length + pad_ + v.pad()) * (1 + 0x1p-48);
   }
 
  private:

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "continuous/fcl_motion.h"
-#include "continuous/moving_pair.h"
+#include "continuous/motion.h"
+#include "continuous/step_search.h"
 #include "volume/errors.h"
 
 namespace kios {
@@ -41,7 +41,7 @@ std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
   long long short_steps = 0, short_tests = 0;
   while (true) {
     const long long before = tests();
-    const double h = pair.apartFor(t, kSmall * tolerance);
+    const double h = pair.apartFor(t);
     ++counts.steps;
     if (h >= 1 - t) return std::nullopt;
     // Small steps: a contact is near, or the two pass each other closely.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "continuous/fcl_motion.h"
+#include "continuous/motion.h"
 
 #include <boost/core/demangle.hpp>
 #include <typeinfo>

@@ -37,17 +37,13 @@ bool Heights::below(const Modeld& model, int node, const Height& limit, int& nod
     return true;
   }
   const kIOSd& bv = entry.bv;
-  const double at = n_[0].dot(bv.center0) + offset_[0],
-               end = n_[1].dot(bv.center0) + offset_[1] + sagitta(bv.center0, bv.radius0);
-  if (at + length_[0] * bv.radius0 <= limit.start && end + length_[1] * bv.radius0 <= limit.end) {
-    return true;
-  }
-  const double unit = scaled(1.0, bv.exponent);
-  for (int i = 0; i < bv.k() - 1; ++i) {
-    const Vector3d cap(bv.cap_x[i] * unit, bv.cap_y[i] * unit, bv.cap_z[i] * unit);
-    const double radius = bv.cap_r[i] * unit;
-    if (at + n_[0].dot(cap) + length_[0] * radius <= limit.start &&
-        end + n_[1].dot(cap) + length_[1] * radius <= limit.end) {
+  Ball balls[kIOSd::kMaxSpheres];
+  const int k = toBalls(bv, {bv.center0[0], bv.center0[1], bv.center0[2]}, 0, balls);
+  const double leaves = sagitta(bv.center0, bv.radius0);
+  for (int i = 0; i < k; ++i) {
+    const Vector3d center(balls[i].x, balls[i].y, balls[i].z);
+    if (n_[0].dot(center) + offset_[0] + length_[0] * balls[i].r <= limit.start &&
+        n_[1].dot(center) + offset_[1] + leaves + length_[1] * balls[i].r <= limit.end) {
       return true;
     }
   }

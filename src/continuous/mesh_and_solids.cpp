@@ -19,36 +19,32 @@ using Eigen::Vector3d;
 
 /// The spheres of a node in the shape's frame; returns how many.
 int spheresOf(const kIOSd& bv, const RelativePose<double>& X, Vector3d* centers, double* radii) {
-  const double stretch = 1 + detail::boundsOf(X).stretch, unit = scaled(1.0, bv.exponent);
-  centers[0] = X * bv.center0;
-  radii[0] = bv.radius0 * stretch;
-  for (int i = 1; i < bv.k(); ++i) {
-    const Vector3d cap(bv.cap_x[i - 1] * unit, bv.cap_y[i - 1] * unit, bv.cap_z[i - 1] * unit);
-    centers[i] = centers[0] + X.R() * cap;
-    radii[i] = bv.cap_r[i - 1] * unit * stretch;
+  const double stretch = 1 + detail::boundsOf(X).stretch;
+  Ball balls[kIOSd::kMaxSpheres];
+  const int k = toBalls(bv, {bv.center0[0], bv.center0[1], bv.center0[2]}, 0, balls);
+  for (int i = 0; i < k; ++i) {
+    centers[i] = X * Vector3d(balls[i].x, balls[i].y, balls[i].z);
+    radii[i] = balls[i].r * stretch;
   }
-  return bv.k();
+  return k;
 }
 
-/// Returns the reach of the leaves, the solids that count.
+/// Reach of the root, which contains the solids that count.
 double reachOf(const std::vector<ShapeNode>& solids) {
-  double reach = 0;
-  for (const ShapeNode& part : solids) {
-    if (part.count == 0) reach = std::max(reach, part.center.norm() + part.solid.reach());
-  }
-  return reach;
+  return solids.empty() ? 0 : solids[0].center.norm() + solids[0].solid.reach();
 }
 
 }  // namespace
 
 MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion,
                                          std::vector<ShapeNode> solids, const Motion& solids_motion,
-                                         Touching touching, ContinuousCounts& counts)
-    : StepSearch(solids_motion, reachOf(solids), mesh_motion, continuous::reachOf(mesh), counts),
+                                         Open open, Touching touching, ContinuousCounts& counts)
+    : StepSearch(solids_motion, reachOf(solids), mesh_motion, reachOf(mesh), counts),
       mesh_(mesh),
       solids_(std::move(solids)),
+      open_(std::move(open)),
       touching_(std::move(touching)),
-      reach_(reachOf(solids_) + continuous::reachOf(mesh)) {
+      reach_(reachOf(solids_) + reachOf(mesh)) {
   if (!(reach_ <= 0x1p300)) refuse("a mesh or shape is too large for continuous collision.");
 }
 
@@ -63,10 +59,12 @@ double MovingMeshAndSolids::pad(const RelativeVelocities& v) const {
   return v.pad() + (0x1p-40 + 0x1p-46 * v.turn()) * lengths + 0x1p-290;
 }
 
-int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const {
+int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodePair* parts) {
   if (solids_.empty()) return 0;
+  if (solids_[pair.b].state == ShapeNode::kClosed) open_(pair.b, solids_);
   const auto& node = mesh_.getBV(pair.a);
   const ShapeNode& part = solids_[pair.b];
+  if (part.state == ShapeNode::kEmpty) return 0;
   int count = 0;
   if (part.count > 0 && (node.isLeaf() || part.solid.reach() > node.bv.radius0)) {
     for (int i = 0; i < part.count; ++i) parts[count++] = {pair.a, part.first + i};
@@ -92,7 +90,7 @@ int MovingMeshAndSolids::split(NodePair pair, const RelativeVelocities& v, NodeP
 }
 
 bool MovingMeshAndSolids::nodesApart(NodePair pair, const RelativeVelocities& v, double duration) {
-  if (solids_.empty() || solids_[pair.b].empty) return true;
+  if (solids_.empty() || solids_[pair.b].state == ShapeNode::kEmpty) return true;
   const kIOSd& bv = mesh_.getBV(pair.a).bv;
   const ShapeNode& part = solids_[pair.b];
   const shape::Solid& solid = part.solid;
@@ -149,15 +147,14 @@ double MovingMeshAndSolids::slabTime(const Vector3d& n, const ShapeNode& part,
   double time = closingTime(low - extent - pad, speed, change);
   // A slab that doesn't turn suits a body that turns on a table.
   if (part.solid.bounded() && v.turn() > 0) {
-    time =
-        std::max(time, v.solidSlabTime(n, support, part.center, part.solid.reach(), corners, pad));
+    time = std::max(time, v.slabTime(n, support, part.center, part.solid.reach(), corners, pad));
   }
   return std::min(duration, time);
 }
 
 double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities& v,
                                         double required) {
-  if (solids_.empty() || solids_[pair.b].empty) return required;
+  if (solids_.empty() || solids_[pair.b].state == ShapeNode::kEmpty) return required;
   const auto& node = mesh_.getBV(pair.a);
   const auto corners = transformed(cornersOf(mesh_, node.primitiveId()), v.pose());
   const ShapeNode& part = solids_[pair.b];
@@ -190,15 +187,10 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
     return best;
   }
   attempt(witness);
-  const Vector3d edges[3] = {corners[1] - corners[0], corners[2] - corners[1],
-                             corners[0] - corners[2]};
-  const Vector3d normal = unitVector(edges[0]).cross(unitVector(edges[1]));
   const Vector3d velocity = unitVector(v.velocityAt(nearest.on_triangle + part.center));
-  attempt(normal);
+  attempt(unitVector(corners[1] - corners[0]).cross(unitVector(corners[2] - corners[1])));
   for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i));
-  for (const Vector3d& edge : edges) attempt(unitVector(edge).cross(velocity));
   for (int i = 0; i < 3; ++i) attempt(Vector3d::Unit(i).cross(velocity));
-  for (const Vector3d& edge : edges) attempt(unitVector(edge).cross(normal));
   return best;
 }
 

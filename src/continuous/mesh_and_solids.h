@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -10,13 +11,15 @@
 
 namespace kios::continuous {
 
-/// Is a node of a tree of shapes, such as cells of an octree: the first one is the root; `count`
-/// children from `first` on.
+/// Node of a tree of shapes, such as cells of an octree: the first one is the root; `count`
+/// children from `first` on, once it was opened.
 struct ShapeNode {
+  enum State : std::uint8_t { kLeaf, kClosed, kInner, kEmpty };
+
   shape::Solid solid;  ///< contains the children's
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   int first = 0, count = 0;
-  bool empty = false;  ///< without children, and no leaf either
+  State state = kLeaf;
 };
 
 /// Holds a moving mesh and a moving rigid tree of solids, whose leaves count: a shape, or the cells
@@ -29,10 +32,14 @@ class MovingMeshAndSolids final : public StepSearch {
   using Touching =
       std::function<bool(const fcl::Transform3d& X_mesh, const fcl::Transform3d& X_solids)>;
 
-  /// No solids: nothing is touched. Throws std::invalid_argument if the model is not finished, or a
-  /// solid is larger than 2^300.
+  /// Adds the children of a closed node.
+  using Open = std::function<void(int node, std::vector<ShapeNode>& nodes)>;
+
+  /// Takes the root of the solids. None: nothing is touched. Throws std::invalid_argument if the
+  /// model is not finished, or a solid is larger than 2^300.
   MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion, std::vector<ShapeNode> solids,
-                      const Motion& solids_motion, Touching touching, ContinuousCounts& counts);
+                      const Motion& solids_motion, Open open, Touching touching,
+                      ContinuousCounts& counts);
 
   bool touching(double t) override;
 
@@ -40,7 +47,7 @@ class MovingMeshAndSolids final : public StepSearch {
   // A node pair is a node of the mesh (a) and one of the solids (b).
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
   double leavesApart(NodePair pair, const RelativeVelocities& v, double required) override;
-  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) override;
 
   double pad(const RelativeVelocities& v) const;
   /// Returns the time for which the slab across n between the solid and corners proves them apart.
@@ -49,7 +56,8 @@ class MovingMeshAndSolids final : public StepSearch {
                   double duration) const;
 
   const Modeld& mesh_;
-  const std::vector<ShapeNode> solids_;
+  std::vector<ShapeNode> solids_;
+  const Open open_;
   const Touching touching_;
   const double reach_;
   Eigen::Vector3d slab_ = Eigen::Vector3d::UnitZ();  ///< normal of the slab that did best of late

@@ -6,7 +6,6 @@
 
 #include "continuous/chords.h"
 #include "continuous/step_search.h"
-#include "search/pair_query.h"
 
 namespace kios::continuous {
 
@@ -20,16 +19,15 @@ class MovingMeshes final : public StepSearch {
   bool touching(double t) override;
 
  private:
-  double wholeApart(double t, const RelativeVelocities& v) override;
+  void beginStep(double t) override;
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;
   double leavesApart(NodePair pair, const RelativeVelocities& v, double required) override;
-  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const override;
+  int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) override;
   bool changeOrder(double way, long long cost) override;
   void noteStep(double way, long long cost) override;
   /// Sets chords_ if they bound the motion better than velocities do, and returns whether.
   bool useChords(const RelativeVelocities& v, double duration);
   bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
-  bool leavesStayApart(NodePair pair, const RelativeVelocities& v) const;
   /// Returns true if the plane of a triangle, one of the pair, parts it from the other node.
   bool planeParts(NodePair pair, const RelativeVelocities& v, double duration) const;
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
@@ -42,11 +40,8 @@ class MovingMeshes final : public StepSearch {
   static constexpr int kOrders = 3;
   Order order_ = Order::kLarger;
   double worth_[kOrders] = {-1, -1, -1};  ///< length of a step by its cost; negative if not known
-  int spent_in_vain_ = 0;                 ///< budgets
   double time_ = 0;                       ///< of the step
   Chords chords_;                         ///< of the step, until duration() after it
-  engine::TrianglePairIds nearest_;       ///< at the last step
-  long long spent_ = 0;                   ///< tests that the models' trees know of
 };
 
 }  // namespace kios::continuous

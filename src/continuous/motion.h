@@ -6,7 +6,10 @@
 #include <memory>
 
 #include <fcl/common/types.h>
+#include <fcl/math/motion/motion_base.h>
+#include <fcl/narrowphase/continuous_collision_request.h>
 #include "continuous/velocity_field.h"
+#include "fcl_kios/fcl_own.h"
 
 namespace kios::continuous {
 
@@ -87,5 +90,14 @@ class Motion {
   std::shared_ptr<const KnownMotion> known_;
   double rounding_ = 0;
 };
+
+/// Returns the motion that an FCL motion describes by its pose after integrate(t). The object is
+/// only read, so that many threads may share it. Throws std::invalid_argument, naming the type, if
+/// it isn't one of FCL's four (a derived class may integrate otherwise), null, or not finite.
+Motion motionOf(const fcl::MotionBase<double>* motion);
+
+/// Returns the motion from pose to pose that a request asks for.
+Motion motionBetween(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1,
+                     fcl::CCDMotionType type);
 
 }  // namespace kios::continuous

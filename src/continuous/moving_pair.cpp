@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "continuous/moving_pair.h"
+#include "continuous/step_search.h"
 
-#include <algorithm>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,6 +13,7 @@
 
 #include "continuous/mesh_and_solids.h"
 #include "continuous/meshes.h"
+#include "continuous/occupied_box.h"
 #include "model/kios_model.h"
 #include "solid/mesh_and_other.h"
 
@@ -23,124 +24,53 @@ using fcl::CollisionGeometryd;
 namespace {
 
 #if FCL_HAVE_OCTOMAP
-using Eigen::Vector3d;
-
-struct Sphere {
-  Vector3d center;
-  double radius;
-};
-
-/// Returns spheres in the octree's frame that contain the mesh at all times: one for each part of
-/// the time.
-std::vector<Sphere> sweptBy(const Modeld& mesh, const RelativeMotion& motion) {
-  constexpr int kParts = 64;
-  const kIOSd& root = mesh.getBV(0).bv;
-  std::vector<Sphere> spheres;
-  for (int i = 0; i < kParts; ++i) {
-    const double duration = 1.0 / kParts;
-    const RelativeVelocities v = motion.at(i * duration, duration);
-    const Vector3d center = v.pose() * root.center0;
-    const auto drift = v.driftFromA(center, 0, duration);
-    const double way = duration * std::min(drift.most, drift.speed + 0.5 * duration * drift.change);
-    const double lengths = center.norm() + way + root.radius0;
-    spheres.push_back(
-        {center, root.radius0 * (1 + v.stretch()) + way + v.pad() + 0x1p-40 * lengths});
-  }
-  return spheres;
-}
-
-/// Collects the cells that matter.
-class Collector {
+/// The occupied cells of an octree as boxes in its frame, each made when it is first looked into.
+/// Occupied as in FCL's collision: every cell down to a leaf is.
+class Cells {
  public:
-  Collector(const fcl::OcTree<double>& octree, std::vector<Sphere> swept)
-      : octree_(octree), swept_(std::move(swept)) {}
+  explicit Cells(const fcl::OcTreed& octree) : octree_(octree), box_(occupiedBox(octree)) {}
 
-  std::vector<ShapeNode> collect() {
-    const auto* root = octree_.getRoot();
-    const fcl::AABB<double> box = octree_.getRootBV();
-    if (root && matters(root, box)) {
-      nodes_.push_back(nodeOf(box));
-      expand(0, root, box);
+  std::vector<ShapeNode> root() {
+    if (box_.empty()) return {};
+    return {nodeOf(octree_.getRoot(), octree_.getRootBV())};
+  }
+
+  void operator()(int index, std::vector<ShapeNode>& nodes) {
+    const auto [cell, bounds] = cells_[static_cast<std::size_t>(index)];
+    nodes[index].first = static_cast<int>(nodes.size());
+    for (unsigned int i = 0; i < 8; ++i) {
+      if (!octree_.nodeChildExists(cell, i)) continue;
+      const auto* const child = octree_.getNodeChild(cell, i);
+      if (!octree_.isNodeOccupied(child)) continue;
+      Box child_bounds;
+      fcl::computeChildBV(bounds, i, child_bounds);
+      nodes.push_back(nodeOf(child, child_bounds));
+      ++nodes[index].count;
     }
-    return std::move(nodes_);
+    nodes[index].state = nodes[index].count > 0 ? ShapeNode::kInner : ShapeNode::kEmpty;
   }
 
  private:
-  using Cell = fcl::OcTree<double>::OcTreeNode;
+  using Box = fcl::AABB<double>;
 
-  static ShapeNode nodeOf(const fcl::AABB<double>& box) {
+  // Nothing is occupied beyond the box, in which inner cells need not reach farther than it.
+  ShapeNode nodeOf(const fcl::OcTreed::OcTreeNode* cell, const Box& bounds) {
+    const Eigen::Vector3d low = bounds.min_.cwiseMax(box_.low),
+                          high = bounds.max_.cwiseMin(box_.high);
     ShapeNode node;
     node.solid.kind = shape::Kind::kBox;
-    node.solid.half = 0.5 * (box.max_ - box.min_);
-    node.center = 0.5 * (box.max_ + box.min_);
+    node.solid.half = (0.5 * (high - low)).cwiseMax(0.0);
+    node.center = 0.5 * (low + high);
+    if (octree_.nodeHasChildren(cell)) node.state = ShapeNode::kClosed;
+    cells_.emplace_back(cell, bounds);
     return node;
   }
 
-  bool matters(const Cell* cell, const fcl::AABB<double>& box) const {
-    if (!octree_.isNodeOccupied(cell)) return false;
-    const Vector3d half = 0.5 * (box.max_ - box.min_), center = 0.5 * (box.max_ + box.min_);
-    return std::any_of(swept_.begin(), swept_.end(), [&](const Sphere& s) {
-      const Vector3d outside = ((s.center - center).cwiseAbs() - half).cwiseMax(0.0);
-      return outside.norm() <= s.radius;
-    });
-  }
-
-  void expand(int index, const Cell* cell, const fcl::AABB<double>& box) {
-    if (!octree_.nodeHasChildren(cell)) return;
-    std::pair<const Cell*, fcl::AABB<double>> children[8];
-    int count = 0;
-    for (unsigned int i = 0; i < 8; ++i) {
-      if (!octree_.nodeChildExists(cell, i)) continue;
-      auto& [child, child_box] = children[count];
-      child = octree_.getNodeChild(cell, i);
-      fcl::computeChildBV(box, i, child_box);
-      if (matters(child, child_box)) ++count;
-    }
-    const int first = static_cast<int>(nodes_.size());
-    if (count == 0) {  // not a leaf of the octree: a solid that nothing is in
-      nodes_[index].empty = true;
-      return;
-    }
-    nodes_[index].first = first;
-    nodes_[index].count = count;
-    for (int i = 0; i < count; ++i) nodes_.push_back(nodeOf(children[i].second));
-    for (int i = 0; i < count; ++i) expand(first + i, children[i].first, children[i].second);
-  }
-
-  const fcl::OcTree<double>& octree_;
-  const std::vector<Sphere> swept_;
-  std::vector<ShapeNode> nodes_;
+  const fcl::OcTreed& octree_;
+  const OccupiedBox box_;
+  std::vector<std::pair<const fcl::OcTreed::OcTreeNode*, Box>> cells_;  // by node
 };
-
-/// Returns the occupied cells of an octree that the moving mesh may come near to, as a tree of
-/// boxes in the octree's frame. Occupied as in FCL's collision: every cell down to a leaf is.
-std::vector<ShapeNode> cellsNear(const fcl::OcTree<double>& octree, const Motion& octree_motion,
-                                 const Modeld& mesh, const Motion& mesh_motion) {
-  const Vector3d corner = octree.getRootBV().max_;
-  const RelativeMotion motion(octree_motion, mesh_motion, corner.norm(), reachOf(mesh));
-  return Collector(octree, sweptBy(mesh, motion)).collect();
-}
-
-#endif  // FCL_HAVE_OCTOMAP
-
-/// Finds the solids of a geometry that is no mesh; false if it can't be served.
-bool solidsOf(const CollisionGeometryd& geometry, const Motion& motion, const Modeld& mesh,
-              const Motion& mesh_motion, std::vector<ShapeNode>& solids) {
-  if (isShape(geometry)) {
-    solids.resize(1);
-    solids[0].solid = toSolid(geometry);
-    shape::makeRows(solids[0].solid);
-    return true;
-  }
-#if FCL_HAVE_OCTOMAP
-  if (geometry.getObjectType() == fcl::OT_OCTREE) {
-    const auto& octree = static_cast<const fcl::OcTree<double>&>(geometry);
-    solids = cellsNear(octree, motion, mesh, mesh_motion);
-    return true;
-  }
 #endif
-  return false;
-}
 
 }  // namespace
 
@@ -157,7 +87,18 @@ std::unique_ptr<StepSearch> movingPair(const CollisionGeometryd& a, const Motion
   const CollisionGeometryd& geometry = mesh_a ? b : a;
   requireFinished(mesh);
   std::vector<ShapeNode> solids;
-  if (!solidsOf(geometry, motion, mesh, mesh_motion, solids)) {
+  MovingMeshAndSolids::Open open;
+  if (isShape(geometry)) {
+    solids.resize(1);
+    solids[0].solid = toSolid(geometry);
+    shape::makeRows(solids[0].solid);
+#if FCL_HAVE_OCTOMAP
+  } else if (geometry.getObjectType() == fcl::OT_OCTREE) {
+    const auto cells = std::make_shared<Cells>(static_cast<const fcl::OcTreed&>(geometry));
+    solids = cells->root();
+    open = [cells](int node, std::vector<ShapeNode>& nodes) { (*cells)(node, nodes); };
+#endif
+  } else {
     refusePair("continuousCollide", a, b);
   }
   const auto touching = [&mesh, &geometry](const fcl::Transform3d& X_mesh,
@@ -165,7 +106,7 @@ std::unique_ptr<StepSearch> movingPair(const CollisionGeometryd& a, const Motion
     return MeshAndOther<double>{mesh, X_mesh, geometry, X_solids, nullptr}.touch();
   };
   return std::make_unique<MovingMeshAndSolids>(mesh, mesh_motion, std::move(solids), motion,
-                                               touching, counts);
+                                               std::move(open), touching, counts);
 }
 
 }  // namespace kios::continuous

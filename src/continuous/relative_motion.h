@@ -45,12 +45,13 @@ class RelativeVelocities {
   /// Returns the time for which the contents of two balls are proven apart that are `gap` apart at
   /// t.
   double apartTime(const MovingBall& a, const MovingBall& b, double gap) const;
-  /// Returns the time for which no point of A's triangle reaches a point of B's, by the slab
-  /// between them across n (of any length near 1); 0 if none is between them. Any time of at least
-  /// `required`, which is at most the window, will do.
-  template <typename VerticesA, typename VerticesB>
-  double slabTime(const Eigen::Vector3d& n, const VerticesA& a, const VerticesB& b,
-                  double required) const;
+  /// Returns the time for which no point of a solid of A reaches a point of B's triangle, by the
+  /// slab between them across n (of any length near 1); 0 if none is between them. The solid lies
+  /// within `reach` of `center`, support(m) is the largest m . x in it, and `pad` is taken off the
+  /// gap.
+  template <typename Support, typename Vertices>
+  double slabTime(const Eigen::Vector3d& n, const Support& support, const Eigen::Vector3d& center,
+                  double reach, const Vertices& b, double pad) const;
 
   /// Holds the motion of the points of a ball of B as seen from body A, which may turn, within
   /// `duration`: their speed at t, the largest speed, and the largest change of the former in a
@@ -68,13 +69,6 @@ class RelativeVelocities {
   double pad() const { return pad_; }
   /// Returns a bound of the sum of both angular speeds.
   double turn() const { return a_.angular_speed + b_.angular_speed; }
-  /// As above for a solid of A within `reach` of `center`: support(m) is the largest m . x in it.
-  /// `pad` is taken off the gap.
-  template <typename Support, typename Vertices>
-  double solidSlabTime(const Eigen::Vector3d& n, const Support& support,
-                       const Eigen::Vector3d& center, double reach, const Vertices& b,
-                       double pad) const;
-
   const RelativePose<double>& pose() const { return X_AB_; }
   double stretch() const { return detail::boundsOf(X_AB_).stretch; }  ///< of pose()
 
@@ -110,63 +104,10 @@ class RelativeMotion {
   double pad_;
 };
 
-// Each vertex has its own speed. What is left of the slab after a time is a minimum of lines less a
-// parabola, and so concave: between a time where some is left and one where none is, its chord lies
-// below it, and ends at a time for which the slab lasts.
-template <typename VerticesA, typename VerticesB>
-double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const VerticesA& a,
-                                    const VerticesB& b, double required) const {
-  const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
-  const double closing = n.dot(a_.linear - b_.linear);
-  double at_a[3], speed_a[3], at_b[3], speed_b[3], acceleration_a = 0, acceleration_b = 0;
-  double high_a = -kInfinity, low_b = kInfinity;
-  for (int k = 0; k < 3; ++k) {
-    at_a[k] = n.dot(a[k]);
-    at_b[k] = n.dot(b[k]);
-    high_a = std::max(high_a, at_a[k]);
-    low_b = std::min(low_b, at_b[k]);
-  }
-  const double gap = low_b - high_a - pad_;
-  if (!(gap > 0)) return 0;
-  double fastest_a = -kInfinity, slowest_b = kInfinity, sizes = 0, speeds = std::abs(closing);
-  for (int k = 0; k < 3; ++k) {
-    speed_a[k] = turn_a.dot(a[k] - a_.origin);  // n . (w x r) = (n x w) . r
-    speed_b[k] = turn_b.dot(b[k] - b_.origin);
-    fastest_a = std::max(fastest_a, speed_a[k]);
-    slowest_b = std::min(slowest_b, speed_b[k]);
-    acceleration_a = std::max(acceleration_a, a_.accelerationAlong(n, a[k], 0));
-    acceleration_b = std::max(acceleration_b, b_.accelerationAlong(n, b[k], 0));
-    sizes += std::abs(at_a[k]) + std::abs(at_b[k]);
-    speeds += std::abs(speed_a[k]) + std::abs(speed_b[k]);
-  }
-  const double acceleration = acceleration_a + acceleration_b;
-  const double least = closingTime(gap, closing + (fastest_a - slowest_b), acceleration);
-  if (least >= required) return least;
-  const auto leftAfter = [&](double s) {
-    const double high =
-        std::max({at_a[0] + s * speed_a[0], at_a[1] + s * speed_a[1], at_a[2] + s * speed_a[2]});
-    const double low =
-        std::min({at_b[0] + s * speed_b[0], at_b[1] + s * speed_b[1], at_b[2] + s * speed_b[2]});
-    return low - high - s * (closing + 0.5 * s * acceleration) - pad_;
-  };
-  double over = required, left_over = leftAfter(over);
-  const double slack = 0x1p-49 * (sizes + over * (speeds + over * acceleration));  // of leftAfter()
-  if (left_over > slack) return required;
-  double time = least, left = leftAfter(least);
-  for (int step = 0; step < 4 && left > slack; ++step) {
-    const double next = time + (over - time) * (left - slack) / (left - left_over) * (1 - 0x1p-40);
-    const double left_next = leftAfter(next);
-    if (!(left_next > slack) || !(next > time)) break;
-    time = next;
-    left = left_next;
-  }
-  return time;
-}
-
 template <typename Support, typename Vertices>
-double RelativeVelocities::solidSlabTime(const Eigen::Vector3d& n, const Support& support,
-                                         const Eigen::Vector3d& center, double reach,
-                                         const Vertices& b, double pad) const {
+double RelativeVelocities::slabTime(const Eigen::Vector3d& n, const Support& support,
+                                    const Eigen::Vector3d& center, double reach, const Vertices& b,
+                                    double pad) const {
   const Eigen::Vector3d turn_a = n.cross(a_.angular), turn_b = n.cross(b_.angular);
   double low_b = kInfinity, speed_b = low_b, acceleration_b = 0;
   for (const Eigen::Vector3d& x : b) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "continuous/relative_motion.h"
+#include "continuous/tuning.h"
 #include "fcl_kios/continuous/continuous.h"
 #include "fcl_kios/model/model.h"
 #include "volume/rounding.h"
@@ -25,13 +27,15 @@ class StepSearch {
   /// Returns true if they touch at t; exact.
   virtual bool touching(double t) = 0;
   /// Returns a time h <= 1 - t such that they are proven apart from t to t + h: the longest one
-  /// that a search finds, or any of at least `required` that costs less for its length.
-  double apartFor(double t, double required);
+  /// that a search finds.
+  double apartFor(double t);
 
-  /// For whoever takes single steps: none is looked for beyond `end`, none takes many more tests
-  /// than `most_tests`, and all may be as long as they can, but for turns by more than an eighth of
-  /// a radian, which whoever is near doesn't make at once.
-  void setLimits(double end, long long most_tests);
+  /// For whoever takes single steps: none is looked for beyond `end`, and none takes many more
+  /// tests than `most_tests`.
+  void setLimits(double end, long long most_tests) {
+    end_ = end;
+    most_tests_ = most_tests;
+  }
   /// Returns the cost of all steps, in tests of volumes.
   long long cost() const { return counts_.volume_tests + 3 * counts_.leaf_tests; }
 
@@ -44,9 +48,8 @@ class StepSearch {
              ContinuousCounts& counts)
       : motion_(motion_a, motion_b, reach_a, reach_b), counts_(counts) {}
 
-  /// Returns a time for which the pair is proven apart as a whole, if that is cheap to tell; else
-  /// 0.
-  virtual double wholeApart(double /*t*/, const RelativeVelocities& /*v*/) { return 0; }
+  /// A step from t is looked for.
+  virtual void beginStep(double /*t*/) {}
   /// Returns true if the nodes' contents are proven apart for `duration`.
   virtual bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) = 0;
   /// Time for which two leaves are proven apart; any time of at least `required` will do.
@@ -59,22 +62,24 @@ class StepSearch {
   static constexpr int kMostParts = 8;
   /// Writes the pairs that a pair consists of, the nearest first, and returns how many; 0 for a
   /// pair of leaves.
-  virtual int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) const = 0;
+  virtual int split(NodePair pair, const RelativeVelocities& v, NodePair* parts) = 0;
 
   const RelativeMotion motion_;
   ContinuousCounts& counts_;
 
  private:
-  static constexpr long long kLeastBudget = 1000;
-  long long budget_ = kLeastBudget;  ///< volume tests after which the next step is halved
-  double end_ = 1, most_turn_ = kInfinity;
+  long long budget_ = tuning::kLeastBudget;  ///< volume tests after which the next step is halved
+  double end_ = 1;
   long long most_tests_ = std::numeric_limits<long long>::max();
   double window_ = 1, last_step_ = 1;
-  // A step is looked for up to so many times wholeApart(), or up to this where bodies slide.
-  double reach_ = 1.25, slide_ = 0x1p-6;
-  int spared_ = 0, pause_ = 0;  ///< searches to be spared after one that didn't pay, and next time
-  NodePair last_ = {-1, -1};    ///< leaves that ended the last step
+  NodePair last_ = {-1, -1};  ///< leaves that ended the last step
   std::vector<NodePair> stack_;
 };
+
+/// Two moving geometries, of which one at least is a mesh; all are referred to. Throws
+/// std::invalid_argument if a model is not finished, or the pair is not served.
+std::unique_ptr<StepSearch> movingPair(const fcl::CollisionGeometryd& a, const Motion& motion_a,
+                                       const fcl::CollisionGeometryd& b, const Motion& motion_b,
+                                       ContinuousCounts& counts);
 
 }  // namespace kios::continuous

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "fcl_kios/query/mesh_queries.h"
-#include "linkage/shape_gap.h"
+#include "linkage/link_tree.h"
+#include "linkage/tuning.h"
 #include "model/kios_model.h"
-#include "query/bracket.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
@@ -95,14 +95,12 @@ double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double 
 // Frank-Wolfe steps towards the shortest difference of both hulls, as the tables bound them: v is a
 // difference, and the hulls' support points along it give the slab, and the segment to search next.
 double BodyQueries::slab(Pair& pair, const Configuration& at, double enough) const {
-  constexpr int kSteps = 6;
-  constexpr double kClose = 0.9;  // of the width that is possible
   if (!body(pair.a).bounded || !body(pair.b).bounded) return -kInfinity;
   Eigen::Vector3d v = pair.direction, n = v;
   if (v.isZero(0)) v = at.center(pair.b) - at.center(pair.a);
   const double pad = path_.pad(pair.a, pair.b);
   double best = -kInfinity;
-  for (int step = 0; step < kSteps; ++step) {
+  for (int step = 0; step < tuning::kSlabSteps; ++step) {
     const double length = v.norm();
     if (!(length > 0x1p-500)) break;
     n = v / length;
@@ -113,7 +111,7 @@ double BodyQueries::slab(Pair& pair, const Configuration& at, double enough) con
       pair.direction = n;
     }
     const Eigen::Vector3d w = on_b - on_a;
-    if (gap - pad > enough || (step > 0 && gap >= kClose * length)) break;
+    if (gap - pad > enough || (step > 0 && gap >= tuning::kClose * length)) break;
     if (step == 0) {
       v = w;
       continue;
@@ -126,17 +124,16 @@ double BodyQueries::slab(Pair& pair, const Configuration& at, double enough) con
   return best - pad;
 }
 
-Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough, double roots) const {
+Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough) const {
   ++counts_.narrow_queries;
   const bool mesh_a = body(pair.a).model, mesh_b = body(pair.b).model;
-  if (mesh_a && mesh_b) return askMeshes(pair, at, enough, roots);
+  if (mesh_a && mesh_b) return askMeshes(pair, at, enough);
   if (mesh_a) return askMeshAndOther(pair, pair.a, pair.b, at, enough);
   if (mesh_b) return askMeshAndOther(pair, pair.b, pair.a, at, enough);
   return askShapes(pair, at);
 }
 
 bool BodyQueries::areSolids(const Pair& pair) const {
-  if (!marksExist()) return false;
   const BodyData &a = body(pair.a), &b = body(pair.b);
   if (!a.model) return b.model && kios::areSolids<double>(*b.model, *a.geometry, nullptr);
   return kios::areSolids<double>(*a.model, *b.geometry, b.model);
@@ -159,10 +156,9 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
   const MeshPair<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
                                path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
   SearchCounts counts;
-  std::vector<engine::TrianglePairIds> found;
-  searchContacts(frame, 1, found, counts);
+  const bool touch = !searchContacts(frame, 1, counts).empty();
   counts_.expansions += counts.expansions;
-  return !found.empty();
+  return touch;
 }
 
 MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configuration& at) const {
@@ -171,8 +167,7 @@ MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configura
           body(other).model};
 }
 
-Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough,
-                                double roots) const {
+Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough) const {
   const int a = pair.a, b = pair.b;
   const double pad = path_.pad(a, b);
   const MeshPair<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
@@ -182,7 +177,7 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
   query.near_enough = min_separation_;
   query.far_enough = (enough + pad) * (1 + 0x1p-40);
   const auto search = [&] {
-    const auto answer = bracketDistance(frame, query, std::max(0.0, roots));
+    const auto answer = bracketDistance(frame, query);
     counts_.expansions += answer.counts.expansions;
     query.start = {answer.triangle_a, answer.triangle_b};
     return answer;
@@ -196,8 +191,6 @@ Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enou
   }
   if (answer.triangle_a >= 0) {
     pair.direction = unitOrZero(at.pose(a).linear() * (answer.point_b - answer.point_a));
-    pair.triangle_a = answer.triangle_a;
-    pair.triangle_b = answer.triangle_b;
   }
   bool contact = answer.distance <= min_separation_;
   if (contact && min_separation_ > 0 && answer.distance > min_separation_ - pad) {
@@ -222,8 +215,6 @@ Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Con
   if (distance > 0 && distance < asked) {
     const Eigen::Vector3d d = result.nearest_points[1] - result.nearest_points[0];
     pair.direction = unitOrZero(result.o1 == body(pair.a).geometry.get() ? d : -d);
-    (mesh == pair.a ? pair.triangle_a : pair.triangle_b) =
-        static_cast<int>(result.o1 == &bodies.mesh ? result.b1 : result.b2);
   }
   const double apart = distance / (1 + request.rel_err) * (1 - 0x1p-40) - error;
   if (distance > min_separation_ && apart > min_separation_) return {apart, false};
@@ -250,8 +241,8 @@ Nearness BodyQueries::askShapes(Pair& pair, const Configuration& at) const {
   const int a = pair.a, b = pair.b;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   const double apart = gapOfShapes(a, b, at, &direction);
-  const double slab = direction.isZero(0) ? -kInfinity : apart;
-  if (slab > 0) pair.direction = direction;
+  const bool slab = apart > 0 && !direction.isZero(0);
+  if (slab) pair.direction = direction;
   if (apart > min_separation_) return {apart, false, slab};
   return {apart, shapesMeet(body(a), at.pose(a), body(b), at.pose(b), min_separation_), slab};
 }

@@ -14,8 +14,6 @@ struct Pair {
   int shared;  ///< moving joints that carry both
   /// From a to b in the world, of length 1: of the last query or slab; 0 if there was none.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  /// Triangles of meshes that were nearest in the last query; -1 if there was none.
-  int triangle_a = -1, triangle_b = -1;
 };
 
 /// What is known of a pair of bodies at a configuration.
@@ -24,8 +22,7 @@ struct Nearness {
   /// subtracted.
   double apart = 0;
   bool contact = false;  ///< confirmed by the static query
-  /// The width of a slab across the pair's direction, if one was found.
-  double slab = -kInfinity;
+  bool slab = false;     ///< `apart` is the width of one across the pair's direction
 };
 
 /// The static queries about two bodies of a linkage at a configuration of a path, a < b. Asks by
@@ -42,9 +39,8 @@ class BodyQueries {
   /// slab wider than `enough` will do.
   double slab(Pair& pair, const Configuration& at, double enough) const;
   /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two
-  /// of the distance; or in contact. `roots` is what rootBound() gave. Sets the pair's direction
-  /// and triangles.
-  Nearness ask(Pair& pair, const Configuration& at, double enough, double roots) const;
+  /// of the distance; or in contact. Sets the pair's direction.
+  Nearness ask(Pair& pair, const Configuration& at, double enough) const;
   /// True only if the bodies are in contact, by a query that tells nothing else and takes less
   /// time; false if that would take a query as long as ask().
   bool touching(const Pair& pair, const Configuration& at) const;
@@ -55,9 +51,9 @@ class BodyQueries {
   /// True only if the bodies are in contact, as fcl::collide sees it; for solids also if.
   bool inContact(const Pair& pair, const Configuration& at) const;
 
-  /// Returns the smaller radius of the bodies' balls.
+  /// Returns the smaller radius of the bodies' balls, above 0.
   double smallerRadius(const Pair& pair) const {
-    return std::min(body(pair.a).content.radius, body(pair.b).content.radius);
+    return std::max(0x1p-500, std::min(body(pair.a).content.radius, body(pair.b).content.radius));
   }
 
   /// Throws std::invalid_argument if no query serves the pair.
@@ -65,7 +61,7 @@ class BodyQueries {
 
  private:
   const BodyData& body(int id) const { return path_.linkage().bodies[id]; }
-  Nearness askMeshes(Pair& pair, const Configuration& at, double enough, double roots) const;
+  Nearness askMeshes(Pair& pair, const Configuration& at, double enough) const;
   Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                            double enough) const;
   /// A pair of which one is a mesh.

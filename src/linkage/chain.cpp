@@ -4,53 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "volume/rotation.h"
+#include <vector>
 
 namespace kios::articulated {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Chain::Chain(const Path& path, int body, int shared) : path_(path), body_(body) {
+Chain::Chain(const Path& path, int body, int shared) : at_(path, 0), body_(body), shared_(shared) {
   const Linkage::Impl& linkage = path.linkage();
   const int own = linkage.bodies[body].link;
-  if (own < 0) return;
-  const int last = shared > 0 ? linkage.links[own].moving[shared - 1] : -1;
-  for (int link = own; link != last; link = linkage.links[link].parent) links_.push_back(link);
-  std::reverse(links_.begin(), links_.end());
-  for (const int link : links_) {
-    const LinkData& data = linkage.links[link];
-    if (data.coordinate < 0 || path.rate(link) == 0) continue;
-    if (data.type == JointType::kPrismatic) {
-      slides_after_ |= turning_ > 0;
-    } else {
-      ++turning_;
-    }
+  if (own >= 0 && shared > 0) base_ = linkage.links[own].moving[shared - 1];
+  for (const MovingJoint& joint : at_.jointsOf(body, shared)) {
+    slides_after_ |= !joint.turns && turning_ > 0;
+    turning_ += joint.turns ? 1 : 0;
+    (joint.turns ? rates_ : slides_) += std::abs(joint.rate);
   }
 }
 
-void Chain::advance(Place& place, int link, double s) const {
-  const LinkData& data = path_.linkage().links[link];
-  place.t += place.R * data.t_PJ;
-  place.R = (place.R * data.R_PJ).eval();
-  if (data.coordinate < 0) return;
-  const double value = data.at(path_.coordinate(data.coordinate, s));
-  if (data.type == JointType::kPrismatic) {
-    place.t += place.R * (value * data.axis);
-  } else {
-    turnAbout(data.axis, value, place.R);
-  }
-}
-
+// The frame that a link gives rounds as the bodies do that it carries: a path's pad leaves room.
 fcl::Transform3d Chain::pose(double s) const {
-  Place place = {Matrix3d::Identity(), Vector3d::Zero()};
-  for (const int link : links_) advance(place, link, s);
-  const fcl::Transform3d& X_LB = path_.linkage().bodies[body_].X_LB;
-  fcl::Transform3d X = fcl::Transform3d::Identity();
-  X.linear() = place.R * X_LB.linear();
-  X.translation() = place.t + place.R * X_LB.translation();
-  return X;
+  const fcl::Transform3d& X = at(s).pose(body_);
+  return base_ < 0 ? X : at_.linkPose(base_).inverse() * X;
 }
 
 // The origin is the last axis that turns the body, unless that slides along it: then the body's.
@@ -61,7 +35,6 @@ fcl::Transform3d Chain::pose(double s) const {
 // all w_i along their axes, and |w'| <= sum_i sum_(j < i) |w_i| |w_j|.
 continuous::VelocityField Chain::velocities(double s, const fcl::Transform3d& X,
                                             double window) const {
-  const auto& links = path_.linkage().links;
   continuous::VelocityField v;
   v.linear = v.angular = v.acceleration_at[0] = v.acceleration_at[1] = Vector3d::Zero();
   v.origin = X.translation();
@@ -69,25 +42,19 @@ continuous::VelocityField Chain::velocities(double s, const fcl::Transform3d& X,
   v.fixed_axis = turning_ <= 1;
   v.angular_speed = v.turn_acceleration = 0;
 
-  struct Moving {
-    Vector3d axis, origin;
-    double rate;
-    bool turns;
-  };
-  std::vector<Moving> moving;
-  Place place = {Matrix3d::Identity(), Vector3d::Zero()};
-  for (const int link : links_) {
-    advance(place, link, s);
-    const LinkData& data = links[link];
-    if (data.coordinate < 0 || path_.rate(link) == 0) continue;
-    const bool turns = data.type == JointType::kRevolute;
-    moving.push_back({place.R * data.axis, place.t, path_.rate(link), turns});
-    if (!turns) continue;
-    v.axis = moving.back().axis;
-    if (!slides_after_) v.origin = place.t;
+  std::vector<MovingJoint> moving = at(s).jointsOf(body_, shared_);
+  for (MovingJoint& joint : moving) {
+    if (base_ >= 0) {
+      const fcl::Transform3d X_LW = at_.linkPose(base_).inverse();
+      joint.axis = X_LW.linear() * joint.axis;
+      joint.origin = X_LW * joint.origin;
+    }
+    if (!joint.turns) continue;
+    v.axis = joint.axis;
+    if (!slides_after_) v.origin = joint.origin;
   }
   double after = 0, acceleration = 0, before = 0;  // sums of |w_j| before a joint
-  for (const Moving& joint : moving) {
+  for (const MovingJoint& joint : moving) {
     if (joint.turns) {
       const double rate = std::abs(joint.rate);
       v.turn_acceleration += rate * before;
@@ -97,7 +64,7 @@ continuous::VelocityField Chain::velocities(double s, const fcl::Transform3d& X,
   v.angular_speed = before;
   v.turn_acceleration += before * before;
   for (std::size_t i = moving.size(); i-- > 0;) {
-    const Moving& joint = moving[i];
+    const MovingJoint& joint = moving[i];
     const double rate = std::abs(joint.rate);
     if (!joint.turns) {
       v.linear += joint.rate * joint.axis;
@@ -122,13 +89,7 @@ continuous::VelocityField Chain::velocities(double s, const fcl::Transform3d& X,
 }
 
 double Chain::rounding(double reach) const {
-  double rates = 0, slides = 0;
-  for (const int link : links_) {
-    const LinkData& data = path_.linkage().links[link];
-    if (data.coordinate < 0) continue;
-    (data.type == JointType::kPrismatic ? slides : rates) += std::abs(path_.rate(link));
-  }
-  return 0x1p-40 * (rates * (path_.length(body_) + reach) + slides);
+  return 0x1p-40 * (rates_ * (at_.path().length(body_) + reach) + slides_);
 }
 
 }  // namespace kios::articulated

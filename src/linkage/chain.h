@@ -2,22 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
 #include "continuous/motion.h"
 #include "linkage/configuration.h"
 
 namespace kios::articulated {
 
 /// The motion of a body of a linkage along a path, seen from the link that carries another body
-/// too.
+/// too: the last one that the first `shared` joints carry, the world if there is none. Serves one
+/// thread.
 class Chain : public continuous::KnownMotion {
  public:
-  /// By the joints after the first `shared` that carry the body.
   Chain(const Path& path, int body, int shared);
 
-  /// In the frame of the last link that the first `shared` joints carry; the world if there is
-  /// none.
   fcl::Transform3d pose(double s) const override;
   /// At s, and bounds over [s, s + window].
   continuous::VelocityField velocities(double s, const fcl::Transform3d& X,
@@ -29,17 +25,17 @@ class Chain : public continuous::KnownMotion {
   double rounding(double reach) const override;
 
  private:
-  struct Place {
-    Eigen::Matrix3d R;
-    Eigen::Vector3d t;
-  };
-  /// Moves a place from a link's parent to the link.
-  void advance(Place& place, int link, double s) const;
+  const Configuration& at(double s) const {
+    if (at_.s() != s) at_.set(at_.path(), s);
+    return at_;
+  }
 
-  const Path& path_;
-  const int body_;
-  std::vector<int> links_;  // on the way to the body
-  int turning_ = 0;         // joints that turn
+  mutable Configuration at_;
+  const int body_, shared_;
+  int base_ = -1;     // the link that it is seen from
+  int turning_ = 0;   // joints that turn
+  double rates_ = 0;  // their sum, and that of the slides
+  double slides_ = 0;
   bool slides_after_ = false;
 };
 

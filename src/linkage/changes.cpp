@@ -32,7 +32,7 @@ void requireSame(bool same, const char* what, std::size_t id) {
 void BodyData::requireUnchanged(std::size_t id) const {
   if (kind == BodyKind::kMesh) {
     requireFinished(*model);
-    requireSame(model->getBV(0).bv.stamp == stamp && model->vertices == vertices, "mesh", id);
+    requireSame(stateOf(*model) == state, "mesh", id);
   } else if (kind == BodyKind::kShape) {
     requireSame(sameShape(*this), "shape", id);
   }
@@ -42,7 +42,7 @@ void BodyData::requireUnchanged(std::size_t id) const {
 bool BodyData::holdsCells() const {
 #if FCL_HAVE_OCTOMAP
   if (kind == BodyKind::kOctree) {
-    return cells.holds(occupiedBox(static_cast<const fcl::OcTreed&>(*geometry)));
+    return cells.holds(continuous::occupiedBox(static_cast<const fcl::OcTreed&>(*geometry)));
   }
 #endif
   return true;

@@ -120,6 +120,21 @@ void Configuration::set(const Path& path, double s) {
   motions_.resize(static_cast<std::size_t>(path.linkage().num_motions));
 }
 
+std::vector<MovingJoint> Configuration::jointsOf(int id, int shared) const {
+  std::vector<MovingJoint> joints;
+  const Linkage::Impl& linkage = path_->linkage();
+  const int own = linkage.bodies[id].link;
+  if (own < 0) return joints;
+  const std::vector<int>& moving = linkage.links[own].moving;
+  for (auto i = static_cast<std::size_t>(shared); i < moving.size(); ++i) {
+    const PlacedLink& X = links_[moving[i]];
+    const double rate = path_->rate(moving[i]);
+    if (rate == 0) continue;
+    joints.push_back({X.axis, X.t, rate, linkage.links[moving[i]].type == JointType::kRevolute});
+  }
+  return joints;
+}
+
 void Configuration::place(const BodyData& body) const {
   const PlacedLink& link = links_[body.link];
   PlacedBody& placed = placed_[body.carried];
@@ -167,7 +182,6 @@ void Configuration::addMotions(const BodyData& body, int id) const {
       double away = std::sqrt((arm_x * arm_x + arm_y * arm_y + arm_z * arm_z).maxCoeff()) +
                     body.content.capsule_radius;
       away += rounding;
-      if (link == body.link) away = std::min(away, body.own_radius);
       turning += rate * axis;
       vx += rate * arm_x;
       vy += rate * arm_y;

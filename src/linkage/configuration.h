@@ -142,6 +142,13 @@ class PairMotion {
   double most_, first_, second_, third_;
 };
 
+/// A joint that moves, in the world at a configuration.
+struct MovingJoint {
+  Eigen::Vector3d axis, origin;  ///< a point of the axis
+  double rate;                   ///< Path::rate()
+  bool turns;
+};
+
 /// The bodies at a configuration s of a path.
 class Configuration {
  public:
@@ -182,6 +189,9 @@ class Configuration {
   }
   const Path& path() const { return *path_; }
   const PlacedLink& link(int link) const { return links_[link]; }
+  /// The joints after the first `shared` that carry the body and don't stand still, the world's
+  /// first.
+  std::vector<MovingJoint> jointsOf(int id, int shared) const;
   /// By the joints after the first `shared` that carry the body.
   const BodyMotion& motion(int id, int shared) const {
     const BodyData& body = bodyAt(id);

@@ -76,11 +76,4 @@ ContentBound boundOf(const std::vector<Vector3d>& points, double margin, const V
   return bound;
 }
 
-double farthestFromAxis(const std::vector<Vector3d>& points, double margin, const Vector3d& origin,
-                        const Vector3d& axis) {
-  double square = 0;
-  for (const Vector3d& p : points) square = std::max(square, axis.cross(p - origin).squaredNorm());
-  return grown(std::sqrt(square) + margin, largest(points) + origin.norm() + margin);
-}
-
 }  // namespace kios::articulated

@@ -25,9 +25,4 @@ struct ContentBound {  // NOLINT(bugprone-reserved-identifier): in the copy of a
 ContentBound boundOf(const std::vector<fcl::Vector3d>& points, double margin,
                      const fcl::Vector3d& center);
 
-/// Upper bound of the distance of any of `points`, grown by `margin`, from the line through
-/// `origin` along the unit vector `axis`.
-double farthestFromAxis(const std::vector<fcl::Vector3d>& points, double margin,
-                        const fcl::Vector3d& origin, const fcl::Vector3d& axis);
-
 }  // namespace kios::articulated

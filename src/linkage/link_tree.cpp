@@ -108,7 +108,7 @@ Hull hullOf(const Modeld& model) {
 #if FCL_HAVE_OCTOMAP
 /// The box of the occupied cells; no points if there are none. Cells have their places by two sums
 /// in octomap and in FCL, which differ by rounding.
-Hull hullOf(const fcl::OcTreed& octree, const articulated::OccupiedBox& cells) {
+Hull hullOf(const fcl::OcTreed& octree, const continuous::OccupiedBox& cells) {
   Hull hull;
   if (cells.empty()) return hull;
   addBox(cells.low, cells.high, hull.points);
@@ -124,8 +124,7 @@ Hull measure(BodyData& body) {
     requireFinished(*model);
     body.kind = BodyKind::kMesh;
     body.model = model;
-    body.stamp = model->getBV(0).bv.stamp;
-    body.vertices = model->vertices;
+    body.state = stateOf(*model);
     return hullOf(*model);
   }
   if (isShape(geometry)) {
@@ -140,7 +139,7 @@ Hull measure(BodyData& body) {
   if (geometry.getObjectType() == fcl::OT_OCTREE) {
     const auto& octree = static_cast<const fcl::OcTreed&>(geometry);
     body.kind = BodyKind::kOctree;
-    body.cells = articulated::occupiedBox(octree);
+    body.cells = continuous::occupiedBox(octree);
     return hullOf(octree, body.cells);
   }
 #endif
@@ -151,7 +150,7 @@ Hull measure(BodyData& body) {
 }
 
 /// Sets what bounds the content, whose hull in the geometry's frame is given.
-void setContent(BodyData& body, Hull hull, const std::vector<LinkData>& links) {
+void setContent(BodyData& body, Hull hull) {
   if (hull.points.empty()) hull.points.push_back(hull.center);
   double size = hull.margin;
   for (const Vector3d& p : hull.points) size = std::max(size, p.lpNorm<1>());
@@ -165,8 +164,6 @@ void setContent(BodyData& body, Hull hull, const std::vector<LinkData>& links) {
   body.reach = body.content.reach();
   if (body.bounded) body.supports = articulated::SupportTable(hull.points, hull.margin);
   if (body.link >= 0) {
-    body.own_radius = articulated::farthestFromAxis(hull.points, hull.margin, Vector3d::Zero(),
-                                                    links[body.link].axis);
     return;
   }
   body.obstacle_length = (body.X_LB.translation().norm() + body.reach) * (1 + 0x1p-50);
@@ -266,7 +263,7 @@ int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometr
   if (!body.bounded && turns(links, link)) {
     refuse("a half-space or a plane can't turn: a revolute joint carries it.");
   }
-  setContent(body, hull, links);
+  setContent(body, hull);
   if (link < 0) {
     farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
   } else {
@@ -294,7 +291,7 @@ void Linkage::Impl::addPairs(int body) {
   if (data.link < 0) {
     if (!data.meets) return;
     obstacles.push_back(data.box);
-    obstacle_tree.reset();
+    lazy_tree_ = std::make_shared<LazyTree>();
     for (const CarriedBody& other : carried) num_pairs += meet(other.body) ? 1 : 0;
     return;
   }
@@ -338,14 +335,14 @@ void Linkage::Impl::measureOctrees() {
     if (body.kind == BodyKind::kOctree) {
       const Hull hull = measure(body);
       body.meets = body.occupied && !hull.points.empty();
-      setContent(body, hull, links);
+      setContent(body, hull);
     }
     farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
   }
   const auto allowed = std::exchange(allowed_, {});
   carried.clear();
   obstacles.clear();
-  obstacle_tree.reset();
+  lazy_tree_ = std::make_shared<LazyTree>();
   num_pairs = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) addPairs(static_cast<int>(i));
   for (const auto& [a, b] : allowed) allow(a, b);

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "continuous/occupied_box.h"
 #include "fcl_kios/linkage/linkage.h"
 #include "fcl_kios/model/model.h"
 #include "linkage/content_bound.h"
 #include "linkage/obstacle_tree.h"
-#include "linkage/occupied_box.h"
 #include "linkage/support.h"
+#include "model/prepared.h"
 #include "shape/solid.h"
 
 namespace kios::articulated {
@@ -52,19 +53,16 @@ struct BodyData {
   bool occupied = true;
   bool meets = true;      ///< false: it isn't occupied, or an octree without cells
   ContentBound content;   ///< in the link's frame
-  double own_radius = 0;  ///< largest distance of the content from the axis of its link's own joint
   SupportTable supports;  ///< of the content in the link's frame; empty if unbounded
   double reach = 0;  ///< of the content from its link's origin; of an unbounded one, of its plane
   ObstacleBox box = {};        ///< of an obstacle
   double obstacle_length = 0;  ///< how far an obstacle reaches from the world's origin
   int carried = -1;            ///< among those on links
   int first_motion = 0;  ///< of its BodyMotions in a configuration; those of obstacles are all one
-  /// State of a mesh when it was added.
-  std::uint64_t stamp = 0;
-  const void* vertices = nullptr;
+  ModelState state;      ///< of a mesh when it was added
   std::vector<double> shape_values;  ///< likewise of a shape; see model/shape_values.h
 #if FCL_HAVE_OCTOMAP
-  OccupiedBox cells;  ///< of an octree, when its content was measured
+  continuous::OccupiedBox cells;  ///< of an octree, when its content was measured
 #endif
 
   /// Throws std::invalid_argument, naming the body, if what was measured of it when it was added
@@ -87,19 +85,17 @@ struct CarriedBody {
 
 struct Scratch;
 
-/// Memory of searches that ended, for the next one; whoever takes it has it alone. A copy is empty.
+/// Memory of a search that ended, for the next one; whoever takes it has it alone. A copy is empty.
 class SpareScratch {
  public:
   SpareScratch() = default;
   SpareScratch(const SpareScratch& /*other*/) {}
   SpareScratch& operator=(const SpareScratch&) = delete;
   ~SpareScratch();
-
-  std::unique_ptr<Scratch> take() const;
-  void giveBack(std::unique_ptr<Scratch> scratch) const;
+  std::unique_ptr<Scratch> exchange(std::unique_ptr<Scratch> by) const;
 
  private:
-  mutable std::atomic<Scratch*> spare_{nullptr};
+  mutable std::atomic<Scratch*> kept_{nullptr};
 };
 
 /// A linkage like another one, whose octrees were measured later. A copy is empty.
@@ -118,6 +114,20 @@ class RenewedLinkage {
   mutable std::shared_ptr<const Linkage::Impl> impl_;
 };
 
+/// A proven lower bound of the distance of two shapes, of which one is bounded at least: GJK, our
+/// own for balls and capsules, else FCL's, proposes a direction, and the slab across it, as wide as
+/// the shapes' supports leave it, is the bound, whatever GJK got wrong. Negative if no slab was
+/// found. Off by rounding alone, which is below 2^-46 of the lengths from the world's origin.
+/// `direction`, if given, is set to the slab's, from a to b in the world, if both are bounded.
+double shapeGap(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
+                const fcl::Transform3d& X_WB, fcl::Vector3d* direction = nullptr);
+
+/// FCL's own verdict: are they in contact, or at most `within` > 0 apart? Half-spaces and planes
+/// are judged by their gap, which is exact but for rounding: FCL finds cylinders in planes that
+/// they don't meet, unless it is asked for contacts.
+bool shapesMeet(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
+                const fcl::Transform3d& X_WB, double within);
+
 }  // namespace kios::articulated
 
 namespace kios {
@@ -128,12 +138,18 @@ class Linkage::Impl {
   std::vector<articulated::BodyData> bodies;
   /// The pairs to be checked: all but those of one link and those that are allowed.
   std::vector<articulated::CarriedBody> carried;
-  std::vector<articulated::ObstacleBox> obstacles;  ///< of those that anything can meet
-  articulated::LazyObstacleTree obstacle_tree;
+  std::vector<articulated::ObstacleBox> obstacles;  ///< those that anything can meet
   int coordinates = 0;
   int num_motions = 1;  ///< of bodies in a configuration: one by each moving joint, and one more
   long long num_pairs = 0;
   double farthest_obstacle = 0;  ///< the largest obstacle_length
+
+  /// The obstacles' tree, built by whoever asks for it first; threads may ask at once.
+  const articulated::ObstacleTree& obstacleTree() const {
+    std::call_once(lazy_tree_->built,
+                   [this] { lazy_tree_->tree = articulated::ObstacleTree(obstacles); });
+    return lazy_tree_->tree;
+  }
 
   int addLink(int parent, const Joint& joint);
   int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
@@ -153,6 +169,12 @@ class Linkage::Impl {
 
  private:
   void addPairs(int body);
+
+  struct LazyTree {
+    std::once_flag built;
+    articulated::ObstacleTree tree;
+  };
+  std::shared_ptr<LazyTree> lazy_tree_ = std::make_shared<LazyTree>();  ///< copies share it
 
   std::vector<std::pair<int, int>> allowed_;
   articulated::RenewedLinkage renewed_;

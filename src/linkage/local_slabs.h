@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "continuous/moving_pair.h"
+#include "continuous/step_search.h"
 #include "linkage/body_queries.h"
 #include "linkage/chain.h"
 
@@ -27,7 +27,7 @@ class LocalSlabs {
   /// Makes little more than `most_tests` tests.
   double provenFrom(double from, double to, long long most_tests) {
     search_->setLimits(to, most_tests);
-    const double way = search_->apartFor(from, to - from);
+    const double way = search_->apartFor(from);
     if (way >= to - from) return to;
     // Rounded towards the start, as `from` + `way` rounds by less than 2^-53.
     const double end = from + way - 0x1p-52;

@@ -14,16 +14,14 @@ namespace kios::articulated {
 class NearPairs {
  public:
   /// Calls visit(pair) for every pair that may be within `distance` of each other at most `time` to
-  /// both sides of a configuration, until it has visited more than `most`.
+  /// both sides of a configuration.
   template <typename Visit>
   void forEach(const Path& path, const Configuration& c, double distance, double time,
-               std::size_t most, const Visit& visit) {
+               const Visit& visit) {
     const Linkage::Impl& linkage = path.linkage();
-    const ObstacleTree& obstacles = linkage.obstacle_tree.of(linkage.obstacles);
+    const ObstacleTree& obstacles = linkage.obstacleTree();
     balls_.clear();
-    std::size_t visited = 0;
     for (const CarriedBody& carried : linkage.carried) {
-      if (visited > most) return;
       const int id = carried.body;
       const BodyData& body = linkage.bodies[id];
       const Eigen::Vector3d& center = c.center(id);
@@ -33,13 +31,15 @@ class NearPairs {
       if (body.meets) {
         const double still = distance + body.content.radius + path.padOfObstacles(id);
         const auto found = [&](int obstacle) {
-          if (std::binary_search(carried.allowed.begin(), carried.allowed.end(), obstacle)) return;
-          ++visited;
+          if (std::binary_search(carried.allowed.begin(), carried.allowed.end(), obstacle)) {
+            return false;
+          }
           visit(Pair{std::min(id, obstacle), std::max(id, obstacle), 0});
+          return false;
         };
         if (!(swept > 0) || !body.bounded) {
           obstacles.forNear(center, still + swept, found);
-        } else if (obstacles.anyNear(center, still + swept)) {
+        } else if (obstacles.forNear(center, still + swept, [](int /*body*/) { return true; })) {
           obstacles.forNear(center, still + c.motion(id, 0).during(time), found);
         }
       }
@@ -48,7 +48,6 @@ class NearPairs {
         if (shared == CarriedBody::kNever) return false;
         const Pair pair{std::min(id, other), std::max(id, other), shared};
         if (time > 0 && apart(path, c, pair, distance, time)) return false;
-        ++visited;
         visit(pair);
         return false;
       });

@@ -84,17 +84,4 @@ int ObstacleTree::build(std::vector<ObstacleBox>& boxes, std::size_t begin, std:
   return static_cast<int>(index);
 }
 
-const ObstacleTree& LazyObstacleTree::of(const std::vector<ObstacleBox>& boxes) const {
-  const ObstacleTree* tree = tree_.load(std::memory_order_acquire);
-  if (tree) return *tree;
-  auto made = std::make_unique<const ObstacleTree>(boxes);
-  if (tree_.compare_exchange_strong(tree, made.get(), std::memory_order_acq_rel,
-                                    std::memory_order_acquire)) {
-    return *made.release();
-  }
-  return *tree;  // another thread was first
-}
-
-void LazyObstacleTree::reset() { delete tree_.exchange(nullptr, std::memory_order_acq_rel); }
-
 }  // namespace kios::articulated

@@ -3,9 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
-#include <limits>
-#include <memory>
 #include <vector>
 
 #include <fcl/common/types.h>
@@ -20,40 +17,16 @@ struct ObstacleBox {
   int body;
 };
 
-/// Points and lengths in floats, for tests of balls in lanes: `place` is the point, and a squared
-/// distance that was computed from it exceeds `limit` only if the exact one exceeds `far`.
-///
-/// The point rounds by 2^-24 of its coordinates, differences, squares and sums by less than 2^-21
-/// relatively, and squares that underflow by less than the least normal number. Points beyond all
-/// floats are moved in, nearer to everything.
-struct FloatBall {
-  FloatBall(const fcl::Vector3d& center, double far) {
-    constexpr double kMost = std::numeric_limits<float>::max();
-    for (int i = 0; i < 3; ++i) place[i] = static_cast<float>(std::clamp(center[i], -kMost, kMost));
-    const double reach = far + 0x1p-23 * center.lpNorm<1>();
-    limit = roundUp<float>(reach * reach * (1 + 0x1p-20) + 0x1p-126);
-  }
-  float place[3], limit;
-};
-
 /// The boxes of obstacles, four a node in lanes.
 class ObstacleTree {
  public:
+  ObstacleTree() = default;
   explicit ObstacleTree(std::vector<ObstacleBox> boxes);
 
   /// Calls visit(body) for every box that is at most `far` from the point, and maybe for others
-  /// that are farther by rounding alone.
+  /// that are farther by rounding alone, until it returns true, which is returned.
   template <typename Visit>
-  void forNear(const fcl::Vector3d& center, double far, const Visit& visit) const {
-    walk(center, far, [&](int body) {
-      visit(body);
-      return false;
-    });
-  }
-  /// True if forNear() would visit any.
-  bool anyNear(const fcl::Vector3d& center, double far) const {
-    return walk(center, far, [](int /*body*/) { return true; });
-  }
+  bool forNear(const fcl::Vector3d& center, double far, const Visit& visit) const;
 
  private:
   static constexpr int kLanes = 4;
@@ -64,42 +37,27 @@ class ObstacleTree {
   };
 
   int build(std::vector<ObstacleBox>& boxes, std::size_t begin, std::size_t end);
-  /// Until visit() returns true, which is returned.
-  template <typename Visit>
-  bool walk(const fcl::Vector3d& center, double far, const Visit& visit) const;
 
   std::vector<Node> nodes_;  // the root is the first one
 };
 
-/// A tree that is built by whoever asks for it first; threads may ask at once. A copy is empty.
-class LazyObstacleTree {
- public:
-  LazyObstacleTree() = default;
-  LazyObstacleTree(const LazyObstacleTree& /*other*/) {}
-  LazyObstacleTree& operator=(const LazyObstacleTree&) = delete;
-  ~LazyObstacleTree() { reset(); }
-
-  const ObstacleTree& of(const std::vector<ObstacleBox>& boxes) const;
-  /// To be called while nobody uses the tree.
-  void reset();
-
- private:
-  mutable std::atomic<const ObstacleTree*> tree_{nullptr};
-};
-
 template <typename Visit>
-bool ObstacleTree::walk(const fcl::Vector3d& center, double far, const Visit& visit) const {
+bool ObstacleTree::forNear(const fcl::Vector3d& center, double far, const Visit& visit) const {
   using lanes::Float4;
   if (nodes_.empty()) return false;
-  const FloatBall ball(center, far);
-  const Float4 zero = lanes::broadcast(0), limit = lanes::broadcast(ball.limit);
+  // The point rounds by 2^-24 of its coordinates, differences, squares and sums by less than 2^-21
+  // relatively, and squares that underflow by less than the least normal number. Points beyond all
+  // floats are moved in, nearer to everything.
+  const double reach = far + 0x1p-23 * center.lpNorm<1>();
+  const Float4 zero = lanes::broadcast(0),
+               limit = lanes::broadcast(roundUp<float>(reach * reach * (1 + 0x1p-20) + 0x1p-126));
   // A node leaves at most three others behind, and halving by counts makes no tree deeper than 16.
   int waiting[64] = {0};
   for (int count = 1; count > 0;) {
     const Node& node = nodes_[waiting[--count]];
     Float4 square = zero;
     for (int i = 0; i < 3; ++i) {
-      const Float4 p = lanes::broadcast(ball.place[i]);
+      const Float4 p = lanes::broadcast(lanes::toFloat(center[i]));
       const Float4 off = lanes::max(p - lanes::load(node.high[i]), lanes::load(node.low[i]) - p);
       const Float4 outside = lanes::max(off, zero);
       square += outside * outside;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "linkage/shape_gap.h"
+#include "linkage/link_tree.h"
 
 #include <algorithm>
 #include <exception>

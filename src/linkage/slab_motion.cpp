@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linkage/tuning.h"
+
 namespace kios::articulated {
 
 using Eigen::Vector3d;
@@ -57,9 +59,8 @@ void SlabMotion::add(const Configuration& c, int id, int shared, const Vector3d&
     second += across.cross(w + 2 * turning);
     velocity += by_itself;
     turning += w;
-    double away = radius + std::sqrt(std::max(joint.axis.cross(arm + ends[0]).squaredNorm(),
-                                              joint.axis.cross(arm + ends[1]).squaredNorm()));
-    if (*i == body.link) away = std::min(away, body.own_radius);
+    const double away = radius + std::sqrt(std::max(joint.axis.cross(arm + ends[0]).squaredNorm(),
+                                                    joint.axis.cross(arm + ends[1]).squaredNorm()));
     const double before = std::max(0.0, turns - speed),
                  triples = turns * turns * turns - before * before * before;
     jerk_ += triples * away;
@@ -98,10 +99,9 @@ double SlabMotion::usedUpTo(double time, double sign) const {
 }
 
 double SlabMotion::timeFor(double gap, double sign, double longest) const {
-  constexpr int kTries = 5;
   if (!(turns_ < kMostTurns)) return 0;
   double time = longest;
-  for (int i = 0; i < kTries; ++i) {
+  for (int i = 0; i < tuning::kTries; ++i) {
     const double sum = usedUpTo(time, sign);
     if (sum < gap) return time;
     time *= std::clamp(0.95 * std::sqrt(gap / sum), 0.1, 0.9);

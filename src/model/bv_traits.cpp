@@ -65,9 +65,9 @@ fcl::OBB<S> toOBB(const kIOS<S>& bv, const fcl::Transform3<S>& X) {
   Eigen::Vector3d center, half;
   boxAlong(bv, axes, center, half);
   fcl::OBB<S> obb;
-  obb.axis = X.linear() * axes.template cast<S>();
-  obb.To = X * fcl::Vector3<S>(bv.center0 + (axes * center).template cast<S>());
-  obb.extent = half.template cast<S>() + fcl::Vector3<S>::Constant(roundingPad(bv, X));
+  obb.axis = X.linear() * roundedTo<S>(axes);
+  obb.To = X * fcl::Vector3<S>(bv.center0 + roundedTo<S>(axes * center));
+  obb.extent = roundedTo<S>(half) + fcl::Vector3<S>::Constant(roundingPad(bv, X));
   return obb;
 }
 
@@ -76,9 +76,8 @@ fcl::AABB<S> toAABB(const kIOS<S>& bv, const fcl::Transform3<S>& X) {
   Eigen::Vector3d center, half;
   const Eigen::Matrix3d axes = X.linear().transpose().template cast<double>();
   boxAlong(bv, axes, center, half);
-  const fcl::Vector3<S> middle = X * bv.center0 + center.template cast<S>();
-  const fcl::Vector3<S> extent =
-      half.template cast<S>() + fcl::Vector3<S>::Constant(roundingPad(bv, X));
+  const fcl::Vector3<S> middle = X * bv.center0 + roundedTo<S>(center);
+  const fcl::Vector3<S> extent = roundedTo<S>(half) + fcl::Vector3<S>::Constant(roundingPad(bv, X));
   return fcl::AABB<S>(middle - extent, middle + extent);
 }
 

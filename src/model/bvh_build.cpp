@@ -7,9 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "build/sphere_fitter.h"
 #include "model/tree_build.h"
-#include "tree/tree_cache.h"
 #include "volume/errors.h"
 
 namespace kios {
@@ -19,9 +17,9 @@ namespace kios {
 template <typename S>
 class BuildsByThread {
  public:
-  void start(const BuildGeometry<S>& geometry, const FitOptions& options,
-             fcl::detail::SplitMethodType method) {
-    auto build = std::make_unique<TreeBuild<S>>(geometry, options, method);
+  void start(const BuildGeometry<S>& geometry, fcl::detail::SplitMethodType method,
+             const typename TreeBuild<S>::Fitter* fitter = nullptr) {
+    auto build = std::make_unique<TreeBuild<S>>(geometry, method, fitter);
     const std::lock_guard<std::mutex> lock(mutex_);
     builds_[std::this_thread::get_id()] = std::move(build);
   }
@@ -50,12 +48,7 @@ namespace fcl {
 namespace detail {
 
 template <typename S>
-BVFitter<kios::kIOS<S>>::BVFitter(const kios::FitOptions& options)
-    : options_(options),
-      trees_(std::make_unique<kios::engine::TreeCache>()),
-      builds_(std::make_unique<kios::BuildsByThread<S>>()) {
-  kios::requireUsable(options);
-}
+BVFitter<kios::kIOS<S>>::BVFitter() : builds_(std::make_unique<kios::BuildsByThread<S>>()) {}
 
 template <typename S>
 BVFitter<kios::kIOS<S>>::~BVFitter() = default;
@@ -68,12 +61,19 @@ void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices, B
 template <typename S>
 void BVFitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Vector3<S>* prev_vertices,
                                   Triangle* tri_indices, BVHModelType type) {
-  builds_->start({vertices, prev_vertices, tri_indices, type}, options_, SPLIT_METHOD_MEAN);
+  builds_->start({vertices, prev_vertices, tri_indices, type}, SPLIT_METHOD_MEAN, this);
 }
 
 template <typename S>
 kios::kIOS<S> BVFitter<kios::kIOS<S>>::fit(unsigned int* primitive_indices, int num_primitives) {
   return builds_->current().fit(primitive_indices, num_primitives);
+}
+
+template <typename S>
+kios::kIOS<S> BVFitter<kios::kIOS<S>>::fitPoints(const Vector3<S>* points, int n) const {
+  kios::kIOS<S> bv;
+  kios::fit(points, n, bv);
+  return bv;
 }
 
 template <typename S>
@@ -97,7 +97,7 @@ BVSplitter<kios::kIOS<S>>::~BVSplitter() = default;
 template <typename S>
 void BVSplitter<kios::kIOS<S>>::set(Vector3<S>* vertices, Triangle* tri_indices,
                                     BVHModelType type) {
-  builds_->start({vertices, nullptr, tri_indices, type}, {}, method_);
+  builds_->start({vertices, nullptr, tri_indices, type}, method_);
 }
 
 template <typename S>

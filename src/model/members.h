@@ -9,13 +9,13 @@
 #include <utility>
 
 #include "fcl_kios/model/model.h"
+#include "model/prepared.h"
 
 namespace kios {
 
 /// A model, and its members that FCL keeps private. `vertices` has room for num_vertices_allocated,
-/// and so has `prev_vertices`, if there is one; `nodes` for num_nodes_allocated, and `primitives`
-/// for as many as that tree has leaves. A tree has no nodes until it is whole, and none as soon as
-/// geometry was added.
+/// and so has `prev_vertices`, if there is one. `nodes` and `primitives` are those of a Prepared,
+/// at all times. A tree has no nodes until it is whole, and none as soon as geometry was added.
 template <typename S>
 struct Members {
   Model<S>& model;
@@ -31,14 +31,28 @@ struct Members {
     const int n = numPrimitives();
     return n > 0 && n <= std::numeric_limits<int>::max() / 2 ? 2 * n - 1 : 0;
   }
+
+  Prepared& prepared() const { return *Prepared::before<S>(nodes); }
+  /// Takes it in the place of what was held.
+  void take(PreparedHandle made) const {
+    const PreparedHandle last(&prepared());
+    nodes = made->template nodes<S>();
+    primitives = made->template primitives<S>();
+    num_nodes = num_nodes_allocated = made.release()->num_nodes;
+  }
+  /// Makes it the model's own, to be changed.
+  void own() const {
+    PreparedHandle held(&prepared());
+    held.template own<S>();
+    nodes = held->template nodes<S>();
+    primitives = held.release()->template primitives<S>();
+  }
 };
 
-// In the body of a member of fcl::BVHModel.
-#define KIOS_MEMBERS(S)                                                                       \
-  kios::Members<S> {                                                                          \
-    *this, num_tris_allocated, num_vertices_allocated, num_bvs_allocated, num_vertex_updated, \
-        primitive_indices, bvs, num_bvs                                                       \
-  }
+template <typename S>
+Members<S> membersOf(Model<S>& model) {
+  return fcl::MakeParentRelativeRecurseImpl<S, kIOS<S>>::membersOf(model);
+}
 
 template <typename T>
 std::unique_ptr<T[]> makeArray(int n) {
@@ -67,3 +81,16 @@ void replace(T*& array, std::unique_ptr<T[]> by) {
 int outOfMemory(const char* call);
 
 }  // namespace kios
+
+template <typename S>
+kios::Members<S> fcl::MakeParentRelativeRecurseImpl<S, kios::kIOS<S>>::membersOf(
+    BVHModel<kios::kIOS<S>>& m) {
+  return {m,
+          m.num_tris_allocated,
+          m.num_vertices_allocated,
+          m.num_bvs_allocated,
+          m.num_vertex_updated,
+          m.primitive_indices,
+          m.bvs,
+          m.num_bvs};
+}

@@ -2,18 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The members of fcl::BVHModel that build and refit trees over k-IOS.
+#include <new>
+#include <numeric>
 #include <typeinfo>
 #include <utility>
 
 #include "build/mesh_tree.h"
 #include "model/members.h"
 #include "model/prepared.h"
-#include "model/shared_volumes.h"
-#include "model/stored_tree.h"
-#include "model/tree_build.h"
-#include "tree/tree_cache.h"
 #include "volume/errors.h"
-#include "volume/stamp.h"
 
 namespace kios {
 namespace {
@@ -27,10 +24,10 @@ using Fitter = fcl::detail::BVFitter<kIOS<S>>;
 template <typename S>
 using Splitter = fcl::detail::BVSplitter<kIOS<S>>;
 
-/// `base` as the class that is asked for; nullptr if it is another one, derived ones included.
+/// True for the class that is asked for, not for another one, derived ones included.
 template <typename Class, typename Base>
-const Class* exactly(const Base& base) {
-  return typeid(base) == typeid(Class) ? static_cast<const Class*>(&base) : nullptr;
+bool isExactly(const Base& base) {
+  return typeid(base) == typeid(Class);
 }
 
 /// A fitter or a splitter between its set() and its clear(), which comes also where a build is
@@ -51,34 +48,20 @@ class Set {
   FitterOrSplitter& of_;
 };
 
-/// The steps of a TreeBuild by a fitter or a splitter of the user's. Our own need no virtual call.
+/// FCL's recursion by the model's fitter and splitter: the same tree, nodes in the same order.
 template <typename S>
-struct UsersSteps {
-  const Set<FitterBase<S>> fitter;
-  const Set<SplitterBase<S>> splitter;
-
-  kIOS<S> fit(unsigned int* primitives, int n) { return (*fitter).fit(primitives, n); }
-  void computeRule(const kIOS<S>& bv, unsigned int* primitives, int n) {
-    (*splitter).computeRule(bv, primitives, n);
-  }
-  bool above(const fcl::Vector3<S>& q) const { return (*splitter).apply(q); }
-};
-
-/// FCL's recursion: the same tree, nodes in the same order.
-template <typename S, typename Steps>
 class RecursiveBuild {
  public:
-  RecursiveBuild(const Members<S>& members, Steps& steps)
-      : model_(members.model),
-        primitives_(members.primitives),
-        nodes_(members.nodes),
-        steps_(steps) {}
+  RecursiveBuild(const Model<S>& model, Prepared& made)
+      : model_(model),
+        primitives_(made.primitives<S>()),
+        nodes_(made.nodes<S>()),
+        fitter_(*model.bv_fitter, model.vertices, model.tri_indices, model.getModelType()),
+        splitter_(*model.bv_splitter, model.vertices, model.tri_indices, model.getModelType()) {}
 
-  /// A user's fitter may return a volume that it keeps, with its stamp, so that the root is stamped
-  /// anew.
   void run(int num_primitives) {
+    std::iota(primitives_, primitives_ + num_primitives, 0U);
     divide(0, 0, num_primitives);
-    nodes_[0].bv.stamp = nextStamp();
   }
 
  private:
@@ -86,10 +69,10 @@ class RecursiveBuild {
     for (;;) {
       unsigned int* const primitives = primitives_ + first;
       fcl::BVNode<kIOS<S>>& at = nodes_[node];
-      at.bv = steps_.fit(primitives, n);
+      at.bv = (*fitter_).fit(primitives, n);
       at.first_primitive = first;
       at.num_primitives = n;
-      steps_.computeRule(at.bv, primitives, n);
+      (*splitter_).computeRule(at.bv, primitives, n);
       if (n == 1) {
         at.first_child = -(static_cast<int>(primitives[0]) + 1);
         return;
@@ -109,7 +92,8 @@ class RecursiveBuild {
   int partition(unsigned int* primitives, int n) const {
     int left = 0;
     for (int i = 0; i < n; ++i) {
-      if (!steps_.above(centroid(primitives[i]))) std::swap(primitives[i], primitives[left++]);
+      if (!(*splitter_).apply(centroid(primitives[i])))
+        std::swap(primitives[i], primitives[left++]);
     }
     return left == 0 || left == n ? n / 2 : left;
   }
@@ -123,35 +107,31 @@ class RecursiveBuild {
   const Model<S>& model_;
   unsigned int* const primitives_;
   fcl::BVNode<kIOS<S>>* const nodes_;
-  Steps& steps_;
+  const Set<FitterBase<S>> fitter_;
+  const Set<SplitterBase<S>> splitter_;
   int num_nodes_ = 1;
 };
 
-/// Copies the volumes of an equal mesh that lives, or builds them for others to copy. False if that
-/// can't be.
+/// The tree of the engine's own partition, which prepareTree() reads, or that of an equal mesh.
+/// What has an attachment shares with none. Nothing where there is no such tree.
 template <typename S>
-bool buildShared(const Members<S>& m, const engine::MeshView<S>& mesh) {
-  const engine::ContentHash content = engine::contentHash(mesh);
-  if (copySharedVolumes<S>(content, mesh.num_triangles, {m.nodes, m.primitives})) {
-    m.nodes[0].bv.stamp = nextStamp();
-  } else if (!engine::buildVolumes<S>(mesh, m.nodes, m.primitives)) {
-    return false;
-  }
-  shareVolumes(content, m.nodes, m.primitives);
-  if (engine::SharedTree::isHeld(content)) treesOf(m.model)->budget.exhaust();
-  return true;
-}
-
-/// The tree of the engine's own partition, which queries read. False where there is none.
-template <typename S>
-bool buildByCost(const Members<S>& m) {
+PreparedHandle buildByCost(const Members<S>& m) {
   const engine::MeshView<S> mesh = viewOf(m.model);
-  if (mesh.num_triangles == 0) return false;
-  const bool built = m.model.num_tris < kLeastShared
-                         ? engine::buildVolumes<S>(mesh, m.nodes, m.primitives)
-                         : buildShared(m, mesh);
-  if (built) treesOf(m.model)->noteBuilt(m.nodes[0].bv.stamp);
-  return built;
+  if (mesh.num_triangles == 0) return PreparedHandle(nullptr);
+  constexpr std::size_t kLeastShared = 4;  // fewer are built as soon as others would be found
+  const bool shares = mesh.num_triangles >= kLeastShared && !m.prepared().attachment;
+  engine::ContentHash content;
+  if (shares) {
+    content = engine::contentHash(mesh);
+    if (PreparedHandle equal = PreparedHandle::find(content)) return equal;
+  }
+  PreparedHandle made = PreparedHandle::make<S>(m.numNodes());
+  made->ordinary =
+      engine::buildVolumes<S>(mesh, made->template nodes<S>(), made->template primitives<S>());
+  if (!made->ordinary) return PreparedHandle(nullptr);
+  prepareTree(m.model, *made.get());
+  if (shares) made.list(content);
+  return made;
 }
 
 /// FCL's calls take any index, and its build reads what that refers to.
@@ -167,74 +147,36 @@ void requireIndices(const Model<S>& model) {
   }
 }
 
-/// Makes room for a tree over all primitives, where geometry was added since there was one.
-template <typename S>
-void makeRoom(const Members<S>& m) {
-  releaseVolumes(m);
-  m.num_nodes = 0;
-  const int n = m.numNodes();
-  if (n == 0) throw std::bad_alloc();
-  if (n <= m.num_nodes_allocated) return;
-  auto nodes = makeArray<fcl::BVNode<kIOS<S>>>(n);
-  replace(m.primitives, makeArray<unsigned int>(m.numPrimitives()));
-  replace(m.nodes, std::move(nodes));
-  m.num_nodes_allocated = n;
-}
-
-/// Fills the tree, for which there is room.
-template <typename S>
-void build(const Members<S>& m) {
-  Model<S>& model = m.model;
-  if (StoredTree<S>::in(*model.bv_fitter)) {
-    m.nodes[0].bv.stamp = nextStamp();
-    return;
-  }
-  const fcl::BVHModelType type = model.getModelType();
-  const int n = m.numPrimitives();
-  for (int i = 0; i < n; ++i) m.primitives[i] = static_cast<unsigned int>(i);
-  const auto* const own_fitter = exactly<Fitter<S>>(*model.bv_fitter);
-  const auto* const own_splitter = exactly<Splitter<S>>(*model.bv_splitter);
-  if (own_fitter && own_splitter) {
-    if (own_splitter->byCost() && own_fitter->options().plain() && buildByCost(m)) return;
-    TreeBuild<S> steps({model.vertices, nullptr, model.tri_indices, type}, own_fitter->options(),
-                       own_splitter->method(), static_cast<std::size_t>(model.num_vertices));
-    return RecursiveBuild<S, TreeBuild<S>>(m, steps).run(n);
-  }
-  UsersSteps<S> steps{
-      Set<FitterBase<S>>(*model.bv_fitter, model.vertices, model.tri_indices, type),
-      Set<SplitterBase<S>>(*model.bv_splitter, model.vertices, model.tri_indices, type)};
-  RecursiveBuild<S, UsersSteps<S>>(m, steps).run(n);
-}
-
 template <typename S>
 int buildTree(const Members<S>& m) {
-  if (m.model.getModelType() == fcl::BVH_MODEL_UNKNOWN) return fcl::BVH_ERR_UNSUPPORTED_FUNCTION;
-  requireIndices(m.model);
-  makeRoom(m);
-  build(m);
-  m.num_nodes = m.numNodes();
+  const Model<S>& model = m.model;
+  if (model.getModelType() == fcl::BVH_MODEL_UNKNOWN) return fcl::BVH_ERR_UNSUPPORTED_FUNCTION;
+  requireIndices(model);
+  m.num_nodes = 0;
+  if (m.numNodes() == 0) throw std::bad_alloc();
+  const bool by_cost = isExactly<Fitter<S>>(*model.bv_fitter) &&
+                       isExactly<Splitter<S>>(*model.bv_splitter) &&
+                       static_cast<const Splitter<S>&>(*model.bv_splitter).byCost();
+  PreparedHandle made = by_cost ? buildByCost(m) : PreparedHandle(nullptr);
+  if (!made) {
+    made = PreparedHandle::make<S>(m.numNodes());
+    RecursiveBuild<S>(model, *made.get()).run(m.numPrimitives());
+    prepareTree(model, *made.get());
+  }
+  const auto& attachment = m.prepared().attachment;
+  if (attachment) made->attachment = attachment->renewed(&model);
+  m.take(std::move(made));
   return fcl::BVH_OK;
 }
 
 template <typename S>
 int refitTopDown(const Members<S>& m) {
   Model<S>& model = m.model;
-  const fcl::BVHModelType type = model.getModelType();
-  const auto refit = [&m](const auto& fit) {
-    for (int i = 0; i < m.num_nodes; ++i) {
-      fcl::BVNode<kIOS<S>>& node = m.nodes[i];
-      node.bv = fit(m.primitives + node.first_primitive, node.num_primitives);
-    }
-  };
-  if (const auto* const own = exactly<Fitter<S>>(*model.bv_fitter)) {
-    TreeBuild<S> build({model.vertices, model.prev_vertices, model.tri_indices, type},
-                       own->options(), fcl::detail::SPLIT_METHOD_MEAN,
-                       static_cast<std::size_t>(model.num_vertices));
-    refit([&](unsigned int* first, int n) { return build.fit(first, n); });
-  } else {
-    const Set<FitterBase<S>> set(*model.bv_fitter, model.vertices, model.prev_vertices,
-                                 model.tri_indices, type);
-    refit([&](unsigned int* first, int n) { return (*set).fit(first, n); });
+  const Set<FitterBase<S>> fitter(*model.bv_fitter, model.vertices, model.prev_vertices,
+                                  model.tri_indices, model.getModelType());
+  for (int i = 0; i < m.num_nodes; ++i) {
+    fcl::BVNode<kIOS<S>>& node = m.nodes[i];
+    node.bv = (*fitter).fit(m.primitives + node.first_primitive, node.num_primitives);
   }
   return fcl::BVH_OK;
 }
@@ -249,22 +191,22 @@ namespace fcl {
 #define KIOS_SPECIALISE(S)                                                    \
   template <>                                                                 \
   int BVHModel<kios::kIOS<S>>::buildTree() {                                  \
-    return kios::buildTree(KIOS_MEMBERS(S));                                  \
+    return kios::buildTree(kios::membersOf(*this));                           \
   }                                                                           \
   template <>                                                                 \
   int BVHModel<kios::kIOS<S>>::refitTree(bool bottomup) {                     \
-    if (num_bvs != KIOS_MEMBERS(S).numNodes()) {                              \
+    if (num_bvs != kios::membersOf(*this).numNodes()) {                       \
       const int failed = buildTree();                                         \
       if (failed || !prev_vertices) return failed;                            \
     }                                                                         \
-    kios::releaseVolumes(KIOS_MEMBERS(S));                                    \
+    kios::membersOf(*this).own();                                             \
     const int failed = bottomup ? refitTree_bottomup() : refitTree_topdown(); \
-    bvs[0].bv.stamp = kios::nextStamp();                                      \
+    kios::refitTreeOf(*this, kios::membersOf(*this).prepared());              \
     return failed;                                                            \
   }                                                                           \
   template <>                                                                 \
   int BVHModel<kios::kIOS<S>>::refitTree_topdown() {                          \
-    return kios::refitTopDown(KIOS_MEMBERS(S));                               \
+    return kios::refitTopDown(kios::membersOf(*this));                        \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)

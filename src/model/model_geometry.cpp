@@ -8,7 +8,6 @@
 #include <new>
 
 #include "model/members.h"
-#include "model/shared_volumes.h"
 
 namespace kios {
 namespace {
@@ -74,9 +73,7 @@ int add(Members<S> m, const char* call, Span<fcl::Vector3<S>> vertices,
   } catch (const std::bad_alloc&) {
     return outOfMemory(call);
   }
-  // The tree is one of fewer primitives: it is shared no more until it is built or refitted.
-  if (m.num_nodes > 0) releaseVolumes(m);
-  m.num_nodes = 0;
+  m.num_nodes = 0;  // the tree is one of fewer primitives
   const auto offset = static_cast<std::size_t>(model.num_vertices);
   std::copy_n(vertices.first, vertices.count, model.vertices + offset);
   if (model.prev_vertices) {  // what is new stood still
@@ -141,41 +138,41 @@ namespace fcl {
 
 // Explicit specialisations can't have the scalar as a parameter.
 // NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
-#define KIOS_SPECIALISE_GIVE(S, verb, STATE)                                               \
-  template <>                                                                              \
-  int BVHModel<kios::kIOS<S>>::verb##Vertex(const Vector3<S>& p) {                         \
-    return kios::give<S>(KIOS_MEMBERS(S), STATE, #verb "Vertex()", {&p, 1});               \
-  }                                                                                        \
-  template <>                                                                              \
-  int BVHModel<kios::kIOS<S>>::verb##Triangle(const Vector3<S>& p1, const Vector3<S>& p2,  \
-                                              const Vector3<S>& p3) {                      \
-    const kios::Corners<S> corners = {p1, p2, p3};                                         \
-    return kios::give<S>(KIOS_MEMBERS(S), STATE, #verb "Triangle()", {corners.data(), 3}); \
-  }                                                                                        \
-  template <>                                                                              \
-  int BVHModel<kios::kIOS<S>>::verb##SubModel(const std::vector<Vector3<S>>& ps) {         \
-    return kios::give<S>(KIOS_MEMBERS(S), STATE, #verb "SubModel()", kios::all(ps));       \
+#define KIOS_SPECIALISE_GIVE(S, verb, STATE)                                                      \
+  template <>                                                                                     \
+  int BVHModel<kios::kIOS<S>>::verb##Vertex(const Vector3<S>& p) {                                \
+    return kios::give<S>(kios::membersOf(*this), STATE, #verb "Vertex()", {&p, 1});               \
+  }                                                                                               \
+  template <>                                                                                     \
+  int BVHModel<kios::kIOS<S>>::verb##Triangle(const Vector3<S>& p1, const Vector3<S>& p2,         \
+                                              const Vector3<S>& p3) {                             \
+    const kios::Corners<S> corners = {p1, p2, p3};                                                \
+    return kios::give<S>(kios::membersOf(*this), STATE, #verb "Triangle()", {corners.data(), 3}); \
+  }                                                                                               \
+  template <>                                                                                     \
+  int BVHModel<kios::kIOS<S>>::verb##SubModel(const std::vector<Vector3<S>>& ps) {                \
+    return kios::give<S>(kios::membersOf(*this), STATE, #verb "SubModel()", kios::all(ps));       \
   }
-#define KIOS_SPECIALISE(S)                                                               \
-  template <>                                                                            \
-  int BVHModel<kios::kIOS<S>>::addVertex(const Vector3<S>& p) {                          \
-    return kios::addVertex<S>(KIOS_MEMBERS(S), p);                                       \
-  }                                                                                      \
-  template <>                                                                            \
-  int BVHModel<kios::kIOS<S>>::addTriangle(const Vector3<S>& p1, const Vector3<S>& p2,   \
-                                           const Vector3<S>& p3) {                       \
-    return kios::addTriangle<S>(KIOS_MEMBERS(S), {p1, p2, p3});                          \
-  }                                                                                      \
-  template <>                                                                            \
-  int BVHModel<kios::kIOS<S>>::addSubModel(const std::vector<Vector3<S>>& ps) {          \
-    return kios::add<S>(KIOS_MEMBERS(S), "addSubModel()", kios::all(ps), {});            \
-  }                                                                                      \
-  template <>                                                                            \
-  int BVHModel<kios::kIOS<S>>::addSubModel(const std::vector<Vector3<S>>& ps,            \
-                                           const std::vector<Triangle>& ts) {            \
-    return kios::add<S>(KIOS_MEMBERS(S), "addSubModel()", kios::all(ps), kios::all(ts)); \
-  }                                                                                      \
-  KIOS_SPECIALISE_GIVE(S, replace, BVH_BUILD_STATE_REPLACE_BEGUN)                        \
+#define KIOS_SPECIALISE(S)                                                                      \
+  template <>                                                                                   \
+  int BVHModel<kios::kIOS<S>>::addVertex(const Vector3<S>& p) {                                 \
+    return kios::addVertex<S>(kios::membersOf(*this), p);                                       \
+  }                                                                                             \
+  template <>                                                                                   \
+  int BVHModel<kios::kIOS<S>>::addTriangle(const Vector3<S>& p1, const Vector3<S>& p2,          \
+                                           const Vector3<S>& p3) {                              \
+    return kios::addTriangle<S>(kios::membersOf(*this), {p1, p2, p3});                          \
+  }                                                                                             \
+  template <>                                                                                   \
+  int BVHModel<kios::kIOS<S>>::addSubModel(const std::vector<Vector3<S>>& ps) {                 \
+    return kios::add<S>(kios::membersOf(*this), "addSubModel()", kios::all(ps), {});            \
+  }                                                                                             \
+  template <>                                                                                   \
+  int BVHModel<kios::kIOS<S>>::addSubModel(const std::vector<Vector3<S>>& ps,                   \
+                                           const std::vector<Triangle>& ts) {                   \
+    return kios::add<S>(kios::membersOf(*this), "addSubModel()", kios::all(ps), kios::all(ts)); \
+  }                                                                                             \
+  KIOS_SPECIALISE_GIVE(S, replace, BVH_BUILD_STATE_REPLACE_BEGUN)                               \
   KIOS_SPECIALISE_GIVE(S, update, BVH_BUILD_STATE_UPDATE_BEGUN)
 // NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)

@@ -7,8 +7,7 @@
 #include <new>
 
 #include "model/members.h"
-#include "model/shared_volumes.h"
-#include "model/stored_tree.h"
+#include "model/prepared.h"
 
 namespace kios {
 
@@ -28,45 +27,44 @@ void shrink(T*& array, int& allocated, int n) {
 
 /// `to` is a model without arrays, fitter and splitter. It gets nothing if memory runs out.
 template <typename S>
-void copy(const Model<S>& from, int num_vertices_given, const unsigned int* primitives,
-          const fcl::BVNode<kIOS<S>>* nodes, int num_nodes, Members<S> to) {
+void copy(const Model<S>& from, int num_vertices_given, int num_nodes, Members<S> to) {
   Model<S>& model = to.model;
   auto vertices = copyOf(from.vertices, from.num_vertices);
   auto triangles = copyOf(from.tri_indices, from.num_tris);
   auto previous = copyOf(from.prev_vertices, from.num_vertices);
-  if (num_nodes > 0) {
-    auto copied_nodes = copyOf(nodes, num_nodes);
-    replace(to.primitives, copyOf(primitives, (num_nodes + 1) / 2));
-    replace(to.nodes, std::move(copied_nodes));
-  }
+  to.take(PreparedHandle::share(Prepared::before<S>(&from.getBV(0))));
   replace(model.vertices, std::move(vertices));
   replace(model.tri_indices, std::move(triangles));
   replace(model.prev_vertices, std::move(previous));
   model.num_tris = to.num_tris_allocated = from.num_tris;
   model.num_vertices = to.num_vertices_allocated = from.num_vertices;
-  to.num_nodes = to.num_nodes_allocated = num_nodes;
+  to.num_nodes = num_nodes;
   to.num_vertices_given = num_vertices_given;
   model.build_state = from.build_state;
   model.bv_splitter = from.bv_splitter;
   model.bv_fitter = from.bv_fitter;
-  if (from.num_tris >= kLeastSharedCopy && num_nodes > 0) {
-    shareCopy(nodes, to.nodes, to.primitives);
-  }
 }
 
-/// Frees all arrays.
+/// Frees all arrays of vertices and triangles.
 template <typename S>
 void clear(Members<S> m) {
   Model<S>& model = m.model;
-  releaseVolumes(m);
   replace(model.vertices, {});
   replace(model.tri_indices, {});
   replace(model.prev_vertices, {});
-  replace(m.primitives, {});
-  replace(m.nodes, {});
   model.num_tris = m.num_tris_allocated = 0;
   model.num_vertices = m.num_vertices_allocated = 0;
-  m.num_nodes = m.num_nodes_allocated = 0;
+}
+
+/// Gives up the tree, but not the attachment, which builds make anew.
+template <typename S>
+void dropTree(Members<S> m) {
+  PreparedHandle without;
+  if (m.prepared().attachment) {
+    without = PreparedHandle::make<S>(0);
+    without->attachment = m.prepared().attachment;
+  }
+  m.take(std::move(without));
 }
 
 template <typename S>
@@ -74,10 +72,12 @@ int begin(Members<S> m, int num_tris, int num_vertices) {
   Model<S>& model = m.model;
   const bool was_empty = model.build_state == fcl::BVH_BUILD_STATE_EMPTY;
   clear(m);
+  m.num_nodes = 0;
   model.build_state = fcl::BVH_BUILD_STATE_EMPTY;
   if (num_tris < 0) num_tris = 8;
   if (num_vertices <= 0) num_vertices = 8;
   try {
+    dropTree(m);
     if (num_tris > 0) replace(model.tri_indices, makeArray<fcl::Triangle>(num_tris));
     m.num_tris_allocated = num_tris;
     replace(model.vertices, makeArray<fcl::Vector3<S>>(num_vertices));
@@ -106,23 +106,8 @@ int end(Members<S> m) {
     std::cerr << "BVH Error! endModel() called on model with no triangles and vertices.\n";
     return fcl::BVH_ERR_BUILD_EMPTY_MODEL;
   }
-  const int num_nodes = m.numNodes();
-  if (num_nodes == 0) return outOfMemory("endModel()");
-  releaseVolumes(m);
-  try {
-    shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
-    shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
-    if (StoredTree<S>* const stored = StoredTree<S>::in(*model.bv_fitter)) {
-      replace(m.nodes, std::move(stored->nodes));
-      replace(m.primitives, std::move(stored->primitives));
-    } else {
-      replace(m.nodes, makeArray<fcl::BVNode<kIOS<S>>>(num_nodes));
-      replace(m.primitives, makeArray<unsigned int>(m.numPrimitives()));
-    }
-  } catch (const std::bad_alloc&) {
-    return outOfMemory("endModel()");
-  }
-  m.num_nodes_allocated = num_nodes;
+  shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
+  shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
   return fcl::BVH_OK;
 }
 
@@ -136,7 +121,9 @@ int beginUpdate(Members<S> m) {
   }
   if (!model.prev_vertices) {
     try {
-      replace(model.prev_vertices, makeArray<fcl::Vector3<S>>(m.num_vertices_allocated));
+      // With vertices that stand still: what isn't given yet is asked for its box.
+      replace(model.prev_vertices,
+              copyOf(model.vertices, model.num_vertices, m.num_vertices_allocated));
     } catch (const std::bad_alloc&) {
       return outOfMemory("beginUpdateModel()");
     }
@@ -154,53 +141,57 @@ namespace fcl {
 
 // Explicit specialisations can't have the scalar as a parameter.
 // NOLINTBEGIN(bugprone-macro-parentheses): a type is not put in parentheses.
-#define KIOS_SPECIALISE(S)                                                                         \
-  template <>                                                                                      \
-  BVHModel<kios::kIOS<S>>::BVHModel()                                                              \
-      : vertices(nullptr),                                                                         \
-        tri_indices(nullptr),                                                                      \
-        prev_vertices(nullptr),                                                                    \
-        num_tris(0),                                                                               \
-        num_vertices(0),                                                                           \
-        build_state(BVH_BUILD_STATE_EMPTY),                                                        \
-        bv_splitter(new detail::BVSplitter<kios::kIOS<S>>()),                                      \
-        bv_fitter(new detail::BVFitter<kios::kIOS<S>>()),                                          \
-        num_tris_allocated(0),                                                                     \
-        num_vertices_allocated(0),                                                                 \
-        num_bvs_allocated(0),                                                                      \
-        num_vertex_updated(0),                                                                     \
-        primitive_indices(nullptr),                                                                \
-        bvs(nullptr),                                                                              \
-        num_bvs(0) {}                                                                              \
-  template <>                                                                                      \
-  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other)                                         \
-      : CollisionGeometry<S>(other),                                                               \
-        vertices(nullptr),                                                                         \
-        tri_indices(nullptr),                                                                      \
-        prev_vertices(nullptr),                                                                    \
-        primitive_indices(nullptr),                                                                \
-        bvs(nullptr) {                                                                             \
-    kios::copy(other, other.num_vertex_updated, other.primitive_indices, other.bvs, other.num_bvs, \
-               KIOS_MEMBERS(S));                                                                   \
-  }                                                                                                \
-  template <>                                                                                      \
-  BVHModel<kios::kIOS<S>>::~BVHModel() {                                                           \
-    kios::clear(KIOS_MEMBERS(S));                                                                  \
-  }                                                                                                \
-  template <>                                                                                      \
-  int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {                      \
-    return kios::begin(KIOS_MEMBERS(S), num_tris_, num_vertices_);                                 \
-  }                                                                                                \
-  template <>                                                                                      \
-  int BVHModel<kios::kIOS<S>>::endModel() {                                                        \
-    if (const int failed = kios::end(KIOS_MEMBERS(S))) return failed;                              \
-    buildTree();                                                                                   \
-    build_state = BVH_BUILD_STATE_PROCESSED;                                                       \
-    return BVH_OK;                                                                                 \
-  }                                                                                                \
-  template <>                                                                                      \
-  int BVHModel<kios::kIOS<S>>::beginUpdateModel() {                                                \
-    return kios::beginUpdate(KIOS_MEMBERS(S));                                                     \
+#define KIOS_SPECIALISE(S)                                                              \
+  template <>                                                                           \
+  BVHModel<kios::kIOS<S>>::BVHModel()                                                   \
+      : vertices(nullptr),                                                              \
+        tri_indices(nullptr),                                                           \
+        prev_vertices(nullptr),                                                         \
+        num_tris(0),                                                                    \
+        num_vertices(0),                                                                \
+        build_state(BVH_BUILD_STATE_EMPTY),                                             \
+        bv_splitter(new detail::BVSplitter<kios::kIOS<S>>()),                           \
+        bv_fitter(new detail::BVFitter<kios::kIOS<S>>()),                               \
+        num_tris_allocated(0),                                                          \
+        num_vertices_allocated(0),                                                      \
+        num_bvs_allocated(0),                                                           \
+        num_vertex_updated(0),                                                          \
+        primitive_indices(nullptr),                                                     \
+        bvs(kios::PreparedHandle().release()->nodes<S>()),                              \
+        num_bvs(0) {}                                                                   \
+  template <>                                                                           \
+  BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other)                              \
+      : CollisionGeometry<S>(other),                                                    \
+        vertices(nullptr),                                                              \
+        tri_indices(nullptr),                                                           \
+        prev_vertices(nullptr),                                                         \
+        primitive_indices(nullptr),                                                     \
+        bvs(kios::PreparedHandle().release()->nodes<S>()) {                             \
+    kios::copy(other, other.num_vertex_updated, other.num_bvs, kios::membersOf(*this)); \
+  }                                                                                     \
+  template <>                                                                           \
+  BVHModel<kios::kIOS<S>>::~BVHModel() {                                                \
+    kios::clear(kios::membersOf(*this));                                                \
+    const kios::PreparedHandle last(kios::Prepared::before<S>(bvs));                    \
+  }                                                                                     \
+  template <>                                                                           \
+  int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {           \
+    return kios::begin(kios::membersOf(*this), num_tris_, num_vertices_);               \
+  }                                                                                     \
+  template <>                                                                           \
+  int BVHModel<kios::kIOS<S>>::endModel() {                                             \
+    try {                                                                               \
+      if (const int failed = kios::end(kios::membersOf(*this))) return failed;          \
+      buildTree();                                                                      \
+    } catch (const std::bad_alloc&) {                                                   \
+      return kios::outOfMemory("endModel()");                                           \
+    }                                                                                   \
+    build_state = BVH_BUILD_STATE_PROCESSED;                                            \
+    return BVH_OK;                                                                      \
+  }                                                                                     \
+  template <>                                                                           \
+  int BVHModel<kios::kIOS<S>>::beginUpdateModel() {                                     \
+    return kios::beginUpdate(kios::membersOf(*this));                                   \
   }
 // NOLINTEND(bugprone-macro-parentheses)
 KIOS_SPECIALISE(double)

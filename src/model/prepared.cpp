@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "model/prepared.h"
 
-#include <typeinfo>
-#include <utility>
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <new>
+#include <unordered_map>
 #include <vector>
 
 #include "fcl_kios/model/prepare.h"
@@ -15,102 +18,180 @@
 #include "volume/instantiate.h"
 
 namespace kios {
+namespace {
 
+/// Those that are found by their content. It is there only while it lists something, and nothing
+/// here has a destructor: models may live longer than the library's static objects.
+using Registry = std::unordered_map<engine::ContentHash, Prepared*, engine::HashOfContent>;
+std::mutex mutex;  ///< also of Prepared's holders, listed and tree_is_shared
+Registry* registry = nullptr;
+
+/// The mutex must be locked.
+void unlist(Prepared& prepared) {
+  if (!std::exchange(prepared.listed, false)) return;
+  registry->erase(prepared.content);
+  if (registry->empty()) delete std::exchange(registry, nullptr);
+}
+
+Prepared* allocate(std::size_t bytes, int num_nodes) {
+  auto* const prepared = new (::operator new(sizeof(Prepared) + bytes)) Prepared;
+  prepared->num_nodes = num_nodes;
+  return prepared;
+}
+
+/// True if floats hold a tree of content with this root volume in the model's units.
 template <typename S>
-[[gnu::hot]] engine::TreeCache* treesOf(const Model<S>& model) {
-  using Fitter = fcl::detail::BVFitter<kIOS<S>>;
-  const auto* const fitter = model.bv_fitter.get();
-  if (!fitter) return nullptr;
-  if (detail::areSame(typeid(*fitter), typeid(Fitter)))
-    return static_cast<const Fitter*>(fitter)->trees_.get();
-  const auto* const derived = dynamic_cast<const Fitter*>(fitter);
-  return derived ? derived->trees_.get() : nullptr;
+bool hasRange(const kIOS<S>& root) {
+  return double{root.radius0} >= engine::kLeastReach &&
+         double{root.radius0} <= engine::kLargestReach;
+}
+
+}  // namespace
+
+std::uint64_t nextGeneration() {
+  static std::atomic<std::uint64_t> last{0};
+  return 1 + last.fetch_add(1, std::memory_order_relaxed);
+}
+
+// Never freed: models may live until the process ends.
+PreparedHandle::PreparedHandle() : held_(nullptr) {
+  static Prepared* const none = allocate(0, 0);
+  *this = share(none);
+}
+
+PreparedHandle::~PreparedHandle() {
+  if (!held_) return;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (--held_->holders > 0) return;
+    unlist(*held_);
+  }
+  held_->~Prepared();
+  ::operator delete(held_);
 }
 
 template <typename S>
-[[gnu::hot]] engine::TreeCache::Use preparedTree(const Model<S>& model) {
-  engine::TreeCache* const trees = treesOf(model);
-  const kIOS<S>& root = model.getBV(0).bv;
-  if (!trees || root.stamp == 0) return {};
-  const double radius = root.radius0;
-  if (!(radius >= engine::kLeastReach && radius <= engine::kLargestReach)) return {};
-  const engine::MeshView<S> mesh = viewOf(model);
-  const engine::TreeKey key = keyOf(model);
-  if (engine::TreeCache::Use found = trees->find(key); found.isKnown()) return found;
-  return trees->findOrMake(key, [&](engine::SharedTree old) {
-    if (old && engine::refit(mesh, old.detach())) return old;
-    return engine::SharedTree(engine::contentHash(mesh), [&] {
-      return trees->isBuilt(root.stamp) ? engine::prepare(mesh, &model.getBV(0))
-                                        : engine::prepare(mesh);
-    });
-  });
+PreparedHandle PreparedHandle::make(int num_nodes) {
+  using Node = fcl::BVNode<kIOS<S>>;
+  static_assert(std::is_trivially_destructible<Node>::value && alignof(Node) <= alignof(Prepared));
+  const auto n = static_cast<std::size_t>(num_nodes);
+  PreparedHandle made(allocate(n * sizeof(Node) + (n + 1) / 2 * sizeof(unsigned int), num_nodes));
+  std::uninitialized_default_construct_n(made->nodes<S>(), n);
+  return made;
+}
+
+PreparedHandle PreparedHandle::share(Prepared* held) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  ++held->holders;
+  return PreparedHandle(held);
+}
+
+PreparedHandle PreparedHandle::find(const engine::ContentHash& content) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (!registry) return PreparedHandle(nullptr);
+  const auto found = registry->find(content);
+  if (found == registry->end()) return PreparedHandle(nullptr);
+  ++found->second->holders;
+  return PreparedHandle(found->second);
+}
+
+void PreparedHandle::list(const engine::ContentHash& content) {
+  PreparedHandle equal(nullptr);  // released when the mutex is
+  const std::lock_guard<std::mutex> lock(mutex);
+  auto made = registry ? nullptr : std::make_unique<Registry>();
+  held_->content = content;
+  const auto [place, is_new] = (registry ? *registry : *made).emplace(content, held_);
+  if (made) registry = made.release();
+  if (is_new) {
+    held_->listed = true;
+    return;
+  }
+  ++place->second->holders;
+  equal = PreparedHandle(std::exchange(held_, place->second));
 }
 
 template <typename S>
-[[gnu::hot]] bool copyRoot(const Model<S>& model, engine::TreeRoot& root) {
-  const engine::TreeCache* const trees = treesOf(model);
-  return trees && trees->findRoot(model.getBV(0).bv.stamp, root);
+void PreparedHandle::own() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    if (held_->holders == 1) return unlist(*held_);
+    held_->tree_is_shared = true;
+  }
+  PreparedHandle copy = make<S>(held_->num_nodes);
+  const auto n = static_cast<std::size_t>(held_->num_nodes);
+  std::copy_n(held_->nodes<S>(), n, copy->nodes<S>());
+  std::copy_n(held_->primitives<S>(), (n + 1) / 2, copy->primitives<S>());
+  copy->tree = held_->tree;
+  copy->tree_is_shared = true;
+  copy->attachment = held_->attachment;
+  copy->generation = held_->generation;
+  copy->ordinary = held_->ordinary;
+  *this = std::move(copy);
 }
 
 template <typename S>
-engine::SharedTree purelyPreparedTree(const Model<S>& model) {
-  const engine::TreeCache::Use kept = preparedTree(model);
-  if (!kept) return {};
-  // Nobody finds a refitted tree by its content.
-  const engine::MeshView<S> mesh = viewOf(model);
-  return {engine::contentHash(mesh), [&] { return engine::prepare(mesh, &model.getBV(0)); }};
+void prepareTree(const Model<S>& model, Prepared& prepared) {
+  const auto* const nodes = prepared.nodes<S>();
+  prepared.tree = nullptr;
+  prepared.tree_is_shared = false;
+  if (model.num_tris > 0) {
+    const engine::MeshView<S> mesh = viewOf(model);
+    const bool reads = prepared.ordinary && hasRange(nodes[0].bv);
+    prepared.tree = reads ? engine::prepare(mesh, nodes) : engine::prepare(mesh);
+    // Our fitter refuses such vertices; a user's may not.
+    if (!prepared.tree) refuse("a vertex of the mesh is not finite.");
+  }
+  prepared.generation = nextGeneration();
 }
 
 template <typename S>
-void takePrepared(const Model<S>& model, std::unique_ptr<engine::Tree> tree) {
-  treesOf(model)->findOrMake(keyOf(model), [&](const engine::SharedTree& /*none*/) {
-    return engine::SharedTree(engine::contentHash(viewOf(model)),
-                              [&tree] { return std::move(tree); });
-  });
+void refitTreeOf(const Model<S>& model, Prepared& prepared) {
+  prepared.ordinary = false;
+  std::shared_ptr<engine::Tree>& tree = prepared.tree;
+  const bool moves = tree && tree->exponent == 0 && hasRange(prepared.nodes<S>()[0].bv);
+  if (moves && prepared.tree_is_shared) {
+    tree = std::make_shared<engine::Tree>(*tree);
+    prepared.tree_is_shared = false;
+  }
+  if (moves && engine::refit(viewOf(model), *tree)) {
+    prepared.generation = nextGeneration();
+  } else {
+    prepareTree(model, prepared);
+  }
+  if (prepared.attachment) prepared.attachment = prepared.attachment->renewed(&model);
 }
 
 template <typename S>
 void prepare(const Model<S>& model) {
   requireFinished(model);
-  preparedTree(model);
 }
 
 template <typename S>
 std::size_t preparedBytes(const Model<S>& model) {
-  engine::TreeCache* const trees = treesOf(model);
-  return trees ? trees->bytes() : 0;
+  const engine::Tree* const tree = preparedOf(model).tree.get();
+  return tree ? tree->bytes() : 0;
 }
 
 template <typename S>
 void invalidate(Model<S>& model) {
   validate(model);
-  const std::vector<fcl::Vector3<S>> vertices(model.vertices, model.vertices + model.num_vertices);
-  int failed = 0;
-  if (model.build_state == fcl::BVH_BUILD_STATE_UPDATED) {
-    // FCL replaces no updated model. An update makes the current vertices the previous ones, which
-    // they must not become: beginUpdateModel() swaps the arrays back.
-    std::swap(model.vertices, model.prev_vertices);
-    failed |= model.beginUpdateModel();
-    failed |= model.updateSubModel(vertices);
-    failed |= model.endUpdateModel(true, true);
-  } else {
-    failed |= model.beginReplaceModel();
-    failed |= model.replaceSubModel(vertices);
-    failed |= model.endReplaceModel(true, true);
-  }
-  if (failed != fcl::BVH_OK) {
-    refuse<std::logic_error>("FCL refused to refit a finished model.");
-  }
-  if (engine::TreeCache* const trees = treesOf(model)) trees->drop(model.vertices);
+  // Unfinished until the end, which may not come where memory runs out.
+  const fcl::BVHBuildState finished =
+      std::exchange(model.build_state, fcl::BVH_BUILD_STATE_REPLACE_BEGUN);
+  fcl::MakeParentRelativeRecurseImpl<S, kIOS<S>>::refit(model);
+  model.build_state = finished;
 }
 
 const char* simdTarget() { return engine::kernels().target; }
 
-KIOS_INSTANTIATE_FUNCTION(treesOf);
-KIOS_INSTANTIATE_FUNCTION(preparedTree);
-KIOS_INSTANTIATE_FUNCTION(copyRoot);
-KIOS_INSTANTIATE_FUNCTION(purelyPreparedTree);
-KIOS_INSTANTIATE_FUNCTION(takePrepared);
+#define KIOS_INSTANTIATE_HANDLE(S)                        \
+  template PreparedHandle PreparedHandle::make<S>(int n); \
+  template void PreparedHandle::own<S>();
+KIOS_INSTANTIATE_HANDLE(double)
+KIOS_INSTANTIATE_HANDLE(float)
+#undef KIOS_INSTANTIATE_HANDLE
+KIOS_INSTANTIATE_FUNCTION(prepareTree);
+KIOS_INSTANTIATE_FUNCTION(refitTreeOf);
 KIOS_INSTANTIATE_FUNCTION(prepare);
 KIOS_INSTANTIATE_FUNCTION(preparedBytes);
 KIOS_INSTANTIATE_FUNCTION(invalidate);

@@ -2,37 +2,107 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "build/mesh_view.h"
 #include "fcl_kios/model/model.h"
-#include "tree/tree_cache.h"
+#include "tree/content_hash.h"
+#include "tree/tree.h"
 
 namespace kios {
 
-/// The cache of a model and its copies; nullptr if its fitter is not ours.
-template <typename S>
-engine::TreeCache* treesOf(const Model<S>& model);
+/// What a layer above keeps with a prepared mesh, and of each later state of its model: see
+/// solid/solid_mark.h.
+class Attachment {
+ public:
+  virtual ~Attachment() = default;
+  /// Made anew for the model's present state; `model` is a Model<S>.
+  virtual std::shared_ptr<const Attachment> renewed(const void* model) const = 0;
+};
 
-/// The model's prepared tree, made if need be; empty if it has none: its fitter is not ours, or its
-/// size is beyond the range of floats. The model must be finished.
-template <typename S>
-engine::TreeCache::Use preparedTree(const Model<S>& model);
+/// What a model has beside its mesh once it is finished: the nodes and primitives of FCL's tree,
+/// which follow it in memory, and the tree that queries search. Copies of a model and models of
+/// equal content, anywhere in the process, hold one; it is never changed while several do.
+struct alignas(16) Prepared {
+  std::shared_ptr<engine::Tree> tree;  ///< nullptr: a point cloud
+  std::shared_ptr<const Attachment> attachment;
+  std::uint64_t generation = 0;  ///< unlike that of any other state; 0: not finished
+  bool ordinary = false;         ///< the nodes are those that buildVolumes() gives for this mesh
+  int num_nodes = 0;             ///< as many as there is room for
 
-/// Copies the root of the tree that was prepared last of the model and its copies; false if that is
-/// not the model's, or there is none.
-template <typename S>
-bool copyRoot(const Model<S>& model, engine::TreeRoot& root);
+  // Belong to the registry in prepared.cpp.
+  int holders = 1;
+  bool tree_is_shared = false;  ///< with a copy, which may be another's by now
+  bool listed = false;
+  engine::ContentHash content;
 
-/// The tree that prepare() makes of the mesh of a model whose tree of volumes is the ordinary one;
-/// preparedTree() may have refitted that of an earlier state. The model is prepared then, too.
-template <typename S>
-engine::SharedTree purelyPreparedTree(const Model<S>& model);
+  template <typename S>
+  fcl::BVNode<kIOS<S>>* nodes() {
+    return reinterpret_cast<fcl::BVNode<kIOS<S>>*>(this + 1);
+  }
+  template <typename S>
+  unsigned int* primitives() {
+    return reinterpret_cast<unsigned int*>(nodes<S>() + num_nodes);
+  }
+  /// That of a model's first node.
+  template <typename S>
+  static Prepared* before(const fcl::BVNode<kIOS<S>>* nodes) {
+    return reinterpret_cast<Prepared*>(const_cast<fcl::BVNode<kIOS<S>>*>(nodes)) - 1;
+  }
+};
 
-/// Gives a finished model the tree that prepare() would make of its mesh, unless others hold one
-/// of equal content, which then is taken.
+/// Holds a Prepared.
+class PreparedHandle {
+ public:
+  /// That of models without a tree.
+  PreparedHandle();
+  explicit PreparedHandle(Prepared* held) : held_(held) {}
+  PreparedHandle(PreparedHandle&& o) noexcept : held_(std::exchange(o.held_, nullptr)) {}
+  PreparedHandle& operator=(PreparedHandle&& o) noexcept {
+    std::swap(held_, o.held_);
+    return *this;
+  }
+  ~PreparedHandle();
+
+  /// A new one with room for a tree of so many nodes. Throws std::bad_alloc.
+  template <typename S>
+  static PreparedHandle make(int num_nodes);
+  /// One more holder.
+  static PreparedHandle share(Prepared* held);
+  /// What is held anywhere for this content; false if nothing is.
+  static PreparedHandle find(const engine::ContentHash& content);
+
+  explicit operator bool() const { return held_ != nullptr; }
+  Prepared* operator->() const { return held_; }
+  Prepared* get() const { return held_; }
+  Prepared* release() { return std::exchange(held_, nullptr); }
+
+  /// Lets others find it by its content; takes the place of it what is listed already.
+  void list(const engine::ContentHash& content);
+  /// Makes it the holder's own, of which nobody else knows: a copy if need be.
+  template <typename S>
+  void own();
+
+ private:
+  Prepared* held_;
+};
+
+/// A number that no other call in this process returned; never 0.
+std::uint64_t nextGeneration();
+
 template <typename S>
-void takePrepared(const Model<S>& model, std::unique_ptr<engine::Tree> tree);
+const Prepared& preparedOf(const Model<S>& model) {
+  return *Prepared::before<S>(&model.getBV(0));
+}
+
+/// The tree of a finished mesh.
+template <typename S>
+const engine::Tree& treeOf(const Model<S>& model) {
+  return *preparedOf(model).tree;
+}
 
 template <typename S>
 engine::MeshView<S> viewOf(const Model<S>& model) {
@@ -40,12 +110,27 @@ engine::MeshView<S> viewOf(const Model<S>& model) {
           static_cast<std::size_t>(model.num_tris)};
 }
 
-/// Returns the state of a model, as its root volume and arrays tell it.
+/// Tells one state of a model from every later one: builds, refits and marks change it, and arrays
+/// that are others.
+struct ModelState {
+  std::uint64_t generation = 0;
+  const void *vertices = nullptr, *triangles = nullptr;
+
+  bool operator==(const ModelState& o) const {
+    return generation == o.generation && vertices == o.vertices && triangles == o.triangles;
+  }
+};
+
 template <typename S>
-engine::TreeKey keyOf(const Model<S>& model) {
-  const engine::MeshView<S> mesh = viewOf(model);
-  return {model.getBV(0).bv.stamp, mesh.vertices, mesh.triangles, mesh.num_vertices,
-          mesh.num_triangles};
+ModelState stateOf(const Model<S>& model) {
+  return {preparedOf(model).generation, model.vertices, model.tri_indices};
 }
+
+/// Makes the tree of a mesh whose nodes are fitted, and the attachment.
+template <typename S>
+void prepareTree(const Model<S>& model, Prepared& prepared);
+/// Does so after a refit: the tree of the earlier state is moved where it can be.
+template <typename S>
+void refitTreeOf(const Model<S>& model, Prepared& prepared);
 
 }  // namespace kios

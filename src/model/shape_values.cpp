@@ -18,6 +18,7 @@
 #include <fcl/geometry/shape/triangle_p.h>
 
 #include "volume/instantiate.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -57,9 +58,9 @@ void takeValues(const fcl::CollisionGeometry<S>& geometry, const Take& take) {
       break;
     case fcl::GEOM_CONVEX: {
       const auto& convex = static_cast<const fcl::Convex<S>&>(geometry);
-      take(static_cast<S>(convex.getFaceCount()));
+      take(roundedTo<S>(convex.getFaceCount()));
       for (const fcl::Vector3<S>& v : convex.getVertices()) takeAll(v);
-      for (const int i : convex.getFaces()) take(static_cast<S>(i));
+      for (const int i : convex.getFaces()) take(roundedTo<S>(i));
       takeAll(convex.getInteriorPoint());
       break;
     }

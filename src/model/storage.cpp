@@ -5,17 +5,23 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
 
+#include "build/mesh_tree.h"
+#include "model/kios_model.h"
 #include "model/prepared.h"
 #include "model/stored_format.h"
 
 namespace kios {
 namespace {
 
-using stored::Hash, stored::Header, stored::kMagic, stored::kVersion, stored::Layout, stored::Node,
-    stored::PreparedValues;
+using stored::Header, stored::kMagic, stored::kVersion, stored::Layout, stored::Node,
+    stored::refuseStored;
 
-/// The members one by one: padding has any bytes, and stamps are the process's own.
+/// The members one by one: padding has any bytes.
 template <typename S>
 void store(const Node<S>& from, unsigned char* to) {
   Node<S> clean;
@@ -39,12 +45,6 @@ void store(const Node<S>& from, unsigned char* to) {
 }
 
 template <typename S>
-bool hasOrdinaryTree(const Model<S>& model) {
-  const engine::TreeCache* const trees = treesOf(model);
-  return trees && trees->isBuilt(model.getBV(0).bv.stamp);
-}
-
-template <typename S>
 std::shared_ptr<Model<S>> rebuilt(const Model<S>& model) {
   const auto copy = makeModel<S>({model.vertices, model.vertices + model.num_vertices},
                                  {model.tri_indices, model.tri_indices + model.num_tris});
@@ -54,56 +54,22 @@ std::shared_ptr<Model<S>> rebuilt(const Model<S>& model) {
   return copy;
 }
 
-void countPrepared(const engine::Tree& tree, Header& header) {
-  header.num_leaves = static_cast<std::uint32_t>(tree.leaves.size());
-  header.num_blocks = static_cast<std::uint32_t>(tree.children.size());
-  header.num_lanes = static_cast<std::uint32_t>(tree.lanes.size());
-  header.num_features = static_cast<std::uint32_t>(tree.features.size());
-  header.parts =
-      (tree.boxes.empty() ? 0 : Header::kBoxes) | (tree.corners.empty() ? 0 : Header::kCorners);
-}
-
-void store(const engine::Tree& tree, const Layout& at, unsigned char* bytes) {
-  PreparedValues values{};
-  std::copy_n(tree.origin, 3, values.origin);
-  values.cost = tree.cost;
-  values.reach = tree.reach;
-  values.mean_leaf = tree.mean_leaf;
-  values.widest_leaf = tree.widest_leaf;
-  values.root_box = tree.root_box;
-  std::memcpy(bytes + at.prepared, &values, sizeof(values));
-  const auto put = [bytes](const auto& array, std::uint64_t place) {
-    if (array.empty()) return;
-    std::memcpy(bytes + place, static_cast<const void*>(array.data()),
-                array.size() * sizeof(array[0]));
-  };
-  put(tree.nodes, at.prepared_nodes);
-  put(tree.boxes, at.boxes);
-  put(tree.children, at.children);
-  put(tree.leaves, at.leaves);
-  put(tree.lanes, at.lanes);
-  put(tree.features, at.features);
-  put(tree.corners, at.corners);
-}
-
-/// `prepared` may be nullptr.
+/// Without its tree where that isn't the ordinary one of its mesh.
 template <typename S>
-std::vector<unsigned char> write(const Model<S>& model, bool with_tree,
-                                 const engine::Tree* prepared) {
+std::vector<unsigned char> write(const Model<S>& model) {
   Header header{};
   std::memcpy(header.magic, kMagic, sizeof(kMagic));
   header.version = kVersion;
   header.scalar = sizeof(S);
   header.num_triangles = static_cast<std::uint32_t>(model.num_tris);
   header.num_vertices = static_cast<std::uint32_t>(model.num_vertices);
-  header.num_nodes = with_tree ? static_cast<std::uint32_t>(model.getNumBVs()) : 0;
+  header.num_nodes = preparedOf(model).ordinary ? static_cast<std::uint32_t>(model.getNumBVs()) : 0;
   header.cost_density = model.cost_density;
   header.threshold_occupied = model.threshold_occupied;
   header.threshold_free = model.threshold_free;
-  if (prepared) countPrepared(*prepared, header);
   const Layout at = Layout::of(header, S());
-  header.size = at.size;
-  std::vector<unsigned char> bytes(at.size);
+  header.size = at.end;
+  std::vector<unsigned char> bytes(at.end);
   for (int i = 0; i < static_cast<int>(header.num_nodes); ++i) {
     const Node<S>& node = model.getBV(i);
     store(node, &bytes[at.nodes + static_cast<std::size_t>(i) * sizeof(node)]);
@@ -120,25 +86,238 @@ std::vector<unsigned char> write(const Model<S>& model, bool with_tree,
       std::memcpy(&bytes[at.triangles + 12 * t + 4 * static_cast<std::size_t>(corner)], &vertex, 4);
     }
   }
-  if (prepared) store(*prepared, at, bytes.data());
-  Hash hash(header);
-  hash.add(&bytes[sizeof(header)], bytes.size() - sizeof(header));
-  hash.writeTo(header);
+  const XXH128_hash_t hash =
+      stored::hashOf(header, &bytes[sizeof(header)], bytes.size() - sizeof(header));
+  header.hash_low = hash.low64;
+  header.hash_high = hash.high64;
   std::memcpy(bytes.data(), &header, sizeof(header));
   return bytes;
 }
+
+/// In integers, as floats would raise flags: all exponent bits are set where it is not finite.
+template <typename Float>
+bool isFinite(Float x) {
+  using Bits = std::conditional_t<sizeof(x) == 8, std::uint64_t, std::uint32_t>;
+  constexpr Bits kExponent = sizeof(x) == 8 ? Bits(0x7FF0000000000000) : Bits(0x7F800000);
+  Bits bits;
+  std::memcpy(&bits, &x, sizeof(bits));
+  return (bits & kExponent) != kExponent;
+}
+
+/// Reads the header of bytes whose hash is right, which may be altered all the same.
+template <typename S>
+Header readHeader(const unsigned char* bytes, std::size_t size) {
+  Header header;
+  if (size < sizeof(header) || std::memcmp(bytes, kMagic, sizeof(kMagic)) != 0) {
+    refuseStored(size < sizeof(header) ? "is cut off."
+                                       : "is none: it doesn't begin as kios::save() does.");
+  }
+  std::memcpy(&header, bytes, sizeof(header));
+  if (header.version > kVersion) {
+    refuseStored("was written by a newer version of fcl_kios, in format " +
+                 std::to_string(header.version) + "; this one reads up to " +
+                 std::to_string(kVersion) + ".");
+  }
+  if (header.size > size) refuseStored("is cut off.");
+  if (header.size < sizeof(header) || header.size != size || header.version == 0) {
+    refuseStored("was altered: its size is wrong.");
+  }
+  if (header.scalar != sizeof(S)) {
+    if (header.scalar != 4 && header.scalar != 8) refuseStored("was altered: its scalar is none.");
+    refuseStored(header.scalar == 4 ? "is one of floats: load<float>() reads it."
+                                    : "is one of doubles: load<double>() reads it.");
+  }
+  constexpr std::uint32_t kMost = std::numeric_limits<int>::max() / 2;
+  const std::uint32_t n = header.num_triangles;
+  const std::uint64_t end = Layout::of(header, S()).end;
+  std::uint32_t older = header.older0;
+  for (const std::uint32_t count : header.older) older |= count;
+  if (n == 0 || n > kMost || header.num_vertices == 0 || header.num_vertices > kMost ||
+      (header.num_nodes != 0 && header.num_nodes != 2 * n - 1) ||
+      (header.isOlder() ? end > size : end != size || older != 0)) {
+    refuseStored("was altered: its counts are wrong.");
+  }
+  const XXH128_hash_t hash = stored::hashOf(header, bytes + sizeof(header), size - sizeof(header));
+  if (hash.low64 != header.hash_low || hash.high64 != header.hash_high) {
+    refuseStored("was altered: its hash is wrong.");
+  }
+  return header;
+}
+
+/// Checks nodes that come in their order, in which FCL's recursion numbers them: all but how many
+/// triangles go left is known beforehand. Searches hold the way from the root in arrays of
+/// kMaxDepth.
+template <typename S>
+class NodeCheck {
+ public:
+  /// The triangles of the leaves are written to `primitives`, in their order.
+  NodeCheck(int num_triangles, unsigned int* primitives)
+      : num_triangles_(num_triangles), primitives_(primitives) {}
+
+  bool takeRoot(const Node<S>& root) {
+    if (root.first_primitive != 0 || root.num_primitives != num_triangles_ || !isVolume(root)) {
+      return false;
+    }
+    return take(root, 1);
+  }
+
+  /// Takes the two children that come next.
+  bool takeChildren(const Node<S>* pair) {
+    if (open_ == 0) return false;
+    const Open parent = stack_[--open_];
+    const Node<S>&left = pair[0], &right = pair[1];
+    const int left_count = left.num_primitives;
+    if (parent.first_child != next_ || parent.depth >= engine::kMaxDepth || left_count < 1 ||
+        left_count >= parent.count || left.first_primitive != parent.first ||
+        right.first_primitive != parent.first + left_count ||
+        right.num_primitives != parent.count - left_count || !(isVolume(left) && isVolume(right))) {
+      return false;
+    }
+    next_ += 2;
+    const bool right_is_sound = take(right, parent.depth + 1);
+    return take(left, parent.depth + 1) && right_is_sound;
+  }
+
+  bool isWhole() const { return open_ == 0; }
+
+ private:
+  /// A node whose children come later.
+  struct Open {
+    int first_child, first, count, depth;
+  };
+
+  static bool isVolume(const Node<S>& node) {
+    const kIOS<S>& v = node.bv;
+    const int k = v.num_spheres;
+    bool finite = isFinite(v.radius0) && isFinite(v.reach);
+    for (int c = 0; c < 3; ++c) finite = finite && isFinite(v.center0[c]);
+    for (const float* const caps : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) {
+      for (int i = 0; i < kIOS<S>::kCaps; ++i) finite = finite && isFinite(caps[i]);
+    }
+    return finite && (k == 1 || k == 3 || k == 5);
+  }
+
+  /// Takes a node whose range is known to be sound. What isn't a leaf writes a primitive that its
+  /// first leaf overwrites, as no branch could be foreseen here.
+  bool take(const Node<S>& node, int depth) {
+    const bool is_leaf = node.num_primitives == 1;
+    const int triangle = ~node.first_child;  // -(it + 1)
+    primitives_[node.first_primitive] = static_cast<unsigned int>(triangle);
+    stack_[open_] = {node.first_child, node.first_primitive, node.num_primitives, depth};
+    open_ += is_leaf ? 0 : 1;
+    return !is_leaf || (triangle >= 0 && triangle < num_triangles_);
+  }
+
+  const int num_triangles_;
+  unsigned int* const primitives_;
+  int next_ = 1;  ///< the next pair's place
+  int open_ = 0;
+  Open stack_[engine::kMaxDepth + 2];
+};
+
+/// Copies the parts of a stored model, whose places were checked, and checks what they hold.
+template <typename S>
+class Reader {
+ public:
+  Reader(const unsigned char* bytes, const Header& header)
+      : bytes_(bytes), header_(header), at_(Layout::of(header, S())) {}
+
+  /// The nodes and primitives of the tree.
+  PreparedHandle tree() const {
+    const std::size_t num_nodes = header_.num_nodes;
+    PreparedHandle made = PreparedHandle::make<S>(static_cast<int>(num_nodes));
+    Node<S>* const nodes = made->template nodes<S>();
+    unsigned int* const primitives = made->template primitives<S>();
+    std::memcpy(static_cast<void*>(nodes), bytes_ + at_.nodes, num_nodes * sizeof(*nodes));
+    NodeCheck<S> check(static_cast<int>(header_.num_triangles), primitives);
+    bool sound = check.takeRoot(nodes[0]);
+    for (std::size_t i = 1; sound && i < num_nodes; i += 2) sound = check.takeChildren(&nodes[i]);
+    if (!sound || !check.isWhole() || !hasAll(primitives)) {
+      refuseStored("was altered: its tree is none of its triangles.");
+    }
+    made->ordinary = true;
+    return made;
+  }
+
+  void vertices(fcl::Vector3<S>* to) const {
+    const std::size_t n = header_.num_vertices;
+    std::memcpy(reinterpret_cast<unsigned char*>(to), bytes_ + at_.vertices, n * sizeof(*to));
+    for (std::size_t i = 0; i < n; ++i) {
+      if (isFinite(to[i][0]) && isFinite(to[i][1]) && isFinite(to[i][2])) continue;
+      refuseStored("was altered: a vertex is not finite.");
+    }
+  }
+
+  void triangles(fcl::Triangle* to) const {
+    for (std::size_t t = 0; t < header_.num_triangles; ++t) {
+      std::uint32_t corners[3];
+      std::memcpy(corners, bytes_ + at_.triangles + sizeof(corners) * t, sizeof(corners));
+      if (std::max({corners[0], corners[1], corners[2]}) >= header_.num_vertices) {
+        refuseStored("was altered: a triangle refers to a vertex that it doesn't have.");
+      }
+      to[t].set(corners[0], corners[1], corners[2]);
+    }
+  }
+
+ private:
+  /// Whether these primitives are those stored, and each triangle is one of them.
+  bool hasAll(const unsigned int* primitives) const {
+    const std::size_t n = header_.num_triangles;
+    if (std::memcmp(primitives, bytes_ + at_.primitives, n * sizeof(*primitives)) != 0) {
+      return false;
+    }
+    std::vector<bool> met(n, false);
+    for (std::size_t i = 0; i < n; ++i) met[primitives[i]] = true;
+    return std::find(met.begin(), met.end(), false) == met.end();
+  }
+
+  const unsigned char* const bytes_;
+  const Header header_;
+  const Layout at_;
+};
 
 }  // namespace
 
 template <typename S>
 std::vector<unsigned char> save(const Model<S>& model) {
   validate(model);
-  if (hasOrdinaryTree(model)) return write(model, true, purelyPreparedTree(model).get());
-  const std::shared_ptr<Model<S>> ordinary = rebuilt(model);
-  return write(*ordinary, hasOrdinaryTree(*ordinary), purelyPreparedTree(*ordinary).get());
+  return write(preparedOf(model).ordinary ? model : *rebuilt(model));
 }
 
 template std::vector<unsigned char> save(const Modeld&);
 template std::vector<unsigned char> save(const Modelf&);
+
+template <typename S>
+std::shared_ptr<Model<S>> load(const void* bytes, std::size_t size) {
+  const auto* const begin = static_cast<const unsigned char*>(bytes);
+  const Header header = readHeader<S>(begin, size);
+  const Reader<S> reader(begin, header);
+  const bool has_tree = header.num_nodes != 0 && !header.isOlder();
+  PreparedHandle tree = has_tree ? reader.tree() : PreparedHandle(nullptr);
+  auto model = std::make_shared<Model<S>>();
+  model->cost_density = roundedTo<S>(header.cost_density);
+  model->threshold_occupied = roundedTo<S>(header.threshold_occupied);
+  model->threshold_free = roundedTo<S>(header.threshold_free);
+  requireBuilt(model->beginModel(static_cast<int>(header.num_triangles),
+                                 static_cast<int>(header.num_vertices)));
+  reader.vertices(model->vertices);
+  reader.triangles(model->tri_indices);
+  model->num_vertices = static_cast<int>(header.num_vertices);
+  model->num_tris = static_cast<int>(header.num_triangles);
+  if (tree) {  // endModel() finds it, or an equal one
+    const engine::ContentHash content = engine::contentHash(viewOf(*model));
+    if (PreparedHandle equal = PreparedHandle::find(content)) {
+      tree = std::move(equal);
+    } else {
+      prepareTree(*model, *tree.get());
+      tree.list(content);
+    }
+  }
+  requireBuilt(model->endModel());
+  return model;
+}
+
+template std::shared_ptr<Modeld> load<double>(const void* bytes, std::size_t size);
+template std::shared_ptr<Modelf> load<float>(const void* bytes, std::size_t size);
 
 }  // namespace kios

@@ -4,36 +4,64 @@
 
 #include <algorithm>
 
+#include "build/four_axes.h"
+#include "volume/balls.h"
+#include "volume/rounding.h"
+
 namespace kios {
 
 template <typename S>
-TreeBuild<S>::TreeBuild(const BuildGeometry<S>& geometry, const FitOptions& options,
-                        fcl::detail::SplitMethodType method, std::size_t num_vertices)
-    : model_(geometry), options_(options), method_(method), seen_(num_vertices, 0) {
-  points_.reserve(model_.prev_vertices ? 2 * num_vertices : num_vertices);
+kIOS<S> TreeBuild<S>::fit(const unsigned int* primitives, int n) {
+  gather(primitives, n);
+  const int count = static_cast<int>(points_.size());
+  if (fitter_) return fitter_->fitPoints(points_.data(), count);
+  kIOS<S> bv;
+  kios::fit(points_.data(), count, bv);
+  return bv;
 }
 
+/// Lays the plane across the longest principal axis of the gathered points, through the middle of
+/// the box along the axes. Units of a power of two keep squares finite.
 template <typename S>
-kIOS<S> TreeBuild<S>::fit(const unsigned int* primitives, int n) {
-  if (n == 1 && model_.type == fcl::BVH_MODEL_TRIANGLES && !model_.prev_vertices) {
-    const fcl::Triangle& t = model_.triangles[primitives[0]];
-    const fcl::Vector3<S> corners[3] = {model_.vertices[t[0]], model_.vertices[t[1]],
-                                        model_.vertices[t[2]]};
-    return fitter_.fit(corners, 3, options_);
+void TreeBuild<S>::placePlane() {
+  const Eigen::Vector3d first = points_[0].template cast<double>();
+  double largest = 0;
+  for (const fcl::Vector3<S>& p : points_) {
+    largest = std::max(largest, (p.template cast<double>() - first).cwiseAbs().maxCoeff());
   }
-  gather(primitives, n);
-  fitted_ = primitives;
-  fitted_count_ = n;
-  return fitter_.fit(points_.data(), static_cast<int>(points_.size()), options_, &split_);
+  const int exponent = largest > 0 ? exponentOf(largest) : 0;
+  const auto place = [&](const fcl::Vector3<S>& p) {
+    const Eigen::Vector3d d = p.template cast<double>() - first;
+    return Eigen::Vector3d(scaled(d[0], -exponent), scaled(d[1], -exponent),
+                           scaled(d[2], -exponent));
+  };
+  Scatter<double> s;
+  for (const fcl::Vector3<S>& p : points_) {
+    const Eigen::Vector3d at = place(p);
+    s.add(at[0], at[1], at[2]);
+  }
+  s.center(1 / static_cast<double>(points_.size()));
+  const auto single = [](double v) { return roundedTo<float>(v); };
+  const Eigen::Matrix3d axes =
+      principalAxes(Scatter<float>{0, 0, 0, single(s.xx), single(s.xy), single(s.xz), single(s.yy),
+                                   single(s.yz), single(s.zz)})
+          .template cast<double>();
+  Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;  // the first point lies at 0
+  for (const fcl::Vector3<S>& p : points_) {
+    const Eigen::Vector3d at = axes.transpose() * place(p);
+    low = low.cwiseMin(at);
+    high = high.cwiseMax(at);
+  }
+  const Eigen::Vector3d middle = 0.5 * (axes * (low + high));
+  for (int c = 0; c < 3; ++c) plane_.origin[c] = first[c] + scaled(middle[c], exponent);
+  plane_.axis = axes.col(longestFirst(high - low)[0]);
 }
 
 template <typename S>
 void TreeBuild<S>::computeRule(const kIOS<S>& /*bv*/, const unsigned int* primitives, int n) {
   if (n < 2) return;
-  // A fitter that isn't ours leaves no frame behind.
-  if (fitted_ != primitives || fitted_count_ != n) fit(primitives, n);
-  plane_.axis = split_.axis;
-  plane_.origin = split_.center;
+  if (gathered_ != primitives || gathered_count_ != n) gather(primitives, n);
+  placePlane();
   switch (method_) {
     case fcl::detail::SPLIT_METHOD_MEAN:
       plane_.origin = mean_;
@@ -51,6 +79,8 @@ void TreeBuild<S>::computeRule(const kIOS<S>& /*bv*/, const unsigned int* primit
 /// The distinct vertices of the primitives, and the mean of all corners (= of the centroids).
 template <typename S>
 void TreeBuild<S>::gather(const unsigned int* primitives, int n) {
+  gathered_ = primitives;
+  gathered_count_ = n;
   points_.clear();
   if (model_.type == fcl::BVH_MODEL_POINTCLOUD) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();

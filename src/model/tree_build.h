@@ -7,9 +7,8 @@
 #include <vector>
 
 #include <fcl/geometry/bvh/BVH_internal.h>
-#include <fcl/geometry/bvh/detail/BV_splitter.h>
 #include <fcl/math/triangle.h>
-#include "build/sphere_fitter.h"
+#include "fcl_kios/model/bvh_build.h"
 
 namespace kios {
 
@@ -28,9 +27,12 @@ struct BuildGeometry {
 template <typename S>
 class TreeBuild {
  public:
-  /// `num_vertices` saves growing, and may be 0.
-  TreeBuild(const BuildGeometry<S>& geometry, const FitOptions& options,
-            fcl::detail::SplitMethodType method, std::size_t num_vertices = 0);
+  using Fitter = fcl::detail::BVFitter<kIOS<S>>;
+
+  /// Fits by kios::fit(), or as a fitter does that is given.
+  TreeBuild(const BuildGeometry<S>& geometry, fcl::detail::SplitMethodType method,
+            const Fitter* fitter)
+      : model_(geometry), method_(method), fitter_(fitter) {}
 
   kIOS<S> fit(const unsigned int* primitives, int n);
 
@@ -52,22 +54,21 @@ class TreeBuild {
     return plane_.axis.dot(q.template cast<double>() - plane_.origin);
   }
   void gather(const unsigned int* primitives, int n);
+  void placePlane();
   void add(std::size_t id);
   double medianHeight(const unsigned int* primitives, int n);
 
   const BuildGeometry<S> model_;
-  const FitOptions options_;
   const fcl::detail::SplitMethodType method_;
-  SphereFitter<S> fitter_;
+  const Fitter* const fitter_;
   std::vector<fcl::Vector3<S>> points_;
   std::vector<std::uint32_t> seen_;  ///< per vertex, the stamp of the last fit that took it
   std::uint32_t stamp_ = 0;
   std::vector<double> heights_;
 
-  // Left by a fit for the split of the same primitives.
-  const unsigned int* fitted_ = nullptr;
-  int fitted_count_ = 0;
-  typename SphereFitter<S>::Split split_;
+  // The primitives whose points were gathered last, for their fit and their split.
+  const unsigned int* gathered_ = nullptr;
+  int gathered_count_ = 0;
   Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
   SplitPlane plane_;
 };

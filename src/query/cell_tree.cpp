@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "query/cell_tree.h"
+#include "volume/rounding.h"
 
 #if FCL_HAVE_OCTOMAP
 namespace kios {
@@ -133,7 +134,7 @@ fcl::AABB<S> CellTree<S>::boxAt(const Cell& cell) const {
   S high[4] = {root.max_[0], root.max_[1], root.max_[2], 0};
   const S target[4] = {S(cell.x + origin_[0]), S(cell.y + origin_[1]), S(cell.z + origin_[2]), 0};
   S at[4] = {0, 0, 0, 0};
-  const S last = static_cast<S>(cell.half);
+  const S last = roundedTo<S>(cell.half);
   for (S half = S(engine::kRootHalf) / 2; half >= last; half *= S(0.5)) {
     for (int c = 0; c < 4; ++c) {
       const S mid = (low[c] + high[c]) * S(0.5);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "query/bracket.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
@@ -72,8 +71,7 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
     return false;
   }
   if (t == 0 && !certificate && !warm_start) {  // as the distance is 0 where triangles intersect
-    const auto found = intersectingPairs(frame, 1, true, answer.counts);
-    if (found) return !found->empty();
+    return !searchContacts(frame, 1, answer.counts).empty();
   }
   DistanceOptions<S> options;
   options.warm_start = warm_start;

@@ -46,22 +46,22 @@ void crop(const Vec& center, double radius, Range& range) {
 
 void setRows(const Eigen::Matrix3d& R, const Vec& center, const Vec& half, engine::Box& box) {
   for (int i = 0; i < 3; ++i) {
-    box.x[i] = static_cast<float>(R(i, 0));
-    box.y[i] = static_cast<float>(R(i, 1));
-    box.z[i] = static_cast<float>(R(i, 2));
+    box.x[i] = roundedTo<float>(R(i, 0));
+    box.y[i] = roundedTo<float>(R(i, 1));
+    box.z[i] = roundedTo<float>(R(i, 2));
     box.half[i] = roundUpFloat(half[i]);
   }
   box.half[3] = 0;
-  box.x[engine::kCenter] = static_cast<float>(center.x());
-  box.y[engine::kCenter] = static_cast<float>(center.y());
-  box.z[engine::kCenter] = static_cast<float>(center.z());
+  box.x[engine::kCenter] = roundedTo<float>(center.x());
+  box.y[engine::kCenter] = roundedTo<float>(center.y());
+  box.z[engine::kCenter] = roundedTo<float>(center.z());
 }
 
 void setCone(const shape::Solid& s, FloatSolid& out) {
   const double slant = std::hypot(2 * s.half_length, s.radius);
-  out.slant_radial = slant > 0 ? static_cast<float>(2 * s.half_length / slant) : 1.0F;
-  out.slant_axial = slant > 0 ? static_cast<float>(s.radius / slant) : 0.0F;
-  out.slant_length = static_cast<float>(slant);
+  out.slant_radial = slant > 0 ? roundedTo<float>(2 * s.half_length / slant) : 1.0F;
+  out.slant_axial = slant > 0 ? roundedTo<float>(s.radius / slant) : 0.0F;
+  out.slant_length = roundedTo<float>(slant);
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ template <typename S>
 bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool any_slab,
                     FloatSolid& out) {
   const double reach = tree.reach;
-  if (!posed.hasUnit1() || !(reach >= engine::kLeastReach)) return false;
+  if (!posed.hasUnit1() || tree.exponent != 0) return false;
   const shape::Solid& solid = posed.solid();
   const double solid_reach = posed.reach();
   const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
@@ -105,15 +105,14 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool a
     out.form = solid.kind == Kind::kPlane ? Form::kPlane : Form::kHalfspace;
     const Vec n = posed.R().transpose() * solid.normal;
     const double offset = solid.offset - solid.normal.dot(posed.T()) - n.dot(origin);
-    for (int c = 0; c < 3; ++c) out.normal[c] = static_cast<float>(n[c]);
-    out.offset = static_cast<float>(offset);
+    for (int c = 0; c < 3; ++c) out.normal[c] = roundedTo<float>(n[c]);
+    out.offset = roundedTo<float>(offset);
     out.box = {};
     scale += std::abs(offset);
   }
   if (!(scale <= engine::kLargestReach)) return false;
   const double more = 2 * posed.stretch() * scale + points;
   const double pad = 2 * error_bounds::laneError(scale) + more;
-  if (!(pad <= 0x1p-4 * reach)) return false;
   out.pad = roundUpFloat(pad);
   out.box_pad = roundUpFloat(error_bounds::boxError(scale) + more);
   return true;
@@ -126,8 +125,8 @@ engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid<S>& pose
   engine::FloatSlab slab;
   const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
   const Vec across = posed.R().transpose() * n;
-  for (int c = 0; c < 3; ++c) slab.n[c] = static_cast<float>(across[c]);
-  slab.offset = static_cast<float>(offset - n.dot(posed.T()) - across.dot(origin));
+  for (int c = 0; c < 3; ++c) slab.n[c] = roundedTo<float>(across[c]);
+  slab.offset = roundedTo<float>(offset - n.dot(posed.T()) - across.dot(origin));
   return slab;
 }
 

@@ -8,6 +8,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "query/mesh_contacts.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -58,7 +59,7 @@ template <typename S>
 void MeshDistanceTraversalNode<S>::lowerTo(S distance) const {
   best_ = prune_at_ = distance;
   if (!(distance < std::numeric_limits<S>::max())) return;  // no bound, and nothing found yet
-  prune_at_ = static_cast<S>(engine::cullDistance(distance, this->rel_err, this->abs_err));
+  prune_at_ = roundedTo<S>(engine::cullDistance(distance, this->rel_err, this->abs_err));
 }
 
 template <typename S>
@@ -70,7 +71,7 @@ void MeshDistanceTraversalNode<S>::preprocess() {
 template <typename S>
 S MeshDistanceTraversalNode<S>::BVTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_bv_tests++;
-  return static_cast<S>(
+  return roundedTo<S>(
       separation(this->model1->getBV(b1).bv, this->model2->getBV(b2).bv, *X_AB, double{prune_at_}));
 }
 

@@ -10,6 +10,7 @@
 #include "model/kios_model.h"
 #include "model/prepared.h"
 #include "search/pair_query.h"
+#include "search/root_body.h"
 #include "volume/error_bounds.h"
 
 namespace kios {
@@ -41,20 +42,31 @@ class MeshPair {
   /// Throws std::invalid_argument if a model is not a finished mesh or a pose is not rigid.
   MeshPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
            const fcl::Transform3<S>& X_WB)
-      : a(a), b(b), X_AB((requireFinished(a), requireFinished(b), X_WA), X_WB) {}
+      : a(a),
+        b(b),
+        X_AB((requireFinished(a), requireFinished(b), X_WA), X_WB),
+        floats_serve(engine::makeTreePose(tree_a, tree_b, X_AB, X_trees)) {}
   /// For models and rotations that were checked; see RelativePose.
   MeshPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
            const fcl::Transform3<S>& X_WB, double squared_errors)
-      : a(a), b(b), X_AB(X_WA, X_WB, squared_errors) {}
+      : a(a),
+        b(b),
+        X_AB(X_WA, X_WB, squared_errors),
+        floats_serve(engine::makeTreePose(tree_a, tree_b, X_AB, X_trees)) {}
 
   const Model<S>&a, &b;
   const RelativePose<S> X_AB;
+  const engine::Tree &tree_a = treeOf(a), &tree_b = treeOf(b);
+  engine::TreePose X_trees;  ///< if floats serve
+  const bool floats_serve;   ///< false if floats can't tell of both
 
   const kIOS<S>& rootA() const { return a.getBV(0).bv; }
   const kIOS<S>& rootB() const { return b.getBV(0).bv; }
-  /// separation() of the root volumes.
-  double rootBound(double stop_above) const {
-    return separation(rootA(), rootB(), X_AB, stop_above);
+  /// Lower bound of the distance by the roots; any above `enough` will do.
+  double rootBound(double enough) const {
+    if (!floats_serve) return separation(rootA(), rootB(), X_AB, enough);
+    return engine::rootBound(engine::rootOf(rootA(), tree_a), engine::rootOf(rootB(), tree_b),
+                             X_trees, enough);
   }
 
   TriangleVertices<S> triangleA(int id) const { return cornersOf(a, id); }

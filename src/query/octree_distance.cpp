@@ -4,6 +4,7 @@
 
 #if FCL_HAVE_OCTOMAP
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "model/walk.h"
@@ -21,7 +22,7 @@ using Node = octomap::OcTreeNode;
 
 /// A cell of an octree in its frame.
 template <typename S>
-struct Cell {
+struct OctreeCell {
   const Node* node;
   fcl::AABB<S> box;
 };
@@ -45,7 +46,7 @@ class OctreeDistance {
     if (result_.min_distance < std::numeric_limits<S>::max()) {
       lowerTo(posed_.toUnits(result_.min_distance));
     }
-    const Cell<S> root = {octree_.getRoot(), octree_.getRootBV()};
+    const OctreeCell<S> root = {octree_.getRoot(), octree_.getRootBV()};
     if (!root.node || !octree_.isNodeOccupied(root.node)) return;
     if (!(best_ > 0)) return;
     const auto skip = [this](const CellAndNode& pair) {
@@ -70,7 +71,7 @@ class OctreeDistance {
 
  private:
   struct CellAndNode {
-    Cell<S> cell;
+    OctreeCell<S> cell;
     int node;
     double bound;
   };
@@ -82,16 +83,22 @@ class OctreeDistance {
   }
 
   /// With a lower bound of the distance of a cell and a node of the mesh, signed.
-  CellAndNode bounded(const Cell<S>& cell, int node) const {
+  CellAndNode bounded(const OctreeCell<S>& cell, int node) const {
     ++counts_.volume_tests;
-    CenteredCell centered;
-    centered.set(cell.box, posed_.toUnits(1));
+    const double unit = posed_.toUnits(0.5);
     Ball balls[kIOS<S>::kMaxSpheres];
     const int k = posed_.placeSpheres(model_.getBV(node).bv, balls);
     double best = -kInfinity;
     for (int i = 0; i < k; ++i) {
-      const shape::Vec c(balls[i].x, balls[i].y, balls[i].z);
-      best = std::max(best, shape::pointBound(centered.box, c - centered.center) - balls[i].r);
+      const auto out = [&](double at, int c) {
+        const double low = unit * double{cell.box.min_[c]}, high = unit * double{cell.box.max_[c]};
+        return std::abs(at - (low + high)) - (high - low);
+      };
+      const double x = out(balls[i].x, 0), y = out(balls[i].y, 1), z = out(balls[i].z, 2);
+      const double most = std::max({x, y, z});
+      const auto square = [](double v) { return v > 0 ? v * v : 0; };
+      const double apart = most > 0 ? std::sqrt(square(x) + square(y) + square(z)) : most;
+      best = std::max(best, apart - balls[i].r);
     }
     return {cell, node, best};
   }
@@ -104,7 +111,7 @@ class OctreeDistance {
         (node.isLeaf() || pair.cell.box.size() > node.bv.size())) {
       for (unsigned int i = 0; i < 8; ++i) {
         if (!octree_.nodeChildExists(pair.cell.node, i)) continue;
-        Cell<S> cell = {octree_.getNodeChild(pair.cell.node, i), {}};
+        OctreeCell<S> cell = {octree_.getNodeChild(pair.cell.node, i), {}};
         if (!octree_.isNodeOccupied(cell.node)) continue;
         fcl::computeChildBV(pair.cell.box, i, cell.box);
         add(bounded(cell, pair.node));
@@ -117,7 +124,7 @@ class OctreeDistance {
     }
   }
 
-  void test(const Cell<S>& cell, int id) {
+  void test(const OctreeCell<S>& cell, int id) {
     ++counts_.leaf_kernels;
     CenteredCell centered;
     centered.set(cell.box, posed_.toUnits(1));
@@ -139,7 +146,7 @@ class OctreeDistance {
   const PosedSolid<S> posed_;  // its solid is the root's cube
   double best_ = kInfinity, cull_distance_ = best_;
   int nearest_id_ = -1;
-  Cell<S> nearest_cell_;
+  OctreeCell<S> nearest_cell_;
   shape::Vec on_cell_, on_triangle_;
 };
 

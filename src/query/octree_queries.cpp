@@ -9,10 +9,8 @@
 
 #include "model/prepared.h"
 #include "query/cell_tree.h"
-#include "query/cell_walk.h"
 #include "query/collide_with.h"
 #include "query/mesh_pair.h"
-#include "query/octree_costs.h"
 #include "query/posed_solid.h"
 #include "search/cell_search.h"
 #include "search/search.h"
@@ -57,18 +55,7 @@ class OctreeCollision final : engine::CellSide {
     ++counts_.volume_tests;
     start_ = cells_.cellsNear(spheres, count, error_);
     if (start_.empty()) return;
-    engine::TreeCache* const trees = treesOf(model_);
-    const long long spare = trees ? trees->budget.remaining(model_.num_tris) : 0;
-    if (spare > 0) {
-      const long long left = walk(2 * spare);  // in four lanes, they take half of the time
-      trees->budget.charge(spare - left / 2);
-      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
-      // the model.
-      const bool verdict = request_.num_max_contacts == 1 && !request_.enable_contact;
-      if (found_.size() >= room_ ? verdict : left >= 0) return report();
-      found_.clear();
-    }
-    if (!searchPrepared()) walk(std::numeric_limits<long long>::max());
+    if (!searchPrepared()) searchEach();
     report();
   }
 
@@ -124,18 +111,35 @@ class OctreeCollision final : engine::CellSide {
 
   /// True if floats served.
   bool searchPrepared() {
-    const engine::TreeCache::Use tree = preparedTree(model_);
+    const engine::Tree& tree = treeOf(model_);
     engine::CellFrame frame;
-    if (!tree || !makeFrame(*tree, frame)) return false;
-    engine::kernels().cells({*tree, frame, *this, counts_, start_.data(), start_.size()});
+    if (tree.exponent != 0 || !makeFrame(tree, frame)) return false;
+    engine::kernels().cells({tree, frame, *this, counts_, start_.data(), start_.size()});
     return true;
   }
 
-  /// `scale` is S of search/cell_search.h, `reach` the mesh's part.
-  bool floatsServe(double reach, double scale) const {
-    using Frame = engine::CellFrame;
-    return posed_.hasUnit1() && reach >= Frame::kLeastReach && scale <= Frame::kLargestReach &&
-           posed_.solid().half.x() <= Frame::kLargestRoot;
+  /// Each triangle goes down the octree. True to end the search.
+  bool searchBelow(const Cell& cell, int id) {
+    if (cell.leaf != 0) return evaluate(cell, static_cast<std::uint32_t>(id), false);
+    setCell(cell);
+    shape::Solid grown = centered_.box;  // by more than rounding, as leaves decide
+    grown.half.array() += error_ + 0x1p-40 * (grown.half + centered_.center.cwiseAbs()).sum();
+    if (!shape::intersects(grown, place(id))) return false;
+    const void* children[8];
+    std::uint32_t leaves;
+    const std::uint32_t mattering = open(cell.node, 0xFF, children, leaves);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      if ((mattering >> i & 1U) == 0) continue;
+      if (searchBelow(cell.child(i, children[i], (leaves >> i & 1U) != 0), id)) return true;
+    }
+    return false;
+  }
+  void searchEach() {
+    for (int id = 0; id < model_.num_tris; ++id) {
+      for (const Cell& cell : start_) {
+        if (searchBelow(cell, id)) return;
+      }
+    }
   }
 
   bool makeFrame(const engine::Tree& tree, engine::CellFrame& frame) const {
@@ -143,70 +147,34 @@ class OctreeCollision final : engine::CellSide {
     const shape::Vec origin = cells_.origin();
     const shape::Vec t = posed_.R() * origin_M + (posed_.T() - origin);
     const double reach = tree.reach, scale = reach + t.template lpNorm<1>();
-    if (!floatsServe(reach, scale)) return false;
+    const bool in_range = posed_.hasUnit1() && scale <= engine::CellFrame::kLargestReach &&
+                          posed_.solid().half.x() <= engine::CellFrame::kLargestRoot;
+    if (!in_range) return false;
     // The exact stage's points and boxes, and its tests.
     const double points = error_bounds::solidError(
         2 * (origin_M.template lpNorm<1>() + 2 * reach) + posed_.T().template lpNorm<1>() +
         std::min(posed_.solid().half.x(), 4 * (scale + origin.template lpNorm<1>())));
     const double more = posed_.stretch() * scale + points + error_;
     const double pad = 0x1p-18 * scale + more;
-    if (!(pad <= 0x1p-4 * reach)) return false;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) frame.from_mesh.R[i][j] = static_cast<float>(posed_.R()(i, j));
-      frame.from_mesh.t[i] = static_cast<float>(t[i]);
+      for (int j = 0; j < 3; ++j) frame.from_mesh.R[i][j] = roundedTo<float>(posed_.R()(i, j));
+      frame.from_mesh.t[i] = roundedTo<float>(t[i]);
     }
-    frame.unit = static_cast<float>(cells_.unit());
+    frame.unit = roundedTo<float>(cells_.unit());
     frame.pad = roundUpFloat(pad);
     frame.box_pad = roundUpFloat(0x1p-17 * scale + more);
     return true;
-  }
-
-  /// Returns what is left of the tests; negative if they didn't suffice.
-  long long walk(long long most_tests) {
-    const kIOS<S>& root = model_.getBV(0).bv;
-    const double reach = scaled(double{root.reach}, root.exponent);
-    const double scale = reach + 4 * double{root.radius0};  // the origin is within the mesh's box
-    return floatsServe(reach, scale) && posed_.solid().half.x() >= engine::CellFrame::kLeastReach
-               ? walkBy<float>(most_tests)
-               : walkBy<double>(most_tests);
-  }
-
-  template <typename Real>
-  long long walkBy(long long most_tests) {
-    CellWalk<S, Real> walk(model_, posed_, cells_.origin(), cells_.unit(), error_, *this, counts_,
-                           most_tests);
-    walk.run(start_);
-    return walk.testsLeft();
   }
 
   // Results.
 
   /// A list of all that touch has one order, whichever tree was searched: by triangles, then cells.
   void sort() {
-    const auto num_triangles = static_cast<std::size_t>(model_.num_tris);
-    const auto less = [](const Found& a, const Found& b) {
+    std::sort(found_.begin(), found_.end(), [](const Found& a, const Found& b) {
       if (a.triangle != b.triangle) return a.triangle < b.triangle;
       if (a.cell.x != b.cell.x) return a.cell.x < b.cell.x;
       return a.cell.y != b.cell.y ? a.cell.y < b.cell.y : a.cell.z < b.cell.z;
-    };
-    if (found_.size() < num_triangles / 16) {
-      std::sort(found_.begin(), found_.end(), less);
-      return;
-    }
-    std::vector<std::size_t> begin(num_triangles + 1);
-    for (const Found& found : found_) ++begin[static_cast<std::size_t>(found.triangle) + 1];
-    for (std::size_t i = 0; i < num_triangles; ++i) begin[i + 1] += begin[i];
-    std::vector<Found> sorted(found_.size());
-    for (const Found& found : found_) {
-      sorted[begin[static_cast<std::size_t>(found.triangle)]++] = found;
-    }
-    found_.swap(sorted);
-    for (std::size_t i = 0, first = 0; i < num_triangles; first = begin[i++]) {
-      const auto at = [&](std::size_t k) {
-        return found_.begin() + static_cast<std::ptrdiff_t>(k);
-      };
-      std::sort(at(first), at(begin[i]), less);
-    }
+    });
   }
 
   void report() {
@@ -272,8 +240,7 @@ class OctreeCollision final : engine::CellSide {
 
 }  // namespace
 
-// Contacts come in an order that the model, the octree and the poses determine, and whether the
-// model was prepared.
+// Contacts come in an order that the model, the octree and the poses determine.
 template <typename S>
 std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>& X_WO,
                           const Model<S>& model, const fcl::Transform3<S>& X_WM,
@@ -286,9 +253,7 @@ std::size_t collideOctree(const fcl::OcTree<S>& octree, const fcl::Transform3<S>
     of.run();
     return true;
   };
-  return collideWith(model, request, result, search, [&](bool /*touches*/) {
-    addApproximateCost(model, X_WM, octree, X_WO, request, result);
-  });
+  return collideWith<S>(model, X_WM, octree, X_WO, request, result, search);
 }
 
 KIOS_INSTANTIATE_FUNCTION(collideOctree);

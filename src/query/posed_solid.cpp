@@ -7,7 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include "shape/gjk.h"
 #include "volume/error_bounds.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
@@ -62,77 +61,17 @@ template <typename S>
 S PosedSolid<S>::fromUnits(double length) const {
   const double value = length * unit_;
   if (!(length > 0)) return S(0);
-  return std::max(static_cast<S>(value), std::numeric_limits<S>::denorm_min());
+  return std::max(roundedTo<S>(value), std::numeric_limits<S>::denorm_min());
 }
 
 template <typename S>
 fcl::Vector3<S> PosedSolid<S>::toWorld(const shape::Vec& p) const {
-  return (R_WS_ * (p * unit_) + t_WS_).template cast<S>();
+  return roundedTo<S>(R_WS_ * (p * unit_) + t_WS_);
 }
 
 template <typename S>
 fcl::Vector3<S> PosedSolid<S>::directionToWorld(const shape::Vec& n) const {
-  return (R_WS_ * n).normalized().template cast<S>();
-}
-
-// A posed centre takes 5 roundings a coordinate of terms that sum to at most 1.8 |c|_1 + |T|_1, as
-// do the posed points of the content, with |x|_1 <= |c|_1 + 1.8 r: solidError() of all these
-// lengths.
-template <typename S>
-Ball PosedSolid<S>::placeCentral(const kIOS<S>& bv, double& lengths) const {
-  const shape::Vec c_M = bv.center0.template cast<double>() * per_unit_;
-  const shape::Vec c = R_ * c_M + T_;
-  lengths = 1.8 * c_M.lpNorm<1>() + offsets_;
-  const double r = bv.radius0 * per_unit_;
-  return {c.x(), c.y(), c.z(), r + (error_bounds::solidError(lengths + 4 * r) + stretch_ * r)};
-}
-
-template <typename S>
-Ball PosedSolid<S>::placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const {
-  const double unit = scaled(per_unit_, bv.exponent), reach = bv.reach * unit;
-  const shape::Vec o = R_ * (shape::Vec(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]) * unit);
-  const double pad = error_bounds::solidError(lengths + 4 * reach) + stretch_ * reach;
-  return {central.x + o.x(), central.y + o.y(), central.z + o.z(), bv.cap_r[i] * unit + pad};
-}
-
-template <typename S>
-double PosedSolid<S>::bound(const kIOS<S>& bv, double required) const {
-  double lengths;
-  const Ball central = placeCentral(bv, lengths);
-  if (solid_.kind == shape::Kind::kConvex) return convexBound(bv, required, central, lengths);
-  const auto boundOf = [this](const Ball& b) {
-    return shape::pointBound(solid_, {b.x, b.y, b.z}) - b.r;
-  };
-  double best = boundOf(central);
-  // A centre in the shape: the content all but surely touches, and caps would only cost time.
-  if (best > required || best <= -central.r) return best;
-  for (int i = 0; i + 1 < bv.k(); ++i) {
-    best = std::max(best, boundOf(placeCap(bv, i, central, lengths)));
-  }
-  return best;
-}
-
-// The box of the points says enough of what is far. Else a few steps of GJK find a slab for S0,
-// which bounds the caps, too.
-template <typename S>
-double PosedSolid<S>::convexBound(const kIOS<S>& bv, double required, const Ball& central,
-                                  double lengths) const {
-  constexpr int kSteps = 4;
-  const shape::Vec p(central.x, central.y, central.z);
-  const double by_box = (p - p.cwiseMax(range_.low).cwiseMin(range_.high)).norm() - central.r;
-  if (by_box > required) return by_box;
-  const shape::CoreDistance core = shape::gjkDistance(solid_, &p, 1, kInfinity, kSteps);
-  double best = core.lower - central.r;
-  const shape::Vec way = core.point - core.on_core;
-  const double length = way.norm();
-  if (best > required || best <= -central.r || !(length > 0)) return best;
-  const shape::Vec n = way / length;
-  const double extent = shape::extentAlong(solid_, n);
-  for (int i = 0; i + 1 < bv.k(); ++i) {
-    const Ball cap = placeCap(bv, i, central, lengths);
-    best = std::max(best, n.dot(shape::Vec(cap.x, cap.y, cap.z)) - extent - cap.r);
-  }
-  return best;
+  return roundedTo<S>((R_WS_ * n).normalized());
 }
 
 // Twice the worst of docs/shapes.md; that of convex shapes without faces is another.
@@ -144,11 +83,25 @@ double PosedSolid<S>::kernelError(const kIOS<S>& root) const {
   return (known ? 0x1p-42 : 0x1p-29) * extent;
 }
 
+// A posed centre takes 5 roundings a coordinate of terms that sum to at most 1.8 |c|_1 + |T|_1, as
+// do the posed points of the content, with |x|_1 <= |c|_1 + 1.8 r: solidError() of all these
+// lengths.
 template <typename S>
 int PosedSolid<S>::placeSpheres(const kIOS<S>& bv, Ball* spheres) const {
-  double lengths;
-  spheres[0] = placeCentral(bv, lengths);
-  for (int i = 0; i + 1 < bv.k(); ++i) spheres[i + 1] = placeCap(bv, i, spheres[0], lengths);
+  const shape::Vec c_M = bv.center0.template cast<double>() * per_unit_;
+  const shape::Vec c = R_ * c_M + T_;
+  const double lengths = 1.8 * c_M.lpNorm<1>() + offsets_;
+  const auto grown = [&](double r, double reach) {
+    return r + (error_bounds::solidError(lengths + 4 * reach) + stretch_ * reach);
+  };
+  const double r = bv.radius0 * per_unit_;
+  spheres[0] = {c.x(), c.y(), c.z(), grown(r, r)};
+  const double unit = scaled(per_unit_, bv.exponent), reach = bv.reach * unit;
+  for (int i = 0; i + 1 < bv.k(); ++i) {
+    const shape::Vec o = R_ * (shape::Vec(bv.cap_x[i], bv.cap_y[i], bv.cap_z[i]) * unit);
+    spheres[i + 1] = {c.x() + o.x(), c.y() + o.y(), c.z() + o.z(),
+                      grown(bv.cap_r[i] * unit, reach)};
+  }
   return bv.k();
 }
 

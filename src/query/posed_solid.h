@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "fcl_kios/model/model.h"
 #include "fcl_kios/triangle/triangle.h"
 #include "fcl_kios/volume/kios.h"
 #include "shape/solid.h"
@@ -49,23 +50,14 @@ class PosedSolid {
   fcl::Vector3<S> toWorld(const shape::Vec& p) const;
   fcl::Vector3<S> directionToWorld(const shape::Vec& n) const;
 
-  /// Lower bound, in units, of the distance between the solid and the content of a volume of the
-  /// mesh, whose posed points may be rounded; negative values order overlapping ones. Once the
-  /// central sphere's bound exceeds `required`, that is returned.
-  double bound(const kIOS<S>& bv, double required) const;
   /// Half of what computed distances and bounds of the mesh's triangles may be off by; `root` is
   /// its root volume.
   double kernelError(const kIOS<S>& root) const;
-  /// The spheres of a volume of the mesh in the solid's frame and units, grown by all that bound()
-  /// subtracts, so that each contains the posed content however that is rounded. Returns k.
+  /// The spheres of a volume of the mesh in the solid's frame and units, grown by all that
+  /// rounds, so that each contains the posed content however that is rounded. Returns k.
   int placeSpheres(const kIOS<S>& bv, Ball* spheres) const;
-  /// The first of these, and the lengths by which the others' rounding is bounded.
-  Ball placeCentral(const kIOS<S>& bv, double& lengths) const;
 
  private:
-  double convexBound(const kIOS<S>& bv, double required, const Ball& central, double lengths) const;
-  Ball placeCap(const kIOS<S>& bv, int i, const Ball& central, double lengths) const;
-
   shape::Solid solid_;
   Eigen::Matrix3d R_, R_WS_;
   shape::Vec T_, t_WS_;
@@ -75,5 +67,14 @@ class PosedSolid {
   double offsets_;      ///< |T|_1 + the solid's reach
   shape::Range range_;  ///< of a bounded solid's core, in units
 };
+
+/// True only if a finished model is farther than `margin` >= 0 from one of FCL's nine shapes, told
+/// by its root; false says nothing. `squared_errors` is squaredRotationErrors(X_WS, X_WM). Throws
+/// std::invalid_argument if a size of the shape is none; a convex shape with such a vertex, or
+/// without any, gives false.
+template <typename S>
+bool provenApart(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                 const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
+                 double squared_errors, double margin);
 
 }  // namespace kios

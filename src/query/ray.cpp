@@ -115,9 +115,9 @@ RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model
   const fcl::Vector3d point =
       detail::transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
   RayHit<S> hit;
-  hit.t = static_cast<S>(found.hit.t);
-  hit.point = point.template cast<S>();
-  for (int i = 0; i < 3; ++i) hit.weights[i] = static_cast<S>(w[i]);
+  hit.t = roundedTo<S>(found.hit.t);
+  hit.point = roundedTo<S>(point);
+  for (int i = 0; i < 3; ++i) hit.weights[i] = roundedTo<S>(w[i]);
   hit.triangle = found.triangle;
   hit.side = found.hit.side < 0 ? RaySide::kFront
                                 : (found.hit.side > 0 ? RaySide::kBack : RaySide::kEdgeOn);
@@ -128,7 +128,7 @@ RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model
 template <typename S>
 S outward(double v, S direction) {
   constexpr double kMax = std::numeric_limits<S>::max();
-  const S rounded = static_cast<S>(std::clamp(v, -kMax, kMax));
+  const S rounded = roundedTo<S>(std::clamp(v, -kMax, kMax));
   return double{rounded} == v ? rounded : std::nextafter(rounded, direction);
 }
 

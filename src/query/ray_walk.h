@@ -18,17 +18,12 @@ double largestOf(const Model<S>& model) {
   return double{root.center0.cwiseAbs().maxCoeff()} + double{root.radius0};
 }
 
-/// Visits every triangle of a model that a ray in the model's frame may meet, those ahead first: in
-/// the prepared tree, or in FCL's where floats can't serve.
+/// Visits every triangle of a model that a ray in the model's frame may meet, those ahead first.
 template <typename S>
 class RayWalk : public engine::RayEvaluator {
  public:
   RayWalk(const Model<S>& model, const GivenRay& ray, SearchCounts& counts)
-      : model_(model),
-        ray_(ray),
-        line_(ray.origin, ray.direction, ray.exponent),
-        counts_(counts),
-        last_(ray.t_max) {}
+      : model_(model), ray_(ray), line_(ray.origin, ray.direction, ray.exponent), counts_(counts) {}
 
   void walk();
 
@@ -45,14 +40,10 @@ class RayWalk : public engine::RayEvaluator {
   SearchCounts& counts() { return counts_; }
 
  private:
-  void walkFCLTree(double enter);
-  bool reaches(int node, double& enter, double& exit) const;
-
   const GivenRay ray_;
   const RayLine line_;
   SearchCounts& counts_;
-  double last_;
-  const engine::Tree* tree_ = nullptr;
+  const engine::Tree* tree_ = nullptr;  ///< if lengths in it are known
   RayLine::Near near_ = {};
 };
 

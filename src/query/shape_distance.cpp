@@ -6,10 +6,9 @@
 
 #include "fcl_kios/query/shape_queries.h"
 #include "model/prepared.h"
-#include "model/walk.h"
 #include "query/float_solid.h"
 #include "query/mesh_contacts.h"
-#include "query/root_off_shape.h"
+#include "query/posed_solid.h"
 #include "search/pair_query.h"
 #include "search/search.h"
 #include "shape/separating_slabs.h"
@@ -29,15 +28,12 @@ namespace {
 template <typename S>
 class NearestTriangle final : public engine::SolidEvaluator {
  public:
-  /// With `any_touching`, at distance 0 the triangle may depend on whether the model is prepared.
   NearestTriangle(const Model<S>& model, const PosedSolid<S>& posed, double rel_err, double abs_err,
-                  double far_enough, bool any_touching, SearchCounts& counts)
+                  double far_enough, SearchCounts& counts)
       : model_(model),
         posed_(posed),
         rel_err_(rel_err),
         abs_err_(abs_err),
-        far_enough_(far_enough),
-        any_touching_(any_touching),
         counts_(counts),
         slabs_(posed.solid()),
         slack_(rel_err == 0 && abs_err == 0 ? posed.kernelError(model.getBV(0).bv) : 0) {
@@ -45,34 +41,13 @@ class NearestTriangle final : public engine::SolidEvaluator {
   }
 
   void run() {
-    if (limit_ < kInfinity && leftOut(boundOf(0))) return;
-    if (model_.num_tris == 1) {
-      test(0);
-      return;
-    }
-    engine::TreeCache* const trees = treesOf(model_);
-    const long long spare =
-        trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
-    if (spare > 0) {
-      const long long tests = walk(spare);
-      if (trees) trees->budget.charge(tests);
-      if (tests < spare && (best_ > 0 || any_touching_)) {
-        ++counts_.tree_searches;
-        return;
-      }
-      if (best_ <= 0) {  // which triangle touches mustn't depend on who prepared the model
-        id_ = -1;
-        lowerTo(far_enough_);
-      }
-    }
-    const engine::TreeCache::Use tree = preparedTree(model_);
+    const engine::Tree& tree = treeOf(model_);
     engine::FloatSolid solid;
-    if (tree && makeFloatSolid(*tree, posed_, /*any_slab=*/false, solid)) {
-      tree_ = &*tree;
-      engine::kernels().solid({*tree, solid, *this, counts_});
+    if (makeFloatSolid(tree, posed_, /*any_slab=*/false, solid)) {
+      tree_ = &tree;
+      engine::kernels().solid({tree, solid, *this, counts_});
     } else {
-      ++counts_.tree_searches;
-      walk(std::numeric_limits<long long>::max());
+      for (int id = 0; id < model_.num_tris && !test(id);) ++id;
     }
   }
 
@@ -85,13 +60,6 @@ class NearestTriangle final : public engine::SolidEvaluator {
   const shape::TriangleShapeDistance& nearest() const { return nearest_; }
 
  private:
-  bool leftOut(double bound) const { return std::max(bound, 0.0) >= limit_ + slack_; }
-
-  double boundOf(int node) {
-    ++counts_.volume_tests;
-    return posed_.bound(model_.getBV(node).bv, limit_ + slack_);
-  }
-
   /// True if nothing can be nearer.
   bool test(int id) {
     const shape::Triangle t = posed_.place(cornersOf(model_, id));
@@ -122,33 +90,9 @@ class NearestTriangle final : public engine::SolidEvaluator {
     cull_distance = limit_ < 0x1p127 ? roundUpFloat(limit_) : kInfinityFloat;
   }
 
-  /// In the tree of volumes, the nearer child first, until so many tests were made, of which a
-  /// triangle's counts as four. Returns their number.
-  long long walk(long long max_tests) {
-    long long tests = 1;
-    const auto skip = [this](const BoundedNode& at) { return leftOut(at.bound); };
-    const auto visit = [&](const BoundedNode& at, const auto& add) {
-      const auto& node = model_.getBV(at.node);
-      if (node.isLeaf()) {
-        ++counts_.leaf_kernels;
-        tests += 4;
-        test(node.primitiveId());
-      } else {
-        tests += 2;
-        add({boundOf(node.rightChild()), node.rightChild()});
-        add({boundOf(node.leftChild()), node.leftChild()});
-      }
-      return best_ <= 0 || tests >= max_tests;
-    };
-    const bool ended =
-        walkNearestFirst(BoundedNode{-kInfinity, 0}, skip, visit).empty() || best_ <= 0;
-    return ended ? std::min(tests, max_tests - 1) : tests;
-  }
-
   const Model<S>& model_;
   const PosedSolid<S>& posed_;
-  const double rel_err_, abs_err_, far_enough_;
-  const bool any_touching_;
+  const double rel_err_, abs_err_;
   SearchCounts& counts_;
   shape::SeparatingSlabs slabs_;  ///< of a convex shape, as other bounds cost less than GJK
   const double slack_;
@@ -171,7 +115,7 @@ S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
   const bool done = request.isSatisfied(result);
   const bool limited = result.min_distance < std::numeric_limits<S>::max();
   if (limited && !done &&
-      rootOffShape(model, X_WM, geometry, X_WS, squared_errors, result.min_distance)) {
+      provenApart(model, X_WM, geometry, X_WS, squared_errors, result.min_distance)) {
     if (counts) ++counts->volume_tests;
     return result.min_distance;
   }
@@ -180,7 +124,7 @@ S distanceShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
   SearchCounts unused;
   NearestTriangle<S> search(model, posed, request.rel_err, posed.toUnits(request.abs_err),
                             limited ? posed.toUnits(result.min_distance) : kInfinity,
-                            !request.enable_nearest_points, counts ? *counts : unused);
+                            counts ? *counts : unused);
   search.run();
   if (search.id() < 0) return result.min_distance;
   constexpr int kNone = fcl::DistanceResult<S>::NONE;

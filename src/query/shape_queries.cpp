@@ -12,9 +12,7 @@
 #include "query/collide_with.h"
 #include "query/float_solid.h"
 #include "query/mesh_pair.h"
-#include "query/root_off_shape.h"
-#include "query/shape_costs.h"
-#include "query/solid_off_box.h"
+#include "query/posed_solid.h"
 #include "search/search.h"
 #include "shape/convex_faces.h"
 #include "shape/separating_slabs.h"
@@ -37,8 +35,8 @@ fcl::AABB<S> worldBox(const shape::Solid& solid, const fcl::Transform3<S>& tf) {
     const shape::Vec n = R.row(c).transpose();
     const double high = shape::extentAlong(solid, n), low = -shape::extentAlong(solid, -n);
     const double most = std::numeric_limits<S>::max(), at = tf.translation()[c];
-    box.min_[c] = static_cast<S>(std::max(-most, low + at));
-    box.max_[c] = static_cast<S>(std::min(most, high + at));
+    box.min_[c] = roundedTo<S>(std::max(-most, low + at));
+    box.max_[c] = roundedTo<S>(std::min(most, high + at));
   }
   return box;
 }
@@ -66,15 +64,7 @@ class ShapeCollision final : public engine::SolidEvaluator {
   void run() {
     if (!occupied_ && !costs_) return;
     if (costs_) shape_box_ = worldBox(toSolid(geometry_), X_WS_);
-    const kIOS<S>& root = model_.getBV(0).bv;
-    if (model_.num_tris > kFew) {
-      if (spheresPay() && posed_.bound(root, 0.0) > 0) return;
-      if (solidOffBox(model_, posed_)) return;
-      if (!spheresPay() && posed_.bound(root, -kInfinity) > 0) return;  // the central one's
-      search();
-    } else {
-      lookAtEach();
-    }
+    search();
     if (!isSatisfied()) sort(static_cast<std::size_t>(model_.num_tris));
     std::sort(common_.begin(), common_.end());
     for (const int id : found_) report(id);
@@ -85,9 +75,6 @@ class ShapeCollision final : public engine::SolidEvaluator {
   }
 
  private:
-  /// So many triangles take less to look at than any search.
-  static constexpr int kFew = 2;
-
   struct CommonPoint {
     int id;
     shape::Vec point;
@@ -96,52 +83,17 @@ class ShapeCollision final : public engine::SolidEvaluator {
 
   /// Finds as many triangles as there is room for; all that touch if costs are asked for.
   void search() {
-    engine::TreeCache* const trees = costs_ ? nullptr : treesOf(model_);
-    const long long spare =
-        trees ? trees->budget.remaining(model_.num_tris) : std::numeric_limits<long long>::max();
-    if (spare > 0) {
-      const long long tests = walk(spare);
-      if (trees) trees->budget.charge(tests);
-      // Which contacts are left out, or stated with their geometry, mustn't depend on who prepared
-      // the model.
-      const bool verdict = request_.num_max_contacts == 1 && !request_.enable_contact;
-      if (tests < spare && (verdict || !isSatisfied())) {
-        ++counts_.tree_searches;
-        return;
-      }
-    }
-    const engine::TreeCache::Use tree = preparedTree(model_);
+    const engine::Tree& tree = treeOf(model_);
     engine::FloatSolid solid;
-    found_.clear();
-    common_.clear();
-    const bool by_faces = tree && facesPay(*tree);
-    if (tree && makeFloatSolid(*tree, posed_, by_faces, solid)) {
-      tree_ = &*tree;
-      if (by_faces) setFaces();
-      cull_distance = 0;
-      engine::kernels().solid({*tree, solid, *this, counts_});
-    } else {
-      ++counts_.tree_searches;
-      walk(std::numeric_limits<long long>::max());
+    const bool by_faces = facesPay(tree);
+    if (!makeFloatSolid(tree, posed_, by_faces, solid)) {  // floats tell nothing
+      for (int id = 0; id < model_.num_tris && !test(id, false);) ++id;
+      return;
     }
-  }
-
-  /// Whether the root's spheres are worth a look before boxes are: each takes little.
-  bool spheresPay() const {
-    const shape::Kind kind = posed_.solid().kind;
-    return kind != shape::Kind::kEllipsoid && kind != shape::Kind::kCone &&
-           kind != shape::Kind::kConvex;
-  }
-
-  /// Most large triangles are told apart by their own plane.
-  void lookAtEach() {
-    const bool by_plane = posed_.solid().bounded() && posed_.solid().kind != shape::Kind::kConvex;
-    for (int id = 0; id < model_.num_tris; ++id) {
-      const shape::Triangle t = posed_.place(cornersOf(model_, id));
-      const shape::Vec n = (t[1] - t[0]).cross(t[2] - t[0]);
-      if (by_plane) slabs_.add(n.dot(t[0]) < 0 ? shape::Vec(-n) : n);
-      if (test(id, false)) return;
-    }
+    tree_ = &tree;
+    if (by_faces) setFaces();
+    cull_distance = 0;
+    engine::kernels().solid({tree, solid, *this, counts_});
   }
 
   /// True if no more are asked for.
@@ -166,14 +118,14 @@ class ShapeCollision final : public engine::SolidEvaluator {
   }
 
   /// Whether the slabs of all of a convex shape's faces, made at once, take less than those that
-  /// are found on the way: in lists of contacts.
+  /// are found on the way: without them shapes/convex/contacts takes 1.8 times as long.
   bool facesPay(const engine::Tree& tree) const {
-    constexpr std::size_t kFewContacts = 8, kFewLeaves = 32, kMostProducts = 1 << 14;
+    constexpr std::size_t kFewContacts = 8, kMostProducts = 1 << 14;
     constexpr double kMostReach = 64;  // that lets the slabs tell something
     const shape::Solid& solid = posed_.solid();
     return solid.kind == shape::Kind::kConvex &&
            (costs_ || request_.num_max_contacts > kFewContacts) &&
-           tree.leaves.size() > kFewLeaves && posed_.reach() <= kMostReach * double{tree.reach} &&
+           posed_.reach() <= kMostReach * double{tree.reach} &&
            static_cast<std::size_t>(solid.num_faces) * solid.points.size() <= kMostProducts;
   }
 
@@ -194,7 +146,8 @@ class ShapeCollision final : public engine::SolidEvaluator {
     }
   }
 
-  /// A list of all that touch has one order, whichever tree was searched.
+  /// A list of all that touch has one order, whichever tree was searched. By the bits of ids, as
+  /// std::sort() takes a fifth of shapes/capsule/contacts.
   void sort(std::size_t num_triangles) {
     constexpr std::size_t kBits = 64;
     if (found_.size() < num_triangles / (4 * kBits)) {
@@ -215,28 +168,6 @@ class ShapeCollision final : public engine::SolidEvaluator {
 
   bool isSatisfied() const {
     return !costs_ && result_.numContacts() + found_.size() >= request_.num_max_contacts;
-  }
-
-  /// In the tree of volumes, until so many tests were made, of which a triangle's counts as four.
-  /// Returns their number.
-  long long walk(long long max_tests) {
-    std::vector<int> waiting = {0};
-    long long tests = 0;
-    while (!waiting.empty() && tests < max_tests) {
-      const auto& node = model_.getBV(waiting.back());
-      waiting.pop_back();
-      ++counts_.volume_tests;
-      ++tests;
-      if (posed_.bound(node.bv, 0.0) > 0) continue;
-      if (!node.isLeaf()) {
-        waiting.push_back(node.rightChild());
-        waiting.push_back(node.leftChild());
-        continue;
-      }
-      tests += 4;
-      if (test(node.primitiveId(), false)) waiting.clear();
-    }
-    return waiting.empty() ? std::min(tests, max_tests - 1) : tests;
   }
 
   void makeFaces() {
@@ -306,15 +237,13 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
     const bool done = request.isSatisfied(result);
     if (!done) {
       ++counted.volume_tests;
-      if (rootOffShape(model, X_WM, shape, X_WS, squared_errors, 0)) return true;
+      if (provenApart(model, X_WM, shape, X_WS, squared_errors, 0)) return true;
     }
     ShapeCollision<S> of(model, X_WM, shape, X_WS, squared_errors, asked, result, counted);
     if (!done) of.run();
     return !done;
   };
-  return collideWith(model, request, result, search, [&](bool touches) {
-    addApproximateCost(model, X_WM, shape, X_WS, touches, request, result);
-  });
+  return collideWith(model, X_WM, shape, X_WS, request, result, search);
 }
 
 KIOS_INSTANTIATE_FUNCTION(collideShape);

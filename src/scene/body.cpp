@@ -11,7 +11,6 @@
 #include "volume/instantiate.h"
 #include "volume/rotation.h"
 #include "volume/rounding.h"
-#include "volume/stamp.h"
 
 namespace kios::scene {
 namespace {
@@ -45,9 +44,9 @@ bool samePose(const fcl::Transform3<S>& a, const fcl::Transform3<S>& b) {
 }
 
 template <typename S>
-Sphere sphereOf(const kIOS<S>& root, int i) {
-  const fcl::Vector3<S> c = root.sphereCenter(i);
-  return {{double{c[0]}, double{c[1]}, double{c[2]}}, double{root.sphereRadius(i)}};
+Sphere sphereOf(const kIOS<S>& root) {
+  const fcl::Vector3<S>& c = root.center0;
+  return {{double{c[0]}, double{c[1]}, double{c[2]}}, double{root.radius0}};
 }
 
 /// Returns FCL's own local AABB, which place() and renew() made afresh. Its radius has no margin,
@@ -68,12 +67,14 @@ Sphere sphereOf(const fcl::CollisionGeometry<S>& geometry) {
 // most 1.74 (d + reach + reach'). The terms in d are boxShare()'s, the rest is split over the
 // boxes.
 template <typename S>
-void encloseInBox(const Body<S>& body, const Sphere& sphere, Box& box) {
+Box boxOf(const Body<S>& body) {
+  Box box = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  const Sphere& sphere = body.sphere;
+  if (!(sphere.radius < kInfinity)) return box;
   const double error = body.rotation_error;
-  const double pads =
-      2 * error * body.reach +
-      error_bounds::triangleError<S>(error_bounds::extentOf(0, body.sphere.radius, 0)) +
-      error_bounds::frameError<S>(2 * body.reach, 1.74 * body.reach);
+  const double pads = 2 * error * body.reach +
+                      error_bounds::triangleError<S>(error_bounds::extentOf(0, sphere.radius, 0)) +
+                      error_bounds::frameError<S>(2 * body.reach, 1.74 * body.reach);
   for (int i = 0; i < 3; ++i) {
     double at = double{body.X_W.translation()[i]}, terms = std::abs(at);
     for (int j = 0; j < 3; ++j) {
@@ -84,28 +85,10 @@ void encloseInBox(const Body<S>& body, const Sphere& sphere, Box& box) {
     const double r =
         (sphere.radius * (1 + error) + pads + error_bounds::sumError<double>(terms) + 0x1p-1000) *
         (1 + 0x1p-50);
-    box.lower[i] = std::max(box.lower[i], at - r);
-    box.upper[i] = std::min(box.upper[i], at + r);
+    box.lower[i] = at - r;
+    box.upper[i] = at + r;
   }
-}
-
-constexpr Box kWholeSpace = {{-kInfinity, -kInfinity, -kInfinity},
-                             {kInfinity, kInfinity, kInfinity}};
-
-/// The content is in all spheres of the root volume, so in the intersection of their boxes.
-template <typename S>
-Box boxOf(const Body<S>& body) {
-  Box box = kWholeSpace;
-  if (!(body.sphere.radius < kInfinity)) return box;
-  encloseInBox(body, body.sphere, box);
-  for (int i = 0; i < body.num_caps; ++i) encloseInBox(body, body.caps[i], box);
   return box;
-}
-
-template <typename S>
-void newState(Body<S>& body) {
-  body.generation = nextStamp();
-  body.path = 0;
 }
 
 }  // namespace
@@ -114,20 +97,17 @@ template <typename S>
 void renew(Body<S>& body) {
   if (body.model) {
     body.shape = false;
-    const kIOS<S>& root = body.model->getBV(0).bv;
-    body.sphere = sphereOf(root, 0);
-    body.num_caps = std::max(0, root.k() - 1);
-    for (int i = 0; i < body.num_caps; ++i) body.caps[i] = sphereOf(root, i + 1);
+    body.state = stateOf(*body.model);
+    body.sphere = sphereOf(body.model->getBV(0).bv);
   } else {
     // As fcl::CollisionObject does at its construction.
     const_cast<fcl::CollisionGeometry<S>&>(*body.geometry).computeLocalAABB();
     body.shape = isShapeOfFcl(*body.geometry);
     if (body.shape) body.shape_values = shapeValues(*body.geometry);
     body.sphere = sphereOf(*body.geometry);
-    body.num_caps = 0;
   }
   body.reach = body.sphere.reach();
-  newState(body);
+  body.generation = nextGeneration();
   body.box = boxOf(body);
 }
 
@@ -148,24 +128,35 @@ template <typename S>
 void move(Body<S>& body, const fcl::Transform3<S>& X_W) {
   if (samePose(body.X_W, X_W)) return;
   const double rotation_square = requireRigid(X_W);
-  const double moved = displacement<S>(body.X_W.linear(), body.X_W.translation(), X_W.linear(),
-                                       X_W.translation(), body.sphere);
-  body.path = addUp(body.path, moved);
+  ++body.pose;
   setPose(body, X_W, rotation_square);
   body.box = boxOf(body);
-  // A sum that has grown out of all proportion would round small steps up to large ones; an
-  // infinite one would seem to stand still.
-  if (!(body.path < kInfinity && body.path <= 0x1p30 * body.sphere.radius)) newState(body);
 }
 
 template <typename S>
 void renewIfChanged(Body<S>& body) {
-  if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) renew(body);
+  if (body.model) {
+    requireFinished(*body.model);
+    if (!(stateOf(*body.model) == body.state)) renew(body);
+  } else if (body.shape && !hasShapeValues(*body.geometry, body.shape_values)) {
+    renew(body);
+  }
+}
+
+template <typename S>
+void follow(Body<S>& body) {
+  const fcl::CollisionObject<S>& object = *body.followed;
+  if (object.collisionGeometry() == body.geometry) {
+    move(body, object.getTransform());
+  } else {
+    place<S>(body, object.collisionGeometry(), object.getTransform());
+  }
 }
 
 KIOS_INSTANTIATE_FUNCTION(place);
 KIOS_INSTANTIATE_FUNCTION(move);
 KIOS_INSTANTIATE_FUNCTION(renew);
 KIOS_INSTANTIATE_FUNCTION(renewIfChanged);
+KIOS_INSTANTIATE_FUNCTION(follow);
 
 }  // namespace kios::scene

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -13,10 +13,21 @@
 #include "fcl_kios/scene/scene_types.h"
 #include "model/prepared.h"
 #include "scene/box.h"
-#include "scene/motion_bound.h"
 #include "volume/error_bounds.h"
 
 namespace kios::scene {
+
+/// Holds a sphere around a content, in its body's frame.
+struct Sphere {
+  double center[3] = {0, 0, 0};
+  double radius = 0;
+
+  /// Returns a bound >= |y| of every y in it.
+  double reach() const {
+    return (std::abs(center[0]) + std::abs(center[1]) + std::abs(center[2]) + radius) *
+           (1 + 0x1p-48);
+  }
+};
 
 /// Holds an object of a scene as the last query found it.
 template <typename S>
@@ -25,9 +36,7 @@ struct Body {
 
   /// Is unlike that of any other geometry, or of the same one changed; 0 is that of no object.
   std::uint64_t generation = 0;
-  /// No point of the content has moved farther than this in this generation; it grows with each
-  /// move.
-  double path = 0;
+  std::uint64_t pose = 0;      ///< counts poses of this generation
   double rotation_error = 0;   ///< >= |R^T R - I|_2
   double rotation_square = 0;  ///< the square of |R^T R - I| (Frobenius)
   /// Is a box around the content in the world, so wide that the gap of two bodies' boxes, less a
@@ -39,13 +48,11 @@ struct Body {
 
   std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
   const Model<S>* model = nullptr;  ///< the geometry if it is a mesh over k-IOS
-  std::vector<S> shape_values;      ///< see model/shape_values.h
+  ModelState state;                 ///< of a mesh as it was measured
+  std::vector<S> shape_values;      ///< likewise of a shape; see model/shape_values.h
   fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
   Sphere sphere;     ///< around the content, infinite for planes and the like
   double reach = 0;  ///< the sphere's
-  /// Are more spheres around the content: the caps of its k-IOS.
-  std::array<Sphere, kIOS<S>::kCaps> caps;
-  int num_caps = 0;
 
   bool used() const { return generation != 0; }
   /// A change of the geometry is seen. It is not of octrees and of the user's classes, of which
@@ -67,9 +74,14 @@ void move(Body<S>& body, const fcl::Transform3<S>& X_W);
 template <typename S>
 void renew(Body<S>& body);
 
-/// Does so if the body is a shape that has changed.
+/// Does so if the body is a mesh or a shape that has changed. Throws std::invalid_argument if a
+/// mesh is not finished.
 template <typename S>
 void renewIfChanged(Body<S>& body);
+
+/// Brings the body up to date with its fcl::CollisionObject.
+template <typename S>
+void follow(Body<S>& body);
 
 /// See Body::box: `error` is the largest rotation error of the scene.
 template <typename S>

@@ -14,7 +14,7 @@ namespace kios::scene {
 
 /// Holds a bound of a pair's distance that is known without a search.
 struct PairBound {
-  enum class Source { kNothing, kStill, kMotion, kRoots };
+  enum class Source { kNothing, kStill, kRoots };
   /// Says that the narrow phase would compute at least that; below 0 for root volumes that overlap,
   /// deeper ones first.
   double bound;
@@ -40,7 +40,7 @@ class BodyPair {
   /// Asks the narrow phase for the distance if that is at most `limit`; of two meshes, if `exact`
   /// is false, for any that is at most that.
   Answer search(double limit, bool exact, SceneCounts& counts);
-  /// Decides, of verdicts also by the triangles of the last proof, and searches if need be.
+  /// Decides, and searches if need be.
   Answer answer(double limit, bool exact, SceneCounts& counts);
 
   /// Returns the proof's answer, which has to be exact.
@@ -49,14 +49,13 @@ class BodyPair {
   /// Returns what the narrow phase computes at most, as the triangles of the last proof tell it.
   double ceiling() const;
   /// Returns true if the narrow phase would compute exactly the proof's distance.
-  bool stoodStill() const;
+  bool stoodStill() const { return proof_ && proof_->exact && still(); }
   /// The narrow phase computes at least this, wherever the bodies are.
   double lowerBound() const { return meshes() ? 0 : -kInfinity; }
 
  private:
-  /// Returns the distance of the triangles of the last proof, which lie somewhere near; +infinity
-  /// if there are none.
-  double upperBound() const;
+  /// Returns true if the bodies have the relative pose of the last proof.
+  bool still() const;
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
   PairBound cachedLowerBound(double limit) const;
   /// An answer holds until something is seen to have changed.
@@ -64,10 +63,8 @@ class BodyPair {
   bool meshes() const { return a_.model && b_.model; }
   /// Returns the frame of two meshes, made at its first use.
   const MeshPair<S>& frame() const;
-  double afterMotion(double moved, double T_norm1) const;
   /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
-  double outlook(double limit) const;
   /// Returns true if the bodies are solids and one, whose surface is apart from the other's, lies
   /// in it.
   bool contained(SearchCounts& counts) const;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace kios::scene {
 
@@ -26,6 +27,17 @@ inline double squaredGap(const Box& a, const Box& b) {
   };
   const double x = side(0), y = side(1), z = side(2);
   return x * x + y * y + z * z;
+}
+
+/// Returns a bound of how much nearer `to` lies to any other box than `from`.
+inline double shift(const Box& from, const Box& to) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double down = from.lower[i] > to.lower[i] ? from.lower[i] - to.lower[i] : 0,
+                 up = to.upper[i] > from.upper[i] ? to.upper[i] - from.upper[i] : 0;
+    square += std::max(down, up) * std::max(down, up);
+  }
+  return std::sqrt(square) * (1 + 0x1p-50) + 1e-150;
 }
 
 /// Returns a number that squaredGap() exceeds only if the distance exceeds `limit`: it covers

@@ -8,7 +8,7 @@
 
 namespace kios::scene {
 
-/// Holds a binary tree of boxes over the objects of a scene, one a leaf, built by halving the
+/// Holds a binary tree of boxes over objects, one a leaf, built by halving the
 /// centres along the longest side and refitted while objects move.
 class BoxTree {
  public:
@@ -51,12 +51,11 @@ class BoxTree {
         node.box.grow(nodes_[node.right].box);
       }
     }
+    constexpr double kWorn = 1.5;
     return !(cost() > kWorn * built_cost_);
   }
 
  private:
-  static constexpr double kWorn = 1.5;
-
   int buildRange(std::vector<Leaf>& leaves, int begin, int end);
   double cost() const;
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "fcl_kios/scene/scene_distance.h"
-#include "model/kios_model.h"
 #include "scene/body_pair.h"
 #include "volume/errors.h"
 
@@ -63,10 +62,8 @@ class ManagerQuery<S>::Impl {
  private:
   using PairMemory = scene::PairMemory<S>;
 
-  /// Holds an object, and its model's state when it was last met.
   struct Known {
     scene::Body<S> body;
-    engine::TreeKey key;
     int id = 0;
     std::uint64_t met = 0;
   };
@@ -79,19 +76,9 @@ class ManagerQuery<S>::Impl {
     if (known.met == memory_.query()) return known;
     scene::Body<S>& body = known.body;
     if (is_new) known.id = next_id_++;
-    if (body.geometry != object->collisionGeometry()) {
-      scene::place<S>(body, object->collisionGeometry(), object->getTransform());
-      body.followed = object;
-    } else {
-      scene::move(body, object->getTransform());
-      if (body.model) {
-        requireFinished(*body.model);
-        if (!(keyOf(*body.model) == known.key)) scene::renew(body);
-      } else {
-        scene::renewIfChanged(body);
-      }
-    }
-    if (body.model) known.key = keyOf(*body.model);
+    body.followed = object;
+    scene::follow(body);
+    scene::renewIfChanged(body);
     known.met = memory_.query();
     ++met_;
     return known;

@@ -4,70 +4,63 @@
 
 #include <algorithm>
 
+#include "scene/tuning.h"
+
 namespace kios::scene {
 
 template <typename S>
-void NearList<S>::follow(const std::vector<Body<S>>& bodies) {
+void NearList::follow(const std::vector<Body<S>>& bodies, bool others) {
   ++age_;
+  if (others) valid_ = false;
   if (resting_ > 0 && --resting_ > 0) return;
   moved_ = 0;
-  if (bodies.size() != marks_.size()) valid_ = false;
-  const std::size_t known = std::min(bodies.size(), marks_.size());
-  for (std::size_t id = 0; id < known; ++id) {
-    const Body<S>& body = bodies[id];
-    const Mark& mark = marks_[id];
-    if (body.generation == mark.generation) {
-      moved_ = std::max(moved_, addUp(body.path, -mark.path));
-      valid_ = valid_ && body.rotation_error <= mark.rotation_error;
-    } else {
-      valid_ = false;
-    }
+  for (std::size_t id = 0; id < std::min(bodies.size(), boxes_.size()); ++id) {
+    if (bodies[id].used()) moved_ = std::max(moved_, shift(boxes_[id], bodies[id].box));
   }
 }
 
 template <typename S>
-double NearList<S>::startFor(double limit, const std::vector<Body<S>>& bodies) {
-  constexpr double kMostQueries = 16, kLeastQueries = 2, kLimitShare = 0.125, kSizeShare = 1;
+double NearList::startFor(double gap, const std::vector<Body<S>>& bodies) {
   valid_ = listing_ = false;
-  if (resting_ > 0) return limit;
+  if (resting_ > 0) return gap;
   const double per_query = 2 * moved_ / static_cast<double>(std::max(1LL, age_));
-  const double ahead = std::min(kMostQueries * per_query, kSizeShare * size_);
+  const double ahead = std::min(tuning::kMostQueries * per_query, size_);
 
-  marks_.clear();
+  boxes_.clear();
   double radii = 0;
   for (const Body<S>& body : bodies) {
-    marks_.push_back({body.generation, body.path, body.rotation_error});
+    boxes_.push_back(body.box);
     radii += std::min(body.sphere.radius, 1e300);
   }
   size_ = bodies.empty() ? 0 : radii / static_cast<double>(bodies.size());
   moved_ = 0;
   age_ = 0;
-  if (!(ahead >= kLeastQueries * per_query)) {
+  if (!(ahead >= tuning::kLeastQueries * per_query)) {
     rest();
-    return limit;
+    return gap;
   }
   pairs_.clear();
-  capacity_ = 8 * bodies.size() + 1024;
-  reach_ = limit + ahead + kLimitShare * std::max(limit, 0.0);
-  listing_ = reach_ > limit;
-  return listing_ ? reach_ : limit;
+  capacity_ = tuning::kPairsOfBody * bodies.size() + 1024;
+  reach_ = gap + ahead + tuning::kShareOfLimit * std::max(gap, 0.0);
+  listing_ = reach_ > gap;
+  return listing_ ? reach_ : gap;
 }
 
-template <typename S>
-bool NearList<S>::add(int a, int b) {
+bool NearList::add(int a, int b) {
   if (pairs_.size() == capacity_) rest();
   if (listing_) pairs_.emplace_back(a, b);
   return listing_;
 }
 
-template <typename S>
-void NearList<S>::rest() {
+void NearList::rest() {
   pairs_.clear();
   valid_ = listing_ = false;
-  resting_ = 16;
+  resting_ = tuning::kRest;
 }
 
-template class NearList<double>;
-template class NearList<float>;
+template void NearList::follow(const std::vector<Body<double>>& bodies, bool others);
+template void NearList::follow(const std::vector<Body<float>>& bodies, bool others);
+template double NearList::startFor(double gap, const std::vector<Body<double>>& bodies);
+template double NearList::startFor(double gap, const std::vector<Body<float>>& bodies);
 
 }  // namespace kios::scene

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -11,26 +11,26 @@
 namespace kios::scene {
 
 /// Holds the pairs of objects whose boxes were within a reach of each other at one query. As long
-/// as no object has moved much since then, they include all pairs within a smaller limit, and the
-/// tree need not be searched (Verlet's list).
-template <typename S>
+/// as no box has moved much since then, they include all pairs within a smaller gap, and the tree
+/// need not be searched (Verlet's list).
 class NearList {
  public:
   using Pairs = std::vector<std::pair<int, int>>;
 
-  /// Returns true if all pairs within `limit` are listed. The list is valid while the same objects
-  /// are there, in the same states, and no rotation is worse; other pairs came nearer by their
-  /// paths at most.
-  bool covers(double limit) const { return valid_ && limit + 2 * moved_ <= reach_; }
+  /// Returns true if all pairs within `gap` are listed.
+  bool covers(double gap) const { return valid_ && (gap + 2 * moved_) * (1 + 0x1p-50) <= reach_; }
   const Pairs& pairs() const { return pairs_; }
 
-  /// Has to be called at each query once all bodies are up to date.
-  void follow(const std::vector<Body<S>>& bodies);
+  /// Has to be called at each query once all bodies are up to date; `others` if some were added or
+  /// removed.
+  template <typename S>
+  void follow(const std::vector<Body<S>>& bodies, bool others);
 
-  /// Starts a list at the present poses that serves `limit` and is likely to do so for a few more
-  /// queries. Returns its reach, or the limit if there is none: bodies move too fast for that to
-  /// pay, or there were too many pairs of late.
-  double startFor(double limit, const std::vector<Body<S>>& bodies);
+  /// Starts a list at the present poses that serves `gap` and is likely to do so for a few more
+  /// queries. Returns its reach, or the gap if there is none: bodies move too fast for that to pay,
+  /// or there were too many pairs of late.
+  template <typename S>
+  double startFor(double gap, const std::vector<Body<S>>& bodies);
   /// Adds a pair within reach. Returns false if they have become too many, and there is no list.
   bool add(int a, int b);
   /// Has to be called once all pairs within reach were added: a search that throws leaves no list.
@@ -38,15 +38,11 @@ class NearList {
 
  private:
   void rest();
-  struct Mark {
-    std::uint64_t generation;
-    double path, rotation_error;
-  };
 
   Pairs pairs_;
-  std::vector<Mark> marks_;  // of the bodies when the list was started, by id
+  std::vector<Box> boxes_;  // of the bodies when the list was started, by id
   double reach_ = 0;
-  double moved_ = 0;       // at most, by any body since then
+  double moved_ = 0;       // at most, by any box since then
   long long age_ = 0;      // queries since then
   long long resting_ = 0;  // queries for which no list is tried
   double size_ = 0;        // mean radius of the bodies

@@ -24,13 +24,12 @@ struct Proof {
   std::uint64_t generation_a = 0, generation_b = 0;  ///< 0: nothing was proven
   fcl::Matrix3<S> R;                                 ///< pose of b in a, as RelativePose has it
   fcl::Vector3<S> T;
-  double path_a = 0, path_b = 0;
-  double rotation_error = 0;  ///< of a's pose
-  double apart = 0;           ///< the narrow phase would compute at least that there
-  S distance = 0;             ///< the distance that it computes there, if `exact`
+  std::uint64_t pose_a = 0, pose_b = 0;
+  double apart = 0;  ///< the narrow phase would compute at least that there
+  S distance = 0;    ///< the distance that it computes there, if `exact`
   bool exact = false;
   std::intptr_t triangle_a = -1, triangle_b = -1;  ///< near each other there, if not negative
-  std::uint64_t made = 0, used = 0;                ///< numbers of the queries that last did
+  std::uint64_t used = 0;                          ///< number of the query that last did
 
   bool tellsOf(const Body<S>& a, const Body<S>& b) const {
     return generation_a == a.generation && generation_b == b.generation;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "model/kios_model.h"
 #include "volume/errors.h"
 
 namespace kios::scene {
@@ -13,17 +12,11 @@ namespace kios::scene {
 template <typename S>
 int Scene<S>::add(Body<S> body) {
   int id = static_cast<int>(bodies_.size());
-  watch(body.model);
   if (!free_.empty()) {
     id = *free_.begin();
     free_.erase(free_.begin());
   } else {
-    try {
-      bodies_.emplace_back();
-    } catch (...) {
-      unwatch(body.model);
-      throw;
-    }
+    bodies_.emplace_back();
   }
   bodies_[id] = std::move(body);
   tree_stale_ = true;
@@ -32,28 +25,14 @@ int Scene<S>::add(Body<S> body) {
 
 template <typename S>
 void Scene<S>::remove(int id) {
-  const Model<S>* const model = body(id).model;
-  free_.insert(id);  // the only step that may throw
-  unwatch(model);
+  body(id);
+  free_.insert(id);
   bodies_[id] = Body<S>();
   for (auto it = excluded_.begin(); it != excluded_.end();) {
     const int a = static_cast<int>(*it >> 32), b = static_cast<int>(*it & 0xffffffffU);
     it = a == id || b == id ? excluded_.erase(it) : std::next(it);
   }
   tree_stale_ = true;
-}
-
-template <typename S>
-void Scene<S>::watch(const Model<S>* model) {
-  if (!model) return;
-  Watch& watch = watches_[model];
-  if (watch.users++ == 0) watch.key = keyOf(*model);
-}
-
-template <typename S>
-void Scene<S>::unwatch(const Model<S>* model) {
-  const auto found = watches_.find(model);
-  if (found != watches_.end() && --found->second.users == 0) watches_.erase(found);
 }
 
 template <typename S>
@@ -84,33 +63,6 @@ bool Scene<S>::admissible(int a, int b) const {
 }
 
 template <typename S>
-void Scene<S>::follow(Body<S>& body) {
-  const auto& geometry = body.followed->collisionGeometry();
-  if (geometry == body.geometry) {
-    move(body, body.followed->getTransform());
-    return;
-  }
-  Body<S> placed = body;
-  place<S>(placed, geometry, body.followed->getTransform());
-  watch(placed.model);
-  unwatch(body.model);
-  body = std::move(placed);
-}
-
-template <typename S>
-bool Scene<S>::modelsChanged() {
-  for (const auto& watched : watches_) requireFinished(*watched.first);
-  bool changed = false;
-  for (auto& [model, watch] : watches_) {
-    const engine::TreeKey key = keyOf(*model);
-    watch.changed = !(key == watch.key);
-    watch.key = key;
-    changed |= watch.changed;
-  }
-  return changed;
-}
-
-template <typename S>
 void Scene<S>::beginQuery() {
   counts = SceneCounts();
   counts.total = static_cast<long long>(size()) * (static_cast<long long>(size()) - 1) / 2;
@@ -119,17 +71,12 @@ void Scene<S>::beginQuery() {
   for (Body<S>& body : bodies_) {
     if (!body.used()) continue;
     if (body.followed) follow(body);
-    if (body.shape) renewIfChanged(body);
+    renewIfChanged(body);
     error = std::max(error, body.rotation_error);
     num_obstacles_ += body.role == Role::kObstacle ? 1 : 0;
   }
-  if (modelsChanged()) {
-    for (Body<S>& body : bodies_) {
-      if (body.model && watches_.at(body.model).changed) renew(body);
-    }
-  }
   box_share_ = 1 - boxShare<S>(error);
-  near_.follow(bodies_);
+  near_.follow(bodies_, tree_stale_);
   memory.beginQuery();
 }
 

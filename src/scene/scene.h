@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -45,18 +44,6 @@ class Scene {
  private:
   using Answer = typename BodyPair<S>::Answer;
 
-  /// Holds a model that bodies share, as its volumes were last measured.
-  struct Watch {
-    engine::TreeKey key;
-    int users = 0;
-    bool changed = false;
-  };
-  void watch(const Model<S>* model);
-  void unwatch(const Model<S>* model);
-  /// Brings a body up to date with its fcl::CollisionObject.
-  void follow(Body<S>& body);
-  /// Looks at every model once. Throws if one is not finished.
-  bool modelsChanged();
   void beginQuery();
   void updateTree();
   bool admissible(int a, int b) const;
@@ -72,9 +59,9 @@ class Scene {
   /// may be within the limit.
   template <typename Visit>
   void forNearPairs(double limit, const Visit& visit);
-  /// Returns a number that the squared gap of two objects' boxes exceeds only if the narrow phase
-  /// computes more than the limit.
-  double gapLimit(double limit) const { return squaredLimit(limit / box_share_); }
+  /// Returns a gap of two objects' boxes that is exceeded only if the narrow phase computes more
+  /// than the limit.
+  double gapOf(double limit) const { return limit / box_share_; }
   /// Returns a lower bound of that, roundings covered.
   double boxBound(double square) const {
     return square < 0x1p1000 ? std::sqrt(square) * box_share_ * (1 - 0x1p-40) : 0x1p499;
@@ -83,11 +70,10 @@ class Scene {
 
   std::vector<Body<S>> bodies_;  // by id
   std::set<int> free_;           // ids below that are free
-  std::unordered_map<const Model<S>*, Watch> watches_;
   std::unordered_set<std::uint64_t> excluded_;
   BoxTree tree_;
   bool tree_stale_ = true;  // bodies were added or removed
-  NearList<S> near_;
+  NearList near_;
   double box_share_ = 1;
   long long num_obstacles_ = 0;
   std::pair<int, int> last_closest_{-1, -1};

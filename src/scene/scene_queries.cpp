@@ -65,7 +65,7 @@ void Scene<S>::forChildren(int n, int m, const Visit& visit) {
 template <typename S>
 template <typename Visit>
 void Scene<S>::forNearPairs(double limit, const Visit& visit) {
-  const double gap_limit = gapLimit(limit);
+  const double gap = gapOf(limit), gap_limit = squaredLimit(gap);
   const auto visitIfNear = [&](int a, int b) {
     const double square = squaredGap(bodies_[a].box, bodies_[b].box);
     if (square > gap_limit) {
@@ -74,7 +74,7 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
       visit(a, b, square);
     }
   };
-  if (near_.covers(limit)) {
+  if (near_.covers(gap)) {
     const auto listed = static_cast<long long>(near_.pairs().size());
     const long long of_obstacles = num_obstacles_ * (num_obstacles_ - 1) / 2;
     counts.filtered += of_obstacles;
@@ -83,14 +83,14 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
     return;
   }
 
-  const double reach = near_.startFor(limit, bodies_);
-  bool listing = reach > limit;
+  const double reach = near_.startFor(gap, bodies_);
+  bool listing = reach > gap;
   updateTree();
   if (tree_.nodes().size() < 2) {
     near_.finish();
     return;
   }
-  const double reach_limit = gapLimit(reach);
+  const double reach_limit = squaredLimit(reach);
   std::vector<std::pair<int, int>> stack = {{0, 0}};
   const auto push = [&](int n, int m) {
     const BoxTree::Node &a = tree_[n], &b = tree_[m];
@@ -146,7 +146,7 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
   const auto enqueue = [&](int n, int m) {
     const BoxTree::Node &a = tree_[n], &b = tree_[m];
     const double square = n == m ? 0 : squaredGap(a.box, b.box);
-    if (square > gapLimit(limit)) {
+    if (square > squaredLimit(gapOf(limit))) {
       counts.far_boxes += a.pairsWith(b);
     } else if (n != m && a.isLeaf() && b.isLeaf()) {
       const auto [low, high] = std::minmax({a.object, b.object});

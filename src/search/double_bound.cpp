@@ -20,9 +20,17 @@ Box boxOf(const Tree& tree, std::uint32_t id) {
   return triangleBox(tree, tree.leaves[leafOfTriangle(id)], laneOfTriangle(id));
 }
 
+/// Lower bound of the distance of what a box of one tree holds from a ball in the other's frame.
+// In b's frame the transpose serves as the inverse: |R^-1 - R^T| <= 2 stretch, but for its square,
+// and lengths there are up to 1 + stretch times a's. frame_error has 2 stretch S of these.
 double ballBound(const Box& box, bool is_of_a, const Node& ball, const TreePose& X) {
   const Eigen::Vector3d center(ball.x[kCentral], ball.y[kCentral], ball.z[kCentral]);
-  return ballBound(box, is_of_a, center, double{ball.r[kCentral]}, X);
+  const double radius = ball.r[kCentral];
+  const Eigen::Vector3d moved = is_of_a ? Eigen::Vector3d(X.R * center + X.t)
+                                        : Eigen::Vector3d(X.R.transpose() * (center - X.t));
+  const double stored = kStored * (center.lpNorm<1>() + radius);
+  const double more = is_of_a ? 0 : 2 * X.stretch * X.scale;
+  return boxBound(box, moved) - (radius + stored) - X.frame_error - more - kDouble * X.scale;
 }
 
 }  // namespace
@@ -70,17 +78,6 @@ double DoubleBound::along(const Eigen::Vector3d& w, double reach_a, double reach
   const double extent = extentOf(box);
   return (1 - 4 * kUlpFloat) * out.height - kStored * extent -
          kDouble * (extent + point.lpNorm<1>());
-}
-
-// In b's frame the transpose serves as the inverse: |R^-1 - R^T| <= 2 stretch, but for its square,
-// and lengths there are up to 1 + stretch times a's. frame_error has 2 stretch S of these.
-double ballBound(const Box& box, bool is_of_a, const Eigen::Vector3d& center, double radius,
-                 const TreePose& X) {
-  const Eigen::Vector3d moved = is_of_a ? Eigen::Vector3d(X.R * center + X.t)
-                                        : Eigen::Vector3d(X.R.transpose() * (center - X.t));
-  const double stored = kStored * (center.lpNorm<1>() + radius);
-  const double more = is_of_a ? 0 : 2 * X.stretch * X.scale;
-  return boxBound(box, moved) - (radius + stored) - X.frame_error - more - kDouble * X.scale;
 }
 
 // Along w, b's points are at w . (R q + t) = (R^T w) . q + w . t.

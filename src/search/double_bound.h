@@ -75,10 +75,6 @@ inline double boxBound(const Box& box, const Eigen::Vector3d& point) {
   return boxBound(box, point, OutOfBox(box, point));
 }
 
-/// Lower bound of the distance of what a box of one tree holds from a ball in the other's frame.
-double ballBound(const Box& box, bool is_of_a, const Eigen::Vector3d& center, double radius,
-                 const TreePose& X_AB);
-
 /// Points as a leaf stores them: rows x, y, z by chunk.
 struct StoredPoints {
   const Lanes* rows;

@@ -17,8 +17,8 @@ namespace {
 FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   FloatPose pose;
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) pose.R[i][j] = static_cast<float>(R(i, j));
-    pose.t[i] = static_cast<float>(t[i]);
+    for (int j = 0; j < 3; ++j) pose.R[i][j] = roundedTo<float>(R(i, j));
+    pose.t[i] = roundedTo<float>(t[i]);
   }
   return pose;
 }
@@ -34,7 +34,7 @@ template <typename S>
   out.t = detail::rotate<double>(out.R, origin_b) + X_AB.T().template cast<double>() - origin_a;
   const double reach_a = a.reach, reach_b = b.reach;
   out.scale = reach_a + reach_b + out.t.template lpNorm<1>();
-  if (!(std::min(reach_a, reach_b) >= kLeastReach && out.scale <= kLargestReach)) return false;
+  if (a.exponent != 0 || b.exponent != 0 || !(out.scale <= kLargestReach)) return false;
   const double points =
       error_bounds::volumeError<S>(origin_b.template lpNorm<1>() + 2 * reach_b,
                                    bounds.T_norm1 + origin_a.template lpNorm<1>(), 2 * reach_a, 0);
@@ -42,7 +42,10 @@ template <typename S>
   out.frame_error = 2 * bounds.stretch * out.scale + points;
   out.pad = error_bounds::laneError(out.scale) + out.frame_error;
   out.box_pad = error_bounds::boxError(out.scale) + out.frame_error;
-  return out.pad <= 0x1p-4 * std::min(reach_a, reach_b);
+  // Floats tell little of what is far smaller than the other, but what in that is near it.
+  constexpr double kFar = 4, kCoarse = 0x1p-4;
+  return out.t.template lpNorm<1>() <= kFar * (reach_a + reach_b) ||
+         out.pad <= kCoarse * std::min(reach_a, reach_b);
 }
 
 // The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by

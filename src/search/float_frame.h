@@ -78,8 +78,8 @@ struct TreePose {
   double frame_error;  ///< the last two items of FloatFrame's list, which double pays, too
 };
 
-/// False if floats can't serve the pair: lengths out of range, or a pad that is not small against
-/// both models. The exact search of layer 1 then does.
+/// False if floats can't serve the pair: lengths out of range, or models so far apart for their
+/// sizes that the pad hides either.
 template <typename S>
 bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB, TreePose& out);
 void makeFloatFrame(const TreePose& X_AB, FloatFrame& out);

@@ -66,7 +66,7 @@ class NearestEvaluator final : public RefineCallback {
   [[gnu::hot]] bool evaluate(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
       const TrianglePairIds ids = idsOf(c);
-      if (query_.apart || !apart_.intersect(corners_, ids)) return false;
+      if (!apart_.intersect(corners_, ids)) return false;
       least_ = 0;
       take(0, ids);
       return true;
@@ -78,7 +78,7 @@ class NearestEvaluator final : public RefineCallback {
     // As near as rounding can tell, or so small that squares vanish: do their triangles meet?
     const bool vanishing = found.extent < kLeastExtent;
     if (distance <= featureError<S>(found.extent) || vanishing) {
-      if (!query_.apart && apart_.intersect(corners_, ids)) {
+      if (apart_.intersect(corners_, ids)) {
         distance = 0;
       } else {
         if (vanishing) distance = double{corners_.distanceOf(ids).distance};
@@ -87,6 +87,7 @@ class NearestEvaluator final : public RefineCallback {
     }
     least_ = std::min(least_, distance);
     if (by_faces_) return distance < best_ && evaluateFaces(ids);
+    if (++num_evaluated_ == next_look_ && nothingIsNearer()) return true;
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
       if (distance < best_ + featureError<S>(found.extent)) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
@@ -165,6 +166,21 @@ class NearestEvaluator final : public RefineCallback {
     lowerTo(distance);
   }
 
+  /// Ends the search of exact answers where many pairs are as near, as between walls that are
+  /// parallel: true if a slab across the nearest points parts all of both meshes by the distance,
+  /// but for a part of what that may be off by. Looked for each time so many pairs were evaluated
+  /// as take longer than all vertices, so that it never takes more than they did.
+  bool nothingIsNearer() {
+    next_look_ *= 2;
+    if (keeps_pairs || !(best_ > 0) || ids_.a < 0) return false;
+    const TriangleDistance<S> nearest = corners_.distanceOf(ids_);
+    const Eigen::Vector3d origin = nearest.point_a.template cast<double>();
+    const Eigen::Vector3d n = nearest.point_b.template cast<double>() - origin;
+    const double distance = double{nearest.distance};
+    return n.norm() > 0 &&
+           corners_.gapAlong(n, origin) >= (1 - 24 * error_bounds::kUlp<S>)*distance;
+  }
+
   /// Called when a pair at this distance was found, or when no farther one is asked for.
   void lowerTo(double distance) {
     best_ = distance;
@@ -181,115 +197,37 @@ class NearestEvaluator final : public RefineCallback {
   TrianglePairIds ids_, faces_;  ///< the nearest; those evaluated as faces
   TriangleDistance<S> of_faces_;
   bool ended_near_ = false;
+  std::size_t num_evaluated_ = 0;
+  std::size_t next_look_ = 1024 + corners_.numTriangles();  ///< at nothingIsNearer()
   NearestEnds ends_;
   PairsApart apart_;
   LastPlane plane_of_a_, plane_of_b_;
   const double least_shared_;  ///< nearer edges need their own extent; see evaluate()
 };
 
-/// The features of some triangles of a mesh, each by its first triangle, as in Ownership: by
-/// triangle, the corners at which it owns an edge, and those at which it owns a vertex, as bits.
-struct OwnFeatures {
-  unsigned int edges = 7, vertices = 7;
-};
-
-template <typename S>
-std::vector<OwnFeatures> ownFeatures(const MeshView<S>& mesh, const std::vector<int>& triangles) {
-  std::vector<OwnFeatures> own(triangles.size());
-  const auto corner = [&](std::size_t i, int k) -> const fcl::Vector3<S>& {
-    return mesh.corner(static_cast<std::size_t>(triangles[i]), static_cast<std::size_t>(k % 3));
-  };
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {  // the triangles ascend
-      for (int k = 0; k < 3; ++k) {
-        for (int l = 0; l < (i == j ? k : 3); ++l) {
-          const auto &v = corner(i, k), &next_v = corner(i, k + 1);
-          const auto &w = corner(j, l), &next_w = corner(j, l + 1);
-          if (v == w) own[i].vertices &= ~(1U << k);
-          if ((v == w && next_v == next_w) || (v == next_w && next_v == w)) {
-            own[i].edges &= ~(1U << k);
-          }
-        }
-      }
-    }
-  }
-  return own;
-}
-
-/// The triangles of one side of some pairs, ascending.
-std::vector<int> trianglesOf(const std::vector<TrianglePairIds>& pairs,
-                             int TrianglePairIds::*side) {
-  std::vector<int> triangles;
-  triangles.reserve(pairs.size());
-  for (const TrianglePairIds& ids : pairs) triangles.push_back(ids.*side);
-  std::sort(triangles.begin(), triangles.end());
-  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-  return triangles;
-}
-
-template <typename S>
-class IntersectionEvaluator final : public RefineCallback {
+/// Evaluates whole triangles; 0 is the only distance that matters.
+class TouchingEvaluator final : public RefineCallback {
  public:
-  IntersectionEvaluator(const PreparedPair<S>& pair, std::size_t limit)
-      : corners_(pair), limit_(limit) {
+  explicit TouchingEvaluator(const VisitPair& visit) : visit_(visit) {
     cull_distance = candidate_limit = 0;
   }
 
-  [[gnu::hot]] bool evaluate(const Candidate& c) override {
-    const TrianglePairIds ids = idsOf(c);
-    const bool once = limit_ > 1;  // every pair is evaluated once
-    if (once ? corners_.intersect(ids) : apart_.intersect(corners_, ids)) found.push_back(ids);
-    return found.size() >= limit_;
-  }
-
+  bool evaluate(const Candidate& c) override { return visit_(idsOf(c)); }
   void addUpperBound(float /*upper_bound*/) override {}
 
-  std::vector<TrianglePairIds> found;
-
  private:
-  const Corners<S> corners_;
-  const std::size_t limit_;
-  PairsApart apart_;
+  const VisitPair& visit_;
 };
 
-}  // namespace
-
-// A feature near enough to matter belongs to a pair near enough to be given, and so does the same
-// feature of its first triangle: ownership among the triangles given is that of the mesh.
+/// Visits the pairs that `kernel` evaluates.
 template <typename S>
-TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const MeshView<S>& a,
-                               const MeshView<S>& b, const RelativePose<S>& X_AB) {
-  if (pairs.size() == 1) return pairs[0];
-  const auto triangles_a = trianglesOf(pairs, &TrianglePairIds::a),
-             triangles_b = trianglesOf(pairs, &TrianglePairIds::b);
-  const auto own_a = ownFeatures(a, triangles_a), own_b = ownFeatures(b, triangles_b);
-  const auto ownOf = [](const std::vector<int>& triangles, const std::vector<OwnFeatures>& own,
-                        int id) {
-    const auto at = std::lower_bound(triangles.begin(), triangles.end(), id) - triangles.begin();
-    return own[static_cast<std::size_t>(at)];
-  };
-  const PairQuery query;
-  NearestEvaluator<S> evaluator(Corners<S>(a, b, X_AB), kInfinity, query);
-  for (const TrianglePairIds& ids : pairs) {
-    const OwnFeatures of_a = ownOf(triangles_a, own_a, ids.a),
-                      of_b = ownOf(triangles_b, own_b, ids.b);
-    const std::uint32_t face_a = static_cast<std::uint32_t>(ids.a) << 2,
-                        face_b = static_cast<std::uint32_t>(ids.b) << 2;
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      for (std::uint32_t j = 0; j < 3; ++j) {
-        if ((of_a.edges >> i & of_b.edges >> j & 1U) == 0) continue;
-        evaluator.evaluate({PairKind::kEdgeEdge, {face_a | i}, {face_b | j}});
-      }
-      if ((of_a.vertices >> i & 1U) != 0) {
-        evaluator.evaluate({PairKind::kVertexFace, {face_a | i}, {face_b}});
-      }
-      if ((of_b.vertices >> i & 1U) != 0) {
-        evaluator.evaluate({PairKind::kFaceVertex, {face_a}, {face_b | i}});
-      }
-    }
-  }
-  return evaluator.ids();
+void visitBy(void (*kernel)(const Search&), const PreparedPair<S>& pair, const VisitPair& visit,
+             SearchCounts& counts) {
+  TouchingEvaluator evaluator(visit);
+  kernel({pair.a.tree, pair.b.tree, pair.pose, pair.frames, evaluator, counts, pair.audit});
 }
+
+}  // namespace
 
 template <typename S>
 [[gnu::hot]] PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
@@ -338,23 +276,40 @@ template <typename S>
 }
 
 template <typename S>
+void visitTouching(const PreparedPair<S>& pair, const VisitPair& visit, SearchCounts& counts) {
+  visitBy(kernels().contacts, pair, visit, counts);
+}
+
+template <typename S>
 [[gnu::hot]] std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair,
                                                                 std::size_t limit,
                                                                 SearchCounts& counts) {
-  IntersectionEvaluator<S> evaluator(pair, limit);
-  const Search search = {pair.a.tree, pair.b.tree, pair.pose, pair.frames,
-                         evaluator,   counts,      pair.audit};
-  if (limit == 1) {
-    kernels().contact(search);
-  } else {
-    kernels().contacts(search);
+  std::vector<TrianglePairIds> found;
+  const Corners<S> corners(pair);
+  if (limit == 1) {  // features name triangles many times
+    PairsApart apart;
+    visitBy(
+        kernels().contact, pair,
+        [&](const TrianglePairIds& ids) {
+          if (apart.intersect(corners, ids)) found.push_back(ids);
+          return !found.empty();
+        },
+        counts);
+    return found;
   }
-  if (limit > 1) std::sort(evaluator.found.begin(), evaluator.found.end());
-  return std::move(evaluator.found);
+  visitTouching(
+      pair,
+      [&](const TrianglePairIds& ids) {
+        if (corners.intersect(ids)) found.push_back(ids);
+        return found.size() >= limit;
+      },
+      counts);
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
-KIOS_INSTANTIATE_FUNCTION(nearestOfThese);
 KIOS_INSTANTIATE_FUNCTION(nearestTriangles);
+KIOS_INSTANTIATE_FUNCTION(visitTouching);
 KIOS_INSTANTIATE_FUNCTION(intersectingTriangles);
 
 }  // namespace kios::engine

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -31,16 +32,15 @@ struct PreparedPair {
   Audit* audit = nullptr;
 };
 
-/// Returns that of these pairs of triangles which nearestTriangles() names, if every pair that
-/// rounding may make the nearest is among them. None of them may touch. Needs no trees.
-template <typename S>
-TrianglePairIds nearestOfThese(const std::vector<TrianglePairIds>& pairs, const MeshView<S>& a,
-                               const MeshView<S>& b, const RelativePose<S>& X_AB);
-
 /// The answer in the trees. Exact answers don't depend on where the search began.
 template <typename S>
 PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
                                SearchCounts& counts);
+
+/// Shows every pair of triangles that may touch, once, until visit(ids) returns true.
+using VisitPair = std::function<bool(const TrianglePairIds&)>;
+template <typename S>
+void visitTouching(const PreparedPair<S>& pair, const VisitPair& visit, SearchCounts& counts);
 
 /// Up to `limit` pairs of triangles that intersect, all of them if there are no more; by ids.
 template <typename S>

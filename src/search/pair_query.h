@@ -34,7 +34,6 @@ struct PairQuery {
   long long max_expansions = std::numeric_limits<long long>::max();
   TrianglePairIds start;  ///< triangles to begin with, if any; exact answers don't depend on them
   bool any_touching = false;  ///< of triangles that touch, any may be named, of all models
-  bool apart = false;         ///< it is known that none touch
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
   /// The search of exact answers is then as fast as that of brackets.
@@ -65,6 +64,7 @@ struct PairAnswer {
   double least_other = 0;  ///< proven of all pairs that were not evaluated
   /// Proven of those that were, if their volumes told more than their distances.
   double proven_evaluated = -kInfinity;
+  double roots = 0;  ///< proven of all by the roots, where these were looked at
   SearchEnd end = SearchEnd::kDone;
 
   bool found() const { return ids.a >= 0; }

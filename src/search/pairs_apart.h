@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "search/mesh_search.h"
+#include "volume/rounding.h"
 
 // The triangles that a search asks the exact kernels about, and what it remembers of the answers.
 
@@ -38,6 +40,27 @@ class Corners {
   TriangleDistance<S> distanceOf(const TrianglePairIds& ids) const {
     return triangleDistance(triangleOfA(static_cast<std::uint32_t>(ids.a)),
                             triangleOfB(static_cast<std::uint32_t>(ids.b)));
+  }
+  std::size_t numTriangles() const { return a_.num_triangles + b_.num_triangles; }
+  /// How far all of b lies beyond all of a along n, of any length, from `origin`; less than what
+  /// rounding may have made of it. A difference, three products and two sums: each height is off by
+  /// at most 6 u of the sum of its terms' absolute values.
+  double gapAlong(const Eigen::Vector3d& n, const Eigen::Vector3d& origin) const {
+    const auto least = [&](std::size_t num_triangles, double sign, const auto& triangleOf) {
+      double height = kInfinity, terms = 0;
+      for (std::uint32_t t = 0; t < num_triangles; ++t) {
+        for (const auto& p : triangleOf(t)) {
+          const Eigen::Vector3d v = n.cwiseProduct(p.template cast<double>() - origin);
+          height = std::min(height, sign * (v[0] + v[1] + v[2]));
+          terms = std::max(terms, v.template lpNorm<1>());
+        }
+      }
+      return height - 8 * kUlpDouble * terms;
+    };
+    const double of_b = least(b_.num_triangles, 1, [&](std::uint32_t t) { return triangleOfB(t); }),
+                 of_a =
+                     least(a_.num_triangles, -1, [&](std::uint32_t t) { return triangleOfA(t); });
+    return (of_b + of_a) / n.norm() * (1 - 8 * kUlpDouble);
   }
   bool intersect(const TrianglePairIds& ids) const {
     return trianglesIntersect(triangleOfA(static_cast<std::uint32_t>(ids.a)),

@@ -34,9 +34,10 @@ struct FloatRay {
   float begin, end;  ///< of s, within the model
 };
 
-enum class RayFit { kServed, kMiss, kRefused };
+enum class RayFit { kServed, kMiss, kBlind };
 
-/// kMiss: the line is proven to miss the model. kRefused: floats can't serve.
+/// kMiss: the line is proven to miss the model. kBlind: it comes from so far that floats tell
+/// nothing of it, and the ray meets all.
 RayFit makeFloatRay(const Tree& tree, const RayLine& line, double t_min, double t_max,
                     RayLine::Near& near, FloatRay& ray);
 

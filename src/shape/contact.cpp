@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "shape/convex_faces.h"
-#include "shape/features.h"
 #include "shape/hull.h"
 #include "shape/meets.h"
 #include "shape/nearest_point.h"
@@ -84,8 +83,8 @@ void descend(Exit& exit) {
 
 /// A point of both; for a capsule the pair of nearest points of its segment and the triangle. A box
 /// gets here where its slabs leave nothing of the triangle.
-CoreDistance commonPoint(const Solid& s, const Triangle& t, const ConvexFaces* faces,
-                         const std::optional<Vec>& common) {
+CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* faces,
+                        const std::optional<Vec>& common) {
   CoreDistance core = {};
   if (s.kind == Kind::kConvex) {
     for (int i = 0; faces && i < 3; ++i) {
@@ -113,7 +112,7 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const Conve
                                   const std::optional<Vec>& common) {
   Exit exit(s, t);
   if (faces && !faces->known()) faces = nullptr;
-  const CoreDistance core = commonPoint(s, t, faces, common);
+  const CoreDistance core = commonCore(s, t, faces, common);
   const Vec& position = core.point;
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));

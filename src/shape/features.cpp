@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "shape/features.h"
 
 #include <algorithm>
 #include <cmath>

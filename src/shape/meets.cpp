@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "shape/convex_faces.h"
-#include "shape/features.h"
 #include "shape/hull.h"
 #include "shape/polygon.h"
 #include "triangle/expansion.h"

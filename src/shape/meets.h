@@ -23,4 +23,15 @@ inline double clearOf(const Triangle& t, const CoreDistance& core) {
 /// Decides it where GJK, that found no clear slab, may have found a common point.
 bool meetsAt(const Solid& solid, const Triangle& triangle, const CoreDistance& core, Vec* common);
 
+/// The distance of a triangle and the core of a bounded solid, other than a convex one, by closed
+/// forms: of a corner, of an edge, of the face. Each comes with the slab across it; a feature is
+/// the nearest one if the rest of the triangle lies beyond that slab, but for 2^-49 of sizeOf(t)
+/// and the solid's reach. Corners and edges are evaluated by their own coordinates alone, so that
+/// triangles that share a nearest one are bitwise as far. Returns false if no slab decides, or if
+/// the pair is nearer than 2^-36 of those lengths: GJK and the kernels of close pairs then do. Ends
+/// early, with `upper` no more than an upper bound, once the pair is proven farther than
+/// `required`.
+bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double required,
+                           CoreDistance& core);
+
 }  // namespace kios::shape

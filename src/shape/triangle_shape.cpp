@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "shape/features.h"
 #include "shape/hull.h"
 #include "shape/meets.h"
 #include "shape/nearest_point.h"

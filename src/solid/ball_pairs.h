@@ -3,8 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 #include "solid/solid_pair.h"
@@ -19,33 +17,22 @@ class BallPairs {
   template <typename S>
   explicit BallPairs(const SolidPair<S>& pair);
 
-  /// Holds a direction, unit, and the length by which b seems to leave a along it: all balls, grown
-  /// by gap(), are left.
-  struct Way {
-    fcl::Vector3d direction;
-    double reach;
-  };
-  /// Returns ways along the axes, the diagonals and these directions, the shortest first.
-  std::vector<Way> ways(const std::vector<fcl::Vector3d>& directions) const;
-  /// Returns the length by which all balls, grown by so much, are left along n.
-  double reach(const fcl::Vector3d& n, double grown) const;
-  /// Finds a translation near `from` at which they are: it is moved out of the ball in which it is
-  /// deepest, again and again.
-  fcl::Vector3d escape(const fcl::Vector3d& from, double grown) const;
+  /// Finds a translation near `from` at which all balls, grown by about what they leave out of the
+  /// solids, are left: it is moved out of the ball in which it is deepest, again and again.
+  fcl::Vector3d escape(const fcl::Vector3d& from) const;
   /// Returns true if balls meet after a translation, and with them the solids.
   bool meet(const fcl::Vector3d& translation) const;
   /// Returns the point that is deepest in a ball of each; none if no two meet.
-  std::optional<fcl::Vector3d> common() const;
-  /// Returns about what the balls leave out of the solids.
-  double gap() const { return gap_; }
+  const std::optional<fcl::Vector3d>& common() const { return common_; }
+  /// Returns how far b must go at least for the two balls that meet most deeply to part.
+  double depth() const { return depth_; }
 
  private:
-  std::vector<InnerBalls::Ball> a_, b_;
-  double gap_, unit_;  ///< floats are in units of the solids' size: none over- or underflows
-  Eigen::ArrayXf x_, y_, z_, radius_, square_, inner_square_;
-  // Scratch.
-  mutable Eigen::ArrayXf middle_, half_;
-  mutable std::vector<std::pair<float, float>> chords_;
+  std::optional<fcl::Vector3d> common_;
+  double depth_ = 0;
+  double unit_;  ///< floats are in units of the solids' size: none over- or underflows
+  Eigen::ArrayXf x_, y_, z_, inner_square_, grown_square_;
+  mutable Eigen::ArrayXf depth_in_;  ///< scratch
 };
 
 }  // namespace kios

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fcl_kios/triangle/intersection.h"
 #include "solid/containment.h"
 #include "solid/nearest_surface.h"
 #include "solid/winding.h"
@@ -142,10 +143,14 @@ double depthOfBalls(SolidPair<S>& pair, const Vec& on_a, const Vec& translation,
   }
   constexpr double kPoor = 0.2;
   // If that is poor, from where the surfaces meet, a little way into both.
-  for (const auto& seam : pair.seams()) {
+  const auto& contacts = pair.overlap().contacts;
+  constexpr std::size_t kSeams = 4;
+  for (std::size_t i = 0; i < std::min(2 * kSeams, contacts.size()); i += 2) {
+    const Vec seam = intersectionPoint(contacts[i].a, contacts[i].b);
+    const Vec inwards = -normalOf(contacts[i].a) - normalOf(contacts[i].b);
     for (double step = 0.3 * translation.norm(); step > 0.01 * translation.norm(); step *= 0.3) {
       if (balls.depth > kPoor * required) break;
-      if (tryPoint(seam.point + step * seam.inwards).depth > 0) break;
+      if (tryPoint(seam + step * inwards).depth > 0) break;
     }
   }
   if (!(balls.depth > 0)) return 0;

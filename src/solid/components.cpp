@@ -6,15 +6,42 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numeric>
-#include <optional>
 
-#include "solid/nesting.h"
+#include <Eigen/Geometry>
+
+#include "fcl_kios/model/model.h"
+#include "solid/winding.h"
 #include "tree/weld.h"
 #include "triangle/integer.h"
 #include "volume/instantiate.h"
 
 namespace kios {
+
+// The sign of the volume, summed relative to a corner. Each term takes 8 roundings of its
+// permanent, the sum one of what it adds up to for each term.
+bool windInwards(std::size_t count, const CornersOf& corners_of) {
+  const fcl::Vector3d origin = corners_of(0)[0];
+  double volume = 0, permanents = 0;
+  for (std::size_t t = 0; t < count; ++t) {
+    const TriangleVertices<double> corners = corners_of(t);
+    const fcl::Vector3d p = corners[0] - origin, q = corners[1] - origin, r = corners[2] - origin;
+    volume += p.dot(q.cross(r));
+    permanents += std::abs(p[0]) * (std::abs(q[1] * r[2]) + std::abs(q[2] * r[1])) +
+                  std::abs(p[1]) * (std::abs(q[2] * r[0]) + std::abs(q[0] * r[2])) +
+                  std::abs(p[2]) * (std::abs(q[0] * r[1]) + std::abs(q[1] * r[0]));
+  }
+  const double error = (16 + static_cast<double>(count)) * 0x1p-52 * permanents;
+  if (std::isfinite(volume) && permanents > 0x1p-900 && std::abs(volume) > error) return volume < 0;
+  Integer exact = 0;
+  const IntegerVector from = integers(origin);
+  for (std::size_t t = 0; t < count; ++t) {
+    const TriangleVertices<double> p = corners_of(t);
+    exact += dot(integers(p[0]) - from, cross(integers(p[1]) - from, integers(p[2]) - from));
+  }
+  return exact < 0;
+}
 
 template <typename S>
 Components<S>::Components(const engine::MeshView<S>& mesh) : mesh_(mesh) {
@@ -81,52 +108,80 @@ void Components<S>::judgeEdges(const std::vector<Side>& sides) {
 
 template <typename S>
 void Components<S>::findInsideOut() {
-  std::optional<Nesting<S>> nesting;
+  std::vector<Part> parts;
   for (int c = 0; c < closedness_.components; ++c) {
-    if (!windsInwards(c)) continue;
-    if (!nesting) nesting.emplace(mesh_, *this);
-    if (!nesting->liesWithinOthers(c)) inside_out_.push_back(*trianglesOf(c).begin());
+    const Triangles of_c = trianglesOf(c);
+    const auto count = static_cast<std::size_t>(of_c.last - of_c.first);
+    if (!windInwards(count, [&](std::size_t i) { return cornersOf(of_c.first[i]); })) continue;
+    if (parts.empty()) parts = makeParts();
+    if (!liesWithinOthers(parts, c)) inside_out_.push_back(*trianglesOf(c).begin());
   }
   closedness_.inside_out = static_cast<int>(inside_out_.size());
   if (!inside_out_.empty()) closedness_.first_inside_out = inside_out_.front();
   closedness_.oriented = inside_out_.empty();
 }
 
-// The sign of the volume, summed relative to a vertex of the component. Each term takes 8 roundings
-// of its permanent, the sum one of what it adds up to for each term.
 template <typename S>
-bool Components<S>::windsInwards(int component) const {
-  const fcl::Vector3<S>& o =
-      mesh_.corner(static_cast<std::size_t>(*trianglesOf(component).begin()), 0);
-  const fcl::Vector3d origin = o.template cast<double>();
-  double volume = 0, permanents = 0, terms = 0;
-  const auto triangles = [&](const auto& visit) {
-    for (const int t : trianglesOf(component)) visit(static_cast<std::size_t>(t));
-  };
-  triangles([&](std::size_t t) {
-    fcl::Vector3d p[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = mesh_.corner(t, k).template cast<double>() - origin;
+TriangleVertices<double> Components<S>::cornersOf(int triangle) const {
+  const auto t = static_cast<std::size_t>(triangle);
+  return {mesh_.corner(t, 0).template cast<double>(), mesh_.corner(t, 1).template cast<double>(),
+          mesh_.corner(t, 2).template cast<double>()};
+}
+
+/// Holds the corners of a component's triangles, scaled by a power of 2 so that no length
+/// overflows.
+template <typename S>
+struct Components<S>::Part {
+  std::vector<fcl::Vector3d> corners;
+  Eigen::AlignedBox3d box;
+  std::shared_ptr<const Modeld> model;  ///< made where a point lies in the box
+};
+
+template <typename S>
+std::vector<typename Components<S>::Part> Components<S>::makeParts() const {
+  std::vector<Part> parts(begin_.size() - 1);
+  double largest = 0;
+  for (std::size_t c = 0; c < parts.size(); ++c) {
+    for (const int t : trianglesOf(static_cast<int>(c))) {
+      for (const fcl::Vector3d& p : cornersOf(t)) {
+        parts[c].corners.push_back(p);
+        largest = std::max(largest, p.cwiseAbs().maxCoeff());
+      }
     }
-    const fcl::Vector3d q = p[1].cwiseAbs(), r = p[2].cwiseAbs();
-    volume += p[0].dot(p[1].cross(p[2]));
-    permanents += std::abs(p[0][0]) * (q[1] * r[2] + q[2] * r[1]) +
-                  std::abs(p[0][1]) * (q[2] * r[0] + q[0] * r[2]) +
-                  std::abs(p[0][2]) * (q[0] * r[1] + q[1] * r[0]);
-    ++terms;
-  });
-  const double error = (16 + terms) * 0x1p-52 * permanents;
-  if (std::isfinite(volume) && permanents > 0x1p-900 && std::abs(volume) > error) return volume < 0;
-  Integer exact = 0;
-  const IntegerVector from = integers(origin);
-  triangles([&](std::size_t t) {
-    IntegerVector p[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      p[k] = integers(mesh_.corner(t, k).template cast<double>()) - from;
+  }
+  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
+  for (Part& part : parts) {
+    for (fcl::Vector3d& p : part.corners) {
+      p = p.unaryExpr([exponent](double x) { return std::scalbn(x, exponent); }).eval();
+      part.box.extend(p);
     }
-    exact += dot(p[0], cross(p[1], p[2]));
-  });
-  return exact < 0;
+  }
+  return parts;
+}
+
+// Returns true if the others wind round a vertex of the component that lies on none of them, or
+// each lies on others, so that nothing is proven wrong. None winds round points out of its box.
+template <typename S>
+bool Components<S>::liesWithinOthers(std::vector<Part>& parts, int component) {
+  Part& own = parts[static_cast<std::size_t>(component)];
+  SearchCounts unused;
+  for (const fcl::Vector3d& p : own.corners) {
+    PointPlace place;
+    for (Part& other : parts) {
+      if (&other == &own || !other.box.contains(p)) continue;
+      if (!other.model) {
+        std::vector<fcl::Triangle> soup;
+        for (std::size_t i = 0; i < other.corners.size(); i += 3)
+          soup.emplace_back(i, i + 1, i + 2);
+        other.model = makeModel(other.corners, soup);
+      }
+      const PointPlace here = placeOf(p, *other.model, unused);
+      place.winding += here.winding;
+      place.on_surface |= here.on_surface;
+    }
+    if (!place.on_surface) return place.inside();
+  }
+  return true;
 }
 
 KIOS_INSTANTIATE_CLASS(Components);

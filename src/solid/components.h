@@ -2,13 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "build/mesh_view.h"
 #include "fcl_kios/solid/closedness.h"
+#include "fcl_kios/triangle/triangle.h"
 #include "solid/sides.h"
 
 namespace kios {
+
+/// Gives the corners of a triangle by its place among some.
+using CornersOf = std::function<TriangleVertices<double>(std::size_t)>;
+
+/// Returns true if so many triangles, at least one, which are closed, enclose a negative volume:
+/// exact.
+bool windInwards(std::size_t count, const CornersOf& corners_of);
 
 /// Holds a mesh taken apart into components, and their orientation.
 template <typename S>
@@ -35,7 +45,10 @@ class Components {
   void listTriangles(const Parts& parts);
   void judgeEdges(const std::vector<Side>& sides);
   void findInsideOut();
-  bool windsInwards(int component) const;
+  struct Part;
+  std::vector<Part> makeParts() const;
+  static bool liesWithinOthers(std::vector<Part>& parts, int component);
+  TriangleVertices<double> cornersOf(int triangle) const;
 
   const engine::MeshView<S> mesh_;
   std::vector<int> triangles_;  ///< component by component

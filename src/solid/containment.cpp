@@ -33,11 +33,7 @@ bool liesInPosed(const fcl::Vector3d& p, const MeshPair<S>& frame) {
 
 template <typename S>
 bool surfacesMeet(const MeshPair<S>& frame, SearchCounts& counts) {
-  if (frame.rootBound(0) > 0) return false;
-  std::vector<engine::TrianglePairIds> found;
-  if (searchContacts(frame, 1, found, counts)) return !found.empty();
-  const engine::PairAnswer<S> answer = searchNearest(frame, {}, counts);
-  return answer.found() && answer.nearest.distance == 0;
+  return !searchContacts(frame, 1, counts).empty();
 }
 
 template <typename S>
@@ -56,13 +52,13 @@ double inverseError(const RelativePose<S>& X_AB, double norm1) {
 
 template <typename S>
 std::optional<fcl::Vector3d> containedPoint(const MeshPair<S>& frame, SearchCounts& counts) {
-  for (const auto& component : requireSolid(frame.b)->components()) {
+  for (const auto& component : requireSolid(frame.b).components()) {
     const fcl::Vector3d p = (frame.X_AB * frame.b.vertices[component[0]]).template cast<double>();
     if (placeOf(p, frame.a, counts).inside()) return p;
   }
   // b's tree lies in b's frame, where a's vertices are known but for rounding: that doesn't matter
   // unless b's surface is as near.
-  for (const auto& component : requireSolid(frame.a)->components()) {
+  for (const auto& component : requireSolid(frame.a).components()) {
     bool decided = false, inside = false;
     fcl::Vector3d p;
     for (std::size_t i = 0; i < component.size() && !decided; ++i) {

@@ -3,12 +3,15 @@
 #include "solid/exit_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
-#include <vector>
 
+#include <Eigen/Geometry>
 #include "volume/errors.h"
 #include "volume/instantiate.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -21,247 +24,323 @@ struct Plane {
   double least;
 };
 
-/// Returns the point of all half-spaces that is nearest to the origin, to about a percent:
-/// Hildreth's method.
-Vec nearestToOrigin(const std::vector<Plane>& planes) {
-  std::vector<double> weights(planes.size(), 0.0);
+/// Holds the translation beyond some planes that is nearest to the origin, in a's frame.
+struct Corner {
   Vec x = Vec::Zero();
-  constexpr int kSweeps = 60;
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-      const double weight = std::max(0.0, weights[i] + planes[i].least - planes[i].normal.dot(x));
-      x += (weight - weights[i]) * planes[i].normal;
-      weights[i] = weight;
+  std::vector<Plane> active;  ///< those of the planes that make it: up to three
+};
+
+/// Returns the corner of the planes if it is nearer than `most`: of those that one, two or three
+/// planes alone would have. If `by_first`, the first plane is known to be one of these.
+std::optional<Corner> nearestToOrigin(const std::vector<Plane>& planes, double most,
+                                      bool by_first) {
+  constexpr double kFlat = 1e-9, kRounding = 1e-12;
+  std::optional<Corner> best;
+  double least = most * most;
+  fcl::Matrix3d basis;  // orthonormal, of the normals of those so far
+  std::array<Plane, 3> so_far;
+  const auto extend = [&](const auto& self, const Vec& x, int size, std::size_t from) -> void {
+    const double square = x.squaredNorm();
+    if (!(square < least)) return;  // more planes take it farther
+    if ((size > 0 || !by_first) && std::all_of(planes.begin(), planes.end(), [&](const Plane& p) {
+          return p.normal.dot(x) >= p.least - kRounding * std::sqrt(square);
+        })) {
+      least = square;
+      best = {x, {so_far.begin(), so_far.begin() + size}};
+    }
+    const std::size_t end = size == 3 ? 0 : size == 0 && by_first ? 1 : planes.size();
+    for (std::size_t i = from; i < end; ++i) {
+      const Plane& p = planes[i];
+      Vec across = p.normal;
+      for (int k = 0; k < size; ++k) across -= basis.col(k).dot(p.normal) * basis.col(k);
+      const double length = across.norm();
+      if (!(length > kFlat)) continue;
+      basis.col(size) = across / length;
+      so_far[static_cast<std::size_t>(size)] = p;
+      self(self, x + (p.least - p.normal.dot(x)) / length * basis.col(size), size + 1, i + 1);
+    }
+  };
+  extend(extend, Vec::Zero(), 0, 0);
+  return best;
+}
+
+/// Holds the translations of b, in a's frame, after which two triangles that meet still do: the
+/// polytope of their differences, within planes of both faces, each on both sides, and of pairs of
+/// edges.
+class DifferencePolytope {
+ public:
+  /// The triangles meet after a translation by x.
+  DifferencePolytope(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
+                     const Vec& x) {
+    const Vec normal_a = normalOf(a), normal_b = normalOf(b);
+    const auto add = [&](const Vec& n) {
+      const double square = n.squaredNorm();
+      if (!(square > kParallel)) return;
+      const Vec u = n / std::sqrt(square);
+      planes_[count_++] = {u, std::max({u.dot(a[0]), u.dot(a[1]), u.dot(a[2])}) -
+                                  std::min({u.dot(b[0] - x), u.dot(b[1] - x), u.dot(b[2] - x)})};
+    };
+    for (const Vec& n : {normal_a, normal_b}) {
+      add(n);
+      add(-n);
+    }
+    const bool parallel = normal_a.cross(normal_b).squaredNorm() < kParallel;
+    for (int i = 0; i < 3; ++i) {
+      const Vec &p = a[i], &to_a = a[(i + 2) % 3], e = (a[(i + 1) % 3] - p).normalized();
+      if (parallel) add(e.cross(normal_a));
+      for (int j = 0; j < 3; ++j) {
+        const Vec &q = b[j], f = (b[(j + 1) % 3] - q).normalized();
+        if (parallel) {
+          if (i == 0) add(normal_b.cross(f));
+          continue;
+        }
+        // Between both edges the triangles must lie on different sides.
+        const Vec n = e.cross(f);
+        const double side_a = n.dot(to_a - p), side_b = n.dot(b[(j + 2) % 3] - q);
+        if (side_a <= 0 && side_b >= 0) add(n);
+        if (side_a >= 0 && side_b <= 0) add(-n);
+      }
     }
   }
-  return x;
+
+  /// Returns how far a translation is from the nearest one that parts them, or something below
+  /// `least`; at most 0 if it does.
+  double depth(const Vec& x, double least) const {
+    double depth = kInfinity;
+    for (int i = 0; i < count_ && depth > least; ++i) {
+      depth = std::min(depth, planes_[i].least - planes_[i].normal.dot(x));
+    }
+    return depth;
+  }
+
+  const Plane* begin() const { return planes_; }
+  const Plane* end() const { return planes_ + count_; }
+
+ private:
+  static constexpr double kParallel = 1e-12;
+  Plane planes_[22];
+  int count_ = 0;
+};
+
+/// Goes `length` along n, unit, in the world, and a little farther for rounding. Gives up where
+/// that is no shorter than `most`, up to which nearest points are looked for.
+template <typename S>
+std::optional<Exit> goAlong(SolidPair<S>& pair, const Vec& n, double length, double most,
+                            int tries) {
+  double margin = 8 * pair.rounding();
+  for (int i = 0; i < tries; ++i, margin *= 4) {
+    const Vec x = roundedTo<S>((std::max(length, 0.0) + margin) * n).template cast<double>();
+    if (!(x.norm() < most)) break;
+    const Separation after = pair.test(x, std::min(most, pair.size()));
+    if (after.apart) return Exit{x, x.norm(), after};
+  }
+  return std::nullopt;
 }
 
 template <typename S>
 class ExitSearch {
  public:
-  ExitSearch(SolidPair<S>& pair, const BallPairs& balls, const Exit& exit, long long last_test)
-      : pair_(pair), balls_(balls), best_(exit), last_test_(last_test) {}
+  ExitSearch(SolidPair<S>& pair, long long last_test, Exit& exit)
+      : pair_(pair), last_test_(last_test), best_(exit) {}
 
-  Exit nearby(const std::vector<Vec>& directions) {
-    descend(stepOut(directions));
-    shortenToRounding();
-    return best_;
+  bool byPlanes(std::size_t most_corners) {
+    std::vector<Corner> queue(1);
+    const auto farther = [](const Corner& p, const Corner& q) {
+      return p.x.squaredNorm() > q.x.squaredNorm();
+    };
+    std::vector<DifferencePolytope> polytopes;
+    std::vector<Vec> seen;
+    constexpr std::size_t kContacts = 16;
+    constexpr double kBeyond = 1e-10, kSame = 1e-12;
+    while (!queue.empty() && seen.size() < most_corners) {
+      std::pop_heap(queue.begin(), queue.end(), farther);
+      const Corner corner = std::move(queue.back());
+      queue.pop_back();
+      const Vec& x = corner.x;
+      const double length = x.norm(), most = kEnough * best_.length;
+      if (!(length < most)) return true;
+      if (std::any_of(seen.begin(), seen.end(), [&](const Vec& other) {
+            return (other - x).squaredNorm() <= kSame * length * length;
+          })) {
+        continue;
+      }
+      seen.push_back(x);
+      const DifferencePolytope* deepest = nullptr;
+      const auto findDeepest = [&](std::size_t from, double depth) {
+        for (std::size_t i = from; i < polytopes.size(); ++i) {
+          const double d = polytopes[i].depth(x, depth);
+          if (!(d > depth)) continue;
+          depth = d;
+          deepest = &polytopes[i];
+        }
+      };
+      findDeepest(0, 0);
+      if (!deepest) {  // triangles that met once spare most tests
+        if (exhausted()) return false;
+        const std::size_t known = polytopes.size();
+        const auto overlap =
+            known == 0 ? pair_.overlap() : pair_.overlapAfter(rounded(inWorld(x)), kContacts);
+        if (!overlap.any() && prove(inWorld(x) / length, length)) return true;
+        for (const auto& contact : overlap.contacts)
+          polytopes.emplace_back(contact.a, contact.b, x);
+        findDeepest(known, -kInfinity);  // some only touch
+      }
+      if (!deepest) continue;
+      for (Plane plane : *deepest) {
+        plane.least += 4 * pair_.rounding() + kBeyond * std::abs(plane.least);
+        if (!(plane.normal.dot(x) < plane.least)) continue;
+        std::vector<Plane> planes = {plane};
+        planes.insert(planes.end(), corner.active.begin(), corner.active.end());
+        auto next = nearestToOrigin(planes, most, true);
+        if (!next) continue;
+        queue.push_back(std::move(*next));
+        std::push_heap(queue.begin(), queue.end(), farther);
+      }
+    }
+    return queue.empty() && !polytopes.empty();
   }
 
-  Exit anywhere(const std::vector<Vec>& directions, const std::vector<BallPairs::Way>& ways) {
-    descend(tryStarts(directions, ways));
-    return best_;
+  void byBalls(const BallPairs& balls) {
+    tryStarts(balls);
+    descend(balls);
   }
 
  private:
-  using Test = typename SolidPair<S>::Test;
+  static constexpr double kEnough = 0.98;
 
   bool exhausted() const { return pair_.tests() >= last_test_; }
+  Vec inWorld(const Vec& v) const { return pair_.R_WA() * v; }
+  Vec rounded(const Vec& x) const { return roundedTo<S>(x).template cast<double>(); }
 
-  bool accept(const Vec& x, const Test& test) {
-    const double length = x.norm();
-    if (!test.apart || !(length < best_.length)) return false;
-    best_.translation = x;
-    best_.length = length;
-    if (test.nearest) best_.on_a = test.on_a;
-    return true;
+  bool prove(const Vec& n, double length) {
+    constexpr int kTries = 4;
+    const auto exit = goAlong(pair_, n, length, best_.length, kTries);
+    if (exit) best_ = *exit;
+    return exit.has_value();
   }
 
-  Vec rounded(const Vec& x) const { return x.template cast<S>().template cast<double>(); }
-
-  bool seemsApart(const Vec& x) {  // balls that meet spare the search
-    return !balls_.meet(pair_.R_WA().transpose() * x) && pair_.seemsApart(x);
-  }
-
-  /// Bodies that only just overlap leave by a small step, though a larger one may meet something
-  /// else.
-  Vec stepOut(const std::vector<Vec>& directions) {
-    constexpr std::size_t kFirst = 3;
-    const double length = best_.length;
-    for (std::size_t i = 0; i < std::min(kFirst, directions.size()); ++i) {
-      for (double share = 1.0 / 512; share < 0.6 && !exhausted(); share *= 4) {
-        const Vec x = rounded(share * length * directions[i]);
-        if (x.norm() > 16 * pair_.rounding() && seemsApart(x)) return x;
-      }
+  /// Looks about places where inner balls, grown by what they leave out, part: on the way to where
+  /// the hulls are apart.
+  void tryStarts(const BallPairs& balls) {
+    std::vector<Vec> starts;
+    const auto add = [&](const Vec& n, double share) {
+      starts.push_back(balls.escape(share * pair_.size() * n));
+    };
+    constexpr double kNear = 0.1, kFar = 0.25;
+    for (const Vec& n : meanDirections(pair_)) {
+      add(n, kNear);
+      add(n, kFar);
     }
-    return best_.translation;
-  }
-
-  /// Shortens it for bodies that all but touch: to the least length that can be proven.
-  void shortenToRounding() {
-    if (!(best_.length < 1e-6 * pair_.size())) return;
-    const Vec n = best_.translation / best_.length;
-    for (double length = 16 * pair_.rounding(); length < 0.5 * best_.length; length *= 4) {
-      const Vec x = rounded(length * n);
-      if (accept(x, pair_.test(x, best_.length))) return;
+    for (int c = 0; c < 3; ++c) {
+      add(Vec::Unit(c), kFar);
+      add(-Vec::Unit(c), kFar);
     }
-  }
-
-  /// Moves b towards the origin by a little less than the gap: surfaces stay apart as b moves by
-  /// less than their distance. Poses are rounded, so that b's true way is measured.
-  void slide(const Vec& at, const Test& test) {
-    const double length = at.norm(), step = std::min(0.98 * test.gap, length);
-    if (!(step > 1e-3 * length)) return;
-    const Vec x = rounded((1 - step / length) * at);
-    if (pair_.wayBetween(at, x) < 0.99 * test.gap - 16 * pair_.rounding()) accept(x, test);
-  }
-
-  /// Calls test(), unless inner balls meet.
-  Test testOf(const Vec& x) {
-    if (balls_.meet(pair_.R_WA().transpose() * x)) return {};
-    return pair_.test(x, best_.length);
-  }
-
-  /// Returns the shortest translation that seems to part the solids, of those about which their
-  /// balls part.
-  Vec tryStarts(const std::vector<Vec>& directions, const std::vector<BallPairs::Way>& ways) {
+    std::stable_sort(starts.begin(), starts.end(),
+                     [](const Vec& a, const Vec& b) { return a.squaredNorm() < b.squaredNorm(); });
     Vec best = best_.translation;
-    const auto tryStart = [&](const Vec& start) {
+    constexpr std::size_t kMost = 6;
+    starts.resize(kMost);
+    for (const Vec& start : starts) {
       for (const double grow : {0.95, 1.15, 1.6}) {
-        const Vec x = rounded(grow * start);
+        const Vec x = rounded(inWorld(grow * start));
         if (!(x.norm() < 0.97 * best.norm()) || exhausted()) break;
-        if (!(x.norm() > 16 * pair_.rounding()) || !seemsApart(x)) continue;
+        if (balls.meet(grow * start) || pair_.overlapAfter(x, 1).any()) continue;
         best = x;
         break;
       }
-    };
-    for (const Vec& wall : pair_.walls()) tryStart(wall);
-    for (const Vec& start : startsOf(directions, ways)) tryStart(start);
-    return best;
-  }
-
-  /// Returns a few, the shortest first.
-  std::vector<Vec> startsOf(const std::vector<Vec>& directions,
-                            const std::vector<BallPairs::Way>& ways) const {
-    std::vector<Vec> starts;
-    const auto add = [&](const Vec& x_A) {
-      const Vec x = pair_.R_WA() * x_A;
-      if (!(x.norm() < best_.length)) return;
-      for (const Vec& other : starts) {
-        if ((x - other).norm() < 0.1 * best_.length) return;
-      }
-      starts.push_back(x);
-    };
-    constexpr std::size_t kStraight = 6, kBent = 3, kByContacts = 1;
-    for (std::size_t i = 0; i < std::min(kStraight, ways.size()); ++i) {
-      const Vec x = ways[i].reach * ways[i].direction;
-      add(x);
-      if (i < kBent) add(balls_.escape(0.5 * x, balls_.gap()));
     }
-    for (std::size_t i = 0; i < std::min(kByContacts, directions.size()); ++i) {
-      const Vec n = pair_.R_WA().transpose() * directions[i];
-      add(balls_.reach(n, 0) * n);
-      for (const double grown : {0.0, balls_.gap()}) {
-        add(balls_.escape(1e-3 * pair_.size() * n, grown));
-      }
-    }
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const Vec& a, const Vec& b) { return a.norm() < b.norm(); });
-    constexpr std::size_t kMost = 6;
-    if (starts.size() > kMost) starts.resize(kMost);
-    return starts;
+    if (best != best_.translation) prove(best.normalized(), best.norm());
   }
 
   // The planes between nearest points bound where b may go without passing a there, as long as it
   // doesn't turn another corner of a: so the nearest translation that they all admit is a guess,
   // and a test decides.
-  void descend(Vec at) {
+  void descend(const BallPairs& balls) {
     std::vector<Plane> planes;
-    Test test = pair_.test(at, best_.length);
-    for (int i = 0; i < 8 && !test.apart && 4 * at.norm() < best_.length; ++i) {
-      at = rounded(4 * at);  // too close to be proven
-      test = pair_.test(at, best_.length);
-    }
-    if (!test.apart) {
-      at = best_.translation;
-      test = pair_.test(at, best_.length);
-      if (test.nearest) best_.on_a = test.on_a;
-    }
-    accept(at, test);
-    constexpr double kEnough = 0.98;
     constexpr std::size_t kPlanes = 6;
     while (!exhausted()) {
-      const double before = best_.length;
-      if (test.nearest) {
-        best_.on_a = test.on_a;
-        planes.push_back({test.normal, test.normal.dot(at) - test.gap + 4 * pair_.rounding()});
+      const auto [at, length, after] = best_;
+      if (after.nearest) {
+        planes.push_back({after.normal, after.normal.dot(at) - after.gap + 4 * pair_.rounding()});
         if (planes.size() > kPlanes) planes.erase(planes.begin());
       }
-      Vec guess = planes.empty() ? Vec(0.5 * at) : nearestToOrigin(planes);
-      if (!(guess.norm() < kEnough * best_.length)) {
+      if (planes.empty()) planes.push_back({at.normalized(), 0.5 * length});
+      const double most = kEnough * length;
+      auto nearest = nearestToOrigin(planes, most, false);
+      if (!nearest) {
         // The planes admit nothing shorter. The last one alone may: the others are of places that
         // no longer matter.
-        if (planes.size() < 2) break;
         planes.erase(planes.begin(), planes.end() - 1);
-        guess = nearestToOrigin(planes);
-        if (!(guess.norm() < kEnough * best_.length)) break;
+        nearest = nearestToOrigin(planes, most, false);
       }
-      guess = rounded(guess);
-      Test next = testOf(guess);
-      for (int i = 0; i < 2 && !next.apart && !exhausted(); ++i) {
-        guess = rounded(0.5 * (at + guess));
-        next = testOf(guess);
+      if (!nearest) break;
+      Vec guess = nearest->x;
+      Separation next;
+      for (int i = 0; i < 3 && !next.apart && !exhausted(); ++i) {
+        guess = rounded(i == 0 ? guess : Vec(0.5 * (at + guess)));
+        if (!balls.meet(pair_.R_WA().transpose() * guess)) next = pair_.test(guess, length);
       }
-      if (!next.apart) {
-        slide(at, test);
-        break;
-      }
-      at = guess;
-      test = next;
-      accept(at, test);
-      if (!(best_.length < kEnough * before)) break;
+      if (!next.apart || !(guess.norm() < length)) break;
+      best_ = {guess, guess.norm(), next};
+      if (!(best_.length < kEnough * length)) break;
     }
   }
 
   SolidPair<S>& pair_;
-  const BallPairs& balls_;
-  Exit best_;
   const long long last_test_;
+  Exit& best_;
 };
 
 }  // namespace
 
 template <typename S>
-Exit goAlong(SolidPair<S>& pair, const Vec& n, double length, double reach) {
-  double margin = 8 * pair.rounding();
-  constexpr int kTries = 60;
-  for (int i = 0; i < kTries; ++i, margin *= 4) {
-    const Vec x = ((std::max(length, 0.0) + margin) * n).template cast<S>().template cast<double>();
-    const auto test = pair.test(x, reach);
-    if (test.apart) return {x, x.norm(), test.on_a};
+std::vector<Vec> meanDirections(SolidPair<S>& pair) {
+  std::vector<Vec> directions;
+  const auto add = [&](const Vec& v) {
+    if (v.norm() > 1e-6) directions.push_back(v.normalized());
+  };
+  Vec out_of_a = Vec::Zero(), out_of_b = Vec::Zero();
+  for (const auto& contact : pair.overlap().contacts) {
+    out_of_a += normalOf(contact.a);
+    out_of_b -= normalOf(contact.b);
   }
-  refuse<std::logic_error>("no translation parts the hulls of two solids.");
-}
-
-// From b's centre c beyond a's, at the origin: |c + length n| = size.
-template <typename S>
-Exit leaveRoots(SolidPair<S>& pair, const Vec& direction) {
-  const MeshPair<S>& frame = pair.frame();
-  const Vec a = frame.rootA().center0.template cast<double>(),
-            b = frame.rootB().center0.template cast<double>();
-  const Vec n = direction.normalized(), c = pair.R_WA() * (pair.R_AB() * b + pair.T_AB() - a);
-  const double middle = n.dot(c);
-  const double square = pair.size() * pair.size() - c.squaredNorm() + middle * middle;
-  return goAlong(pair, n, std::sqrt(std::max(square, 0.0)) - middle + 1e-6 * pair.size(), 0);
+  add(out_of_a);
+  add(out_of_b);
+  if (pair.overlap().to_wall) add(*pair.overlap().to_wall / pair.size());
+  if (directions.empty()) directions.emplace_back(Vec::UnitX());
+  return directions;
 }
 
 template <typename S>
-Exit leaveNearby(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>& directions,
-                 const BallPairs& balls, long long last_test) {
-  return ExitSearch<S>(pair, balls, exit, last_test).nearby(directions);
+Exit leaveHulls(SolidPair<S>& pair, const Differences<S>& differences,
+                const std::vector<Vec>& directions) {
+  Vec best = Vec::UnitX();
+  double least = kInfinity;
+  for (const Vec& n : directions) {
+    const double height = differences.height(n);
+    if (!(height < least)) continue;
+    least = height;
+    best = n;
+  }
+  constexpr int kTries = 60;
+  const auto exit = goAlong(pair, pair.R_WA() * best, least, kInfinity, kTries);
+  if (!exit) refuse<std::logic_error>("no translation parts the hulls of two solids.");
+  return *exit;
 }
 
 template <typename S>
-Exit leaveAnywhere(SolidPair<S>& pair, const Exit& exit, const std::vector<Vec>& directions,
-                   const std::vector<BallPairs::Way>& ways, const BallPairs& balls,
-                   long long last_test) {
-  return ExitSearch<S>(pair, balls, exit, last_test).anywhere(directions, ways);
+bool leaveByPlanes(SolidPair<S>& pair, std::size_t most, long long last_test, Exit& exit) {
+  return ExitSearch<S>(pair, last_test, exit).byPlanes(most);
 }
 
-KIOS_INSTANTIATE_FUNCTION(goAlong);
-KIOS_INSTANTIATE_FUNCTION(leaveRoots);
-KIOS_INSTANTIATE_FUNCTION(leaveNearby);
-KIOS_INSTANTIATE_FUNCTION(leaveAnywhere);
+template <typename S>
+void leaveByBalls(SolidPair<S>& pair, const BallPairs& balls, long long last_test, Exit& exit) {
+  ExitSearch<S>(pair, last_test, exit).byBalls(balls);
+}
+
+KIOS_INSTANTIATE_FUNCTION(meanDirections);
+KIOS_INSTANTIATE_FUNCTION(leaveHulls);
+KIOS_INSTANTIATE_FUNCTION(leaveByPlanes);
+KIOS_INSTANTIATE_FUNCTION(leaveByBalls);
 
 }  // namespace kios

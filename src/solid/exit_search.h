@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "solid/ball_pairs.h"
+#include "solid/minkowski_hull.h"
 #include "solid/solid_pair.h"
 
 namespace kios {
@@ -12,32 +14,33 @@ namespace kios {
 /// Holds a translation of b in the world after which the solids are proven apart.
 struct Exit {
   fcl::Vector3d translation = fcl::Vector3d::Zero();
-  double length = 0;
-  fcl::Vector3d on_a = fcl::Vector3d::Zero();  ///< a's point nearest to b then, in the world
+  double length = kInfinity;
+  Separation after;
 };
 
-/// b goes `length` along n (in the world, unit), which suffices to leave a, and a little farther
-/// for rounding. Nearest points are looked for up to `reach`. Throws std::logic_error if that isn't
-/// proven, which can't be.
+/// Returns directions in a's frame, unit, along which b may leave a: the mean normals of what
+/// meets, or the way to the nearest wall.
 template <typename S>
-Exit goAlong(SolidPair<S>& pair, const fcl::Vector3d& n, double length, double reach);
+std::vector<fcl::Vector3d> meanDirections(SolidPair<S>& pair);
 
-/// b's root volume leaves a's: longer than from hull to hull, but found at once.
+/// b leaves a's hull along the one of these directions in a's frame that takes it out soonest.
+/// Throws std::logic_error if that isn't proven, which can't be.
 template <typename S>
-Exit leaveRoots(SolidPair<S>& pair, const fcl::Vector3d& direction);
+Exit leaveHulls(SolidPair<S>& pair, const Differences<S>& differences,
+                const std::vector<fcl::Vector3d>& directions);
 
-/// Shortens an exit by small steps along `directions` (in the world, unit), and by steps into the
-/// gap that is left, towards the origin as far as the planes between nearest points allow that were
-/// met on the way. Ends once the pair's tests number `last_test`.
+/// Looks for a shorter exit past what meets. Two triangles part beyond a plane of one's face, on
+/// either side, or of an edge of each. The translations that are nearest to the origin beyond such
+/// planes are tried, one plane for each two triangles and the nearest first, until nothing meets.
+/// Ends after `most` translations, and once the pair's tests number `last_test`. Returns false if it
+/// ended too soon to tell.
 template <typename S>
-Exit leaveNearby(SolidPair<S>& pair, const Exit& exit, const std::vector<fcl::Vector3d>& directions,
-                 const BallPairs& balls, long long last_test);
+bool leaveByPlanes(SolidPair<S>& pair, std::size_t most, long long last_test, Exit& exit);
 
-/// Searches likewise from where the solids' inner balls part.
+/// Likewise for what overlaps by more than triangles measure: b leaves to where inner balls part.
+/// From there steps lead into the gap that is left, towards the origin as far as the planes between
+/// nearest points allow that were met on the way.
 template <typename S>
-Exit leaveAnywhere(SolidPair<S>& pair, const Exit& exit,
-                   const std::vector<fcl::Vector3d>& directions,
-                   const std::vector<BallPairs::Way>& ways, const BallPairs& balls,
-                   long long last_test);
+void leaveByBalls(SolidPair<S>& pair, const BallPairs& balls, long long last_test, Exit& exit);
 
 }  // namespace kios

@@ -7,23 +7,12 @@
 #include "fcl_kios/solid/penetration.h"
 #include "solid/containment.h"
 #include "solid/shape_exit.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
 constexpr int kNone = -1;
-
-/// Holds a way out of an overlap: of object 2 in the world.
-template <typename S>
-struct WayOut {
-  fcl::Vector3<S> point, translation;
-  S length;
-
-  explicit WayOut(const Penetration& p)
-      : point(p.point.template cast<S>()),
-        translation(p.translation.template cast<S>()),
-        length(static_cast<S>(p.upper)) {}
-};
 
 /// Returns a point of a surface that lies in the other solid, in the world. The surfaces must not
 /// meet.
@@ -35,13 +24,12 @@ std::optional<fcl::Vector3<S>> containedIn(const MeshAndOther<S>& o) {
   if (frame.rootBound(0) > 0) return std::nullopt;
   const auto point = containedPoint(frame, unused);
   if (!point) return std::nullopt;
-  return detail::transform<S>(o.X_WM, point->template cast<S>());
+  return detail::transform<S>(o.X_WM, roundedTo<S>(*point));
 }
 
 template <typename S>
-WayOut<S> wayOut(const MeshAndOther<S>& o) {
-  return WayOut<S>(o.other_mesh ? penetration(o.mesh, o.X_WM, *o.other_mesh, o.X_WO)
-                                : shapeExit(o));
+Penetration wayOut(const MeshAndOther<S>& o) {
+  return o.other_mesh ? penetration(o.mesh, o.X_WM, *o.other_mesh, o.X_WO) : shapeExit(o);
 }
 
 }  // namespace
@@ -59,10 +47,10 @@ std::size_t MeshAndOther<S>::collideSolids(const fcl::CollisionRequest<S>& reque
   if (!point) return result.numContacts();
   fcl::Contact<S> contact(&mesh, &other, kNone, kNone, *point, fcl::Vector3<S>::Zero(), S(0));
   if (request.enable_contact) {
-    const WayOut<S> way = wayOut(*this);
-    if (way.length > 0) {
-      contact.normal = way.translation / way.length;
-      contact.penetration_depth = way.length;
+    const Penetration way = wayOut(*this);
+    if (way.upper > 0) {
+      contact.normal = roundedTo<S>(way.translation / way.upper);
+      contact.penetration_depth = roundedTo<S>(way.upper);
     }
   }
   result.addContact(contact);
@@ -85,10 +73,11 @@ S MeshAndOther<S>::distanceSolids(const fcl::DistanceRequest<S>& request,
     return result.min_distance;
   }
   if (request.enable_signed_distance) {
-    const WayOut<S> way = wayOut(*this);
-    if (way.length > 0) {
-      result.update(-way.length, &mesh, &other, meet ? found.b1 : kNone, meet ? found.b2 : kNone,
-                    way.point, way.point - way.translation);
+    const Penetration way = wayOut(*this);
+    if (roundedTo<S>(way.upper) > 0) {
+      const fcl::Vector3<S> end = roundedTo<S>(way.point);
+      result.update(-roundedTo<S>(way.upper), &mesh, &other, meet ? found.b1 : kNone,
+                    meet ? found.b2 : kNone, end, end - roundedTo<S>(way.translation));
       return result.min_distance;
     }
   }

@@ -23,8 +23,8 @@ bool areSolids(const Model<S>& mesh, const fcl::CollisionGeometry<S>& other,
     requireFinished(*other_mesh);
     return areSolids(mesh, *other_mesh);
   }
-  SolidMark<S>* const mark = isShape(other) ? markOf(mesh) : nullptr;
-  if (mark) mark->check(mesh);
+  const SolidState<S>* const mark = isShape(other) ? markOf(mesh) : nullptr;
+  if (mark) mark->check();
   return mark != nullptr;
 }
 
@@ -80,7 +80,10 @@ struct MeshAndOther {
   }
 
  private:
-  bool solids() const { return marksExist() && areSolids(mesh, other, other_mesh); }
+  bool solids() const {
+    const bool marked = markOf(mesh) || (other_mesh && markOf(*other_mesh));
+    return marked && areSolids(mesh, other, other_mesh);
+  }
   /// Answer as the queries of their surfaces do, but one that lies in the other, or a component
   /// that does, is in contact with it. Its triangles' ids are -1; its normal and depth, if contacts
   /// are wanted, are those of penetration(), or for a shape the shortest translation found that is

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -22,89 +23,62 @@ using Vec = fcl::Vector3d;
 class Polytope {
  public:
   struct Face {
-    std::array<int, 3> v, next;  ///< next[i]: the face across the edge from v[i] to v[i + 1]
-    Vec normal;                  ///< unit, or zero
-    double height;               ///< of the plane over the origin
-    bool alive = true;
+    std::array<int, 3> v;
+    Vec normal;     ///< unit, or zero
+    double height;  ///< of the plane over the origin
   };
 
   explicit Polytope(const std::array<Vec, 4>& tetrahedron)
       : points_(tetrahedron.begin(), tetrahedron.end()) {
     const Vec u = points_[1] - points_[0], v = points_[2] - points_[0], w = points_[3] - points_[0];
     if (u.cross(v).dot(w) > 0) std::swap(points_[1], points_[2]);  // face 0 1 2 looks away from 3
-    addFace(0, 1, 2, {1, 2, 3});
-    addFace(1, 0, 3, {0, 3, 2});
-    addFace(2, 1, 3, {0, 1, 3});
-    addFace(0, 2, 3, {0, 2, 1});
+    addFace(0, 1, 2);
+    addFace(1, 0, 3);
+    addFace(2, 1, 3);
+    addFace(0, 2, 3);
   }
 
-  const std::vector<Face>& faces() const { return faces_; }
   const Vec& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
 
-  int lowest() const {
-    int best = -1;
-    for (int i = 0; i < static_cast<int>(faces_.size()); ++i) {
-      if (face(i).alive && (best < 0 || face(i).height < face(best).height)) best = i;
-    }
-    return best;
+  /// Returns the face nearest to the origin; nullptr if rounding left none.
+  const Face* lowest() const {
+    const auto lower = [](const Face& a, const Face& b) { return a.height < b.height; };
+    const auto face = std::min_element(faces_.begin(), faces_.end(), lower);
+    return face == faces_.end() ? nullptr : &*face;
   }
 
-  /// Adds a point beyond face `seen`. False if that leaves no polytope, to rounding.
-  bool add(const Vec& p, int seen, double tolerance) {
+  /// Adds a point: faces from the border of those that see it take their place.
+  void add(const Vec& p, double tolerance) {
     const int at = static_cast<int>(points_.size());
     points_.push_back(p);
-    // What sees the point is one piece around `seen`, and its border one loop.
-    std::vector<int> waiting = {seen};
-    mutableFace(seen).alive = false;
-    struct Border {
-      int from, to, outer;
-    };
-    std::vector<Border> border;
-    while (!waiting.empty()) {
-      const int i = waiting.back();
-      waiting.pop_back();
-      const Face f = face(i);
-      for (int k = 0; k < 3; ++k) {
-        const Face& other = face(f.next[k]);
-        if (!other.alive) continue;
-        if (other.normal.dot(p) - other.height > tolerance) {
-          mutableFace(f.next[k]).alive = false;
-          waiting.push_back(f.next[k]);
+    const auto seen = std::partition(faces_.begin(), faces_.end(), [&](const Face& f) {
+      return f.normal.dot(p) - f.height <= tolerance;
+    });
+    std::vector<std::pair<int, int>> border;
+    for (auto f = seen; f != faces_.end(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::pair<int, int> edge = {f->v[k], f->v[(k + 1) % 3]};
+        const auto back =
+            std::find(border.begin(), border.end(), std::pair(edge.second, edge.first));
+        if (back == border.end()) {
+          border.push_back(edge);
+        } else {
+          border.erase(back);
         }
       }
-      for (int k = 0; k < 3; ++k) border.push_back({f.v[k], f.v[(k + 1) % 3], f.next[k]});
     }
-    border.erase(std::remove_if(border.begin(), border.end(),
-                                [this](const Border& b) { return !face(b.outer).alive; }),
-                 border.end());
-    if (border.size() < 3) return false;
-    for (std::size_t i = 0; i + 1 < border.size(); ++i) {
-      std::size_t j = i + 1;
-      while (j < border.size() && border[j].from != border[i].to) ++j;
-      if (j == border.size()) return false;
-      std::swap(border[i + 1], border[j]);
-    }
-    if (border.back().to != border.front().from) return false;
-    const int first = static_cast<int>(faces_.size()), n = static_cast<int>(border.size());
-    for (int i = 0; i < n; ++i) {
-      const Border& b = border[static_cast<std::size_t>(i)];
-      addFace(b.from, b.to, at, {b.outer, first + (i + 1) % n, first + (i + n - 1) % n});
-      Face& outer = mutableFace(b.outer);
-      for (int k = 0; k < 3; ++k) {
-        if (outer.v[k] == b.to && outer.v[(k + 1) % 3] == b.from) outer.next[k] = first + i;
-      }
-    }
-    return true;
+    faces_.erase(seen, faces_.end());
+    for (const auto& [from, to] : border) addFace(from, to, at);
   }
 
-  // The faces are a closed surface of triangles with corners in the points, so that it winds round
-  // nothing outside their hull. Round the origin it winds if all faces are seen from within there,
-  // and so it does round all points nearer than the nearest face. The corners of a face are at
-  // least m high along any unit vector n, and so is all of it, and m from the origin.
+  // The faces are a closed surface of triangles with corners in the points, as new ones pass each
+  // edge as those did that went: so it winds round nothing outside their hull.
+  // Round the origin it winds if all faces are seen from within there, and so it does round all
+  // points nearer than the nearest face. The corners of a face are at least m high along any unit
+  // vector n, and so is all of it, and m from the origin.
   double certifiedRadius(double error) const {
-    double radius = kInfinity;
+    double radius = faces_.empty() ? 0 : kInfinity;
     for (const Face& f : faces_) {
-      if (!f.alive) continue;
       const Vec &p = point(f.v[0]), &q = point(f.v[1]), &r = point(f.v[2]);
       const double m =
           std::min({f.normal.dot(p), f.normal.dot(q), f.normal.dot(r)}) / (1 + 0x1p-48);
@@ -120,19 +94,12 @@ class Polytope {
   }
 
  private:
-  const Face& face(int i) const { return faces_[static_cast<std::size_t>(i)]; }
-  Face& mutableFace(int i) { return faces_[static_cast<std::size_t>(i)]; }
-
-  void addFace(int i, int j, int k, const std::array<int, 3>& next) {
+  void addFace(int i, int j, int k) {
     const Vec &p = point(i), &q = point(j), &r = point(k);
     const Vec cross = (q - p).cross(r - p);
     const double length = cross.norm();
-    Face f;
-    f.v = {i, j, k};
-    f.next = next;
-    f.normal = length > 0 ? Vec(cross / length) : Vec(Vec::Zero());
-    f.height = (f.normal.dot(p) + f.normal.dot(q) + f.normal.dot(r)) / 3;
-    faces_.push_back(f);
+    const Vec n = length > 0 ? Vec(cross / length) : Vec(Vec::Zero());
+    faces_.push_back({{i, j, k}, n, (n.dot(p) + n.dot(q) + n.dot(r)) / 3});
   }
 
   std::vector<Vec> points_;
@@ -165,6 +132,11 @@ bool spanningPoints(const Differences<S>& set, double size,
   return offPlane(p[3].at) > flat;
 }
 
+template <typename S>
+Vec farthestOf(const Model<S>& model, const Vec& n) {
+  return model.vertices[supportPoint(model, n).vertex].template cast<double>();
+}
+
 }  // namespace
 
 template <typename S>
@@ -179,28 +151,17 @@ Differences<S>::Differences(const SolidPair<S>& pair)
 template <typename S>
 typename Differences<S>::Point Differences<S>::farthest(const Vec& n, const Point& near) const {
   Point point = near;
-  Vec p, q;
-  if (graph_a_.empty()) {
-    p = a_.vertices[supportPoint(a_, n).vertex].template cast<double>();
-  } else {
-    point.a = graph_a_.climb(n, near.a);
-    p = graph_a_.point(point.a);
-  }
-  if (graph_b_.empty()) {
-    q = b_.vertices[supportPoint<S>(b_, -inB(n)).vertex].template cast<double>();
-  } else {
-    point.b = graph_b_.climb(-inB(n), near.b);
-    q = graph_b_.point(point.b);
-  }
-  point.at = p - inA(q);
+  const Vec down = -inB(n);
+  if (!graph_a_.empty()) point.a = graph_a_.climb(n, near.a);
+  if (!graph_b_.empty()) point.b = graph_b_.climb(down, near.b);
+  point.at = (graph_a_.empty() ? farthestOf(a_, n) : graph_a_.point(point.a)) -
+             inA(graph_b_.empty() ? farthestOf(b_, down) : graph_b_.point(point.b));
   return point;
 }
 
 template <typename S>
 double Differences<S>::height(const Vec& n) const {
-  const Vec p = a_.vertices[supportPoint(a_, n).vertex].template cast<double>();
-  const Vec q = b_.vertices[supportPoint<S>(b_, -inB(n)).vertex].template cast<double>();
-  return n.dot(p - inA(q)) + 2 * error_;
+  return n.dot(farthestOf(a_, n) - inA(farthestOf(b_, -inB(n)))) + 2 * error_;
 }
 
 template <typename S>
@@ -217,9 +178,9 @@ HullDepth hullDepth(const Differences<S>& set, double size, double rel_gap, int 
   const Vec tilt = 1e-10 * Vec(0.2672612419124244, -0.8017837257372732, 0.5345224838248488);
   const double tolerance = 1e-14 * size + set.error();
   for (int i = 0; i < max_points; ++i) {
-    const int lowest = polytope.lowest();
-    const Polytope::Face face = polytope.faces()[static_cast<std::size_t>(lowest)];
-    if (face.normal.isZero(0)) break;
+    const Polytope::Face* const lowest = polytope.lowest();
+    if (!lowest || lowest->normal.isZero(0)) break;
+    const Polytope::Face face = *lowest;
     const Vec n = (face.normal + tilt).normalized();
     const auto point = set.farthest(n, points[static_cast<std::size_t>(face.v[0])]);
     const double height = face.normal.dot(point.at);
@@ -231,7 +192,7 @@ HullDepth hullDepth(const Differences<S>& set, double size, double rel_gap, int 
     if (face.height > 0 && result.upper <= (1 + rel_gap) * face.height) break;
     if (face.normal.dot(point.at) - face.height <= 4 * tolerance) break;
     points.push_back(point);
-    if (!polytope.add(point.at, lowest, tolerance)) return result;
+    polytope.add(point.at, tolerance);
   }
   result.lower = polytope.certifiedRadius(set.error());
   return result;

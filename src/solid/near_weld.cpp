@@ -16,8 +16,8 @@ namespace kios {
 namespace {
 
 /// Holds the vertices that stay, in cubes as wide as the tolerance: near ones lie in the same or in
-/// neighbouring cubes. Coordinates are those of the box, in parts of its longest side, so that
-/// squares neither overflow nor vanish.
+/// neighbouring cubes. Lengths are in parts of the box's longest side, so that squares neither
+/// overflow nor vanish.
 template <typename S>
 class StayingVertices {
  public:
@@ -31,10 +31,9 @@ class StayingVertices {
         cube_(std::max(tolerance * (1 + 0x1p-20), 0x1p-30)) {}
 
   /// Returns the nearest one within the tolerance, of equally near ones the first; -1 if there is
-  /// none.
+  /// none. Within 0 lie equal ones alone.
   int nearest(int vertex) const {
-    const Eigen::Vector3d p = scaled(vertex);
-    const Cube at = cubeOf(p);
+    const Cube at = cubeOf(scaled(vertex));
     int best = -1;
     double least = square_;
     Cube c;
@@ -44,8 +43,9 @@ class StayingVertices {
           const auto found = cubes_.find(c);
           if (found == cubes_.end()) continue;
           for (const int other : found->second) {
-            const double square = (scaled(other) - p).squaredNorm();
+            const double square = ((point(other) - point(vertex)) / side_).squaredNorm();
             if (square > least || (square == least && best >= 0 && best < other)) continue;
+            if (square_ == 0 && point(other) != point(vertex)) continue;
             least = square;
             best = other;
           }
@@ -69,9 +69,10 @@ class StayingVertices {
     }
   };
 
-  Eigen::Vector3d scaled(int vertex) const {
-    return (vertices_[static_cast<std::size_t>(vertex)].template cast<double>() - low_) / side_;
+  Eigen::Vector3d point(int vertex) const {
+    return vertices_[static_cast<std::size_t>(vertex)].template cast<double>();
   }
+  Eigen::Vector3d scaled(int vertex) const { return (point(vertex) - low_) / side_; }
   Cube cubeOf(const Eigen::Vector3d& p) const {
     Cube c;
     for (int i = 0; i < 3; ++i) {
@@ -90,7 +91,7 @@ class StayingVertices {
 
 template <typename S>
 NearWeld weldNear(const std::vector<fcl::Vector3<S>>& vertices, const std::vector<bool>& used,
-                  double relative, double absolute) {
+                  double relative, double absolute, bool only_equal) {
   NearWeld weld;
   weld.by.assign(vertices.size(), -1);
   Eigen::AlignedBox3d box;
@@ -103,7 +104,8 @@ NearWeld weldNear(const std::vector<fcl::Vector3<S>>& vertices, const std::vecto
   weld.tolerance =
       std::max(absolute, relative * side * (box.sizes() / (side > 0 ? side : 1)).norm());
   if (!(side > 0)) side = 1;
-  StayingVertices<S> staying(vertices, box, side, std::min(weld.tolerance / side, 2.0));
+  StayingVertices<S> staying(vertices, box, side,
+                             only_equal ? 0 : std::min(weld.tolerance / side, 2.0));
   const int count = static_cast<int>(vertices.size());
   for (int i = 0; i < count; ++i) {
     if (!used[static_cast<std::size_t>(i)] || staying.nearest(i) >= 0) continue;

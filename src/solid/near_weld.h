@@ -20,10 +20,11 @@ struct NearWeld {
 
 /// Welds the vertices that are used. In the order of their indices, one that has none within the
 /// tolerance that stays, stays; the others move to the nearest that stays. The tolerance is the
-/// larger of `absolute` and `relative` times the diagonal of their box. Coordinates must be finite.
-/// Throws std::invalid_argument if the box is too large for its size to be a number.
+/// larger of `absolute` and `relative` times the diagonal of their box; if it is 0, or
+/// `only_equal`, equal vertices alone are welded. Coordinates must be finite. Throws
+/// std::invalid_argument if the box is too large for its size to be a number.
 template <typename S>
 NearWeld weldNear(const std::vector<fcl::Vector3<S>>& vertices, const std::vector<bool>& used,
-                  double relative, double absolute);
+                  double relative, double absolute, bool only_equal);
 
 }  // namespace kios

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "query/pair_search.h"
 #include "solid/ball_pairs.h"
 #include "solid/common_center.h"
 #include "solid/containment.h"
@@ -48,25 +49,50 @@ int sideOf(const TriangleVertices<S>& plane, int num_triangles, const Corners& c
 
 /// Returns true if the plane of a triangle that meets another has all of a on one side and all of
 /// b, as posed in a's frame, on the other, in exact arithmetic: the solids touch, but their
-/// interiors are disjoint. Looked for only if a translation of `length`, which parts them, is one
-/// of rounding.
+/// interiors are disjoint. What meets tells, but for rounding, which planes may.
 template <typename S>
-bool partedByFace(SolidPair<S>& pair, double length) {
-  constexpr double kRoundings = 1 << 12;
-  if (!(length <= kRoundings * pair.rounding())) return false;
+bool partedByFace(SolidPair<S>& pair) {
   const MeshPair<S>& frame = pair.frame();
-  std::vector<engine::TrianglePairIds> found;
-  constexpr std::size_t kContacts = 16;
-  if (!searchContacts(frame, kContacts, found, pair.counts())) return false;
+  const auto& contacts = pair.overlap().contacts;
+  const double rounding = 16 * pair.rounding();
+  const auto mayPart = [&](const Vec& n, const Vec& p) {
+    return std::all_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+      for (int k = 0; k < 3; ++k) {
+        if (n.dot(contact.a[k] - p) > rounding || n.dot(contact.b[k] - p) < -rounding) return false;
+      }
+      return true;
+    });
+  };
   const auto of_a = [&](int t) { return frame.triangleA(t); };
   const auto of_b = [&](int t) { return frame.triangleB(t); };
-  for (const auto& ids : found) {
-    for (const TriangleVertices<S>& plane : {of_a(ids.a), of_b(ids.b)}) {
+  for (const auto& contact : contacts) {
+    for (const auto& face : {contact.a, contact.b}) {
+      const Vec n = normalOf(face);
+      if (!mayPart(n, face[0]) && !mayPart(-n, face[0])) continue;
+      const TriangleVertices<S> plane = {roundedTo<S>(face[0]), roundedTo<S>(face[1]),
+                                         roundedTo<S>(face[2])};
       const int side = sideOf(plane, frame.a.num_tris, of_a);
       if (side != 0 && sideOf(plane, frame.b.num_tris, of_b) == -side) return true;
     }
   }
   return false;
+}
+
+/// Returns an order of pairs that doesn't depend on which is named first: by size, by root volumes,
+/// by poses, by coordinates.
+template <typename S>
+bool comesFirst(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+                const fcl::Transform3<S>& X_WB) {
+  int first = a.num_tris != b.num_tris ? a.num_tris - b.num_tris : a.num_vertices - b.num_vertices;
+  const auto compare = [&](const auto* p, const auto* q, std::ptrdiff_t n) {
+    if (first != 0) return;
+    const auto [x, y] = std::mismatch(p, p + n, q);
+    if (x != p + n) first = *x < *y ? 1 : -1;
+  };
+  compare(a.getBV(0).bv.center0.data(), b.getBV(0).bv.center0.data(), 3);
+  compare(X_WA.data(), X_WB.data(), 16);
+  if (&a != &b) compare(a.vertices->data(), b.vertices->data(), 3 * a.num_vertices);
+  return first >= 0;
 }
 
 template <typename S>
@@ -78,74 +104,67 @@ class PenetrationQuery {
   Penetration run() {
     const MeshPair<S>& frame = pair_.frame();
     const Differences<S> differences(pair_);
+    std::vector<Vec> directions;
     if (pair_.stateA().convexity(frame.a).convex && pair_.stateB().convexity(frame.b).convex) {
       constexpr int kPoints = 128;
       constexpr double kShare = 0.9;
       const HullDepth hull =
           hullDepth(differences, pair_.size(), kShare * options_.rel_gap, kPoints);
       lower_ = lowerOfHulls(hull.lower);
-      exit_ = leaveHulls(differences, hull.normal.isZero(0)
-                                          ? pair_.exitDirections()
-                                          : std::vector<Vec>{pair_.R_WA() * hull.normal});
-    } else {
-      search(differences);
+      if (!hull.normal.isZero(0)) directions.push_back(hull.normal);
     }
-    if (!closed()) raiseLower(true);
+    std::optional<BallPairs> balls;
+    if (directions.empty()) {
+      directions = meanDirections(pair_);
+      balls.emplace(pair_);
+      if (balls->depth() > 0) directions.resize(1);  // they hardly leave as hulls do
+    }
+    exit_ = leaveHulls(pair_, differences, directions);
+    if (!closed()) {
+      if (!balls) balls.emplace(pair_);
+      if (balls->depth() == 0) {
+        raiseLower(false);
+        if (!(lower_ > 0) && partedByFace(pair_)) return {};
+      }
+      common_ = balls->common();
+      if (!closed()) search(*balls);
+    }
     Penetration result;
-    if (partedByFace(pair_, exit_.length)) return result;
     result.upper = exit_.length;
     result.lower = std::min(lower_, exit_.length);
-    result.translation = exit_.translation;
-    result.point = exit_.on_a;
+    result.translation = pair_.movesA() ? Vec(-exit_.translation) : exit_.translation;
+    result.point = pair_.movesA() ? Vec(exit_.after.on_b - exit_.translation) : exit_.after.on_a;
     return result;
   }
 
  private:
-  /// Leaves by the one of the first few directions along which b leaves a's hull soonest.
-  Exit leaveHulls(const Differences<S>& differences, const std::vector<Vec>& directions) {
-    constexpr std::size_t kFew = 3;
-    Vec best = Vec::UnitX();
-    double least = kInfinity;
-    for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {
-      const Vec n = (pair_.R_WA().transpose() * directions[i]).normalized();
-      const double height = differences.height(n);
-      if (!(height < least)) continue;
-      least = height;
-      best = n;
+  /// Planes of triangles come first, unless the hulls' exit is so much longer than they that the
+  /// balls probably close the bracket: then they follow if these don't.
+  void search(const BallPairs& balls) {
+    double edge = 0;
+    for (const auto& contact : pair_.overlap().contacts) {
+      for (const auto& t : {contact.a, contact.b}) {
+        edge = std::max({edge, (t[1] - t[0]).norm(), (t[2] - t[1]).norm()});
+      }
     }
-    return goAlong(pair_, pair_.R_WA() * best, least, pair_.size());
-  }
-
-  /// Serves solids that are not both convex. Those that overlap by little may leave as hulls do, or
-  /// nearby; others leave where their inner balls part.
-  void search(const Differences<S>& differences) {
-    const std::vector<Vec> directions = pair_.exitDirections();
-    const BallPairs balls(pair_);
-    common_ = balls.common();
-    const long long last_test = static_cast<long long>(pair_.tests()) + options_.max_tests;
-    const bool deep = balls.meet(Vec::Zero());
-    if (!deep) {
-      exit_ = leaveHulls(differences, directions);
-      raiseLower(false);
-      if (closed()) return;
-      exit_ = leaveNearby(pair_, exit_, directions, balls, last_test);
-      raiseLower(false);
-      if (closed()) return;
+    constexpr double kLong = 2.5, kDeep = 0.5;
+    constexpr std::size_t kMany = 256, kFew = 64;
+    const bool fine = exit_.length > kLong * edge;
+    const auto deep = [&] { return std::max(balls.depth(), lower_) > kDeep * edge; };
+    const long long first = pair_.tests(), last = first + options_.max_tests;
+    if (fine || deep() || !leaveByPlanes(pair_, kMany, (first + last) / 2, exit_)) {
+      leaveByBalls(pair_, balls, last, exit_);
     }
-    std::vector<Vec> in_a;
-    constexpr std::size_t kFew = 3;
-    for (std::size_t i = 0; i < std::min(kFew, directions.size()); ++i) {
-      in_a.push_back(pair_.R_WA().transpose() * directions[i]);
-    }
-    const std::vector<BallPairs::Way> ways = balls.ways(in_a);
-    if (deep) exit_ = leaveRoots(pair_, pair_.R_WA() * ways.front().direction);
-    exit_ = leaveAnywhere(pair_, exit_, directions, ways, balls, last_test);
+    raiseLower(true);
+    if (!fine || deep() || closed()) return;
+    leaveByPlanes(pair_, kFew, last, exit_);
+    raiseLower(true);
   }
 
   /// By balls: at the exit's ends, or `fully` by a search between them.
   void raiseLower(bool fully) {
     lower_ = std::max(lower_,
-                      inWorld(depthOfBalls(pair_, exit_.on_a, exit_.translation,
+                      inWorld(depthOfBalls(pair_, exit_.after.on_a, exit_.translation,
                                            exit_.length / (1 + options_.rel_gap), fully, common_)));
   }
 
@@ -181,7 +200,9 @@ Penetration penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
   requireValid(options);
   SearchCounts unused;
   SearchCounts& counts = options.counts ? *options.counts : unused;
-  SolidPair<S> pair(solid1, X_W1, solid2, X_W2, counts);
+  const bool as_given = comesFirst(solid1, X_W1, solid2, X_W2);
+  SolidPair<S> pair = as_given ? SolidPair<S>(solid1, X_W1, solid2, X_W2, counts, false)
+                               : SolidPair<S>(solid2, X_W2, solid1, X_W1, counts, true);
   const MeshPair<S>& frame = pair.frame();
   if (frame.rootBound(0) > 0) return {};
   if (!surfacesMeet(frame, counts) && !containedPoint(frame, counts)) return {};

@@ -60,8 +60,9 @@ class Repair {
          const RepairOptions& options)
       : vertices_(vertices),
         options_(options),
-        weld_(weldNear(vertices, usedVertices(vertices, triangles), options.relative_weld,
-                       options.absolute_weld)),
+        used_(usedVertices(vertices, triangles)),
+        weld_(weldNear(vertices, used_, options.relative_weld, options.absolute_weld,
+                       inspectClosedness(vertices, triangles).isSolid())),
         faces_(triangles, weld_.by) {}
 
   Repaired<S> run() {
@@ -134,23 +135,10 @@ class Repair {
   }
 
   bool windsInwards(const FaceSet::Part& part) const {
-    const auto cornersOf = [&](int f) { return faces_.faces()[at(f)].corners; };
-    const fcl::Vector3d origin = point(cornersOf(part.faces.front())[0]);
-    double size = 0;
-    for (const int f : part.faces) {
-      for (const int v : cornersOf(f))
-        size = std::max(size, (point(v) - origin).cwiseAbs().maxCoeff());
-    }
-    if (!(size > 0)) return false;
-    double volume = 0, terms = 0;  // in units of the size
-    for (const int f : part.faces) {
-      const auto c = cornersOf(f);
-      const fcl::Vector3d p = (point(c[0]) - origin) / size, q = (point(c[1]) - origin) / size,
-                          r = (point(c[2]) - origin) / size;
-      volume += p.dot(q.cross(r));
-      terms += p.norm() * q.norm() * r.norm();
-    }
-    return volume < -1e-14 * terms;
+    return windInwards(part.faces.size(), [&](std::size_t i) -> TriangleVertices<double> {
+      const auto& c = faces_.faces()[at(part.faces[i])].corners;
+      return {point(c[0]), point(c[1]), point(c[2])};
+    });
   }
 
   void turnOutwards() {
@@ -205,7 +193,8 @@ class Repair {
 
   const std::vector<fcl::Vector3<S>>& vertices_;
   const RepairOptions& options_;
-  const NearWeld weld_;
+  const std::vector<bool> used_;
+  const NearWeld weld_;  ///< a solid stays as it is
   FaceSet faces_;
   Repaired<S> result_;
 };

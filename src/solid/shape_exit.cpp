@@ -32,12 +32,9 @@ class ShapeExit {
  public:
   explicit ShapeExit(const MeshAndOther<S>& pair)
       : pair_(pair),
-        model_(pair.mesh),
-        solid_(toSolid(pair.other)),
-        R_WM_(pair.X_WM.linear().template cast<double>()),
-        t_WM_(pair.X_WM.translation().template cast<double>()),
-        R_WS_(pair.X_WO.linear().template cast<double>()),
-        t_WS_(pair.X_WO.translation().template cast<double>()) {}
+        shape_(toSolid(pair.other)),
+        X_WM_(pair.X_WM.template cast<double>()),
+        X_WS_(pair.X_WO.template cast<double>()) {}
 
   Penetration run() {
     Vec best = Vec::Zero();
@@ -49,99 +46,89 @@ class ShapeExit {
       length = exit;
       best = n;
     }
-    const double rounding = std::numeric_limits<S>::epsilon() *
-                            (16 * largestOf(model_) + 16 * (solid_.bounded() ? solid_.reach() : 0) +
-                             16 * (t_WM_ - t_WS_).lpNorm<1>() + 4 * t_WS_.lpNorm<1>());
-    Penetration result;
-    double margin = rounding;
+    const Vec between = X_WM_.translation() - X_WS_.translation();
+    double margin = std::numeric_limits<S>::epsilon() *
+                    (16 * (largestOf(pair_.mesh) + (shape_.bounded() ? shape_.reach() : 0)) +
+                     16 * between.lpNorm<1>() + 4 * X_WS_.translation().template lpNorm<1>());
     constexpr int kTries = 60;
-    for (int i = 0; i < kTries && !accept((std::max(length, 0.0) + margin) * best, result); ++i) {
+    for (int i = 0; i < kTries && !accept((std::max(length, 0.0) + margin) * best); ++i) {
       margin *= 4;
     }
-    if (!(result.upper > 0)) return result;
+    if (!(exit_.upper > 0)) return exit_;
     for (const Vec& n : directions) {
-      for (double share = 0.7; accept(share * result.upper * n, result); share = 0.5) {
+      for (double share = 0.7; accept(share * exit_.upper * n); share = 0.5) {
       }
     }
     // Its own direction, to a percent.
-    const Vec end = result.translation;
+    const Vec end = exit_.translation;
     double low = 0.3, high = 1;
     constexpr int kHalvings = 6;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
-      (accept(middle * end, result) ? high : low) = middle;
+      (accept(middle * end) ? high : low) = middle;
     }
-    return result;
+    return exit_;
   }
 
  private:
-  Vec inModel(const Vec& p_W) const { return R_WM_.transpose() * (p_W - t_WM_); }
-
-  /// Turns n into the shape's frame. A half-space or plane ends along its own normal alone, to the
-  /// bit, so that it takes the place of what differs by rounding.
-  Vec inShape(const Vec& n) const {
-    if (solid_.bounded()) return R_WS_.transpose() * n;
-    return n.dot(R_WS_ * solid_.normal) > 0 ? solid_.normal : Vec(-solid_.normal);
-  }
-
-  /// Returns the way by which b leaves the model's hull along n, in the world.
+  /// Returns the way by which the shape leaves the model's hull along n, in the world. A half-space
+  /// or plane ends along its own normal alone, to the bit: it takes the place of what differs by
+  /// rounding.
   double exitAlong(const Vec& n) const {
-    const double shape = shape::extentAlong(solid_, inShape(-n)) - n.dot(t_WS_ - t_WM_);
-    return supportPoint<S>(model_, R_WM_.transpose() * n).height + shape;
+    Vec in_shape = X_WS_.linear().transpose() * -n;
+    if (!shape_.bounded())
+      in_shape = in_shape.dot(shape_.normal) > 0 ? shape_.normal : Vec(-shape_.normal);
+    return supportPoint<S>(pair_.mesh, X_WM_.linear().transpose() * n).height +
+           shape::extentAlong(shape_, in_shape) - n.dot(X_WS_.translation() - X_WM_.translation());
   }
 
   std::vector<Vec> directions() const {
-    if (!solid_.bounded()) {
-      const Vec n = (R_WS_ * solid_.normal).normalized();
-      if (solid_.kind == shape::Kind::kHalfspace) return {-n};
+    const fcl::Matrix3d &R_WM = X_WM_.linear(), &R_WS = X_WS_.linear();
+    if (!shape_.bounded()) {
+      const Vec n = (R_WS * shape_.normal).normalized();
+      if (shape_.kind == shape::Kind::kHalfspace) return {-n};
       return {n, -n};
     }
     std::vector<Vec> directions;
-    const Vec center = inModel(R_WS_ * pointOf(solid_) + t_WS_);
     const auto add = [&](const Vec& v) {
-      if (v.norm() > 0) directions.push_back((R_WM_ * v).normalized());
+      if (v.norm() > 0) directions.push_back(v.normalized());
     };
-    const Vec wall = nearestSurface(model_, center, 0.05).point - center;
+    const Vec center = R_WM.transpose() * (X_WS_ * pointOf(shape_) - X_WM_.translation());
+    const Vec wall = R_WM * (nearestSurface(pair_.mesh, center, 0.05).point - center);
     add(wall);
     add(-wall);
-    add(center - model_.getBV(0).bv.center0.template cast<double>());
+    add(R_WM * (center - pair_.mesh.getBV(0).bv.center0.template cast<double>()));
     for (int c = 0; c < 3; ++c) {
-      add(Vec::Unit(c));
-      add(-Vec::Unit(c));
-      directions.emplace_back(R_WS_.col(c).normalized());
-      directions.emplace_back(-R_WS_.col(c).normalized());
+      for (const double sign : {1.0, -1.0}) {
+        add(sign * R_WM.col(c));
+        add(sign * R_WS.col(c));
+      }
     }
     return directions;
   }
 
   /// Keeps the translation if it is proven to part them and shorter.
-  bool accept(const Vec& x, Penetration& result) const {
-    // Copies, also where S is double.
-    // NOLINTBEGIN(performance-unnecessary-copy-initialization)
-    const fcl::Vector3<S> rounded = x.template cast<S>();
-    const Vec translation = rounded.template cast<double>();
-    // NOLINTEND(performance-unnecessary-copy-initialization)
-    const double length = translation.norm();
-    if (result.upper > 0 && !(length < result.upper)) return false;
+  bool accept(const Vec& x) {
     fcl::Transform3<S> X_WS = pair_.X_WO;
+    const fcl::Vector3<S> rounded = roundedTo<S>(x);
     X_WS.translation() += rounded;
-    const MeshAndOther<S> moved = {model_, pair_.X_WM, pair_.other, X_WS, nullptr};
-    fcl::DistanceRequest<S> request(true);
+    const double length = rounded.template cast<double>().norm();
+    if (exit_.upper > 0 && !(length < exit_.upper)) return false;
+    const MeshAndOther<S> moved = {pair_.mesh, pair_.X_WM, pair_.other, X_WS, nullptr};
     fcl::DistanceResult<S> found;
-    if (!(moved.distanceSurfaces(request, found) > 0) || shapePointIn(moved)) return false;
-    result.upper = length;
-    result.translation = translation;
-    result.point = found.nearest_points[0].template cast<double>();
+    if (!(moved.distanceSurfaces(fcl::DistanceRequest<S>(true), found) > 0) ||
+        shapePointIn(moved)) {
+      return false;
+    }
+    exit_ = {0, length, rounded.template cast<double>(),
+             found.nearest_points[0].template cast<double>()};
     return true;
   }
 
   const MeshAndOther<S>& pair_;
-  const Model<S>& model_;
-  const shape::Solid solid_;
-  const fcl::Matrix3d R_WM_;
-  const Vec t_WM_;
-  const fcl::Matrix3d R_WS_;
-  const Vec t_WS_;
+  const shape::Solid shape_;
+  const fcl::Transform3d X_WM_, X_WS_;
+  Penetration exit_;
 };
 
 }  // namespace
@@ -150,7 +137,7 @@ template <typename S>
 std::optional<fcl::Vector3<S>> shapePointIn(const MeshAndOther<S>& pair) {
   const shape::Solid shape = toSolid(pair.other);
   if (!shape.bounded()) return std::nullopt;
-  const fcl::Vector3<S> p = detail::transform<S>(pair.X_WO, pointOf(shape).template cast<S>());
+  const fcl::Vector3<S> p = detail::transform<S>(pair.X_WO, roundedTo<S>(pointOf(shape)));
   if (!contains<S>(pair.mesh, pair.X_WM, p)) return std::nullopt;
   return p;
 }

@@ -61,7 +61,7 @@ PointPlace placeOf(const fcl::Vector3d& point, const Model<S>& model, SearchCoun
 template <typename S>
 bool contains(const Model<S>& solid, const fcl::Transform3<S>& X_WM,
               const fcl::Vector3<std::common_type_t<S>>& point) {
-  checkSolid(solid);
+  requireSolid(solid);
   require(point.allFinite() && double{point.cwiseAbs().maxCoeff()} <= kMaxCoordinate<S>,
           "the point", point.transpose(), kCoordinateRange<S>);
   const RelativePose<S> rigid(X_WM.linear(), X_WM.translation());  // or it throws

@@ -60,7 +60,7 @@ Box alongModel(const Content& content) {
   float* const rows[3] = {box.x, box.y, box.z};
   for (int c = 0; c < 3; ++c) {
     const double low = content.low[c], high = content.high[c];
-    const auto middle = static_cast<float>(0.5 * (low + high));
+    const auto middle = roundedTo<float>(0.5 * (low + high));
     rows[c][c] = 1;
     rows[c][kCenter] = middle;
     box.half[c] = roundUpFloat(std::max(high - middle, middle - low) * (1 + 4 * kUlpDouble));

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "fcl_kios/volume/rigid.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
@@ -64,14 +65,14 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
   for (int i = 0; i < count; ++i) sum_of_normals += Vec(normal[0][i], normal[1][i], normal[2][i]);
   for (int c = 0; c < 3; ++c) {  // offsets belong to what is stored
     for (int i = 0; i < kLanes; ++i) {
-      rows[kFacePlane + c].v[i] = static_cast<float>(normal[c][i]);
+      rows[kFacePlane + c].v[i] = roundedTo<float>(normal[c][i]);
       normal[c][i] = double{rows[kFacePlane + c].v[i]};
     }
   }
   for (int i = 0; i < kLanes; ++i) {
     double height = 0;
     for (int c = 0; c < 3; ++c) height += normal[c][i] * (v[0][c][i] + v[1][c][i] + v[2][c][i]);
-    rows[kFacePlane + 3].v[i] = static_cast<float>(-height / 3);
+    rows[kFacePlane + 3].v[i] = roundedTo<float>(-height / 3);
   }
   for (int k = 0; k < 3; ++k) {
     Lanes* const plane = rows + kEdgePlanes + 4 * k;
@@ -82,10 +83,10 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
       for (int c = 0; c < 3; ++c) {
         const int c1 = (c + 1) % 3, c2 = (c + 2) % 3;
         const double cross = normal[c1][i] * edge[k][c2][i] - normal[c2][i] * edge[k][c1][i];
-        plane[c].v[i] = static_cast<float>(cross / length);
+        plane[c].v[i] = roundedTo<float>(cross / length);
         height += double{plane[c].v[i]} * v[k][c][i];
       }
-      plane[3].v[i] = static_cast<float>(thick ? -height : 1.0);
+      plane[3].v[i] = roundedTo<float>(thick ? -height : 1.0);
     }
   }
 }
@@ -105,7 +106,7 @@ void placeLeaf(const Eigen::Vector3f* vertices, const FaceCorners* faces, Leaf& 
   writeFaces(faces, leaf.num_faces, lanes + 3 * leaf.vertexChunks(), sum);
   const Eigen::Vector3f middle = 0.5F * (low + high);
   if (sum.isZero(0)) sum = Vec::UnitX();
-  const Eigen::Vector3f normal = sum.normalized().cast<float>();
+  const Eigen::Vector3f normal = roundedTo<float>(sum.normalized());
   std::copy_n(middle.data(), 3, leaf.centroid);
   std::copy_n(normal.data(), 3, leaf.normal);
   leaf.normal_bottom = leaf.normal_top = detail::dot<float>(normal, vertices[0]);

@@ -7,6 +7,7 @@
 
 #include "build/mesh_view.h"
 #include "tree/tree.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 
@@ -40,7 +41,7 @@ void placeLeaf(const MeshView<S>& mesh, Leaf& leaf, Tree& tree, Eigen::Vector3f*
     const std::uint32_t t = tree.features[leaf.feature_offset + i].triangle();
     for (int k = 0; k < 3; ++k) {
       faces[i][k] = mesh.corner(t, k).template cast<double>() - origin;
-      vertices[leaf.corners[3 * i + k]] = faces[i][k].template cast<float>();
+      vertices[leaf.corners[3 * i + k]] = roundedTo<float>(faces[i][k]);
     }
   }
   placeLeaf(vertices, faces, leaf, tree);

@@ -27,7 +27,7 @@ Eigen::Matrix3f principalAxes(const Scatter<double>& m) {
   Eigen::Matrix3d scatter;
   scatter << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-  solver.computeDirect((scatter / trace).cast<float>());
+  solver.computeDirect(roundedTo<float>(scatter / trace));
   return axesAlong(solver.eigenvectors().col(2), solver.eigenvectors().col(1));
 }
 

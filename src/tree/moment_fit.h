@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "build/four_axes.h"
-#include "build/principal_frame.h"
 #include "fcl_kios/volume/kios.h"
 #include "tree/tree.h"
 
@@ -39,7 +38,7 @@ Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::siz
 Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks);
 
 /// Fits spheres and box of a node to points: along the principal axes by moments, around the middle
-/// of the box, in two passes. Less tight than SphereFitter by some percent, and several times as
+/// of the box, in two passes. Less tight than kios::fit() by some percent, and several times as
 /// fast. Every sphere (a cap is middle +- half, in exact arithmetic) and the box enclose the
 /// points.
 void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& moments, Node& node,

@@ -69,8 +69,8 @@ void writeSpheres(const kIOS<float>& bv, Node& node) {
     const double p[3] = {plus.x, plus.y, plus.z}, m[3] = {minus.x, minus.y, minus.z};
     double shift = 0;  // of either centre by the rounding of middle and half, in the 1-norm
     for (int c = 0; c < 3; ++c) {
-      rows[c][middle] = static_cast<float>(0.5 * (p[c] + m[c]));
-      rows[c][half] = static_cast<float>(0.5 * (p[c] - m[c]));
+      rows[c][middle] = roundedTo<float>(0.5 * (p[c] + m[c]));
+      rows[c][half] = roundedTo<float>(0.5 * (p[c] - m[c]));
       const double sum = double{rows[c][middle]} + rows[c][half];
       const double difference = double{rows[c][middle]} - rows[c][half];
       shift += std::max(std::abs(sum - p[c]), std::abs(difference - m[c]));
@@ -156,7 +156,7 @@ void measureLeaves(Tree& tree) {
     sum += double{node.size};
     tree.widest_leaf = std::max(tree.widest_leaf, node.width);
   }
-  tree.mean_leaf = static_cast<float>(sum / static_cast<double>(tree.leaves.size()));
+  tree.mean_leaf = roundedTo<float>(sum / static_cast<double>(tree.leaves.size()));
 }
 
 }  // namespace kios::engine

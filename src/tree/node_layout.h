@@ -13,7 +13,7 @@ namespace kios::engine {
 /// Writes the radii of a pair of caps, whose centres are off by at most `shift`: the half
 /// difference rounds by at most 2^-24 of itself, which the middle takes.
 inline void writeRadii(double plus, double minus, double shift, int middle, Node& node) {
-  node.r[middle + 1] = static_cast<float>(0.5 * (plus - minus));
+  node.r[middle + 1] = roundedTo<float>(0.5 * (plus - minus));
   node.r[middle] =
       roundUpFloat(0.5 * (plus + minus) + shift + kUlpFloat * 0.5 * std::abs(plus - minus));
 }

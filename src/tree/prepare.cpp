@@ -3,6 +3,7 @@
 #include "tree/prepare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "tree/weld.h"
 #include "tree/wide_tree.h"
 #include "volume/balls.h"
+#include "volume/rounding.h"
 
 namespace kios::engine {
 namespace {
@@ -21,7 +23,8 @@ namespace {
 template <typename S>
 class Preparation {
  public:
-  Preparation(const MeshView<S>& mesh, const VolumeNode<S>* volumes)
+  /// Its own origin is in the middle of the mesh, if that is `placed`, or the mesh's.
+  Preparation(const MeshView<S>& mesh, const VolumeNode<S>* volumes, bool placed = true)
       : mesh_(mesh),
         volumes_(volumes),
         tree_(std::make_unique<Tree>()),
@@ -35,7 +38,7 @@ class Preparation {
         welds_ |= first[v] != v;
       }
     }
-    placeOrigin(mesh, *tree_);
+    if (placed) placeOrigin(mesh, *tree_);
     stamps_.assign(mesh.num_vertices, 0);
     place_.resize(mesh.num_vertices);
   }
@@ -67,7 +70,7 @@ class Preparation {
         readTriangles(volume);
         continue;
       }
-      binary_[at].size = static_cast<float>(2 * volume.bv.radius0);
+      binary_[at].size = roundedTo<float>(2 * volume.bv.radius0);
       const int left = static_cast<int>(binary_.size());
       binary_[at].left = left;
       for (const int child : {volume.first_child, volume.first_child + 1}) {
@@ -166,9 +169,9 @@ class Preparation {
     kIOS<float> moved;
     moved.num_spheres = bv.num_spheres;
     for (int c = 0; c < 3; ++c) {
-      moved.center0[c] = static_cast<float>(double{bv.center0[c]} - tree_->origin[c]);
+      moved.center0[c] = roundedTo<float>(double{bv.center0[c]} - tree_->origin[c]);
     }
-    const auto unit = static_cast<float>(scaled(1.0, bv.exponent));
+    const auto unit = roundedTo<float>(scaled(1.0, bv.exponent));
     for (int i = 0; i + 1 < bv.k(); ++i) {
       moved.cap_x[i] = bv.cap_x[i] * unit;
       moved.cap_y[i] = bv.cap_y[i] * unit;
@@ -262,12 +265,45 @@ std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volu
   return Preparation<S>(mesh, volumes).run();
 }
 
+// A mesh of no ordinary size or place is prepared as a copy, about its middle and 1 to 2 units
+// large. Differences are exact, or off by 2^-53 of the mesh, and its scaling is exact.
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh) {
-  const std::unique_ptr<VolumeNode<S>[]> volumes(new VolumeNode<S>[2 * mesh.num_triangles - 1]);
+  const std::vector<fcl::Vector3d> corners = [&mesh] {
+    std::vector<fcl::Vector3d> box(2, mesh.corner(0, 0).template cast<double>());
+    for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+      for (int k = 0; k < 3; ++k) {
+        box[0] = box[0].cwiseMin(mesh.corner(t, k).template cast<double>());
+        box[1] = box[1].cwiseMax(mesh.corner(t, k).template cast<double>());
+      }
+    }
+    return box;
+  }();
+  const fcl::Vector3d middle = 0.5 * corners[0] + 0.5 * corners[1];
+  const double half = (corners[1] - middle).maxCoeff();
   std::vector<unsigned int> primitives(mesh.num_triangles);
-  if (!buildVolumes(mesh, volumes.get(), primitives.data())) return nullptr;
-  return prepare(mesh, volumes.get());
+  if (half >= kLeastReach && half <= kLargestReach) {
+    std::vector<VolumeNode<S>> volumes(2 * mesh.num_triangles - 1);
+    if (buildVolumes(mesh, volumes.data(), primitives.data())) return prepare(mesh, volumes.data());
+  }
+  const int exponent = half > 0 ? exponentOf(half) : 0;
+  std::vector<fcl::Vector3d> vertices(mesh.num_vertices, fcl::Vector3d::Zero());
+  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+    for (int k = 0; k < 3; ++k) {
+      fcl::Vector3d& v = vertices[mesh.index(t, k)];
+      v = mesh.corner(t, k).template cast<double>() - middle;
+      for (int c = 0; c < 3; ++c) v[c] = std::ldexp(v[c], -exponent);
+    }
+  }
+  const MeshView<double> copy = {vertices.data(), vertices.size(), mesh.triangles,
+                                 mesh.num_triangles};
+  std::vector<VolumeNode<double>> volumes(2 * mesh.num_triangles - 1);
+  if (!buildVolumes(copy, volumes.data(), primitives.data())) return nullptr;  // not finite
+  std::unique_ptr<Tree> tree = Preparation<double>(copy, volumes.data(), false).run();
+  Eigen::Map<Eigen::Vector3d>(tree->origin) = middle;
+  tree->exponent = exponent;
+  tree->reach = std::max(tree->reach, roundedTo<float>(kLeastReach));
+  return tree;
 }
 
 template std::unique_ptr<Tree> prepare(const MeshView<double>&);

@@ -21,8 +21,8 @@ constexpr double kLeastReach = 0x1p-36, kLargestReach = 0x1p40;
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volumes);
 
-/// Prepares a mesh whose binary tree isn't ours: makes one for the time being. nullptr if
-/// buildVolumes() takes no such mesh, which lies too far from its origin.
+/// Prepares a mesh of any size and place, or whose binary tree isn't ours: makes one for the time
+/// being.
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh);
 

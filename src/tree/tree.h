@@ -11,7 +11,8 @@
 #include "tree/content_hash.h"
 
 // The prepared tree: what the SIMD kernels stream. All floats are relative to the tree's origin, in
-// the model's units. It holds no coordinates for exact evaluation, only the ids of features.
+// the model's units, or in units of a power of two for sizes that floats can't hold. It holds no
+// coordinates for exact evaluation, only the ids of features.
 
 namespace kios::engine {
 
@@ -115,9 +116,10 @@ using Corners3 = std::array<std::uint32_t, 3>;
 
 /// Holds what of a tree tells models apart that are farther apart than they look by their spheres.
 struct TreeRoot {
-  Box root_box;  ///< of the root, flat or not
-  double origin[3] = {};
-  float reach = 0;  ///< >= |centre| + |radius| of all spheres
+  Box root_box;           ///< of the root, flat or not
+  double origin[3] = {};  ///< in the model's units
+  int exponent = 0;       ///< of the unit; 0 for ordinary sizes, which alone kernels search
+  float reach = 0;        ///< >= |centre| + |radius| of all spheres
 };
 
 struct Tree : TreeRoot {

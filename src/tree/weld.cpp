@@ -7,7 +7,7 @@
 namespace kios::engine {
 namespace {
 
-constexpr std::uint32_t kNone = ~std::uint32_t{0};
+constexpr std::uint32_t kNotSeen = ~std::uint32_t{0};
 
 template <typename S>
 std::uint64_t hash(const fcl::Vector3<S>& p) {
@@ -26,25 +26,25 @@ std::uint64_t hash(const fcl::Vector3<S>& p) {
 
 template <typename S>
 std::vector<std::uint32_t> weld(const MeshView<S>& mesh) {
-  std::vector<std::uint32_t> first(mesh.num_vertices, kNone);
+  std::vector<std::uint32_t> first(mesh.num_vertices, kNotSeen);
   std::size_t capacity = 16;
   while (capacity < 2 * mesh.num_vertices) capacity *= 2;
-  std::vector<std::uint32_t> table(capacity, kNone);  // open addressing, linear probing
+  std::vector<std::uint32_t> table(capacity, kNotSeen);  // open addressing, linear probing
   for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
     constexpr std::size_t kAhead = 8;  // the table is larger than the caches
     for (int k = 0; k < 3 && t + kAhead < mesh.num_triangles; ++k) {
-      if (first[mesh.index(t + kAhead, k)] != kNone) continue;
+      if (first[mesh.index(t + kAhead, k)] != kNotSeen) continue;
       __builtin_prefetch(&table[hash(mesh.corner(t + kAhead, k)) & (capacity - 1)]);
     }
     for (int k = 0; k < 3; ++k) {
       const std::size_t v = mesh.index(t, k);
-      if (first[v] != kNone) continue;
+      if (first[v] != kNotSeen) continue;
       const fcl::Vector3<S>& p = mesh.vertices[v];
       std::size_t slot = hash(p) & (capacity - 1);
-      while (table[slot] != kNone && mesh.vertices[table[slot]] != p) {
+      while (table[slot] != kNotSeen && mesh.vertices[table[slot]] != p) {
         slot = (slot + 1) & (capacity - 1);
       }
-      if (table[slot] == kNone) table[slot] = static_cast<std::uint32_t>(v);
+      if (table[slot] == kNotSeen) table[slot] = static_cast<std::uint32_t>(v);
       first[v] = table[slot];
     }
   }

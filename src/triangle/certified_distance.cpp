@@ -14,8 +14,6 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr double kEps = 0x1p-52;
-
 double clamp01(double t) { return t < 0 ? 0 : (t > 1 ? 1 : t); }
 
 PairFeature onEdge(int edge, double t) {

@@ -12,6 +12,7 @@
 #include "triangle/known_distance.h"
 #include "triangle/pair.h"
 #include "volume/instantiate.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -91,12 +92,12 @@ int normalize(TrianglePair& pair) {
 /// Returns the distance of triangles that are disjoint: not 0 even where all digits have cancelled.
 template <typename S>
 S positive(double distance) {
-  return std::max(static_cast<S>(distance), std::numeric_limits<S>::denorm_min());
+  return std::max(roundedTo<S>(distance), std::numeric_limits<S>::denorm_min());
 }
 
 template <typename S>
 TriangleDistance<S> touchingAt(const Vec& at) {
-  const Point<S>& p = at.cast<S>();
+  const Point<S>& p = roundedTo<S>(at);
   return {S(0), p, p, TriangleFeature::kFace, TriangleFeature::kFace};
 }
 
@@ -149,8 +150,8 @@ TriangleDistance<S> distanceOf(const TriangleVertices<S>& a, const TriangleVerti
   const Vec on_p = origin + found.on_p, on_q = origin + found.on_q;
   TriangleDistance<S> result;
   result.distance = positive<S>(found.distance);
-  result.point_a = (swapped ? on_q : on_p).template cast<S>();
-  result.point_b = (swapped ? on_p : on_q).template cast<S>();
+  result.point_a = roundedTo<S>(swapped ? on_q : on_p);
+  result.point_b = roundedTo<S>(swapped ? on_p : on_q);
   result.feature_a = sa.feature(swapped ? found.feature_q : found.feature_p);
   result.feature_b = sb.feature(swapped ? found.feature_p : found.feature_q);
   return result;

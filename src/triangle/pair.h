@@ -7,6 +7,8 @@
 
 namespace kios {
 
+inline constexpr double kEps = 0x1p-52;
+
 /// Two triangles in canonical order, relative to a common origin near them: what both distance
 /// kernels work on. p: the first, q: the second.
 struct TrianglePair {

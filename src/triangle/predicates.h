@@ -9,6 +9,9 @@
 
 namespace kios {
 
+/// The corner that follows each.
+inline constexpr int kNext[3] = {1, 2, 0};
+
 /// Exact signs of determinants of the six vertices of a pair of triangles (a: 0 to 2, b: 3 to 5).
 /// Coordinates must be finite.
 class PairPredicates {

@@ -9,8 +9,6 @@
 namespace kios {
 namespace {
 
-constexpr int kNext[3] = {1, 2, 0};
-
 Sign signOf(const Integer& v) { return static_cast<Sign>(v.sign()); }
 
 Crossing verdict(Sign height, const Sign (&sides)[3]) {

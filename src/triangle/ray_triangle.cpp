@@ -9,7 +9,6 @@
 namespace kios {
 namespace {
 
-constexpr int kNext[3] = {1, 2, 0};
 constexpr double kUlp = 0x1p-53;
 
 /// numerator / denominator rounded to nearest, if that is sure. The quotient of two twofold numbers

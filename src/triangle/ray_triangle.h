@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fcl_kios/triangle/triangle.h"
+#include "triangle/predicates.h"
 #include "triangle/scaled_origin.h"
 
 namespace kios {

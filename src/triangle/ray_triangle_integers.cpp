@@ -14,8 +14,6 @@
 namespace kios {
 namespace {
 
-constexpr int kNext[3] = {1, 2, 0};
-
 /// v = mantissa 2^exponent, the mantissa odd or 0.
 struct Binary {
   explicit Binary(double v) {

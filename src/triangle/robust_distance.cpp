@@ -13,7 +13,6 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-constexpr double kEps = 0x1p-52;
 /// Below, squares may have lost digits by underflow: nothing is passed over by them.
 constexpr double kLeastSquare = 0x1p-660;
 

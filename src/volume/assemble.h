@@ -9,7 +9,6 @@
 #include "volume/balls.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
-#include "volume/stamp.h"
 
 namespace kios {
 
@@ -24,7 +23,7 @@ inline int capExponent(double radius0) {
   return ordinary ? 0 : exponentOf(radius0);
 }
 
-/// Fills the caps beyond k with S0, sets the reach and a new stamp; center0, radius0, exponent and
+/// Fills the caps beyond k with S0, sets the reach; center0, radius0, exponent and
 /// the caps of k are set.
 template <typename S>
 void completeCaps(kIOS<S>& v, int k) {
@@ -38,7 +37,6 @@ void completeCaps(kIOS<S>& v, int k) {
   const lanes::Float4 reach = lanes::abs(lanes::load(v.cap_x)) + lanes::abs(lanes::load(v.cap_y)) +
                               lanes::abs(lanes::load(v.cap_z)) + lanes::load(v.cap_r);
   v.reach = std::max(lanes::horizontalMax(reach), r0) * (1 + 0x1p-20F);
-  v.stamp = nextStamp();
 }
 
 }  // namespace kios

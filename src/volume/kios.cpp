@@ -75,7 +75,7 @@ fcl::Vector3<S> kIOS<S>::sphereCenter(int i) const {
   const double o[3] = {cap_x[i - 1], cap_y[i - 1], cap_z[i - 1]};
   fcl::Vector3<S> center;
   for (int c = 0; c < 3; ++c) {
-    center[c] = static_cast<S>(double{center0[c]} + scaled(o[c], exponent));
+    center[c] = roundedTo<S>(double{center0[c]} + scaled(o[c], exponent));
   }
   return center;
 }
@@ -108,8 +108,8 @@ void kIOS<S>::bounds(fcl::Vector3<S>& lower, fcl::Vector3<S>& upper) const {
       const double low = double{center0[c]} + (o - r) - pad;
       const double high = double{center0[c]} + (o + r) + pad;
       constexpr S kInfinity = std::numeric_limits<S>::infinity();
-      lower[c] = std::max(lower[c], std::nextafter(static_cast<S>(low), -kInfinity));
-      upper[c] = std::min(upper[c], std::nextafter(static_cast<S>(high), kInfinity));
+      lower[c] = std::max(lower[c], std::nextafter(roundedTo<S>(low), -kInfinity));
+      upper[c] = std::min(upper[c], std::nextafter(roundedTo<S>(high), kInfinity));
     }
   }
 }

@@ -11,6 +11,8 @@
 #include <emmintrin.h>
 #endif
 
+#include "volume/rounding.h"
+
 namespace kios::lanes {
 
 /// Four floats, or two doubles, one operation each: every target that g++ and clang++ know, no
@@ -23,7 +25,7 @@ inline Float4 broadcast(float v) { return Float4{v, v, v, v}; }
 
 /// Returns a coordinate or length as a float. Those beyond what floats hold square to infinity on
 /// both sides of a comparison with a reach, which is near.
-inline float toFloat(double x) { return static_cast<float>(std::clamp(x, -3e38, 3e38)); }
+inline float toFloat(double x) { return roundedTo<float>(std::clamp(x, -3e38, 3e38)); }
 
 inline Float4 load(const float* p) {
   Float4 v;

@@ -53,13 +53,12 @@ class Content {
     }
     r0_ = double{v.radius0} * unit0 * unit1;
     weight_ = roundUpFloat(r0_);
-    const float w[3] = {static_cast<float>(w_[0]), static_cast<float>(w_[1]),
-                        static_cast<float>(w_[2])};
+    const float w[3] = {roundedTo<float>(w_[0]), roundedTo<float>(w_[1]), roundedTo<float>(w_[2])};
     reach_ = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]) + weight_;
     caps_[0] = caps_[1] = caps_[2] = broadcast(0);
     caps_[3] = broadcast(weight_);  // as S0
     if (v.k() > 1) {                // a point has an exponent of its own
-      const auto unit = static_cast<float>(scaled(1.0, v.exponent - exponent));
+      const auto unit = roundedTo<float>(scaled(1.0, v.exponent - exponent));
       caps_[0] = lanes::load(v.cap_x) * unit;
       caps_[1] = lanes::load(v.cap_y) * unit;
       caps_[2] = lanes::load(v.cap_z) * unit;
@@ -145,17 +144,14 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
   const double ra = a.radius0, rb = b.radius0;
   const double largest = std::max({std::abs(w[0]), std::abs(w[1]), std::abs(w[2]), rb});
   kIOS merged = b;
-  if (largest == 0) {
-    merged.stamp = nextStamp();
-    return merged;
-  }
+  if (largest == 0) return merged;
   int exponent = largest >= 0x1p-28 && largest <= 0x1p28 ? 0 : exponentOf(largest);
   const double d = norm(scaled(w[0], -exponent), scaled(w[1], -exponent), scaled(w[2], -exponent));
   const double sa = scaled(ra, -exponent), sb = scaled(rb, -exponent);
   if (d + sa > sb) {
     const double t = (d + sb - sa) / (2 * d);
     for (int c = 0; c < 3; ++c) {
-      merged.center0[c] = static_cast<S>(double{a.center0[c]} + t * w[c]);
+      merged.center0[c] = roundedTo<S>(double{a.center0[c]} + t * w[c]);
     }
   }
   Content from_a(a, merged.center0, exponent), from_b(b, merged.center0, exponent);
@@ -191,7 +187,7 @@ kIOS<S> kIOS<S>::operator+(const kIOS& other) const {
     const Float4 fx = lanesOf(0), fy = lanesOf(1), fz = lanesOf(2);
     const Float4 height =
         lanes::max(from_a.heightAlong(fx, fy, fz), from_b.heightAlong(fx, fy, fz));
-    const auto r0 = static_cast<float>(scaled(double{merged.radius0}, -exponent));
+    const auto r0 = roundedTo<float>(scaled(double{merged.radius0}, -exponent));
     const Float4 offset = lanes::max(kCot30 * r0 - height, broadcast(0));
     const Float4 x = -fx * offset, y = -fy * offset, z = -fz * offset;
     const Float4 radius = lanes::max(from_a.radiusFrom(x, y, z) + from_a.pad(offset * 1.8F),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
@@ -14,12 +15,29 @@ constexpr double kUlpFloat = 0x1p-24;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kInfinityFloat = std::numeric_limits<float>::infinity();
 
-// Outward rounding by arithmetic alone: a comparison of a double with its float round trip may be
-// folded away by g++ 12's vectoriser, a product can't.
+/// x rounded to the nearest S. The only way from a double to a float here: g++ 12 drops such a
+/// rounding and the way back where it packs pairs of scalars, which the empty assembly prevents.
+template <typename S>
+S roundedTo(double x) {
+  auto rounded = static_cast<S>(x);
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
+  if (sizeof(S) == sizeof(float)) asm("" : "+x"(rounded));
+#elif defined(__GNUC__) && !defined(__clang__)
+  if (sizeof(S) == sizeof(float)) asm("" : "+m"(rounded));
+#endif
+  return rounded;
+}
+template <typename S, typename Derived>
+Eigen::Matrix<S, Derived::RowsAtCompileTime, Derived::ColsAtCompileTime> roundedTo(
+    const Eigen::MatrixBase<Derived>& x) {
+  return x.unaryExpr([](double v) { return roundedTo<S>(v); });
+}
+
+// Outward rounding by arithmetic alone, which asks for no comparison of a double with its float.
 
 /// A float >= v >= 0 (v below 2^127): (1 + 2^-23)(1 - 2^-24) > 1, and 2^-126 covers subnormals.
 inline float roundUpFloat(double v) {
-  return v == 0 ? 0.0F : static_cast<float>(v * (1 + 0x1p-23) + 0x1p-126);
+  return v == 0 ? 0.0F : roundedTo<float>(v * (1 + 0x1p-23) + 0x1p-126);
 }
 
 /// v >= 0 rounded up to S.
@@ -47,7 +65,7 @@ inline float roundDown<float>(double v) {
   constexpr float kMax = std::numeric_limits<float>::max();
   if (v > double{kMax}) return kMax;
   const double down = v * (1 - 0x1p-23) - 0x1p-126;
-  return down > 0 ? static_cast<float>(down) : 0.0F;
+  return down > 0 ? roundedTo<float>(down) : 0.0F;
 }
 
 /// Largest coordinate whose differences and sums of a few stay finite in S.

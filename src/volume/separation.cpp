@@ -49,8 +49,7 @@ template <typename S>
 [[gnu::hot]] double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
                                   const Offset& d) {
   using lanes::Float4;
-  const float dx = static_cast<float>(d.x), dy = static_cast<float>(d.y),
-              dz = static_cast<float>(d.z);
+  const float dx = roundedTo<float>(d.x), dy = roundedTo<float>(d.y), dz = roundedTo<float>(d.z);
   const Float4 ox = lanes::load(b.cap_x), oy = lanes::load(b.cap_y), oz = lanes::load(b.cap_z);
   const Float4 rb = lanes::load(b.cap_r);
   const auto& R = detail::boundsOf(X).R;
@@ -150,8 +149,8 @@ S lowerBound(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X, fcl::
   const S lower = roundDown<S>(std::max(0.0, bound.value));
   for (int c = 0; c < 3; ++c) {
     const double middle = 0.5 * (bound.P[c] + bound.Q[c]);
-    if (P) (*P)[c] = static_cast<S>(a.center0[c] + (lower > 0 ? bound.P[c] : middle));
-    if (Q) (*Q)[c] = static_cast<S>(a.center0[c] + (lower > 0 ? bound.Q[c] : middle));
+    if (P) (*P)[c] = roundedTo<S>(a.center0[c] + (lower > 0 ? bound.P[c] : middle));
+    if (Q) (*Q)[c] = roundedTo<S>(a.center0[c] + (lower > 0 ? bound.Q[c] : middle));
   }
   return lower;
 }
@@ -234,7 +233,7 @@ void RelativePose<S>::computeBounds(double squared_errors) {
   bounds_.T_norm1 = std::abs(double{T_[0]}) + std::abs(double{T_[1]}) + std::abs(double{T_[2]});
   bounds_.stretch = error_bounds::stretchOf<S>(squared_errors);
   for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) bounds_.R[i][j] = static_cast<float>(R_(i, j));
+    for (int j = 0; j < 3; ++j) bounds_.R[i][j] = roundedTo<float>(R_(i, j));
   }
 }
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <sstream>
 
-#include "build/all_fits.h"
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/paper/fit.h"
+#include "paper/all_fits.h"
 #include "scalars.h"
 #include "volume/exact_spheres.h"
 

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/paper/fit.h"
 #include "scalars.h"
 #include "volume/exact_spheres.h"
 

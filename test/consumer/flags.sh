@@ -3,8 +3,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
 # usage: flags.sh SOURCE_DIR PREFIX WORK_DIR CXX CXXFLAGS
-# Consumers of the package in PREFIX with flags that widen Eigen's alignment, or take it away: a file
-# that would misread FCL's structs is refused in words, and no type of ours depends on it.
+# Consumers of the package in PREFIX with flags that widen Eigen's alignment, take it away, or
+# change how Eigen allocates, as sanitizers do: a file that would misread FCL's structs is refused
+# in words, no type of ours depends on it, and answers that own memory are freed as allocated.
 set -euo pipefail
 
 source_dir=$1 prefix=$2 work=$3 cxx=$4
@@ -13,7 +14,7 @@ here=$source_dir/test/consumer
 pc_file=$(find "$prefix" -name fcl_kios.pc -print -quit)
 export PKG_CONFIG_PATH=${pc_file%/*}${PKG_CONFIG_PATH:+:$PKG_CONFIG_PATH}
 read -ra cflags <<<"$(pkg-config --cflags fcl_kios)"
-read -ra libs <<<"$(pkg-config --libs fcl_kios)"
+read -ra libs <<<"$(pkg-config --libs fcl_kios_clearance)"
 fail() {
   echo "$*"
   exit 1
@@ -21,8 +22,12 @@ fail() {
 compile() { "$cxx" -std=c++17 -O1 "${flags[@]}" "${cflags[@]}" "$@"; }
 
 # Every struct and class of ours is printed, but for those of FCL's, with FCL's own members.
-mapfile -t types < <(sed -nE 's/^(struct|class) (\w+)[^;<]*\{$/\2/p' \
-  "$source_dir"/include/fcl_kios/*/*.h | sort -u)
+headers=("$source_dir"/include/fcl_kios/*/*.h)
+if [[ -f $(pkg-config --variable=includedir fcl_kios)/fcl_kios/robot/robot.h ]]; then
+  headers+=("$source_dir"/addons/robot/include/fcl_kios/robot/*.h)
+  libs=(-lfcl_kios_robot "${libs[@]}")
+fi
+mapfile -t types < <(sed -nE 's/^(struct|class) (\w+)[^;<]*\{$/\2/p' "${headers[@]}" | sort -u)
 ((${#types[@]} > 25)) || fail "only ${#types[@]} types were found: ${types[*]}"
 for type in "${types[@]}"; do
   case $type in
@@ -33,10 +38,38 @@ for type in "${types[@]}"; do
   esac
 done
 
+# No member is of an Eigen type whose alignment or allocation depends on flags: UnalignedPose and
+# UnalignedVector are there instead.
+aligned='(Eigen::(Vector([24X]|Xd)|RowVector|Matrix[24X]|Array|Quaternion|Isometry|Affine)\w*'
+aligned+='|fcl::(Transform3|Quaternion)(d|f|<S>))[[:space:]]+[a-zA-Z_]+( =[^()]*|\{.*)?;'
+if grep -nE "^[[:space:]]+(mutable )?$aligned" "${headers[@]}"; then
+  fail "these members depend on the flags of the file that includes them"
+fi
+
+cat >"$work/r.urdf" <<'END'
+<robot name='r'>
+  <link name='base'><collision><geometry><box size='1 1 0.5'/></geometry></collision></link>
+  <link name='arm'><collision><origin xyz='0.75 0 0'/>
+    <geometry><box size='1 0.25 0.25'/></geometry></collision></link>
+  <link name='hand'><collision><geometry><sphere radius='0.25'/></geometry></collision></link>
+  <joint name='j' type='revolute'><parent link='base'/><child link='arm'/><axis xyz='0 0 1'/>
+    <origin xyz='0 0 0.5'/><limit lower='-3' upper='3'/></joint>
+  <joint name='k' type='revolute'><parent link='arm'/><child link='hand'/><axis xyz='0 1 0'/>
+    <origin xyz='1.5 0 0'/><limit lower='-1' upper='1'/></joint>
+</robot>
+END
+cat >"$work/r.srdf" <<'END'
+<robot name='r'><group_state name='bent' group='all'>
+  <joint name='j' value='0.5'/><joint name='k' value='-0.25'/></group_state>
+  <disable_collisions link1='base' link2='arm'/><disable_collisions link1='arm' link2='hand'/>
+</robot>
+END
+robot=("$work/r.urdf" "$work/r.srdf")
+
 echo "== the package's own flags"
 compile "$here/flags.cpp" "${libs[@]}" -o "$work/flags"
-"$work/flags" >"$work/flags.expected"
-"$work/flags" layout >"$work/layout.expected"
+"$work/flags" "${robot[@]}" >"$work/flags.expected"
+"$work/flags" >"$work/layout.expected"
 
 # refused WORDS FLAGS...: the first header says so.
 refused() {
@@ -49,7 +82,18 @@ refused 'C++17' -std=c++14
 refused 'C++17' -std=c++14 -include fcl_kios/overloads.h
 refused 'EIGEN_DONT_ALIGN' -DEIGEN_DONT_ALIGN
 compile -DFCL_KIOS_ANY_ALIGNMENT -DEIGEN_DONT_ALIGN "$here/flags.cpp" "${libs[@]}" -o "$work/flags"
-"$work/flags" layout | diff "$work/layout.expected" - || fail "EIGEN_DONT_ALIGN changes our types"
+"$work/flags" | diff "$work/layout.expected" - || fail "EIGEN_DONT_ALIGN changes our types"
+
+# The library has no sanitizer, and Eigen's inline code in the consumer allocates otherwise.
+if "$cxx" -fsanitize=address -x c++ - -o "$work/sanitized" <<<'int main() {}' 2>/dev/null; then
+  echo "== -fsanitize=address"
+  compile -g1 -fsanitize=address,undefined -fno-sanitize-recover=all "$here/flags.cpp" \
+    "${libs[@]}" -o "$work/sanitized"
+  "$work/sanitized" "${robot[@]}" | diff "$work/flags.expected" - ||
+    fail "a consumer with sanitizers stops, or gets other answers"
+else
+  echo "-fsanitize=address is left out: $cxx can't link it"
+fi
 
 for option in -mavx -march=native; do
   aligned=$("$cxx" "$option" "${flags[@]}" -dM -E -x c++ - </dev/null 2>/dev/null) || continue
@@ -63,8 +107,8 @@ for option in -mavx -march=native; do
     read -ra definitions <<<"$kept"
     compile "$option" -ffp-contract=off "${definitions[@]}" "$here/flags.cpp" "${libs[@]}" \
       -o "$work/flags"
-    run=layout expected=$work/layout.expected
-    if grep -qsw avx /proc/cpuinfo; then run=all expected=$work/flags.expected; fi
-    "$work/flags" $run | diff "$expected" - || fail "$option $kept: other types or answers"
+    run=() expected=$work/layout.expected
+    if grep -qsw avx /proc/cpuinfo; then run=("${robot[@]}") expected=$work/flags.expected; fi
+    "$work/flags" "${run[@]}" | diff "$expected" - || fail "$option $kept: other types or answers"
   done
 done

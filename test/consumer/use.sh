@@ -36,6 +36,29 @@ found=$(sed -n 's/^fcl_kios_DIR:PATH=//p' "$work/cmake/CMakeCache.txt")
 "$cmake" --build "$work/cmake"
 "$work/cmake/consumer"
 "$work/cmake/clearance_consumer"
+"$work/cmake/paper_consumer"
+
+# without COMPONENT WORDS: asked for by find_package, it is refused with these words. The view of
+# the package lacks the addon robot.
+if [[ $prefix != /usr ]]; then
+  echo "== components that aren't there"
+  cp -rs "$prefix" "$work/less"
+  find "$work/less" -name 'fcl_kiosRobotTargets*' -delete
+  mkdir "$work/component"
+  cat >"$work/component/CMakeLists.txt" <<'END'
+cmake_minimum_required(VERSION 3.22...3.31)
+project(component LANGUAGES CXX)
+find_package(fcl_kios REQUIRED COMPONENTS ${COMPONENT})
+END
+  without() {
+    local said
+    said=$("$cmake" -S "$work/component" -B "$work/component/$1" -DCOMPONENT="$1" \
+      -DCMAKE_PREFIX_PATH="$work/less" -DCMAKE_CXX_COMPILER="$cxx" 2>&1) && fail "$1 was found"
+    [[ $(tr -s '\n ' '  ' <<<"$said") == *"$2"* ]] || fail "$1: $said"
+  }
+  without robot 'cmake --preset full'
+  without robots 'there are clearance, paper and robot'
+fi
 
 echo "== pkg-config"
 static=()
@@ -53,9 +76,15 @@ fi
 "$cxx" "${package[@]}" "$here/main.cpp" "$work/plain/generic.o" "${package_cflags[@]}" \
   "${package_libs[@]}" -o "$work/plain/consumer"
 "$work/plain/consumer"
-"$cxx" "${package[@]}" "$here/clearance.cpp" "${package_cflags[@]}" "${package_libs[@]}" \
-  -o "$work/plain/clearance_consumer"
-"$work/plain/clearance_consumer"
+if [[ " ${package_libs[*]} " == *" -lfcl_kios_"* ]]; then
+  fail "fcl_kios.pc links an addon: ${package_libs[*]}"
+fi
+for addon in clearance paper; do
+  read -ra addon_libs <<<"$(pkg-config "${static[@]}" --libs "fcl_kios_$addon")"
+  "$cxx" "${package[@]}" "$here/$addon.cpp" "${package_cflags[@]}" "${addon_libs[@]}" \
+    -o "$work/plain/${addon}_consumer"
+  "$work/plain/${addon}_consumer"
+done
 
 if [[ $library == *.so && ! ${flags[*]} =~ -fsanitize|-march|-mavx ]]; then
   "$here/flags.sh" "$source_dir" "$prefix" "$work/plain" "$cxx" "${flags[*]}"

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "continuous/fcl_motion.h"
+#include "continuous/motion.h"
 #include "continuous/moving_meshes.h"
 
 namespace kios::testing {
@@ -72,7 +72,6 @@ TEST_P(ChordsOf, PathsStayWithinTheirSagitta) {
 TEST_P(ChordsOf, SlabsLast) {
   RandomPoses random(97);
   double sum = 0, truth = 0;
-  int lasting = 0;
   for (int i = 0; i < 6000; ++i) {
     const auto a = randomMotion(random), b = randomMotion(random);
     const double t = random(0, 0.9), h = (1 - t) * std::pow(random(0, 1), 3);
@@ -99,49 +98,21 @@ TEST_P(ChordsOf, SlabsLast) {
       }
       return low - high;
     };
-    const double time = v.slabTime(n, p, q, h);
+    const auto support = [&](const Vector3d& m) {
+      return std::max({m.dot(p[0]), m.dot(p[1]), m.dot(p[2])});
+    };
+    const double time = std::min(h, v.slabTime(n, support, middle, 2 * size, q, v.pad()));
     for (int k = 0; k <= 8 && time > 0; ++k) {
       ASSERT_GT(gapAt(t + std::min(h, time) * k / 8), 0) << i;
     }
-    Chords chords;
-    chords.set(motion, t, h);
-    const Chords::Triangles triangles(chords, p, q_in_b);
-    bool all = true;
-    for (int part = 0; part < Chords::kParts; ++part) {
-      all &= chords.slabStays(v, triangles, part, n);
-    }
-    // Triangles as near as a slab between them can be proven.
-    const int part = i % Chords::kParts;
-    double near = -1, far = 3;
-    const auto shifted = [&](double by) {
-      std::array<Vector3d, 3> moved = q_in_b;
-      for (Vector3d& x : moved) x += by * (X_BA.linear() * n);
-      return moved;
-    };
-    for (int step = 0; step < 30; ++step) {
-      const double by = 0.5 * (near + far);
-      const Chords::Triangles moved(chords, p, shifted(by));
-      (chords.slabStays(v, moved, part, n) ? far : near) = by;
-    }
-    if (far < 3) {
-      const auto at_first = q_in_b;
-      q_in_b = shifted(far);
-      for (int k = 0; k <= 8; ++k) {
-        ASSERT_GT(gapAt(t + h * (part + k / 8.0) / Chords::kParts), 0) << i;
-      }
-      q_in_b = at_first;
-    }
     double last = 0;
     for (int k = 1; k <= 64 && gapAt(t + h * k / 64) > 0; ++k) last = h * k / 64;
-    EXPECT_LE(all ? h : 0, last * (1 + 1e-12));
-    lasting += all ? 1 : 0;
     sum += std::min(time, h);
     truth += last;
   }
-  std::printf("%.2f of the time; %d last\n", sum / truth, lasting);
+  std::printf("%.2f of the time\n", sum / truth);
   // Splines turn by several full turns, about axes that change.
   EXPECT_GE(sum, (GetParam() == fcl::CCDM_SPLINE ? 0.15 : 0.7) * truth);
-  EXPECT_GE(lasting, 600);
 }
 
 INSTANTIATE_TEST_SUITE_P(Types, ChordsOf, ::testing::ValuesIn(kMotionTypes));

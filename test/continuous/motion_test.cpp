@@ -3,7 +3,7 @@
 //
 // Poses, velocities and their bounds, against FCL's own motions at random times.
 
-#include "continuous/fcl_motion.h"
+#include "continuous/motion.h"
 
 #include <cmath>
 

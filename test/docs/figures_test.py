@@ -15,6 +15,8 @@ sys.path.insert(0, str(SCRIPTS))
 loader = importlib.machinery.SourceFileLoader("report", str(SCRIPTS / "report"))
 report = importlib.util.module_from_spec(importlib.util.spec_from_loader("report", loader))
 loader.exec_module(report)
+from figures import names  # noqa: E402
+HEADERS = names.headers
 
 RUN = {"run": "falling", "command": "kios_bench falling", "machine": "M", "load": 0.1,
        "date": "2026-01-02", "commit": "abc"}
@@ -31,7 +33,8 @@ PAGE = """FCL takes <!-- report:ratios distance falling strips -->{}<!-- /report
 
 TYPED = ["12.7 us", "12.7us", "3 ms", "20 ns", "0.24 s", "1.5 to 2.5 times", "three times", "4 %",
          "65 times", "20%", "1/11", "2x", "half as long", "a third faster", "twice as fast",
-         "a quarter of the time", "slower by a tenth"]
+         "a quarter of the time", "slower by a tenth",
+         "the default is a million", "the default\nof 12", "12 by default"]
 LEFT_ALONE = ["within 16 eps L", "2^-46 L", "1e-300 to 1e300", "128 bytes a node", "k = 5",
               "20,000 triangles", "`12 us`", "```\n12 us\n```", "see [it](12us.md)", "FCL 0.7",
               "pi/6", "a^2/c", "u = eps / 2", "version 3 or 4", "sometimes", "ray_1/2.md",
@@ -68,9 +71,31 @@ class Figures(unittest.TestCase):
                          PAGE.format("5.21 to 28.3", "28.3", "M, load 0.1, 2026-01-02, commit abc"))
 
     def test_a_block_without_rows_or_name_is_refused(self):
-        for name in ("ratio spinning distance", "no_such_table", "Rows", "readme", "number"):
+        for name in ("default MotionRequest::nothing", "ratio spinning distance", "no_such_table",
+                     "Rows", "readme", "number"):
             with self.assertRaises(LookupError, msg=name):
                 report.filled(f"<!-- report:{name} --><!-- /report -->", self.rows)
+
+    def test_names_and_defaults_are_those_of_the_headers(self):
+        text = """namespace kios {
+/// Finds a: b. More.
+template <typename S>
+int find(const S& a, int b = 1);
+int find(int c);
+
+struct Options {  // no docstring
+  int most = 1000, least = 2;
+};
+using Optionsd = Options<double>;
+namespace detail { /// Hides.
+int hidden(); }
+}"""
+        names.headers = lambda: [("x.h", text)]
+        self.addCleanup(setattr, names, "headers", HEADERS)
+        self.assertEqual(names.public_names(), {"x.h": {"find": "Finds a", "Options": ""}})
+        self.assertEqual(names.default(None, "Options::most"), "1,000")
+        self.assertEqual(names.default(None, "Options::least"), "2")
+        self.assertRaisesRegex(LookupError, "x.h: Options", names.names, None)
 
     def test_check_names_what_is_wrong(self):
         report.ROOT, report.MEASURED = self.folder, self.folder

@@ -2,45 +2,76 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# usage: snippets.sh SOURCE_DIR OUTPUT FILE...
-# Writes a program of all blocks marked `cpp` in the Markdown files: each becomes a function, its
-# includes go to the top, and a block with a main() is also run. The blocks of a page `tutorial.md`,
-# given alone, are one program as they stand. Compilers name the Markdown line. FENCE names other
-# blocks to be taken: `c++` are those of the addon fcl_kios::robot.
+# usage: snippets.sh SOURCE_DIR OUTPUT_DIR FILE...
+# Writes the blocks marked `cpp` of the Markdown files as sources; compilers name the Markdown line.
+#   PAGE_N.cpp      a block with a main(), as it stands: with the includes that it shows, no others
+#   tutorial.cpp    the blocks of tutorial.md, which are one program
+#   fragments.cpp   all others, a function each, which may use the declarations of prelude.h
+# Names end in _robot where a block includes a header of the addon robot. C++ that is marked
+# otherwise, or not at all, is an error. Files that stay as they were keep their times.
 set -euo pipefail
 
 source_dir=$1 output=$2
 shift 2
+new=$output.new
+rm -rf "$new"
+mkdir -p "$new" "$output"
 cd "$source_dir"
 
-one_program=0
-if [[ $# == 1 && $1 == *tutorial.md ]]; then one_program=1; fi
-
-awk -v one_program=$one_program -v fence="^\`\`\`${FENCE:-cpp}\$" '
-  function fail(where, what) {
-    print where ": " what > "/dev/stderr"
-    failed = 1
+awk -v out="$new" '
+  function fail(what) {
+    print FILENAME ":" FNR ": " what > "/dev/stderr"
+    exit failed = 1
   }
-  BEGIN { gsub(/\+/, "[+]", fence) }
-  $0 ~ fence { inside = 1; ++blocks; file = FILENAME; body = ""; whole = 0; next }
-  /^```/ && inside {
-    inside = 0
-    if (one_program) code = code body
-    else code = code (whole ? "namespace block_" blocks " {\n" body "}\n" \
-                            : "void block_" blocks "() {\n" body "}\n")
-    if (whole) calls = calls "  block_" blocks "::program();\n"
+  FNR == 1 {
+    page = FILENAME
+    gsub(/^.*\/|\.md$/, "", page)
+    fence = ""
+  }
+  /^```/ && fence == "" {
+    fence = $0
+    if (fence !~ /^```(cpp|sh|python|cmake)?$/) fail("a block that is not cpp, sh, python or cmake")
+    all = includes = rest = robot = ""
+    whole = 0
     next
   }
-  inside && /^#include/ { includes = includes $0 "\n"; next }
-  inside {
-    if (!one_program && sub(/^int main\(\) \{/, "void program() {")) whole = 1
-    body = body "#line " FNR " \"" FILENAME "\"\n" $0 "\n"
+  /^```/ {
+    if (fence == "```cpp") {
+      ++blocks
+      if (page == "tutorial" && !robot) tutorial = tutorial all
+      else if (whole) print all > (out "/" page "_" blocks robot ".cpp")
+      else {
+        included[robot] = included[robot] includes
+        code[robot] = code[robot] "void block_" blocks "() {\n" rest "}\n"
+      }
+    }
+    fence = ""
+    next
   }
+  fence == "```cpp" {
+    line = "#line " FNR " \"" FILENAME "\"\n" $0 "\n"
+    all = all line
+    if (/^#include/) includes = includes line
+    else rest = rest line
+    if (/^#include <fcl_kios\/robot\//) robot = "_robot"
+    if (/^int main\(/) whole = 1
+    next
+  }
+  fence == "```" && /kios::|#include/ { fail("C++ that is not marked cpp") }
   END {
-    if (inside) fail(file, "an open block")
-    if (!blocks) fail("snippets.sh", "no block found")
     if (failed) exit 1
-    if (one_program) print includes code
-    else print "#include \"docs/prelude.h\"\n" includes code "int main() {\n" calls "}"
+    if (!blocks || !tutorial) fail("no block was found")
+    print tutorial > (out "/tutorial.cpp")
+    for (robot in code) {
+      print "#include \"docs/prelude.h\"\n" included[robot] code[robot] > \
+        (out "/fragments" robot ".cpp")
+    }
   }
-' "$@" >"$output"
+' "$@"
+for old in "$output"/*.cpp; do
+  [[ -e $new/${old##*/} ]] || rm -f "$old"
+done
+for file in "$new"/*.cpp; do
+  cmp -s "$file" "$output/${file##*/}" || cp "$file" "$output"
+done
+rm -rf "$new"

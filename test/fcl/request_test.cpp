@@ -79,36 +79,6 @@ TEST_F(Request, ErrorBoundsAreKeptAndSaveWork) {
   EXPECT_LE(work[8], work[7]);
 }
 
-// An answer that is about as wrong as is allowed: the distance of the first two triangles, which
-// may lie on the far sides of two balls.
-TEST(RequestOfBalls, TheFirstTrianglesAnswerIfNearEnough) {
-  const auto a = kiosModel(scenes::icosphere(0.2, 3)), b = kiosModel(scenes::icosphere(0.5, 3));
-  int taken = 0;
-  for (const Frame& frame : randomFrames(60, 2, 43)) {
-    fcl::DistanceResultd result;
-    const double d_exact =
-        fcl::distance(a.get(), frame.X_WA, b.get(), frame.X_WB, fcl::DistanceRequestd(), result);
-    const fcl::Transform3d X_AB = frame.X_WA.inverse() * frame.X_WB;
-    const auto triangle = [](const Modeld& model, const fcl::Transform3d& X) {
-      TriangleVertices<double> t;
-      for (int k = 0; k < 3; ++k) t[k] = X * model.vertices[model.tri_indices[0][k]];
-      return t;
-    };
-    const double first =
-        triangleDistance(triangle(*a, fcl::Transform3d::Identity()), triangle(*b, X_AB)).distance;
-    for (const double part : {0.9, 0.97, 0.99, 0.999, 0.9999, 1.01, 1.1}) {
-      const double allowed = part * (first - d_exact);
-      fcl::DistanceResultd found;
-      const double d =
-          fcl::distance(a.get(), frame.X_WA, b.get(), frame.X_WB, withErrors(0, allowed), found);
-      EXPECT_GE(d, d_exact - 1e-15);
-      EXPECT_LE(d - d_exact, allowed + 1e-15);
-      taken += std::abs(d - first) < 1e-12 ? 1 : 0;
-    }
-  }
-  EXPECT_GT(taken, 60);
-}
-
 // With 10 in hand and an error of max(rel * d, abs), only pairs beyond this can be left out.
 TEST_F(Request, StopsWhereTheErrorAllowsAndNoSooner) {
   const Frame& frame = frames_.front();

@@ -7,6 +7,9 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/distance.h>
+#if !defined(OWN_FLOAT_TABLES)
+#include "fcl_tables.h"
+#endif
 // Ours after FCL's.
 #include <fcl_kios/continuous/continuous.h>
 #include <fcl_kios/model/model.h>

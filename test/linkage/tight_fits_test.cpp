@@ -52,7 +52,7 @@ TEST(TightFits, ABallTurnsInItsSocket) {
     for (const BodyGeometry& ball :
          {modelOf(bowl(0.02, 0, 24, 12)), BodyGeometry(std::make_shared<fcl::Sphered>(0.02))}) {
       expectClear(fitted(ball, socket, JointType::kRevolute, axes, true), Joints::Constant(3, 0.3),
-                  80);
+                  120);
     }
   }
 }

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "build/all_fits.h"
 #include "fcl/mesh_cases.h"
 #include "model/bvh_check.h"
+#include "paper/all_fits.h"
 
 namespace kios::testing {
 namespace {
@@ -81,12 +81,12 @@ TEST(Build, EverySplitterAndFitterGivesAValidTree) {
       for (const FitOptions& fit : kFits) {
         Modeld model;
         model.bv_splitter.reset(new BVSplitter<kIOSd>(split));
-        model.bv_fitter.reset(new BVFitter<kIOSd>(fit));
+        model.bv_fitter.reset(new PaperFitter<double>(fit));
         fill(model, mesh);
         expectValidTree(model);
         Modelf in_float;
         in_float.bv_splitter.reset(new BVSplitter<kIOSf>(split));
-        in_float.bv_fitter.reset(new BVFitter<kIOSf>(fit));
+        in_float.bv_fitter.reset(new PaperFitter<float>(fit));
         fill(in_float, mesh);
         expectValidTree(in_float);
       }
@@ -143,12 +143,12 @@ TEST(Build, SplittersDifferAndBalance) {
   }
   Modeld tuned, published;
   fill(tuned, mesh);
-  published.bv_fitter.reset(new BVFitter<kIOSd>(FitMethod::kMethodII));
+  published.bv_fitter.reset(new PaperFitter<double>(FitMethod::kMethodII));
   fill(published, mesh);
   EXPECT_FALSE(sameTree(tuned, published));
   FitOptions options;
   options.angle = 0;
-  EXPECT_THROW(BVFitter<kIOSd>{options}, std::invalid_argument);
+  EXPECT_THROW(PaperFitter<double>{options}, std::invalid_argument);
 }
 
 TEST(Build, LocalBoxIsThatOfTheVertices) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// A build copies the volumes of a living model of equal content. It is as if it had not.
+// A build takes the volumes of a living model of equal content. It is as if it had not.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,10 @@
 #include <list>
 
 #include "fcl/mesh_cases.h"
+#include "fcl_kios/paper/fit.h"
 #include "model/bvh_check.h"
 #include "model/deform.h"
+#include "model/prepared.h"
 #include "together.h"
 
 namespace kios::testing {
@@ -50,8 +52,6 @@ TEST_F(EqualMeshes, AreBuiltAsIfAlone) {
     expectValidTree(*model);
     expectAnswersOf(*model, mesh_.vertices);
   }
-  // What queries prepare of one state of a model is not taken for another's.
-  EXPECT_NE(first->getBV(0).bv.stamp, second->getBV(0).bv.stamp);
 }
 
 TEST_F(EqualMeshes, InAnyOrderOfTheirLives) {
@@ -108,7 +108,7 @@ TEST_F(EqualMeshes, OtherTreesAreNotCopied) {
   for (const bool published : {true, false}) {
     Modeld model;
     if (published) {
-      model.bv_fitter.reset(new fcl::detail::BVFitter<kIOSd>(FitMethod::kMethodII));
+      model.bv_fitter.reset(new PaperFitter<double>(FitMethod::kMethodII));
     } else {
       model.bv_splitter.reset(new fcl::detail::BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEDIAN));
     }
@@ -125,15 +125,25 @@ TEST_F(EqualMeshes, OtherTreesAreNotCopied) {
   EXPECT_EQ(cloud.getNumBVs(), 2 * static_cast<int>(mesh_.vertices.size()) - 1);
 }
 
-// The fitter that prepared trees belong to may be another after the build.
-TEST_F(EqualMeshes, AnotherFitterAfterTheBuild) {
-  auto first = kiosModel(mesh_);
-  const auto copy = std::make_shared<Modeld>(*first);
-  first->bv_fitter = std::make_shared<fcl::detail::BVFitter<kIOSd>>();
-  first.reset();
-  EXPECT_TRUE(sameTree(*kiosModel(mesh_), built_));
-  copy->bv_fitter = std::make_shared<fcl::detail::BVFitter<kIOSd>>();
-  EXPECT_TRUE(sameTree(*kiosModel(mesh_), built_));
+// Equal models and copies hold one tree, each as long as its content is that.
+TEST_F(EqualMeshes, ShareATree) {
+  const Mesh& mesh = mesh_;
+  const auto a = kiosModel(mesh), b = kiosModel(mesh);
+  const auto copy = std::make_shared<Modeld>(*a);
+  const engine::Tree* const tree = &treeOf(*a);
+  for (const auto& model : {b, copy}) {
+    EXPECT_EQ(&treeOf(*model), tree);
+  }
+  // One that moved has its own, made of the shared one; the others keep theirs.
+  Mesh moved = mesh;
+  moved.vertices[0] += Vector3d(1e-3, 0, 0);
+  b->beginReplaceModel();
+  b->replaceSubModel(moved.vertices);
+  b->endReplaceModel();
+  EXPECT_NE(&treeOf(*b), tree);
+  EXPECT_EQ(&treeOf(*a), tree);
+  EXPECT_EQ(&treeOf(*kiosModel(mesh)), tree);
+  EXPECT_NE(&treeOf(*kiosModel(moved)), &treeOf(*b));
 }
 
 // Models that others copy from go, move and are built anew while threads build.

@@ -187,7 +187,7 @@ TEST_F(Memory, EndModelIsRepeated) {
   EXPECT_GT(failures, 5);
 }
 
-TEST_F(Memory, PrepareAndFirstQuery) {
+TEST_F(Memory, Queries) {
   using Query = std::function<void(const Modeld&)>;
   const Query queries[] = {
       [](const Modeld& model) { prepare(model); },
@@ -217,7 +217,7 @@ TEST_F(Memory, PrepareAndFirstQuery) {
         fcl::continuousCollide(&model, far_.X_WA, near_.X_WA, other_.get(), far_.X_WB, near_.X_WB,
                                fcl::ContinuousCollisionRequestd(), result);
       }};
-  prepare(*other_);
+  int failed = 0;
   for (const Query& query : queries) {
     const long idle = live;  // without the model, and what it may have prepared before a failure
     std::shared_ptr<Modeld> model = kiosModel(mesh_);
@@ -233,8 +233,9 @@ TEST_F(Memory, PrepareAndFirstQuery) {
           model = kiosModel(mesh_);
         },
         /*keeps_memory=*/true);
-    EXPECT_GT(failures, 3);
+    failed += failures;
   }
+  EXPECT_GT(failed, 10);
 }
 
 TEST_F(Memory, RefitsAreRepeated) {
@@ -276,37 +277,28 @@ TEST_F(Memory, RefitsAreRepeated) {
   }
 }
 
-// Memory may run out while a query prepares a refitted model whose earlier state was prepared.
-TEST_F(Memory, QueriesAfterARefit) {
-  const auto moved = swayed(mesh_, 0.7);
+// A model of which memory ran out while it was made right is refused, or right.
+TEST_F(Memory, Invalidate) {
   std::shared_ptr<Modeld> model;
-  const auto refitted = [&] {
+  const auto written = [&] {
     model = kiosModel(mesh_);
-    prepare(*model);
-    replace(*model, moved, true, true);
+    const auto moved = swayed(mesh_, 0.7);
+    std::copy(moved.begin(), moved.end(), model->vertices);
   };
-  refitted();
-  exhaust(
-      [&] {
-        distance(*model);
-        return true;
-      },
-      [&] {
-        expectRight(*model, moved);
-        refitted();
-      });
+  written();
   exhaust(
       [&] {
         invalidate(*model);
         return true;
       },
-      [&] { expectRight(*model, moved); });
-  exhaust(
       [&] {
-        const Modeld copy(*model);
-        return copy.num_tris == model->num_tris;
+        if (model->build_state != fcl::BVH_BUILD_STATE_PROCESSED) {
+          EXPECT_THROW(distance(*model), std::invalid_argument);
+        }
+        written();
       },
-      [&] { expectRight(*model, moved); });
+      /*keeps_memory=*/true);
+  expectRight(*model, swayed(mesh_, 0.7));
 }
 
 TEST_F(Memory, Scenes) {

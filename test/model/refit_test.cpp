@@ -50,6 +50,16 @@ class Refit : public ::testing::Test {
   const std::vector<Frame> frames_ = randomFrames(15, 1.3, 61);
 };
 
+// A manager may ask for the box of a model whose new vertices aren't given yet.
+TEST_F(Refit, AnUpdateBeginsWithTheVerticesThatWere) {
+  const auto model = kiosModel(mesh_);
+  ASSERT_EQ(model->beginUpdateModel(), fcl::BVH_OK);
+  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    EXPECT_EQ(model->vertices[i], mesh_.vertices[i]);
+    EXPECT_EQ(model->prev_vertices[i], mesh_.vertices[i]);
+  }
+}
+
 TEST_F(Refit, ReplaceEveryWay) {
   const auto built = nodesOf(*kiosModel({swayed(mesh_, 2.5), mesh_.triangles}));
   for (const bool refit : {true, false}) {

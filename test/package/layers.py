@@ -4,7 +4,7 @@
 #
 # usage: layers.py SOURCE_DIR
 # The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
-# those below it only (README.md, "The code"). Addons are libraries of their own, which nothing
+# those below it only (docs/how-it-works.md). Addons are libraries of their own, which nothing
 # includes but they themselves, and fcl_kios.h; of addons, those in ADDONS are checked. No two folders
 # have files of one name, but those of public headers. FCL's headers are included as <fcl/...> and
 # ours as "...", and every "..." names one file, whichever include directory is searched first.
@@ -16,13 +16,9 @@ import re
 import sys
 
 LAYERS = ["volume", "triangle", "shape", "build", "tree", "search", "model", "query", "solid",
-          "continuous", "linkage", "fcl", "scene", "clearance", "preload"]
-ADDONS = [LAYERS.index("clearance"), LAYERS.index("preload")]  # in addons, all others in src
-# Public headers of 0.2 that only include their new places.
-MOVED = {"build": ["volume/fit.h"], "clearance": ["query/clearance.h", "volume/exact_distance.h"],
-         "continuous": ["motion/continuous.h"], "linkage": ["motion/linkage.h"],
-         "search": ["engine/counts.h"],
-         "solid": ["interior/closedness.h", "interior/penetration.h", "interior/solids.h"]}
+          "continuous", "linkage", "fcl", "scene", "clearance", "paper", "preload"]
+# In addons; all others in src.
+ADDONS = [LAYERS.index(addon) for addon in ("clearance", "paper", "preload")]
 # Headers of include/fcl_kios itself.
 TOP = {"fcl_own.h": -1, "overloads.h": LAYERS.index("fcl"), "fcl_kios.h": len(LAYERS),
        "version.h": -1, "compiler.h": -1}
@@ -36,9 +32,6 @@ faults = []
 def layer(path):
     """Returns the layer of a file by its path in an include directory; None if that isn't ours."""
     parts = path.removeprefix("fcl_kios/").split("/")
-    for room, headers in MOVED.items():
-        if "/".join(parts) in headers:
-            return LAYERS.index(room)
     if len(parts) == 1:
         return TOP.get(parts[0])
     return LAYERS.index(parts[0]) if parts[0] in LAYERS else None
@@ -69,11 +62,10 @@ def check(path, own):
             faults.append(f'{path} ({LAYERS[own]}) includes "{name}", of a layer above it')
 
 
-# Public headers that share a name with another layer's file.
-NAMED_TWICE = {"distance", "intersection", "prepare"}
+# Public headers that share a name with another layer's file; and the constants of each folder.
+NAMED_TWICE = {"distance", "fit", "intersection", "prepare", "tuning"}
 # Public headers without a .cpp of their path.
 DEFINED_ELSEWHERE = {
-    "build/fit.h": "build/sphere_fitter.cpp",
     "model/motion_bounds.h": "continuous/fcl_motion.cpp",
     "model/prepare.h": "model/prepared.cpp", "solid/solids.h": "solid/solid_mark.cpp",
     "model/convert.h": "a template", "volume/rigid.h": "templates",
@@ -82,22 +74,21 @@ DEFINED_ELSEWHERE = {
 SMALL_OR_USED_ONCE = {
     "clearance/exact_pair.h": "what two .cpp share",
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
-    "fcl/overloads_float.cpp": "FCL's function tables for float, which libfcl lacks",
+    "continuous/tuning.h": "a table of constants", "scene/tuning.h": "a table of constants",
     "linkage/local_slabs.h": "tested alone",
-    "linkage/near_pairs.h": "tested alone", "query/cell_walk.h": "FCL's tree beside the engine's",
-    "query/solid_off_box.h": "a proof by boxes, beside a search that reports contacts",
+    "linkage/near_pairs.h": "tested alone", "model/stored_format.h": "also what tests alter",
     "search/pairs_apart.h": "memory of exact answers, beside the evaluators that ask for them",
-    "tree/build_budget.h": "tested alone",
     "tree/compress_table.h": "a table that no target needs twice",
-    "tree/root_copy.h": "a lock-free cell", "tree/weld.h": "one function",
+    "tree/weld.h": "one function",
     "triangle/common_point.h": "what two .cpp share",
     "triangle/integer.h": "Boost's integers, which take long to compile",
     "triangle/known_distance.h": "triangleDistance() for those who know more",
     "volume/ball_lanes.h": "tested alone", "volume/errors.h": "the one way to refuse",
-    "volume/instantiate.h": "macros", "volume/stamp.h": "one function",
+    "volume/instantiate.h": "macros",
     "volume/simd_targets.h": "before Highway's headers",
     "volume/unit_vector.h": "one function",
-    "fcl_kios/search/counts.h": "values", "fcl_kios/triangle/triangle.h": "types",
+    "fcl_kios/search/counts.h": "values",
+    "fcl_kios/solid/self_intersections.h": "one function", "fcl_kios/triangle/triangle.h": "types",
     "fcl_kios/volume/specialisations.h": "declared with the volume"}
 count, homes, lines, users, listed = 0, {}, {}, {}, set()
 addons = [root / "addons" / LAYERS[addon] for addon in ADDONS]
@@ -117,8 +108,7 @@ for folder in (root / "src", *addons, root / "include" / "fcl_kios"):
             faults.append(f"{path}: {LAYERS[home]} has files of this name too")
 for path, length in lines.items():
     name = path.relative_to(next(base for base in roots if path.is_relative_to(base))).as_posix()
-    moved = any(name.removeprefix("fcl_kios/") in headers for headers in MOVED.values())
-    if moved or name.endswith("-inl.h") or name.count("/") == name.startswith("fcl_kios/"):
+    if name.endswith("-inl.h") or name.count("/") == name.startswith("fcl_kios/"):
         continue
     sources = root / ("addons" if layer(name) in ADDONS else "src")
     own_cpp = sources / name.removeprefix("fcl_kios/").replace(".h", ".cpp")

@@ -12,7 +12,7 @@ if ! git rev-parse --is-inside-work-tree >/dev/null 2>&1; then
   exit 77
 fi
 mapfile -t files < <(git ls-files --cached --others --exclude-standard |
-  grep -vE '\.(md|jsonl?|png|svg|gif)$|_(targets|answers)\.txt$|^(LICENSE|VERSION|\.gitignore|\.clang-format)$')
+  grep -vE '\.(md|jsonl?|png|svg|gif|stl)$|_(targets|answers)\.txt$|^(LICENSE|VERSION|\.gitignore|\.clang-format)$')
 without=$(
   for line in 'SPDX-FileCopyrightText: ' 'SPDX-License-Identifier: BSD-3-Clause'; do
     grep -L -F -e "$line" "${files[@]}" || true

@@ -21,9 +21,9 @@ namespace kios::testing {
 template <typename S>
 const fcl::Transform3<S> kIdentity = fcl::Transform3<S>::Identity();
 
-/// Returns a model that must be searched in FCL's tree.
+/// Returns a model whose fitter is the user's.
 template <typename S>
-std::shared_ptr<Model<S>> unpreparedModel(const Mesh& mesh) {
+std::shared_ptr<Model<S>> foreignModel(const Mesh& mesh) {
   auto model = std::make_shared<Model<S>>();
   model->bv_fitter.reset(new scenes::ForeignFitter<kIOS<S>>());
   model->beginModel();

@@ -49,18 +49,6 @@ TEST(RayModels, DirectWritesNeedInvalidate) {
   EXPECT_THROW(firstHit(*model, kIdentity<double>, Rayd()), std::invalid_argument);
 }
 
-// A ray that can't reach the root volume prepares nothing.
-TEST(RayModels, PreparedByTheFirstRayThatMayHit) {
-  const auto model = kiosModel(scenes::bumpyTorus(200));
-  Rayd ray;
-  ray.origin = {0, 0, 5};
-  EXPECT_FALSE(firstHit(*model, kIdentity<double>, ray));
-  EXPECT_EQ(preparedBytes(*model), 0u);
-  ray.origin = {-5, 0, 0};
-  EXPECT_TRUE(firstHit(*model, kIdentity<double>, ray));
-  EXPECT_GT(preparedBytes(*model), 0u);
-}
-
 TEST(RayModels, ThreadsGiveOneThreadsAnswers) {
   constexpr int kThreads = 6, kRays = 200;
   const auto model = kiosModel(scenes::bumpyTorus(2000));

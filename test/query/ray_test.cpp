@@ -64,7 +64,6 @@ TYPED_TEST(RayQuery, WatertightInEveryPose) {
         Closed{scenes::uvSphere(1, 9, 60), {0.05, 0, 0}},
         Closed{scenes::subdividedBox({1, 2, 3}, 5), {0.1, 0.2, -0.3}}}) {
     const auto model = scenes::buildModel<kIOS<S>>(closed.mesh);
-    const auto fallback = unpreparedModel<S>(closed.mesh);
     const Mesh& mesh = closed.mesh;
     int lost = 0;
     for (const fcl::Transform3d& X_double : scenes::randomPoses(12, 3, 21)) {
@@ -77,7 +76,6 @@ TYPED_TEST(RayQuery, WatertightInEveryPose) {
           ray.direction = target - ray.origin;
           lost += firstHit(*model, X, ray) ? 0 : 1;
           lost += anyHit(*model, X, ray) ? 0 : 1;
-          lost += anyHit(*fallback, X, ray) ? 0 : 1;
           ray.direction = -ray.direction;
           lost += anyHit(*model, X, ray) ? 0 : 1;
         }
@@ -106,12 +104,12 @@ TYPED_TEST(RayQuery, OnePointHasOneParameter) {
   }
 }
 
-TYPED_TEST(RayQuery, FallbackAnswersBitwiseTheSame) {
+TYPED_TEST(RayQuery, AnotherFitterAnswersBitwiseTheSame) {
   using S = TypeParam;
   for (const NamedMesh& named : unitMeshes()) {
     SCOPED_TRACE(named.name);
     const auto model = scenes::buildModel<kIOS<S>>(named.mesh);
-    const auto fallback = unpreparedModel<S>(named.mesh);
+    const auto foreign = foreignModel<S>(named.mesh);
     HardRays<S> rays(*model, 17);
     for (const fcl::Transform3d& X_double : scenes::randomPoses(3, 1, 3)) {
       const fcl::Transform3<S> X = X_double.cast<S>();
@@ -120,10 +118,8 @@ TYPED_TEST(RayQuery, FallbackAnswersBitwiseTheSame) {
         ray.origin = X * ray.origin;
         ray.direction = X.linear() * ray.direction;
         SearchCounts fast, slow;
-        const auto expected = askAll(*fallback, X, ray, &slow),
-                   hits = askAll(*model, X, ray, &fast);
+        const auto expected = askAll(*foreign, X, ray, &slow), hits = askAll(*model, X, ray, &fast);
         EXPECT_EQ(fast.tree_searches, 0);
-        EXPECT_LE(slow.tree_searches, 1);
         ASSERT_EQ(hits.size(), expected.size());
         for (std::size_t k = 0; k < hits.size(); ++k) EXPECT_TRUE(same(hits[k], expected[k]));
       }

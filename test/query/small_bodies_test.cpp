@@ -59,56 +59,6 @@ TYPED_TEST(SmallBodies, ContactsAreThoseOfAllPairs) {
   EXPECT_GT(apart, 300);
 }
 
-// What a fresh model answers is what the prepared one does: bit for bit where the pair is apart.
-TYPED_TEST(SmallBodies, FreshModelsAnswerAsPreparedOnes) {
-  using S = TypeParam;
-  Random random(12);
-  int walks = 0, apart = 0;
-  for (int i = 0; i < 1500; ++i) {
-    const Mesh mesh_a = smallMesh(i, random), mesh_b = smallMesh(i / 8, random);
-    const auto a = modelOf<S>(mesh_a), b = modelOf<S>(mesh_b);
-    const auto ready_a = another<S>(mesh_a), ready_b = another<S>(mesh_b);
-    const auto X = poseAt<S>(i, random.uniform(0, 3), random);
-    const fcl::DistanceRequest<S> request(true);
-    SearchCounts by_walk, by_engine;
-    fcl::DistanceResult<S> fresh, ready;
-    const S d = distanceMeshes(*a, X.X_WA, *b, X.X_WB, request, fresh, &by_walk);
-    ASSERT_EQ(d, distanceMeshes(*ready_a, X.X_WA, *ready_b, X.X_WB, request, ready, &by_engine))
-        << i << ' ' << fresh.b1 << ' ' << fresh.b2 << ' ' << ready.b1 << ' ' << ready.b2;
-    const AllPairs<S> all = allPairs(*a, *b, X);
-    ASSERT_EQ(d == 0, !all.hits.empty()) << i;
-    ASSERT_LE(std::abs(d - all.distance), 1e-5 * (d + 4)) << i;
-    walks += by_walk.expansions == 0 && by_walk.leaf_pairs > 0;
-    const int pairs = a->num_tris * b->num_tris;
-    if (d == 0 && pairs > 1) {
-      ASSERT_EQ(std::make_pair(fresh.b1, fresh.b2), std::make_pair(ready.b1, ready.b2)) << i;
-    }
-    if (d == 0 && std::max(a->num_tris, b->num_tris) <= 32 && pairs <= 512) {
-      ASSERT_EQ(std::make_pair(static_cast<int>(fresh.b1), static_cast<int>(fresh.b2)), all.hits[0])
-          << i;
-    }
-    if (d == 0) continue;
-    ++apart;
-    ASSERT_EQ(std::make_pair(fresh.b1, fresh.b2), std::make_pair(ready.b1, ready.b2)) << i;
-    ASSERT_EQ(fresh.nearest_points[0], ready.nearest_points[0]) << i;
-    ASSERT_EQ(fresh.nearest_points[1], ready.nearest_points[1]) << i;
-    // Bounds on either side of the distance, as FCL's managers give them.
-    for (const double factor : {0.5, 0.999, 1.0, 1.001, 2.0}) {
-      const auto c = modelOf<S>(mesh_a), e = modelOf<S>(mesh_b);
-      fcl::DistanceResult<S> bounded, bounded_ready;
-      bounded.min_distance = bounded_ready.min_distance = static_cast<S>(factor * double{d});
-      distanceMeshes(*c, X.X_WA, *e, X.X_WB, request, bounded);
-      distanceMeshes(*ready_a, X.X_WA, *ready_b, X.X_WB, request, bounded_ready);
-      ASSERT_EQ(bounded.min_distance, std::min(d, static_cast<S>(factor * double{d}))) << i;
-      ASSERT_EQ(bounded_ready.min_distance, bounded.min_distance) << i;
-      ASSERT_EQ(bounded.b1, bounded_ready.b1) << i;
-      ASSERT_EQ(bounded.b2, bounded_ready.b2) << i;
-    }
-  }
-  EXPECT_GT(walks, 500);
-  EXPECT_GT(apart, 500);
-}
-
 // Models are prepared on the way, and no answer changes.
 TYPED_TEST(SmallBodies, AnswersStayAsModelsGetPrepared) {
   using S = TypeParam;

@@ -9,6 +9,7 @@
 #include <exception>
 #include <stdexcept>
 
+#include "files/tetrahedron.h"
 #include "robot/robot_files.h"
 
 namespace kios::testing {
@@ -174,10 +175,30 @@ void ask(const Robot& robot, Random& random) {
   for (const std::string& state : robot.states()) robot.state(state);
 }
 
+/// What a mesh answers, alone and beside a sound one.
+void ask(const std::shared_ptr<Modeld>& mesh, const Modeld& sound, Random& random) {
+  fcl::Transform3d X = fcl::Transform3d::Identity();
+  X.translation() = Vector3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+  const double d = distance(*mesh, X, sound, fcl::Transform3d::Identity()).distance;
+  const bool close = closerThan(*mesh, X, sound, fcl::Transform3d::Identity(), 0.1);
+  if (std::isnan(d) || d < 0 || (close && d > 0.1 * (1 + 1e-9))) throw std::logic_error("distance");
+  fcl::CollisionResultd contacts;
+  fcl::collide(mesh.get(), X, &sound, fcl::Transform3d::Identity(), fcl::CollisionRequestd(),
+               contacts);
+  if (contacts.isCollision() != (d == 0)) throw std::logic_error("contact and distance differ");
+  if (inspectClosedness(*mesh).isSolid()) {
+    markSolid(*mesh);
+    contains(*mesh, X, Vector3d(0.1, 0.1, 0.1));
+  }
+}
+
 void run(int files, std::uint64_t seed, Tally& tally) {
   const Folder folder;
   const std::string urdf = manyJoints(folder), urdf_text = contentOf(urdf);
   const std::string box = folder / "meshes/rod.obj", box_text = contentOf(box);
+  const auto sound_mesh = loadMesh(box);
+  const char* const kinds[] = {"obj", "off",        "coff",    "stl", "binary.stl",
+                               "ply", "little.ply", "big.ply", "dae"};
   const Robot sound = loadRobot(urdf);
   Random random(seed);
   for (int i = 0; i < files; ++i) {
@@ -197,9 +218,14 @@ void run(int files, std::uint64_t seed, Tally& tally) {
           text = changed(kScene, random);
           robot.addScene(folder.write("changed.yaml", text));
           break;
-        default:
-          text = changed(box_text, random);
-          robot.addObstacle("mesh", loadMesh(folder.write("changed.obj", text)));
+        default: {
+          const std::string kind = kinds[i / 4 % std::size(kinds)];
+          text = changed(kind == "obj" ? box_text : tetrahedron(kind), random);
+          const std::string ending = kind == "coff" ? "off" : kind.substr(kind.find('.') + 1);
+          const auto mesh = loadMesh(folder.write("changed." + ending, text));
+          robot.addObstacle("mesh", mesh);
+          ask(mesh, *sound_mesh, random);
+        }
       }
       ask(robot, random);
       ++tally.read;

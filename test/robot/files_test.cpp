@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "fcl/expect_refused.h"
+#include "files/tetrahedron.h"
 #include "not_finite.h"
 #include "robot/robot_files.h"
 
@@ -125,6 +126,35 @@ TEST(RobotFiles, MeshesAreWeldedScaledAndKeepTheirOutside) {
   expectRefused([&] { loadMesh(folder.write("empty.stl", "")); }, "empty");
 }
 
+TEST(RobotFiles, MeshesSayWhatTheyLeaveOut) {
+  const Folder folder;
+  const std::string file = folder.write("m/l.OBJ", boxObj(1, 2, 3) + "l 1 2\n");
+  std::vector<std::string> warnings;
+  EXPECT_EQ(loadMesh(file, 1, &warnings)->num_tris, 12);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], file + ": 1 point or line left out.");
+  const Robot robot = loadRobot(folder.write(
+      "r.urdf", "<robot name='r'>" + link("a", "<mesh filename='m/l.OBJ'/>") + "</robot>"));
+  EXPECT_EQ(robot.warnings(), warnings);
+  const std::string dae = folder.write("t.dae", tetrahedron("dae"));
+  EXPECT_EQ(loadMesh(dae, 2)->num_vertices, 4);
+  // An L of area 8, whose fan has 20; coordinates of a map.
+  const std::string head =
+      "v 448262.3 4582940.7 0\nv 448266.3 4582940.7 0\nv 448266.3 4582941.7 0\n";
+  const auto model = loadMesh(folder.write(
+      "c.obj", head + "v 448263.3 4582941.7 0\nv 448263.3 4582945.7 0\nv 448262.3 4582945.7 0\n"
+                      "f 2 3 4 5 6 1\n"));
+  double area = 0;
+  for (int i = 0; i < model->num_tris; ++i) {
+    const fcl::Triangle& t = model->tri_indices[i];
+    const Vector3d& a = model->vertices[t[0]];
+    area += (model->vertices[t[1]] - a).cross(model->vertices[t[2]] - a).norm() / 2;
+  }
+  EXPECT_NEAR(area, 8, 1e-7);
+  expectRefused([&] { loadMesh(folder.write("zero.obj", head + "f 0 1 2\n")); }, "zero.obj:4: ");
+  expectRefused([&] { loadMesh("/dev/zero"); }, "no regular file");
+}
+
 TEST(RobotFiles, PackagesAreLookedForWhereRosHasThem) {
   const Folder folder;
   folder.write("ws/share/pack/m/box.obj", boxObj(1, 1, 1));
@@ -143,6 +173,16 @@ TEST(RobotFiles, PackagesAreLookedForWhereRosHasThem) {
   setenv("ROS_PACKAGE_PATH", (folder / "ws/share").c_str(), 1);
   EXPECT_EQ(loadRobot(urdf).links().size(), 1u);
   unsetenv("ROS_PACKAGE_PATH");
+}
+
+TEST(RobotFiles, PackagesMayHaveThreeSlashes) {
+  const Folder folder;
+  folder.write("pkg/part.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string file =
+      folder.write("pkg/r.urdf",
+                   "<robot name='r'><link name='a'><collision><geometry><mesh "
+                   "filename='package:///pkg/part.obj'/></geometry></collision></link></robot>");
+  EXPECT_EQ(loadRobot(file).elements().size(), 1u);
 }
 
 TEST(RobotFiles, AnSrdfAllowsPairsAndNamesStates) {
@@ -259,130 +299,6 @@ world:
   EXPECT_TRUE(robot.contact(q).has_value());
   EXPECT_EQ(robot.clearance(q).clearance, 0);
   expectRefused([&] { robot.remove("upper"); }, "link");
-}
-
-TEST(RobotFiles, BadRobotsAreRefusedWithTheirPlace) {
-  const Folder folder;
-  const std::string two = link("a") + link("b");
-  const std::pair<std::string, const char*> cases[] = {
-      {"", "empty"},
-      {"<robot", "well-formed"},
-      {std::string("<robot name='r'>\0</robot>", 25), "zero byte"},
-      {"<model/>", "<robot>"},
-      {"<robot/>", "name"},
-      {"<robot name='r'/>", "<link>"},
-      {"<robot name='r'><link/></robot>", "attribute name"},
-      {"<robot name='r'>" + link("a") + link("a") + "</robot>", "already"},
-      {"<robot name='r'>" + two + "</robot>", "2 roots"},
-      {"<robot name='r'>\n\n" + link("a", "<box size='1 1'/>") + "</robot>", ":3: <box>"},
-      {"<robot name='r'>" + link("a", "<box size='1 1 1 1'/>") + "</robot>", "three finite"},
-      {"<robot name='r'>" + link("a", "<box size='1 -1 1'/>") + "</robot>", "negative"},
-      {"<robot name='r'>" + link("a", "<box/>") + "</robot>", "size"},
-      {"<robot name='r'>" + link("a", "<sphere radius='nan'/>") + "</robot>", "finite"},
-      {"<robot name='r'>" + link("a", "<sphere radius='1e999'/>") + "</robot>", "finite"},
-      {"<robot name='r'>" + link("a", "<sphere radius='1'/><sphere radius='1'/>") + "</robot>",
-       "second shape"},
-      {"<robot name='r'>" + link("a", "<torus/>") + "</robot>", "no such shape"},
-      {"<robot name='r'>" + link("a", "<mesh filename='x.stl'/>") + "</robot>", "x.stl"},
-      {"<robot name='r'>" + link("a", "<mesh filename='http://x/y.stl'/>") + "</robot>", "fetched"},
-      {"<robot name='r'>" + link("a", "<mesh filename='package://y'/>") + "</robot>", "package://"},
-      {"<robot name='r'><link name='a'><collision/></link></robot>", "<geometry>"},
-      {"<robot name='r'>" + two + joint("j", "ball", "a", "b") + "</robot>", "type"},
-      {"<robot name='r'>" + two + joint("j", "fixed", "a", "c") + "</robot>", "'c'"},
-      {"<robot name='r'>" + two + joint("j", "revolute", "a", "b") + "</robot>", "<limit>"},
-      {"<robot name='r'>" + two + joint("j", "revolute", "a", "b", "<limit lower='2' upper='1'/>") +
-           "</robot>",
-       "exceeds"},
-      {"<robot name='r'>" + two + joint("j", "continuous", "a", "b", "<axis xyz='0 0 0'/>") +
-           "</robot>",
-       "length 0"},
-      {"<robot name='r'>" + two + joint("j", "continuous", "a", "b", "<mimic joint='k'/>") +
-           "</robot>",
-       "'k'"},
-      {"<robot name='r'>" + two + joint("j", "continuous", "a", "b", "<mimic joint='j'/>") +
-           "</robot>",
-       "circle"},
-      {"<robot name='r'>" + two + link("c") + joint("j", "fixed", "a", "b") +
-           joint("k", "continuous", "b", "c", "<mimic joint='j'/>") + "</robot>",
-       "can't mimic"},
-      {"<robot name='r'>" + two + joint("j", "fixed", "a", "b") + joint("j", "fixed", "a", "b") +
-           "</robot>",
-       "already"},
-      {"<robot name='r'>" + two + joint("j", "fixed", "a", "b") + joint("k", "fixed", "a", "b") +
-           "</robot>",
-       "two joints"},
-      {"<robot name='r'>" + two + joint("j", "fixed", "a", "b") + joint("k", "fixed", "b", "a") +
-           "</robot>",
-       "circle"}};
-  for (const auto& [text, word] : cases) {
-    const std::string file = folder.write("bad.urdf", text);
-    SCOPED_TRACE(text);
-    expectRefused([&] { loadRobot(file); }, word);
-    expectRefused([&] { loadRobot(file); }, "bad.urdf");
-  }
-  expectRefused([&] { loadRobot(folder / "none.urdf"); }, "no such file");
-  expectRefused([&] { loadRobot("."); }, "directory");
-  RobotOptions options;
-  options.padding = -1;
-  expectRefused([&] { loadRobot(manyJoints(folder), "", options); }, "padding");
-  expectRefused(
-      [&] {
-        loadRobot(manyJoints(folder), folder.write("s",
-                                                   "<robot><disable_collisions"
-                                                   "/></robot>"));
-      },
-      "link1");
-}
-
-TEST(RobotFiles, BadScenesAreRefusedAndChangeNothing) {
-  const Folder folder;
-  Robot robot = loadRobot(manyJoints(folder));
-  const std::string object = "world:\n  collision_objects:\n    - id: x\n";
-  const std::pair<std::string, const char*> cases[] = {
-      {"{", "no YAML"},
-      {"[1, 2]", "planning scene"},
-      {"a: b", "planning scene"},
-      {"world: 3", "map"},
-      {"world: {collision_objects: 3}", "list"},
-      {"world: {collision_objects: [3]}", "map"},
-      {"world: {collision_objects: [{}]}", "name is missing"},
-      {object, "no shape"},
-      {object + "      primitives: [{type: box, dimensions: [1, 2]}]", "3 dimensions"},
-      {object + "      primitives: [{type: box, dimensions: [1, 2, -1]}]", "negative"},
-      {object + "      primitives: [{type: box, dimensions: [1, 2, .nan]}]", "finite"},
-      {object + "      primitives: [{type: torus, dimensions: [1]}]", "torus"},
-      {object + "      primitives: [{type: sphere, dimensions: [1]}]\n      primitive_poses: "
-                "[{position: [1, 2]}]",
-       "xyz"},
-      {object + "      primitives: [{type: sphere, dimensions: [1]}]\n      primitive_poses: "
-                "[{orientation: [1, 2, 3, 4]}]",
-       "quaternion"},
-      {object + "      primitives: [{type: sphere, dimensions: [1]}]\n      primitive_poses: "
-                "[{}, {}]",
-       "primitive_poses"},
-      {object + "      header: {frame_id: upper}\n      primitives: [{type: sphere, dimensions: "
-                "[1]}]",
-       "upper"},
-      {object + "      meshes: [{vertices: [[0, 0, 0]], triangles: [[0, 0, 1]]}]", "indices"},
-      {object + "      meshes: [{vertices: [[0, 0, 0]], triangles: []}]", "without triangles"},
-      {object + "      operation: MOVE", "ADD"},
-      {"world: {collision_objects: [{id: upper, primitives: []}]}", "link's name"},
-      {"robot_state: {attached_collision_objects: [{link_name: none}]}", "none"},
-      {"world: {}\nallowed_collision_matrix: {entry_names: [a], entry_values: []}", "rows"},
-      {"world: {}\nallowed_collision_matrix: {entry_names: [a], entry_values: [[1, 2]]}", "row"},
-      {"world: {}\nallowed_collision_matrix: {entry_names: [a, b], entry_values: [[0, 5], [0, 0]]}",
-       "true or false"},
-      {"world: {}\nlink_scale: [{link_name: upper, scale: 2}]", "pad"}};
-  const VectorXd q = VectorXd::Zero(8);
-  const double before = robot.clearance(q).clearance;
-  for (const auto& [text, word] : cases) {
-    const std::string file = folder.write("bad.yaml", text);
-    SCOPED_TRACE(text);
-    expectRefused([&] { robot.addScene(file); }, word);
-    expectRefused([&] { robot.addScene(file); }, "bad.yaml");
-  }
-  expectRefused([&] { robot.pose("x", q); }, "'x'");
-  EXPECT_EQ(robot.clearance(q).clearance, before);
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Lower bounds of the distances of eight boxes to another, or a ball, in floats, are below those in
-// long double, on every instruction set: boxes of any size and shape, parallel to each other or
-// nearly, far from the origin for their size, at gaps down to nothing.
+// Lower bounds of the distances of eight boxes to another, in floats, are below those in long
+// double, on every instruction set: boxes of any size and shape, parallel to each other or nearly,
+// far from the origin for their size, at gaps down to nothing.
 
 #include <gtest/gtest.h>
 
@@ -47,24 +47,12 @@ void bounds(const BoxBlock& block, const Box& box, const FloatPose& X, float pad
   }
 }
 
-/// The box's centre is the ball's.
-void boundsOfBall(const BoxBlock& block, const Box& centered, float radius, const FloatPose& X,
-                  float pad, float* out) {
-  Box moved;
-  move(centered, X, moved);
-  for (size_t l = 0; l < kLanes; l += step()) {
-    hn::StoreU(ballBounds(BoxLanes(block, l), BoxLanes(moved).center, hn::Set(d, radius), pad), d,
-               out + l);
-  }
-}
-
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace kios::engine {
 HWY_EXPORT(bounds);
-HWY_EXPORT(boundsOfBall);
 }  // namespace kios::engine
 
 namespace kios::testing {
@@ -170,33 +158,11 @@ double reachOf(const Box& box) {
 }
 
 struct Outcome {
-  long bounded = 0, wrong = 0, without_pad = 0, wrong_of_balls = 0, balls_without_pad = 0;
+  long bounded = 0, wrong = 0, without_pad = 0;
   long parted = 0, missed = 0;  ///< boxes apart, and those that contact bounds don't tell so
   double shares = 0;            ///< sum of bound / distance
   double pad_used = 0;          ///< the largest share of the pad that rounding takes
 };
-
-/// The ball about the centre of `other` that all but touches the first box, or is a point.
-void tryBalls(const std::vector<Box>& boxes, const engine::BoxBlock& block, const Box& other,
-              const Mat& R, const Vec& t, const engine::FloatFrame& frames, Outcome& sum) {
-  const Vec center = R * Content(other).center() + t;
-  const auto distanceOf = [&](const Box& box) {
-    return (Content(box).towards(center) - center).norm();
-  };
-  const Real most = std::min<Real>(distanceOf(boxes[0]), 0.5L * frames.scale);
-  for (const float radius : {0.0F, 0.999999F * static_cast<float>(most)}) {
-    for (const float pad : {frames.box_pad, 0.0F}) {
-      alignas(32) float found[kLanes];
-      HWY_DYNAMIC_DISPATCH(engine::boundsOfBall)
-      (block, other, radius, frames.a_from_b, pad, found);
-      for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        ASSERT_FALSE(std::isnan(found[lane]));
-        const bool wrong = found[lane] > 0 && found[lane] > distanceOf(boxes[lane]) - Real{radius};
-        (pad > 0 ? sum.wrong_of_balls : sum.balls_without_pad) += wrong;
-      }
-    }
-  }
-}
 
 /// Boxes of about `size`, their centres up to `offset` sizes from their origins, apart by `gap`
 /// sizes.
@@ -250,7 +216,6 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
   engine::makeFloatFrame(trees, frames);
   const Mat R = pose.R().cast<Real>();
   const Vec t = pose.T().cast<Real>();
-  tryBalls(boxes, a.box_blocks[0], other, R, t, frames, sum);
   for (const bool contact : {false, true}) {
     alignas(32) float found[kLanes], without_pad[kLanes];
     HWY_DYNAMIC_DISPATCH(engine::bounds)
@@ -296,8 +261,6 @@ TEST_P(BoxBounds, AreBelowTheDistance) {
   }
   EXPECT_EQ(sum.wrong, 0);
   EXPECT_GT(sum.without_pad, 500);  // it is the pad that makes them right
-  EXPECT_EQ(sum.wrong_of_balls, 0);
-  EXPECT_GT(sum.balls_without_pad, 500);
   ASSERT_GT(sum.bounded, 500);
   EXPECT_GT(sum.shares / static_cast<double>(sum.bounded), 0.94);  // and they tell nearly all
   // All axes together separate whatever is apart; nearest() may stop at points farther than that.

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "fcl_kios/fcl_kios.h"
+#include "fcl_kios/paper/fit.h"
 #include "model/prepared.h"
 #include "scenes/shapes.h"
 
@@ -18,12 +19,10 @@ namespace {
 // another fit's or a refitted one is not.
 TEST(ReadTree, QueriesKnowWhichTreesTheyMayRead) {
   const scenes::Mesh mesh = scenes::bumpyTorus(300);
-  const auto isRead = [](const Modeld& model) {
-    return treesOf(model)->isBuilt(model.getBV(0).bv.stamp);
-  };
+  const auto isRead = [](const Modeld& model) { return preparedOf(model).ordinary; };
   Modeld model, by_mean, published;
   by_mean.bv_splitter.reset(new fcl::detail::BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEAN));
-  published.bv_fitter.reset(new fcl::detail::BVFitter<kIOSd>(FitMethod::kMethodII));
+  published.bv_fitter.reset(new PaperFitter<double>(FitMethod::kMethodII));
   for (Modeld* const m : {&model, &by_mean, &published}) {
     ASSERT_EQ(m->beginModel(), fcl::BVH_OK);
     ASSERT_EQ(m->addSubModel(mesh.vertices, mesh.triangles), fcl::BVH_OK);
@@ -42,8 +41,7 @@ TEST(ReadTree, QueriesKnowWhichTreesTheyMayRead) {
   }
   EXPECT_TRUE(isRead(model));
   // All of them prepare the same tree, as it depends on the mesh alone.
-  const auto tree = preparedTree(model), other = preparedTree(by_mean);
-  ASSERT_TRUE(tree && other);
+  const engine::Tree *const tree = &treeOf(model), *const other = &treeOf(by_mean);
   EXPECT_EQ(tree->bytes(), other->bytes());
   const auto same = [](const auto& x, const auto& y) {
     return x.size() == y.size() && std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;

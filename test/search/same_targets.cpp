@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Prints every bit of the answers of queries, and the work they took: a line a query. Whatever the
-// machine, and whatever instruction set the environment variable FCL_KIOS_SIMD chooses, the output
-// must be the same: same_targets.sh compares. The name of the target goes to the standard error
-// stream.
+// Prints every bit of the answers of queries, a line a query. Whatever the machine, and whatever
+// instruction set the environment variable FCL_KIOS_SIMD chooses, the output must be the same:
+// same_targets.sh compares. The name of the target goes to the standard error stream.
 
 #include <cinttypes>
 #include <cstdio>
@@ -14,52 +13,46 @@
 #include <vector>
 
 #include "fcl_kios/fcl_kios.h"
-#include "fcl_kios/query/shape_queries.h"
 #include "fcl_kios/volume/rigid.h"
 #include "search/prepared_pair.h"
 
 namespace kios::testing {
 namespace {
 
-void print(const SearchCounts& c) {
-  std::printf(" %lld %lld %lld %lld %lld %lld", c.expansions, c.volume_tests, c.leaf_pairs,
-              c.leaf_kernels, c.exact, c.tree_searches);
-}
-
 template <typename S>
 void print(const fcl::Vector3<S>& p) {
   for (int i = 0; i < 3; ++i) std::printf(" %a", double{p[i]});
 }
 
+/// Distances and contacts. Those to shapes are computed by Eigen's products, which it fuses on ARM:
+/// the last bits differ, and so may ties. They, and depths, which FCL's build for a machine
+/// decides, stand in lines of their own.
 template <typename S>
-void ask(const Model<S>& a, const fcl::Transform3<S>& X_A, const Model<S>& b,
-         const fcl::Transform3<S>& X_B) {
-  prepare(a);
-  prepare(b);
+void ask(const fcl::CollisionGeometry<S>& a, const fcl::Transform3<S>& X_A,
+         const fcl::CollisionGeometry<S>& b, const fcl::Transform3<S>& X_B) {
+  const bool meshes = b.getObjectType() == fcl::OT_BVH;
   for (const S rel_err : {S(0), S(0.1)}) {
     fcl::DistanceResult<S> result;
-    SearchCounts counts;
-    const fcl::DistanceRequest<S> request(true, false, rel_err);
-    const S d = distanceMeshes(a, X_A, b, X_B, request, result, &counts);
-    std::printf("%a %" PRIdPTR " %" PRIdPTR, double{d}, result.b1, result.b2);
-    print<S>(result.nearest_points[0]);
-    print<S>(result.nearest_points[1]);
-    print(counts);
+    const S d =
+        fcl::distance(&a, X_A, &b, X_B, fcl::DistanceRequest<S>(true, false, rel_err), result);
+    std::printf("%s %a %" PRIdPTR, meshes ? "" : "points", double{d}, result.b1);
+    if (meshes) std::printf(" %" PRIdPTR, result.b2);
+    for (const fcl::Vector3<S>& p : result.nearest_points) print<S>(p);
     std::printf("\n");
   }
   for (const std::size_t most : {1, 4, 100000}) {
     fcl::CollisionResult<S> result;
-    SearchCounts counts;
-    collideMeshes(a, X_A, b, X_B, fcl::CollisionRequest<S>(most, true), result, &counts);
-    std::printf("%zu", result.numContacts());
-    for (std::size_t i = 0; i < result.numContacts(); ++i) {
-      const fcl::Contact<S>& contact = result.getContact(i);
-      std::printf(" %" PRIdPTR " %" PRIdPTR, contact.b1, contact.b2);
+    fcl::collide(&a, X_A, &b, X_B, fcl::CollisionRequest<S>(most, true), result);
+    std::vector<fcl::Contact<S>> contacts;
+    result.getContacts(contacts);
+    std::printf("%zu", contacts.size());
+    for (const auto& contact : contacts) {
+      std::printf(" %" PRIdPTR " %" PRIdPTR, contact.b1, meshes ? contact.b2 : 0);
     }
-    print(counts);
-    std::printf("\ndepths");  // FCL's own, which its build for a machine decides
-    for (std::size_t i = 0; i < result.numContacts(); ++i) {
-      std::printf(" %a", double{result.getContact(i).penetration_depth});
+    std::printf("\n%s", meshes ? "depths" : "points");
+    for (const auto& contact : contacts) {
+      if (meshes) std::printf(" %a", double{contact.penetration_depth});
+      if (!meshes) print<S>(contact.pos);
     }
     std::printf("\n");
   }
@@ -81,13 +74,11 @@ void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed
     }
     if (ray.direction.isZero(0)) ray.direction = -ray.origin;
     for (const std::size_t most : {1, 100000}) {
-      SearchCounts counts;
-      for (const RayHit<S>& hit : allHits(model, X, ray, most, &counts)) {
+      for (const RayHit<S>& hit : allHits(model, X, ray, most)) {
         std::printf("%d %a", hit.triangle, double{hit.t});
         print<S>(hit.point);
         print<S>(hit.weights);
       }
-      print(counts);
       std::printf("\n");
     }
   }
@@ -119,39 +110,6 @@ std::vector<std::shared_ptr<fcl::CollisionGeometry<S>>> shapes() {
 }
 
 template <typename S>
-void askShapes(const Model<S>& model, const fcl::Transform3<S>& X_M,
-               const fcl::Transform3<S>& X_S) {
-  prepare(model);
-  for (const auto& shape : shapes<S>()) {
-    for (const S rel_err : {S(0), S(0.1)}) {
-      fcl::DistanceResult<S> result;
-      SearchCounts counts;
-      const fcl::DistanceRequest<S> request(true, false, rel_err);
-      const S d = distanceShape(model, X_M, *shape, X_S, request, result, &counts);
-      print(counts);
-      // By Eigen's products, which it fuses on ARM: the last bits differ, and so may ties.
-      std::printf("\npoints %a %" PRIdPTR, double{d}, result.b1);
-      print<S>(result.nearest_points[0]);
-      print<S>(result.nearest_points[1]);
-      std::printf("\n");
-    }
-    for (const std::size_t most : {1, 4, 100000}) {
-      fcl::CollisionResult<S> result;
-      SearchCounts counts;
-      collideShape(model, X_M, *shape, X_S, fcl::CollisionRequest<S>(most, true), result, &counts);
-      std::printf("%zu", result.numContacts());
-      for (std::size_t i = 0; i < result.numContacts(); ++i) {
-        std::printf(" %" PRIdPTR, result.getContact(i).b1);
-      }
-      print(counts);
-      std::printf("\npoints");
-      for (std::size_t i = 0; i < result.numContacts(); ++i) print<S>(result.getContact(i).pos);
-      std::printf("\n");
-    }
-  }
-}
-
-template <typename S>
 void askAll() {
   constexpr double kGrid = 0x1p-30;
   const auto b = scenes::buildModel<kIOS<S>>(rounded(scenes::bumpyTorus(400), kGrid));
@@ -165,7 +123,8 @@ void askAll() {
       ask<S>(*a, X1, *b, X2);
       ask<S>(*b, X1, *a, X2);
       cast<S>(*a, X1, i);
-      if (i < 3) askShapes<S>(*a, X1, X2);
+      if (i >= 3) continue;
+      for (const auto& shape : shapes<S>()) ask<S>(*a, X1, *shape, X2);
     }
   }
   // Ties, at a pose that rounds nothing.

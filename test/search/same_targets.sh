@@ -2,10 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Queries give bitwise the same answers by the same steps whatever instruction set searches, and
-# whatever the machine, but for the last bits of distances to shapes: a checksum of the answers is
-# written down in same_targets.txt. With --write
-# it is written anew, which needs a reason in the changelog.
+# Queries give bitwise the same answers whatever instruction set searches, and whatever the machine,
+# but for the last bits of distances to shapes: a checksum of the answers is written down in
+# same_targets.txt. With --write it is written anew, which needs a reason in the changelog.
 #   same_targets.sh [--write] [what runs programs of another machine] <program of same_targets.cpp>
 set -eu
 write=

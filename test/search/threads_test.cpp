@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Prepared trees are made once, shared without locks, and never changed while they are in use.
+// Prepared trees are shared without locks, and never changed while several models hold them.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include "fcl/mesh_cases.h"
 #include "scenes/random.h"
 #include "together.h"
-#include "tree/tree_cache.h"
 
 namespace kios::testing {
 namespace {
@@ -64,8 +63,6 @@ std::vector<Vector3d> shifted(const Mesh& mesh, double by) {
 class EngineThreads : public ::testing::Test {
  protected:
   std::vector<Answer> answers(const Modeld& a, const Modeld& b) const {
-    prepare(a);
-    prepare(b);
     std::vector<Answer> result;
     for (const Frame& frame : frames_) result.push_back(ask(a, b, frame));
     return result;
@@ -80,7 +77,6 @@ TEST_F(EngineThreads, AllAskFirst) {
   for (int round = 0; round < 20; ++round) {
     const auto a = kiosModel(mesh_), b = kiosModel(other_mesh_);
     const Modeld copy(*a);
-    prepare(copy);
     const std::size_t one = preparedBytes(*a);
     std::atomic<int> wrong{0};
     together(kThreads, [&](int t) {
@@ -105,7 +101,7 @@ TEST_F(EngineThreads, SharedModelsAnswerAsInOneThread) {
   EXPECT_EQ(wrong, 0);
 }
 
-// Copies share the place where trees are kept: more copies than places, refitted and asked at once.
+// Copies hold one tree until they are refitted, while others are asked.
 TEST_F(EngineThreads, RefittedCopiesAndQueriesDoNotMeet) {
   const auto original = kiosModel(mesh_), other = kiosModel(other_mesh_);
   constexpr int kStates = 4;
@@ -136,85 +132,6 @@ TEST_F(EngineThreads, RefittedCopiesAndQueriesDoNotMeet) {
     }
   });
   EXPECT_EQ(wrong, 0);
-}
-
-/// Returns a tree that says what it was made from, of a content that no other has.
-engine::SharedTree marked(std::uint64_t stamp) {
-  static std::atomic<std::uint64_t> contents{0};
-  return engine::SharedTree({++contents, 0}, [&] {
-    auto tree = std::make_unique<engine::Tree>();
-    tree->origin[0] = static_cast<double>(stamp);
-    tree->nodes.resize(100);
-    return tree;
-  });
-}
-
-// The cache alone, with more keys than places: it finds the tree of the key, and the tree stays.
-TEST(TreeCacheThreads, FindsWhatWasAskedFor) {
-  engine::TreeCache cache;
-  std::atomic<int> made{0}, wrong{0};
-  const double data[40] = {};
-  together(kThreads, [&](int t) {
-    scenes::Random random(static_cast<std::uint64_t>(t));
-    for (int i = 0; i < 3000; ++i) {
-      const auto which = static_cast<std::size_t>(random.unit() * (i < 1500 ? 6 : 40));
-      const engine::TreeKey key = {which + 1, data + which, data, 3, 1};
-      const auto use = cache.findOrMake(key, [&](const engine::SharedTree& /*old*/) {
-        ++made;
-        return marked(which + 1);
-      });
-      if (i % 7 == 0) cache.drop(data + (which + 1) % 6);
-      if (i % 11 == 0) std::this_thread::yield();
-      wrong += !use || use->origin[0] != static_cast<double>(which + 1) || use->nodes.size() != 100;
-      const auto held = cache.find({which + 1, data + which, data, 3, 1});
-      wrong += held && held->origin[0] != static_cast<double>(which + 1);
-      wrong += static_cast<bool>(cache.find({which + 1, data + which, data, 4, 1}));
-    }
-  });
-  EXPECT_EQ(wrong, 0);
-  EXPECT_GE(made, 40);
-  EXPECT_LE(cache.bytes(), 8 * marked(1).get()->bytes());
-}
-
-// Every place in use by others: the tree is made for its asker alone.
-TEST(TreeCacheThreads, TreesInUseAreNotReplaced) {
-  engine::TreeCache cache;
-  const double data[20] = {};
-  std::vector<engine::TreeCache::Use> uses;
-  for (std::uint64_t i = 0; i < 12; ++i) {
-    uses.push_back(cache.findOrMake({i + 1, data + i, data, 3, 1},
-                                    [&](const engine::SharedTree&) { return marked(i + 1); }));
-  }
-  for (std::uint64_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(uses[i]->origin[0], static_cast<double>(i + 1));
-    EXPECT_EQ(static_cast<bool>(cache.find({i + 1, data + i, data, 3, 1})), i < 8);
-  }
-  cache.drop(data);
-  EXPECT_EQ(uses[0]->origin[0], 1);
-  uses.clear();
-  EXPECT_EQ(cache
-                .findOrMake({20, data + 19, data, 3, 1},
-                            [](const engine::SharedTree&) { return marked(20); })
-                ->origin[0],
-            20);
-  EXPECT_TRUE(static_cast<bool>(cache.find({20, data + 19, data, 3, 1})));
-}
-
-TEST(TreeCacheThreads, OneIsMadeHoweverManyAsk) {
-  for (int round = 0; round < 200; ++round) {
-    engine::TreeCache cache;
-    std::atomic<int> made{0}, wrong{0};
-    together(kThreads, [&](int) {
-      const auto use =
-          cache.findOrMake({7, &cache, &cache, 3, 1}, [&](const engine::SharedTree& /*old*/) {
-            ++made;
-            return marked(7);
-          });
-      wrong += use->origin[0] != 7;
-    });
-    EXPECT_EQ(made, 1);
-    EXPECT_EQ(wrong, 0);
-  }
 }
 
 }  // namespace

@@ -62,18 +62,18 @@ template <typename S>
 class Auditor {
  public:
   explicit Auditor(const Mesh& mesh)
-      : model_(scenes::buildModel<kIOS<S>>(mesh)), tree_(preparedTree(*model_)) {
-    below_.resize(tree_->nodes.size());
-    for (std::size_t n = tree_->nodes.size(); n-- > 0;) {  // children follow their parents
-      const engine::Node& node = tree_->nodes[n];
+      : model_(scenes::buildModel<kIOS<S>>(mesh)), tree_(treeOf(*model_)) {
+    below_.resize(tree_.nodes.size());
+    for (std::size_t n = tree_.nodes.size(); n-- > 0;) {  // children follow their parents
+      const engine::Node& node = tree_.nodes[n];
       if (node.isLeaf()) {
-        const engine::Leaf& leaf = tree_->leaves[node.leaf()];
+        const engine::Leaf& leaf = tree_.leaves[node.leaf()];
         for (std::size_t i = 0; i < leaf.num_faces; ++i) {
-          below_[n].push_back(tree_->features[leaf.feature_offset + i].triangle());
+          below_[n].push_back(tree_.features[leaf.feature_offset + i].triangle());
         }
         continue;
       }
-      const auto& children = tree_->children[static_cast<std::size_t>(node.child)];
+      const auto& children = tree_.children[static_cast<std::size_t>(node.child)];
       for (std::uint32_t i = 0; i < children.count; ++i) {
         const auto& child = below_[node.first_child + i];
         below_[n].insert(below_[n].end(), child.begin(), child.end());
@@ -89,14 +89,14 @@ class Auditor {
     const bool by_faces = ++calls_ % 2 == 0;  // every other time of a convex shape
     const auto of_faces = shape::ConvexFaces(posed.solid()).slabs();
     engine::FloatSolid solid;
-    if (!makeFloatSolid(*tree_, posed, by_faces, solid)) return false;
+    if (!makeFloatSolid(tree_, posed, by_faces, solid)) return false;
     solid.pad *= pads.of_points;
     solid.box_pad *= pads.of_boxes;
     distances_.clear();
     std::size_t nearest = 0;
     std::vector<engine::FloatSlab> slabs;
     for (const auto& face : of_faces) {
-      if (by_faces) slabs.push_back(slabInTree(*tree_, posed, face.normal, face.offset));
+      if (by_faces) slabs.push_back(slabInTree(tree_, posed, face.normal, face.offset));
     }
     double reach = posed.solid().reach();
     for (int i = 0; i < model_->num_tris; ++i) {
@@ -108,7 +108,7 @@ class Auditor {
       const shape::Vec way = d.on_triangle - d.on_shape;
       if (i % 7 == 0 && d.distance > 0 && posed.solid().bounded()) {
         const shape::Vec n = way.normalized();
-        slabs.push_back(slabInTree(*tree_, posed, n, shape::extentAlong(posed.solid(), n)));
+        slabs.push_back(slabInTree(tree_, posed, n, shape::extentAlong(posed.solid(), n)));
       }
     }
     error_ = 0x1p-43 * reach;
@@ -129,7 +129,7 @@ class Auditor {
       }
       SearchCounts counts;
       const float asked = listener.cull_distance;
-      engine::kernels().solid({*tree_, solid, listener, counts, &listener});
+      engine::kernels().solid({tree_, solid, listener, counts, &listener});
       judge(listener, asked, out);
     }
     return true;
@@ -165,7 +165,7 @@ class Auditor {
   }
 
   const std::shared_ptr<fcl::BVHModel<kIOS<S>>> model_;
-  const engine::TreeCache::Use tree_;
+  const engine::Tree& tree_;
   std::vector<std::vector<std::uint32_t>> below_;
   std::vector<double> distances_;
   double error_ = 0;

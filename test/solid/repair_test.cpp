@@ -41,6 +41,112 @@ TEST(Repair, ASolidStaysAsItIs) {
   }
 }
 
+/// Sums the angles under which the triangles are seen from p: how often the mesh winds round it.
+double windingOf(const std::vector<Vector3d>& v, const std::vector<fcl::Triangle>& triangles,
+                 const Vector3d& p) {
+  double sum = 0;
+  for (const fcl::Triangle& t : triangles) {
+    const Vector3d a = v[t[0]] - p, b = v[t[1]] - p, c = v[t[2]] - p;
+    const double u = a.norm(), w = b.norm(), x = c.norm();
+    sum += std::atan2(a.dot(b.cross(c)), u * w * x + a.dot(b) * x + b.dot(c) * u + c.dot(a) * w);
+  }
+  return sum / (2 * EIGEN_PI);
+}
+
+/// Tetrahedra and boxes over few places, so that they share bases, faces and edges, lie in each
+/// other and are there twice; some as thin as the tolerance.
+Mesh sharingParts(scenes::Random& random) {
+  std::vector<Mesh> parts;
+  const auto place = [&] { return std::floor(random.uniform(0, 3)); };
+  for (int n = 2 + static_cast<int>(random.uniform(0, 4)); n > 0; --n) {
+    Mesh part;
+    if (random.unit() < 0.5) {
+      const double z = place();
+      part.vertices = {{0, 0, z}, {1, 0, z}, {0, 1, z}, {place(), place(), z + 1 + place()}};
+      part.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    } else {
+      const Vector3d low(place(), place(), place());
+      const double thin = random.unit() < 0.1 ? 1e-6 : 1 + place();
+      part = scenes::subdividedBox({1, 1, 1}, 1);
+      for (Vector3d& p : part.vertices) {
+        p = low +
+            (p.array() > 0).select(Vector3d(1 + place(), 1 + place(), thin), Vector3d::Zero());
+      }
+    }
+    parts.push_back(part);
+  }
+  if (random.unit() < 0.2) {  // a cavity, and what fills it
+    parts.push_back(flipped(parts.front()));
+    parts.push_back(transformed(scenes::subdividedBox({12, 12, 12}, 1), 1, {4, 4, 4}));
+  }
+  return scenes::merged(parts);
+}
+
+TEST(Repair, SolidsThatSharePartsStayAsTheyAre) {
+  scenes::Random random(7);
+  for (int i = 0; i < casesOr(1000); ++i) {
+    const Mesh mesh = sharingParts(random);
+    ASSERT_TRUE(inspectClosedness(mesh.vertices, mesh.triangles).isSolid()) << i;
+    const auto r = repaired(mesh);
+    expectHonest(mesh, r);
+    ASSERT_TRUE(r.closedness.isSolid()) << i << ": " << summaryOf(r);
+    EXPECT_EQ(r.triangles.size(), mesh.triangles.size()) << i << ": " << summaryOf(r);
+    EXPECT_EQ(r.flipped_triangles + r.moved_vertices, 0) << i;
+    EXPECT_NEAR(volumeOf(r.vertices, r.triangles), volumeOf(mesh.vertices, mesh.triangles), 1e-9);
+    for (int k = 0; k < 8; ++k) {
+      const Vector3d p = Vector3d::Constant(2) + 2.5 * inCube(random);
+      EXPECT_NEAR(windingOf(r.vertices, r.triangles, p),
+                  windingOf(mesh.vertices, mesh.triangles, p), 1e-6)
+          << i;
+    }
+  }
+}
+
+// Patches of all sizes, whose faces are there again, wound alike or turned: the copies go.
+TEST(Repair, DoubledPatchesAreMended) {
+  scenes::Random random(8);
+  const Mesh solids[] = {scenes::subdividedBox({1, 2, 3}, 1), scenes::subdividedBox({1, 2, 3}, 3),
+                         scenes::icosphere(1, 1), scenes::bumpyTorus(200)};
+  for (int i = 0; i < casesOr(400); ++i) {
+    const Mesh& solid = solids[i % 4];
+    const auto begin =
+        static_cast<std::size_t>(random.uniform(0, static_cast<double>(solid.triangles.size())));
+    const double most = 0.9 * static_cast<double>(solid.triangles.size());
+    const auto size = static_cast<std::size_t>(std::pow(most, random.unit()));
+    Mesh mesh = solid;
+    for (std::size_t k = 0; k < size; ++k) {
+      const fcl::Triangle& t = solid.triangles[(begin + k) % solid.triangles.size()];
+      const bool turned = random.unit() < (i % 2 == 0 ? 1 : 0.5);
+      for (int copies = i % 3 == 0 ? 2 : 1; copies > 0; --copies) {
+        mesh.triangles.emplace_back(t[1], t[turned ? 0 : 2], t[turned ? 2 : 0]);
+      }
+    }
+    if (inspectClosedness(mesh.vertices, mesh.triangles).isSolid()) continue;
+    const auto r = repaired(mesh);
+    expectHonest(mesh, r);
+    EXPECT_TRUE(r.closedness.isSolid()) << i << ", " << size << ": " << summaryOf(r);
+    EXPECT_EQ(r.triangles.size(), solid.triangles.size()) << i << ", " << size;
+    EXPECT_NEAR(volumeOf(r.vertices, r.triangles), volumeOf(solid.vertices, solid.triangles), 1e-9);
+  }
+}
+
+TEST(Repair, WithoutAToleranceEqualVerticesAloneAreWelded) {
+  RepairOptions none;
+  none.relative_weld = 0;
+  for (const double scale : {1e-150, 1.0, 1e150}) {
+    for (const double small : {1e-9, 1e-17, 1e-100}) {
+      Mesh open = scenes::subdividedBox({scale, scale, scale}, 1);
+      open.triangles.pop_back();  // what is a solid isn't welded at all
+      const Mesh tiny = transformed(scenes::icosphere(1, 0), small * scale, {0, 0, 0});
+      const Mesh mesh = scenes::merged({open, scenes::soup(tiny)});
+      const auto r = repaired(mesh, none);
+      EXPECT_EQ(r.moved_vertices, 0) << scale << " " << small;
+      EXPECT_EQ(r.vertices.size(), open.vertices.size() + tiny.vertices.size());
+      EXPECT_EQ(r.triangles.size(), mesh.triangles.size());
+    }
+  }
+}
+
 TEST(Repair, WeldsWithinTheTolerance) {
   for (const double scale : {1e-200, 1e-9, 1.0, 1e9, 1e200}) {
     const Mesh ball = transformed(scenes::icosphere(1, 2), scale, {3 * scale, 0, 0});
@@ -108,18 +214,16 @@ TEST(Repair, LeavesOutDegenerateAndDoubleTriangles) {
   EXPECT_TRUE(r.closedness.isSolid()) << summaryOf(r);
   EXPECT_EQ(r.triangles.size(), ball.triangles.size());
 
-  // Everything twice, and everything with its back.
+  // Everything with its back; everything twice is a solid as it is.
   for (const Mesh& other : {ball, flipped(ball)}) {
-    const Mesh twice = {ball.vertices, [&] {
-                          auto all = ball.triangles;
-                          all.insert(all.end(), other.triangles.begin(), other.triangles.end());
-                          return all;
-                        }()};
-    const auto once = repaired(twice);
-    expectHonest(twice, once);
-    EXPECT_EQ(once.triangles.size(), ball.triangles.size());
-    EXPECT_TRUE(once.closedness.isSolid());
-    EXPECT_GT(volumeOf(once.vertices, once.triangles), 0);
+    Mesh twice = ball;
+    twice.triangles.insert(twice.triangles.end(), other.triangles.begin(), other.triangles.end());
+    const auto r = repaired(twice);
+    expectHonest(twice, r);
+    const bool alike = other.triangles[0][1] == ball.triangles[0][1];
+    EXPECT_EQ(r.triangles.size(), (alike ? 2 : 1) * ball.triangles.size());
+    EXPECT_TRUE(r.closedness.isSolid());
+    EXPECT_GT(volumeOf(r.vertices, r.triangles), 0);
   }
   // A sheet with its back, which is all there is, stays.
   Mesh sheet = scenes::sheet(1, 1, 3, 3, 0);

@@ -13,8 +13,6 @@ namespace {
 
 double preparedBytesPerTriangle(const Mesh& mesh) {
   const auto model = kiosModel(mesh);
-  EXPECT_EQ(preparedBytes(*model), 0u);
-  prepare(*model);
   return static_cast<double>(preparedBytes(*model)) / static_cast<double>(mesh.triangles.size());
 }
 
@@ -27,22 +25,10 @@ TEST(EngineCost, BytesATriangle) {
   }
 }
 
-TEST(EngineCost, PairsDecidedAtTheRootsPrepareNothing) {
-  const auto a = kiosModel(scenes::bentTorus()), b = kiosModel(scenes::knobbyTorus());
-  const Transform3d here = Transform3d::Identity(), far(Eigen::Translation3d(9, 0, 0));
-  fcl::CollisionResultd contact;
-  EXPECT_EQ(collideMeshes(*a, here, *b, far, fcl::CollisionRequestd(), contact), 0u);
-  fcl::DistanceResultd nearer(0.5);
-  EXPECT_EQ(distanceMeshes(*a, here, *b, far, fcl::DistanceRequestd(), nearer), 0.5);
-  EXPECT_EQ(preparedBytes(*a) + preparedBytes(*b), 0u);
-}
-
 // The work of a query, the same on every machine: a search that loses its order or its bounds
 // shows here before it shows in times. The limits are a fifth above what was measured.
 TEST(EngineCost, WorkAQuery) {
   const auto a = kiosModel(scenes::bentTorus()), b = kiosModel(scenes::knobbyTorus());
-  prepare(*a);
-  prepare(*b);
   const std::vector<Frame> frames = scenes::fallingMotion(100);
   SearchCounts distance, contact;
   for (const Frame& frame : frames) {

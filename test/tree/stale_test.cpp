@@ -9,6 +9,7 @@
 #include <list>
 
 #include "fcl/mesh_cases.h"
+#include "fcl_kios/paper/fit.h"
 #include "model/deform.h"
 #include "model/prepared.h"
 #include "scenes/foreign_fitter.h"
@@ -20,9 +21,8 @@ using PlainFitter = scenes::ForeignFitter<kIOSd>;
 
 class Stale : public ::testing::Test {
  protected:
-  // Distances and contacts are those of the vertices. `tree_searches` if FCL's tree must serve.
-  void expectAnswersOf(const Modeld& model, const std::vector<Vector3d>& vertices,
-                       bool tree_searches = false) const {
+  // Distances and contacts are those of the vertices.
+  void expectAnswersOf(const Modeld& model, const std::vector<Vector3d>& vertices) const {
     const Mesh mesh = {vertices, mesh_.triangles};
     for (const Frame& frame : frames_) {
       SearchCounts counts;
@@ -30,7 +30,7 @@ class Stale : public ::testing::Test {
       const double d = distanceMeshes(model, frame.X_WA, *other_, frame.X_WB,
                                       fcl::DistanceRequestd(), distance, &counts);
       EXPECT_NEAR(d, leafDistance(mesh, other_mesh_, frame), 1e-14);
-      EXPECT_EQ(counts.tree_searches, tree_searches ? 1 : 0);
+      EXPECT_EQ(counts.tree_searches, 0);
       fcl::CollisionResultd contacts;
       fcl::collide(&model, frame.X_WA, other_.get(), frame.X_WB,
                    fcl::CollisionRequestd(kAllContacts), contacts);
@@ -38,27 +38,24 @@ class Stale : public ::testing::Test {
     }
   }
 
-  std::size_t bytesOfOne() const {
-    const auto model = kiosModel(mesh_);
-    prepare(*model);
-    return preparedBytes(*model);
-  }
+  std::size_t bytesOfOne() const { return preparedBytes(*kiosModel(mesh_)); }
 
   const Mesh mesh_ = scenes::bumpyTorus(200), other_mesh_ = scenes::icosphere(0.5, 1);
   const std::shared_ptr<Modeld> other_ = kiosModel(other_mesh_);
   const std::vector<Frame> frames_ = randomFrames(4, 1.2, 71);
 };
 
-TEST_F(Stale, PreparedAtTheFirstQueryOrByHand) {
-  const auto model = kiosModel(mesh_), by_hand = kiosModel(mesh_);
-  EXPECT_EQ(preparedBytes(*model), 0u);
-  prepare(*by_hand);
-  EXPECT_GT(preparedBytes(*by_hand), 0u);
+TEST_F(Stale, FinishedMeansPrepared) {
+  const auto model = kiosModel(mesh_);
+  const std::size_t bytes = preparedBytes(*model);
+  EXPECT_GT(bytes, 0u);
+  const engine::Tree* const tree = &treeOf(*model);
   expectAnswersOf(*model, mesh_.vertices);
-  EXPECT_EQ(preparedBytes(*model), preparedBytes(*by_hand));
-  prepare(*by_hand);
-  EXPECT_EQ(preparedBytes(*by_hand), preparedBytes(*model));
+  prepare(*model);
+  EXPECT_EQ(&treeOf(*model), tree);
+  EXPECT_EQ(preparedBytes(*model), bytes);
   EXPECT_THROW(prepare(Modeld()), std::invalid_argument);
+  EXPECT_EQ(preparedBytes(Modeld()), 0u);
 }
 
 TEST_F(Stale, ReplacedAndUpdatedInEveryWay) {
@@ -110,7 +107,7 @@ TEST_F(Stale, BuiltAnew) {
   }
 }
 
-TEST_F(Stale, ACopyIsPreparedOncePerState) {
+TEST_F(Stale, ACopyIsPreparedWithEachState) {
   const auto original = kiosModel(mesh_);
   expectAnswersOf(*original, mesh_.vertices);
   const std::size_t one = preparedBytes(*original);
@@ -161,7 +158,6 @@ TEST_F(Stale, DirectWritesNeedInvalidate) {
     const auto vertices = swayed(mesh_, phase);
     std::copy(vertices.begin(), vertices.end(), model->vertices);
     invalidate(*model);
-    EXPECT_EQ(preparedBytes(*model), 0u);
     expectAnswersOf(*model, vertices);
   }
   model->vertices[0][1] = std::numeric_limits<double>::quiet_NaN();
@@ -219,72 +215,38 @@ TEST_F(Stale, GeometryAddedWithoutARefitIsRefused) {
   ::testing::internal::GetCapturedStderr();
 }
 
-TEST_F(Stale, AnotherFitterFallsBack) {
+// Whoever fits the volumes of FCL's tree, queries search ours.
+TEST_F(Stale, AnotherFitter) {
   auto model = std::make_shared<Modeld>();
   model->bv_fitter.reset(new PlainFitter());
   model->beginModel();
   model->addSubModel(mesh_.vertices, mesh_.triangles);
   ASSERT_EQ(model->endModel(), fcl::BVH_OK);
-  expectAnswersOf(*model, mesh_.vertices, true);
-  prepare(*model);
-  EXPECT_EQ(preparedBytes(*model), 0u);
+  expectAnswersOf(*model, mesh_.vertices);
+  EXPECT_EQ(preparedBytes(*model), bytesOfOne());
   replace(*model, swayed(mesh_, 1), true, true);
-  expectAnswersOf(*model, swayed(mesh_, 1), true);
+  expectAnswersOf(*model, swayed(mesh_, 1));
   invalidate(*model);
 
   // Replaced after queries; and ours again, by the published fit.
   const auto other = kiosModel(mesh_);
   expectAnswersOf(*other, mesh_.vertices);
   other->bv_fitter.reset(new PlainFitter());
-  expectAnswersOf(*other, mesh_.vertices, true);
-  other->bv_fitter.reset(new fcl::detail::BVFitter<kIOSd>(FitMethod::kMethodII));
+  expectAnswersOf(*other, mesh_.vertices);
+  other->bv_fitter.reset(new PaperFitter<double>(FitMethod::kMethodII));
   replace(*other, swayed(mesh_, 2), false, true);
   expectAnswersOf(*other, swayed(mesh_, 2));
 }
 
 TEST_F(Stale, FreedWithTheLastCopy) {
   auto original = kiosModel(mesh_);
-  prepare(*original);
-  const std::size_t one = preparedBytes(*original);
-  const std::weak_ptr<fcl::detail::BVFitterBase<kIOSd>> owner = original->bv_fitter;
+  const std::weak_ptr<const engine::Tree> tree = preparedOf(*original).tree;
   auto copy = std::make_shared<Modeld>(*original);
   original.reset();
-  EXPECT_EQ(preparedBytes(*copy), one);
   expectAnswersOf(*copy, mesh_.vertices);
-  EXPECT_FALSE(owner.expired());
+  EXPECT_FALSE(tree.expired());
   copy.reset();
-  EXPECT_TRUE(owner.expired());  // and the trees, which it owns
-}
-
-// Where floats are too coarse for a mesh's place no tree is made, and that is known from then on.
-TEST(StaleFloat, MeshesFarFromTheirOrigin) {
-  const Mesh mesh = scenes::bumpyTorus(100);
-  const auto at = [&](float scale, float offset) {
-    std::vector<fcl::Vector3f> vertices;
-    for (const Vector3d& p : mesh.vertices) {
-      vertices.push_back(scale * p.cast<float>() + fcl::Vector3f(offset, 0, 0));
-    }
-    return vertices;
-  };
-  const auto far = makeModel<float>(at(0x1p38F, 0x1p61F), mesh.triangles);
-  const auto moved = makeModel<float>(at(1, 0), mesh.triangles);
-  moved->beginReplaceModel();
-  moved->replaceSubModel(at(0x1p38F, 0x1p61F));
-  moved->endReplaceModel();
-  for (const auto& model : {far, moved}) {
-    for (int turn = 0; turn < 2; ++turn) {
-      fcl::DistanceResultf result;
-      SearchCounts counts;
-      const float d = distanceMeshes(*model, fcl::Transform3f::Identity(), *far,
-                                     fcl::Transform3f(fcl::Translation3f(0, 0, 0x1p41F)),
-                                     fcl::DistanceRequestf(), result, &counts);
-      EXPECT_GT(d, 0x1p39F);
-      EXPECT_LT(d, 0x1p41F);
-      EXPECT_EQ(counts.tree_searches, 1);
-      EXPECT_EQ(preparedBytes(*model), 0U);
-    }
-    prepare(*model);
-  }
+  EXPECT_TRUE(tree.expired());
 }
 
 // The volumes of a model that was made relative to their parents are others; its mesh is not.
@@ -293,37 +255,6 @@ TEST_F(Stale, MadeParentRelative) {
   expectAnswersOf(*model, mesh_.vertices);
   model->makeParentRelative();
   expectAnswersOf(*model, mesh_.vertices);
-}
-
-// Bodies of a few triangles are looked at triangle by triangle: a new state has to pay for its
-// tree.
-TEST(StaleFew, ThatDeformGetNoTreeForOneQuery) {
-  Mesh floor;
-  floor.vertices = {{-5, -5, 0}, {5, -5, 0}, {5, 5, 0}, {-5, 5, 0}};
-  floor.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const auto a = kiosModel(floor), b = kiosModel(scenes::subdividedBox({0.3, 0.2, 0.15}, 1));
-  prepare(*a);
-  fcl::Transform3d X_WB = fcl::Transform3d::Identity();
-  X_WB.translate(Vector3d(1, 2, 0.1)).rotate(Eigen::AngleAxisd(0.4, Vector3d::UnitX()));
-  const auto touch = [&] {
-    fcl::CollisionResultd result;
-    return collideMeshes(*a, fcl::Transform3d::Identity(), *b, X_WB, fcl::CollisionRequestd(),
-                         result) > 0;
-  };
-  const auto isPrepared = [&] { return treesOf(*b)->isPrepared(b->getBV(0).bv.stamp); };
-  for (int round = 0; round < 2; ++round) {
-    for (int k = 0; k < 20; ++k) EXPECT_TRUE(touch());
-    EXPECT_TRUE(isPrepared());
-    for (int frame = 0; frame < 5; ++frame) {
-      ASSERT_EQ(b->beginReplaceModel(), fcl::BVH_OK);
-      for (int i = 0; i < b->num_vertices; ++i) {
-        ASSERT_EQ(b->replaceVertex(1.01 * b->vertices[i]), fcl::BVH_OK);
-      }
-      ASSERT_EQ(b->endReplaceModel(true, true), fcl::BVH_OK);
-      EXPECT_TRUE(touch());
-      EXPECT_FALSE(isPrepared()) << frame;
-    }
-  }
 }
 
 }  // namespace

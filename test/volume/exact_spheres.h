@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/paper/fit.h"
 #include "fcl_kios/volume/kios.h"
 #include "volume/point_sets.h"
 

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "build/all_fits.h"
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/paper/fit.h"
+#include "paper/all_fits.h"
 #include "scalars.h"
 #include "volume/exact_spheres.h"
 

@@ -181,8 +181,8 @@ class DistanceData:
         self.done = False
 
 
-def _load_model(stored):
-    return BVHModel._load(stored)
+def _load_model(stored, solid=False):
+    return BVHModel._load(stored, solid)
 
 
 def _reduce_by(*attributes):
@@ -190,7 +190,7 @@ def _reduce_by(*attributes):
 
 
 # Unlike python-fcl's, all but octrees and managers can be pickled and copied; meshes keep their
-# trees.
+# trees and marks.
 for _class, _reduce in {
     TriangleP: _reduce_by("a", "b", "c"),
     Box: lambda g: (Box, tuple(g.side.tolist())),
@@ -202,7 +202,7 @@ for _class, _reduce in {
     Halfspace: _reduce_by("n", "d"),
     Plane: _reduce_by("n", "d"),
     Convex: _reduce_by("_vertices", "num_faces", "_faces"),
-    BVHModel: lambda g: (_load_model, (g._save(),)),
+    BVHModel: lambda g: (_load_model, (g._save(), g._is_solid())),
     Transform: lambda t: (Transform, (t.getRotation(), t.getTranslation())),
     CollisionObject: lambda o: (CollisionObject, (o._geometry, o.getTransform())),
 }.items():

@@ -222,14 +222,17 @@ void bindModel(py::module_& m) {
           },
           py::arg("verts"), py::arg("triangles"))
       .def("markSolid", [](Modeld& g) { markSolid(changed(g)); })
+      .def("_is_solid", [](const Modeld& g) { return isSolid(g); })
       .def("_save",
            [](const Modeld& g) {
              const std::vector<unsigned char> bytes = save(g);
              return py::bytes(reinterpret_cast<const char*>(bytes.data()), bytes.size());
            })
-      .def_static("_load", [](const py::bytes& bytes) {
+      .def_static("_load", [](const py::bytes& bytes, bool solid) {
         const std::string_view view = bytes;
-        return load(view.data(), view.size());
+        auto model = load(view.data(), view.size());
+        if (solid) markSolid(*model);
+        return model;
       });
 }
 

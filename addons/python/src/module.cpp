@@ -16,4 +16,5 @@ PYBIND11_MODULE(_core, m) {
   python::bindManager(m);
   python::bindMesh(m);
   python::bindScene(m);
+  python::bindFiles(m);
 }

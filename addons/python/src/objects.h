@@ -108,5 +108,6 @@ void bindQueries(py::module_& m);
 void bindManager(py::module_& m);
 void bindMesh(py::module_& m);
 void bindScene(py::module_& m);
+void bindFiles(py::module_& m);
 
 }  // namespace kios::python

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "fcl_kios/model/prepare.h"
 #include "fcl_kios/overloads.h"
 #include "fcl_kios/query/distance.h"
 #include "fcl_kios/solid/penetration.h"
+#include "fcl_kios/solid/solids.h"
 #include "mesh_batches.h"
 #include "results.h"
 #include "without_gil.h"
@@ -33,6 +33,7 @@ struct Other {
     geometry = &other.cast<const fcl::CollisionGeometryd&>();
     model = dynamic_cast<const Modeld*>(geometry);
     reading.emplace(*geometry);
+    is_solid = model && kios::isSolid(*model);
   }
 
   /// Throws TypeError.
@@ -47,13 +48,6 @@ struct Other {
   bool is_solid = false;
   std::optional<ReadingGeometry> reading;
 };
-
-/// A batch of this size pays for the trees.
-void prepareFor(std::size_t n, const Modeld& a, const Other& b) {
-  if (n < 64) return;
-  prepare(a);
-  if (b.model) prepare(*b.model);
-}
 
 const fcl::Transform3d& identity() {
   static const fcl::Transform3d X = fcl::Transform3d::Identity();
@@ -113,7 +107,6 @@ py::object collides(const Mesh& self, py::handle other, py::handle X_AB,
   const Poses poses(X_AB, "X_AB");
   auto hits = makeArray<bool>(poses.size);
   bool* const out = hits.mutable_data();
-  prepareFor(poses.size, a, b);
   const InsideGrid* grid = nullptr;
   if (b.unchanging) {
     const WithoutGil released;
@@ -140,7 +133,6 @@ py::object distance(const Mesh& self, py::handle other, py::handle X_AB, double 
   how.nearest_points = points;
   const bool solids = self.isSolid() && b.is_solid;
   Nearest nearest(poses.size, points);
-  prepareFor(poses.size, a, b);
   runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
     const fcl::Transform3d X = poses[i];
     if (!b.model) {
@@ -182,7 +174,6 @@ py::object bracket(const Mesh& self, py::handle other, py::handle X_AB, double r
   const bool solids = self.isSolid() && b.is_solid;
   auto lower = makeArray<double>(poses.size), upper = makeArray<double>(poses.size);
   double *const lo = lower.mutable_data(), *const up = upper.mutable_data();
-  prepareFor(poses.size, a, b);
   runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
     const fcl::Transform3d X = poses[i];
     lo[i] = up[i] = 0;
@@ -203,7 +194,6 @@ py::object closerThan(const Mesh& self, py::handle other, double t, py::handle X
   const bool solids = self.isSolid() && b.is_solid && t >= 0;
   auto verdicts = makeArray<bool>(poses.size);
   bool* const out = verdicts.mutable_data();
-  prepareFor(poses.size, a, b);
   runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
     const fcl::Transform3d X = poses[i];
     out[i] = kios::closerThan(a, identity(), b_mesh, X, t) || (solids && touch(a, b.geometry, X));

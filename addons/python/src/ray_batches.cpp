@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "fcl_kios/model/prepare.h"
 #include "fcl_kios/query/ray.h"
 #include "fcl_kios/solid/solids.h"
 #include "mesh_batches.h"
@@ -63,7 +62,6 @@ py::object rays(const Mesh& self, py::handle origins, py::handle directions, py:
   auto distances = makeArray<double>(asked.size()), points = makeVectors(asked.size());
   std::int64_t* const triangle = triangles.mutable_data();
   double *const distance = distances.mutable_data(), *const point = points.mutable_data();
-  if (asked.size() >= 64) prepare(model);
   runBatch(asked.size(), options, "directions", [&](std::size_t i) {
     const Rayd ray = asked[i];
     const std::optional<RayHitd> hit = firstHit(model, X, ray);
@@ -84,7 +82,6 @@ py::object raysBlocked(const Mesh& self, py::handle origins, py::handle directio
   const fcl::Transform3d X = pose.only("X_WM");
   auto hits = makeArray<bool>(asked.size());
   bool* const out = hits.mutable_data();
-  if (asked.size() >= 64) prepare(model);
   runBatch(asked.size(), options, "directions",
            [&](std::size_t i) { out[i] = anyHit(model, X, asked[i]); });
   return orItem(hits, asked.directions.single);

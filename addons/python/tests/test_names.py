@@ -1,12 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """Every name of python-fcl, its keywords and what it returns."""
+import copy
 import inspect
 import pickle
 
 import numpy as np
 import pytest
 
+import fcl_kios
 import shapes
 from fcl_kios import fcl
 
@@ -236,13 +238,28 @@ def test_octrees():
 @pytest.mark.parametrize("name", [n for n in GEOMETRIES if n != "OcTree"])
 def test_geometries_can_be_pickled(name):
     g = make(name)
-    copy = pickle.loads(pickle.dumps(g))
-    assert type(copy) is type(g)
+    loaded = pickle.loads(pickle.dumps(g))
+    assert type(loaded) is type(g)
     probe = shapes.placed(shapes.bvh(*shapes.torus()), shapes.translation(0.3, 0.2, 0.1))
     if name == "TriangleP":  # not served against meshes
-        assert copy.b.tolist() == g.b.tolist()
+        assert loaded.b.tolist() == g.b.tolist()
         return
     o = pickle.loads(pickle.dumps(fcl.CollisionObject(g, fcl.Transform([0, 0, 0.5]))))
-    d = [fcl.distance(x, probe) for x in (o, fcl.CollisionObject(copy, fcl.Transform([0, 0, 0.5])),
+    d = [fcl.distance(x, probe) for x in (o, fcl.CollisionObject(loaded, fcl.Transform([0, 0, 0.5])),
                                           fcl.CollisionObject(g, fcl.Transform([0, 0, 0.5])))]
     assert d[0] == d[1] == d[2]
+
+
+@pytest.mark.parametrize("copied", [lambda g: pickle.loads(pickle.dumps(g)), copy.copy,
+                                    copy.deepcopy], ids=["pickle", "copy", "deepcopy"])
+def test_copies_keep_the_mark(copied):
+    vertices, faces = shapes.box()
+    marked, small = shapes.bvh(vertices, faces), shapes.bvh(0.1 * vertices, faces)
+    marked.markSolid()
+    small.markSolid()
+    inner = fcl_kios.Mesh(0.1 * vertices, faces, solid=True)
+    for g in (marked, copied(marked), copied(fcl.CollisionObject(marked))._geometry):
+        assert fcl.collide(fcl.CollisionObject(g), fcl.CollisionObject(small)) == 1
+        # What lies inside is at no distance, as it collides.
+        assert inner.collides(g) and inner.distance(g) == 0
+        assert inner.bracket(g) == (0, 0) and inner.closer_than(g, 0.0)

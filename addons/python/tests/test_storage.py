@@ -3,8 +3,10 @@
 """Pickles and files."""
 import copy
 import multiprocessing
+import os
 import pickle
 import time
+import warnings
 
 import numpy as np
 import pytest
@@ -50,12 +52,7 @@ def test_unpickled_meshes_are_prepared():
     v, f = shapes.torus(60, 24)
     stored = pickle.dumps(fcl_kios.Mesh(v, f))  # which is gone, and shares nothing
     again, built = pickle.loads(stored), fcl_kios.Mesh(v * 1.5, f)
-    loaded = again.nbytes
-    assert loaded > 1.3 * built.nbytes
-    again.prepare()
-    assert again.nbytes == loaded
-    built.prepare()
-    assert built.nbytes > 0.95 * loaded
+    assert again.nbytes == built.nbytes
 
 
 def test_a_first_answer_is_faster_than_by_building(ball):
@@ -74,7 +71,7 @@ def test_a_first_answer_is_faster_than_by_building(ball):
     buffers = []
     stored = pickle.dumps(fcl_kios.Mesh(v, f), protocol=5, buffer_callback=buffers.append)
     load = lambda: pickle.loads(stored, buffers=buffers).distance(ball, pose)
-    assert best(load, 25) < built / 10  # 1/13 where nothing else runs
+    assert best(load, 25) < built / 2  # a third where nothing else runs
 
 
 def test_altered_bytes_are_refused(ball):
@@ -121,17 +118,44 @@ def test_files(tmp_path, torus, ball, poses):
 
 def test_files_that_cant_be_read(tmp_path):
     for name, content, message in [
-            ("a.stl", b"solid\nvertex 1 2\n", "can't be read as .stl"), ("b.stl", b"", "neither"),
-            ("c.stl", b"x" * 80 + b"\x09\0\0\0" + b"y" * 50, "neither"),
-            ("d.obj", b"v 0 0 0\nf 1 2 3\n", "vertex 1, but there are 1"),
-            ("e.obj", b"v a b c\n", "can't be read"), ("f.off", b"OFF\n8 6", "can't be read"),
-            ("g.off", b"", "OFF"), ("h.obj", b"", "at least one triangle"),
+            ("a.stl", b"solid\nvertex 1 2\n", "a.stl:2: 'vertex' stands where 'facet'"),
+            ("b.stl", b"", "empty"), ("b2.stl", b"solid", "cut off"),
+            ("c.stl", b"x" * 80 + b"\x09\0\0\0" + b"y" * 50, "counts 9 triangles, but it has 1"),
+            ("d.obj", b"v 0 0 0\nf 1 2 3\n", "d.obj:2: face 0 refers to vertex 2, but there are 1"),
+            ("e.obj", b"v a b c\n", "e.obj:1: 'a' is no"), ("f.off", b"OFF\n8 6", "cut off"),
+            ("f.ply", b"ply\n", "end_header"), ("f.dae", b"<COLLADA/>", "needs a <scene>|without which this"),
+            ("g.off", b"#\n", "OFF"), ("h.obj", b"#\n", "no triangles"),
             ("i.kios", b"kios", "no stored mesh"), ("j.kios", b"kios-mesh-solid\nabc", "cut off")]:
         (tmp_path / name).write_bytes(content)
         with pytest.raises(ValueError, match=message):
             fcl_kios.load(tmp_path / name)
-    with pytest.raises(OSError):
-        fcl_kios.load(tmp_path / "none.stl")
+    for path, error in [(tmp_path / "none.stl", FileNotFoundError), (tmp_path, ValueError),
+                        ("/dev/zero", ValueError)]:
+        with pytest.raises(error):
+            fcl_kios.load(path)
+    (tmp_path / "d.stl").mkdir()
+    with pytest.raises(IsADirectoryError):
+        fcl_kios.load(tmp_path / "d.stl")
+    os.mkfifo(tmp_path / "fifo.stl")
+    with pytest.raises(ValueError, match="no regular file"):
+        fcl_kios.load(tmp_path / "fifo.stl")
+
+
+def test_files_as_programs_write_them(tmp_path):
+    concave = "".join(f"{x} {y} 0\n" for x, y in [(0, 0), (4, 0), (4, 1), (1, 1), (1, 5), (0, 5)])
+    for name, text, said in [
+            ("a.off", "OFF6 1\n" + concave + "6 1 2 3 4 5 0 255 0 0\n", None),
+            ("a.obj", "".join("v " + line + "\n" for line in concave.splitlines())
+             + "f 2 3 4 \\\n5 6 1\nl 1 2\n", "1 point or line left out")]:
+        (tmp_path / name).write_text(text)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            mesh = fcl_kios.load(tmp_path / name)
+        corners = mesh.vertices[mesh.faces]
+        cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        assert len(mesh.faces) == 4 and abs(np.linalg.norm(cross, axis=1).sum() / 2 - 8) < 1e-12
+        assert [said in str(w.message) for w in caught] == ([True] if said else [])
+        assert not caught or caught[0].filename == __file__
 
 
 def test_from_trimesh():

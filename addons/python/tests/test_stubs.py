@@ -71,3 +71,16 @@ def test_documented():
             text = getattr(cls, name).__doc__ or ""
             assert len(re.sub(r"^\w+\(.*\) -> .*", "", text).strip()) > 10, (cls, name)
     assert fcl.__doc__
+
+
+def test_the_page_names_the_defaults():
+    page = pathlib.Path(__file__).resolve().parents[3] / "docs/python.md"
+    named = 0
+    for method, arguments in re.findall(r"^\| `mesh\.(\w+)\((.*?)\)`", page.read_text(), re.M):
+        signature = getattr(_core.Mesh, method).__doc__.splitlines()[0]
+        for name, value in re.findall(r"(\w+)=([^,)]+)", arguments):
+            found = re.search(rf"\b{name}: [^=]*= ([^,)]+)", signature)
+            assert found and eval(found[1], {"inf": float("inf")}) == eval(
+                value, {"inf": float("inf")}), f"{method}: {name}={value}; {signature}"
+            named += 1
+    assert named >= 5

@@ -159,7 +159,7 @@ RobotClearance Cell::answer(const Placed& placed, const Candidate& pair, const N
 
 void Cell::addGradient(const Placed& placed, const Body& a, const Body& b, Nearness& near,
                        RobotClearance& answer) const {
-  answer.gradient = Eigen::VectorXd::Zero(arm_->tree.coordinates());
+  answer.gradient = UnalignedVector::Zero(arm_->tree.coordinates());
   const auto poseOf = [&](const Body& body) -> const Transform3d& {
     return placed.pose(static_cast<int>(&body - bodies_.data()));
   };

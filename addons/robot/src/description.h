@@ -55,6 +55,7 @@ struct Description {
   std::set<NamePair> allowed;
   /// Values by joint, by group state.
   std::map<std::string, std::map<std::string, std::vector<double>>> states;
+  std::vector<std::string> warnings;  ///< what the files say of what isn't there
 
   int linkOf(const std::string& name) const;  ///< -1 if there is none
   int root() const;

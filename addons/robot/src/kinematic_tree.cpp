@@ -172,7 +172,7 @@ void KinematicTree::place(const Eigen::VectorXd& q, std::vector<PlacedLink>& pla
 
 void KinematicTree::addGradient(int node, const Vector3d& x, const Vector3d& n, double factor,
                                 const std::vector<PlacedLink>& placed,
-                                Eigen::VectorXd& gradient) const {
+                                UnalignedVector& gradient) const {
   for (const int i : nodes_[node].moving) {
     const Joint& joint = nodes_[i].joint;
     const PlacedLink& link = placed[i];

@@ -8,6 +8,7 @@
 
 #include "description.h"
 #include "fcl_kios/linkage/linkage.h"
+#include "fcl_kios/robot/answers.h"
 
 namespace kios::robot {
 
@@ -45,7 +46,7 @@ class KinematicTree {
   void place(const Eigen::VectorXd& q, std::vector<PlacedLink>& placed) const;
   /// Adds factor * n^T dx / dq to a gradient, x a point that moves with a link.
   void addGradient(int node, const Eigen::Vector3d& x, const Eigen::Vector3d& n, double factor,
-                   const std::vector<PlacedLink>& placed, Eigen::VectorXd& gradient) const;
+                   const std::vector<PlacedLink>& placed, UnalignedVector& gradient) const;
 
   struct Node {
     int parent = -1;

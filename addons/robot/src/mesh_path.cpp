@@ -50,7 +50,8 @@ std::string resolve(const std::string& uri, const std::string& named_in,
   std::vector<fs::path> tried;
   std::string remedy = "see to the path";
   if (startsWith("package://") || startsWith("model://")) {
-    const std::string path = uri.substr(uri.find("://") + 3);
+    std::string path = uri.substr(uri.find("://") + 3);
+    path.erase(0, path.find_first_not_of('/'));  // package:///name/path too
     const std::size_t slash = path.find('/');
     const std::string package = path.substr(0, slash);
     const std::string rest = slash == std::string::npos ? "" : path.substr(slash + 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "robot_impl.h"
@@ -18,7 +19,11 @@ using robot::Object;
 using robot::refuse;
 
 Robot::Impl::Impl(const Impl& other)
-    : arm(other.arm), objects(other.objects), allowed(other.allowed), paddings(other.paddings) {
+    : arm(other.arm),
+      objects(other.objects),
+      allowed(other.allowed),
+      paddings(other.paddings),
+      warnings(other.warnings) {
   const std::lock_guard<std::mutex> lock(other.guard_);
   cell_ = other.cell_;
   ready_ = cell_ != nullptr;
@@ -118,13 +123,15 @@ const std::vector<std::string>& Robot::links() const { return impl_->arm->links;
 const Eigen::VectorXd& Robot::lower() const { return impl_->arm->tree.lower; }
 const Eigen::VectorXd& Robot::upper() const { return impl_->arm->tree.upper; }
 
+const std::vector<std::string>& Robot::warnings() const { return impl_->warnings; }
+
 std::vector<std::string> Robot::states() const {
   std::vector<std::string> names;
   for (const auto& [name, values] : impl_->arm->description.states) names.push_back(name);
   return names;
 }
 
-Eigen::VectorXd Robot::state(const std::string& name) const {
+UnalignedVector Robot::state(const std::string& name) const {
   const robot::Description& description = impl_->arm->description;
   const auto known = description.states.find(name);
   if (known == description.states.end()) {
@@ -134,10 +141,10 @@ Eigen::VectorXd Robot::state(const std::string& name) const {
            (names.empty() ? "." : "; it has " + names + "."));
   }
   const std::vector<std::string>& joints = impl_->arm->tree.names;
-  Eigen::VectorXd q = lower().cwiseMax(0.0).cwiseMin(upper());
+  UnalignedVector q = lower().cwiseMax(0.0).cwiseMin(upper());
   for (const auto& [joint, values] : known->second) {
     const auto found = std::find_if(description.joints.begin(), description.joints.end(),
-                                    [&](const auto& other) { return other.name == joint; });
+                                    [&name = joint](const auto& o) { return o.name == name; });
     if (found == description.joints.end()) {
       refuse("the group state '" + name + "' names the joint '" + joint + "', which " +
              description.name + " doesn't have.");
@@ -277,6 +284,14 @@ void Robot::addScene(const std::string& file) {
     }
   }
   for (const auto& [link, padding] : scene.paddings) next->paddings[link] = padding;
+  std::set<std::string> named;
+  for (const auto& [pair, allowed] : scene.pairs) named.insert({pair.first, pair.second});
+  for (const auto& [name, may_touch] : scene.others) named.insert(name);
+  for (const std::string& name : named) {
+    if (next->entityOf(name) >= 0) continue;
+    next->warnings.push_back(file + ": pairs may touch of '" + name +
+                             "', which is no link, obstacle or attached object.");
+  }
   next->changed();
   impl_ = std::move(next);
 }
@@ -316,6 +331,7 @@ Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file,
   }
   auto impl = std::make_unique<Robot::Impl>(arm);
   impl->allowed = description.allowed;
+  impl->warnings = description.warnings;
   if (options.padding > 0) {
     for (const std::string& link : arm->links) impl->paddings[link] = options.padding;
   }

@@ -41,6 +41,7 @@ class Robot::Impl {
   std::vector<robot::Object> objects;
   std::set<robot::NamePair> allowed;
   std::map<std::string, double> paddings;
+  std::vector<std::string> warnings;
 
  private:
   mutable std::atomic<bool> ready_{false};

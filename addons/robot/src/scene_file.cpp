@@ -5,7 +5,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
 #include <fcl/geometry/shape/box.h>
@@ -23,6 +25,8 @@ namespace {
 using fcl::Transform3d;
 using fcl::Vector3d;
 
+/// Reads MoveIt's message PlanningScene. A key is one of the message's, whether it matters here or
+/// not, or refused: what is misspelt would be an obstacle that isn't there.
 class SceneReader {
  public:
   SceneReader(const std::string& file, const Description& robot) : file_(file), robot_(robot) {}
@@ -31,7 +35,11 @@ class SceneReader {
     const std::string content = contentOf(file_);
     YAML::Node root;
     try {
-      root = YAML::Load(content);
+      std::vector<YAML::Node> documents = YAML::LoadAll(content);
+      if (documents.size() > 1 && !documents[1].IsNull()) {
+        refuseHere(documents[1], "a second document; a scene is one.");
+      }
+      if (!documents.empty()) root = documents[0];
     } catch (const YAML::Exception& error) {
       refuseAt(file_, error.mark.line + 1, "it is no YAML: " + error.msg + ".");
     }
@@ -39,13 +47,17 @@ class SceneReader {
                            root["allowed_collision_matrix"])) {
       refuse(file_ + ": it holds no planning scene: there is no world in it.");
     }
+    map(root, {"name", "robot_state", "robot_model_name", "fixed_frame_transforms",
+               "allowed_collision_matrix", "link_padding", "link_scale", "object_colors", "world",
+               "is_diff"});
     for (const YAML::Node& frame : list(root["fixed_frame_transforms"])) {
-      const YAML::Node X = map(frame)["transform"];
+      const YAML::Node X = map(frame, {"header", "child_frame_id", "transform"})["transform"];
       if (!X) refuseHere(frame, "a transform is missing.");
+      map(X, {"translation", "rotation"});
       frames_[scalar(frame["child_frame_id"], frame)] = pose(X["translation"], X["rotation"], X);
     }
     if (const YAML::Node world = root["world"]) {
-      const YAML::Node octomap = map(world)["octomap"];
+      const YAML::Node octomap = map(world, {"collision_objects", "octomap"})["octomap"];
       if (octomap && octomap.IsMap() && octomap["octomap"] && octomap["octomap"].IsMap() &&
           !list(octomap["octomap"]["data"]).empty()) {
         refuseHere(octomap, "an octomap isn't read from here; add it by addObstacle().");
@@ -53,7 +65,8 @@ class SceneReader {
       for (const YAML::Node& object : list(world["collision_objects"])) readObject(object, -1);
     }
     if (const YAML::Node state = root["robot_state"]) {
-      for (const YAML::Node& attached : list(map(state)["attached_collision_objects"])) {
+      map(state, {"joint_state", "multi_dof_joint_state", "attached_collision_objects", "is_diff"});
+      for (const YAML::Node& attached : list(state["attached_collision_objects"])) {
         readAttached(attached);
       }
     }
@@ -67,8 +80,19 @@ class SceneReader {
     refuseAt(file_, node.Mark().line + 1, what);
   }
 
-  YAML::Node map(const YAML::Node& node) const {
+  /// `node`, which must be a map of some of these keys, each once.
+  YAML::Node map(const YAML::Node& node, const std::vector<std::string>& keys) const {
     if (!node.IsMap()) refuseHere(node, "a map of names and values should stand here.");
+    std::set<std::string> met;
+    for (const auto& entry : node) {
+      const std::string key = scalar(entry.first, node);
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
+        std::string known = keys[0];
+        for (std::size_t i = 1; i < keys.size(); ++i) known += ", " + keys[i];
+        refuseHere(entry.first, "'" + key + "' isn't known here; these are: " + known + ".");
+      }
+      if (!met.insert(key).second) refuseHere(entry.first, "'" + key + "' is there twice.");
+    }
     return node;
   }
 
@@ -108,9 +132,9 @@ class SceneReader {
   std::vector<double> numbers(const YAML::Node& node, const char* names) const {
     std::vector<double> values;
     if (node.IsMap()) {
-      for (const char* name = names; *name != '\0'; ++name) {
-        values.push_back(number(node[std::string(1, *name)], node));
-      }
+      std::vector<std::string> keys;
+      for (const char* name = names; *name != '\0'; ++name) keys.emplace_back(1, *name);
+      for (const std::string& key : keys) values.push_back(number(map(node, keys)[key], node));
       return values;
     }
     for (const YAML::Node& item : list(node)) values.push_back(number(item, node));
@@ -143,14 +167,15 @@ class SceneReader {
   }
 
   Transform3d pose(const YAML::Node& node) const {
-    map(node);
+    map(node, {"position", "orientation"});
     return pose(node["position"], node["orientation"], node);
   }
 
   Transform3d frameOf(const YAML::Node& object, int link) const {
     const YAML::Node header = object["header"];
     std::string frame;
-    if (header && header.IsMap() && header["frame_id"] && header["frame_id"].IsScalar()) {
+    if (header && map(header, {"seq", "stamp", "frame_id"})["frame_id"] &&
+        header["frame_id"].IsScalar()) {
       frame = header["frame_id"].Scalar();
     }
     if (!frame.empty() && frame[0] == '/') frame.erase(0, 1);
@@ -171,7 +196,9 @@ class SceneReader {
   }
 
   void readObject(const YAML::Node& node, int link) {
-    map(node);
+    map(node,
+        {"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
+         "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"});
     Object object;
     object.name = scalar(node["id"], node);
     object.link = link;
@@ -215,7 +242,6 @@ class SceneReader {
     for (std::size_t i = 0; i < items.size(); ++i) {
       Element element;
       const std::string kind = shapes;
-      map(items[i]);
       try {
         element.geometry = kind == "primitives" ? primitive(items[i])
                            : kind == "meshes"   ? mesh(items[i])
@@ -232,6 +258,7 @@ class SceneReader {
   }
 
   Geometry primitive(const YAML::Node& node) const {
+    map(node, {"type", "dimensions", "polygon"});
     const std::string type = scalar(node["type"], node);
     if (!node["dimensions"]) refuseHere(node, "its dimensions are missing.");
     const std::vector<double> d = numbers(node["dimensions"], "");
@@ -263,13 +290,15 @@ class SceneReader {
   }
 
   Geometry mesh(const YAML::Node& node) const {
+    map(node, {"vertices", "triangles"});
     std::vector<Vector3d> vertices;
     for (const YAML::Node& v : list(node["vertices"])) {
       vertices.emplace_back(Eigen::Map<const Vector3d>(numbers(v, "xyz").data()));
     }
     std::vector<fcl::Triangle> triangles;
     for (const YAML::Node& t : list(node["triangles"])) {
-      const auto corners = numbers(t.IsMap() ? t["vertex_indices"] : t, "");
+      const auto corners =
+          numbers(t.IsMap() ? map(t, {"vertex_indices"})["vertex_indices"] : t, "");
       std::size_t ids[3] = {};
       bool fits = corners.size() == 3;
       for (std::size_t k = 0; k < 3 && fits; ++k) {
@@ -281,11 +310,11 @@ class SceneReader {
       triangles.emplace_back(ids[0], ids[1], ids[2]);
     }
     if (triangles.empty()) refuseHere(node, "a mesh without triangles.");
-    return weld(vertices, triangles);
+    return weld(std::move(vertices), std::move(triangles));
   }
 
   Geometry plane(const YAML::Node& node) const {
-    const YAML::Node coef = node["coef"];
+    const YAML::Node coef = map(node, {"coef"})["coef"];
     if (!coef) refuseHere(node, "its coef is missing.");
     const std::vector<double> c = numbers(coef, "abcd");
     const Vector3d n(c[0], c[1], c[2]);
@@ -295,7 +324,7 @@ class SceneReader {
   }
 
   void readAttached(const YAML::Node& node) {
-    map(node);
+    map(node, {"link_name", "object", "touch_links", "detach_posture", "weight"});
     const std::string name = scalar(node["link_name"], node);
     const int link = robot_.linkOf(name);
     if (link < 0) refuseHere(node, "there is no link '" + name + "'.");
@@ -309,7 +338,7 @@ class SceneReader {
 
   void readMatrix(const YAML::Node& matrix) {
     if (!matrix || matrix.IsNull()) return;
-    map(matrix);
+    map(matrix, {"entry_names", "entry_values", "default_entry_names", "default_entry_values"});
     std::vector<std::string> names;
     for (const YAML::Node& name : list(matrix["entry_names"]))
       names.push_back(scalar(name, matrix));
@@ -319,7 +348,7 @@ class SceneReader {
                              std::to_string(rows.size()) + " rows.");
     }
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto row = list(rows[i].IsMap() ? rows[i]["enabled"] : rows[i]);
+      const auto row = list(rows[i].IsMap() ? map(rows[i], {"enabled"})["enabled"] : rows[i]);
       if (row.size() != names.size()) {
         refuseHere(rows[i], "the row of '" + names[i] + "' has " + std::to_string(row.size()) +
                                 " values, not " + std::to_string(names.size()) + ".");
@@ -339,14 +368,14 @@ class SceneReader {
 
   void readLinks(const YAML::Node& root) {
     for (const YAML::Node& item : list(root["link_padding"])) {
-      const double padding = number(map(item)["padding"], item);
+      const double padding = number(map(item, {"link_name", "padding"})["padding"], item);
       if (!(padding >= 0)) refuseHere(item, "a padding is negative.");
       const std::string link = scalar(item["link_name"], item);
       if (robot_.linkOf(link) < 0) refuseHere(item, "there is no link '" + link + "'.");
       scene_.paddings[link] = padding;
     }
     for (const YAML::Node& item : list(root["link_scale"])) {
-      if (number(map(item)["scale"], item) != 1) {
+      if (number(map(item, {"link_name", "scale"})["scale"], item) != 1) {
         refuseHere(item, "links can't be scaled; pad them instead.");
       }
     }

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <system_error>
+
+#include "files/read_mesh.h"
 
 namespace kios::robot {
 namespace {
@@ -40,18 +39,11 @@ void refuseAt(const std::string& file, int line, const std::string& what) {
 }
 
 std::string contentOf(const std::string& file, std::size_t most) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) refuse(file + ": there is no such file.");
-  if (fs::is_directory(status)) refuse(file + ": this is a directory, not a file.");
-  const auto size = fs::file_size(file, error);
-  if (!error && size > most) refuse(file + ": it is too large to be what it should be.");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(file + ": it can't be opened; see to its permissions.");
-  std::string content((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (content.empty()) refuse(file + ": the file is empty.");
-  return content;
+  try {
+    return files::contentOf(file, most);
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
 }
 
 bool parseNumbers(const std::string& text, int count, double* numbers) {

@@ -111,7 +111,7 @@ class UrdfReader {
     try {
       const std::string file = resolve(uri, xml_.name(), packages_);
       Geometry& known = meshes_[{file, {scale.x(), scale.y(), scale.z()}}];
-      if (!known) known = readMesh(file, scale);
+      if (!known) known = readMesh(file, scale, result_.warnings);
       return known;
     } catch (const std::exception& error) {
       xml_.refuse(e, textOf(error));
@@ -192,10 +192,16 @@ class UrdfReader {
     std::size_t steps = 0;
     while (e) {
       const std::string name = xml_.attribute(*e, "joint");
-      joint.mimics = jointNamed(name);
-      if (joint.mimics < 0) {
-        xml_.refuse(*e, "there is no joint '" + name + "' that '" + joint.name + "' could mimic.");
+      const int mimicked = jointNamed(name);
+      if (mimicked < 0) {  // a joint on its own, also to those that mimic it
+        if (steps == 0) {
+          result_.warnings.push_back(xml_.at(*e, "there is no joint '" + name + "' that '" +
+                                                     joint.name +
+                                                     "' could mimic; it moves on its own."));
+        }
+        return;
       }
+      joint.mimics = mimicked;
       if (!single(result_.joints[joint.mimics])) {
         xml_.refuse(*e, "'" + joint.name + "' can't mimic '" + name +
                             "', which is no revolute, continuous or prismatic joint.");
@@ -298,6 +304,22 @@ void readSrdf(const std::string& file, Description& robot) {
   for (const XmlElement* e = root.FirstChildElement("disable_collisions"); e;
        e = e->NextSiblingElement("disable_collisions")) {
     robot.allowed.insert(pairOf(*e));
+  }
+  const char* const name = root.Attribute("name");
+  if (name && name != robot.name) {
+    robot.warnings.push_back(xml.at(root, "it is of another robot than '" + robot.name + "'."));
+  }
+  for (const char* const element :
+       {"disable_default_collisions", "enable_collisions", "disable_collisions"}) {
+    for (const XmlElement* e = root.FirstChildElement(element); e;
+         e = e->NextSiblingElement(element)) {
+      for (const char* const attribute : {"link", "link1", "link2"}) {
+        const char* const link = e->Attribute(attribute);
+        if (!link || robot.linkOf(link) >= 0) continue;
+        robot.warnings.push_back(
+            xml.at(*e, "there is no link '" + std::string(link) + "' of " + robot.name + "."));
+      }
+    }
   }
   std::set<std::string> virtual_joints;  // of the robot's base and the world
   for (const XmlElement* e = root.FirstChildElement("virtual_joint"); e;

@@ -14,7 +14,7 @@ namespace kios::robot {
 Description readUrdf(const std::string& file, const std::map<std::string, std::string>& packages);
 
 /// Adds the allowed pairs and group states of an SRDF. Pairs may name what isn't there (yet), as in
-/// MoveIt.
+/// MoveIt; a warning says so.
 void readSrdf(const std::string& file, Description& robot);
 
 /// Throws std::invalid_argument if a linkage can't serve the geometry.

@@ -31,11 +31,15 @@ XmlFile::XmlFile(const std::string& file, const char* root) : name_(file) {
   }
 }
 
-void XmlFile::refuse(const Element& element, const std::string& what) const {
-  std::string place = std::string("<") + element.Name();
+std::string XmlFile::at(const Element& element, const std::string& what) const {
+  std::string place = name_ + ":" + std::to_string(element.GetLineNum()) + ": <" + element.Name();
   if (const char* const name = element.Attribute("name"))
     place += std::string(" name='") + name + "'";
-  refuseAt(name_, element.GetLineNum(), place + ">: " + what);
+  return place + ">: " + what;
+}
+
+void XmlFile::refuse(const Element& element, const std::string& what) const {
+  robot::refuse(at(element, what));
 }
 
 const XmlFile::Element& XmlFile::child(const Element& element, const char* name,

@@ -21,7 +21,9 @@ class XmlFile {
   const Element& root() const { return *document_.RootElement(); }
   const std::string& name() const { return name_; }
 
-  /// Throws std::invalid_argument: "file:line: <element>: what".
+  /// A sentence about an element: "file:line: <element>: what".
+  std::string at(const Element& element, const std::string& what) const;
+  /// Throws std::invalid_argument with such a sentence.
   [[noreturn]] void refuse(const Element& element, const std::string& what) const;
 
   /// The first child of a name; refused if there is none, or, if `single`, more than one.

@@ -10,13 +10,13 @@
 
 namespace kios {
 
-/// Holds volumes that together contain a model, taken apart for exact distances once. Immutable:
-/// safe to use from many threads. It doesn't follow later changes of the model.
+/// Volumes that together contain a model, taken apart for exact distances once. Immutable: safe to
+/// use from many threads. It doesn't follow later changes of the model.
 template <typename S>
 class Cover {
  public:
-  /// Takes the nodes at depth `level` of the model's tree (0: the root), and leaves above it: at
-  /// most 2^level volumes, the tighter the deeper. Throws std::invalid_argument if the model is not
+  /// Takes the nodes at depth `level` of the model's tree, 0 the root, and leaves above it: at most
+  /// 2^level volumes, the tighter the deeper. Throws std::invalid_argument if the model is not
   /// finished or the level negative.
   Cover(const Model<S>& model, int level);
   /// Takes volumes that lie each in a ball of diameter `size`, in the model's units: nodes of its
@@ -43,8 +43,8 @@ class Cover {
 using Coverd = Cover<double>;
 using Coverf = Cover<float>;
 
-/// Holds the distance of two covers, with its gradient by the pose of B in A as in ExactDistance:
-/// by B's translation in A, and by a rotation vector in A that turns B about its own origin.
+/// Distance of two covers, with its gradient by the pose of B in A as in ExactDistance: by B's
+/// translation in A, and by a rotation vector in A that turns B about its own origin.
 struct Clearance {
   double value = 0;  ///< in the models' units
   fcl::Vector3d by_translation = fcl::Vector3d::Zero();

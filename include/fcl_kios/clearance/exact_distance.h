@@ -7,36 +7,36 @@
 
 namespace kios {
 
-/// Holds the distance of two k-IOS as volumes: not a bound of it by sphere pairs, as separation()
-/// is. Numbers are double for both scalars. Source: paper, III-D (properties 1 to 5) and VI.
+/// Distance of two k-IOS as volumes: not a bound of it by sphere pairs, as separation() is. Numbers
+/// are double for both scalars. Source: paper, III-D (properties 1 to 5) and VI.
 struct ExactDistance {
-  /// Is a proven lower bound of the distance of the contents, 0 when the volumes meet, +infinity
-  /// when one is empty. Never below separation().
+  /// Proven lower bound of the distance of the contents: 0 when the volumes meet, +infinity when
+  /// one is empty. Never below separation().
   double distance = 0;
   /// The volumes' true distance is within [distance, distance + error]. In double that is 1e-12 of
   /// the pair's size (reaches of the caps and all) plus 200 roundings of its coordinates; in float
   /// those roundings, of 2^-24, are the larger part. 1e-6 where two spheres of a volume touch from
   /// outside, so that it depends on their radii by a square root; 1e-3 where four do.
   double error = 0;
-  /// Are the nearest points of a and of b in frame A, unique while the volumes are apart; when they
-  /// meet, a point of each, `error` apart. On the volumes to the same accuracy.
+  /// Nearest points of a and of b in frame A: unique while the volumes are apart; when they meet, a
+  /// point of each, `error` apart. On the volumes to the same accuracy.
   fcl::Vector3d p = fcl::Vector3d::Zero();
   fcl::Vector3d q = fcl::Vector3d::Zero();
-  /// Is the unit vector from a to b in frame A, the derivative by B's translation in A (T of X_AB).
-  /// When distance = 0 there is no derivative: normal and moment are zero.
+  /// Unit vector from a to b in frame A: the derivative by B's translation in A (T of X_AB). When
+  /// distance = 0 there is no derivative: normal and moment are zero.
   fcl::Vector3d normal = fcl::Vector3d::Zero();
-  /// Is (q - T) x normal: the derivative by a rotation vector w in frame A that turns B about its
-  /// own origin, R -> exp([w]) R. About a point c of frame A instead: (q - c) x normal.
+  /// Moment of the normal, (q - T) x normal: the derivative by a rotation vector w in frame A that
+  /// turns B about its own origin, R -> exp([w]) R. About a point c of frame A instead: (q - c) x
+  /// normal.
   fcl::Vector3d moment = fcl::Vector3d::Zero();
 
-  /// Is true if the volumes are proven to have no point in common.
+  /// Returns true if the volumes are proven to have no point in common.
   bool apart() const { return distance > 0; }
 };
 
-/// Returns the distance of a (in frame A) to b, a volume of frame B whose points are R x + T in A,
-/// exactly as R and T are given. C1 in the pose while the volumes are apart, with (normal, moment)
-/// as gradient; piecewise smooth beyond. Also covers the rounding of b's points on their way to
-/// frame A.
+/// Returns the distance of a, in frame A, to b, in frame B. A point x of B is R x + T in A, with R
+/// and T as given. C1 in the pose while the volumes are apart, with (normal, moment) as gradient;
+/// piecewise smooth beyond. Also covers the rounding of b's points on their way to frame A.
 template <typename S>
 ExactDistance exactDistance(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB);
 /// Takes both in one frame; the moment is about its origin.

@@ -17,10 +17,10 @@ struct ContinuousCounts {
   long long collision_tests = 0;  ///< exact collision queries at a single time
 };
 
-/// Finds the first contact of two moving objects, fcl::continuousCollide's answer, for times t in
-/// [0, 1] and FCL's four motions (docs/continuous.md). Served: two kIOS models; a kIOS model and
-/// one of FCL's nine shapes or an octree, in either order. Motions, models and their poses are only
-/// read.
+/// Finds the first contact of two moving objects at times in [0, 1], as fcl::continuousCollide
+/// does. FCL's four motions are served (docs/continuous.md). Served: two kIOS models; a kIOS model
+/// and one of FCL's nine shapes or an octree, in either order. Motions, models and their poses are
+/// only read.
 ///
 /// `result.is_collide == false` proves that they never touch. If it is true, time_of_contact is at
 /// most the time of the first contact, which lies at most request.toc_err later. A pair that comes

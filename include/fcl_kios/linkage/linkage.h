@@ -14,10 +14,11 @@
 
 namespace kios {
 
-/// Holds a pose that lies in memory alike whatever a program's flags are, as fcl::Transform3d
-/// doesn't; each converts to the other.
+/// A pose that lies in memory alike whatever a program's flags are, as fcl::Transform3d doesn't.
+/// Each converts to the other.
 using UnalignedPose = Eigen::Transform<double, 3, Eigen::Isometry, Eigen::DontAlign>;
 
+/// Says how a joint moves its link.
 enum class JointType { kFixed, kRevolute, kPrismatic };
 
 /// Describes the joint that carries a link.
@@ -26,19 +27,19 @@ struct Joint {
   /// Places the joint in its parent link's frame: the link's frame where the coordinate is 0.
   /// Rigid; a rotation that is off by more than rounding is replaced by its nearest quaternion's.
   UnalignedPose X_PJ = UnalignedPose::Identity();
-  /// Is a vector in the joint's frame: its direction is the joint's axis, and its length, which
-  /// isn't 0, says how many radians, or of the models' units of length, a unit of the coordinate
-  /// means. Fixed joints don't read it.
+  /// Axis in the joint's frame: its direction is the joint's axis, and its length, which isn't 0,
+  /// says how many radians, or of the models' units of length, a unit of the coordinate means.
+  /// Fixed joints don't read it.
   fcl::Vector3d axis = fcl::Vector3d::UnitZ();
-  /// Is the coordinate of q that moves it; -1: the next one that no joint has. Joints may share
-  /// one: the joint stands at multiplier * q[coordinate] + offset, which is how one mimics another.
-  /// Below 2^20, and what it stands at is finite for every q that is asked about.
+  /// Coordinate of q that moves it; -1: the next one that no joint has. Joints may share one: the
+  /// joint stands at multiplier * q[coordinate] + offset, which is how one mimics another. Below
+  /// 2^20, and what it stands at is finite for every q that is asked about.
   int coordinate = -1;
   double multiplier = 1, offset = 0;
 };
 
-/// Holds links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(v), J
-/// a rotation about the axis or a translation along it, v = multiplier * q_k + offset. It is built
+/// Links on a tree of joints, and obstacles in the world. X_W,link = X_W,parent X_PJ J(v), J a
+/// rotation about the axis or a translation along it, v = multiplier * q_k + offset. It is built
 /// once and then asked: const calls are safe from many threads, and the geometry of its bodies must
 /// stay as it was. It may be copied; copies share the geometry.
 class Linkage {
@@ -55,11 +56,11 @@ class Linkage {
   /// or its multiplier or offset not finite; nothing is changed then.
   int addLink(int parent, const Joint& joint);
 
-  /// Adds a body to a link, -1 for an obstacle that stands in the world, at X_LB in the link's
-  /// frame, and returns its number: 0, 1, ... Served are finished meshes over k-IOS, FCL's nine
-  /// shapes and octrees. Half-spaces and planes must not turn: no revolute joint may carry them.
-  /// Throws std::invalid_argument if there is no such link, the geometry is null, not served or
-  /// unusable, or the pose is not rigid; nothing is changed then.
+  /// Adds a body to a link, at X_LB in its frame, and returns the body's number. The link -1 is for
+  /// an obstacle that stands in the world. Numbers are 0, 1, ... Served are finished meshes over
+  /// k-IOS, FCL's nine shapes and octrees. Half-spaces and planes must not turn: no revolute joint
+  /// may carry them. Throws std::invalid_argument if there is no such link, the geometry is null,
+  /// not served or unusable, or the pose is not rigid; nothing is changed then.
   int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
               const fcl::Transform3d& X_LB = fcl::Transform3d::Identity());
 
@@ -84,6 +85,7 @@ class Linkage {
   std::unique_ptr<Impl> impl_;
 };
 
+/// What is known of a path.
 enum class MotionVerdict {
   kClear,       ///< proven: no pair of bodies is in contact anywhere on the path
   kContact,     ///< a configuration in contact was found
@@ -91,12 +93,13 @@ enum class MotionVerdict {
   kBudgetSpent  ///< max_queries were made before any of these
 };
 
+/// Options of checkMotion().
 struct MotionRequest {
   /// Counts a pair that is at most so far apart as in contact: clear means farther apart than this,
   /// all along. In the models' units, >= 0.
   double min_separation = 0;
-  /// Is the shortest interval of the path's parameter that is looked at, in [2^-40, 1]: where an
-  /// interval this short can't be proven clear and shows no contact, the answer is kUnresolved.
+  /// Shortest interval of the path's parameter that is looked at, in [2^-40, 1]: where an interval
+  /// this short can't be proven clear and shows no contact, the answer is kUnresolved.
   double resolution = 0x1p-20;
   /// If true, the earliest contact is asked for, else any, which takes less time.
   bool first_contact = false;
@@ -119,9 +122,10 @@ struct MotionCounts {
   long long expansions = 0;  ///< nodes of prepared trees whose children these tested
 };
 
+/// Answer of checkMotion(), with the interval and the pair that it is about.
 struct MotionAnswer {
   MotionVerdict verdict = MotionVerdict::kClear;
-  /// Are an interval of the path's parameter. kClear: [0, 1], which is proven. kContact: a
+  /// An interval of the path's parameter. kClear: [0, 1], which is proven. kContact: a
   /// configuration in contact lies in [from, to], and to - from <= resolution; `to` is one. With
   /// first_contact all before `from` is proven clear. kUnresolved: the interval that could not be
   /// decided. kBudgetSpent: an interval that is not decided yet; with first_contact all before
@@ -131,10 +135,10 @@ struct MotionAnswer {
   MotionCounts counts;
 };
 
-/// Is the path q(s) = q0 + s (q1 - q0), 0 <= s <= 1, clear of contact? kClear is a proof for every
-/// real s and exact kinematics, with the rounding of poses, angles and bounds paid for. kContact
-/// means that the static query (fcl::collide, or fcl::distance <= min_separation) confirms a
-/// contact of the bodies at their pose() in the configuration `to`, computed as q0 + to * (q1 -
+/// Decides whether the path q0 + s (q1 - q0), 0 <= s <= 1, is clear of contact. kClear is a proof
+/// for every real s and exact kinematics, with the rounding of poses, angles and bounds paid for.
+/// kContact means that the static query (fcl::collide, or fcl::distance <= min_separation) confirms
+/// a contact of the bodies at their pose() in the configuration `to`, computed as q0 + to * (q1 -
 /// q0), and q1 at 1. Two shapes are posed as FCL poses them: a contact is what FCL's GJK says it
 /// is, while kClear is proven by a separating slab. Pairs of which one is not occupied are never in
 /// contact.

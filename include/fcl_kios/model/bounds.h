@@ -22,10 +22,10 @@ class BroadPhaseCollisionManager;
 
 namespace kios {
 
-/// Recomputes the geometry's AABB, centre and radius in its own frame, and the world AABB of those
-/// of `objects` that hold this geometry. Each manager they are in needs update() afterwards; FCL's
-/// SaPCollisionManager::update() is wrong for boxes that change their size, and crashes: there
-/// clear() and register the objects anew.
+/// Recomputes a geometry's AABB, centre and radius, and the world AABBs of the `objects` that hold
+/// it. Each manager they are in needs update() afterwards; FCL's SaPCollisionManager::update() is
+/// wrong for boxes that change their size, and crashes: there clear() and register the objects
+/// anew.
 template <typename S>
 void refreshBounds(fcl::CollisionGeometry<S>& geometry,
                    const std::vector<fcl::CollisionObject<S>*>& objects);

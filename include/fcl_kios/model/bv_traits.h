@@ -14,6 +14,9 @@
 
 namespace kios {
 
+template <typename S>
+struct Members;
+
 /// Converts the volume, in the frame that X maps to, to an oriented box along the caps' axes.
 template <typename S>
 fcl::OBB<S> toOBB(const kIOS<S>& bv, const fcl::Transform3<S>& X);
@@ -45,6 +48,9 @@ template <typename S>
 struct MakeParentRelativeRecurseImpl<S, kios::kIOS<S>> {
   static void run(BVHModel<kios::kIOS<S>>& /*model*/, int /*bv_id*/,
                   const Matrix3<S>& /*parent_axis*/, const Vector3<S>& /*parent_c*/) {}
+  /// Serves the library alone: FCL befriends this class, and no other that could be ours.
+  static kios::Members<S> membersOf(BVHModel<kios::kIOS<S>>& model);
+  static void refit(BVHModel<kios::kIOS<S>>& model) { model.refitTree(/*bottomup=*/true); }
 };
 
 namespace detail {

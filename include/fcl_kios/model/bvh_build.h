@@ -11,35 +11,27 @@
 #include "fcl_kios/build/fit.h"
 
 // These classes build and refit fcl::BVHModel<kios::kIOS<S>>. FCL's copy constructor shares fitter
-// and splitter between models, so neither holds the state of a build: that lives as long as the
-// build (model.h), and models may be built in many threads at once. Only if they are called by
-// FCL's interface, as when one of the two is the user's, each holds one state a thread until
-// clear().
+// and splitter between models, which may be built in many threads at once: each holds one state a
+// thread, from set() to clear().
 
 namespace kios {
-namespace engine {
-class TreeCache;
-}
 template <typename S>
 class BuildsByThread;
-template <typename S>
-engine::TreeCache* treesOf(const fcl::BVHModel<kIOS<S>>& model);
 }  // namespace kios
 
 namespace fcl {
 namespace detail {
 
 /// Fits a node's kIOS to the distinct vertices of its triangles (or to its points). fit() throws
-/// std::invalid_argument at a NaN or infinite vertex; the model then stays unfinished.
-/// `model.bv_fitter.reset(new BVFitter<kios::kIOSd>(kios::FitMethod::kMethodII))` before
-/// endModel() chooses the published fit; kios::FitOptions chooses more. Prepared trees are
-/// fitted anew if the model's fit is not the tuned one.
+/// std::invalid_argument at a NaN or infinite vertex; the model then stays unfinished. A class that
+/// is derived from it and set as `model.bv_fitter` before endModel() may place spheres another way
+/// in fitPoints(), as those of fcl_kios/paper/fit.h do: FCL's traversals see that fit; the tree
+/// that queries search has one of its own.
 template <typename S_>
 class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
  public:
   using S = S_;
-  /// Throws std::invalid_argument for an angle out of range.
-  explicit BVFitter(const kios::FitOptions& options = {});
+  BVFitter();
   virtual ~BVFitter();
 
   void set(Vector3<S>* vertices, Triangle* tri_indices, BVHModelType type) override;
@@ -48,25 +40,18 @@ class BVFitter<kios::kIOS<S_>> : public BVFitterBase<kios::kIOS<S_>> {
   kios::kIOS<S> fit(unsigned int* primitive_indices, int num_primitives) override;
   void clear() override;
 
-  const kios::FitOptions& options() const { return options_; }
+  /// Returns the volume of a node's points: kios::fit().
+  virtual kios::kIOS<S> fitPoints(const Vector3<S>* points, int n) const;
 
  private:
-  template <typename T>
-  friend kios::engine::TreeCache* kios::treesOf(const fcl::BVHModel<kios::kIOS<T>>&);
-
-  const kios::FitOptions options_;
-  /// Holds the trees that queries prepared of the models that share this fitter: a model and its
-  /// copies.
-  const std::unique_ptr<kios::engine::TreeCache> trees_;
   const std::unique_ptr<kios::BuildsByThread<S>> builds_;
 };
 
 /// Splits a node across the longest principal axis of its vertices: at the mean or the median of
 /// the triangles' centroids, or at the centre of the box along the axes. One made without a method,
-/// as models have it, splits by the cost of a search: with the tuned fit, a mesh is then divided
-/// and fitted in one go, in about half the time, and queries take its tree over.
-/// If that can't be (a point cloud, another fit, a mesh of no ordinary size), it splits at the
-/// mean.
+/// as models have it, splits by the cost of a search: with the BVFitter above, a mesh is then
+/// divided and fitted in one go, in about half the time, and queries take its tree over. If that
+/// can't be (a point cloud, another fitter, a mesh of no ordinary size), it splits at the mean.
 template <typename S_>
 class BVSplitter<kios::kIOS<S_>> : public BVSplitterBase<kios::kIOS<S_>> {
  public:

@@ -11,7 +11,7 @@
 
 namespace kios {
 
-/// Names a mesh over k-IOS.
+/// A mesh over k-IOS.
 template <typename S>
 using Model = fcl::BVHModel<kIOS<S>>;
 using Modeld = Model<double>;
@@ -24,8 +24,8 @@ template <typename S>
 std::shared_ptr<Model<S>> makeModel(const std::vector<fcl::Vector3<S>>& vertices,
                                     const std::vector<fcl::Triangle>& triangles);
 
-/// Throws std::invalid_argument, saying what is wrong, unless the model is a finished triangle mesh
-/// with indices in range and finite vertices. O(vertices + triangles).
+/// Throws std::invalid_argument unless the model is a finished mesh with indices in range and
+/// finite vertices. The message says what is wrong. O(vertices + triangles).
 template <typename S>
 void validate(const Model<S>& model);
 

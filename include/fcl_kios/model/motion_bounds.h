@@ -11,8 +11,8 @@
 
 namespace kios::detail {
 
-/// Returns an upper bound, from the motion's current time until 1, of the speed along the world
-/// direction n of any point of the content of bv (in the body's frame). May be negative: all of it
+/// Returns an upper bound of the speed of bv's content along n, until time 1. It holds from the
+/// motion's current time, n in the world, bv in the body's frame. May be negative: all of it
 /// recedes.
 double speedAlong(const kIOS<double>& bv, const fcl::Vector3d& n,
                   const fcl::MotionBase<double>& motion);

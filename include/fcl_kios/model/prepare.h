@@ -8,21 +8,19 @@
 
 namespace kios {
 
-/// Prepares the model's tree now, as its first query would; other threads that need the tree wait
-/// for it. Does nothing if the tree exists, or queries couldn't use it. Models of equal vertices
-/// and triangles, anywhere in the process, share one tree, which goes with the last of them. Throws
-/// std::invalid_argument if the model is not a finished mesh.
+/// Does nothing, as endModel() and refits prepare what queries search. Deprecated, gone in the next
+/// version. Throws std::invalid_argument if the model is not a finished mesh.
 template <typename S>
 void prepare(const Model<S>& model);
 
-/// Returns the bytes of the trees that were prepared of this model and of its copies, each tree
-/// once; trees that models of equal content share are counted in full.
+/// Returns the bytes of the tree that queries search, beside FCL's; 0 of what isn't a finished
+/// mesh. Copies of a model and models of equal content, anywhere in the process, share one.
 template <typename S>
 std::size_t preparedBytes(const Model<S>& model);
 
 /// Makes a model right whose vertices were written without beginReplaceModel() or
-/// beginUpdateModel(): refits the model's volumes and drops its prepared trees. Throws as
-/// validate().
+/// beginUpdateModel(): refits all that was made of them. Throws as
+/// validate(), and std::bad_alloc if memory runs out: the model then is unfinished.
 template <typename S>
 void invalidate(Model<S>& model);
 

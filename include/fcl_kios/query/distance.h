@@ -14,16 +14,16 @@
 
 namespace kios {
 
-/// Names the triangles of an earlier answer, from which a search may start: the caller's, one for
-/// each pair of models. Any content is allowed; ids that a model doesn't have are ignored. An exact
-/// answer (both tolerances 0, no budget, not stopped by near_enough or far_enough) is bitwise the
-/// same with and without.
+/// Triangles of an earlier answer, from which a search may start: the caller's, one for each pair
+/// of models. Any content is allowed; ids that a model doesn't have are ignored. An exact answer
+/// (both tolerances 0, no budget, not stopped by near_enough or far_enough) is bitwise the same
+/// with and without, but that of hundreds of equally near pairs another may be named.
 struct WarmStart {
   int triangle_a = -1, triangle_b = -1;
 };
 
-/// Holds the options of a distance query. The search stops as soon as one of these holds; the
-/// defaults ask for the exact distance. Lengths are in the models' units.
+/// Options of a distance query. The search stops as soon as one of these holds; the defaults ask
+/// for the exact distance. Lengths are in the models' units.
 template <typename S>
 struct DistanceOptions {
   /// The distance may exceed the exact one by max(rel_err * exact, abs_err): either suffices. >= 0.
@@ -38,8 +38,8 @@ struct DistanceOptions {
   long long max_expansions = std::numeric_limits<long long>::max();
   /// If true, the nearest points of the answer are set.
   bool nearest_points = true;
-  /// Is read at the start, and set to the answer's triangles if there are any. No other thread may
-  /// use it meanwhile.
+  /// Read at the start, and set to the answer's triangles if there are any. No other thread may use
+  /// it meanwhile.
   WarmStart* warm_start = nullptr;
 };
 using DistanceOptionsd = DistanceOptions<double>;
@@ -54,20 +54,19 @@ enum class DistanceStop {
                ///< within rounding of far_enough and nothing more was looked at
 };
 
-/// Holds the answer of a distance query. In every case lower_bound <= exact distance <=
-/// upper_bound, for the models' vertices and poses as they are given, in the common frame of
-/// docs/guarantees.md.
+/// Answer of a distance query. In every case lower_bound <= exact distance <= upper_bound, for the
+/// models' vertices and poses as they are given, in the common frame of docs/guarantees.md.
 template <typename S>
 struct DistanceAnswer {
-  /// Is the distance of the triangles below, right to 16 eps of their extent; 0 if and only if they
+  /// Distance of the triangles below, right to 16 eps of their extent. It is 0 if and only if they
   /// intersect. Infinity if no pair of triangles was looked at.
   S distance = std::numeric_limits<S>::infinity();
   S lower_bound = 0;  ///< proven; 0 at contact
-  /// Is `distance` with its own error and the common frame's; infinity if that is.
+  /// `distance` with its own error and the common frame's; infinity if that is.
   S upper_bound = std::numeric_limits<S>::infinity();
   int triangle_a = -1, triangle_b = -1;  ///< of the models; -1 if no pair was looked at
-  /// Are the nearest points of those triangles in the world frame; NaN if there are none, or none
-  /// were asked for.
+  /// Nearest points of those triangles in the world frame: NaN if there are none, or none were
+  /// asked for.
   fcl::Vector3<S> point_a = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
   fcl::Vector3<S> point_b = fcl::Vector3<S>::Constant(std::numeric_limits<S>::quiet_NaN());
   DistanceStop stop = DistanceStop::kTolerance;

@@ -54,8 +54,9 @@ class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<
 using MeshDistanceTraversalNoded = MeshDistanceTraversalNode<double>;
 using MeshDistanceTraversalNodef = MeshDistanceTraversalNode<float>;
 
-/// Has FCL's signature, found by argument-dependent lookup. Throws std::invalid_argument if a model
-/// is not a finished mesh, a pose is not rigid, or an error bound is negative or NaN. Returns true.
+/// Prepares a node by FCL's signature, found by argument-dependent lookup. Throws
+/// std::invalid_argument if a model is not a finished mesh, a pose is not rigid, or an error bound
+/// is negative or NaN. Returns true.
 template <typename S>
 bool initialize(MeshCollisionTraversalNode<S>& node, const Model<S>& a,
                 const fcl::Transform3<S>& X_WA, const Model<S>& b, const fcl::Transform3<S>& X_WB,

@@ -14,17 +14,14 @@
 namespace kios {
 
 /// Answers fcl::collide and fcl::distance of two meshes over k-IOS, with FCL's conventions for
-/// requests and results: poses X_WA and X_WB in the world, points and normals of results there too,
+/// requests and results. Poses X_WA and X_WB in the world, points and normals of results there too,
 /// lengths in the models' units. Collision is exact; distance is right to 16 eps of the extent of
 /// the nearest triangles, or to what the request allows (docs/guarantees.md). Safe from many
 /// threads. Source of the tests of volumes: paper, IV. Throw std::invalid_argument if a model is
 /// not a finished mesh, a pose is not rigid, or an error bound is negative or NaN.
 ///
-/// A pair that the root volumes can't decide is searched in trees that the models prepare at their
-/// first such query and keep (see prepare()). Cost sources, models whose BVFitter is not ours, and
-/// pairs beyond the range of floats (lengths below 1e-11 or above 1e12, objects of very different
-/// size, or far from each other for their size) are searched in FCL's tree instead, by the
-/// traversal nodes of mesh_nodes.h. `counts`, if given, is added to.
+/// A pair that the root volumes can't decide is searched in the trees that the models have since
+/// they were finished. `counts`, if given, is added to.
 template <typename S>
 std::size_t collideMeshes(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                           const fcl::Transform3<S>& X_WB, const fcl::CollisionRequest<S>& request,

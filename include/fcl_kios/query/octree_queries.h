@@ -17,8 +17,8 @@
 
 namespace kios {
 
-/// Answers fcl::collide and fcl::distance of an octree and a mesh over k-IOS (docs/shapes.md):
-/// poses X_WO of the octree and X_WM of the mesh in the world. The octree is object 1 of the
+/// Answers fcl::collide and fcl::distance of an octree and a mesh over k-IOS (docs/shapes.md).
+/// Poses X_WO of the octree and X_WM of the mesh in the world. The octree is object 1 of the
 /// results whatever the order of FCL's call, and b1 the query cell id, as FCL does. Occupied cells
 /// are full boxes; collide follows FCL's thresholds for occupied, uncertain and free cells. An
 /// octree without cells touches nothing and is infinitely far. `counts`, if given, is added to:

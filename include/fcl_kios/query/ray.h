@@ -16,9 +16,8 @@
 
 namespace kios {
 
-/// Holds the points origin + t direction, t_min <= t <= t_max. The direction need not be a unit
-/// vector: t counts directions, not lengths. t_max may be infinite, which means the largest finite
-/// S.
+/// The points origin + t direction, t_min <= t <= t_max. The direction need not be a unit vector: t
+/// counts directions, not lengths. t_max may be infinite, which means the largest finite S.
 template <typename S>
 struct Ray {
   fcl::Vector3<S> origin = fcl::Vector3<S>::Zero();
@@ -33,6 +32,7 @@ using Rayf = Ray<float>;
 // direction that is not finite or exceeds 2^1000 (float: 2^120) in a coordinate, a direction of
 // zero, a t_min that is not finite, a t_max that is NaN, or t_min > t_max.
 
+/// Part of a ray, by its parameter.
 template <typename S>
 struct RayInterval {
   S enter, exit;  ///< enter <= exit, in the ray's t
@@ -40,12 +40,12 @@ struct RayInterval {
 using RayIntervald = RayInterval<double>;
 using RayIntervalf = RayInterval<float>;
 
-/// Returns the part of the ray, given in the volume's frame, that may lie in the volume: a lower
-/// bound of the t at which it has entered all k spheres, and an upper bound of the t at which it
-/// leaves the first, both within [t_min, t_max]; none if the ray provably misses the volume. No
-/// point of the content that lies on the ray is ever left out. No wider than for spheres larger by
-/// 2^-45 (|origin - c| + reach), as much longer at both ends, c and reach the centre of S0 and what
-/// the spheres reach from there.
+/// Returns the part of a ray in the volume's frame that may lie in the volume: a lower bound of the
+/// t at which it has entered all k spheres, and an upper bound of the t at which it leaves the
+/// first, both within [t_min, t_max]; none if the ray provably misses the volume. No point of the
+/// content that lies on the ray is ever left out. No wider than for spheres larger by 2^-45
+/// (|origin - c| + reach), as much longer at both ends, c and reach the centre of S0 and what the
+/// spheres reach from there.
 template <typename S>
 std::optional<RayInterval<S>> rayInterval(const kIOS<S>& bv, const Ray<S>& ray);
 
@@ -63,12 +63,12 @@ enum class RaySide {
 /// Says where a ray meets a triangle.
 template <typename S>
 struct RayHit {
-  /// Is the parameter at which the ray first meets the closed triangle: exact, rounded once to
-  /// double (and then to S). Triangles that are hit in one point have bitwise one t.
+  /// Parameter at which the ray first meets the closed triangle: exact, rounded once to double (and
+  /// then to S). Triangles that are hit in one point have bitwise one t.
   S t;
-  /// Is that point in the world, to 8 eps (S) of the triangle's coordinates there and in the model.
+  /// That point in the world, to 8 eps (S) of the triangle's coordinates there and in the model.
   fcl::Vector3<S> point;
-  /// Are its barycentric coordinates: >= 0, each to 2^-50 (float: and one rounding).
+  /// Its barycentric coordinates: >= 0, each to 2^-50 (float: and one rounding).
   fcl::Vector3<S> weights;
   int triangle;  ///< index in the model
   RaySide side;  ///< exact
@@ -87,9 +87,9 @@ using RayHitf = RayHit<float>;
 /// there, so that nothing passes between triangles that share it. A ray in a triangle's plane hits
 /// it in the first point that they share, segments and points (degenerate triangles) likewise.
 ///
-/// Safe from many threads, for the model's first query too (see prepare()). `counts`, if given, is
-/// added to (leaf_pairs: leaves reached; exact: triangles tested). Throws std::invalid_argument
-/// also if the model is not a finished mesh or the pose is not rigid.
+/// Safe from many threads. `counts`, if given, is added to (leaf_pairs: leaves reached; exact:
+/// triangles tested). Throws std::invalid_argument also if the model is not a finished mesh or the
+/// pose is not rigid.
 template <typename S>
 std::optional<RayHit<S>> firstHit(const Model<S>& model, const fcl::Transform3<S>& X_WM,
                                   const Ray<S>& ray, SearchCounts* counts = nullptr);

@@ -13,13 +13,12 @@
 
 namespace kios {
 
-/// Answers fcl::collide and fcl::distance of a mesh over k-IOS and one of FCL's nine shapes
-/// (docs/shapes.md): poses X_WM of the mesh and X_WS of the shape in the world, results there too,
+/// Answers fcl::collide and fcl::distance of a mesh over k-IOS and one of FCL's nine shapes. Docs:
+/// docs/shapes.md. Poses X_WM of the mesh and X_WS of the shape in the world, results there too,
 /// with the mesh as object 1 whatever the order of FCL's call, as FCL does. The shape is full, the
 /// plane infinitely thin; distance at overlap is 0. No solver of FCL's is used, and the model is
-/// not copied; it is prepared once queries have cost as much as that. Safe from many threads.
-/// `counts`, if given, is added to: volume_tests, leaf_kernels, exact for triangles of the prepared
-/// tree.
+/// not copied. Safe from many threads. `counts`, if given, is added to: volume_tests, leaf_kernels,
+/// exact.
 ///
 /// Throw std::invalid_argument if the model is not a finished mesh, the shape is none of the nine
 /// or has a size that is negative or not finite, a pose is not rigid, or an error bound is negative

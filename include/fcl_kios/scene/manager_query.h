@@ -37,11 +37,11 @@ class ManagerQuery {
   /// Returns true if a query should look at the pair.
   using Filter = std::function<bool(const Object*, const Object*)>;
 
-  /// Holds two objects, as the manager ordered them.
+  /// Two objects, as the manager ordered them.
   struct Pair {
     const Object *a = nullptr, *b = nullptr;
-    S distance = 0;  ///< fcl::distance(a, b), bit for bit
-    /// Are the triangles that realise the distance; -1 for geometries that have none.
+    S distance = 0;  ///< fcl::distance(a, b), bit for bit; float pairs as in SceneDistance
+    /// Triangles that realise the distance; -1 for geometries that have none.
     std::intptr_t triangle_a = -1, triangle_b = -1;
   };
 
@@ -52,11 +52,13 @@ class ManagerQuery {
   ManagerQuery& operator=(ManagerQuery&&) noexcept;
 
   /// Starts a query: of a nearest pair; of all pairs with distance <= margin, in the models' units.
+  /// The manager orders each pair, and the other order's distance may differ in the last bits: a
+  /// margin that is a distance itself should be larger by a rounding.
   /// Throws std::invalid_argument if margin is NaN.
   void findClosest();
   void findWithin(S margin);
 
-  /// Is FCL's DistanceCallBack; `query` is a `ManagerQuery<S>` that was started. Throws
+  /// Serves as FCL's DistanceCallBack; `query` is a `ManagerQuery<S>` that was started. Throws
   /// std::invalid_argument as fcl::distance does.
   static bool callback(Object* o1, Object* o2, void* query, S& dist);
 

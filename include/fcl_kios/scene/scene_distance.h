@@ -17,16 +17,17 @@ namespace kios {
 
 /// Answers for the distances in a scene of many objects over many frames. Answers equal
 /// fcl::distance over all admissible pairs, bit for bit, with the object of the smaller id as the
-/// first argument; ties go to the smallest ids. A query leaves out the pairs that it needn't look
-/// at, and counts() tells how many.
+/// first argument, but for last bits where hundreds of pairs of triangles are equally near; ties of
+/// objects go to the smallest ids. A query leaves out the pairs that it needn't look at, and
+/// counts() tells how many. Pairs of floats without a mesh over k-IOS are asked in double, for
+/// which libfcl has the code, and rounded once; a mesh over another volume of FCL is then converted
+/// at each query, which kios::toKIOS() spares.
 ///
 /// A pair is admissible unless it is excluded, refused by the filter, or both are obstacles. Two
-/// meshes over k-IOS are never asked twice at one relative pose, nor while their last proven
-/// distance minus a bound on their motion since then exceeds what is asked. Models may be replaced,
-/// updated and refitted between queries; that is noticed by their root volumes. So may the sizes of
-/// FCL's shapes. What is no mesh over k-IOS and no shape of FCL's, octrees above all, is asked at
-/// each query that comes near. Models that nobody came near are never prepared. Docs:
-/// docs/scene.md.
+/// meshes over k-IOS are never asked twice at one relative pose if the first answer will do. Models
+/// may be replaced, updated and refitted between queries; that is noticed by their root volumes. So
+/// may the sizes of FCL's shapes. What is no mesh over k-IOS and no shape of FCL's, octrees above
+/// all, is asked at each query that comes near. Docs: docs/scene.md.
 ///
 /// Not to be used from two threads at once; several scenes may share models.
 template <typename S>
@@ -50,12 +51,12 @@ class SceneDistance {
   int add(std::shared_ptr<const Geometry> geometry, const Pose& X_W, Role role = Role::kBody);
   /// Adds an object whose pose is read from it at each query. It must outlive its stay here.
   int add(const fcl::CollisionObject<S>* object, Role role = Role::kBody);
-  /// Throw std::invalid_argument if there is no such object; move() also if the pose is not rigid
-  /// or not finite, or is read from an fcl::CollisionObject.
+  /// Throw std::invalid_argument if there is no such object. So does move() if the pose is not
+  /// rigid or not finite, or is read from an fcl::CollisionObject.
   void remove(int id);
   void move(int id, const Pose& X_W);
-  /// Has to be called after the local AABB of a geometry has grown that is neither a mesh over
-  /// k-IOS nor one of FCL's shapes or octrees.
+  /// Tells the scene that the local AABB of a geometry has grown. That is needed for what is
+  /// neither a mesh over k-IOS nor one of FCL's shapes or octrees.
   void changed(int id);
   bool contains(int id) const;
   std::size_t size() const;  ///< number of objects

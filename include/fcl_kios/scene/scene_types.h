@@ -9,25 +9,25 @@
 
 namespace kios {
 
-/// Two obstacles are never asked about each other.
+/// Says whether an object is an obstacle: two obstacles are never asked about each other.
 enum class Role : std::uint8_t { kBody, kObstacle };
 
-/// Holds the options of a scene query.
+/// Options of a scene query.
 struct SceneRequest {
   bool nearest_points = false;  ///< sets ScenePair::nearest_a and nearest_b
-  /// If false, pairsWithin() may report any distance of two points of the pair up to the margin,
-  /// which spares most of the search; which pairs are reported doesn't depend on it.
+  /// If false, pairsWithin() may report any distance of two points of a pair up to the margin. That
+  /// spares most of the search; which pairs are reported doesn't depend on it.
   bool exact = true;
 };
 
-/// Holds two objects of a scene, a < b.
+/// Two objects of a scene, a < b.
 template <typename S>
 struct ScenePair {
   int a = -1, b = -1;  ///< ids
   S distance = 0;      ///< in the models' units; 0 at contact
-  /// Are the triangles that realise the distance; -1 for geometries that have none.
+  /// Triangles that realise the distance; -1 for geometries that have none.
   std::intptr_t triangle_a = -1, triangle_b = -1;
-  /// Are in the world; set if the request wants them.
+  /// Nearest points in the world; set if the request wants them.
   fcl::Vector3<S> nearest_a = fcl::Vector3<S>::Zero(), nearest_b = fcl::Vector3<S>::Zero();
 };
 using ScenePaird = ScenePair<double>;
@@ -41,12 +41,10 @@ struct SceneCounts {
   long long far_boxes = 0;  ///< farther by the boxes around their root volumes
   long long far_roots = 0;  ///< farther by their root volumes
   long long still = 0;      ///< at the relative pose of the last proof, which suffices
-  long long moved_too_little = 0;  ///< the last proof minus the motion since then suffices
-  long long near_by_proof = 0;     ///< known nearer than the margin, where that was all to know
-  long long ties = 0;              ///< no distance is small enough: after a contact, or margin <= 0
-  long long queried = 0;           ///< searched by the narrow phase
-  long long proven_farther = 0;    ///< of those, proven farther than the query asked for
-  SearchCounts search;             ///< the work of the narrow phase
+  long long ties = 0;       ///< no distance is small enough: after a contact, or margin <= 0
+  long long queried = 0;    ///< searched by the narrow phase
+  long long proven_farther = 0;  ///< of those, proven farther than the query asked for
+  SearchCounts search;           ///< the work of the narrow phase
 
   /// Counts the pairs that the narrow phase was spared.
   long long skipped() const { return total - queried; }

@@ -11,7 +11,7 @@ struct SearchCounts {
   long long leaf_pairs = 0;     ///< pairs of leaves reached
   long long leaf_kernels = 0;   ///< of these, those that no separating direction excluded
   long long exact = 0;          ///< feature and triangle pairs evaluated in double
-  long long tree_searches = 0;  ///< queries that fell back to FCL's tree
+  long long tree_searches = 0;  ///< queries in double, as floats couldn't tell of the pair
 
   SearchCounts& operator+=(const SearchCounts& o) {
     expansions += o.expansions;

@@ -14,7 +14,7 @@ namespace kios {
 template <typename S>
 struct FaultyEdge {
   int triangle = -1;  ///< the first one at the edge; -1: there is no such edge
-  /// Are the edge's ends in the model's frame, in that triangle's order.
+  /// The edge's ends in the model's frame, in that triangle's order.
   fcl::Vector3<S> from = fcl::Vector3<S>::Zero(), to = fcl::Vector3<S>::Zero();
 };
 
@@ -45,9 +45,10 @@ struct Closedness {
 using Closednessd = Closedness<double>;
 using Closednessf = Closedness<float>;
 
-/// Examines a mesh: O(n log n), and for each component whose normals point inwards O(log n) more
-/// for each component whose box it begins in. Exact for all finite coordinates. Throws
-/// std::invalid_argument if the model is not a finished mesh.
+/// Examines whether a mesh may be a solid: O(n log n), and for each component whose normals point
+/// inwards a look at the box of each other one, and O(log n) where it begins in that. Exact for all
+/// finite coordinates, but where components wind inwards for those below 2^-960 of the largest.
+/// Throws std::invalid_argument if the model is not a finished mesh.
 template <typename S>
 Closedness<S> inspectClosedness(const Model<S>& model);
 /// Examines a mesh without a model, its indices in range and its vertices finite.

@@ -10,28 +10,28 @@
 
 namespace kios {
 
-/// Holds the options of repair().
+/// Options of repair().
 struct RepairOptions {
   /// Vertices that are at most so far apart become one: the larger of the two counts, a part of the
   /// diagonal of the mesh's box, and a length in its units. 0 and 0: only equal ones. >= 0; a part
   /// is < 1.
   double relative_weld = 1e-5;
   double absolute_weld = 0;
-  /// Holes of at most so many edges that are at most so long around, in the mesh's units, are
-  /// filled. 0: none is. >= 0, and at most kMostHoleEdges.
+  /// Holes of at most so many edges, at most so long around in the mesh's units, are filled. 0:
+  /// none is. >= 0, and at most kMostHoleEdges.
   int max_hole_edges = 0;
   double max_hole_perimeter = std::numeric_limits<double>::infinity();
 
   enum : int { kMostHoleEdges = 256 };
 };
 
-/// Is a closed way along edges of one triangle each.
+/// A closed way along edges of one triangle each.
 struct Hole {
   std::vector<int> vertices;  ///< of the repaired mesh, in the order that a triangle would fill it
   double perimeter = 0;
 };
 
-/// Holds a mesh, and all that repair() did to make it of another.
+/// A mesh, and all that repair() did to make it of another.
 template <typename S>
 struct Repaired {
   std::vector<fcl::Vector3<S>> vertices;  ///< each one a vertex as it was given, bit for bit
@@ -46,7 +46,7 @@ struct Repaired {
   int farthest_vertex = -1;  ///< the given vertex that moved so far; -1 if none moved
 
   int degenerate_triangles = 0;  ///< left out: two corners became one
-  int double_triangles = 0;      ///< left out: corners of an earlier one
+  int double_triangles = 0;      ///< left out: corners of another one
   int flipped_triangles = 0;     ///< of those that stay
   int filled_triangles = 0;      ///< added
   std::vector<Hole> filled;      ///< holes
@@ -56,15 +56,18 @@ struct Repaired {
 using Repairedd = Repaired<double>;
 using Repairedf = Repaired<float>;
 
-/// Makes a mesh fit for a solid, as far as that can be without inventing geometry, and tells what
-/// it changed. In this order:
+/// Makes a mesh fit for a solid, as far as possible without inventing geometry, and tells what it
+/// changed. What bounds a solid stays as it is: equal vertices alone become one. Else, in this
+/// order:
 ///
 /// - Vertices are welded: each moves to the nearest that stays, within the tolerance, and those
 ///   that stay are farther apart than that. No vertex moves farther than the tolerance.
-/// - Triangles with two equal corners are left out, and those with the corners of an earlier one in
-///   the same order. One in the opposite order is left out, too, where that leaves as many
-///   triangles at its edges as a closed surface has: the back of a face that is there twice.
-///   Triangles with three corners on a line stay, as they join edges.
+/// - Triangles with two equal corners are left out, and copies of a triangle, wound alike or
+/// turned:
+///   of a patch of copies, as far as nothing else meets at its edges, one of each stays where that
+///   closes more edges. Closed is an edge through which as many triangles run one way as the other.
+///   If all triangles have backs, the fronts stay. Triangles with three corners on a line stay, as
+///   they join edges.
 /// - Neighbours are turned to one side, across edges of two triangles.
 /// - Holes within the limits are filled by the triangles of least area over their vertices, along
 ///   no edge that is there already if that can be. Whether they cut other triangles is not looked

@@ -13,13 +13,11 @@ namespace kios {
 
 /// Declares that the mesh bounds a solid: the points round which it winds at least once, and its
 /// surface. Throws std::invalid_argument, with the counts and the first three edges, unless
-/// inspectClosedness() finds it closed and oriented; also if the model is not a finished mesh, or
-/// its BVFitter is not fcl::detail::BVFitter<kIOS>.
+/// inspectClosedness() finds it closed and oriented; also if the model is not a finished mesh.
 ///
 /// The mark stays with the model through replaces, updates and builds, and copies of the model get
-/// it. The first query afterwards examines the mesh again, in O(n log n): if the mesh has been
-/// opened, that query and each further one throws until the mesh is closed again or unmarked.
-/// Setting the model's bv_fitter takes the mark away. The calls that mark and unmark write to the
+/// it. Their ends examine the mesh again, in O(n log n): if the mesh has been opened, each query
+/// throws until the mesh is closed again or unmarked. The calls that mark and unmark write to the
 /// model: no query may use it meanwhile.
 template <typename S>
 void markSolid(Model<S>& model);

@@ -9,7 +9,7 @@ namespace kios {
 /// Names a part of a triangle: a vertex, an edge (from its vertex to the next) or the face.
 enum class TriangleFeature { kVertex0, kVertex1, kVertex2, kEdge0, kEdge1, kEdge2, kFace };
 
-/// Holds the distance of two triangles, with nearest points in their frame.
+/// Distance of two triangles, with nearest points in their frame.
 template <typename S>
 struct TriangleDistance {
   S distance;                            ///< 0 if and only if the closed triangles intersect

@@ -19,4 +19,16 @@ bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>&
 template <typename S>
 Point<S> intersectionPoint(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
 
+/// How two triangles meet other than in vertices and edges that they share, by equal coordinates.
+enum class Meeting {
+  kNone,
+  kTouch,   ///< a vertex on a face or an edge, edges that meet, a face that stands on another
+  kCross,   ///< either passes through the other
+  kOverlap  ///< they share an area of one plane: folded neighbours and equal triangles, too
+};
+
+/// Says how two triangles meet. Exact for all finite coordinates. A triangle without area meets
+/// none.
+Meeting meetingOf(const TriangleVerticesd& a, const TriangleVerticesd& b);
+
 }  // namespace kios

@@ -7,13 +7,13 @@
 
 namespace kios {
 
+/// A point in space.
 template <typename S>
 using Point = Eigen::Matrix<S, 3, 1>;
 using Pointd = Point<double>;
 using Pointf = Point<float>;
 
-/// Holds a closed triangle by its vertices, in any order; it may degenerate to a segment or a
-/// point.
+/// A closed triangle by its vertices, in any order; it may degenerate to a segment or a point.
 template <typename S>
 using TriangleVertices = std::array<Point<S>, 3>;
 using TriangleVerticesd = TriangleVertices<double>;

@@ -8,9 +8,8 @@
 
 namespace kios {
 
-/// Holds a k-IOS: the intersection of k spheres (k = 1, 3 or 5), each of which contains the whole
-/// content. Source: Zhang & Kim, "k-IOS: Intersection of Spheres for Efficient Proximity Query",
-/// III.
+/// Intersection of k spheres (k = 1, 3 or 5), each of which contains the whole content: a k-IOS.
+/// Source: Zhang & Kim, "k-IOS: Intersection of Spheres for Efficient Proximity Query", III.
 ///
 /// Sphere 0 (S0) is the central sphere; spheres 1, 2 and 3, 4 are pairs of larger "caps" that cut
 /// S0 off along the smallest and the middle axis of the content. Units and frame are the model's.
@@ -40,12 +39,12 @@ class kIOS {
 
   /// Tests a pair in one frame: paper, IV-A (Algorithm 1) and IV-B (Algorithm 2).
   bool overlap(const kIOS& other) const;
-  /// Does as overlap(other). `overlap_part` is not written: the intersection of two k-IOS is not
-  /// one.
+  /// Tests a pair as overlap(other) does. `overlap_part` is not written: the intersection of two
+  /// k-IOS is not one.
   bool overlap(const kIOS& other, kIOS& overlap_part) const;
-  /// Returns a lower bound of the distance of the contents, 0 when the volumes may overlap, the
-  /// largest finite S when one is empty. P and Q, if given, are the points of the sphere pair that
-  /// attains the bound (on this and on `other`, common frame); both are one point between the
+  /// Returns a lower bound of the distance of the contents. It is 0 when the volumes may overlap,
+  /// the largest finite S when one is empty. P and Q, if given, are the points of the sphere pair
+  /// that attains the bound (on this and on `other`, common frame); both are one point between the
   /// volumes when the bound is 0, and unchanged when a volume is empty.
   S distance(const kIOS& other, fcl::Vector3<S>* P = nullptr, fcl::Vector3<S>* Q = nullptr) const;
 
@@ -56,12 +55,12 @@ class kIOS {
   /// coordinate is NaN, infinite, or above 2^1000 (double) or 2^120 (float) in magnitude.
   kIOS& operator+=(const fcl::Vector3<S>& p);
   kIOS& operator+=(const kIOS& other) { return *this = *this + other; }
-  /// Encloses both contents. a + b and b + a are bitwise equal but for their stamps.
+  /// Encloses both contents. a + b and b + a are bitwise equal.
   kIOS operator+(const kIOS& other) const;
 
   /// Returns the centre of S0.
   const fcl::Vector3<S>& center() const { return center0; }
-  /// Are the extents along x, y and z of the box around the intersection; they bound the content.
+  /// Extents along x, y and z of the box around the intersection; they bound the content.
   S width() const { return extent(0); }
   S height() const { return extent(1); }
   S depth() const { return extent(2); }
@@ -72,7 +71,7 @@ class kIOS {
   /// finite S.
   S size() const;
 
-  /// Are the corners of the axis-aligned box around the intersection, rounded outwards.
+  /// Corners of the axis-aligned box around the intersection, rounded outwards.
   void bounds(fcl::Vector3<S>& lower, fcl::Vector3<S>& upper) const;
 
   /// Returns the number of spheres: 0 (empty), 1, 3 or 5.
@@ -90,8 +89,6 @@ class kIOS {
   float cap_y[kCaps] = {};
   float cap_z[kCaps] = {};
   float cap_r[kCaps] = {};
-  /// Is unlike that of any other fit or merge in this process; copies keep it. 0: empty.
-  std::uint64_t stamp = 0;
   float reach = 0;            ///< >= |offset| + radius of every sphere, units of 2^exponent.
   std::int16_t exponent = 0;  ///< 0 for radii in about [2^-30, 2^30].
   std::uint8_t num_spheres = 0;

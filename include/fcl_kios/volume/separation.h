@@ -12,7 +12,7 @@ class RelativePose;
 
 namespace detail {
 
-/// Holds the parts of a pose that bounds need.
+/// Parts of a pose that bounds need.
 struct PoseBounds {
   float R[3][3];   ///< rounded to float
   double T_norm1;  ///< |T|_1
@@ -23,19 +23,18 @@ const PoseBounds& boundsOf(const RelativePose<S>& X_AB);
 
 }  // namespace detail
 
-/// Holds the pose of frame B in frame A, x_A = R x_B + T, with bounds of its errors, which are
-/// computed once.
+/// Pose of frame B in frame A, x_A = R x_B + T, with bounds of its errors.
 template <typename S>
 class RelativePose {
  public:
   /// Throws std::invalid_argument if the pose is not finite or not rigid: the Frobenius norm of
   /// R^T R - I may be at most 1e-4 (double) or 1e-3 (float), and a reflection is not rigid.
   RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>& T_AB);
-  /// Computes the pose x -> R_WA^T (R_WB x + (t_WB - t_WA)) of every query, for poses in a common
-  /// frame W, each of which must be rigid; R = I for equal rotations that are ones but for
-  /// rounding. A coordinate of a point is off by at most 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps
-  /// (|R_WA|^T |t_WB - t_WA|), absolute values by entry, so by 4 eps (|x|_1 + |t_WB - t_WA|) with
-  /// room for rotations that aren't quite orthonormal.
+  /// Computes the relative pose of every query, for rigid poses in a common frame W: x -> R_WA^T
+  /// (R_WB x + (t_WB - t_WA)); R = I for equal rotations that are ones but for rounding. A
+  /// coordinate of a point is off by at most 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T
+  /// |t_WB - t_WA|), absolute values by entry, so by 4 eps (|x|_1 + |t_WB - t_WA|) with room for
+  /// rotations that aren't quite orthonormal.
   RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB);
   /// Takes rotations that were checked: `squared_errors` is at least the sum of the squares
   /// of their errors, |R^T R - I| each (Frobenius).
@@ -69,15 +68,15 @@ const PoseBounds& boundsOf(const RelativePose<S>& X_AB) {
 }
 }  // namespace detail
 
-/// Returns a signed lower bound of the distance between the contents of a (in frame A) and of b (in
-/// frame B): > 0 proves them apart. It also covers the rounding of b's points on their way to frame
-/// A. Once the bound of the central spheres exceeds `enough`, that is returned. An empty volume
-/// gives +infinity. Source: paper, Algorithm 2, kept signed so that deeper overlap orders first.
+/// Returns a signed lower bound of the distance between the contents of a, in A, and b, in B: > 0
+/// proves them apart. It also covers the rounding of b's points on their way to frame A. Once the
+/// bound of the central spheres exceeds `enough`, that is returned. An empty volume gives
+/// +infinity. Source: paper, Algorithm 2, kept signed so that deeper overlap orders first.
 template <typename S>
 double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB, double enough);
 
-/// Are FCL's forms of the tests, found by argument-dependent lookup: b sits at (R, T) in a's frame,
-/// P and Q are in a's frame. As kIOS::overlap and kIOS::distance otherwise.
+/// FCL's forms of the tests, found by argument-dependent lookup: b sits at (R, T) in a's frame, P
+/// and Q are in a's frame. As kIOS::overlap and kIOS::distance otherwise.
 template <typename S>
 bool overlap(const fcl::Matrix3<S>& R, const fcl::Vector3<S>& T, const kIOS<S>& a,
              const kIOS<S>& b);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -174,18 +174,6 @@ HWY_INLINE V distanceBounds(const BoxLanes& a, const BoxLanes& b, float pad) {
   // A shorter w joins boxes that are nearer than the pad, and its square may vanish.
   const auto usable = hn::Ge(length2, least2);
   return hn::Max(by_axes, hn::IfThenElseZero(usable, along_w));
-}
-
-/// Likewise, of boxes and balls: over the box's three axes, the gaps between it and the centre.
-HWY_INLINE V ballBounds(const BoxLanes& box, const V3& center, V radius, float pad) {
-  const V3 at = abs(box.along(center - box.center));
-  const V padding = hn::Set(d, pad), zero = hn::Zero(d);
-  const auto gap = [&](V apart, V half) {
-    return hn::Max(hn::Sub(apart, hn::Add(half, padding)), zero);
-  };
-  return hn::Sub(
-      hn::Sqrt(square(gap(at.x, box.half.x), gap(at.y, box.half.y), gap(at.z, box.half.z))),
-      hn::Add(radius, padding));
 }
 
 }  // namespace kios::engine::HWY_NAMESPACE

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -179,8 +179,9 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
 
 /// Brackets the distance of two leaves, or proves them at least cull_distance apart: by the last
 /// direction, across the ground, and by steps of Frank-Wolfe from the line of centres.
-[[gnu::hot]] HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a,
-                                             const Leaf& leaf_b, LastLeaves& last, Bracketed& out) {
+[[gnu::hot]] inline HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a,
+                                                    const Leaf& leaf_b, LastLeaves& last,
+                                                    Bracketed& out) {
   const LeafView a(search.a, leaf_a);
   const FloatFrame& frames = search.frames;
   const float distance = search.evaluator.cull_distance + frames.pad;
@@ -203,9 +204,9 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
 
 /// Brackets the distance of two leaves of which one is a triangle's: that of a if kTriangleOfA.
 template <bool kTriangleOfA>
-[[gnu::hot]] HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a,
-                                               const LeafView& b, LastLeaves& last,
-                                               Bracketed& out) {
+[[gnu::hot]] inline HWY_NOINLINE void bracketTriangle(const Search& search, const LeafView& a,
+                                                      const LeafView& b, LastLeaves& last,
+                                                      Bracketed& out) {
   const FloatFrame& frames = search.frames;
   const float distance = search.evaluator.cull_distance + frames.pad;
   const uint32_t node = isTriangle(out.nodes.b) ? out.nodes.b : 0;  // all share one leaf

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -115,7 +115,7 @@ struct Direction {
 
 /// v scaled by a power of two to a largest coordinate in [1, 2); if it is subnormal or 0 another
 /// direction, as any direction gives a valid slab.
-HWY_NOINLINE Direction rescaled(Vec3 v) {
+inline HWY_NOINLINE Direction rescaled(Vec3 v) {
   const float largest = std::max(std::max(std::abs(v.x), std::abs(v.y)), std::abs(v.z));
   if (!(largest >= std::numeric_limits<float>::min())) return {{1, 0, 0}, 1};
   const Vec3 w = std::ldexp(1.0F, -std::ilogb(largest)) * v;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -245,8 +245,9 @@ class LeafDistances {
 };
 
 /// Evaluates all features of two leaves that may be nearest.
-[[gnu::hot]] HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a,
-                                               const LeafView& b, const Slab& slab, float bound) {
+[[gnu::hot]] inline HWY_NOINLINE bool nearestOfLeaves(const Search& search, const LeafView& a,
+                                                      const LeafView& b, const Slab& slab,
+                                                      float bound) {
   const FloatFrame& frames = search.frames;
   RefineCallback& evaluator = search.evaluator;
   ++search.counts.leaf_kernels;
@@ -260,20 +261,26 @@ class LeafDistances {
   return distances.evaluateNear(least, frames.pad, evaluator, search.counts.exact);
 }
 
-[[gnu::hot]] HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a,
-                                               const LeafView& b) {
+/// Whether a slab proves two leaves apart, in floats or in double. Else b's are in moved_b.
+HWY_INLINE bool areApart(const Search& search, const LeafView& a, const LeafView& b,
+                         MovedLeaf& moved_b, Slab& slab) {
   const FloatFrame& frames = search.frames;
-  MovedLeaf moved_b;
   moved_b.move(b, frames.a_from_b);
-  Slab slab;
   Gap widest;
   separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab, widest);
-  if (slab.apart) return false;
+  if (slab.apart) return true;
   if (HWY_UNLIKELY(widest.isOpen(frames.pad)) && areApartInDouble(search, a, b, widest)) {
-    return false;
+    return true;
   }
   ++search.counts.leaf_kernels;
-  return edgesCross(search, a, b, moved_b.vertices, slab);
+  return false;
+}
+
+[[gnu::hot]] inline HWY_NOINLINE bool contactOfLeaves(const Search& search, const LeafView& a,
+                                                      const LeafView& b) {
+  MovedLeaf moved_b;
+  Slab slab;
+  return !areApart(search, a, b, moved_b, slab) && edgesCross(search, a, b, moved_b.vertices, slab);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.
@@ -300,19 +307,12 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
   return result & ((1U << on.leaf.num_faces) - 1);
 }
 
-[[gnu::hot]] HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a,
-                                                const LeafView& b) {
+[[gnu::hot]] inline HWY_NOINLINE bool contactsOfLeaves(const Search& search, const LeafView& a,
+                                                       const LeafView& b) {
   const FloatFrame& frames = search.frames;
   MovedLeaf moved_b;
-  moved_b.move(b, frames.a_from_b);
   Slab slab;
-  Gap widest;
-  separateLeaves(a, moved_b, frames.a_from_b, frames.pad, slab, widest);
-  if (slab.apart) return false;
-  if (HWY_UNLIKELY(widest.isOpen(frames.pad)) && areApartInDouble(search, a, b, widest)) {
-    return false;
-  }
-  ++search.counts.leaf_kernels;
+  if (areApart(search, a, b, moved_b, slab)) return false;
   VertexRows moved_a;
   const Points vertices_a = moveVertices(a, frames.b_from_a, moved_a);
   const auto cornersOf = [](const LeafView& leaf, const Points& vertices, uint32_t i,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -216,8 +216,8 @@ HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const Floa
 }
 
 /// Whether leaves that float leaves open are apart in double, along the widest gap.
-HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& a, const LeafView& b,
-                                   const Gap& widest) {
+inline HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& a,
+                                          const LeafView& b, const Gap& widest) {
   if (!search.evaluator.triesDouble()) return false;
   const Vec3 w = widest.along.w;
   const float direction[3] = {w.x, w.y, w.z};
@@ -281,9 +281,9 @@ HWY_INLINE uint32_t mayCross(const Faces& faces, const V3& p, const V3& a, float
 /// Evaluates some edges of one leaf, in rows moved to the frame of the other, against its
 /// faces.
 template <bool kEdgesOfA>
-[[gnu::hot]] HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some,
-                                         const LeafView& faces, float pad,
-                                         RefineCallback& evaluator, long long& exact) {
+[[gnu::hot]] inline HWY_NOINLINE bool crossings(const LeafView& edges, const EdgeRows& some,
+                                                const LeafView& faces, float pad,
+                                                RefineCallback& evaluator, long long& exact) {
   const auto cross = [&](int i, uint32_t lane) {
     ++exact;
     const FeatureId face = faces.face(lane), edge = edges.edge(some.index(i));

@@ -1,18 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-/// Raises the bounds of children that spheres bound badly: by boxes, by boxes of one tree and balls
-/// of the other, and in contact, if those leave a child open, in double.
+/// Raises the bounds of children that spheres bound badly: by boxes, and in contact, if those leave
+/// a child open, in double.
 class Tightener {
  public:
-  explicit Tightener(const Sides& sides)
-      : sides_(sides),
-        balls_(hasSmallBalls()),
-        budgeted_(sides.search.bracket && sides.search.bracket->hasBudget()) {}
+  explicit Tightener(const Sides& sides) : sides_(sides) {}
 
   /// Whether both trees have boxes: those of CAD meshes.
   bool hasBoxes() const { return sides_.has_boxes[0] && sides_.has_boxes[1]; }
@@ -24,16 +21,14 @@ class Tightener {
     fetch(otherBox(e));
   }
 
-  /// The children that matter and that spheres bound badly: flat ones, and those that overlap, or
-  /// are within what matters, by little, where that pays: in contact of boxes, and in distances of
-  /// boxes and balls, but where a budget ends the search: it may not depend on what was found when.
+  /// The children that matter and that spheres bound badly: flat ones, and in contact of boxes
+  /// those that overlap by little.
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
-    const float cull = sides_.search.evaluator.cull_distance;
-    if (sides_.isContact() ? hasBoxes() : balls_ && cull < kInfinityFloat && !budgeted_) {
+    if (sides_.isContact() && hasBoxes()) {
       constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
-      const V least = hn::Set(d, cull - kLittle * std::min(e.parent->size, e.other->size));
+      const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
         flat |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), least)) << l;
       }
@@ -45,8 +40,7 @@ class Tightener {
   void tighten(Expansion& e) const {
     if (flatOf(e) == 0 || e.tight) return;
     e.tight = true;
-    if (e.kind == Expanded::kNode && balls_) testBalls(e);
-    if (hasBoxes(e) && e.near != 0) testBoxes(e);
+    if (hasBoxes(e)) testBoxes(e);
   }
 
   /// Raises bounds that other tests left open, a child at a time.
@@ -63,14 +57,6 @@ class Tightener {
   }
 
  private:
-  /// Whether the smaller tree alone has no boxes: a round body, whose spheres fit better than those
-  /// of ground.
-  bool hasSmallBalls() const {
-    if (sides_.has_boxes[0] == sides_.has_boxes[1]) return false;
-    const int boxed = sides_.has_boxes[0] ? 0 : 1;
-    return sides_.trees[1 - boxed]->nodes[0].size < sides_.trees[boxed]->nodes[0].size;
-  }
-
   /// A root has a box in any tree, which pays in contact.
   bool hasOtherBox(const Expansion& e) const {
     return sides_.has_boxes[1 - e.side] || (Sides::otherId(e) == 0 && sides_.isContact());
@@ -97,30 +83,6 @@ class Tightener {
       const BoxLanes boxes(block, l);
       return contact ? contactBounds(boxes, other, pad) : distanceBounds(boxes, other, pad);
     });
-  }
-
-  /// The boxes of one tree against the nodes' central spheres of the other: see hasSmallBalls().
-  [[gnu::hot]] HWY_NOINLINE void testBalls(Expansion& e) const {
-    const float pad = sides_.search.frames.box_pad;
-    const FloatPose& to = *sides_.to[e.side];
-    if (sides_.has_boxes[e.side]) {
-      const Node& other = *e.other;
-      const Vec3 c = moved(to, {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
-      const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
-      const V radius = hn::Set(d, other.r[kCentral]);
-      const BoxBlock& block = sides_.boxBlockOf(e);
-      raise(e, 4 * pad, [&](size_t l) { return ballBounds({block, l}, center, radius, pad); });
-    } else {
-      Box moved;
-      move(otherBox(e), to, moved);
-      const BoxLanes box(moved);
-      const Block& block = sides_.blockOf(e);
-      raise(e, 4 * pad, [&](size_t l) {
-        const V3 centers = {load(block.x[kCentral], l), load(block.y[kCentral], l),
-                            load(block.z[kCentral], l)};
-        return ballBounds(box, centers, load(block.r[kCentral], l), pad);
-      });
-    }
   }
 
   /// Raises bounds to those of each chunk of lanes, which say nothing where they aren't positive.
@@ -154,7 +116,6 @@ class Tightener {
   }
 
   const Sides sides_;
-  const bool balls_, budgeted_;
   mutable BoxedTriangles boxed_[2];
 };
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-// Included once a target, within kernels.cpp.
+// Included once a target, by the kernels.
 
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
@@ -46,7 +46,7 @@ HWY_INLINE Axes axesAlong(const V3& direction) {
 ///   product with an axis of coordinates is exact, and its direction at right angles.
 /// The halves are measured from the centre as stored, along the axes as stored, by 5 roundings of
 /// terms that add up to at most 1.8 times the sum of the halves; they grow by 32 u of that sum.
-[[gnu::hot]] HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
+[[gnu::hot]] inline HWY_NOINLINE void boxTriangles(const LeafView& leaf, BoxBlock& out) {
   const CornerLanes corners(leaf.leaf);
   const V zero = hn::Zero(d);
   for (size_t l = 0; l < kLanes; l += step()) {

@@ -78,6 +78,22 @@ TEST(Least, LeavesOutWhatHasNoTime) {
   EXPECT_DOUBLE_EQ(standings[0].ratio, 4);
 }
 
+TEST(Least, ToyRowsAreLeftOutAndColdContactsMayBeSlower) {
+  Row few = row("quads", "distance", "kios", 2), link = row("table", "distance", "kios", 2);
+  few.largest_mesh = 12;
+  link.largest_mesh = 2000;
+  const auto standings = byRatio(
+      {few, row("quads", "distance", "fcl_rss", 1), link, row("table", "distance", "fcl_rss", 1.9),
+       row("room/cold", "collide", "kios", 1), row("room/cold", "collide", "fcl_rss", 0.85),
+       row("hall/cold", "distance", "kios", 1), row("hall/cold", "distance", "fcl_rss", 0.85),
+       row("cold/hall", "collide", "kios", 1), row("cold/hall", "collide", "fcl_rss", 0.85),
+       row("shed/cold", "collide", "kios", 1), row("shed/cold", "collide", "fcl_rss", 0.75)});
+  ASSERT_EQ(standings.size(), 5u);
+  EXPECT_EQ(standings[0].ours.scenario, "shed/cold");
+  EXPECT_EQ(standings[4].ours.scenario, "table");
+  EXPECT_EQ(countSlower(standings), 4);
+}
+
 TEST(Least, LeastFirstAndCountedUnlessThereIsAReason) {
   const auto standings =
       byRatio({row("a", "distance", "kios", 1), row("a", "distance", "fcl_rss", 4),

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "build/all_fits.h"
+#include "paper/all_fits.h"
 #include "paper/kios_policy.h"
 #include "paper/mesh_split.h"
 #include "paper/packed_policy.h"

@@ -4,6 +4,9 @@
 // SceneDistance over frames, its calls in any order, against fcl::distance of every pair, bit by
 // bit, which the question "distance" judges.
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <map>
 
 #include <fcl/narrowphase/distance_request.h>
@@ -120,10 +123,12 @@ class SceneQuestion {
         }
         if (pair.has_value() != (least != nullptr)) return failure(Words() << "no pair", setUp_);
         if (!least) return std::nullopt;
-        if (pair->distance != least->min_distance || Ids(pair->a, pair->b) != ids) {
+        const Ids found(pair->a, pair->b);
+        if ((pair->distance != least->min_distance || found != ids) &&
+            !(isTie(found, pair->distance) && isTie(ids, pair->distance))) {
           return failure(Words() << "closestPair() gives " << pair->distance << " of "
-                                 << text({pair->a, pair->b}) << ", fcl::distance "
-                                 << least->min_distance << " of " << text(ids),
+                                 << text(found) << ", fcl::distance " << least->min_distance
+                                 << " of " << text(ids),
                          setUp_);
         }
         return judge(*pair, true, 0);
@@ -142,11 +147,29 @@ class SceneQuestion {
     }
   }
 
+  /// Whether hundreds of pairs of triangles are as near, as far as rounding can tell: the search
+  /// that began elsewhere then names another, within 16 eps of their extent (docs/guarantees.md).
+  bool isTie(const Ids& ids, S found) {
+    constexpr std::ptrdiff_t kMany = 100;
+    const S d = truth_.at(ids).min_distance;
+    const BruteForce<S>& truth = judgeOf(ids);
+    const double error = 16 * BruteForce<S>::kEps * truth.extentOf(truth.nearest);
+    const auto& all = truth.distances();
+    return std::abs(double{found} - double{d}) <= error &&
+           std::count_if(all.begin(), all.end(),
+                         [&](S x) { return double{x} <= double{d} + error; }) >= kMany;
+  }
+
   Verdict judgeAll(const std::vector<ScenePair<S>>& pairs, S margin, bool exact) {
     std::size_t i = 0;
     for (const auto& [ids, result] : truth_) {
+      const bool listed = i < pairs.size() && Ids(pairs[i].a, pairs[i].b) == ids;
+      if (listed != (result.min_distance <= margin) && isTie(ids, margin)) {
+        i += listed ? 1 : 0;
+        continue;
+      }
       if (!(result.min_distance <= margin)) continue;
-      if (i == pairs.size() || Ids(pairs[i].a, pairs[i].b) != ids) {
+      if (!listed) {
         return failure(Words() << "pair " << text(ids) << " at " << result.min_distance
                                << " is missing within " << margin,
                        setUp_);
@@ -163,7 +186,8 @@ class SceneQuestion {
   /// The distance is fcl::distance's, or any below the margin; the triangles realise it.
   Verdict judge(const ScenePair<S>& pair, bool exact, S margin) {
     const S d = truth_.at({pair.a, pair.b}).min_distance;
-    if (exact ? pair.distance != d : !(pair.distance >= 0 && pair.distance <= margin)) {
+    if (exact ? pair.distance != d && !isTie({pair.a, pair.b}, pair.distance)
+              : !(pair.distance >= 0 && pair.distance <= margin)) {
       return failure(Words() << "pair " << text({pair.a, pair.b}) << " at " << pair.distance
                              << ", fcl::distance " << d,
                      setUp_);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Files in assimp's formats become meshes, and pages hold them.
+// Files become meshes, and pages hold them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 
 #include "fcl_kios/clearance/exact_distance.h"
 #include "inspection.h"
-#include "mesh_file.h"
 #include "page.h"
 #include "sample_files.h"
 #include "scenes/shapes.h"
@@ -42,7 +41,7 @@ TEST(Files, ObjAndStlAgree) {
 
 TEST(Files, ScenesAreFlattenedByTheirTransforms) {
   // One triangle, placed twice: moved, and turned about z and doubled below a moved parent.
-  const Mesh mesh = readMesh(writeScene("scene.dae"));
+  const Mesh mesh = files::readMesh(writeScene("scene.dae"));
   EXPECT_EQ(mesh.parts, 2);
   ASSERT_EQ(mesh.triangles.size(), 2u);
   const fcl::Vector3d expected[2][3] = {{{10, 0, 0}, {11, 0, 0}, {10, 1, 0}},

@@ -86,16 +86,17 @@ TEST(Program, BadFilesAreRefusedInASentenceThatNamesThem) {
       {sampleFile("missing.stl"), "no such file"},
       {sampleFile("x").parent_path(), "directory"},
       {writeText("empty.stl", ""), "empty"},
-      {writeText("text.stl", "this is not a mesh\n"), "can't read it as a mesh"},
-      {writeText("unknown", "this is not a mesh\n"), "can't read it as a mesh"},
-      {writeText("cut.stl", whole.substr(0, whole.size() / 2)), "can't read it as a mesh"},
-      {writeStl("nothing.stl", {}), "no facets"},
-      {writeText("points.ply", ply.substr(0, ply.find("element face")) + "end_header\n0 0 0\n"),
+      {writeText("text.stl", "this is not a mesh\n"), "neither binary"},
+      {writeText("unknown", "this is not a mesh\n"), "can't be read as a mesh"},
+      {writeText("cut.stl", whole.substr(0, whole.size() / 2)), "cut off"},
+      {writeStl("nothing.stl", {}), "no triangles"},
+      {writeText("points.ply",
+                 ply.substr(0, ply.find("element face")) + "end_header\n0 0 0\n1 1 1\n0 1 0\n"),
        "no triangles"},
       {writeText("index.ply", ply + "3 0 1 7\n"), "refers to vertex 7, but there are 3"},
-      {writeText("index.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"), "out of range"},
-      {writeStl("nan.stl", nan), "vertex 1 of mesh 0 is not finite: (1, nan, 0)"},
-      {writeStl("infinite.stl", infinite), "vertex 2 of mesh 0 is not finite: (inf, 1, 0)"},
+      {writeText("index.obj", "v 0 0 0\nv 1 0 0\nf 1 2 9\n"), ":3: face 0 refers to vertex 9"},
+      {writeStl("nan.stl", nan), "vertex 1 of triangle 0 is not finite"},
+      {writeStl("infinite.stl", infinite), "vertex 2 of triangle 0 is not finite"},
   };
   for (const auto& [file, words] : cases) {
     for (const std::string& more : {std::string(), " --json --html " + quoted(sampleFile("h"))}) {
@@ -160,6 +161,17 @@ TEST(Program, StrictTurnsWarningsIntoAnExitCode) {
   EXPECT_TRUE(contains(strict.out, "1 triangle with the corners of an earlier one, the first is " +
                                        std::to_string(flawed.triangles.size() - 1)))
       << strict.out;
+}
+
+TEST(Program, WhatAFileLosesIsWarnedOf) {
+  const auto file = writeText("lines.obj",
+                              "v 448262.3 4582940.7 0\nv 448262.5 4582940.7 0\n"
+                              "v 448262.3 4582940.9 0\nf 1 2 3\nl 1 2\n");
+  const Json mesh = json(quoted(file))["meshes"][0];
+  EXPECT_EQ(mesh["defects"]["points_and_lines"], 1);
+  EXPECT_TRUE(contains(mesh["warnings"].dump(), "1 point or line left out"));
+  EXPECT_EQ(mesh["box"]["upper"][0].get<double>(), 448262.5);
+  EXPECT_EQ(run(quoted(file) + " --strict").code, 1);
 }
 
 TEST(Program, TheDistanceOfTwoMeshesIsTheLibrarys) {

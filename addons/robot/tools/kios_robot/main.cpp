@@ -24,7 +24,7 @@ struct Options {
   std::string urdf, srdf, at, to, path, html;
   std::vector<std::string> scenes, packages;
   double padding = 0, within = 0.1, separation = 0;
-  bool first = false, srdf_out = false;
+  bool first = false, srdf_out = false, strict = false;
   long long boxes = kios::PairOptions().max_boxes;
 };
 
@@ -40,6 +40,12 @@ Robot load(const Options& options) {
   }
   Robot robot = kios::loadRobot(options.urdf, options.srdf, robot_options);
   for (const std::string& scene : options.scenes) robot.addScene(scene);
+  for (const std::string& warning : robot.warnings()) {
+    std::fprintf(stderr, "kios_robot: warning: %s\n", warning.c_str());
+  }
+  if (options.strict && !robot.warnings().empty()) {
+    throw std::invalid_argument("there are warnings, which --strict makes errors.");
+  }
   return robot;
 }
 
@@ -226,6 +232,7 @@ int main(int argc, char** argv) {
     command->add_option("--scene", options.scenes, "MoveIt's planning scene in YAML; repeatable");
     command->add_option("--package", options.packages, "NAME=FOLDER of package://NAME; repeatable");
     command->add_option("--padding", options.padding, "of all links, metres");
+    command->add_flag("--strict", options.strict, "takes warnings for errors");
     commands.push_back({command, run});
     return command;
   };

@@ -17,7 +17,11 @@
 
 namespace kios {
 
-/// Holds a collision element of a link, an attached object or an obstacle.
+/// Numbers by coordinate, in memory of malloc() whatever a program's flags are. They convert to and
+/// from Eigen::VectorXd, which the sanitizers' flags and Eigen's options make free it otherwise.
+using UnalignedVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign>;
+
+/// A collision element of a link, an attached object or an obstacle.
 struct RobotElement {
   std::string name;  ///< whose it is
   int element = 0;   ///< which of its elements
@@ -32,13 +36,13 @@ struct RobotElement {
 struct RobotContact {
   std::string a, b;
   int element_a = 0, element_b = 0;  ///< which of a link's or object's collision elements
-  /// Are the triangles of meshes that meet, cells of octrees; -1 for shapes.
+  /// Triangles of meshes that meet, cells of octrees; -1 for shapes.
   std::intptr_t id_a = -1, id_b = -1;
-  /// Is a point of the contact in the world; halfway between the nearest points where paddings
-  /// touch.
+  /// A point of the contact in the world; halfway between the nearest points where paddings touch.
   fcl::Vector3d point = fcl::Vector3d::Zero();
 };
 
+/// Options of Robot::clearance().
 struct ClearanceOptions {
   /// The distance may exceed the exact one by max(rel_err * exact, abs_err). >= 0.
   double rel_err = 0, abs_err = 0;
@@ -48,31 +52,32 @@ struct ClearanceOptions {
   bool gradient = true;  ///< d clearance / dq is asked for
 };
 
-/// Holds a clearance: the distance of a pair less both paddings.
+/// Distance of a pair less both paddings, with its gradient and nearest points.
 struct RobotClearance {
   std::string a, b;                  ///< empty if there is no pair, or all are beyond far_enough
   int element_a = 0, element_b = 0;  ///< which of their collision elements
   double clearance = std::numeric_limits<double>::infinity();
-  /// Is proven, but for the errors of docs/robot.md; of all pairs where the least was asked for.
+  /// Proven but for the errors of docs/robot.md; of all pairs where the least was asked for.
   double lower_bound = std::numeric_limits<double>::infinity();
-  /// Are the nearest points in the world; a common point of both at contact, if one is known.
+  /// Nearest points in the world; a common point of both at contact, if one is known.
   fcl::Vector3d point_a = fcl::Vector3d::Zero(), point_b = fcl::Vector3d::Zero();
   std::intptr_t id_a = -1, id_b = -1;  ///< their triangles, or cells of octrees; -1 for shapes
-  /// Holds, by coordinate, n^T (J_b - J_a), n the direction from a to b, of length 1. Where the
+  /// Gradient by coordinate, n^T (J_b - J_a), n the direction from a to b, of length 1. Where the
   /// nearest pair of points is unique it is the derivative, else one of the generalised gradient.
   /// At contact n is that in which the penetration's depth shrinks: of two marked solids, the
   /// shortest way out that kios::penetration() finds, else the contact's normal. Empty if not asked
   /// for or without a pair.
-  Eigen::VectorXd gradient;
+  UnalignedVector gradient;
 };
 
-/// Holds the answer for distances less the paddings, with the pair's names: those in contact, or
-/// undecided. body_a and body_b are places in the order in which links, then attached objects and
-/// obstacles have collision elements.
+/// Answer for distances less the paddings, with the pair's names: those in contact, or undecided.
+/// body_a and body_b are places in the order in which links, then attached objects and obstacles
+/// have collision elements.
 struct RobotMotion : MotionAnswer {
   std::string a, b;
 };
 
+/// What is known of a pair of links.
 enum class PairVerdict {
   kAlways,     ///< joined by a joint, or in contact in every configuration
   kNever,      ///< proven: in contact in no configuration within the limits
@@ -80,6 +85,7 @@ enum class PairVerdict {
   kOpen        ///< not settled within the budget
 };
 
+/// Options of Robot::linkPairs().
 struct PairOptions {
   /// Bounds the boxes of configurations a pair that may be looked at.
   long long max_boxes = 4000000;
@@ -91,7 +97,7 @@ struct LinkPair {
   std::string a, b;
   PairVerdict verdict = PairVerdict::kOpen;
   bool adjacent = false;  ///< a joint joins them
-  Eigen::VectorXd q;      ///< kSometimes, kAlways if not adjacent: in contact there
+  UnalignedVector q;      ///< kSometimes, kAlways if not adjacent: in contact there
   long long boxes = 0;    ///< that were looked at
   double seconds = 0;
 };

@@ -18,15 +18,16 @@
 
 namespace kios {
 
+/// Options of loadRobot().
 struct RobotOptions {
-  /// Holds the folder of each package that a mesh is named by (package://name/...). Others are
-  /// looked for in ROS_PACKAGE_PATH, then as share/name in AMENT_PREFIX_PATH, then from the URDF's
-  /// own folder and from those above it, with the package's name and without it.
+  /// Folder of each package that a mesh is named by (package://name/...). Others are looked for in
+  /// ROS_PACKAGE_PATH, then as share/name in AMENT_PREFIX_PATH, then from the URDF's own folder and
+  /// from those above it, with the package's name and without it.
   std::map<std::string, std::string> packages;
   double padding = 0;  ///< of all links, metres, >= 0; see Robot::setPadding()
 };
 
-/// Holds a robot, what is attached to it, and obstacles around it. It may be copied, copies share
+/// A robot, what is attached to it, and obstacles around it. It may be copied, copies share
 /// geometry. Const calls are safe from many threads. Geometry must stay as it was when it was
 /// added.
 ///
@@ -49,22 +50,25 @@ class Robot {
   /// joint has three coordinates (x, y, and the turn about its axis), a floating one six (x, y, z,
   /// roll, pitch, yaw).
   int coordinates() const;
-  /// Are names by coordinate: a joint's own, or e.g. base/yaw.
+  /// Names by coordinate: a joint's own, or e.g. base/yaw.
   const std::vector<std::string>& joints() const;
   const std::vector<std::string>& links() const;  ///< in the order of the URDF
-  /// Are limits by coordinate; infinite for continuous joints, planar and floating ones. Those of
-  /// joints that mimic one are taken into account.
+  /// Limits by coordinate; infinite for continuous joints, planar and floating ones. Joints that
+  /// mimic another have no coordinate, and their own limits are not used.
   const Eigen::VectorXd& lower() const;
   const Eigen::VectorXd& upper() const;
   /// Returns a group state of the SRDF, those of one name in several groups together. A coordinate
   /// that it doesn't name is 0, or the limit next to it.
-  Eigen::VectorXd state(const std::string& name) const;
+  UnalignedVector state(const std::string& name) const;
   std::vector<std::string> states() const;  ///< names of the group states
+  /// Returns what the files say of links, joints and objects that aren't there, and what was left
+  /// out of meshes: file, line, and a sentence each.
+  const std::vector<std::string>& warnings() const;
   /// Returns all that can be in contact: those of the links, then of what is attached and of
   /// obstacles.
   std::vector<RobotElement> elements() const;
-  /// Returns the frame of a link, an attached object or an obstacle in the world, which is the root
-  /// link's frame.
+  /// Returns the frame of a link, an attached object or an obstacle in the root link's frame, the
+  /// world.
   fcl::Transform3d pose(const std::string& link, const Eigen::VectorXd& q) const;
 
   /// Adds an obstacle: a finished mesh over k-IOS, one of FCL's nine shapes, or an octree.
@@ -95,7 +99,7 @@ class Robot {
   RobotClearance clearance(const Eigen::VectorXd& q, const ClearanceOptions& options = {}) const;
   /// Lists all pairs of names whose clearance is at most `within`, the least first.
   std::vector<RobotClearance> clearances(const Eigen::VectorXd& q, double within) const;
-  /// Is the straight path in joint space clear? As kios::checkMotion(), which proves it, of the
+  /// Decides whether the straight path in joint space is clear, as kios::checkMotion() does, of the
   /// distances less the paddings.
   RobotMotion checkMotion(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
                           const MotionRequest& request = {}) const;
@@ -109,8 +113,8 @@ class Robot {
   std::vector<RobotMotion> checkMotions(const Eigen::MatrixXd& q0, const Eigen::MatrixXd& q1,
                                         const MotionRequest& request = {}, int threads = 0) const;
 
-  /// Says what every pair of links can do within the joints' limits, whatever is allowed, without
-  /// paddings, obstacles and attached objects. Links without geometry have no pairs.
+  /// Says what every pair of links can do within the joints' limits. What is allowed doesn't count,
+  /// nor do paddings, obstacles and attached objects. Links without geometry have no pairs.
   std::vector<LinkPair> linkPairs(const PairOptions& options = {}) const;
 
   class Impl;  // hidden
@@ -129,10 +133,12 @@ class Robot {
 Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file = "",
                 const RobotOptions& options = {});
 
-/// Reads a mesh by assimp: STL, OBJ, DAE, PLY, ... Vertices of equal coordinates are one, triangles
-/// stay in the file's order. Coordinates are those of the file times `scale` (a COLLADA file's unit
-/// counts, its up axis does not); a negative one mirrors the mesh, whose triangles then keep their
-/// outside. Throws std::invalid_argument as loadRobot().
-std::shared_ptr<Modeld> loadMesh(const std::string& file, double scale = 1);
+/// Reads a mesh: STL, OBJ, OFF and PLY in doubles, DAE and others by assimp. Vertices of equal
+/// coordinates are one, triangles stay in the file's order. Coordinates are those of the file times
+/// `scale` (a COLLADA file's unit counts, its up axis does not); a negative one mirrors the mesh,
+/// whose triangles then keep their outside. Appends to `warnings` what is left out of the file or
+/// looks cut off. Throws std::invalid_argument as loadRobot().
+std::shared_ptr<Modeld> loadMesh(const std::string& file, double scale = 1,
+                                 std::vector<std::string>* warnings = nullptr);
 
 }  // namespace kios

@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the pictures of times show: the medians of tables, by the same specs."""
+from figures.builds import BUILDERS, BUILT
+from figures.motions import MBM
+from figures.rows import OBBRSS
+from figures.tables import PRELOADED, SCENES
+
+
+def medians(rows, lines, series):
+    """Lines (label, key) as (label, {series: us}); series are (name, the rest of a row's key)."""
+    def found(key):
+        for name, of in series:
+            try:
+                yield name, rows.us(*key(of))
+            except LookupError:
+                pass
+    return [(label, dict(found(key))) for label, key in lines]
+
+
+def mbm(rows):
+    lines = [(label, lambda of, words=words: (*words, "plan", of)) for label, words in MBM]
+    return medians(rows, lines, [("k-IOS, proven", "kios"), ("k-IOS, samples", "sampled_kios"),
+                                 ("OBBRSS, samples", OBBRSS)])
+
+
+def scenes(rows):
+    lines = [(label, lambda of, words=words: (f"{words[0]}/smooth/{words[1]}", "scene", of))
+             for label, (words, _) in SCENES]
+    return medians(rows, lines, [("SceneDistance", "kios"), ("k-IOS, each pair", "kios_pairs"),
+                                 ("FCL's manager, OBBRSS", "fcl_manager"),
+                                 ("OBBRSS, each pair", OBBRSS)])
+
+
+def building(rows):
+    lines = [(label, lambda of, words=words: (f"build/{words[0]}", *of))
+             for label, (words, _) in BUILT]
+    # Queries search what endModel() prepares, so that its time counts.
+    names = {"prepared": "k-IOS", "again": "k-IOS, an equal model"}
+    series = [(names.get(words[0], label.partition(":")[0]), words)
+              for label, (words, _) in BUILDERS if words != ["build", "kios"]]
+    return medians(rows, lines, series)
+
+
+def preload(rows):
+    lines = [(label, lambda of, words=words: (f"preload/{words[0]}", words[1], of))
+             for label, (words, _) in PRELOADED]
+    return medians(rows, lines, [("preloaded", "kios"), ("with trust", "kios_trust"),
+                                 ("FCL", OBBRSS)])
+
+
+# Name of the picture, its function, what a time is of.
+PICTURES = (("plans", mbm, "median time of a plan"),
+            ("scenes", scenes, "median time of a frame, smooth motion"),
+            ("building", building, "median time of building and preparing a model"),
+            ("preload", preload, "median time of a query"))

@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 The fcl_kios authors
+# SPDX-License-Identifier: BSD-3-Clause
+"""The public headers: their docstrings, public names and defaults."""
+import pathlib
+import re
+
+from figures.rows import table
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDERS = ("include", "addons/robot/include")
+
+
+def headers():
+    """Each public header as (its name in an #include, its text)."""
+    for folder in FOLDERS:
+        for path in sorted((ROOT / folder).rglob("*.h")):
+            yield path.relative_to(ROOT / folder).as_posix(), path.read_text(encoding="utf-8")
+
+
+def docstrings(text):
+    """Each block of /// lines as (number of its first line, its text)."""
+    block, first = [], 0
+    for number, line in enumerate([*text.splitlines(), ""], 1):
+        match = re.match(r"\s*///(?!<)\s?(.*)", line)
+        if match:
+            first = first if block else number
+            block.append(match[1])
+        elif block:
+            yield first, " ".join(block)
+            block = []
+
+
+def headline(text):
+    """The first sentence, or what of it stands before a colon."""
+    return re.split(r"(?<!e\.g)(?<=[.!?:])\s", text)[0].rstrip(":")
+
+
+def declarations(text):
+    """What stands in namespaces, as (path of names, declaration, its docstring).
+
+    Declarations below each other, without an empty line, share one."""
+    text = re.sub(r"^\s*#.*(?:\\\n.*)*", "", text, flags=re.M)
+    scopes, pending, docs, before = [], "", [], ""
+    for piece in re.split(r"(//[^\n]*\n|[;{}])", text):
+        if piece.startswith("//"):
+            if piece.startswith("/// "):
+                docs = [*docs, piece[4:].strip()] if not pending.strip() else docs
+            continue
+        if piece not in (";", "{", "}"):
+            pending += piece
+            if "\n\n" in piece:
+                before = ""
+            continue
+        declared = " ".join(pending.split())
+        namespace = re.match(r"(?:inline )?namespace ?([\w:]*)$", declared)
+        if piece != "}" and declared and not namespace and None not in scopes:
+            before = " ".join(docs) or before
+            yield scopes, declared + (" {" if piece == "{" else ""), before
+        if piece == "{":
+            scopes.append(namespace[1] if namespace else None)
+        elif piece == "}" and scopes:
+            scopes.pop()
+        pending, docs = "", []
+
+
+NAME = re.compile(r"(?:template <[^{}]*?> )?(?:class|struct|enum class|using) (\w+)|"
+                  r"[^(]*?(\w+)\(")
+# Instantiations, names for double and float, declarations of what is defined elsewhere.
+SKIPPED = re.compile(r"extern |using \w+[df] = \w+<|template <typename S> (?:class|struct) \w+$")
+
+
+def public_names():
+    """The names in namespace kios as {header: {name: headline}}."""
+    found = {}
+    for header, text in headers():
+        names = {}
+        for scopes, declared, doc in declarations(text):
+            path = "::".join(filter(None, scopes))
+            match = NAME.match(declared)
+            if path == "kios" and match and not SKIPPED.match(declared):
+                name = match[1] or match[2]
+                names[name] = names.get(name) or headline(doc)
+        if names:
+            found[header] = names
+    return found
+
+
+def names(_):
+    """A line for each public name, by header."""
+    lines, nameless = [], []
+    for header, found in public_names().items():
+        first = f"`{header}`"
+        for name, sentence in found.items():
+            nameless += [] if sentence else [f"{header}: {name}"]
+            lines.append([first, f"`{name}`", sentence.rstrip(".:").replace("|", "\\|")])
+            first = ""
+    if nameless:
+        raise LookupError("public names without a docstring: " + ", ".join(nameless))
+    return table(["header", "name", "what"], lines)
+
+
+def default(_, name):
+    """The default of a member, `Struct::member`, as a page writes it."""
+    struct, _, member = name.partition("::")
+    for _, text in headers():
+        body = re.search(rf"^struct {struct}\b[^;]*?\{{[^\n]*\n(.*?)^\}};", text, re.M | re.S)
+        value = body and re.search(rf"\b{member} = ([^,;]+)[,;]", body[1])
+        if value:
+            power = re.fullmatch(r"0x1p(-?\d+)", value[1])
+            if power:
+                return f"2^{power[1]}"
+            return f"{int(value[1]):,}" if value[1].isdigit() else value[1]
+    raise LookupError(f"no public header gives {name} a default")

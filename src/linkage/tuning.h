@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+// The constants of this folder that were found by trying, by what they serve: rows of kios_bench
+// motions and mbm, or tests of test/linkage (2026-11-28).
+
+namespace kios::articulated::tuning {
+
+/// Configurations that are kept. With one, motions take 1.2 times as long.
+constexpr std::size_t kCached = 16;
+/// An interval is asked about as near to its middle as this share of it allows for a number of few
+/// bits, so that many pairs are asked about in one configuration. With 0, free motions of 0.2 rad
+/// take 1.1 times as long.
+constexpr double kAside = 0.1;
+/// A slab that proves this share of an interval spares it a query. With 1, motions of
+/// two arms take 1.17 times as long.
+constexpr double kSlabShare = 0.35;
+/// Steps towards the widest slab, which end where this share of the possible width is reached. With
+/// 3 steps, motions of two arms take 1.5 times as long.
+constexpr int kSlabSteps = 6;
+constexpr double kClose = 0.9;
+/// Where volumes leave more pairs, they ask about both halves of an interval, down to this half.
+/// Without, mbm/ur5/free/0.8 takes 1.7 times as long.
+constexpr std::size_t kMany = 16;
+constexpr double kShortest = 1.0 / 16;
+/// No slab is looked for between balls that overlap by more of the smaller radius.
+constexpr double kDeep = -0.4;
+/// Times that a slab is tried to last for, the whole interval first.
+constexpr int kTries = 5;
+
+/// The unit of cost of all provers is a test of two volumes; a query counts as so many, and an
+/// expansion of its search as so many more.
+constexpr long long kTestsOfQuery = 100, kTestsOfExpansion = 8;
+/// Slabs between a pair's triangles are tried once queries have cost so much (TightFits).
+constexpr long long kPatience = 100 * kTestsOfQuery;
+
+/// Where so many intervals can't be decided, no contact is looked for in what else is left.
+constexpr int kMostUndecided = 256;
+/// Bodies close in more slowly than the bounds say: what is proven must come nearer to the first
+/// contact than the resolution is long (FirstContact).
+constexpr double kApproach = 0x1p-8;
+
+}  // namespace kios::articulated::tuning

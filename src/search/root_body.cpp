@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "search/root_body.h"
+
+#include <algorithm>
+
+#include "search/double_bound.h"
+#include "volume/instantiate.h"
+#include "volume/lanes.h"
+
+namespace kios::engine {
+namespace {
+
+using lanes::Double2;
+using Vec = Eigen::Vector3d;
+
+/// Four doubles: of the three axes of a box and its middle.
+struct Four {
+  Double2 low, high;
+
+  explicit Four(const Double2 (&p)[2]) : low(p[0]), high(p[1]) {}
+  Four(Double2 low, Double2 high) : low(low), high(high) {}
+  Four(double x, double y, double z) : low{x, y}, high{z, 0} {}
+  double operator[](int i) const { return i < 2 ? low[i] : high[i - 2]; }
+  Four operator+(const Four& o) const { return {low + o.low, high + o.high}; }
+  Four operator-(const Four& o) const { return {low - o.low, high - o.high}; }
+  Four operator*(double s) const { return {low * s, high * s}; }
+  Four abs() const { return {lanes::abs(low), lanes::abs(high)}; }
+  // These are of the axes alone.
+  double widest() const { return std::max({low[0], low[1], high[0]}); }
+  double dot(const Four& o) const {
+    const Double2 products = low * o.low;
+    return products[0] + products[1] + high[0] * o.high[0];
+  }
+  /// The norm of what is positive.
+  double norm() const {
+    const Four positive = {lanes::max(low, Double2{}), lanes::max(high, Double2{})};
+    return std::sqrt(positive.dot(positive));
+  }
+};
+
+/// Sum of the rows of a box by the coordinates of a vector.
+Four along(const Four (&rows)[3], const Vec& w) {
+  return rows[0] * w[0] + rows[1] * w[1] + rows[2] * w[2];
+}
+
+/// How far b is from a plane, or from what lies below it. `ball` and `middle` are b's in a's frame
+/// from the plane's point.
+double offPlane(const RootBody& a, const RootBody& b, const Vec& ball, const Vec& middle,
+                const Four (&axes)[3]) {
+  const Vec n(a.rows[0][0][0], a.rows[1][0][0], a.rows[2][0][0]);
+  const auto height = [&](const Vec& p) {
+    return a.form == RootBody::Form::kPlane ? std::abs(n.dot(p)) : n.dot(p);
+  };
+  const double reach = along(axes, n).abs().dot(Four(b.half));
+  return std::max(height(ball) - b.radius, height(middle) - reach - b.round);
+}
+
+}  // namespace
+
+// The axes e_k are o_k, at right angles and of length 1, but for u = 2^-24 each, so content has
+// |o_k . (p - c)| <= h_k + u |p - c|, and along any axis reaches at most 1.8 u sum h_k farther than
+// the box of axes o_k. Stored vertices are off by kStored of the extent.
+template <typename S>
+[[gnu::hot]] RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree) {
+  const Eigen::Map<const Vec> origin(tree.origin);
+  const Box& box = tree.root_box;
+  RootBody body;
+  body.center = root.center0.template cast<double>() - origin;
+  body.radius = double{root.radius0};
+  const auto set = [](const auto& from, Double2(&to)[2]) {
+    to[0] = Double2{double{from[0]}, double{from[1]}};
+    to[1] = Double2{double{from[2]}, double{from[3]}};
+  };
+  set(box.x, body.rows[0]);
+  set(box.y, body.rows[1]);
+  set(box.z, body.rows[2]);
+  set(box.half, body.half);
+  body.skew = kUlpFloat;
+  body.round = 3 * kUlpFloat * extentOf(box);
+  return body;
+}
+
+// In a's frame, b's axes are B = R E_b and those of both C = E_a^T B. With u and v the skews of a
+// and b, L the sum of the way between the middles and that from the one ball's centre to the other,
+// all halves and radii, s = X.stretch, and Q the rotation next to R, |R - Q| <= s: against boxes of
+// axes o_a, Q o_b,
+// - b's content is moved by s L more;
+// - the way along an axis of a is off by u |way| + s L, elements of C by 1.01 (u + v) + s, and so
+//   what b reaches along a's axes by 1.01 (u + v) sum h_b + s L; likewise along b's;
+// - products w = o_i x Q o_j: with c = 1.01 (u + v) + s, w . way = C_1j way_2 - C_2j way_1 is off
+//   by 2 c |way| + 1.42 u |way|, and what both reach, which are elements of C times halves, by c
+//   times these. A length of w below 1 only makes the bound less: in all below (4 (u + v) + 2 s) L.
+// The norm of gaps along three axes of one box is a bound, too. X.frame_error is the narrow phase's
+// rounding, and kDouble pays for what is computed here.
+[[gnu::hot]] double rootBound(const RootBody& a, const RootBody& b, const TreePose& X,
+                              double enough) {
+  const Vec middle(a.rows[0][1][1], a.rows[1][1][1], a.rows[2][1][1]);
+  const Vec ball = X.R * b.center + X.t;
+  const double own = X.frame_error + kDouble * X.scale, stretch = 3 * X.stretch;
+  const Four half_a(a.half), half_b(b.half);
+  const Four rows_a[3] = {Four(a.rows[0]), Four(a.rows[1]), Four(a.rows[2])};
+  const Four rows_b[3] = {Four(b.rows[0]), Four(b.rows[1]), Four(b.rows[2])};
+  double bound = -kInfinity;
+  const auto raise = [&](double gap) {
+    bound = std::max(bound, gap);
+    return bound > enough;
+  };
+  const auto raiseBy = [&](const Four& gaps, double less) {
+    const double widest = gaps.widest();
+    return raise((widest > 0 ? gaps.norm() : widest) - less);
+  };
+  const auto sumOf = [](const Four& half) { return half[0] + half[1] + half[2]; };
+  const double balls = (ball - a.center).norm(), sum_a = sumOf(half_a), sum_b = sumOf(half_b),
+               of_balls = balls + sum_a + a.radius + b.radius;
+  const bool is_box = a.form == RootBody::Form::kBox;
+  if (is_box && (raise(balls - a.radius - b.radius - (stretch * b.radius + own)) ||
+                 raiseBy(along(rows_a, ball - middle).abs() - half_a,
+                         b.radius + a.round + (a.skew + stretch) * of_balls + own))) {
+    return bound;
+  }
+  const Vec of_b(rows_b[0][3], rows_b[1][3], rows_b[2][3]), to_b = X.R * of_b + X.t - middle;
+  const Four out_a = along(rows_a, to_b).abs() - half_a;
+  // A middle in the other's box, as a link's in a room: no axis parts them.
+  if (is_box && out_a.widest() <= 0) return bound;
+  const Four B[3] = {along(rows_b, X.R.row(0)), along(rows_b, X.R.row(1)),
+                     along(rows_b, X.R.row(2))};
+  const double way = to_b.lpNorm<1>(), lengths = of_balls + way + sum_b,
+               skews = 1.01 * (a.skew + b.skew), pad = stretch * lengths + own,
+               round = a.round + b.round + pad;
+  if (!is_box) return offPlane(a, b, ball - middle, to_b, B) - skews * sum_b - pad;
+  const Four out_b = along(B, to_b).abs() - half_b;
+  if (out_b.widest() <= 0) return bound;
+  const auto columnOfA = [&](int i) { return Vec(rows_a[0][i], rows_a[1][i], rows_a[2][i]); };
+  const Four C[3] = {along(B, columnOfA(0)), along(B, columnOfA(1)), along(B, columnOfA(2))};
+  const Four reach[3] = {C[0].abs(), C[1].abs(), C[2].abs()};
+  if (raiseBy(out_a - Four(reach[0].dot(half_b), reach[1].dot(half_b), reach[2].dot(half_b)),
+              round + a.skew * way + skews * sum_b)) {
+    return bound;
+  }
+  const Vec halves_a(half_a[0], half_a[1], half_a[2]);
+  if (raiseBy(out_b - along(reach, halves_a), round + b.skew * way + skews * sum_a) ||
+      raiseBy(along(B, a.center - middle - to_b).abs() - half_b,
+              a.radius + b.round + b.skew * lengths + pad) ||
+      bound > 0) {
+    return bound;
+  }
+  const Four along_a = along(rows_a, to_b);
+  const double more = round + 4 * skews * lengths;
+  for (int i = 0; i < 3; ++i) {
+    const int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+    const Four apart = (C[i1] * along_a[i2] - C[i2] * along_a[i1]).abs() -
+                       (reach[i2] * half_a[i1] + reach[i1] * half_a[i2]);
+    for (int j = 0; j < 3; ++j) {
+      const int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+      const double of_b = half_b[j1] * reach[i][j2] + half_b[j2] * reach[i][j1];
+      if (raise(apart[j] - of_b - more)) return bound;
+    }
+  }
+  return bound;
+}
+
+KIOS_INSTANTIATE_FUNCTION(rootOf);
+
+}  // namespace kios::engine
