@@ -32,8 +32,8 @@ Exit leaveHulls(SolidPair<S>& pair, const Differences<S>& differences,
 /// Looks for a shorter exit past what meets. Two triangles part beyond a plane of one's face, on
 /// either side, or of an edge of each. The translations that are nearest to the origin beyond such
 /// planes are tried, one plane for each two triangles and the nearest first, until nothing meets.
-/// Ends after `most` translations, and once the pair's tests number `last_test`. Returns false if it
-/// ended too soon to tell.
+/// Ends after `most` translations, and once the pair's tests number `last_test`. Returns false if
+/// it ended too soon to tell.
 template <typename S>
 bool leaveByPlanes(SolidPair<S>& pair, std::size_t most, long long last_test, Exit& exit);
 
