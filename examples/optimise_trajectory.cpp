@@ -7,7 +7,7 @@
 // usage: optimise_trajectory [FILE.csv]
 // Writes path, s, x, y, angle, then clearance and its slope by s: the smooth minimum over k-IOS,
 // the plain minimum, and the minimum over FCL's RSS at the same
-// level of its tree. scripts/plot_trajectory.py plots it.
+// level of its tree. scripts/plot draws it.
 #include <fcl_kios/clearance/clearance.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""usage: bench.py [--cpu] [--json FILE] [--repeats N] [ROW...]
+"""usage: bench.py [--cpu] [--json FILE [--run NAME]] [--repeats N] [ROW...]
 
 Times of the package against python-fcl's way of doing the same, interleaved in one process. Needs
 the package fcl_kios on PYTHONPATH; python-fcl (`fcl`) and trimesh where they are installed, else
@@ -251,7 +251,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("rows", nargs="*", choices=[[], *ROWS])
     parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--json")
+    parser.add_argument("--json", help="docs/measured/python.jsonl, say: its other runs stay")
+    parser.add_argument("--run", default="python", help="name of the run, beginning with python")
     parser.add_argument("--cpu", action="store_true")
     arguments = parser.parse_args()
     global now
@@ -279,14 +280,12 @@ def main():
     if arguments.json:
         root = pathlib.Path(__file__).resolve().parents[2]
         sys.path.append(str(root / "scripts"))
-        from figures.measure import header, slim
+        from figures.measure import header, replace, slim
 
         command = " ".join(["addons/python/bench.py"] + ["--cpu"] * arguments.cpu
                            + [f"--repeats {arguments.repeats}", *arguments.rows])
-        with open(arguments.json, "w") as file:
-            file.writelines(json.dumps(m) + "\n"
-                            for m in [header(root, pathlib.Path(arguments.json).stem, command),
-                                      *map(slim, measured)])
+        replace(pathlib.Path(arguments.json), arguments.run,
+                [header(root, arguments.run, command), *map(slim, measured)])
 
 
 if __name__ == "__main__":

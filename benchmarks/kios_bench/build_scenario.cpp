@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// From vertices to a finished model: time and memory, for every volume of FCL.
+// From vertices to a finished model: time and memory. Refits, and queries after them.
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,10 +12,11 @@
 #include <fcl/fcl.h>
 
 #include "allocations.h"
+#include "contest.h"
 #include "fcl_kios/model/prepare.h"
-#include "fcl_kios/model/storage.h"
-#include "model/prepared.h"
+#include "pose_finder.h"
 #include "scenario.h"
+#include "scenes/motions.h"
 #include "scenes/shapes.h"
 #include "scenes/unlike.h"
 #include "scenes/ur5_data.h"
@@ -28,12 +29,11 @@ using Meshes = std::vector<scenes::Mesh>;
 constexpr char kReference[] = "fcl_obbrss";
 
 /// Says what is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kAgain: as kPrepared,
-/// while equal models live. kLoaded: kios::load() of what kios::save() stored, in place of
-/// kPrepared.
-enum class Stage { kBuild, kPrepared, kAgain, kLoaded };
+/// while equal models live.
+enum class Stage { kBuild, kPrepared, kAgain };
 
 const char* nameOf(Stage stage) {
-  constexpr const char* kNames[] = {"build", "prepared", "again", "loaded"};
+  constexpr const char* kNames[] = {"build", "prepared", "again"};
   return kNames[static_cast<int>(stage)];
 }
 
@@ -44,8 +44,6 @@ class Builder {
 
   /// Makes models of these meshes up to endModel(), and drops those before.
   virtual void begin(const Meshes& meshes) = 0;
-  /// Puts stored models in the place of those begun.
-  virtual void store(const Meshes& meshes) = 0;
   virtual void run(Stage stage) = 0;
 };
 
@@ -62,37 +60,17 @@ class BuilderOf final : public Builder {
     }
   }
 
-  void store(const Meshes& meshes) override {
-    models_.clear();
-    stored_.clear();
-    if constexpr (std::is_same_v<BV, kIOSd>) {
-      for (const scenes::Mesh& mesh : meshes) {
-        stored_.push_back(save(*makeModel(mesh.vertices, mesh.triangles)));
-      }
-    }
-  }
-
   void run(Stage stage) override {
-    if constexpr (std::is_same_v<BV, kIOSd>) {
-      if (stage == Stage::kLoaded) {
-        for (const auto& bytes : stored_) {
-          models_.push_back(load(bytes.data(), bytes.size()));
-          prepare(*models_.back());
-        }
-        return;
-      }
-    }
     for (const auto& model : models_) {
       model->endModel();
       if constexpr (std::is_same_v<BV, kIOSd>) {
-        if (stage == Stage::kPrepared || stage == Stage::kAgain) prepare(*model);
+        if (stage != Stage::kBuild) prepare(*model);
       }
     }
   }
 
  private:
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
-  std::vector<std::vector<unsigned char>> stored_;
 };
 
 struct Volume {
@@ -107,12 +85,8 @@ std::unique_ptr<Builder> make() {
 
 constexpr Volume kVolumes[] = {{"kios", make<kIOSd>},
                                {kReference, make<fcl::OBBRSSd>},
-                               {"fcl_obb", make<fcl::OBBd>},
-                               {"fcl_rss", make<fcl::RSSd>},
                                {"fcl_kios_builtin", make<fcl::kIOSd>},
                                {"fcl_aabb", make<fcl::AABBd>},
-                               {"fcl_kdop16", make<fcl::KDOPd<16>>},
-                               {"fcl_kdop18", make<fcl::KDOPd<18>>},
                                {"fcl_kdop24", make<fcl::KDOPd<24>>}};
 
 /// Returns meshes whose models share nothing with those before.
@@ -135,7 +109,6 @@ struct Entrant {
       equal->begin(meshes);
       equal->run(stage);
     }
-    if (stage == Stage::kLoaded) return builder->store(meshes);
     builder->begin(meshes);
   }
 };
@@ -145,7 +118,7 @@ std::vector<Entrant> entrants(const Options& options) {
   for (const Volume& volume : kVolumes) {
     const bool ours = volume.make == kVolumes[0].make;
     if (options.quick && !ours && std::string(volume.name) != kReference) continue;
-    for (const Stage stage : {Stage::kBuild, Stage::kPrepared, Stage::kAgain, Stage::kLoaded}) {
+    for (const Stage stage : {Stage::kBuild, Stage::kPrepared, Stage::kAgain}) {
       if (stage != Stage::kBuild && !ours) continue;  // it would be kBuild
       all.push_back(
           {volume.name, stage, volume.make(), stage == Stage::kAgain ? volume.make() : nullptr});
@@ -157,7 +130,6 @@ std::vector<Entrant> entrants(const Options& options) {
 /// Returns bytes of a run, with those of the arrays that it begins with.
 Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles) {
   Volumes volumes;
-  if (entrant.stage == Stage::kLoaded) return volumes;
   const Meshes fresh = unlike(meshes);
   entrant.begin(fresh);
   entrant.builder->begin({});
@@ -204,54 +176,61 @@ void race(const std::string& scenario, const Meshes& meshes, const Options& opti
   report.add(rows);
 }
 
-/// Says where the bytes of a prepared model go.
-void reportBytes(const std::string& scenario, const scenes::Mesh& mesh, const Options& options,
-                 Report& report) {
-  const auto model = scenes::buildModel<kIOSd>(mesh);
-  const engine::Tree* const tree = &treeOf(*model);
-  const auto n = static_cast<double>(mesh.triangles.size());
-  const auto bytesOf = [](const auto& array) {
-    return static_cast<double>(array.capacity() * sizeof(array[0]));
-  };
-  const std::pair<const char*, double> parts[] = {
-      {"vertices", bytesOf(mesh.vertices)},
-      {"triangles", bytesOf(mesh.triangles)},
-      {"volumes of FCL's tree", model->getNumBVs() * double{sizeof(model->getBV(0))}},
-      {"its order of triangles", n * sizeof(unsigned int)},
-      {"nodes of the prepared tree", bytesOf(tree->nodes)},
-      {"their boxes", bytesOf(tree->boxes) + bytesOf(tree->box_blocks)},
-      {"blocks of children", bytesOf(tree->blocks) + bytesOf(tree->children)},
-      {"leaves", bytesOf(tree->leaves)},
-      {"their vertices and faces", bytesOf(tree->lanes)},
-      {"ids of features", bytesOf(tree->features)},
-      {"welded corners", bytesOf(tree->corners)}};
-  std::vector<Row> rows;
-  for (const auto& [part, bytes] : parts) {
-    Row& row = rows.emplace_back();
-    row.scenario = scenario;
-    row.query = part;
-    row.bv = "kios";
-    row.triangles = mesh.triangles.size();
-    row.seed = options.seed;
-    row.volumes.bytes_per_triangle = bytes / n;
-    std::printf("%-25s %-27s %6.1f bytes a triangle\n", scenario.c_str(), part, bytes / n);
+struct Way {
+  const char* name;
+  Refit how;
+};
+
+constexpr Way kWays[] = {
+    {"rebuild", Refit::kRebuild}, {"top_down", Refit::kTopDown}, {"bottom_up", Refit::kBottomUp}};
+
+constexpr double kSway = 0.1;   // of the torus's extent
+constexpr double kApart = 4.5;  // clears both tori at any orientation
+
+scenes::Mesh swayed(scenes::Mesh mesh) {
+  const double amplitude = kSway * scenes::extent(mesh) / std::sqrt(3.0);
+  for (fcl::Vector3d& p : mesh.vertices) {
+    p += amplitude * fcl::Vector3d(std::sin(2 * p[1]), std::cos(3 * p[2]), std::sin(2 * p[0] + 1));
   }
-  std::printf("\n");
-  report.addUnprinted(rows);
+  return mesh;
+}
+
+void reportRefits(const Options& options, Report& report) {
+  const int frames = options.frames > 0 ? options.frames : (options.quick ? 4 : 8);
+  // FCL's OBBRSS takes a second a query after its bottom-up refit of 20k triangles.
+  const int size = options.quick ? 1000 : 5000;
+  const scenes::Mesh before = scenes::bumpyTorus(size), after = swayed(before);
+  const std::string scenario = "refit/" + std::to_string(size);
+  Contest contest({after, scenes::unlike(after)}, options);  // they share nothing
+  PoseFinder distance(after);
+  const auto at = [&](const auto& frame) { return distance(frame); };
+  const auto near = scenes::gapMotion(frames, 0.05, kApart, options.seed, at);
+  const auto touching = scenes::gapMotion(frames, 0, kApart, options.seed + 1, at);
+  Question first;
+  first.poses = touching[0];  // no bounding volume at the roots decides
+  std::vector<Row> rows;
+  for (const Way& way : kWays) {
+    const std::string name = scenario + "/" + way.name;
+    append(contest.refitRows(name, {before, scenes::unlike(before)}, way.how, first), rows);
+    append(contest.queryRows(pairTask(name, Query::kDistance, near)), rows);
+    append(contest.queryRows(pairTask(name, Query::kCollide, touching)), rows);
+  }
+  report.add(rows);
 }
 
 }  // namespace
 
 void runBuild(const Options& options, Report& report) {
-  for (const int size : {1000, 5000, 20000, 80000, 320000, 1000000}) {
+  if (wanted(options, "refit")) reportRefits(options, report);
+  if (!options.part.empty() && options.part != "models") return;
+  for (const int size : {1000, 20000, 80000, 320000, 1000000}) {
     if (size > (options.quick ? 1000 : options.max_triangles)) break;
     const scenes::Mesh torus = scenes::bumpyTorus(size);
     race("build/welded/" + std::to_string(size), {torus}, options, report);
-    race("build/soup/" + std::to_string(size), {scenes::soup(torus)}, options, report);
+    if (size == 80000 || options.quick) {
+      race("build/soup/" + std::to_string(size), {scenes::soup(torus)}, options, report);
+    }
   }
-  const scenes::Mesh torus = scenes::bumpyTorus(options.quick ? 1000 : 20000);
-  reportBytes("build/bytes/welded", torus, options, report);
-  reportBytes("build/bytes/soup", scenes::soup(torus), options, report);
   const auto data = findData(options);
   if (options.quick || !data || !scenes::holdsUr5(*data)) return;
   Meshes links;

@@ -10,7 +10,6 @@
 
 #include "library.h"
 #include "scenes/shapes.h"
-#include "scenes/unlike.h"
 #include "verdicts.h"
 
 namespace kios::bench {
@@ -183,29 +182,6 @@ std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::
 
 std::vector<Row> Contest::buildRows(const std::string& scenario) const {
   return rowsOf(scenario, Query::kBuild, 1, builds_, named(kReference, builds_));
-}
-
-std::vector<Row> Contest::prepareRows(const std::string& scenario, const Question& question) const {
-  constexpr char kBuild[] = "the reference's build";
-  std::vector<scenes::Mesh> meshes = meshes_;
-  std::vector<Competitor> competitors =
-      serving(Query::kPrepare, [&](const std::string& bv, MeshSet&) {
-        const auto build = [&, bv](std::size_t, std::size_t) {
-          const std::unique_ptr<MeshSet> fresh = makeMeshSet(bv);
-          fresh->load(meshes);
-          askOne(*fresh, question);
-        };
-        // Ours share nothing with models that live.
-        const auto others = [&](std::size_t, std::size_t) {
-          std::transform(meshes_.begin(), meshes_.end(), meshes.begin(), scenes::unlike);
-        };
-        return Competitor{bv, build, others};
-      });
-  if (const Competitor* build = named(kReference, builds_)) {
-    competitors.push_back({kBuild, build->answer});
-  }
-  Race{1, options_.repeats}.run(competitors);
-  return rowsOf(scenario, Query::kPrepare, 1, competitors, named(kBuild, competitors));
 }
 
 std::vector<Row> Contest::refitRows(const std::string& scenario,

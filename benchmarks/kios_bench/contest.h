@@ -46,10 +46,6 @@ class Contest {
   /// Returns times the build of all models.
   std::vector<Row> buildRows(const std::string& scenario) const;
 
-  /// Returns times the build of all models together with one distance query, so that what a model
-  /// leaves to its first query is counted. The ratio is to FCL's build alone, of the same repeat.
-  std::vector<Row> prepareRows(const std::string& scenario, const Question& question) const;
-
   /// Times refits of all models from where their vertices were before (meshes of the same
   /// triangles), each with one distance query. Leaves the models as the last refit left them: what
   /// queryRows() asks next, it asks of those.

@@ -145,7 +145,7 @@ void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Qu
 
 }  // namespace
 
-void runCrowds(const Options& options, Report& report) {
+void reportCrowds(const Options& options, Report& report) {
   constexpr double kTouching = 0.28, kApart = 0.6;  // spacing
   const int count = options.quick ? 200 : 2000;
   Options ours = options;

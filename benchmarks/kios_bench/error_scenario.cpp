@@ -171,26 +171,6 @@ Errors judge(const std::vector<ErrorQuestion>& questions, const Asked& asked,
   return errors;
 }
 
-constexpr char kLine[] = "%-20s %-9s %-11s %7s %7s %7s %10s %9s %10s %10s %10s %6s\n";
-
-void print(const std::vector<Row>& rows) {
-  std::printf(kLine, "scenario", "query", "bv", "rel_err", "abs_err", "at", "median_us", "x OBBRSS",
-              "mean err", "mean rel", "width", "wrong");
-  for (const Row& row : rows) {
-    const auto& [rel_err, abs_err, threshold, budget] = row.asked;
-    std::printf(
-        kLine, row.scenario.c_str(), row.query.c_str(), row.bv.c_str(), cell(rel_err, "%g").c_str(),
-        cell(abs_err, "%g").c_str(), cell(budget ? budget : threshold, "%g").c_str(),
-        cell(row.times.median_us, "%.3f").c_str(),
-        cell(row.times.ratio_to_fcl_obbrss, "%.2f").c_str(),
-        cell(row.errors.mean_abs, "%.2e").c_str(), cell(row.errors.mean_rel, "%.2e").c_str(),
-        cell(row.errors.bracket_width, "%.2e").c_str(),
-        std::to_string(row.errors.wrong.value_or(0)).c_str());
-  }
-  std::printf("\n");
-  std::fflush(stdout);
-}
-
 /// Holds a way at a setting.
 struct Entry {
   const Way* way;
@@ -242,8 +222,7 @@ void reportSettings(Row base, const std::vector<Way>& ways, const std::vector<Se
     row.errors = judge(questions, setting.asked, entries[i].answers, base.extent);
     rows.push_back(std::move(row));
   }
-  print(rows);
-  report.addUnprinted(rows);
+  report.add(rows);
 }
 
 void reportPair(const std::string& scenario, const scenes::MovingPair& pair, const Options& options,

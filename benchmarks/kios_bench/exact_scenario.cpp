@@ -16,7 +16,6 @@
 #include <fcl/math/bv/utility.h>
 
 #include "clearance/exact_pair.h"
-#include "clearance/nearest_pair.h"
 #include "fcl_kios/build/fit.h"
 #include "scenario.h"
 #include "scenes/motions.h"
@@ -112,16 +111,6 @@ std::size_t wrongBounds(const std::vector<Pair>& pairs, const Way& way) {
       }));
 }
 
-double slabsAPair(const std::vector<Pair>& pairs) {
-  long long slabs = 0;
-  for (const Pair& p : pairs) {
-    slabs += exact::nearestPair(p.body_a, p.body_b, p.X_AB.R(),
-                                p.X_AB.R() * p.b.center0 + p.X_AB.T() - p.a.center0)
-                 .probes;
-  }
-  return static_cast<double>(slabs) / static_cast<double>(pairs.size());
-}
-
 std::vector<Row> rowsOf(int triangles, const std::vector<Pair>& pairs, const Options& options) {
   std::vector<Competitor> competitors;
   double sum = 0;  // so that nothing is optimised away
@@ -152,19 +141,10 @@ std::vector<Row> rowsOf(int triangles, const std::vector<Pair>& pairs, const Opt
 
 }  // namespace
 
-void runExact(const Options& options, Report& report) {
+void reportExactBounds(const Options& options, Report& report) {
   const int count = options.frames > 0 ? options.frames : (options.quick ? 40 : 2000);
-  std::printf("%9s | %-22s %11s %9s %6s\n", "triangles", "distance", "ns a pair", "of truth",
-              "wrong");
   for (const int triangles : {1, 2, 4, 16, 64}) {
-    const std::vector<Pair> pairs = draw(triangles, count);
-    const std::vector<Row> rows = rowsOf(triangles, pairs, options);
-    for (const Row& row : rows) {
-      std::printf("%9d | %-22s %11.0f %9.3f %6zu\n", triangles, row.bv.c_str(),
-                  1000 * row.times.median_us, *row.volumes.tightness, *row.errors.wrong);
-    }
-    std::printf("%9d | slabs of an exact distance: %.1f\n", triangles, slabsAPair(pairs));
-    report.addUnprinted(rows);
+    report.add(rowsOf(triangles, draw(triangles, count), options));
   }
 }
 

@@ -78,59 +78,32 @@ void addKios(Entrants& all, const std::string& name, const FitOptions& options) 
   add(all, name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); });
 }
 
-/// The paper's choices of k, and angles about its pi/6, of one method.
-void addChoices(Entrants& all, const std::string& name, FitMethod method) {
-  FitOptions options(method);
-  options.count = SphereCount::kAll;
-  addKios(all, name + "_k5", options);
-  options.count = SphereCount::kByGain;
-  addKios(all, name + "_by_gain", options);
-  options.count = SphereCount::kByRatio;
-  for (const int degrees : {15, 22, 45}) {
-    options.angle = degrees == 22 ? kPi / 8 : kPi * degrees / 180;
-    addKios(all, name + "_" + std::to_string(degrees) + "deg", options);
-  }
-}
-
 /// Volumes that hold no more floats than their kind needs: for each cap its place, of so many
-/// floats, and its radius unless that is shared.
+/// floats, and its radius.
 template <typename Policy>
-void addPacked(Entrants& all, const std::string& name, const Policy& policy, int floats_of_place,
-               bool shared_radius) {
-  const auto size_of = [=](const PackedStore::Packed& bv) {
+void addPacked(Entrants& all, const std::string& name, const Policy& policy, int floats_of_place) {
+  const auto size_of = [floats_of_place](const PackedStore::Packed& bv) {
     int caps = 0;
     for (int axis = 0; axis < 8; ++axis) caps += 2 * ((bv.pairs >> axis) & 1);
-    const int shared = shared_radius && caps > 0 ? 1 : 0;
-    const int of_cap = floats_of_place + (shared_radius ? 0 : 1);
-    return VolumeSize{4.0 + shared + of_cap * caps, 1.0 + caps};
+    return VolumeSize{4.0 + (floats_of_place + 1) * caps, 1.0 + caps};
   };
   add(all, name, policy, size_of);
 }
 
 /// The paper's kinds (III-A) and its scale of k (V-B).
 void addKinds(Entrants& all) {
-  FitOptions every, every_shared;
+  FitOptions every;
   every.count = SphereCount::kAll;
-  every_shared = every;
-  every_shared.shared_radius = true;
-  FitOptions published_shared(FitMethod::kMethodII);
-  published_shared.shared_radius = true;
-  addPacked(all, "kios_packed_method_ii", OrientedKios<5>(published_shared), 3, true);
-  addPacked(all, "kios_packed_tuned", OrientedKios<5>(), 3, false);
-  addPacked(all, "kios_k3", OrientedKios<3>(every), 3, false);
-  addPacked(all, "kios_k7", OrientedKios<7>(every), 3, false);
-  addPacked(all, "kios_axis_aligned", AxisAlignedKios(), 1, false);
-  addPacked(all, "kios_axis_aligned_all", AxisAlignedKios(every), 1, false);
-  addPacked(all, "kios_axis_aligned_shared", AxisAlignedKios(every_shared), 1, true);
-  addPacked(all, "kios_fixed_axes", FixedDirectionKios(), 1, false);
-  addPacked(all, "kios_fixed_axes_all", FixedDirectionKios(every), 1, false);
-  addPacked(all, "kios_fixed_axes_shared", FixedDirectionKios(every_shared), 1, true);
+  addPacked(all, "kios_packed_tuned", OrientedKios<5>(), 3);
+  addPacked(all, "kios_k3", OrientedKios<3>(every), 3);
+  addPacked(all, "kios_k7", OrientedKios<7>(every), 3);
+  addPacked(all, "kios_axis_aligned", AxisAlignedKios(), 1);
+  addPacked(all, "kios_fixed_axes", FixedDirectionKios(), 1);
   // Through the corners of an icosahedron: k = 13.
   const double g = (1 + std::sqrt(5.0)) / 2;
   const std::vector<fcl::Vector3d> six = {{0, 1, g},  {0, 1, -g}, {1, g, 0},
                                           {1, -g, 0}, {g, 0, 1},  {-g, 0, 1}};
-  addPacked(all, "kios_fixed_6", FixedDirectionKios(six, every), 1, false);
-  addPacked(all, "kios_fixed_6_shared", FixedDirectionKios(six, every_shared), 1, true);
+  addPacked(all, "kios_fixed_6", FixedDirectionKios(six, every), 1);
 }
 
 template <typename Policy>
@@ -146,14 +119,21 @@ std::vector<FitEntrant> fitEntrants() {
   addKios(all, "kios_method_i", FitMethod::kMethodI);
   addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);
   addKios(all, "kios_method_ii", FitMethod::kMethodII);
-  FitOptions shared(FitMethod::kMethodII);
+  FitOptions shared(FitMethod::kMethodII), every_ii(FitMethod::kMethodII), every;
   shared.shared_radius = true;
   addKios(all, "kios_method_ii_shared", shared);
-  addChoices(all, "kios_method_ii", FitMethod::kMethodII);
+  every_ii.count = every.count = SphereCount::kAll;
+  addKios(all, "kios_method_ii_k5", every_ii);
   addKios(all, "kios_tuned", FitMethod::kTuned);
-  shared.method = FitMethod::kTuned;
-  addKios(all, "kios_tuned_shared", shared);
-  addChoices(all, "kios_tuned", FitMethod::kTuned);
+  addKios(all, "kios_tuned_k5", every);
+  // Angles about the paper's pi/6.
+  for (const auto& [name, angle] : {std::pair("kios_tuned_15deg", kPi / 12),
+                                    {"kios_tuned_22deg", kPi / 8},
+                                    {"kios_tuned_45deg", kPi / 4}}) {
+    FitOptions options;
+    options.angle = angle;
+    addKios(all, name, options);
+  }
   addKinds(all);
   // In the paper's words: centre and radius, two corners, axes and half extents, ...
   addOther<SpherePolicy>(all, "sphere", 4);
@@ -161,8 +141,6 @@ std::vector<FitEntrant> fitEntrants() {
   addOther<OrientedPolicy<fcl::OBBd>>(all, "fcl_obb", 15, false);
   addOther<OrientedPolicy<fcl::RSSd>>(all, "fcl_rss", 15);
   addOther<OrientedPolicy<fcl::OBBRSSd>>(all, "fcl_obbrss", 30);
-  addOther<KdopPolicy<16>>(all, "fcl_kdop16", 16);
-  addOther<KdopPolicy<18>>(all, "fcl_kdop18", 18);
   addOther<KdopPolicy<24>>(all, "fcl_kdop24", 24);
   return all;
 }

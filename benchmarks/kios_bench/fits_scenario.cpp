@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
@@ -85,28 +84,6 @@ Bounds boundsOf(const FitTrees& trees, const std::vector<NodePair>& pairs) {
     if (bound > pair.distance * (1 + kRounding)) ++bounds.wrong;
   }
   return bounds;
-}
-
-void printHeading(const std::string& scenario, std::size_t frames) {
-  std::printf("%s, %zu frames: distance | first contact | volumes\n", scenario.c_str(), frames);
-  std::printf("%-24s %8s %8s %9s | %8s %7s %9s | %7s %6s %7s %6s %9s %5s\n", "volume", "BV tests",
-              "leaves", "us", "BV tests", "leaves", "us", "us/tri", "k", "floats", "bytes",
-              "tightness", "wrong");
-}
-
-void print(const std::string& name, const FitSize& size, const Row* distance, const Row& collide) {
-  std::printf("%-24s ", name.c_str());
-  if (distance) {
-    std::printf("%8.1f %8.1f %9.2f |", *distance->tests.bvs, *distance->tests.leaves,
-                distance->times.median_us);
-  } else {
-    std::printf("%8s %8s %9s |", "-", "-", "-");
-  }
-  std::printf(" %8.1f %7.1f %9.2f | %7.2f %6.2f %7.2f %6.0f %9s %5zu\n", *collide.tests.bvs,
-              *collide.tests.leaves, collide.times.median_us,
-              *collide.volumes.build_us_per_triangle, size.spheres, *collide.volumes.floats_per_bv,
-              size.bytes, cell(collide.volumes.tightness, "%.3f").c_str(),
-              *collide.errors.wrong + (distance ? *distance->errors.wrong : 0));
 }
 
 /// Holds an entrant, its trees, and what it did in the race of one query.
@@ -200,36 +177,26 @@ void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
   base.frames = frames.size();
   base.seed = options.seed;
   base.extent = std::max(scenes::extent(pair.a), scenes::extent(pair.b));
-  std::vector<Row> rows_of[2];  // distance, collide
   for (const bool collide : {false, true}) {
     const Query query = collide ? Query::kCollide : Query::kDistance;
     const std::vector<Question> questions = pairTask("", query, frames).questions;
     const Verdicts verdicts =
         judge([&oracle](Query q, const Question& question) { return truth(oracle, q, question); },
               query, questions, options.oracle_frames);
-    rows_of[collide] = ask(base, collide, poses, options.repeats, questions, verdicts, lanes);
+    report.add(ask(base, collide, poses, options.repeats, questions, verdicts, lanes));
   }
-  printHeading(scenario, frames.size());
-  for (std::size_t i = 0; i < lanes.size(); ++i) {
-    const std::string& bv = lanes[i].entrant->name;
-    const auto distance = std::find_if(rows_of[0].begin(), rows_of[0].end(),
-                                       [&bv](const Row& row) { return row.bv == bv; });
-    print(bv, lanes[i].size, distance == rows_of[0].end() ? nullptr : &*distance, rows_of[1][i]);
-  }
-  std::printf("\n");
-  report.addUnprinted(rows_of[0]);
-  report.addUnprinted(rows_of[1]);
 }
 
 }  // namespace
 
-void runFits(const Options& options, Report& report) {
+void reportFits(const Options& options, Report& report) {
   constexpr int kFrames = 200;
   Options ours = options;
   if (ours.frames == 0) ours.frames = options.quick ? 10 : kFrames;
   if (const auto data = findData(options); data && !options.quick) {
     reportScene("fits/falling", scenes::loadFalling(*data), ours, report);
     reportScene("fits/spinning", scenes::loadSpinning(*data, 2400), ours, report);
+    return;
   }
   reportScene("fits/falling_generated", generatedFalling(), ours, report);
   if (options.quick) return;

@@ -29,19 +29,21 @@ constexpr char kColumns[] =
     "triangles) are\ncounted a frame; err/extent is the largest error by the mesh's size, and "
     "wrong "
     "counts verdicts, both\nby an oracle; B/tri and peak/tri are bytes a triangle of a model and "
-    "while it is built, build/tri us;\n- is not measured.\n";
+    "while it is built, build/tri us;\nk, floats and tightness are means over volumes; - is not "
+    "measured.\n";
 
 void printList() {
   std::printf("scenarios:\n");
   for (const Scenario& scenario : scenarios()) {
-    std::printf("  %-18s %s\n", scenario.name, scenario.description);
+    std::printf("  %-12s %s%s%s%s\n", scenario.name, scenario.description,
+                *scenario.parts ? " (" : "", scenario.parts, *scenario.parts ? ")" : "");
   }
   std::printf("bounding volumes:\n");
   for (const std::string& bv : volumeNames()) {
     const auto set = makeMeshSet(bv);
     std::printf("  %-18s", bv.c_str());
     for (const Query query : {Query::kDistance, Query::kCollide, Query::kThreshold,
-                              Query::kCloserThan, Query::kBuild, Query::kPrepare, Query::kRefit}) {
+                              Query::kCloserThan, Query::kBuild, Query::kRefit}) {
       if (set->serves(query)) std::printf(" %s", name(query));
     }
     std::printf("\n");
@@ -78,10 +80,14 @@ const Scenario& scenarioOf(const std::string& name) {
 // False if the scenario cannot run here.
 bool runOne(const std::string& name, Options options, Report& report) {
   const std::size_t slash = name.find('/');
-  options.scenario = name.substr(0, slash);
+  const Scenario& scenario = scenarioOf(name.substr(0, slash));
   if (slash != std::string::npos) options.part = name.substr(slash + 1);
   try {
-    scenarioOf(options.scenario).run(options, report);
+    const std::size_t before = report.rows().size();
+    scenario.run(options, report);
+    if (!options.part.empty() && report.rows().size() == before) {
+      throw Skipped("no such part, or no data for it: see --list, and name their folder by --data");
+    }
   } catch (const Skipped& reason) {
     std::printf("skipped: %s: %s\n", name.c_str(), reason.what());
     return false;
@@ -127,8 +133,7 @@ int runCompared(std::vector<std::string> wanted, Options options, bool own_repea
                 Report& report) {
   constexpr std::size_t kShown = 10;
   if (wanted.empty()) {
-    wanted = {"generated", "strips",  "robots", "world", "threshold",  "shapes",
-              "octrees",   "scaling", "refit",  "scene", "continuous", "motions"};
+    wanted = {"tori", "robots", "world", "scene", "shapes", "build", "continuous", "motions"};
   }
   if (options.bvs == defaultVolumeNames()) options.bvs = {kOurs, "fcl_obbrss"};
   options.bvs = compared(options.bvs);
@@ -150,19 +155,15 @@ int run(int argc, char** argv) {
   std::string oracle = std::to_string(options.oracle_frames);
   std::string data;
   std::string json;
-  std::string markdown;
   std::string robot;
   std::vector<std::filesystem::path> libraries;
   bool least = false;
   bool list = false;
   bool check_rows = false;
   app.add_option("scenario", wanted,
-                 "what to run: names of --list, world/SCENE, robots/ROBOT, mbm/ROBOT; 'generated' "
-                 "if none is named")
+                 "what to run: names of --list, or NAME/PART; 'tori/generated' if none is named")
       ->check([&names](const std::string& name) {
-        const std::string scenario = name.substr(0, name.find('/'));
-        const bool has_parts = scenario == "world" || scenario == "robots" || scenario == "mbm";
-        return CLI::IsMember(names)(has_parts ? scenario : name);
+        return CLI::IsMember(names)(name.substr(0, name.find('/')));
       });
   app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);
   app.add_option("--bv", options.bvs, "bounding volumes, separated by commas")
@@ -177,7 +178,7 @@ int run(int argc, char** argv) {
       ->check(CLI::Range(1, 1000000000) | CLI::IsMember({"all"}))
       ->capture_default_str();
   app.add_option("--max-triangles", options.max_triangles,
-                 "largest meshes of 'scaling', to 1000000")
+                 "largest meshes of 'tori', 'build' and 'rays', to 1000000")
       ->check(CLI::Range(1, 1000000000))
       ->capture_default_str();
   app.add_option("--robot", robot,
@@ -185,7 +186,6 @@ int run(int argc, char** argv) {
       ->check(CLI::ExistingDirectory);
   app.add_option("--seed", options.seed, "seed of generated poses")->capture_default_str();
   app.add_option("--json", json, "file for one JSON object a row");
-  app.add_option("--markdown", markdown, "file for the table of 'stability'");
   app.add_flag("--quick", options.quick, "few frames and repeats: a smoke test");
   app.add_flag(
       "--least", least,
@@ -215,9 +215,8 @@ int run(int argc, char** argv) {
   if (options.quick && app.count("--repeats") == 0) options.repeats = 2;
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
-  if (!markdown.empty()) options.markdown = markdown;
   if (!libraries.empty()) loadLibraries(libraries[0], libraries[1]);
-  if (wanted.empty() && !least && libraries.empty()) wanted = {"generated"};
+  if (wanted.empty() && !least && libraries.empty()) wanted = {"tori/generated"};
   if (!robot.empty() && wanted != std::vector<std::string>{"robots"}) {
     throw std::invalid_argument("--robot is an option of the scenario 'robots'");
   }

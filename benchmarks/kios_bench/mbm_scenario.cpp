@@ -30,32 +30,23 @@ constexpr const char* kNames[kWays] = {"kios", "sampled_kios", "fcl_obbrss"};
 struct Tally {
   std::vector<double> seconds = {};  ///< of all problems, the budget where it ran out
   std::vector<double> solved = {};   ///< of those that were solved
-  long long edges = 0, free_edges = 0;
-  /// Edges that were called free and are in contact: by the exact test and by FCL, by one of them.
-  long long wrong = 0, disputed = 0;
+  /// Edges that were called free and are in contact, by the exact test and by FCL.
+  long long wrong = 0;
 
   void add(const Tally& other) {
     seconds.insert(seconds.end(), other.seconds.begin(), other.seconds.end());
     solved.insert(solved.end(), other.solved.begin(), other.solved.end());
-    edges += other.edges;
-    free_edges += other.free_edges;
     wrong += other.wrong;
-    disputed += other.disputed;
   }
 };
 
 /// The problems of one kind, or all.
 struct Kind {
-  int problems = 0, in_contact = 0;
-  int later = 0;                    ///< solved by proven edges, not within the budget that all have
-  std::vector<double> set_up = {};  ///< seconds: the scene, and what the first query prepares
+  int in_contact = 0;
   Tally ways[kWays];
 
   void add(const Kind& other) {
-    problems += other.problems;
     in_contact += other.in_contact;
-    later += other.later;
-    set_up.insert(set_up.end(), other.set_up.begin(), other.set_up.end());
     for (int way = 0; way < kWays; ++way) ways[way].add(other.ways[way]);
   }
 };
@@ -65,13 +56,9 @@ class Planning {
   Planning(const Robot& bare, const Options& options) : bare_(bare), options_(options) {}
 
   void solve(const Problem& problem, std::uint64_t seed, Kind& kind) {
-    ++kind.problems;
-    const double begin = nowMicroseconds();
     Robot robot = bare_;
     robot.addScene(problem.scene.string());
-    const bool blocked = robot.contact(problem.start) || robot.contact(problem.goal);
-    kind.set_up.push_back(1e-6 * (nowMicroseconds() - begin));
-    if (blocked) {
+    if (robot.contact(problem.start) || robot.contact(problem.goal)) {
       ++kind.in_contact;
       return;
     }
@@ -99,23 +86,17 @@ class Planning {
     for (int way = 0; way < (alone ? kSampled : kWays); ++way) {
       Tally& tally = kind.ways[way];
       const Plan plan = rrtConnect(request, ways[way]);
-      if (first_plan_ == 0) first_plan_ = plan.seconds;
-      tally.edges += plan.edges;
       tally.seconds.push_back(plan.seconds);
       if (!plan.path.empty()) tally.solved.push_back(plan.seconds);
-      if (plan.path.empty() && way == kProven) solveLater(problem, request, ways[way], kind);
-      tally.free_edges += static_cast<long long>(plan.free_edges.size());
+      if (plan.path.empty() && way == kProven)
+        std::printf("no plan for %s\n", problem.name.c_str());
       for (const auto& [q0, q1] : plan.free_edges) {
         const VectorXd q =
             way == kProven ? sampleInContact(is_free_by_fcl, q0, q1) : contactOn(robot, q0, q1);
-        if (q.size() == 0) continue;
-        const bool both = !is_free(q) && !is_free_by_fcl(q);
-        ++(both ? tally.wrong : tally.disputed);
+        tally.wrong += q.size() > 0 && !is_free(q) && !is_free_by_fcl(q) ? 1 : 0;
       }
     }
   }
-
-  double firstPlan() const { return first_plan_; }
 
  private:
   /// A configuration of the path that is in contact, if the proof finds one.
@@ -125,24 +106,9 @@ class Planning {
     return motion.to == 1 ? q1 : VectorXd(q0 + motion.to * (q1 - q0));
   }
 
-  /// Other seeds and more time for what was not solved.
-  void solveLater(const Problem& problem, PlanRequest request, const IsFreeEdge& proven,
-                  Kind& kind) {
-    constexpr int kTries = 5;
-    for (int i = 0; i < kTries && !options_.quick; ++i) {
-      request.seconds = 20;
-      request.seed += 100000;
-      if (rrtConnect(request, proven).path.empty()) continue;
-      ++kind.later;
-      return;
-    }
-    std::printf("no plan for %s\n", problem.name.c_str());
-  }
-
   const Robot& bare_;
   const Options& options_;
   ObbrssModels models_;
-  double first_plan_ = 0;
 };
 
 double mean(const std::vector<double>& values) {
@@ -151,24 +117,13 @@ double mean(const std::vector<double>& values) {
 }
 
 std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint64_t seed) {
-  std::printf(
-      "%-24s %d problems, %d with a start or goal in contact; scene and first query %.2f "
-      "ms; solved later by kios: %d\n",
-      scenario.c_str(), kind.problems, kind.in_contact, 1e3 * median(kind.set_up), kind.later);
   std::vector<Row> rows;
   const auto& theirs = kind.ways[kObbrss].seconds;
   const double base = theirs.empty() ? 0 : median(theirs);
-  const double base_mean = mean(theirs);
   for (int way = 0; way < kWays; ++way) {
     const Tally& tally = kind.ways[way];
     if (tally.seconds.empty()) continue;
-    const double middle = median(tally.seconds), average = mean(tally.seconds),
-                 sum = average * static_cast<double>(tally.seconds.size()),
-                 edges_per_second = static_cast<double>(tally.edges) / std::max(sum, 1e-9);
-    std::printf("  %-14s %7zu %10.3f %10.3f %8.1f %8.1f %12.0f %10lld %7lld %9lld\n", kNames[way],
-                tally.solved.size(), 1e3 * middle, 1e3 * average, base / std::max(middle, 1e-9),
-                base_mean / std::max(average, 1e-9), edges_per_second, tally.free_edges,
-                tally.wrong, tally.disputed);
+    const double middle = median(tally.seconds);
     Row row;
     row.scenario = scenario;
     row.query = "plan";
@@ -182,8 +137,7 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     row.errors.wrong = static_cast<std::size_t>(tally.wrong);
     row.plans.solved = tally.solved.size();
     row.plans.in_contact = static_cast<std::size_t>(kind.in_contact);
-    row.plans.mean_us = 1e6 * average;
-    row.plans.edges_per_second = edges_per_second;
+    row.plans.mean_us = 1e6 * mean(tally.seconds);
     rows.push_back(row);
   }
   return rows;
@@ -193,11 +147,8 @@ void planAll(const std::string& name, const fs::path& folder, const Options& opt
              Report& report) {
   const int wanted = options.frames > 0 ? options.frames : options.quick ? 7 : 70;
   const Unpacked unpacked(folder / "problems.tar.bz2");
-  const double begin = nowMicroseconds();
   const Robot bare =
       loadRobot((folder / (name + ".urdf")).string(), (folder / (name + ".srdf")).string());
-  std::printf("mbm/%s: loaded in %.1f ms\n", name.c_str(), 1e-3 * (nowMicroseconds() - begin));
-  std::fflush(stdout);
   std::map<std::string, Kind> kinds;
   Planning planning(bare, options);
   std::uint64_t seed = options.seed;
@@ -205,18 +156,12 @@ void planAll(const std::string& name, const fs::path& folder, const Options& opt
   for (const Problem& problem : problems) {
     planning.solve(problem, seed++, kinds[problem.name.substr(0, problem.name.find('/'))]);
   }
-  std::printf(
-      "first plan %.2f ms; of the free edges those in contact, and those about which FCL "
-      "differs\n",
-      1e3 * planning.firstPlan());
-  std::printf("  %-14s %7s %10s %10s %8s %8s %12s %10s %7s %9s\n", "", "solved", "median ms",
-              "mean ms", "x", "x mean", "edges a s", "free edges", "contact", "disputed");
   Kind all;
   for (const auto& [kind_name, kind] : kinds) {
-    report.addUnprinted(rowsOf("mbm/" + kind_name, kind, options.seed));
+    report.add(rowsOf("mbm/" + kind_name, kind, options.seed));
     all.add(kind);
   }
-  report.addUnprinted(rowsOf("mbm/" + name, all, options.seed));
+  report.add(rowsOf("mbm/" + name, all, options.seed));
   measureQuestions(name, bare, problems, options, report);
 }
 
@@ -228,12 +173,8 @@ void runMbm(const Options& options, Report& report) {
     throw Skipped(
         "it needs MotionBenchMaker's robots and problems in DATA/mbm; name DATA by --data");
   }
-  const std::string& part = options.part;
-  if (!part.empty() && part != "panda" && part != "ur5") {
-    throw std::invalid_argument("the robots of mbm are panda and ur5, not " + part);
-  }
   for (const char* const name : {"panda", "ur5"}) {
-    if (part.empty() || part == name) planAll(name, *data / "mbm" / name, options, report);
+    if (wanted(options, name)) planAll(name, *data / "mbm" / name, options, report);
   }
 }
 

@@ -19,18 +19,8 @@ namespace kios::bench {
 /// kThreshold: a distance query with a bound on entry, as FCL's broadphase asks: is anything
 /// nearer? kCloserThan: whether two meshes are at most that far apart, by kios::closerThan, or for
 /// FCL by such a query, or by collide where the bound is 0. kContacts: how many contacts there are.
-/// kPrepare: the build and the first query, with whatever a model leaves to that. kRefit: the same
-/// for a model whose vertices moved.
-enum class Query {
-  kDistance,
-  kCollide,
-  kContacts,
-  kThreshold,
-  kCloserThan,
-  kBuild,
-  kPrepare,
-  kRefit
-};
+/// kRefit: the refit of a model whose vertices moved, and a query.
+enum class Query { kDistance, kCollide, kContacts, kThreshold, kCloserThan, kBuild, kRefit };
 
 /// Returns the name of the query in tables and JSON.
 const char* name(Query query);

@@ -74,7 +74,7 @@ constexpr Entry kVolumes[] = {
 
 const char* name(Query query) {
   constexpr const char* kNames[] = {"distance",    "collide", "contacts", "threshold",
-                                    "closer_than", "build",   "prepare",  "refit"};
+                                    "closer_than", "build",   "refit"};
   return kNames[static_cast<int>(query)];
 }
 

@@ -37,11 +37,10 @@ class MotionSet {
 /// By checkMotion(), `kios` in rows. The cell must outlive it.
 std::unique_ptr<MotionSet> makeCertified(const std::string& name, const scenes::Cell& cell);
 
-/// By their names in rows: `sampled_kios` and `fcl_obbrss`, samples at most
-/// 0.01 rad apart in the largest joint, each with FCL's dynamic AABB trees over k-IOS and OBBRSS;
-/// `sampled_scene`, the same samples by SceneDistance. Samples are taken in the order of
-/// OMPL's discrete validator: the end, the middle, the middles of the halves. The cell must outlive
-/// it.
+/// By their names in rows: `sampled_kios` and `fcl_obbrss`, samples at most 0.01 rad apart in the
+/// largest joint, each with FCL's dynamic AABB trees over k-IOS and OBBRSS. Samples are taken in
+/// the order of OMPL's discrete validator: the end, the middle, the middles of the halves. The cell
+/// must outlive it.
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell);
 
 /// Returns true if a configuration is free of contact, by the static query of every pair whose

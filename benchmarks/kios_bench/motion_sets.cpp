@@ -10,8 +10,7 @@
 
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/math/bv/OBBRSS.h>
-#include <fcl_kios/model/prepare.h>
-#include <fcl_kios/scene/scene_distance.h>
+#include <fcl_kios/model/model.h>
 
 #include "calls.h"
 
@@ -53,12 +52,25 @@ class Certified final : public MotionSet {
   long long queried_ = 0, unresolved_ = 0;
 };
 
-/// Samples of a path, and a static check of each.
-class Sampled : public MotionSet {
+/// Samples of a path, each by FCL's dynamic AABB trees, one of the links and one of what stands
+/// still.
+template <typename BV, typename Calls>
+class Managed final : public MotionSet {
  public:
-  Sampled(const std::string& name, const scenes::Cell& cell) : MotionSet(name), cell_(cell) {}
+  Managed(const std::string& name, const scenes::Cell& cell)
+      : MotionSet(name), cell_(cell), models_(modelsOf<BV>(cell)) {
+    for (int body = 0; body < cell.bodies(); ++body) {
+      const bool moves = body < cell.moving();
+      const auto X = moves ? fcl::Transform3d::Identity() : cell.places[body - cell.moving()];
+      objects_.push_back(std::make_unique<Object>(models_[body], X));
+      objects_.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
+      (moves ? moving_ : still_).registerObject(objects_.back().get());
+    }
+    moving_.setup();
+    still_.setup();
+  }
 
-  bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) final {
+  bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) override {
     constexpr double kStep = 0.01;
     double most = 0;
     for (std::size_t i = 0; i < q0.size(); ++i) most = std::max(most, std::abs(q1[i] - q0[i]));
@@ -78,35 +90,7 @@ class Sampled : public MotionSet {
   }
   long long takeQueried() override { return std::exchange(queried_, 0); }
 
- protected:
-  virtual bool isFreeAt(const scenes::Joints& q) = 0;
-
-  const scenes::Cell& cell_;
-  std::vector<fcl::Transform3d> poses_;
-  long long queried_ = 0;
-
- private:
-  std::deque<std::pair<int, int>> halves_;
-};
-
-/// Holds FCL's dynamic AABB trees, one of the links and one of what stands still.
-template <typename BV, typename Calls>
-class Managed final : public Sampled {
- public:
-  Managed(const std::string& name, const scenes::Cell& cell)
-      : Sampled(name, cell), models_(modelsOf<BV>(cell)) {
-    for (int body = 0; body < cell.bodies(); ++body) {
-      const bool moves = body < cell.moving();
-      const auto X = moves ? fcl::Transform3d::Identity() : cell.places[body - cell.moving()];
-      objects_.push_back(std::make_unique<Object>(models_[body], X));
-      objects_.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
-      (moves ? moving_ : still_).registerObject(objects_.back().get());
-    }
-    moving_.setup();
-    still_.setup();
-  }
-
-  bool isFreeAt(const scenes::Joints& q) override {
+  bool isFreeAt(const scenes::Joints& q) {
     scenes::placeLinks(cell_, q, poses_);
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       objects_[i]->setTransform(poses_[i]);
@@ -134,39 +118,14 @@ class Managed final : public Sampled {
     return self.contact_;
   }
 
+  const scenes::Cell& cell_;
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
   std::vector<std::unique_ptr<Object>> objects_;
+  std::vector<fcl::Transform3d> poses_;
+  std::deque<std::pair<int, int>> halves_;
+  long long queried_ = 0;
   fcl::DynamicAABBTreeCollisionManagerd moving_, still_;
   bool contact_ = false;
-};
-
-class SceneSampled final : public Sampled {
- public:
-  SceneSampled(const std::string& name, const scenes::Cell& cell)
-      : Sampled(name, cell), models_(modelsOf<kIOSd>(cell)) {
-    for (int body = 0; body < cell.bodies(); ++body) {
-      if (body < cell.moving()) {
-        scene_.add(models_[body], fcl::Transform3d::Identity());
-      } else {
-        scene_.add(models_[body], cell.places[body - cell.moving()], Role::kObstacle);
-      }
-    }
-    for (const auto& [a, b] : cell.allowed) scene_.exclude(a, b);
-  }
-
- private:
-  bool isFreeAt(const scenes::Joints& q) override {
-    scenes::placeLinks(cell_, q, poses_);
-    for (std::size_t i = 0; i < poses_.size(); ++i) scene_.move(static_cast<int>(i), poses_[i]);
-    SceneRequest request;
-    request.exact = false;
-    const bool free = scene_.pairsWithin(0, request).empty();
-    queried_ += scene_.counts().queried;
-    return free;
-  }
-
-  std::vector<std::shared_ptr<fcl::BVHModel<kIOSd>>> models_;
-  SceneDistanced scene_;
 };
 
 }  // namespace
@@ -202,7 +161,6 @@ std::unique_ptr<MotionSet> makeCertified(const std::string& name, const scenes::
 }
 
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell) {
-  if (name == "sampled_scene") return std::make_unique<SceneSampled>(name, cell);
   if (name == "sampled_kios") return std::make_unique<Managed<kIOSd, KiosCalls>>(name, cell);
   return std::make_unique<Managed<fcl::OBBRSSd, FclCalls>>(name, cell);
 }

@@ -15,8 +15,7 @@ namespace kios::bench {
 
 /// Holds the options of the command line.
 struct Options {
-  std::string scenario;
-  std::string part;                           // of a scenario whose scenes run one by one
+  std::string part;  // of a scenario whose parts run one by one; empty: all
   std::optional<std::filesystem::path> data;  // folder of the benchmark data
   std::vector<std::string> bvs;               // competitors, in the order of rows
   int frames = 0;                             // per scene; 0 = the scenario's own number
@@ -24,10 +23,14 @@ struct Options {
   int oracle_frames = 300;    // frames judged by the oracle, evenly chosen; 0 = all
   int max_triangles = 80000;  // of each mesh of 'scaling'
   std::uint64_t seed = 1;
-  std::optional<std::filesystem::path> robot;     // folder of meshes, for 'robots'
-  std::optional<std::filesystem::path> markdown;  // file for the table of a scenario that has one
+  std::optional<std::filesystem::path> robot;  // folder of meshes, for 'robots'
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement
 };
+
+/// Returns whether the command line asks for this part of the scenario, or for all.
+inline bool wanted(const Options& options, const std::string& part) {
+  return options.part.empty() || options.part == part;
+}
 
 /// Returns the data folder that the command line names, else the one that is found.
 inline std::optional<std::filesystem::path> findData(const Options& options) {

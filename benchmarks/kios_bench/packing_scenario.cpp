@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <string>
 #include <vector>
@@ -141,14 +140,15 @@ std::vector<Way> waysOf(const PackingPairs& pairs, const LibraryPairs& library) 
 }
 
 /// Sets the work and the errors of a row: all ways must agree with the scalar loop, packed ones
-/// bitwise, ours never above it. Returns how many pairs are found apart.
-std::size_t judge(const Way& way, bool overlap, const std::vector<float>& exact, const Nodes& nodes,
-                  Row& row, PackingCounts& counts) {
+/// bitwise, ours never above it.
+void judge(const Way& way, bool overlap, const std::vector<float>& exact, const Nodes& nodes,
+           Row& row) {
   const std::size_t count = exact.size();
+  PackingCounts counts;
   std::vector<float> bounds(count);
   way.test(overlap, bounds.data(), counts);
   row.tests.bvs = static_cast<double>(counts.packed + counts.scalar) / double(count);
-  std::size_t apart = 0, positive = 0, wrong = 0;
+  std::size_t positive = 0, wrong = 0;
   double tightness = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const float tolerance = 1e-5F * (std::abs(exact[i]) + nodes[i].radius0 + 1);
@@ -156,7 +156,6 @@ std::size_t judge(const Way& way, bool overlap, const std::vector<float>& exact,
     const bool below = bounds[i] <= exact[i] + tolerance;
     const bool ours = way.bv.rfind("kios", 0) == 0;
     if (ours ? !below : !same) ++wrong;
-    apart += bounds[i] > 0 ? 1 : 0;
     if (!overlap && exact[i] > tolerance) {
       ++positive;
       tightness += std::max(bounds[i], 0.0F) / exact[i];
@@ -164,7 +163,6 @@ std::size_t judge(const Way& way, bool overlap, const std::vector<float>& exact,
   }
   row.errors.wrong = wrong;
   if (positive > 0) row.volumes.tightness = tightness / static_cast<double>(positive);
-  return apart;
 }
 
 void reportPairs(const std::string& scenario, FitMethod method, const Options& options,
@@ -180,8 +178,6 @@ void reportPairs(const std::string& scenario, FitMethod method, const Options& o
   std::vector<float> exact(count), bounds(count);
   PackingCounts ignored;
   ways[0].test(false, exact.data(), ignored);
-  const auto apart_by_all = static_cast<std::size_t>(
-      std::count_if(exact.begin(), exact.end(), [](float bound) { return bound > 0; }));
   std::vector<Competitor> timed[2];  // whether volumes overlap, their distance
   for (const bool overlap : {false, true}) {
     for (const Way& way : ways) {
@@ -202,37 +198,23 @@ void reportPairs(const std::string& scenario, FitMethod method, const Options& o
   for (const kIOSf& bv : library.a) {
     *base.volumes.mean_spheres += bv.k() / static_cast<double>(count);
   }
-  std::printf("%s: %zu pairs, k = %.2f on average\n", scenario.c_str(), count,
-              *base.volumes.mean_spheres);
-  std::printf("%-18s %-7s %9s %9s %9s %9s %9s %9s %9s %6s\n", "test", "target", "distance",
-              "overlap", "packed", "alone", "bound", "apart", "apart(1)", "wrong");
   std::vector<Row> rows;
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    PackingCounts counts[2];
-    std::size_t apart = 0;
     for (const bool overlap : {false, true}) {
       base.query = overlap ? "collide" : "distance";
       Row& row = rows.emplace_back(base);
       row.bv = ways[w].bv;
       row.times = timesOf(timed[overlap][w], count * static_cast<std::size_t>(sweeps), nullptr);
       row.simd_target = ways[w].target;
-      apart = judge(ways[w], overlap, exact, library.a, row, counts[overlap]);
+      judge(ways[w], overlap, exact, library.a, row);
     }
-    const Row &distance = rows[rows.size() - 2], &overlap = rows.back();
-    std::printf("%-18s %-7s %6.2f ns %6.2f ns %9.2f %9.2f %9.4f %9zu %9zu %6zu\n",
-                ways[w].bv.c_str(), ways[w].target.value_or("").c_str(),
-                1000 * distance.times.median_us, 1000 * overlap.times.median_us,
-                double(counts[0].packed) / double(count), double(counts[0].scalar) / double(count),
-                distance.volumes.tightness.value_or(0), apart, apart_by_all,
-                *overlap.errors.wrong + *distance.errors.wrong);
   }
-  std::printf("\n");
-  report.addUnprinted(rows);
+  report.add(rows);
 }
 
 }  // namespace
 
-void runPacking(const Options& options, Report& report) {
+void reportPacking(const Options& options, Report& report) {
   reportPairs("packing/method_ii", FitMethod::kMethodII, options, report);
   reportPairs("packing/tuned", FitMethod::kTuned, options, report);
 }

@@ -92,23 +92,18 @@ void runPreload(const Options& options, Report& report) {
   if (!fs::exists(front) || !fs::exists(client)) {
     throw Skipped("the preloaded library and its client aren't built: " + front.string());
   }
-  const std::vector<Rows> all = {{"distance_near", {1000, 5000, 10000, 100000}},
-                                 {"distance_close", {10000}},
-                                 {"distance_far", {10000, 100000}},
+  const std::vector<Rows> all = {{"distance_near", {1000, 5000, 100000}},
+                                 {"distance_far", {100000}},
                                  {"distance_near_bounded", {5000, 100000}},
-                                 {"distance_box_near", {5000, 20000}},
+                                 {"distance_box_near", {5000}},
                                  {"distance_octree_near", {5000}},
-                                 {"collide_reject", {5000, 100000}},
-                                 {"collide_near", {1000, 5000, 100000}},
-                                 {"collide_close", {5000}},
-                                 {"collide_touch", {1000, 5000, 100000}},
+                                 {"collide_reject", {5000}},
+                                 {"collide_near", {5000, 100000}},
+                                 {"collide_touch", {5000}},
                                  {"collide_deep", {5000, 100000}},
-                                 {"collide_near_contacts", {5000}},
-                                 {"collide_touch_contacts", {5000, 100000}},
-                                 {"collide_deep_contacts", {5000, 100000}},
-                                 {"collide_box_near", {1000, 20000}},
-                                 {"collide_sphere_near", {5000}},
-                                 {"collide_box_reject", {5000}}};
+                                 {"collide_deep_contacts", {5000}},
+                                 {"collide_box_near", {20000}},
+                                 {"collide_sphere_near", {5000}}};
   const int repeats = options.quick ? 1 : options.repeats;
   for (const Rows& rows : all) {
     for (const int triangles : rows.triangles) {

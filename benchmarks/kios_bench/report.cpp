@@ -16,16 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json orNull(const std::optional<double>& value) { return value ? finite(*value) : Json(nullptr); }
-
-template <typename T>
-Json orNull(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Maybe asDouble(const MaybeCount& count) {
+Maybe number(const MaybeCount& count) {
   if (!count) return std::nullopt;
   return static_cast<double>(*count);
 }
@@ -43,24 +34,67 @@ Maybe pairMicroseconds(const Row& row) {
          static_cast<double>(*row.pairs.total);
 }
 
-constexpr char kLine[] = "%-25s %-9s %-17s %10s %10s %8s %9s %9s %9s %10s %6s %8s %8s %9s\n";
+/// A number of a row, in JSON, in tables, or both.
+struct Field {
+  const char* json;     ///< nullptr: in tables alone
+  const char* heading;  ///< nullptr: in JSON alone
+  const char* format;   ///< printf's
+  Maybe (*of)(const Row& row);
+  bool is_count = false;
+};
 
-void printHeading() {
-  std::printf(kLine, "scenario", "query", "bv", "median_us", "min_us", "us/pair", "x OBBRSS",
-              "BV tests", "leaves", "err/extent", "wrong", "B/tri", "peak/tri", "build/tri");
-}
+constexpr Field kFields[] = {
+    {"rel_err", "rel_err", "%g", [](const Row& row) { return row.asked.rel_err; }},
+    {"abs_err", "abs_err", "%g", [](const Row& row) { return row.asked.abs_err; }},
+    {"threshold", "at", "%g", [](const Row& row) { return row.asked.threshold; }},
+    {"budget", "budget", "%g", [](const Row& row) { return row.asked.budget; }},
+    {"median_us", "median_us", "%.3f", [](const Row& row) { return Maybe(row.times.median_us); }},
+    {"min_us", "min_us", "%.3f", [](const Row& row) { return Maybe(row.times.min_us); }},
+    {"mean_us", "mean_us", "%.3f", [](const Row& row) { return row.plans.mean_us; }},
+    {nullptr, "us/pair", "%.3f", pairMicroseconds},
+    {"ratio_to_fcl_obbrss", "x OBBRSS", "%.2f",
+     [](const Row& row) { return row.times.ratio_to_fcl_obbrss; }},
+    {"ratio_to_ssv", "x RSS", "%.2f", [](const Row& row) { return row.to_ssv.ratio; }},
+    {"max_ratio_to_ssv", "at most", "%.2f", [](const Row& row) { return row.to_ssv.max_ratio; }},
+    {"bv_tests", "BV tests", "%.1f", [](const Row& row) { return row.tests.bvs; }},
+    {"leaf_tests", "leaves", "%.1f", [](const Row& row) { return row.tests.leaves; }},
+    {nullptr, "err/extent", "%.1e", scaledError},
+    {"max_abs_error", nullptr, nullptr, [](const Row& row) { return row.errors.max_abs; }},
+    {"max_rel_error", nullptr, nullptr, [](const Row& row) { return row.errors.max_rel; }},
+    {"mean_abs_error", nullptr, nullptr, [](const Row& row) { return row.errors.mean_abs; }},
+    {"mean_rel_error", "mean rel", "%.2e", [](const Row& row) { return row.errors.mean_rel; }},
+    {"bracket_width", "width", "%.2e", [](const Row& row) { return row.errors.bracket_width; }},
+    {"bracket_ratio", "up/low", "%.3f", [](const Row& row) { return row.errors.bracket_ratio; }},
+    {"max_bracket_ratio", "at most", "%.2f",
+     [](const Row& row) { return row.errors.max_bracket_ratio; }},
+    {"wrong_verdicts", "wrong", "%.0f", [](const Row& row) { return number(row.errors.wrong); },
+     true},
+    {"bytes_per_triangle", "B/tri", "%.0f",
+     [](const Row& row) { return row.volumes.bytes_per_triangle; }},
+    {"peak_bytes_per_triangle", "peak/tri", "%.0f",
+     [](const Row& row) { return row.volumes.peak_bytes_per_triangle; }},
+    {"build_us_per_triangle", "build/tri", "%.3f",
+     [](const Row& row) { return row.volumes.build_us_per_triangle; }},
+    {"mean_spheres", "k", "%.2f", [](const Row& row) { return row.volumes.mean_spheres; }},
+    {"floats_per_bv", "floats", "%.2f", [](const Row& row) { return row.volumes.floats_per_bv; }},
+    {"tightness", "tightness", "%.3f", [](const Row& row) { return row.volumes.tightness; }},
+    {"skipped_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.skipped); },
+     true},
+    {"total_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.total); }, true},
+    {"narrow_queries", "searches", "%.2f", [](const Row& row) { return row.pairs.narrow_queries; }},
+    {"solved", "solved", "%.0f", [](const Row& row) { return number(row.plans.solved); }, true},
+    {"in_contact", "in contact", "%.0f",
+     [](const Row& row) { return number(row.plans.in_contact); }, true},
+};
 
-void print(const Row& row) {
-  std::printf(kLine, row.scenario.c_str(), row.query.c_str(), row.bv.c_str(),
-              cell(row.times.median_us, "%.3f").c_str(), cell(row.times.min_us, "%.3f").c_str(),
-              cell(pairMicroseconds(row), "%.3f").c_str(),
-              cell(row.times.ratio_to_fcl_obbrss, "%.2f").c_str(),
-              cell(row.tests.bvs, "%.1f").c_str(), cell(row.tests.leaves, "%.1f").c_str(),
-              cell(scaledError(row), "%.1e").c_str(),
-              cell(asDouble(row.errors.wrong), "%.0f").c_str(),
-              cell(row.volumes.bytes_per_triangle, "%.0f").c_str(),
-              cell(row.volumes.peak_bytes_per_triangle, "%.0f").c_str(),
-              cell(row.volumes.build_us_per_triangle, "%.3f").c_str());
+/// A column of a table, its heading first.
+using Column = std::vector<std::string>;
+
+/// Rows that tell nothing leave a column out; none asks for an error of 0.
+bool isShown(const Column& column) {
+  return std::any_of(column.begin() + 1, column.end(), [&column](const std::string& text) {
+    return text != "-" && (text != "0" || column[0] == "wrong" || column[0] == "at");
+  });
 }
 
 }  // namespace
@@ -88,53 +122,46 @@ void append(std::vector<Row> rows, std::vector<Row>& all) {
 }
 
 std::string toJson(const Row& row) {
-  const Json json = {
-      {"scenario", row.scenario},
-      {"query", row.query},
-      {"bv", row.bv},
-      {"triangles", row.triangles},
-      {"frames", row.frames},
-      {"rel_err", orNull(row.asked.rel_err)},
-      {"abs_err", orNull(row.asked.abs_err)},
-      {"threshold", orNull(row.asked.threshold)},
-      {"median_us", finite(row.times.median_us)},
-      {"min_us", finite(row.times.min_us)},
-      {"ratio_to_fcl_obbrss", orNull(row.times.ratio_to_fcl_obbrss)},
-      {"max_abs_error", orNull(row.errors.max_abs)},
-      {"max_rel_error", orNull(row.errors.max_rel)},
-      {"mean_abs_error", orNull(row.errors.mean_abs)},
-      {"mean_rel_error", orNull(row.errors.mean_rel)},
-      {"bracket_width", orNull(row.errors.bracket_width)},
-      {"bracket_ratio", orNull(row.errors.bracket_ratio)},
-      {"max_bracket_ratio", orNull(row.errors.max_bracket_ratio)},
-      {"budget", orNull(row.asked.budget)},
-      {"wrong_verdicts", orNull(row.errors.wrong)},
-      {"bv_tests", orNull(row.tests.bvs)},
-      {"leaf_tests", orNull(row.tests.leaves)},
-      {"bytes_per_triangle", orNull(row.volumes.bytes_per_triangle)},
-      {"peak_bytes_per_triangle", orNull(row.volumes.peak_bytes_per_triangle)},
-      {"build_us_per_triangle", orNull(row.volumes.build_us_per_triangle)},
-      {"mean_spheres", orNull(row.volumes.mean_spheres)},
-      {"floats_per_bv", orNull(row.volumes.floats_per_bv)},
-      {"tightness", orNull(row.volumes.tightness)},
-      {"ratio_to_ssv", orNull(row.to_ssv.ratio)},
-      {"max_ratio_to_ssv", orNull(row.to_ssv.max_ratio)},
-      {"skipped_pairs", orNull(row.pairs.skipped)},
-      {"total_pairs", orNull(row.pairs.total)},
-      {"narrow_queries", orNull(row.pairs.narrow_queries)},
-      {"solved", orNull(row.plans.solved)},
-      {"in_contact", orNull(row.plans.in_contact)},
-      {"mean_us", orNull(row.plans.mean_us)},
-      {"edges_per_second", orNull(row.plans.edges_per_second)},
-      {"simd_target", orNull(row.simd_target)},
-      {"seed", row.seed},
-  };
+  Json json = {{"scenario", row.scenario},
+               {"query", row.query},
+               {"bv", row.bv},
+               {"triangles", row.triangles},
+               {"frames", row.frames}};
+  for (const Field& field : kFields) {
+    if (!field.json) continue;
+    const Maybe value = field.of(row);
+    const bool known = value && std::isfinite(*value);
+    json[field.json] = !known           ? Json(nullptr)
+                       : field.is_count ? Json(static_cast<std::size_t>(*value))
+                                        : Json(*value);
+  }
+  json["simd_target"] = row.simd_target ? Json(*row.simd_target) : Json(nullptr);
+  json["seed"] = row.seed;
   return json.dump();
 }
 
 void printTable(const std::vector<Row>& rows) {
-  printHeading();
-  for (const Row& row : rows) print(row);
+  std::vector<Column> columns = {{"scenario"}, {"query"}, {"bv"}};
+  for (const Row& row : rows) {
+    columns[0].push_back(row.scenario);
+    columns[1].push_back(row.query);
+    columns[2].push_back(row.bv);
+  }
+  for (const Field& field : kFields) {
+    if (!field.heading) continue;
+    Column column = {field.heading};
+    for (const Row& row : rows) column.push_back(cell(field.of(row), field.format));
+    if (isShown(column)) columns.push_back(std::move(column));
+  }
+  for (std::size_t line = 0; line <= rows.size(); ++line) {
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      std::size_t width = 0;
+      for (const std::string& text : columns[c]) width = std::max(width, text.size());
+      const int digits = static_cast<int>(width);
+      std::printf("%s%*s", c == 0 ? "" : "  ", c < 3 ? -digits : digits, columns[c][line].c_str());
+    }
+    std::printf("\n");
+  }
   std::printf("\n");
 }
 
@@ -147,10 +174,6 @@ Report::Report(const std::optional<std::filesystem::path>& json_file, Print prin
 void Report::add(const std::vector<Row>& rows) {
   print_(rows);
   std::fflush(stdout);
-  addUnprinted(rows);
-}
-
-void Report::addUnprinted(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     if (json_.is_open()) json_ << toJson(row) << '\n';
     rows_.push_back(row);

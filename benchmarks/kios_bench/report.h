@@ -65,7 +65,7 @@ struct Pairs {
 struct Plans {
   MaybeCount solved;
   MaybeCount in_contact;  ///< problems whose start or goal is in contact, that nobody was asked
-  Maybe mean_us, edges_per_second;
+  Maybe mean_us;
 };
 
 /// Counts answers that aren't those of the library before.
@@ -110,7 +110,7 @@ std::string timeText(double us);
 /// Returns the row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);
 
-/// Prints rows as an aligned table.
+/// Prints rows as an aligned table, without columns that tell nothing of them.
 void printTable(const std::vector<Row>& rows);
 
 /// Receives rows as they are measured: prints those of a scene and, if a file is named, writes one
@@ -124,9 +124,6 @@ class Report {
 
   /// Adds the rows of one scene and prints them.
   void add(const std::vector<Row>& rows);
-
-  /// Adds rows of a scenario that prints a table of its own.
-  void addUnprinted(const std::vector<Row>& rows);
 
   const std::vector<Row>& rows() const { return rows_; }
 

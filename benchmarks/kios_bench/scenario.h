@@ -18,14 +18,13 @@ class Skipped : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds a named set of scenes. Its rows carry the name, followed by `/` and the scene where it has
-/// several.
+/// Holds a named set of scenes.
 struct Scenario {
   const char* name;
+  const char* parts;  ///< that the command line may name, as SCENARIO/PART; empty for none
   const char* description;
   void (*run)(const Options& options, Report& report);
-  /// Says how many of each scene `--least` takes; 0 where nothing of FCL's stands beside ours, or
-  /// where another scenario runs this one.
+  /// Says how many of each scene `--least` takes; 0 where nothing of FCL's stands beside ours.
   int least_frames;
 };
 
@@ -33,37 +32,32 @@ struct Scenario {
 /// scenarios.cpp.
 const std::vector<Scenario>& scenarios();
 
-void runFalling(const Options& options, Report& report);
-void runSpinning(const Options& options, Report& report);
-void runGenerated(const Options& options, Report& report);
-void runThreshold(const Options& options, Report& report);
-void runWorld(const Options& options, Report& report);
-void runCoal(const Options& options, Report& report);
-void runStrips(const Options& options, Report& report);
+void runTori(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);
-void runRobotScenes(const Options& options, Report& report);
+void runWorld(const Options& options, Report& report);
 void runScene(const Options& options, Report& report);
-void runCrowds(const Options& options, Report& report);
-void runPaper(const Options& options, Report& report);
-void runFits(const Options& options, Report& report);
-void runPacking(const Options& options, Report& report);
-void runExact(const Options& options, Report& report);
 void runShapes(const Options& options, Report& report);
-void runOctrees(const Options& options, Report& report);
+void runRays(const Options& options, Report& report);
+void runSolids(const Options& options, Report& report);
 void runContinuous(const Options& options, Report& report);
 void runMotions(const Options& options, Report& report);
 #ifdef KIOS_HAVE_ROBOT
 void runMbm(const Options& options, Report& report);
 #endif
 void runBuild(const Options& options, Report& report);
-void runScaling(const Options& options, Report& report);
-void runRays(const Options& options, Report& report);
-void runSolids(const Options& options, Report& report);
-void runRefit(const Options& options, Report& report);
+void runError(const Options& options, Report& report);
+void runPaper(const Options& options, Report& report);
+void runStability(const Options& options, Report& report);
 #ifdef KIOS_HAVE_PRELOAD
 void runPreload(const Options& options, Report& report);
 #endif
-void runError(const Options& options, Report& report);
-void runStability(const Options& options, Report& report);
+
+// Parts of several files.
+void reportRobotScenes(const Options& options, Report& report);  // of robots
+void reportCrowds(const Options& options, Report& report);       // of scene
+void reportFigure6(const Options& options, Report& report);      // of paper
+void reportFits(const Options& options, Report& report);         // of paper
+void reportPacking(const Options& options, Report& report);      // of paper
+void reportExactBounds(const Options& options, Report& report);  // of paper
 
 }  // namespace kios::bench

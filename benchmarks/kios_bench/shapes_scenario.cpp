@@ -60,14 +60,10 @@ int frameCount(const Options& options) {
   return options.frames > 0 ? options.frames : (options.quick ? 5 : kFrames);
 }
 
-scenes::Mesh torusOf(const Options& options) {
-  return scenes::bumpyTorus(options.quick ? 2000 : 20000);
-}
-
 }  // namespace
 
 void runShapes(const Options& options, Report& report) {
-  const scenes::Mesh mesh = torusOf(options);
+  const scenes::Mesh mesh = scenes::bumpyTorus(options.quick ? 2000 : 20000);
   const std::pair<const char*, Geometry> shapes[] = {
       {"sphere", std::make_shared<fcl::Sphered>(0.4)},
       {"box", std::make_shared<fcl::Boxd>(0.6, 0.5, 0.8)},
@@ -81,13 +77,9 @@ void runShapes(const Options& options, Report& report) {
     reportGeometry(std::string("shapes/") + shape, mesh, geometry, frameCount(options), options,
                    report);
   }
-}
-
-/// Occupied cells about the surface of a sphere.
-void runOctrees(const Options& options, Report& report) {
-  reportGeometry("octrees/shell", torusOf(options),
-                 octreeOf(scenes::icosphere(0.4, 4).vertices, 0.05), frameCount(options), options,
-                 report);
+  // Occupied cells about the surface of a sphere.
+  reportGeometry("octrees/shell", mesh, octreeOf(scenes::icosphere(0.4, 4).vertices, 0.05),
+                 frameCount(options), options, report);
 }
 
 }  // namespace kios::bench

@@ -156,10 +156,6 @@ class Overlaps {
     rows[0].errors.max_bracket_ratio = *std::max_element(ratios.begin(), ratios.end());
     rows[2].errors.mean_rel = off;
     report.add(rows);
-    std::printf("  upper / lower: median %s, at most %s; %.0f collide queries a penetration\n",
-                cell(rows[0].errors.bracket_ratio, "%.3f").c_str(),
-                cell(rows[0].errors.max_bracket_ratio, "%.2f").c_str(),
-                rows[0].times.median_us / rows[1].times.median_us);
     if (contacts == 0) std::printf("no contact\n");
   }
 

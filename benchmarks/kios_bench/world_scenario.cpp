@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <stdexcept>
 
 #include "scenario.h"
 #include "scenes/cad_parts.h"
@@ -69,8 +68,8 @@ std::vector<Row> rowsByGap(const Task& whole, Contest& contest) {
   return rows;
 }
 
-void reportWorld(const scenes::World& world, std::vector<LinkSet> sets, const Options& options,
-                 Report& report) {
+void reportWorld(const std::string& scenario, const scenes::World& world, std::vector<LinkSet> sets,
+                 const Options& options, Report& report) {
   constexpr std::size_t kLarge = 50000;  // triangles: an oracle for each link takes 100 MB
   const bool large = world.mesh.triangles.size() > kLarge;
   if (large) sets = thinned(std::move(sets));
@@ -84,7 +83,7 @@ void reportWorld(const scenes::World& world, std::vector<LinkSet> sets, const Op
   for (const LinkSet& set : sets) {
     std::vector<Row> rows;
     Task task;
-    task.scenario = options.scenario + "/" + world.name + "/" + set.name;
+    task.scenario = scenario + "/" + world.name + "/" + set.name;
     task.questions =
         questionsOf(placedLinks(world, set.meshes, poseCount(kPoses, options), options.seed),
                     first_link, meshes.size() - 1, large);
@@ -119,6 +118,22 @@ std::vector<scenes::World> allWorlds(const Options& options) {
     worlds.push_back(std::move(world));
   }
   return worlds;
+}
+
+/// Some of the worlds with Coal beside.
+void reportCoal(const Options& options, Report& report) {
+  const std::vector<std::string> volumes = volumeNames();
+  if (std::count(volumes.begin(), volumes.end(), kCoal) == 0) {
+    throw Skipped("Coal was not found when kios_bench was built");
+  }
+  Options ours = worldOptions(options);
+  ours.bvs = {"kios", "fcl_obbrss", kCoal};
+  const std::vector<std::string> named = {"table", "shelf", "terrain_1m", "building"};
+  const std::vector<LinkSet> sets = linkSets(options);
+  for (const scenes::World& world : allWorlds(options)) {
+    if (std::count(named.begin(), named.end(), world.name) == 0) continue;
+    reportWorld("coal", world, sets, ours, report);
+  }
 }
 
 }  // namespace
@@ -195,36 +210,14 @@ Task colder(const Task& task, const Options& options) {
   return cold;
 }
 
-bool wanted(const Options& options, const std::string& scene) {
-  return options.part.empty() || options.part == scene;
-}
-
 void runWorld(const Options& options, Report& report) {
+  if (options.part == "coal") return reportCoal(options, report);
   const Options ours = worldOptions(options);
   const std::vector<LinkSet> sets = linkSets(options);
-  const auto before = report.rows().size();
   for (const scenes::World& world : allWorlds(options)) {
-    if (wanted(options, world.name)) reportWorld(world, sets, ours, report);
+    if (wanted(options, world.name)) reportWorld("world", world, sets, ours, report);
   }
   reportWorldShapes(sets, ours, report);
-  if (report.rows().size() == before) {
-    throw std::invalid_argument("'world' has no scene called '" + options.part + "'");
-  }
-}
-
-void runCoal(const Options& options, Report& report) {
-  const std::vector<std::string> volumes = volumeNames();
-  if (std::count(volumes.begin(), volumes.end(), kCoal) == 0) {
-    throw Skipped("Coal was not found when kios_bench was built");
-  }
-  Options ours = worldOptions(options);
-  ours.bvs = {"kios", "fcl_obbrss", kCoal};
-  const std::vector<std::string> named = {"table", "shelf", "terrain_1m", "building"};
-  const std::vector<LinkSet> sets = linkSets(options);
-  for (const scenes::World& world : allWorlds(options)) {
-    if (std::count(named.begin(), named.end(), world.name) == 0) continue;
-    reportWorld(world, sets, ours, report);
-  }
 }
 
 }  // namespace kios::bench

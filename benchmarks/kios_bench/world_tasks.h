@@ -49,9 +49,6 @@ Task fewer(const Task& task, std::size_t frames);
 /// Returns a copy of the task as cold as it gets: a few of its frames, 96 MB written before each.
 Task colder(const Task& task, const Options& options);
 
-/// Whether the command line asks for this scene of 'world', or for all.
-bool wanted(const Options& options, const std::string& scene);
-
 /// Links and worlds as FCL's shapes: boxes of worlds that are made of them, single shapes, octrees.
 void reportWorldShapes(const std::vector<LinkSet>& sets, const Options& options, Report& report);
 

@@ -12,39 +12,36 @@ import time
 
 PAPER = "--bv kios,kios_method_ii,kios_tree,fcl_rss_tree,fcl_obbrss"
 PAIR = "--bv kios,fcl_obbrss"
-RUNS = {  # scenario: options
-    "falling": f"--frames 2400 --repeats 5 {PAPER}",
-    "spinning": f"--frames 2400 --repeats 5 {PAPER}",
-    "generated": f"--frames 300 --repeats 5 {PAIR}",
-    "strips": f"--frames 20 --repeats 5 {PAIR}",
-    "robots": f"--frames 60 --repeats 3 --oracle 100 {PAIR}",
-    "world": "--repeats 3 --oracle 20 --bv kios,fcl_rss,fcl_obbrss",
-    "coal": "--repeats 3 --oracle 20",
-    "crowds": "--repeats 3 --oracle 100",
-    "scaling": f"--frames 32 --repeats 5 {PAIR}",
-    "build": "--repeats 5",
-    "refit": f"--repeats 3 --max-triangles 5000 {PAIR}",
-    "error": "--frames 300 --repeats 5 --bv kios,fcl_rss,fcl_obbrss",
-    "scene": "--frames 100 --repeats 3",
-    "shapes": "--frames 60 --repeats 5",
-    "octrees": "--frames 60 --repeats 5",
-    "continuous": "--frames 40 --repeats 5",
-    "solids": "--repeats 5",
-    "motions": "--frames 200 --repeats 3 --oracle 1000",
-    "mbm": f"--frames 700 {PAIR}",
-    "rays": "--frames 4096 --repeats 5",
-    "paper": "--frames 20 --repeats 2",
-    "fits": "--frames 100 --repeats 3",
-    "packing": "--repeats 5",
-    "exact": "--repeats 5",
-    "stability": "--frames 2000 --repeats 1",
-    "preload": "--repeats 3",
+RUNS = {  # run: its file in docs/measured, and what kios_bench is asked
+    "falling": ("tori", f"tori/falling --frames 2400 --repeats 5 {PAPER}"),
+    "spinning": ("tori", f"tori/spinning --frames 2400 --repeats 5 {PAPER}"),
+    "generated": ("tori", f"tori/generated --frames 300 --repeats 5 {PAIR}"),
+    "scaling": ("tori", f"tori/scaling --frames 32 --repeats 5 {PAIR}"),
+    "robots": ("robots", f"robots --frames 60 --repeats 3 --oracle 100 {PAIR}"),
+    "world": ("world", "world --repeats 3 --oracle 20 --bv kios,fcl_rss,fcl_obbrss"),
+    "coal": ("world", "world/coal --repeats 3 --oracle 20"),
+    "crowds": ("world", "scene/crowds --repeats 3 --oracle 100"),
+    "scene": ("robots", "scene/bodies --frames 100 --repeats 3"),
+    "build": ("build", "build/models --repeats 5"),
+    "refit": ("build", f"build/refit --repeats 3 {PAIR}"),
+    "error": ("error", "error --frames 300 --repeats 5 --bv kios,fcl_rss,fcl_obbrss"),
+    "shapes": ("shapes", "shapes --frames 60 --repeats 5"),
+    "rays": ("shapes", "rays --frames 4096 --repeats 5"),
+    "solids": ("shapes", "solids --repeats 5"),
+    "continuous": ("motions", "continuous --frames 40 --repeats 5"),
+    "motions": ("motions", "motions --frames 200 --repeats 3 --oracle 1000"),
+    "mbm": ("motions", f"mbm --frames 700 {PAIR}"),
+    "paper": ("paper", "paper/figure_6 --frames 20 --repeats 2"),
+    "fits": ("paper", "paper/fits --frames 100 --repeats 3"),
+    "packing": ("paper", "paper/packing --repeats 5"),
+    "exact": ("paper", "paper/exact --repeats 5"),
+    "stability": ("stability", "stability --frames 2000 --repeats 1"),
+    "preload": ("preload", "preload --repeats 3"),
 }
 
-# Runs of a thousand rows are kept without what no page has.
-UNKEPT = dict.fromkeys(("world", "coal"), (
-    "min_us", "rel_err", "abs_err", "bv_tests", "leaf_tests", "bytes_per_triangle",
-    "build_us_per_triangle", "simd_target", "seed"))
+# What no page has isn't kept.
+UNKEPT = ("min_us", "ratio_to_fcl_obbrss", "max_rel_error", "mean_abs_error", "bracket_width",
+          "skipped_pairs", "seed")
 
 
 def header(root, scenario, command):
@@ -60,31 +57,41 @@ def header(root, scenario, command):
             "commit": commit + (" and changes" if changed else "")}
 
 
-def slim(row, unkept=()):
-    """The row without what is unknown, to five digits."""
+def slim(row):
+    """The row without what is unknown or unkept, to five digits."""
     return {key: float(f"{value:.5g}") if isinstance(value, float) else value
-            for key, value in row.items() if value is not None and key not in unkept}
+            for key, value in row.items() if value is not None and key not in UNKEPT}
 
 
-def measure(root, folder, scenarios):
+def replace(file, run, lines):
+    """Puts the lines of a run, of which the first is its header, in the place of those before."""
+    kept, keeps = [], False
+    for line in file.read_text().splitlines() if file.exists() else []:
+        if "run" in (of := json.loads(line)):
+            keeps = of["run"] != run and (of["run"] in RUNS or of["run"].startswith("python"))
+        if keeps:
+            kept.append(line)
+    file.write_text("\n".join([*kept, *map(json.dumps, lines)]) + "\n")
+
+
+def measure(root, folder, runs):
     program = os.environ.get("KIOS_BENCH", root / "build/release/benchmarks/kios_bench")
     logs = root / "build/report"
     logs.mkdir(parents=True, exist_ok=True)
     start, rowless = time.monotonic(), []
-    for i, scenario in enumerate(scenarios, 1):
-        command = f"kios_bench {scenario} {RUNS[scenario]}"
-        print(f"report: {time.monotonic() - start:4.0f} s, {i} of {len(scenarios)}: {command}",
+    for i, run in enumerate(runs, 1):
+        file, asked = RUNS[run]
+        command = f"kios_bench {asked}"
+        print(f"report: {time.monotonic() - start:4.0f} s, {i} of {len(runs)}: {command}",
               flush=True)
-        head, rows = header(root, scenario, command), logs / f"{scenario}.jsonl"
-        with open(logs / f"{scenario}.log", "w", encoding="utf-8") as log:
-            subprocess.run([program, *command.split()[1:], "--json", rows], check=True, stdout=log)
-        lines = [slim(json.loads(line), UNKEPT.get(scenario, ()))
-                 for line in rows.read_text().splitlines()]
-        if not lines:
-            rowless.append(scenario)
-            continue
-        lines = [json.dumps(line) + "\n" for line in [head, *lines]]
-        (folder / rows.name).write_text("".join(lines))
+        head, rows = header(root, run, command), logs / f"{run}.jsonl"
+        with open(logs / f"{run}.log", "w", encoding="utf-8") as log:
+            subprocess.run([program, *asked.split(), "--json", rows], check=True, stdout=log)
+        lines = [slim(json.loads(line)) for line in rows.read_text().splitlines()]
+        if lines:
+            replace(folder / f"{file}.jsonl", run, [head, *lines])
+        else:
+            rowless.append(run)
     print(f"report: {time.monotonic() - start:4.0f} s, done; now: scripts/report write")
     if rowless:
         raise LookupError(f"no row, so that what was measured before stays, of {', '.join(rowless)}"

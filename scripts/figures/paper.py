@@ -4,17 +4,8 @@
 from figures.rows import OURS, grid, number, spec
 
 
-# Variants whose rows tell what those beside them do.
-ALIKE = ("kios_method_ii_15deg", "kios_method_ii_22deg", "kios_method_ii_45deg",
-         "kios_method_ii_by_gain", "kios_axis_aligned_shared",
-         "kios_fixed_axes_all", "kios_fixed_axes_shared", "kios_fixed_6_shared",
-         "kios_axis_aligned_all", "kios_packed_method_ii", "kios_tuned_by_gain",
-         "kios_tuned_shared", "fcl_kdop16", "fcl_kdop18")
-
-
 def fits(rows):
-    volumes = dict.fromkeys(row["bv"] for row in rows.rows if row["scenario"] == "fits/falling"
-                            and row["bv"] not in ALIKE)
+    volumes = dict.fromkeys(row["bv"] for row in rows.rows if row["scenario"] == "fits/falling")
     columns = spec("""
 tests, falling / spinning | distance bv_tests falling spinning
 us                        | distance median_us falling spinning

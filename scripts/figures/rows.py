@@ -8,14 +8,16 @@ OURS, OBBRSS = "kios", "fcl_obbrss"
 
 
 class Rows:
-    """The rows of docs/measured, and the first line of each file in `runs`."""
+    """The rows of docs/measured, and the lines that open a run in `runs`."""
 
     def __init__(self, folder):
         self.runs, self.rows = {}, []
         for file in sorted(folder.glob("*.jsonl")):
-            lines = file.read_text(encoding="utf-8").splitlines()
-            self.runs[file.stem], *rows = map(json.loads, lines)
-            self.rows += rows
+            for line in map(json.loads, file.read_text(encoding="utf-8").splitlines()):
+                if "run" in line:
+                    self.runs[line["run"]] = line
+                else:
+                    self.rows.append(line)
 
     def find(self, scenario, query, bv=OURS, **settings):
         for row in self.rows:

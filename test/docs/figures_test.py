@@ -15,7 +15,7 @@ sys.path.insert(0, str(SCRIPTS))
 loader = importlib.machinery.SourceFileLoader("report", str(SCRIPTS / "report"))
 report = importlib.util.module_from_spec(importlib.util.spec_from_loader("report", loader))
 loader.exec_module(report)
-from figures import names  # noqa: E402
+from figures import measure, names  # noqa: E402
 HEADERS = names.headers
 
 RUN = {"run": "falling", "command": "kios_bench falling", "machine": "M", "load": 0.1,
@@ -75,6 +75,15 @@ class Figures(unittest.TestCase):
                      "Rows", "readme", "number"):
             with self.assertRaises(LookupError, msg=name):
                 report.filled(f"<!-- report:{name} --><!-- /report -->", self.rows)
+
+    def test_a_run_takes_the_place_of_the_one_before(self):
+        file = self.folder / "tori.jsonl"
+        runs = [{**RUN, "run": "falling"}, ROW, {**RUN, "run": "gone"}, ROW,
+                {**RUN, "run": "spinning"}, THEIRS]
+        file.write_text("\n".join(map(json.dumps, runs)))
+        measure.replace(file, "falling", [{**RUN, "commit": "new"}, STRIPS])
+        self.assertEqual([json.loads(line) for line in file.read_text().splitlines()],
+                         [runs[4], THEIRS, {**RUN, "commit": "new"}, STRIPS])
 
     def test_names_and_defaults_are_those_of_the_headers(self):
         text = """namespace kios {

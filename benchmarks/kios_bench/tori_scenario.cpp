@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-
+//
+// Two meshes along a motion, and two tori of each size at a gap.
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -9,11 +11,25 @@
 #include "pose_finder.h"
 #include "scenario.h"
 #include "scenes/motions.h"
+#include "scenes/pqp_data.h"
 #include "scenes/shapes.h"
 #include "scenes/unlike.h"
 
 namespace kios::bench {
 namespace {
+
+/// Reports distance, collide and build rows of two meshes along the chosen frames of a motion.
+void reportMotion(const std::string& scenario, const scenes::MovingPair& pair,
+                  const Options& options, Report& report) {
+  const std::vector<scenes::Frame> chosen = chosenFrames(pair.frames, options);
+  Contest contest({pair.a, pair.b}, options);
+  std::vector<Row> rows;
+  for (const Query query : {Query::kDistance, Query::kCollide}) {
+    append(contest.queryRows(pairTask(scenario, query, chosen)), rows);
+  }
+  append(contest.buildRows(scenario), rows);
+  report.add(rows);
+}
 
 struct Gap {
   const char* name;
@@ -39,9 +55,7 @@ int oracleFrames(const Options& options, int size) {
   return options.oracle_frames == 0 ? 0 : std::min(options.oracle_frames, affordable);
 }
 
-}  // namespace
-
-void runScaling(const Options& options, Report& report) {
+void reportScaling(const Options& options, Report& report) {
   const int frames = options.frames > 0 ? options.frames : (options.quick ? 4 : 32);
   for (const int size : sizes(options)) {
     const scenes::Mesh torus = scenes::bumpyTorus(size);
@@ -51,20 +65,38 @@ void runScaling(const Options& options, Report& report) {
     Contest contest({torus, scenes::unlike(torus)}, affordable);  // they share nothing
     PoseFinder distance(torus);
     std::vector<Row> rows;
-    Question in_contact;
     for (const Gap& gap : kGaps) {
       const auto motion = scenes::gapMotion(frames, gap.distance, kApart, options.seed,
                                             [&](const auto& frame) { return distance(frame); });
       for (const Query query : {Query::kDistance, Query::kCollide}) {
         append(contest.queryRows(pairTask(scenario + "/" + gap.name, query, motion)), rows);
       }
-      in_contact.poses = motion.back();  // of the last gap
     }
-    append(contest.buildRows(scenario), rows);
-    // In contact: no bounding volume at the roots decides.
-    append(contest.prepareRows(scenario, in_contact), rows);
     report.add(rows);
   }
+}
+
+}  // namespace
+
+void runTori(const Options& options, Report& report) {
+  constexpr int kSpinningFrames = 5000;
+  if (const auto data = findData(options)) {
+    if (wanted(options, "falling")) {
+      reportMotion("falling", scenes::loadFalling(*data), options, report);
+    }
+    if (wanted(options, "spinning")) {
+      reportMotion("spinning", scenes::loadSpinning(*data, kSpinningFrames), options, report);
+    }
+  } else {
+    std::printf(
+        "falling and spinning are left out: name the folder of their data by --data or "
+        "KIOS_DATA\n");
+  }
+  if (wanted(options, "generated")) {
+    reportMotion("generated/falling", generatedFalling(), options, report);
+    reportMotion("generated/spinning", generatedSpinning(), options, report);
+  }
+  if (wanted(options, "scaling")) reportScaling(options, report);
 }
 
 }  // namespace kios::bench
