@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "cad_shapes.h"
+#include "files/read_mesh.h"
 #include "placement.h"
-#include "ur5_data.h"
 
 namespace kios::scenes {
 namespace {
@@ -24,24 +22,6 @@ std::string lowerExtension(const fs::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension;
-}
-
-/// Returns the vertex that a corner of a face names: its first number, from 1, or from the end if
-/// negative.
-std::size_t vertexOf(const std::string& corner, std::size_t count) {
-  std::size_t end = 0;
-  long index = 0;
-  try {
-    index = std::stol(corner, &end);
-  } catch (const std::exception&) {
-    end = 0;
-  }
-  const bool number = end > 0 && (end == corner.size() || corner[end] == '/');
-  const long vertex = index < 0 ? static_cast<long>(count) + index : index - 1;
-  if (!number || vertex < 0 || vertex >= static_cast<long>(count)) {
-    throw std::out_of_range("a face names the vertex '" + corner + "' of " + std::to_string(count));
-  }
-  return static_cast<std::size_t>(vertex);
 }
 
 struct Box {
@@ -71,54 +51,21 @@ Transform3d upright(const Box& box) {
 
 }  // namespace
 
-Mesh loadObj(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be opened for reading");
-  Mesh mesh;
-  int number = 0;
-  for (std::string line; std::getline(stream, line);) {
-    ++number;
-    std::istringstream words(line);
-    std::string key;
-    words >> key;
-    try {
-      if (key == "v") {
-        Vector3d p;
-        if (!(words >> p.x() >> p.y() >> p.z()) || !p.allFinite()) {
-          throw std::runtime_error("a vertex has not three finite numbers");
-        }
-        mesh.vertices.push_back(p);
-      } else if (key == "f") {
-        std::vector<std::size_t> face;
-        for (std::string corner; words >> corner;) {
-          face.push_back(vertexOf(corner, mesh.vertices.size()));
-        }
-        if (face.size() < 3) throw std::runtime_error("a face has fewer than three corners");
-        for (std::size_t i = 2; i < face.size(); ++i) {
-          mesh.triangles.emplace_back(face[0], face[i - 1], face[i]);
-        }
-      }
-    } catch (const std::exception& fault) {
-      throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": " + fault.what());
-    }
-  }
-  if (mesh.triangles.empty()) throw std::runtime_error(file.string() + ": has no faces");
-  return mesh;
+Mesh loadMesh(const fs::path& file) {
+  const files::Mesh read = files::readMesh(file.string());
+  return welded({read.vertices, read.triangles});
 }
 
 std::vector<Mesh> loadMeshes(const fs::path& folder) {
-  std::vector<fs::path> files;
+  std::vector<fs::path> names;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string extension = lowerExtension(entry.path());
-    if (extension == ".stl" || extension == ".obj") files.push_back(entry.path());
+    if (extension == ".stl" || extension == ".obj") names.push_back(entry.path());
   }
-  std::sort(files.begin(), files.end());
+  std::sort(names.begin(), names.end());
   std::vector<Mesh> meshes;
-  for (const fs::path& file : files) {
-    meshes.push_back(welded(lowerExtension(file) == ".stl" ? loadStl(file) : loadObj(file)));
-    if (meshes.back().triangles.empty()) {
-      throw std::runtime_error(file.string() + ": has no triangles");
-    }
+  for (const fs::path& file : names) {
+    meshes.push_back(loadMesh(file));
   }
   if (meshes.empty()) {
     throw std::runtime_error(folder.string() + ": holds no .stl and no .obj file");

@@ -11,13 +11,12 @@
 
 namespace kios::scenes {
 
-/// Returns the meshes of a folder's binary STL and OBJ files, by name, equal vertices welded.
-/// Polygons of OBJ become fans. Throws std::runtime_error that names the file and what is wrong
-/// with it, or the folder if it holds none.
-std::vector<Mesh> loadMeshes(const std::filesystem::path& folder);
+/// Returns a file's mesh by addons/files, equal vertices welded. Throws as files::readMesh().
+Mesh loadMesh(const std::filesystem::path& file);
 
-/// An OBJ file's vertices and faces; everything else in it is passed over. Throws likewise.
-Mesh loadObj(const std::filesystem::path& file);
+/// Returns the meshes of a folder's STL and OBJ files, by name. Throws likewise, and
+/// std::runtime_error that names the folder if it holds none.
+std::vector<Mesh> loadMeshes(const std::filesystem::path& folder);
 
 /// Returns the meshes as links of an arm, in their order: each with the longest side of its box
 /// along the arm, from joint to joint, the joints twisting and bending in turn. All that is known

@@ -147,13 +147,4 @@ std::vector<Frame> farMotion(int frames, double nearest, double farthest, std::u
   return motion;
 }
 
-std::vector<Frame> shuffled(std::vector<Frame> frames, std::uint64_t seed) {
-  Random random(seed);
-  for (std::size_t left = frames.size(); left > 1; --left) {
-    const auto chosen = static_cast<std::size_t>(random.unit() * static_cast<double>(left));
-    std::swap(frames[left - 1], frames[chosen]);
-  }
-  return frames;
-}
-
 }  // namespace kios::scenes

@@ -45,7 +45,4 @@ std::vector<Frame> gapMotion(int frames, double gap, double apart, std::uint64_t
 /// uniform in [nearest, farthest].
 std::vector<Frame> farMotion(int frames, double nearest, double farthest, std::uint64_t seed);
 
-/// The frames in a random order, which the seed sets: no coherence is left.
-std::vector<Frame> shuffled(std::vector<Frame> frames, std::uint64_t seed);
-
 }  // namespace kios::scenes

@@ -3,15 +3,13 @@
 
 #include "ur5_data.h"
 
-#include <cstdint>
-#include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
-#include "cad_shapes.h"
+#include "mesh_folder.h"
 
 namespace kios::scenes {
 namespace {
@@ -88,36 +86,6 @@ bool holdsUr5(const fs::path& data) {
   return fs::is_regular_file(data / "ur5" / "kinematics.yaml", ignored);
 }
 
-Mesh loadStl(const fs::path& file) {
-  constexpr std::size_t kHeader = 84;
-  constexpr std::size_t kRecord = 50;  // normal, corners, 2 bytes of attributes
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(file, "cannot be opened for reading");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  const std::string bytes = text.str();
-  if (bytes.size() < kHeader) refuse(file, "is too short for a binary STL file");
-  std::uint32_t count = 0;
-  std::memcpy(&count, bytes.data() + kHeader - sizeof count, sizeof count);
-  if (bytes.size() != kHeader + kRecord * count) {
-    refuse(file, "has not the size of the " + std::to_string(count) + " triangles it announces");
-  }
-  Mesh mesh;
-  for (std::size_t i = 0; i < count; ++i) {
-    float corners[9];
-    std::memcpy(corners, bytes.data() + kHeader + kRecord * i + 3 * sizeof(float), sizeof corners);
-    for (int corner = 0; corner < 3; ++corner) {
-      const float* p = corners + 3 * corner;
-      mesh.vertices.emplace_back(p[0], p[1], p[2]);
-      if (!mesh.vertices.back().allFinite()) {
-        refuse(file, "has no finite number in triangle " + std::to_string(i));
-      }
-    }
-    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-  }
-  return mesh;
-}
-
 Arm loadUr5(const fs::path& data) {
   const fs::path folder = data / "ur5";
   const fs::path kinematics = folder / "kinematics.yaml";
@@ -137,7 +105,7 @@ Arm loadUr5(const fs::path& data) {
       link.X_PL = pose({vector("x", "y", "z"), vector("roll", "pitch", "yaw")});
     }
     link.X_LM = pose(from.origin);
-    link.mesh = welded(loadStl(folder / (std::string(from.mesh) + ".stl")));
+    link.mesh = loadMesh(folder / (std::string(from.mesh) + ".stl"));
     arm.links.push_back(std::move(link));
   }
   arm.centres.assign(std::begin(kCentres), std::end(kCentres));

@@ -13,10 +13,7 @@ namespace kios::scenes {
 bool holdsUr5(const std::filesystem::path& data);
 
 /// Returns the UR5 of the data folder: base and 6 links, equal vertices welded. Throws
-/// std::runtime_error naming the file and what is wrong with it.
+/// std::runtime_error, or as loadMesh(), naming the file and what is wrong with it.
 Arm loadUr5(const std::filesystem::path& data);
-
-/// Returns a binary STL file as a soup. Throws as loadUr5 does.
-Mesh loadStl(const std::filesystem::path& file);
 
 }  // namespace kios::scenes

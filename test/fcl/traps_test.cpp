@@ -49,28 +49,25 @@ TEST(Traps, ShapesAndOctrees) {
   for (const auto& [name, other] : partnersAndFlatShapes()) {
     for (const auto& [mesh_name, mesh] : meshes()) {
       const auto model = kiosModel(mesh);
-      for (const bool prepared : {false, true}) {
-        if (prepared) prepare(*model);
-        auto poses = scenes::randomPoses(6, 1.2, 3);
-        poses.push_back(Transform3d::Identity());
-        poses.emplace_back(Eigen::Translation3d(5, 0, 0));
-        for (const Transform3d& X : poses) {
-          const Transform3d here = Transform3d::Identity();
-          const std::string names = name + ", " + mesh_name;
-          flags.during(names + ": fcl::distance", [&] {
-            fcl::DistanceResultd result;
-            fcl::distance(model.get(), here, other.get(), X, fcl::DistanceRequestd(true), result);
-          });
-          flags.during(names + ": fcl::collide", [&] {
-            fcl::CollisionResultd result;
-            fcl::collide(other.get(), X, model.get(), here, fcl::CollisionRequestd(), result);
-          });
-          flags.during(names + ": fcl::collide, contacts", [&] {
-            fcl::CollisionResultd result;
-            fcl::collide(model.get(), here, other.get(), X, fcl::CollisionRequestd(100, true),
-                         result);
-          });
-        }
+      auto poses = scenes::randomPoses(6, 1.2, 3);
+      poses.push_back(Transform3d::Identity());
+      poses.emplace_back(Eigen::Translation3d(5, 0, 0));
+      for (const Transform3d& X : poses) {
+        const Transform3d here = Transform3d::Identity();
+        const std::string names = name + ", " + mesh_name;
+        flags.during(names + ": fcl::distance", [&] {
+          fcl::DistanceResultd result;
+          fcl::distance(model.get(), here, other.get(), X, fcl::DistanceRequestd(true), result);
+        });
+        flags.during(names + ": fcl::collide", [&] {
+          fcl::CollisionResultd result;
+          fcl::collide(other.get(), X, model.get(), here, fcl::CollisionRequestd(), result);
+        });
+        flags.during(names + ": fcl::collide, contacts", [&] {
+          fcl::CollisionResultd result;
+          fcl::collide(model.get(), here, other.get(), X, fcl::CollisionRequestd(100, true),
+                       result);
+        });
       }
     }
   }

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <string>
 
 #include "scenes/oracle.h"
@@ -80,21 +79,6 @@ TEST(Motions, FarMotionKeepsItsDistances) {
     EXPECT_GE(distance, 3 - 1e-12);
     EXPECT_LE(distance, 10 + 1e-12);
   }
-}
-
-TEST(Motions, ShuffledIsASeededPermutation) {
-  const auto frames = fallingMotion(200);
-  const auto heights = [](const std::vector<Frame>& motion) {
-    std::vector<double> z;
-    for (const Frame& frame : motion) z.push_back(frame.X_WA.translation().z());
-    return z;
-  };
-  auto mixed = heights(shuffled(frames, 1));
-  EXPECT_EQ(mixed, heights(shuffled(frames, 1)));
-  EXPECT_NE(mixed, heights(shuffled(frames, 2)));
-  EXPECT_NE(mixed, heights(frames));
-  std::sort(mixed.begin(), mixed.end(), std::greater<>());
-  EXPECT_EQ(mixed, heights(frames));
 }
 
 // Returns the loader's message about a file of the given text; empty if it takes the file.
