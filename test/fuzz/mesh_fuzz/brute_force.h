@@ -2,107 +2,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <limits>
-#include <memory>
-#include <utility>
-#include <vector>
-
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
-#include "fcl_kios/volume/separation.h"
+#include "all_pairs.h"
 #include "fuzz/mesh_fuzz/fuzz_case.h"
-#include "shapes.h"
 
 // The judge of the searches: the triangle kernels over all pairs of triangles, in the common frame.
 // The kernels themselves are judged by the question "kernel".
 
 namespace kios::fuzz {
 
-template <typename S>
-TriangleVertices<S> placed(const TriangleVertices<S>& t, const RelativePose<S>& X) {
-  return {X * t[0], X * t[1], X * t[2]};
-}
-
 /// Holds all pairs of triangles of two meshes, in the frame of the first.
 template <typename S>
-class BruteForce {
+class BruteForce : public testing::AllPairs<S> {
  public:
-  using Ids = std::pair<int, int>;
-  static constexpr double kEps = std::numeric_limits<S>::epsilon();
-  /// Below the scalar's normal numbers, results are rounded absolutely.
-  static constexpr double kLeast = std::numeric_limits<S>::min();
-
   BruteForce(const Mesh& a, const fcl::Transform3<S>& X_WA, const Mesh& b,
              const fcl::Transform3<S>& X_WB)
-      : X_AB(X_WA, X_WB), a_(trianglesOf(a)), b_in_b_(trianglesOf(b)), b_(b_in_b_) {
-    for (auto& t : b_) t = placed(t, X_AB);
-    distances_.reserve(a_.size() * b_.size());
-    for (std::size_t i = 0; i < a_.size(); ++i) {
-      for (std::size_t j = 0; j < b_.size(); ++j) {
-        const S d = triangleDistance(a_[i], b_[j]).distance;
-        const Ids ids = {static_cast<int>(i), static_cast<int>(j)};
-        distances_.push_back(d);
-        if (distances_.size() == 1 || d < distance) {
-          distance = d;
-          nearest = ids;
-        }
-        if (trianglesIntersect(a_[i], b_[j])) hits.push_back(ids);
-      }
-    }
-  }
+      : testing::AllPairs<S>(trianglesOf(a), trianglesOf(b), RelativePose<S>(X_WA, X_WB)) {}
 
-  bool contains(const Ids& ids) const {
-    return ids.first >= 0 && ids.first < static_cast<int>(a_.size()) && ids.second >= 0 &&
-           ids.second < static_cast<int>(b_.size());
+  static testing::Triangles<S> trianglesOf(const Mesh& mesh) {
+    return testing::trianglesOf<S>(testing::MeshIn<S>(mesh));
   }
-  S distanceOf(const Ids& ids) const {
-    return distances_[static_cast<std::size_t>(ids.first) * b_.size() +
-                      static_cast<std::size_t>(ids.second)];
-  }
-  /// Returns L of the contract.
-  double extentOf(const Ids& ids) const {
-    return testing::extentOf(a_[static_cast<std::size_t>(ids.first)],
-                             b_[static_cast<std::size_t>(ids.second)]);
-  }
-  /// The largest difference of two right answers, one for these triangles and one for the nearest:
-  /// 16 eps L each.
-  double tolerance(const Ids& ids) const {
-    return 16 * kEps * (extentOf(ids) + extentOf(nearest)) + 2 * kLeast;
-  }
-  /// Bounds the error of the place of b's triangle in the common frame (docs/guarantees.md).
-  double frameError(int b) const {
-    double most = 0;
-    for (const auto& p : b_in_b_[static_cast<std::size_t>(b)]) {
-      most = std::max(most, p.template cast<double>().stableNorm());
-    }
-    const auto& bounds = detail::boundsOf(X_AB);
-    return 4 * 1.8 * kEps * ((1 + bounds.stretch) * most + bounds.T_norm1);
-  }
-  const std::vector<S>& distances() const { return distances_; }
-  const std::vector<TriangleVertices<S>>& trianglesOfA() const { return a_; }
-  const std::vector<TriangleVertices<S>>& trianglesOfB() const { return b_; }  ///< in A
-  const std::vector<TriangleVertices<S>>& trianglesInB() const { return b_in_b_; }
-
-  const RelativePose<S> X_AB;
-  S distance = 0;
-  Ids nearest;  ///< the least ids at that distance
-  std::vector<Ids> hits;
-
-  static std::vector<TriangleVertices<S>> trianglesOf(const Mesh& mesh) {
-    std::vector<TriangleVertices<S>> triangles;
-    for (const fcl::Triangle& t : mesh.triangles) {
-      triangles.push_back({mesh.vertices[t[0]].cast<S>(), mesh.vertices[t[1]].cast<S>(),
-                           mesh.vertices[t[2]].cast<S>()});
-    }
-    return triangles;
-  }
-
- private:
-  const std::vector<TriangleVertices<S>> a_, b_in_b_;
-  std::vector<TriangleVertices<S>> b_;
-  std::vector<S> distances_;  ///< [a][b]
 };
 
 }  // namespace kios::fuzz
