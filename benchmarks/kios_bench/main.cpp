@@ -86,7 +86,12 @@ bool runOne(const std::string& name, Options options, Report& report) {
     const std::size_t before = report.rows().size();
     scenario.run(options, report);
     if (!options.part.empty() && report.rows().size() == before) {
-      throw Skipped("no such part, or no data for it: see --list, and name their folder by --data");
+      const std::string parts = ' ' + std::string(scenario.parts) + ' ';
+      if (parts.find(' ' + options.part + ' ') == std::string::npos) {
+        throw std::invalid_argument("'" + std::string(scenario.name) + "' has no part called '" +
+                                    options.part + "'");
+      }
+      throw Skipped("its data are absent: name their folder by --data or KIOS_DATA");
     }
   } catch (const Skipped& reason) {
     std::printf("skipped: %s: %s\n", name.c_str(), reason.what());
