@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "inspection.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "fcl_kios/model/prepare.h"
@@ -19,6 +20,27 @@ std::size_t bytesOf(const Modeld& model) {
 }
 
 }  // namespace
+
+std::size_t Inspection::count(Meeting kind) const {
+  return static_cast<std::size_t>(
+      std::count_if(self_intersections.begin(), self_intersections.end(),
+                    [&](const SelfIntersection& pair) { return pair.kind == kind; }));
+}
+
+std::vector<std::string> Inspection::warnings() const {
+  std::vector<std::string> result = inspect::warnings(mesh, defects);
+  if (self_intersections.empty()) return result;
+  const SelfIntersection& first = self_intersections.front();
+  const std::size_t n = self_intersections.size();
+  result.push_back((n == kMostSelfIntersections ? "at least " : "") + std::to_string(n) +
+                   (n == 1 ? " pair" : " pairs") +
+                   " of triangles that meet beyond what they share (" +
+                   std::to_string(count(Meeting::kCross)) + " cross, " +
+                   std::to_string(count(Meeting::kOverlap)) + " overlap, " +
+                   std::to_string(count(Meeting::kTouch)) + " touch), the first is " +
+                   std::to_string(first.triangle_a) + " and " + std::to_string(first.triangle_b));
+  return result;
+}
 
 Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress,
                    const RepairOptions* repair) {
@@ -59,6 +81,10 @@ Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& 
   progress.step("preparing " + triangles);
   prepare(*result.model);
   result.prepare_seconds = progress.done();
+
+  progress.step("looking for intersections of " + triangles);
+  result.self_intersections = selfIntersections(*result.model, kMostSelfIntersections);
+  progress.done();
 
   result.tree = std::make_unique<VolumeTree>(*result.model);
   for (int node = 0; node < result.nodes(); ++node) ++result.k[result.tree->volume(node).k() / 2];

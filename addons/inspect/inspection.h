@@ -11,6 +11,7 @@
 
 #include "defects.h"
 #include "fcl_kios/solid/repair.h"
+#include "fcl_kios/solid/self_intersections.h"
 #include "mesh.h"
 #include "progress.h"
 #include "tightness.h"
@@ -18,12 +19,16 @@
 
 namespace kios::inspect {
 
+/// More pairs of triangles that meet aren't listed.
+constexpr std::size_t kMostSelfIntersections = 1000000;
+
 /// Holds a mesh, its model and its tree, and what there is to tell about them.
 struct Inspection {
   std::string file;
   Mesh mesh;  ///< repaired, if that was asked for
   std::optional<Repairedd> repaired;
   Defects defects;
+  std::vector<SelfIntersection> self_intersections;  ///< up to kMostSelfIntersections
   std::shared_ptr<Modeld> model;
   std::unique_ptr<VolumeTree> tree;
   Eigen::AlignedBox3d box;            ///< around the triangles
@@ -34,6 +39,10 @@ struct Inspection {
   double read_seconds = 0, build_seconds = 0, prepare_seconds = 0;
 
   int nodes() const { return model->getNumBVs(); }
+  /// Returns how many of the pairs meet like that.
+  std::size_t count(Meeting kind) const;
+  /// Returns warnings() of the mesh, and one of triangles that meet.
+  std::vector<std::string> warnings() const;
 };
 
 /// Reads and examines a file. Throws InputError with what readMesh() says, and where a mesh is

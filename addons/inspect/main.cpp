@@ -167,7 +167,7 @@ int run(const Options& options) {
   progress.done();
 
   bool warned = false;
-  for (const Inspection& i : inspections) warned |= !warnings(i.mesh, i.defects).empty();
+  for (const Inspection& i : inspections) warned |= !i.warnings().empty();
   if (options.json) {
     Json report = {
         {"version", FCL_KIOS_VERSION_STRING}, {"meshes", Json::array()}, {"pair", nullptr}};

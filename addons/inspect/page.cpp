@@ -110,6 +110,16 @@ Json sceneMesh(const Inspection& inspection, const Units& units, double budget, 
       for (int c = 0; c < 3; ++c) corners.push_back(static_cast<std::uint32_t>(t[c]));
     }
     mesh["triangles"] = viewer::base64(corners);
+    std::vector<std::uint32_t> marked;  // corners of the triangles that meet others
+    std::vector<bool> meets(inspection.mesh.triangles.size());
+    for (const SelfIntersection& pair : inspection.self_intersections) {
+      for (const int t : {pair.triangle_a, pair.triangle_b})
+        meets[static_cast<std::size_t>(t)] = true;
+    }
+    for (std::size_t t = 0; t < meets.size(); ++t) {
+      if (meets[t]) marked.insert(marked.end(), &corners[3 * t], &corners[3 * t] + 3);
+    }
+    mesh["marked"] = viewer::base64(marked);
   } else {
     notes.push_back(what + "the mesh itself is" + why);
   }

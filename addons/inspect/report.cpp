@@ -104,7 +104,12 @@ Json toJson(const Inspection& i) {
             {"inside_out_components", i.defects.surface.inside_out},
             {"branching_edges", i.defects.surface.branching_edges},
             {"points_and_lines", i.mesh.other_faces}}},
-          {"warnings", warnings(i.mesh, i.defects)},
+          {"self_intersections",
+           {{"crosses", i.count(Meeting::kCross)},
+            {"overlaps", i.count(Meeting::kOverlap)},
+            {"touches", i.count(Meeting::kTouch)},
+            {"complete", i.self_intersections.size() < kMostSelfIntersections}}},
+          {"warnings", i.warnings()},
           {"repaired", i.repaired ? toJson(*i.repaired) : Json(nullptr)},
           {"nodes", i.nodes()},
           {"depth", i.tree->depth()},
@@ -162,7 +167,7 @@ std::string toText(const Inspection& i) {
         "  note       queries search the model's own tree: the mesh is beyond the range of "
         "prepared ones\n";
   }
-  for (const std::string& warning : warnings(i.mesh, i.defects)) {
+  for (const std::string& warning : i.warnings()) {
     out += "  warning    " + warning + "\n";
   }
   if (i.levels.empty()) return out;

@@ -136,6 +136,8 @@ void main() {
   result = color;
 }`;
 
+const RED = [0.86, 0.1, 0.16];
+
 function decode(text, Type) {
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
   return new Type(bytes.buffer);
@@ -217,6 +219,7 @@ class Renderer {
       };
       uploaded.faces = withIndices(triangles);
       uploaded.edges = withIndices(edges);
+      if (mesh.marked) uploaded.marked = withIndices(decode(mesh.marked, Uint32Array));
     }
     for (const level of mesh.levels) {
       const values = decode(level, Float32Array);
@@ -241,7 +244,7 @@ class Renderer {
   /**
    * camera: {view: Mat, projection: Mat, pixel: size of a pixel at distance 1};
    * shown: {level, opacity, volumes, mesh, edges, segment}. Between pictures a page may set the
-   * matrix, the colour, the opacity and `hidden` of a mesh, and the scene's segment.
+   * matrix, the colour, the opacity and `hidden` of a mesh, the scene's segment and its colour.
    */
   draw(camera, shown) {
     const gl = this.gl, {width, height} = gl.canvas;
@@ -289,6 +292,11 @@ class Renderer {
     gl.polygonOffset(1, 1);
     gl.bindVertexArray(mesh.faces.array);
     gl.drawElements(gl.TRIANGLES, mesh.faces.count, gl.UNSIGNED_INT, 0);
+    if (mesh.marked) {
+      gl.uniform4f(uniforms.color, ...RED, mesh.opacity);
+      gl.bindVertexArray(mesh.marked.array);
+      gl.drawElements(gl.TRIANGLES, mesh.marked.count, gl.UNSIGNED_INT, 0);
+    }
     gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.disable(gl.BLEND);
     if (!shown.edges || mesh.opacity < 1) return;
@@ -322,7 +330,7 @@ class Renderer {
     gl.uniform3f(uniforms.to, ...to);
     gl.uniform2f(uniforms.size, gl.canvas.width, gl.canvas.height);
     gl.uniform1f(uniforms.width, 2 * shown.ratio);
-    gl.uniform4f(uniforms.color, 0.86, 0.1, 0.16, 1);
+    gl.uniform4f(uniforms.color, ...(this.scene.segmentColor || RED), 1);
     gl.bindVertexArray(null);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.ribbon);
     gl.enableVertexAttribArray(0);

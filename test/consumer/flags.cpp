@@ -139,7 +139,7 @@ void askRobot(const std::string& urdf, const std::string& srdf) {
     std::printf("%s %s %d %td\n", pair.a.c_str(), pair.b.c_str(), static_cast<int>(pair.verdict),
                 pair.q.size());
   }
-  std::printf("%s\n", kios::toSrdf(robot.linkPairs()).c_str());
+  std::printf("%s\n", kios::toSrdf(robot.linkPairs(), robot.name()).c_str());
 }
 #endif
 

@@ -77,17 +77,17 @@ TEST(LinkPairs, AllShapesAndJoints) {
   const Robot robot = loadRobot(manyJoints(folder));
   PairOptions options;
   options.max_boxes = 300000;
+  options.max_seconds = std::numeric_limits<double>::infinity();
   const auto pairs = robot.linkPairs(options);
   EXPECT_EQ(pairs.size(), 28u);  // of eight links with geometry
   expectRight(robot, pairs, 20000);
   EXPECT_GE(count(pairs, PairVerdict::kAlways), 7);
   EXPECT_GT(count(pairs, PairVerdict::kSometimes), 5);
   EXPECT_EQ(count(pairs, PairVerdict::kOpen), 0);
-  const std::string srdf = toSrdf(pairs);
+  const std::string srdf = toSrdf(pairs, robot.name());
   EXPECT_NE(srdf.find("reason=\"Adjacent\""), std::string::npos);
   // What is written is read again, and hides no contact.
-  const Robot again = loadRobot(folder / "arm.urdf",
-                                folder.write("a.srdf", "<robot name='arm'>" + srdf + "</robot>"));
+  const Robot again = loadRobot(folder / "arm.urdf", folder.write("a.srdf", srdf));
   for (const LinkPair& pair : pairs) {
     EXPECT_EQ(again.allowed(pair.a, pair.b), pair.verdict != PairVerdict::kSometimes);
   }
@@ -125,6 +125,46 @@ TEST(LinkPairs, SmallGapsAreProvenAndSmallOverlapsFound) {
   EXPECT_EQ(swinging(folder, 0.001).linkPairs(none)[0].verdict, PairVerdict::kOpen);
   none.max_boxes = -1;
   expectRefused([&] { swinging(folder, 1).linkPairs(none); }, "max_boxes");
+  PairOptions late;
+  late.max_seconds = 0;
+  EXPECT_EQ(swinging(folder, 1e-7).linkPairs(late)[0].verdict, PairVerdict::kOpen);
+  late.max_seconds = -1;
+  expectRefused([&] { swinging(folder, 1).linkPairs(late); }, "max_seconds");
+}
+
+// Without an SRDF links that no joint joins may overlap wherever they are.
+TEST(LinkPairs, PairsThatAlwaysOverlapAreFoundAndIgnored) {
+  const Folder folder;
+  Robot robot = loadRobot(folder.write(
+      "o.urdf",
+      "<robot name='o'>" + link("a<", "<sphere radius='0.2'/>") + link("b") +
+          link("c", "<sphere radius='0.2'/>") + link("d", "<sphere radius='0.05'/>") +
+          joint("j", "continuous", "a<", "b", "<axis xyz='0 0 1'/>") +
+          joint("k", "continuous", "b", "c", "<origin xyz='0.1 0 0'/><axis xyz='0 0 1'/>") +
+          joint("l", "continuous", "c", "d", "<origin xyz='0.5 0 0'/><axis xyz='0 0 1'/>") +
+          "</robot>"));
+  const VectorXd q = VectorXd::Zero(3);
+  EXPECT_TRUE(robot.contact(q));
+  std::vector<std::size_t> settled;
+  PairOptions options;
+  options.threads = 1;
+  options.progress = [&](std::size_t done, std::size_t all) {
+    EXPECT_EQ(all, 3u);
+    settled.push_back(done);
+  };
+  const auto pairs = robot.linkPairs(options);
+  EXPECT_EQ(settled, (std::vector<std::size_t>{1, 2, 3}));
+  ASSERT_EQ(pairs[0].a + " " + pairs[0].b, "a< c");
+  EXPECT_EQ(pairs[0].verdict, PairVerdict::kAlways);
+  EXPECT_TRUE(meetAt(robot, pairs[0], pairs[0].q));
+  EXPECT_EQ(pairs[1].verdict, PairVerdict::kNever);
+  const Robot again =
+      loadRobot(folder / "o.urdf", folder.write("o.srdf", toSrdf(pairs, robot.name())));
+  EXPECT_TRUE(again.warnings().empty());
+  EXPECT_FALSE(again.contact(q));
+  robot.ignore(pairs);
+  EXPECT_FALSE(robot.contact(q));
+  expectRefused([&] { robot.ignore({LinkPair{"a<", "e"}}); }, "'e'");
 }
 
 // The tip of a mesh reaches a ball at one angle only, which no sample finds.

@@ -64,7 +64,7 @@ END
 grep -q 'excludes' no.txt
 printf '0,1\n\n0,1,2\n' >bad.txt
 "$robot" show arm.urdf --path bad.txt --html no.html 2>no.txt && exit 1
-grep -q 'bad.txt, line 3: it has 3 coordinates, but the robot 2' no.txt
+grep -q 'bad.txt, line 3: it has 3 coordinates, but arm has 2' no.txt
 echo "== one configuration"
 "$robot" show arm.urdf --at=0.3,1 --html alone.html
 browse alone.html alone.png --size 1100x640 --no-test

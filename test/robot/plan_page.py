@@ -23,7 +23,7 @@ def test(page):
                  len(stops) * browser.value("scene.meshes.filter((m) => !m.obstacle).length"))
     browser.key("s")
     alone = page.picture()
-    page.require("without them much of the view is another", differing(page.start, alone) > 0.02)
+    page.require("without them much of the view is another", differing(page.start, alone) > 0.01)
     browser.key("s")
     page.require("with them it looks as before", page.changed() == 0)
     page.slide("path", stops[3])

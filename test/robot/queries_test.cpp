@@ -138,6 +138,26 @@ TEST(RobotQueries, TheLeastClearanceIsThatOfAllPairs) {
   }
 }
 
+TEST(RobotQueries, ClearanceToItselfAndToObstaclesApart) {
+  const Folder folder;
+  Robot robot = loadRobot(manyJoints(folder));
+  ClearanceOptions itself, obstacles;
+  itself.among = RobotPairs::kItself;
+  obstacles.among = RobotPairs::kObstacles;
+  Random random(4);
+  EXPECT_TRUE(robot.clearance(randomConfiguration(robot, random), obstacles).a.empty());
+  robot.addObstacle("ball", std::make_shared<fcl::Sphered>(0.1), shifted(0.6, 0, 0.6));
+  robot.attach("cup", "tool", std::make_shared<fcl::Sphered>(0.02), shifted(0, 0, 0.1));
+  for (int i = 0; i < 100; ++i) {
+    const VectorXd q = randomConfiguration(robot, random);
+    const auto all = robot.clearance(q), own = robot.clearance(q, itself),
+               others = robot.clearance(q, obstacles);
+    EXPECT_EQ(all.clearance, std::min(own.clearance, others.clearance));
+    EXPECT_NE(own.b, "ball");
+    EXPECT_EQ(others.b, "ball");
+  }
+}
+
 TEST(RobotQueries, PaddingIsTakenFromDistances) {
   const Folder folder;
   Robot robot = cluttered(folder);

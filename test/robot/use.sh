@@ -32,7 +32,7 @@ cat >"$work/source/robot.cpp" <<'END'
 int main(int, char** argv) {
   const kios::Robot robot = kios::loadRobot(argv[1]);
   const Eigen::VectorXd q = Eigen::VectorXd::Zero(robot.coordinates());
-  std::cout << robot.clearance(q).clearance << kios::toSrdf(robot.linkPairs()).empty() << "\n";
+  std::cout << robot.clearance(q).clearance << kios::toSrdf(robot.linkPairs(), robot.name()).empty() << "\n";
 }
 END
 cat >"$work/r.urdf" <<'END'

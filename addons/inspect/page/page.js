@@ -20,7 +20,7 @@ function describePair(panel, pair) {
 }
 
 function describeMesh(panel, mesh, index, names) {
-  const title = add(panel, 'h2', (names.length > 1 ? names[index] : 'Mesh') + ' ');
+  const title = add(panel, 'h2', (names.length > 1 ? 'AB'[index] + ': ' + names[index] : 'Mesh') + ' ');
   add(title, 'span', '', 'swatch').style.background = `rgb(${scene.meshes[index].color.join()})`;
   for (const warning of mesh.warnings) add(panel, 'p', warning, 'warning');
   const sizes = mesh.box.upper.map((u, i) => short(u - mesh.box.lower[i])).join(' × ');
@@ -66,6 +66,10 @@ function describe() {
   for (const note of content.notes) add(panel, 'p', note, 'faint');
   if (report.pair) describePair(panel, report.pair);
   report.meshes.forEach((mesh, i) => describeMesh(panel, mesh, i, names));
+  add(panel, 'p', 'Lengths are in the file’s units. A volume is an intersection of k spheres around a ' +
+    'part of the mesh; colours tell neighbours apart.' + (report.meshes.some((mesh) =>
+      Object.values(mesh.self_intersections).some((n) => n > 0 && n !== true)) ?
+      ' Red: triangles that meet others beyond what they share.' : ''), 'faint');
   if (report.meshes.some((mesh) => mesh.levels.length > 0)) {
     add(panel, 'p', 'Slack: how far volumes reach beyond their contents, in parts of the ' +
       'contents’ size, mean over directions. A distance bound is too low by about that much. ' +

@@ -85,7 +85,8 @@ class Cell {
   /// With `contact`, it is filled in for a pair that is known to be near.
   bool touch(const Placed& placed, int a, int b, RobotContact* contact) const;
   /// Pairs whose bound is at most `within`.
-  void candidates(const Placed& placed, double within, std::vector<Candidate>& found) const;
+  void candidates(const Placed& placed, double within, RobotPairs among,
+                  std::vector<Candidate>& found) const;
   RobotClearance answer(const Placed& placed, const Candidate& pair, const Nearness& near,
                         bool gradient) const;
   void addGradient(const Placed& placed, const Body& a, const Body& b, Nearness& near,

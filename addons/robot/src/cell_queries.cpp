@@ -125,9 +125,12 @@ bool Cell::inContact(const Eigen::VectorXd& q) const {
   return findContact(Placed::of(*this, q), found);
 }
 
-void Cell::candidates(const Placed& placed, double within, std::vector<Candidate>& found) const {
+void Cell::candidates(const Placed& placed, double within, RobotPairs among,
+                      std::vector<Candidate>& found) const {
   for (int a = 0; a < carried_; ++a) {
     for (const auto* others : {&among_[a], &around_[a]}) {
+      const bool obstacles = others == &around_[a];
+      if (among == (obstacles ? RobotPairs::kItself : RobotPairs::kObstacles)) continue;
       for (const int other : *others) {
         const int i = std::min(a, other), j = std::max(a, other);
         const double bound = boundOf(placed, i, j) - (bodies_[i].padding + bodies_[j].padding);
@@ -178,7 +181,7 @@ void Cell::addGradient(const Placed& placed, const Body& a, const Body& b, Nearn
 RobotClearance Cell::clearance(const Eigen::VectorXd& q, const ClearanceOptions& options) const {
   Placed& placed = Placed::of(*this, q);
   std::vector<Candidate>& waiting = placed.found;
-  candidates(placed, kInfinity, waiting);
+  candidates(placed, kInfinity, options.among, waiting);
   std::make_heap(waiting.begin(), waiting.end());
   RobotClearance best;
   Nearness nearest;
@@ -216,7 +219,7 @@ RobotClearance Cell::clearance(const Eigen::VectorXd& q, const ClearanceOptions&
 
 std::vector<RobotClearance> Cell::clearances(const Eigen::VectorXd& q, double within) const {
   Placed& placed = Placed::of(*this, q);
-  candidates(placed, within, placed.found);
+  candidates(placed, within, RobotPairs::kAll, placed.found);
   struct Found {
     Candidate pair;
     Nearness near;

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <set>
 
 #include "batch.h"
@@ -11,6 +13,7 @@ namespace kios {
 
 std::vector<LinkPair> Robot::linkPairs(const PairOptions& options) const {
   if (options.max_boxes < 0) robot::refuse("PairOptions::max_boxes is negative.");
+  if (!(options.max_seconds >= 0)) robot::refuse("PairOptions::max_seconds must be >= 0.");
   const robot::Arm& arm = *impl_->arm;
   std::set<robot::NamePair> joined;
   for (const robot::UrdfJoint& joint : arm.description.joints) {
@@ -38,28 +41,80 @@ std::vector<LinkPair> Robot::linkPairs(const PairOptions& options) const {
       result.push_back(std::move(pair));
     }
   }
+  using Clock = std::chrono::steady_clock;
+  const auto secondsSince = [](Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  };
+  const Clock::time_point start = Clock::now();
+  std::mutex guard;
+  std::size_t settled = 0;
+  const auto count_settled = [&] {
+    const std::lock_guard<std::mutex> lock(guard);
+    ++settled;
+    if (options.progress) options.progress(settled, result.size());
+  };
+  // Each round looks at more boxes a pair, so that none takes the time that others need.
+  constexpr long long kFirst = 4096, kMore = 16;
   const long long size = static_cast<long long>(tasks.size());
-  robot::forEachAlone(size, robot::threadsFor(options.threads, size), [&](long long i) {
-    LinkPair& pair = result[static_cast<std::size_t>(i)];
-    if (pair.adjacent) return;
-    const auto begin = std::chrono::steady_clock::now();
-    const Task& task = tasks[static_cast<std::size_t>(i)];
-    robot::PairSearch(arm, task.a, task.b).run(options, pair);
-    pair.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  });
-  return result;
+  for (long long boxes = std::min(kFirst, options.max_boxes);; boxes *= kMore) {
+    boxes = std::min(boxes, options.max_boxes);
+    const bool first = boxes <= kFirst;
+    robot::forEachAlone(size, robot::threadsFor(options.threads, size), [&](long long i) {
+      LinkPair& pair = result[static_cast<std::size_t>(i)];
+      if (!first && pair.verdict != PairVerdict::kOpen) return;
+      const Clock::time_point begin = Clock::now();
+      if (!pair.adjacent) {
+        const Task& task = tasks[static_cast<std::size_t>(i)];
+        robot::PairSearch search(arm, task.a, task.b);
+        if (!first || !search.look(pair)) {
+          search.prove(
+              boxes, [&] { return secondsSince(start) >= options.max_seconds; }, pair);
+        }
+        pair.seconds += secondsSince(begin);
+      }
+      if (pair.verdict != PairVerdict::kOpen) count_settled();
+    });
+    if (boxes == options.max_boxes || settled == result.size() ||
+        secondsSince(start) >= options.max_seconds) {
+      return result;
+    }
+  }
 }
 
-std::string toSrdf(const std::vector<LinkPair>& pairs) {
-  std::string text;
+void Robot::ignore(const std::vector<LinkPair>& pairs) {
+  for (const LinkPair& pair : pairs) impl_->requireLink(pair.a), impl_->requireLink(pair.b);
+  for (const LinkPair& pair : pairs) {
+    const bool ignored =
+        pair.verdict == PairVerdict::kAlways || pair.verdict == PairVerdict::kNever;
+    if (ignored) allow(pair.a, pair.b);
+  }
+}
+
+std::string toSrdf(const std::vector<LinkPair>& pairs, const std::string& robot) {
+  const auto escaped = [](const std::string& name) {
+    std::string text;
+    for (const char c : name) {
+      const char* const entity = c == '&'    ? "&amp;"
+                                 : c == '<'  ? "&lt;"
+                                 : c == '>'  ? "&gt;"
+                                 : c == '"'  ? "&quot;"
+                                 : c == '\n' ? "&#10;"
+                                 : c == '\t' ? "&#9;"
+                                 : c == '\r' ? "&#13;"
+                                             : nullptr;
+      entity ? text += entity : text += c;
+    }
+    return text;
+  };
+  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(robot) + "\">\n";
   for (const LinkPair& pair : pairs) {
     const bool always = pair.verdict == PairVerdict::kAlways;
     if (!always && pair.verdict != PairVerdict::kNever) continue;
     const char* const reason = pair.adjacent ? "Adjacent" : always ? "Default" : "Never";
-    text += "  <disable_collisions link1=\"" + pair.a + "\" link2=\"" + pair.b + "\" reason=\"" +
-            reason + "\"/>\n";
+    text += "  <disable_collisions link1=\"" + escaped(pair.a) + "\" link2=\"" + escaped(pair.b) +
+            "\" reason=\"" + reason + "\"/>\n";
   }
-  return text;
+  return text + "</robot>\n";
 }
 
 }  // namespace kios

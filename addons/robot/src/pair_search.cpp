@@ -184,15 +184,17 @@ bool PairSearch::sample(LinkPair& result) {
   constexpr int kSamples = 3000;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
-  for (int i = 0; i < kSamples; ++i) {
+  bool meets = false, parts = false;
+  for (int i = 0; i < kSamples && !(meets && parts); ++i) {
     for (std::size_t k = 0; k < middle_.size(); ++k) {
       const double share = i < 2 ? i : unit(random);  // the corners of all lower, and all upper
       middle_[k] = low_[k] + share * (high_[k] - low_[k]);
     }
     place(middle_);
-    if (touchingAt(result)) return true;
+    (touchingAt(result) ? meets : parts) = true;
   }
-  return false;
+  if (!parts) result.verdict = PairVerdict::kAlways;
+  return meets;
 }
 
 /// Steps at random from configurations in which the pair is near, towards smaller distances.
@@ -313,7 +315,8 @@ bool PairSearch::anySlabStays(const std::vector<double>& half, std::size_t i, st
   return false;
 }
 
-bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes, LinkPair& result) {
+bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes,
+                            const std::function<bool()>& late, LinkPair& result) {
   const std::size_t n = coordinates_.size();
   struct Box {
     std::vector<double> low, high;
@@ -324,7 +327,7 @@ bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes, L
   while (!waiting.empty()) {
     Box box = std::move(waiting.back());
     waiting.pop_back();
-    if (++result.boxes > max_boxes) return false;
+    if (++result.boxes > max_boxes || (result.boxes % 64 == 0 && late())) return false;
     for (std::size_t s = 0; s < n; ++s) {
       middle_[s] = box.low[s] + 0.5 * (box.high[s] - box.low[s]);
       half[s] = std::max(box.high[s] - middle_[s], middle_[s] - box.low[s]) * (1 + 0x1p-50);
@@ -357,21 +360,21 @@ bool PairSearch::proveApart(std::size_t i, std::size_t k, long long max_boxes, L
   return true;
 }
 
-void PairSearch::run(const PairOptions& options, LinkPair& result) {
+bool PairSearch::look(LinkPair& result) {
   result.verdict = PairVerdict::kOpen;
-  if (coordinates_.empty()) {
-    place(middle_);
-    if (touchingAt(result)) {
-      result.verdict = PairVerdict::kAlways;
-      return;
-    }
-  } else if (sample(result) || descend(result)) {
-    return;
-  }
+  if (!coordinates_.empty()) return sample(result) || descend(result);
+  place(middle_);
+  if (!touchingAt(result)) return false;
+  result.verdict = PairVerdict::kAlways;
+  return true;
+}
+
+void PairSearch::prove(long long max_boxes, const std::function<bool()>& late, LinkPair& result) {
   bool apart = bounded_;
+  result.boxes = 0;
   for (std::size_t i = 0; i < a_.bodies.size() && apart; ++i) {
     for (std::size_t k = 0; k < b_.bodies.size() && apart; ++k) {
-      apart = proveApart(i, k, options.max_boxes, result);
+      apart = proveApart(i, k, max_boxes, late, result);
     }
   }
   if (apart) result.verdict = PairVerdict::kNever;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "cell.h"
@@ -32,8 +33,12 @@ class PairSearch {
  public:
   PairSearch(const Arm& arm, int link_a, int link_b);
 
-  /// Sets the verdict, its configuration and the number of boxes.
-  void run(const PairOptions& options, LinkPair& result);
+  /// Looks for contacts by samples and steps towards smaller distances. Returns true if that
+  /// settles the pair; sets verdict and configuration.
+  bool look(LinkPair& result);
+  /// Looks for a proof in up to so many boxes, until `late` returns true; counts them. Sets the
+  /// verdict, and where a contact is met its configuration.
+  void prove(long long max_boxes, const std::function<bool()>& late, LinkPair& result);
 
  private:
   /// A moving joint between the two.
@@ -64,7 +69,8 @@ class PairSearch {
                  std::size_t k) const;
   bool anySlabStays(const std::vector<double>& half, std::size_t i, std::size_t k) const;
   double radiusFrom(const Between& joint, const Side& side, std::size_t body) const;
-  bool proveApart(std::size_t i, std::size_t k, long long max_boxes, LinkPair& result);
+  bool proveApart(std::size_t i, std::size_t k, long long max_boxes,
+                  const std::function<bool()>& late, LinkPair& result);
   Eigen::VectorXd configuration() const;
 
   const Arm& arm_;

@@ -118,6 +118,7 @@ Robot& Robot::operator=(Robot other) noexcept {
 Robot::~Robot() = default;
 
 int Robot::coordinates() const { return impl_->arm->tree.coordinates(); }
+const std::string& Robot::name() const { return impl_->arm->description.name; }
 const std::vector<std::string>& Robot::joints() const { return impl_->arm->tree.names; }
 const std::vector<std::string>& Robot::links() const { return impl_->arm->links; }
 const Eigen::VectorXd& Robot::lower() const { return impl_->arm->tree.lower; }

@@ -285,6 +285,9 @@ Description readUrdf(const std::string& file, const std::map<std::string, std::s
 void readSrdf(const std::string& file, Description& robot) {
   const XmlFile xml(file, "robot");
   const XmlElement& root = xml.root();
+  if (root.FirstChildElement("link") != nullptr) {
+    xml.refuse(root, "it has links: it is a URDF, but an SRDF is asked for.");
+  }
   const auto pairOf = [&](const XmlElement& e) {
     const std::string first = xml.attribute(e, "link1");
     return namePair(first, xml.attribute(e, "link2"));

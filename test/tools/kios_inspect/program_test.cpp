@@ -64,12 +64,26 @@ TEST(Program, JsonAndTextSayTheSame) {
   EXPECT_EQ(mesh["k"]["1"].get<int>() + mesh["k"]["3"].get<int>() + mesh["k"]["5"].get<int>(),
             6479);
   EXPECT_TRUE(mesh["warnings"].empty());
+  EXPECT_EQ(mesh["self_intersections"]["crosses"], 0);
   EXPECT_EQ(mesh["levels"].size(), mesh["depth"].get<std::size_t>() + 1);
   const Outcome text = run(quoted(file) + " --quiet");
   EXPECT_EQ(text.code, 0);
   EXPECT_TRUE(contains(text.out, "3240 in 1 mesh, closed")) << text.out;
   EXPECT_TRUE(contains(text.out, "6479 in")) << text.out;
   EXPECT_TRUE(text.err.empty()) << text.err;
+}
+
+TEST(Program, TrianglesThatMeetAreCountedByKind) {
+  const auto file = writeText("meet.obj",
+                              "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0.2 0.2 -1\nv 0.2 0.2 1\nv 0.9 0.9 1\n"
+                              "v 1 1 0\nv 0.5 0.5 0\nv 2 2 5\nf 1 2 3\nf 4 5 6\nf 7 8 9\n");
+  const Json mesh = json(quoted(file))["meshes"][0];
+  EXPECT_EQ(mesh["self_intersections"]["crosses"], 1);
+  EXPECT_EQ(mesh["self_intersections"]["touches"], 1);
+  EXPECT_EQ(mesh["self_intersections"]["overlaps"], 1);  // 1 and 2, both in x = y
+  EXPECT_EQ(mesh["self_intersections"]["complete"], true);
+  EXPECT_TRUE(contains(mesh["warnings"].dump(), "3 pairs of triangles that meet")) << mesh;
+  EXPECT_EQ(run(quoted(file) + " --strict --quiet").code, 1);
 }
 
 TEST(Program, BadFilesAreRefusedInASentenceThatNamesThem) {

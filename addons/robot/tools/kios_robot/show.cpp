@@ -7,6 +7,7 @@
 
 #include "shape_mesh.h"
 #include "viewer/viewer.h"
+#include "way.h"
 
 namespace kios::robot_tool {
 namespace {
@@ -80,50 +81,6 @@ Json sceneMesh(const RobotElement& element, const ShapeMesh& mesh, const Json& c
           {"color", color},
           {"matrix", Json::array()}};
 }
-
-const char* nameOf(MotionVerdict verdict) {
-  switch (verdict) {
-    case MotionVerdict::kClear:
-      return "clear";
-    case MotionVerdict::kContact:
-      return "contact";
-    case MotionVerdict::kUnresolved:
-      return "unresolved";
-    case MotionVerdict::kBudgetSpent:
-      break;
-  }
-  return "budget spent";
-}
-
-/// A path through configurations, from 0 to 1, each part as long as the others.
-class Way {
- public:
-  explicit Way(const std::vector<VectorXd>& stops) : stops_(stops) {}
-
-  int parts() const { return static_cast<int>(stops_.size()) - 1; }
-  double timeOf(int stop) const { return static_cast<double>(stop) / parts(); }
-  VectorXd at(double s) const {
-    const int part = std::clamp(static_cast<int>(s * parts()), 0, std::max(parts() - 1, 0));
-    if (parts() == 0 || s <= timeOf(part)) return stops_[part];
-    if (s >= timeOf(part + 1)) return stops_[part + 1];
-    return stops_[part] + (s * parts() - part) * (stops_[part + 1] - stops_[part]);
-  }
-  /// Returns the answer of the first part that isn't clear, its times those of the whole path.
-  RobotMotion check(const Robot& robot, const MotionRequest& request) const {
-    RobotMotion answer;
-    for (int part = 0; part < parts(); ++part) {
-      answer = robot.checkMotion(stops_[part], stops_[part + 1], request);
-      if (answer.verdict == MotionVerdict::kClear) continue;
-      answer.from = (part + answer.from) / parts();
-      answer.to = (part + answer.to) / parts();
-      break;
-    }
-    return answer;
-  }
-
- private:
-  const std::vector<VectorXd>& stops_;
-};
 
 }  // namespace
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -42,8 +44,16 @@ struct RobotContact {
   fcl::Vector3d point = fcl::Vector3d::Zero();
 };
 
+/// Which of the pairs that are checked a clearance is of.
+enum class RobotPairs {
+  kAll,
+  kItself,    ///< of links and attached objects
+  kObstacles  ///< of these and obstacles
+};
+
 /// Options of Robot::clearance().
 struct ClearanceOptions {
+  RobotPairs among = RobotPairs::kAll;
   /// The distance may exceed the exact one by max(rel_err * exact, abs_err). >= 0.
   double rel_err = 0, abs_err = 0;
   /// The answer needs no more than a clearance of at least so much: the search stops there, and
@@ -79,7 +89,9 @@ struct RobotMotion : MotionAnswer {
 
 /// What is known of a pair of links.
 enum class PairVerdict {
-  kAlways,     ///< joined by a joint, or in contact in every configuration
+  /// Joined by a joint, or in contact in every configuration that was looked at: all there are of
+  /// links that are fixed to each other, else 3,000 at random.
+  kAlways,
   kNever,      ///< proven: in contact in no configuration within the limits
   kSometimes,  ///< in contact in the configuration q
   kOpen        ///< not settled within the budget
@@ -89,7 +101,12 @@ enum class PairVerdict {
 struct PairOptions {
   /// Bounds the boxes of configurations a pair that may be looked at.
   long long max_boxes = 4000000;
+  /// Seconds after which no more boxes are looked at; what is open then stays so. >= 0, may be
+  /// infinite, upon which verdicts are the same on every machine.
+  double max_seconds = 10;
   int threads = 0;  ///< 0: one a core
+  /// Called by one thread at a time with how many of all pairs are settled.
+  std::function<void(std::size_t settled, std::size_t all)> progress;
 };
 
 /// Says what two links can do within the limits of the joints between them.
@@ -97,12 +114,12 @@ struct LinkPair {
   std::string a, b;
   PairVerdict verdict = PairVerdict::kOpen;
   bool adjacent = false;  ///< a joint joins them
-  UnalignedVector q;      ///< kSometimes, kAlways if not adjacent: in contact there
+  UnalignedVector q;      ///< in contact there; empty for kNever, kOpen and `adjacent`
   long long boxes = 0;    ///< that were looked at
   double seconds = 0;
 };
 
-/// Writes the pairs that need no check, kAlways and kNever, as disable_collisions of an SRDF.
-std::string toSrdf(const std::vector<LinkPair>& pairs);
+/// Writes an SRDF of the robot of that name that disables the pairs kAlways and kNever.
+std::string toSrdf(const std::vector<LinkPair>& pairs, const std::string& robot);
 
 }  // namespace kios

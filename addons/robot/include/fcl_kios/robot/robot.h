@@ -46,6 +46,7 @@ class Robot {
   Robot& operator=(Robot other) noexcept;
   ~Robot();
 
+  const std::string& name() const;  ///< of the URDF
   /// Returns the size of q: joints that move and mimic nobody, in the order of the URDF. A planar
   /// joint has three coordinates (x, y, and the turn about its axis), a floating one six (x, y, z,
   /// roll, pitch, yaw).
@@ -88,6 +89,8 @@ class Robot {
               const std::vector<std::string>& touch_links = {});
   void allow(const std::string& a, const std::string& b, bool allowed = true);
   bool allowed(const std::string& a, const std::string& b) const;
+  /// Allows the pairs of linkPairs() that need no check: kAlways and kNever.
+  void ignore(const std::vector<LinkPair>& pairs);
   /// Sets the padding of a link, an attached object or an obstacle: what is nearer than the
   /// paddings of both is in contact. Exact: a distance less the paddings, no mesh is grown. Metres,
   /// >= 0; obstacles and attached objects begin with 0.
@@ -114,7 +117,8 @@ class Robot {
                                         const MotionRequest& request = {}, int threads = 0) const;
 
   /// Says what every pair of links can do within the joints' limits. What is allowed doesn't count,
-  /// nor do paddings, obstacles and attached objects. Links without geometry have no pairs.
+  /// nor do paddings, obstacles and attached objects. Links without geometry have no pairs. Ends
+  /// within PairOptions::max_seconds but for the samples, which take milliseconds a pair.
   std::vector<LinkPair> linkPairs(const PairOptions& options = {}) const;
 
   class Impl;  // hidden

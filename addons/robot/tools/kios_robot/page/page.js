@@ -4,6 +4,7 @@
 const {frames, motion, stops} = content;
 Object.assign(shown, {volumes: false, robot: true, obstacles: true, stops: true, place: 0});
 const CONTACT = [222, 84, 72];
+const NEAREST = [0.1, 0.35, 0.85];
 const fields = {};
 
 const ghosts = [];  // the robot at each stop of the path
@@ -34,6 +35,13 @@ function describe() {
   add(panel, 'h2', 'Clearance');
   fields.clearance = add(panel, 'p', '', 'big');
   fields.pair = add(panel, 'p', '');
+  const near = frames.filter((frame) => frame.nearest);
+  if (near.length > 1) {
+    const least = near.reduce((a, b) => (b.contact ? 0 : b.clearance) < (a.contact ? 0 : a.clearance) ? b : a);
+    add(panel, 'p', 'Least of the places of the slider: ' +
+      (least.contact ? 'contact' : short(least.clearance) + ' m') + `, at ${(100 * least.at).toFixed(1)} %.`, 'faint');
+  }
+  add(panel, 'p', 'Blue: the nearest points. Red: what is in contact.', 'faint');
   add(panel, 'h2', 'Coordinates');
   const rows = add(panel, 'dl');
   fields.coordinates = content.joints.map((joint) => {
@@ -78,6 +86,7 @@ function choosePlace(place) {
   });
   for (const ghost of ghosts) ghost.hidden = !shown.robot || !shown.stops;
   scene.segment = frame.segment || null;
+  scene.segmentColor = frame.contact ? null : NEAREST;
   fields.clearance.textContent = frame.contact ? 'contact' :
     frame.nearest ? short(frame.clearance) + ' m' : 'no pair is checked';
   fields.pair.textContent = frame.nearest ? frame.nearest.join(' and ') : '';
@@ -113,7 +122,7 @@ function connectControls() {
     m: () => byId('show-mesh').click(), o: () => byId('show-obstacles').click(),
     n: () => byId('show-segment').click(), e: () => byId('show-edges').click(),
     s: () => byId('show-stops').click()});
-  choosePlace(0);
+  choosePlace(Math.max(contactPlace, 0));
 }
 
 describe();
