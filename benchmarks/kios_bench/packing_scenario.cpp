@@ -47,6 +47,18 @@ SphereSet spheresOf(const kIOSf& bv) {
   return set;
 }
 
+engine::Node nodeOf(const kIOSf& bv) {
+  Eigen::Vector3f centers[engine::kSphereRows];
+  double radii[engine::kSphereRows];
+  for (int i = 0; i < engine::kSphereRows; ++i) {
+    centers[i] = bv.sphereCenter(i < bv.k() ? i : 0);
+    radii[i] = bv.sphereRadius(i < bv.k() ? i : 0);
+  }
+  engine::Node node;
+  engine::writeSpheres(centers, radii, node);
+  return node;
+}
+
 /// The eight nodes three levels below node `at`; fewer if the tree ends before.
 void descendants(const Modelf& model, int at, int levels, Nodes& out) {
   const auto& node = model.getBV(at);
@@ -91,17 +103,14 @@ void draw(FitMethod method, int groups, std::uint64_t seed, PackingPairs& pairs,
     }
     pairs.X_AB.push_back(pose);
     pairs.b.push_back(spheresOf(node_b));
-    pairs.node_b.emplace_back();
-    engine::writeSpheres(node_b, pairs.node_b.back());
+    pairs.node_b.push_back(nodeOf(node_b));
     pairs.a.emplace_back();
     pairs.block_a.emplace_back();
     library.X_AB.push_back(X_AB);
     library.b.push_back(node_b);
     for (int lane = 0; lane < 8; ++lane) {
       pairs.a.back()[lane] = spheresOf(children[lane]);
-      engine::Node node;
-      engine::writeSpheres(children[lane], node);
-      engine::writeLane(node, lane, pairs.block_a.back());
+      engine::writeLane(nodeOf(children[lane]), lane, pairs.block_a.back());
       library.a.push_back(children[lane]);
     }
   }

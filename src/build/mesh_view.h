@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
@@ -24,6 +25,18 @@ struct MeshView {
 
   const fcl::Vector3<S>& corner(std::size_t triangle, std::size_t k) const {
     return vertices[index(triangle, k)];
+  }
+
+  /// Lowest and highest corner of the box around the vertices that triangles use.
+  std::array<fcl::Vector3d, 2> box() const {
+    fcl::Vector3<S> low = corner(0, 0), high = low;
+    for (std::size_t t = 0; t < num_triangles; ++t) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        low = low.cwiseMin(corner(t, k));
+        high = high.cwiseMax(corner(t, k));
+      }
+    }
+    return {low.template cast<double>(), high.template cast<double>()};
   }
 
   /// The vertex at a triangle's corner. fcl::Triangle is three of them, but reads one by a call.

@@ -17,15 +17,8 @@ using FaceCorners = std::array<Eigen::Vector3d, 3>;
 /// Sets a tree's origin to the middle of the box around the vertices that triangles use.
 template <typename S>
 void placeOrigin(const MeshView<S>& mesh, Tree& tree) {
-  fcl::Vector3<S> low = mesh.corner(0, 0), high = low;
-  for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-    for (int k = 0; k < 3; ++k) {
-      low = low.cwiseMin(mesh.corner(t, k));
-      high = high.cwiseMax(mesh.corner(t, k));
-    }
-  }
-  Eigen::Map<Eigen::Vector3d>(tree.origin) =
-      0.5 * (low.template cast<double>() + high.template cast<double>());
+  const auto [low, high] = mesh.box();
+  Eigen::Map<Eigen::Vector3d>(tree.origin) = 0.5 * (low + high);
 }
 
 /// Writes all that depends on where a leaf's vertices and faces are: its lanes in the tree, its

@@ -7,7 +7,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "fcl_kios/volume/rigid.h"
 #include "volume/assemble.h"
@@ -79,39 +78,6 @@ Box boxOf(const Eigen::Matrix3f& axes, const Extents& e, const Eigen::Vector3f& 
   return box;
 }
 
-/// Measures the radii, not rounded, of k spheres that hold all points. Points and centres are
-/// floats as they stand: a distance has 4.5 roundings, its root's included.
-void measureRadii(const PointChunk* chunks, std::size_t num_chunks, const Eigen::Vector3f* centers,
-                  int k, double* radii) {
-  Float4 cx[kSphereRows], cy[kSphereRows], cz[kSphereRows], squares[kSphereRows];
-  for (int s = 0; s < k; ++s) {
-    cx[s] = broadcast(centers[s][0]);
-    cy[s] = broadcast(centers[s][1]);
-    cz[s] = broadcast(centers[s][2]);
-    squares[s] = broadcast(0);
-  }
-  const auto pass = [&](auto count) {
-    for (std::size_t i = 0; i < num_chunks; ++i) {
-      for (int l = 0; l < kLanes; l += 4) {
-        const Float4 x = lanes::load(chunks[i].x.v + l), y = lanes::load(chunks[i].y.v + l),
-                     z = lanes::load(chunks[i].z.v + l);
-        for (int s = 0; s < count(); ++s) {
-          const Float4 dx = x - cx[s], dy = y - cy[s], dz = z - cz[s];
-          squares[s] = lanes::max(squares[s], dx * dx + dy * dy + dz * dz);
-        }
-      }
-    }
-  };
-  if (k == kSphereRows) {
-    pass(std::integral_constant<int, kSphereRows>());
-  } else {
-    pass([k] { return k; });
-  }
-  for (int s = 0; s < k; ++s) {
-    radii[s] = std::sqrt(double{lanes::horizontalMax(squares[s])}) * (1 + 8 * kUlpFloat) + 0x1p-74;
-  }
-}
-
 }  // namespace
 
 void Moments::add(const Moments& o) {
@@ -143,29 +109,31 @@ Moments momentsOf(const Eigen::Vector3f* points, int n) {
   return m;
 }
 
-// A cap's centre is the sum of two floats, off by at most u a coordinate.
-void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv) {
-  Eigen::Vector3f centers[kSphereRows] = {bv.center0};
-  for (int s = 1; s < bv.k(); ++s) {
-    centers[s] = bv.center0 + Eigen::Vector3f(bv.cap_x[s - 1], bv.cap_y[s - 1], bv.cap_z[s - 1]);
+// Points and centres are floats as they stand: a distance has 4.5 roundings, its root's included.
+void encloseAll(const PointChunk* chunks, std::size_t num_chunks,
+                const Eigen::Vector3f (&centers)[kSphereRows], Node& node) {
+  Float4 squares[kSphereRows];
+  for (Float4& square : squares) square = broadcast(0);
+  for (std::size_t i = 0; i < num_chunks; ++i) {
+    for (int l = 0; l < kLanes; l += 4) {
+      const Float4 x = lanes::load(chunks[i].x.v + l), y = lanes::load(chunks[i].y.v + l),
+                   z = lanes::load(chunks[i].z.v + l);
+      for (int s = 0; s < kSphereRows; ++s) {
+        const Float4 dx = x - centers[s][0], dy = y - centers[s][1], dz = z - centers[s][2];
+        squares[s] = lanes::max(squares[s], dx * dx + dy * dy + dz * dz);
+      }
+    }
   }
-  double radii[kSphereRows] = {};
-  measureRadii(chunks, num_chunks, centers, bv.k(), radii);
-  bv.radius0 = roundUpFloat(radii[0]);
-  for (int s = 1; s < bv.k(); ++s) {
-    const double shift = kUlpFloat * centers[s].cast<double>().lpNorm<1>();
-    bv.cap_r[s - 1] = roundUpFloat(radii[s] + shift);
+  double radii[kSphereRows];
+  for (int s = 0; s < kSphereRows; ++s) {
+    radii[s] = std::sqrt(double{lanes::horizontalMax(squares[s])}) * (1 + 8 * kUlpFloat) + 0x1p-74;
   }
+  writeSpheres(centers, radii, node);
 }
 
-Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks) {
-  if (bv.k() == 5) {
-    const auto between = [&](int i) {
-      return Eigen::Vector3f(bv.cap_x[i] - bv.cap_x[i + 1], bv.cap_y[i] - bv.cap_y[i + 1],
-                             bv.cap_z[i] - bv.cap_z[i + 1]);
-    };
-    return axesAlong(between(0), between(2));
-  }
+Eigen::Matrix3f axesOf(const Eigen::Vector3f (&centers)[kSphereRows], const PointChunk* chunks,
+                       std::size_t num_chunks) {
+  if (centers[3] != centers[4]) return axesAlong(centers[1] - centers[2], centers[3] - centers[4]);
   Moments m;
   for (std::size_t i = 0; i < num_chunks; ++i) {
     Eigen::Vector3f points[kLanes];
@@ -199,24 +167,7 @@ void momentFit(const PointChunk* chunks, std::size_t num_chunks, const Moments& 
   }
   const Eigen::Vector3f centers[kSphereRows] = {center, center + to_cap[0], center - to_cap[0],
                                                 center + to_cap[1], center - to_cap[1]};
-  double radii[kSphereRows];
-  measureRadii(chunks, num_chunks, centers, kSphereRows, radii);
-  // A cap's centre is middle +- half, off by at most u a coordinate from what was measured.
-  const auto write = [&](int row, const Eigen::Vector3f& place) {
-    node.x[row] = place[0];
-    node.y[row] = place[1];
-    node.z[row] = place[2];
-  };
-  write(kCentral, center);
-  node.r[kCentral] = node.size = roundUpFloat(radii[0]);
-  for (int pair = 0; pair < 2; ++pair) {
-    const int middle = pair == 0 ? kMiddle2 : kMiddle1, plus = 1 + 2 * pair, minus = plus + 1;
-    write(middle, center);
-    write(middle + 1, to_cap[pair]);
-    const double shift =
-        kUlpFloat * double{std::max(centers[plus].lpNorm<1>(), centers[minus].lpNorm<1>())};
-    writeRadii(radii[plus], radii[minus], shift, middle, node);
-  }
+  encloseAll(chunks, num_chunks, centers, node);
   if (box) {
     *box = boxOf(axes, e, center);
     node.flat = isFlat(*box);

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "build/four_axes.h"
-#include "fcl_kios/volume/kios.h"
 #include "tree/tree.h"
 
 namespace kios::engine {
@@ -26,13 +25,14 @@ struct Moments {
 
 Moments momentsOf(const Eigen::Vector3f* points, int n);
 
-/// Sets the radii of a volume's spheres by points, in the frame of the points: every sphere holds
-/// all of them, in exact arithmetic. Its centres are set, in units of 1.
-void measureSpheres(const PointChunk* chunks, std::size_t num_chunks, kIOS<float>& bv);
+/// Writes the least spheres of a node about five centres that hold all points, in exact arithmetic.
+void encloseAll(const PointChunk* chunks, std::size_t num_chunks,
+                const Eigen::Vector3f (&centers)[kSphereRows], Node& node);
 
-/// Axes for the box of a volume: along its caps, or where it has not enough of them the principal
+/// Axes for the box of a node: along its caps, or where it has not enough of them the principal
 /// axes of the points.
-Eigen::Matrix3f axesOf(const kIOS<float>& bv, const PointChunk* chunks, std::size_t num_chunks);
+Eigen::Matrix3f axesOf(const Eigen::Vector3f (&centers)[kSphereRows], const PointChunk* chunks,
+                       std::size_t num_chunks);
 
 /// The box of points along orthonormal axes.
 Box boxAround(const Eigen::Matrix3f& axes, const PointChunk* chunks, std::size_t num_chunks);

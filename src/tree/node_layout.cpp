@@ -53,29 +53,27 @@ double heightsOf(const Tree& tree, const Leaf& leaf) {
 
 }  // namespace
 
-void writeSpheres(const kIOS<float>& bv, Node& node) {
-  Ball balls[kIOS<float>::kMaxSpheres];
-  const int k = toBalls(bv, {bv.center0[0], bv.center0[1], bv.center0[2]}, 0, balls);
-  for (int i = std::max(k, 1); i < kIOS<float>::kMaxSpheres; ++i) balls[i] = balls[0];
-  node.x[kCentral] = bv.center0[0];
-  node.y[kCentral] = bv.center0[1];
-  node.z[kCentral] = bv.center0[2];
-  node.r[kCentral] = roundUpFloat(balls[0].r);
-  node.size = node.r[kCentral];
+void writeSpheres(const Eigen::Vector3f (&centers)[kSphereRows], const double (&radii)[kSphereRows],
+                  Node& node) {
+  float* const rows[3] = {node.x, node.y, node.z};
+  for (int c = 0; c < 3; ++c) rows[c][kCentral] = centers[0][c];
+  node.r[kCentral] = node.size = roundUpFloat(radii[0]);
   for (int pair = 0; pair < 2; ++pair) {
-    const Ball &plus = balls[1 + 2 * pair], &minus = balls[2 + 2 * pair];
     const int middle = pair == 0 ? kMiddle2 : kMiddle1, half = middle + 1;
-    float* const rows[3] = {node.x, node.y, node.z};
-    const double p[3] = {plus.x, plus.y, plus.z}, m[3] = {minus.x, minus.y, minus.z};
+    const int plus = 1 + 2 * pair, minus = plus + 1;
     double shift = 0;  // of either centre by the rounding of middle and half, in the 1-norm
     for (int c = 0; c < 3; ++c) {
-      rows[c][middle] = roundedTo<float>(0.5 * (p[c] + m[c]));
-      rows[c][half] = roundedTo<float>(0.5 * (p[c] - m[c]));
+      const double p = centers[plus][c], m = centers[minus][c];
+      rows[c][middle] = roundedTo<float>(0.5 * (p + m));
+      rows[c][half] = roundedTo<float>(0.5 * (p - m));
       const double sum = double{rows[c][middle]} + rows[c][half];
       const double difference = double{rows[c][middle]} - rows[c][half];
-      shift += std::max(std::abs(sum - p[c]), std::abs(difference - m[c]));
+      shift += std::max(std::abs(sum - p), std::abs(difference - m));
     }
-    writeRadii(plus.r, minus.r, shift, middle, node);
+    // The half difference rounds by at most 2^-24 of itself, which the middle takes.
+    const double sum = radii[plus] + radii[minus], difference = radii[plus] - radii[minus];
+    node.r[half] = roundedTo<float>(0.5 * difference);
+    node.r[middle] = roundUpFloat(0.5 * sum + shift + kUlpFloat * 0.5 * std::abs(difference));
   }
 }
 

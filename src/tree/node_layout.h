@@ -2,25 +2,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <Eigen/Core>
 
-#include "fcl_kios/volume/kios.h"
 #include "tree/tree.h"
-#include "volume/rounding.h"
 
 namespace kios::engine {
 
-/// Writes the radii of a pair of caps, whose centres are off by at most `shift`: the half
-/// difference rounds by at most 2^-24 of itself, which the middle takes.
-inline void writeRadii(double plus, double minus, double shift, int middle, Node& node) {
-  node.r[middle + 1] = roundedTo<float>(0.5 * (plus - minus));
-  node.r[middle] =
-      roundUpFloat(0.5 * (plus + minus) + shift + kUlpFloat * 0.5 * std::abs(plus - minus));
-}
-
-/// Writes the spheres of bv into a node, caps as middle and half difference, rounded outwards:
-/// whatever a kernel computes as middle +- half, in exact arithmetic, encloses that cap.
-void writeSpheres(const kIOS<float>& bv, Node& node);
+/// Writes five spheres into a node, S0 and two pairs of caps, these as middle and half difference,
+/// rounded outwards: whatever a kernel computes as middle +- half, in exact arithmetic, encloses
+/// that cap.
+void writeSpheres(const Eigen::Vector3f (&centers)[kSphereRows], const double (&radii)[kSphereRows],
+                  Node& node);
 
 /// Copies a node's rows into a lane of a block.
 void writeLane(const Node& node, int lane, Block& block);

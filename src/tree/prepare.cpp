@@ -164,22 +164,20 @@ class Preparation {
     fitRootBox(points, *tree_);
   }
 
-  /// The spheres of `bv`, moved to the tree's origin and measured.
+  /// The spheres of `bv`, moved to the tree's origin and measured. Caps that it lacks are S0.
   void place(const kIOS<S>& bv, const PointChunk* chunks, std::size_t n, Node& node, Box& box) {
-    kIOS<float> moved;
-    moved.num_spheres = bv.num_spheres;
+    Eigen::Vector3f centers[kSphereRows];
     for (int c = 0; c < 3; ++c) {
-      moved.center0[c] = roundedTo<float>(double{bv.center0[c]} - tree_->origin[c]);
+      centers[0][c] = roundedTo<float>(double{bv.center0[c]} - tree_->origin[c]);
     }
     const auto unit = roundedTo<float>(scaled(1.0, bv.exponent));
-    for (int i = 0; i + 1 < bv.k(); ++i) {
-      moved.cap_x[i] = bv.cap_x[i] * unit;
-      moved.cap_y[i] = bv.cap_y[i] * unit;
-      moved.cap_z[i] = bv.cap_z[i] * unit;
+    for (int i = 1; i < kSphereRows; ++i) {
+      centers[i] = centers[0];
+      if (i >= bv.k()) continue;
+      centers[i] += unit * Eigen::Vector3f(bv.cap_x[i - 1], bv.cap_y[i - 1], bv.cap_z[i - 1]);
     }
-    measureSpheres(chunks, n, moved);
-    writeSpheres(moved, node);
-    box = boxAround(axesOf(moved, chunks, n), chunks, n);
+    encloseAll(chunks, n, centers, node);
+    box = boxAround(axesOf(centers, chunks, n), chunks, n);
     node.flat = isFlat(box);
   }
 
@@ -269,18 +267,9 @@ std::unique_ptr<Tree> prepare(const MeshView<S>& mesh, const VolumeNode<S>* volu
 // large. Differences are exact, or off by 2^-53 of the mesh, and its scaling is exact.
 template <typename S>
 std::unique_ptr<Tree> prepare(const MeshView<S>& mesh) {
-  const std::vector<fcl::Vector3d> corners = [&mesh] {
-    std::vector<fcl::Vector3d> box(2, mesh.corner(0, 0).template cast<double>());
-    for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
-      for (int k = 0; k < 3; ++k) {
-        box[0] = box[0].cwiseMin(mesh.corner(t, k).template cast<double>());
-        box[1] = box[1].cwiseMax(mesh.corner(t, k).template cast<double>());
-      }
-    }
-    return box;
-  }();
-  const fcl::Vector3d middle = 0.5 * corners[0] + 0.5 * corners[1];
-  const double half = (corners[1] - middle).maxCoeff();
+  const auto [low, high] = mesh.box();
+  const fcl::Vector3d middle = 0.5 * low + 0.5 * high;
+  const double half = (high - middle).maxCoeff();
   std::vector<unsigned int> primitives(mesh.num_triangles);
   if (half >= kLeastReach && half <= kLargestReach) {
     std::vector<VolumeNode<S>> volumes(2 * mesh.num_triangles - 1);
