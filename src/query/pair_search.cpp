@@ -8,7 +8,6 @@
 #include "fcl_kios/triangle/intersection.h"
 #include "model/prepared.h"
 #include "model/walk.h"
-#include "search/double_bound.h"
 #include "search/mesh_search.h"
 #include "volume/balls.h"
 #include "volume/error_bounds.h"

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "search/cell_search.h"
-#include "search/double_bound.h"
 #include "search/ray_search.h"
+#include "search/root_body.h"
 #include "search/search.h"
 #include "search/solid_search.h"
 #include "tree/compress_table.h"
@@ -31,6 +31,8 @@
 #include <hwy/highway.h>            // NOLINT(llvm-include-order)
 
 #include "search/simd/pair_search-inl.h"
+//
+#include "search/simd/contact-inl.h"
 //
 #include "search/simd/ray-inl.h"
 //
@@ -47,9 +49,6 @@ namespace kios::engine::HWY_NAMESPACE {
 // distance_kernel.cpp
 void distance(const Search& search);
 void bracket(const Search& search);
-// contact_kernel.cpp
-void contact(const Search& search);
-void contacts(const Search& search);
 
 extern const Kernels kKernels;
 const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2],  // after N_

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "search/double_bound.h"
+#include "tree/box_fit.h"
 #include "volume/instantiate.h"
 #include "volume/lanes.h"
 
@@ -56,18 +56,17 @@ double offPlane(const RootBody& a, const RootBody& b, const Vec& ball, const Vec
   return std::max(height(ball) - b.radius, height(middle) - reach - b.round);
 }
 
-}  // namespace
+/// How far a box reaches from its tree's origin, and more.
+double extentOf(const Box& box) {
+  return std::abs(double{box.x[kCenter]}) + std::abs(double{box.y[kCenter]}) +
+         std::abs(double{box.z[kCenter]}) +
+         1.01 * (double{box.half[0]} + box.half[1] + box.half[2]);
+}
 
 // The axes e_k are o_k, at right angles and of length 1, but for u = 2^-24 each, so content has
 // |o_k . (p - c)| <= h_k + u |p - c|, and along any axis reaches at most 1.8 u sum h_k farther than
 // the box of axes o_k. Stored vertices are off by kStored of the extent.
-template <typename S>
-[[gnu::hot]] RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree) {
-  const Eigen::Map<const Vec> origin(tree.origin);
-  const Box& box = tree.root_box;
-  RootBody body;
-  body.center = root.center0.template cast<double>() - origin;
-  body.radius = double{root.radius0};
+void setBox(const Box& box, RootBody& body) {
   const auto set = [](const auto& from, Double2(&to)[2]) {
     to[0] = Double2{double{from[0]}, double{from[1]}};
     to[1] = Double2{double{from[2]}, double{from[3]}};
@@ -78,6 +77,41 @@ template <typename S>
   set(box.half, body.half);
   body.skew = kUlpFloat;
   body.round = 3 * kUlpFloat * extentOf(box);
+}
+
+/// A node, or a triangle of a leaf. Without a box of its own it has a cube around its ball.
+RootBody bodyOf(const Tree& tree, std::uint32_t id) {
+  RootBody body;
+  if (isTriangle(id)) {
+    const Box box = triangleBox(tree, tree.leaves[leafOfTriangle(id)], laneOfTriangle(id));
+    setBox(box, body);
+    body.center = {box.x[kCenter], box.y[kCenter], box.z[kCenter]};
+    body.radius = (1 + 4 * kUlpFloat) * Vec(box.half[0], box.half[1], box.half[2]).norm();
+  } else {
+    const Node& node = tree.nodes[id];
+    body.center = {node.x[kCentral], node.y[kCentral], node.z[kCentral]};
+    body.radius = node.r[kCentral];
+  }
+  body.radius += kStored * (body.center.lpNorm<1>() + body.radius);
+  if (isTriangle(id)) return body;
+  if (id == 0 || !tree.boxes.empty()) {
+    setBox(id == 0 ? tree.root_box : tree.boxes[id], body);
+  } else {
+    for (int c = 0; c < 3; ++c) body.rows[c][1][1] = body.center[c];
+    body.half[0] = Double2{body.radius, body.radius};
+    body.half[1] = Double2{body.radius, 0};
+  }
+  return body;
+}
+
+}  // namespace
+
+template <typename S>
+[[gnu::hot]] RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree) {
+  RootBody body;
+  body.center = root.center0.template cast<double>() - Eigen::Map<const Vec>(tree.origin);
+  body.radius = double{root.radius0};
+  setBox(tree.root_box, body);
   return body;
 }
 
@@ -158,6 +192,30 @@ template <typename S>
     }
   }
   return bound;
+}
+
+double boundInDouble(const Search& search, std::uint32_t node_a, std::uint32_t node_b) {
+  return rootBound(bodyOf(search.a, node_a), bodyOf(search.b, node_b), search.pose, 0);
+}
+
+// Along w, b's points are at w . (R q + t) = (R^T w) . q + w . t.
+double boundAlong(const float (&direction)[3], const StoredPoints& a, const StoredPoints& b,
+                  const TreePose& X) {
+  const Vec w(direction[0], direction[1], direction[2]);
+  double farthest = 0;  // from the origins
+  const auto least = [&farthest](const StoredPoints& points, const Vec& along) {
+    double result = kInfinity;
+    for (int i = 0; i < points.count; ++i) {
+      const Lanes* const chunk = points.rows + 3 * (i / kLanes);
+      const double x = chunk[0].v[i % kLanes], y = chunk[1].v[i % kLanes],
+                   z = chunk[2].v[i % kLanes];
+      result = std::min(result, x * along[0] + y * along[1] + z * along[2]);
+      farthest = std::max(farthest, std::abs(x) + std::abs(y) + std::abs(z));
+    }
+    return result;
+  };
+  const double gap = w.dot(X.t) + least(b, X.R.transpose() * w) + least(a, -w);
+  return gap / w.norm() - 2 * kStored * farthest - X.frame_error - kDouble * X.scale;
 }
 
 KIOS_INSTANTIATE_FUNCTION(rootOf);

@@ -7,12 +7,14 @@
 
 #include "fcl_kios/volume/kios.h"
 #include "search/float_frame.h"
+#include "search/search.h"
 #include "tree/tree.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"
 
 // The one place that tells two bodies apart by their roots: by their central balls in the world,
-// which takes little and decides most pairs of a scene, and then by rootBound().
+// which takes little and decides most pairs of a scene, and then by rootBound(). Searches ask it
+// about nodes that floats leave open, as where bodies all but lie on each other.
 
 namespace kios::engine {
 
@@ -40,6 +42,25 @@ RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree);
 /// balls, balls and boxes, the boxes' axes and the products of these: the best of them, or the
 /// first above `enough`. Negative where nothing is proven. Only a may be unbounded.
 double rootBound(const RootBody& a, const RootBody& b, const TreePose& X_AB, double enough);
+
+/// In double, content is within a box but for the rounding of stored vertices, of kStored times how
+/// far it reaches from its tree's origin; all else is 2^-53 of the lengths that enter, some sixty
+/// times.
+inline constexpr double kStored = 1.01 * kUlpFloat, kDouble = 0x1p-44;
+
+/// rootBound() of two nodes, or triangles of leaves.
+double boundInDouble(const Search& search, std::uint32_t node_a, std::uint32_t node_b);
+
+/// Points as a leaf stores them: rows x, y, z by chunk.
+struct StoredPoints {
+  const Lanes* rows;
+  int count;
+};
+
+/// Lower bound of the distance of points of a and of b along a direction in a's frame, of any
+/// length, from a to b.
+double boundAlong(const float (&w)[3], const StoredPoints& a, const StoredPoints& b,
+                  const TreePose& X_AB);
 
 /// Lengths for which bounds in double neither overflow nor vanish.
 constexpr double kNearest = 0x1p-90, kFarthest = 0x1p40;

@@ -16,7 +16,6 @@
 #include "scalars.h"
 #include "scenes/cad_shapes.h"
 #include "scenes/yard.h"
-#include "search/double_bound.h"
 #include "search/prepared_pair.h"
 #include "volume/rotation.h"
 

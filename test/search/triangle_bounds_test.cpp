@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "search/double_bound.h"
+#include "search/root_body.h"
 #include "search/search.h"
 #include "shapes.h"
 #include "tree/compress_table.h"

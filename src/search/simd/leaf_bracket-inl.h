@@ -146,28 +146,33 @@ class Slabs {
   Bracketed& out_;
 };
 
-/// The tree whose leaves are several times as wide as the other's, as those of ground are, in a
-/// search with a bound on entry: the direction across such a leaf proves most pairs that far apart.
-/// Without a bound it costs more than it tells.
-enum class Ground { kNone, kA, kB };
-
-HWY_INLINE Ground groundOf(const Search& search) {
-  constexpr float kTimes = 2;  // found by trying
-  if (!(search.evaluator.cull_distance < kInfinityFloat)) return Ground::kNone;
-  if (search.a.mean_leaf > kTimes * search.b.mean_leaf) return Ground::kA;
-  return search.b.mean_leaf > kTimes * search.a.mean_leaf ? Ground::kB : Ground::kNone;
-}
-
 /// What pairs of leaves that follow each other share: often the leaf of b, and often the direction
 /// that proves them apart.
 struct LastLeaves {
-  explicit LastLeaves(const Search& search) : ground(groundOf(search)) {}
+  /// The direction across a leaf proves most that bodies lie on each other, and in searches with a
+  /// bound on entry most pairs with a leaf several times as wide as the other, as those of ground
+  /// are. Without a bound it costs more than it tells.
+  explicit LastLeaves(const Search& search) {
+    constexpr float kTimes = 2;  // found by trying
+    const float cull_distance = search.evaluator.cull_distance;
+    const bool contact = cull_distance == 0, bounded = cull_distance < kInfinityFloat;
+    across_a = contact || (bounded && search.a.mean_leaf > kTimes * search.b.mean_leaf);
+    across_b = contact || (bounded && search.b.mean_leaf > kTimes * search.a.mean_leaf);
+  }
 
-  const Ground ground;
+  bool across_a, across_b;  ///< whether to try the directions across the leaves
   MovedLeaf b;
   uint32_t triangle = 0;             ///< the node if b is a triangle's leaf, else 0
   Direction along = {{1, 0, 0}, 1};  ///< of the last slab that didn't
 };
+
+/// Tries the directions across the leaves, if they are to be tried.
+template <class S>
+HWY_INLINE bool provesAcross(S& slabs, const LastLeaves& last, const Leaf& a, const Leaf& b,
+                             const FloatPose& a_from_b, Vec3 between) {
+  return (last.across_a && slabs.provesAcrossA(acrossA(a).turnedTo(between))) ||
+         (last.across_b && slabs.provesAcrossB(acrossB(b, a_from_b).turnedTo(between)));
+}
 
 HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracketed& out) {
   if (out.slab.apart) return;
@@ -178,7 +183,7 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
 }
 
 /// Brackets the distance of two leaves, or proves them at least cull_distance apart: by the last
-/// direction, across the ground, and by steps of Frank-Wolfe from the line of centres.
+/// direction, across the leaves, and by steps of Frank-Wolfe from the line of centres.
 [[gnu::hot]] inline HWY_NOINLINE void bracketLeaves(const Search& search, const Leaf& leaf_a,
                                                     const Leaf& leaf_b, LastLeaves& last,
                                                     Bracketed& out) {
@@ -189,15 +194,9 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
   betweenHulls(a.vertices, last.b.vertices, [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
     const Vec3 between = last.b.centroid - vec3(leaf_a.centroid);
-    const auto byGround = [&] {
-      if (last.ground == Ground::kA) {
-        return slabs.provesAcrossA(acrossA(leaf_a).turnedTo(between));
-      }
-      return last.ground == Ground::kB &&
-             slabs.provesAcrossB(acrossB(leaf_b, frames.a_from_b).turnedTo(between));
-    };
-    out.slab.apart =
-        slabs.proves(last.along) || byGround() || slabs.steps(between, kFrankWolfeSteps);
+    out.slab.apart = slabs.proves(last.along) ||
+                     provesAcross(slabs, last, leaf_a, leaf_b, frames.a_from_b, between) ||
+                     slabs.steps(between, kFrankWolfeSteps);
   });
   finishBracket(frames, last, out);
 }
@@ -215,10 +214,12 @@ template <bool kTriangleOfA>
   const Points &of_a = a.vertices, &of_b = last.b.vertices;
   const Corners triangle(kTriangleOfA ? of_a : of_b);
   const Vec3 center = kTriangleOfA ? last.b.centroid : vec3(a.leaf.centroid);
+  const Vec3 between = last.b.centroid - vec3(a.leaf.centroid);
   const auto look = [&](const auto& hull_a, const auto& hull_b) {
     Slabs slabs(hull_a, hull_b, distance, out);
-    out.slab.apart =
-        slabs.proves(last.along) || slabs.template stepsAt<kTriangleOfA>(triangle, center);
+    out.slab.apart = slabs.proves(last.along) ||
+                     provesAcross(slabs, last, a.leaf, b.leaf, frames.a_from_b, between) ||
+                     slabs.template stepsAt<kTriangleOfA>(triangle, center);
   };
   if constexpr (kTriangleOfA) {
     const Hull<1> hull_a(of_a.rows);

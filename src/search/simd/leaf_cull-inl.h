@@ -154,29 +154,5 @@ HWY_INLINE bool provesApart(float gap, const Direction& along, float distance) {
   return (gap > 0) & (gap >= distance * along.length);  // no branch that can't be predicted
 }
 
-/// Looks for a slab that proves the sets at least `distance` apart: along the line of centres, then
-/// by by_others(), which is true if that is proof, then by steps of Frank-Wolfe towards the nearest
-/// points of the hulls.
-template <class HullA, class HullB, class Others>
-HWY_INLINE void separate(const HullA& a, const HullB& b, Vec3 between, float distance,
-                         const Others& by_others, Slab& slab) {
-  Vec3 v = between;  // a difference of points of the hulls, or of their centres
-  slab.apart = true;
-  for (int i = 0;; ++i) {
-    slab.along = directionOf(v);
-    const Support of_a = a.support(slab.along.w), of_b = b.support(-1.0F * slab.along.w);
-    slab.top_a = of_a.value;
-    slab.bottom_b = -of_b.value;
-    if (provesApart(slab.bottom_b - slab.top_a, slab.along, distance)) return;
-    if (i == 0 && by_others()) return;
-    if (i == kFrankWolfeSteps) break;
-    const Vec3 z = b.at(of_b.index) - a.at(of_a.index) - v;
-    const float zz = dot(z, z), vz = dot(v, z);
-    if (!(vz < 0 && zz > 0)) break;  // v is as short as it gets
-    v = v + std::min(1.0F, -vz / zz) * z;
-  }
-  slab.apart = false;
-}
-
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -182,51 +182,6 @@ HWY_INLINE void betweenHulls(const Points& a, const Points& b, const Look& look)
   }
 }
 
-/// A direction from one leaf to another, and the gap along it, times its length.
-struct Gap {
-  float width;
-  Direction along;
-
-  /// Whether the gap may be wider than nothing, for all that float tells.
-  bool isOpen(float pad) const { return width > -2 * pad * along.length; }
-};
-
-/// A slab between two leaves, b moved by X: along the line of centres, the mean normals, and steps
-/// of Frank-Wolfe. If it doesn't prove them apart, `widest` is the gap that comes closest to it.
-HWY_INLINE void separateLeaves(const LeafView& a, const MovedLeaf& b, const FloatPose& X,
-                               float distance, Slab& slab, Gap& widest) {
-  widest = {-kInfinityFloat, {{1, 0, 0}, 1}};
-  betweenHulls(a.vertices, b.vertices, [&](const auto& hull_a, const auto& hull_b) {
-    const Vec3 between = b.centroid - vec3(a.leaf.centroid);
-    const auto by_normals = [&] {
-      const Across of_a = acrossA(a.leaf).turnedTo(between);
-      const Across of_b = acrossB(*b.leaf, X).turnedTo(between);
-      const float gap_a = -hull_b.top(-1.0F * of_a.along.w) - of_a.top;
-      if (provesApart(gap_a, of_a.along, distance)) return true;
-      const float gap_b = of_b.bottom - hull_a.top(of_b.along.w);
-      widest = gap_a * of_b.along.length > gap_b * of_a.along.length ? Gap{gap_a, of_a.along}
-                                                                     : Gap{gap_b, of_b.along};
-      return provesApart(gap_b, of_b.along, distance);
-    };
-    separate(hull_a, hull_b, between, distance, by_normals, slab);
-  });
-  if (slab.apart) return;
-  const float gap = slab.bottom_b - slab.top_a;
-  if (gap * widest.along.length > widest.width * slab.along.length) widest = {gap, slab.along};
-}
-
-/// Whether leaves that float leaves open are apart in double, along the widest gap.
-inline HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& a,
-                                          const LeafView& b, const Gap& widest) {
-  if (!search.evaluator.triesDouble()) return false;
-  const Vec3 w = widest.along.w;
-  const float direction[3] = {w.x, w.y, w.z};
-  const StoredPoints points_a = {a.vertices.rows, a.leaf.num_vertices},
-                     points_b = {b.vertices.rows, b.leaf.num_vertices};
-  const double bound = boundAlong(direction, points_a, points_b, search.pose);
-  return search.evaluator.triedDouble(bound > 0);
-}
-
 /// Vertices with w . p >= least, as bits.
 HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
   const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
@@ -320,9 +275,10 @@ template <bool kEdgesOfA>
 }
 
 /// Evaluates the edges of either leaf against the faces of the other. What meets lies between
-/// the planes of the slab, so that edges beyond can't.
-HWY_INLINE bool edgesCross(const Search& search, const LeafView& a, const LeafView& b,
-                           const Points& vertices_b, const Slab& slab) {
+/// the planes of the slab, so that edges beyond can't. True to end the search.
+[[gnu::hot]] inline HWY_NOINLINE bool edgesCross(const Search& search, const LeafView& a,
+                                                 const LeafView& b, const Points& vertices_b,
+                                                 const Slab& slab) {
   const FloatFrame& frames = search.frames;
   long long& exact = search.counts.exact;
   const Vec3 w = slab.along.w;
