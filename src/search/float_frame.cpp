@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "search/tuning.h"
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
 #include "volume/instantiate.h"
@@ -42,10 +43,8 @@ template <typename S>
   out.frame_error = 2 * bounds.stretch * out.scale + points;
   out.pad = error_bounds::laneError(out.scale) + out.frame_error;
   out.box_pad = error_bounds::boxError(out.scale) + out.frame_error;
-  // Floats tell little of what is far smaller than the other, but what in that is near it.
-  constexpr double kFar = 4, kCoarse = 0x1p-4;
-  return out.t.template lpNorm<1>() <= kFar * (reach_a + reach_b) ||
-         out.pad <= kCoarse * std::min(reach_a, reach_b);
+  return out.t.template lpNorm<1>() <= tuning::kFarAway * (reach_a + reach_b) ||
+         out.pad <= tuning::kCoarse * std::min(reach_a, reach_b);
 }
 
 // The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "fcl_kios/triangle/distance.h"
+#include "search/tuning.h"
 #include "volume/rounding.h"
 
 // The question about the distance of two meshes, and its answer: the same for both kinds of trees.
@@ -37,7 +38,7 @@ struct PairQuery {
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
   /// The search of exact answers is then as fast as that of brackets.
-  bool usesExactSearch() const { return rel_err <= 0.01 && abs_err == 0; }
+  bool usesExactSearch() const { return rel_err <= tuning::kExactError && abs_err == 0; }
   bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
   bool endsEarly() const { return near_enough > 0 || hasBudget(); }
   double cullDistance(double distance) const {

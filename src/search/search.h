@@ -8,6 +8,7 @@
 
 #include "fcl_kios/search/counts.h"
 #include "search/float_frame.h"
+#include "search/tuning.h"
 #include "tree/tree.h"
 #include "volume/rounding.h"
 
@@ -49,7 +50,7 @@ class RefineCallback {
   bool triesDouble() const { return doubles_left_ > 0; }
   /// Tells whether it proved anything. Returns that.
   bool triedDouble(bool apart) {
-    doubles_left_ = apart ? std::min(doubles_left_ + 1, kMostDoubles) : doubles_left_ - 1;
+    doubles_left_ = apart ? std::min(doubles_left_ + 1, tuning::kMostDoubles) : doubles_left_ - 1;
     return apart;
   }
 
@@ -57,8 +58,7 @@ class RefineCallback {
   ~RefineCallback() = default;
 
  private:
-  static constexpr int kMostDoubles = 4, kFirstDoubles = 1;
-  int doubles_left_ = kFirstDoubles;
+  int doubles_left_ = tuning::kFirstDoubles;
 };
 
 /// Where the leaf of one tree is much larger than a node of the other, its triangles take its

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
+#include "search/tuning.h"
 #include "tree/tree.h"
 #include "volume/rounding.h"
 
@@ -78,10 +79,10 @@ class SolidEvaluator {
   /// Adds a slab of a solid that its box says little of, across some triangle: the last few are
   /// kept.
   void addSlab(const FloatSlab& added) {
-    if (slabs_.size() < kMostAdded) {
+    if (slabs_.size() < tuning::kSlabs) {
       slabs_.push_back(added);
     } else {
-      slabs_[num_added_ % kMostAdded] = added;
+      slabs_[num_added_ % tuning::kSlabs] = added;
     }
     ++num_added_;
   }
@@ -94,8 +95,6 @@ class SolidEvaluator {
   ~SolidEvaluator() = default;
 
  private:
-  static constexpr std::uint32_t kMostAdded = 16;
-
   std::vector<FloatSlab> slabs_;
   std::uint32_t num_added_ = 0;
 };

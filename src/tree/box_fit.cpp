@@ -100,29 +100,6 @@ void takeLeast(const Content& content, const PointChunk* chunks, std::size_t num
   }
 }
 
-/// Whether an axis of a box is along one of the model's but for a little, as those of fits to round
-/// content are.
-bool leans(const Box& box) {
-  constexpr float kRounding = 1e-6F, kLittle = 0.05F;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3f axis(box.x[i], box.y[i], box.z[i]);
-    int along;
-    axis.cwiseAbs().maxCoeff(&along);
-    Eigen::Vector3f off = axis;
-    off[along] = 0;
-    if (off.norm() > kRounding && off.norm() < kLittle) return true;
-  }
-  return false;
-}
-
-/// Takes for a root the box along the model's axes in place of one that leans and is not clearly
-/// smaller: bodies stand on what is square to their axes, and a box that leans reaches below it.
-void straighten(const Content& content, Box& best) {
-  constexpr double kClearly = 0.9;
-  const Box upright = alongModel(content);
-  if (leans(best) && kClearly * surface(upright) < surface(best)) best = upright;
-}
-
 }  // namespace
 
 // Nodes lie before their children.
@@ -166,10 +143,8 @@ bool fitBoxes(const TreePoints& points, Tree& tree) {
       content = contents[node.first_child];
       for (int i = 1; i < count; ++i) content.add(contents[node.first_child + i]);
     }
-    Box& best = tree.boxes[n];
-    takeLeast(content, points.chunksOf(n), points.numChunks(n), best);
-    if (n == 0) straighten(content, best);
-    node.flat = isFlat(best);
+    takeLeast(content, points.chunksOf(n), points.numChunks(n), tree.boxes[n]);
+    node.flat = isFlat(tree.boxes[n]);
     any_flat |= node.flat != 0;
   }
   writeBoxBlocks(tree);
@@ -183,7 +158,6 @@ void fitRootBox(const TreePoints& points, Tree& tree) {
     Content content = contentOf(tree.leaves[0], tree);
     for (const Leaf& leaf : tree.leaves) content.add(contentOf(leaf, tree));
     takeLeast(content, chunks, num_chunks, tree.root_box);
-    straighten(content, tree.root_box);
     tighten(chunks, num_chunks, tree.root_box);
   } else {
     tighten(chunks, num_chunks, tree.boxes[0]);

@@ -37,20 +37,6 @@ float widthOf(const Tree& tree, const Leaf& leaf) {
   return std::sqrt(widest);
 }
 
-/// The sum of the heights of a leaf's triangles over their longest edges.
-double heightsOf(const Tree& tree, const Leaf& leaf) {
-  double sum = 0;
-  for (int face = 0; face < leaf.num_faces; ++face) {
-    const auto corner = [&](int k) -> Eigen::Vector3d {
-      return vertexOf(tree, leaf, leaf.corners[3 * face + k]).cast<double>();
-    };
-    const Eigen::Vector3d a = corner(0), u = corner(1) - a, v = corner(2) - a;
-    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (v - u).squaredNorm()});
-    if (longest > 0) sum += u.cross(v).norm() / std::sqrt(longest);
-  }
-  return sum;
-}
-
 }  // namespace
 
 void writeSpheres(const Eigen::Vector3f (&centers)[kSphereRows], const double (&radii)[kSphereRows],
@@ -143,14 +129,11 @@ double searchCost(const Tree& tree) {
 }
 
 void measureLeaves(Tree& tree) {
-  constexpr float kSparse = 4, kWider = 3;  // found by trying needles and soups
   double sum = 0;
   tree.widest_leaf = 0;
   for (Node& node : tree.nodes) {
     if (!node.isLeaf()) continue;
-    const Leaf& leaf = tree.leaves[node.leaf()];
-    node.width = widthOf(tree, leaf);
-    if (kSparse * heightsOf(tree, leaf) < node.width) node.width *= kWider;
+    node.width = widthOf(tree, tree.leaves[node.leaf()]);
     sum += double{node.size};
     tree.widest_leaf = std::max(tree.widest_leaf, node.width);
   }

@@ -74,12 +74,12 @@ HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float 
 /// which way leads deepest that a large batch mostly looks where it need not.
 template <class LeafPair>
 HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
-  constexpr size_t kBatch = 4;
   Leaves leaves_a(search.a), leaves_b(search.b);
   LastLeaves last(search);
   Bracketed pair;
   const Expander expander(search);
-  const size_t batch_size = expander.tightener().hasBoxes() ? 2 : kBatch;
+  const size_t batch_size =
+      expander.tightener().hasBoxes() ? tuning::kBoxedContactBatch : tuning::kBatch;
   Frontier frontier(/*keeps_apart=*/false);
   expander.pushRoots(frontier);
   const auto meets = [&](NodePair nodes) {
@@ -98,7 +98,7 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
     while (!frontier.leaves.empty()) {
       if (meets(frontier.leaves.pop().pair)) return;
     }
-    NodePairList::Entry batch[kBatch];
+    NodePairList::Entry batch[tuning::kBatch];
     const size_t n = frontier.inner.pop(batch, batch_size);
     if (n == 0) return;
     expander.expand<false>(batch, n, frontier);

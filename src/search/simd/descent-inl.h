@@ -42,7 +42,6 @@ class Descent {
     Expansion& e = path_[steps_];
     e.bound = end_.bound;
     expander_.start(end_.pair, e);
-    if (expander_.isLarge()) expander_.tightener().fetchBoxes(e);
     expander_.test(e);
     // Where few are flat it costs less to wait for the bound that excludes most.
     const Tightener& tightener = expander_.tightener();

@@ -51,16 +51,10 @@ class ToFront {
 /// Brings something into the caches. What only fetches has to be inlined: compilers drop calls of
 /// functions without effects.
 template <class T>
-HWY_INLINE void fetch(const T* data, size_t count) {
-  constexpr size_t kLine = 64;
-  const char* const bytes = reinterpret_cast<const char*>(data);
-  const size_t size = count * sizeof(T);
-  for (size_t at = 0; at < size; at += kLine) hwy::Prefetch(bytes + at);
-  if (alignof(T) < kLine) hwy::Prefetch(bytes + size - 1);
-}
-template <class T>
 HWY_INLINE void fetch(const T& data) {
-  fetch(&data, 1);
+  constexpr size_t kLine = 64;
+  const char* const bytes = reinterpret_cast<const char*>(&data);
+  for (size_t at = 0; at < sizeof(T); at += kLine) hwy::Prefetch(bytes + at);
 }
 
 /// Nodes of a and b; which fields hold something else is said where it is so.
@@ -68,33 +62,22 @@ struct NodePair {
   uint32_t a, b;
 };
 
-/// Arrays of pairs of nodes with lower bounds of their distances.
-template <size_t kSize>
-struct NodePairArrays {
-  float bounds[kSize];
-  uint32_t a[kSize], b[kSize];
-};
-
 /// Pairs of nodes with lower bounds of their distances, in arrays. Lanes are pushed without a
-/// branch: which of them matter can't be predicted. Small searches stay in few lines of memory,
-/// since in a program that does more than to search all of them are out of the caches.
+/// branch: which of them matter can't be predicted.
 class NodePairList {
  public:
   struct Entry {
     float bound;
     NodePair pair;
   };
-  static constexpr size_t kFew = 64, kUsual = 512;
 
-  /// `usual` is room for lists that have outgrown their own.
-  explicit NodePairList(NodePairArrays<kUsual>& usual) : usual_(usual) {}
+  NodePairList() = default;
   NodePairList(const NodePairList&) = delete;
   NodePairList& operator=(const NodePairList&) = delete;
 
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
   size_t size() const { return size_; }
-  NodePair operator[](size_t i) const { return {a_[i], b_[i]}; }
 
   /// Room for so many more.
   void reserve(size_t more) {
@@ -176,16 +159,6 @@ class NodePairList {
   }
 
   HWY_NOINLINE void grow(size_t capacity) {
-    if (capacity_ == kFew && capacity <= kUsual) {
-      std::copy_n(bounds_, size_, usual_.bounds);
-      std::copy_n(a_, size_, usual_.a);
-      std::copy_n(b_, size_, usual_.b);
-      bounds_ = usual_.bounds;
-      a_ = usual_.a;
-      b_ = usual_.b;
-      capacity_ = kUsual;
-      return;
-    }
     std::unique_ptr<float[]> bounds(new float[capacity]);  // not zeroed, as a vector would be
     std::unique_ptr<uint32_t[]> pairs(new uint32_t[2 * capacity]);
     std::copy_n(bounds_, size_, bounds.get());
@@ -199,12 +172,13 @@ class NodePairList {
     capacity_ = capacity;
   }
 
+  static constexpr size_t kUsual = 512;        ///< of most searches
   static constexpr size_t kRoom = 2 * kLanes;  ///< beyond the end, for whole vectors and batches
-  size_t size_ = 0, capacity_ = kFew;
-  float* bounds_ = few_.bounds;
-  uint32_t *a_ = few_.a, *b_ = few_.b;
-  NodePairArrays<kFew> few_;
-  NodePairArrays<kUsual>& usual_;
+  size_t size_ = 0, capacity_ = kUsual;
+  float* bounds_ = usual_bounds_;
+  uint32_t *a_ = usual_a_, *b_ = usual_b_;
+  float usual_bounds_[kUsual];
+  uint32_t usual_a_[kUsual], usual_b_[kUsual];
   std::unique_ptr<float[]> more_bounds_;
   std::unique_ptr<uint32_t[]> more_pairs_;
 };
@@ -212,8 +186,6 @@ class NodePairList {
 /// Pairs that wait. Those that overlap must all be looked at: they are at hand, the last in first.
 /// Those apart wait for their turn in waves, the nearest first.
 class Frontier {
-  enum { kInner, kLeaves, kBounded, kApartInner, kApartLeaves, kApartBounded, kLists };
-  NodePairArrays<NodePairList::kUsual> usual_[kLists];
   const bool keeps_apart_;
 
  public:
@@ -222,9 +194,10 @@ class Frontier {
     hn::Store(hn::Set(d, kInfinityFloat), d, least_);
   }
 
-  NodePairList inner{usual_[kInner]};      ///< at hand: pairs of nodes not both of which are leaves
-  NodePairList leaves{usual_[kLeaves]};    ///< at hand: pairs of leaves
-  NodePairList bounded{usual_[kBounded]};  ///< at hand: in `a`, what keep() was told
+  // At hand:
+  NodePairList inner;    ///< pairs of nodes not both of which are leaves
+  NodePairList leaves;   ///< pairs of leaves
+  NodePairList bounded;  ///< in `a`, what keep() was told
 
   /// There is room for a vector of lanes in each list after this.
   void reserve() {
@@ -303,8 +276,7 @@ class Frontier {
     hn::Store(hn::Min(least, hn::IfThenElse(apart, bounds, least)), d, least_);
   }
 
-  NodePairList apart_inner_{usual_[kApartInner]}, apart_leaves_{usual_[kApartLeaves]},
-      apart_bounded_{usual_[kApartBounded]};
+  NodePairList apart_inner_, apart_leaves_, apart_bounded_;
   alignas(32) float least_[kLanes];  ///< the least bounds of what is apart are among these
 };
 

@@ -153,11 +153,12 @@ struct LastLeaves {
   /// bound on entry most pairs with a leaf several times as wide as the other, as those of ground
   /// are. Without a bound it costs more than it tells.
   explicit LastLeaves(const Search& search) {
-    constexpr float kTimes = 2;  // found by trying
     const float cull_distance = search.evaluator.cull_distance;
     const bool contact = cull_distance == 0, bounded = cull_distance < kInfinityFloat;
-    across_a = contact || (bounded && search.a.mean_leaf > kTimes * search.b.mean_leaf);
-    across_b = contact || (bounded && search.b.mean_leaf > kTimes * search.a.mean_leaf);
+    across_a =
+        contact || (bounded && search.a.mean_leaf > tuning::kGroundLeaf * search.b.mean_leaf);
+    across_b =
+        contact || (bounded && search.b.mean_leaf > tuning::kGroundLeaf * search.a.mean_leaf);
   }
 
   bool across_a, across_b;  ///< whether to try the directions across the leaves
@@ -196,7 +197,7 @@ HWY_INLINE void finishBracket(const FloatFrame& frames, LastLeaves& last, Bracke
     const Vec3 between = last.b.centroid - vec3(leaf_a.centroid);
     out.slab.apart = slabs.proves(last.along) ||
                      provesAcross(slabs, last, leaf_a, leaf_b, frames.a_from_b, between) ||
-                     slabs.steps(between, kFrankWolfeSteps);
+                     slabs.steps(between, tuning::kFrankWolfeSteps);
   });
   finishBracket(frames, last, out);
 }

@@ -5,7 +5,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-constexpr int kFrankWolfeSteps = 2;
 constexpr int kMaxChunks = kMaxLeafFeatures / kLanes;
 
 struct Vec3 {

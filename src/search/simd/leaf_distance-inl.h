@@ -63,8 +63,7 @@ HWY_INLINE V faceDistances(const Faces& faces, const V3& p, V minus_pad) {
 }
 
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
-/// of b's edges; a vertex of one against the other's faces; a chunk of its vertices against the
-/// other's face, if that is the only one.
+/// of b's edges; a vertex of one against the other's faces.
 class LeafDistances {
  public:
   LeafDistances(const LeafView& a, const LeafView& b) : a_(a), b_(b) {}
@@ -81,24 +80,14 @@ class LeafDistances {
     V least = edgeRows(0x1p-24F * frames.scale);
     const V minus_pad = hn::Set(d, -frames.pad);
     const uint32_t of_a = near_a & owned(a_), of_b = near_b & owned(b_);
-    if (b_.leaf.num_faces == 1 && of_a != 0) {
-      VertexRows moved_a;
-      const Points vertices_a = moveVertices(a_, frames.b_from_a, moved_a);
-      least = hn::Min(least, chunkRows(PairKind::kVertexFace, of_a, vertices_a, b_, minus_pad));
-    } else {
-      for (uint32_t left = of_a; left != 0; left &= left - 1) {
-        const int i = static_cast<int>(firstOf(left));
-        const Vec3 point = moved(frames.b_from_a, a_.vertices.at(i));
-        least = hn::Min(least, faceRow(PairKind::kVertexFace, i, b_, point, minus_pad));
-      }
+    for (uint32_t left = of_a; left != 0; left &= left - 1) {
+      const int i = static_cast<int>(firstOf(left));
+      const Vec3 point = moved(frames.b_from_a, a_.vertices.at(i));
+      least = hn::Min(least, faceRow(PairKind::kVertexFace, i, b_, point, minus_pad));
     }
-    if (a_.leaf.num_faces == 1) {
-      least = hn::Min(least, chunkRows(PairKind::kFaceVertex, of_b, vertices_b, a_, minus_pad));
-    } else {
-      for (uint32_t left = of_b; left != 0; left &= left - 1) {
-        const int i = static_cast<int>(firstOf(left));
-        least = hn::Min(least, faceRow(PairKind::kFaceVertex, i, a_, vertices_b.at(i), minus_pad));
-      }
+    for (uint32_t left = of_b; left != 0; left &= left - 1) {
+      const int i = static_cast<int>(firstOf(left));
+      least = hn::Min(least, faceRow(PairKind::kFaceVertex, i, a_, vertices_b.at(i), minus_pad));
     }
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
@@ -113,14 +102,13 @@ class LeafDistances {
   }
 
  private:
-  /// A row tests edge `index` of those gathered, or vertex `index`, or kChunk, against lanes: edges
-  /// of the chunk, faces, or, against the only face, vertices of the chunk.
+  /// A row tests edge `index` of those gathered, or vertex `index`, against lanes: edges of the
+  /// chunk, or faces.
   struct Row {
     PairKind kind;
     uint8_t index, chunk;
     uint8_t lanes;  ///< those that are features, as bits
   };
-  static constexpr uint8_t kChunk = 0xFF;
 
   void addRow(PairKind kind, int index, int chunk, uint32_t lanes) {
     row_[rows_++] = {kind, static_cast<uint8_t>(index), static_cast<uint8_t>(chunk),
@@ -175,25 +163,6 @@ class LeafDistances {
     return least;
   }
 
-  /// Vertices, as bits, of one leaf against the only face of the other, in whose frame they are.
-  HWY_NOINLINE V chunkRows(PairKind kind, uint32_t vertices, const Points& points,
-                           const LeafView& on, V minus_pad) {
-    const V infinity = hn::Set(d, kInfinityFloat);
-    V least = infinity;
-    for (int c = 0; c < points.chunks; ++c) {
-      const uint32_t lanes = vertices >> (kLanes * c) & firstLanes(kLanes);
-      if (lanes == 0) continue;
-      for (size_t l = 0; l < kLanes; l += step()) {
-        const V above = faceDistances({on.faces, l}, rowsAt(points.rows + 3 * c, l), minus_pad);
-        const V square = hn::IfThenElse(hn::RebindMask(d, maskOf(lanes >> l)), above, infinity);
-        hn::Store(square, d, squares_[rows_].v + l);
-        least = hn::Min(least, square);
-      }
-      addRow(kind, kChunk, c, lanes);
-    }
-    return least;
-  }
-
   static float squaredLimit(const RefineCallback& evaluator, float pad) {
     const float reach = evaluator.candidate_limit + pad;
     return reach * reach;
@@ -226,12 +195,8 @@ class LeafDistances {
       const int j = kLanes * row.chunk + static_cast<int>(lane);
       return {row.kind, a_.edge(edges_a_.index(row.index)), b_.edge(edges_b_.index(j))};
     }
-    const bool chunk = row.index == kChunk;
-    const uint32_t vertex =
-        static_cast<uint32_t>(chunk ? kLanes * row.chunk : row.index) + (chunk ? lane : 0);
-    const uint32_t face = chunk ? 0 : lane;
-    if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(vertex), b_.face(face)};
-    return {row.kind, a_.face(face), b_.vertex(vertex)};
+    if (row.kind == PairKind::kVertexFace) return {row.kind, a_.vertex(row.index), b_.face(lane)};
+    return {row.kind, a_.face(lane), b_.vertex(row.index)};
   }
 
   static constexpr int kMaxRows = kMaxLeafFeatures * kMaxChunks + 2 * kMaxLeafFeatures;

@@ -27,7 +27,7 @@ class SolidTraversal {
         expand(frontier_.inner.pop());
         continue;
       }
-      if (!frontier_.nextWave(search_.evaluator.cull_distance, kWave)) return;
+      if (!frontier_.nextWave(search_.evaluator.cull_distance, tuning::kWave)) return;
       while (!frontier_.bounded.empty()) {
         const NodePairList::Entry entry = frontier_.bounded.pop();
         if (entry.bound < search_.evaluator.cull_distance && evaluate(entry.pair.a, false)) return;
@@ -36,8 +36,6 @@ class SolidTraversal {
   }
 
  private:
-  static constexpr float kWave = 0.5F;
-
   V pad() const { return hn::Set(d, search_.solid.pad); }
 
   bool evaluate(uint32_t triangle, bool meets) {

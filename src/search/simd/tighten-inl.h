@@ -14,21 +14,13 @@ class Tightener {
   /// Whether both trees have boxes: those of CAD meshes.
   bool hasBoxes() const { return sides_.has_boxes[0] && sides_.has_boxes[1]; }
 
-  /// The boxes that may be tested.
-  HWY_INLINE void fetchBoxes(const Expansion& e) const {
-    if (e.kind != Expanded::kNode || !hasBoxes() || (e.children.flat | e.other->flat) == 0) return;
-    fetch(sides_.boxBlockOf(e));
-    fetch(otherBox(e));
-  }
-
   /// The children that matter and that spheres bound badly: flat ones, and in contact of boxes
   /// those that overlap by little.
   uint32_t flatOf(const Expansion& e) const {
     if (e.other->flat != 0) return e.near;
     uint32_t flat = e.children.flat;
     if (sides_.isContact() && hasBoxes()) {
-      constexpr float kLittle = 0.25F;  // of the smaller node; found by trying
-      const V least = hn::Set(d, -kLittle * std::min(e.parent->size, e.other->size));
+      const V least = hn::Set(d, -tuning::kLittleOverlap * std::min(e.parent->size, e.other->size));
       for (size_t l = 0; l < kLanes; l += step()) {
         flat |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), least)) << l;
       }

@@ -38,7 +38,7 @@ class WaveSearch {
     fall();
     done = done || descend();
     while (!done && !frontier_.empty()) {
-      if (budget_ < static_cast<long long>(kBatch)) {  // whole batches: more never differs
+      if (budget_ < static_cast<long long>(tuning::kBatch)) {  // whole batches: more never differs
         bracket_.out_of_budget = true;
         break;
       }
@@ -50,8 +50,6 @@ class WaveSearch {
   }
 
  private:
-  static constexpr size_t kBatch = 4;
-  static constexpr float kWave = kBracket ? 0.125F : 0.5F;
   static constexpr uint32_t kMaxWaiting = 256;
 
   void prove() {
@@ -82,18 +80,17 @@ class WaveSearch {
   HWY_INLINE bool advance() {
     if (!frontier_.bounded.empty()) {
       const NodePairList::Entry entry = frontier_.bounded.pop();
-      return matters(entry) &&
-             ended(evaluateFeatures(waiting_[entry.pair.a], entry.bound));
+      return matters(entry) && ended(evaluateFeatures(waiting_[entry.pair.a], entry.bound));
     }
     if (!frontier_.leaves.empty()) {
       const NodePairList::Entry entry = frontier_.leaves.pop();
       return matters(entry) && ended(boundLeaves(entry));
     }
     if (frontier_.inner.empty()) {
-      frontier_.nextWave(evaluator_.cull_distance, kWave);
+      frontier_.nextWave(evaluator_.cull_distance, kBracket ? tuning::kBracketWave : tuning::kWave);
       return false;
     }
-    NodePairList::Entry batch[kBatch];
+    NodePairList::Entry batch[tuning::kBatch];
     const size_t n = frontier_.inner.pop(batch);
     for (size_t i = 0; i < n; ++i) in_flight_ = std::min(in_flight_, batch[i].bound);
     budget_ -= static_cast<long long>(n);
