@@ -9,6 +9,7 @@
 
 #include "build/four_axes.h"
 #include "build/mesh_view.h"
+#include "build/tuning.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -16,10 +17,7 @@ namespace {
 
 using lanes::Float4;
 
-constexpr int kBins = 16;
-constexpr int kSweep = 32;  ///< up to so many triangles all splits along two axes are tried
-/// A part of a frame's triangles so small gets a frame of its own, if it is no leaf.
-constexpr int kReframe = 2;
+using tuning::kBins, tuning::kSweep;
 
 constexpr int kNoFrame = std::numeric_limits<int>::max();
 
@@ -47,7 +45,7 @@ int BlockPartition::split(int first, int n, bool in_halves) {
   if (n == 2) return 1;
   std::uint32_t* const items = order_.data() + first;
   const int shared = frame_shared_[items[0]];
-  if (shared >= kReframe * n && (n > kLeafTriangles || shared == kNoFrame)) {
+  if (shared >= tuning::kReframe * n && (n > kLeafTriangles || shared == kNoFrame)) {
     project(items, n, principalFrame(items, n));
     for (int i = 0; i < n; ++i) frame_shared_[items[i]] = n;
   }

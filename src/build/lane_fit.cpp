@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "build/four_axes.h"
+#include "build/tuning.h"
 #include "volume/assemble.h"
 #include "volume/rounding.h"
 
@@ -167,7 +168,7 @@ void recenter(const InFrame& f, int steps, Held (&held)[2], Float4 (&center)[3])
     const Float4 bound =
         lanes::max(part * part * square + out_a, (1 - part) * (1 - part) * square + out_b);
     const Float4 reached = lanes::max(of_a, of_b);
-    const Int4 open = reached > 1.02F * bound;
+    const Int4 open = reached > tuning::kCentred * bound;
     if (!lanes::any(open)) return;
     Float4 d[3], height = zero;
     for (int k = 0; k < 3; ++k) {
@@ -223,7 +224,7 @@ void recenter(const InFrame& f, int steps, Held (&held)[2], Float4 (&center)[3])
 
 template <bool kOne>
 SphereSites place(const PointRows& rows, int steps) {
-  constexpr float kRatio = 1.1F;  // below it the caps of an axis cut off next to nothing
+  using tuning::kRatio;
   InFrame f;
   project<kOne>(rows, f);
   SphereSites sites;
@@ -236,7 +237,7 @@ SphereSites place(const PointRows& rows, int steps) {
   Held first = {{f.at[0][0], f.at[1][0], f.at[2][0]}};
   if (kOne) first.agree(zero);
   Held held[2] = {first, first};
-  const bool thick = kOne && f.half[2][0] > 0.08F * f.half[0][0];
+  const bool thick = kOne && f.half[2][0] > tuning::kThick * f.half[0][0];
   thick ? recenter<kOne, 3>(f, steps, held, s0) : recenter<kOne, 2>(f, steps, held, s0);
   Float4 rim[2] = {zero, zero};
   for (int i = 0; i < f.count; ++i) {
@@ -269,8 +270,7 @@ SphereSites place(const PointRows& rows, int steps) {
 }  // namespace
 
 SphereSites placeSpheres(const PointRows& rows, Sets sets) {
-  constexpr int kSteps[] = {1, 3, 8};
-  const int steps = kSteps[static_cast<int>(sets)];
+  const int steps = tuning::kSteps[static_cast<int>(sets)];
   return sets == Sets::kOne ? place<true>(rows, steps) : place<false>(rows, steps);
 }
 

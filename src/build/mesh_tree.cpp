@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "build/block_partition.h"
+#include "build/tuning.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -18,8 +19,7 @@ namespace {
 
 using lanes::Float4;
 
-constexpr int kBlock = 2048;  ///< a block of so many triangles fits the cache
-constexpr int kSample = 512;  ///< triangles by which a larger node is cut
+using tuning::kBlock, tuning::kSample;
 
 template <typename S>
 class MeshTree {

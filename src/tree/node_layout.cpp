@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "tree/leaf_layout.h"
+#include "tree/tuning.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 
@@ -104,7 +105,7 @@ void writeBoxBlocks(Tree& tree) {
 
 bool isFlat(const Box& box) {
   const auto [least, largest] = std::minmax({box.half[0], box.half[1], box.half[2]});
-  return least < 0.05F * largest;
+  return least < tuning::kFlat * largest;
 }
 
 float reachOf(const Node& node) {

@@ -9,12 +9,10 @@
 #include "tree/leaf_layout.h"
 #include "tree/moment_fit.h"
 #include "tree/node_layout.h"
+#include "tree/tuning.h"
 
 namespace kios::engine {
 namespace {
-
-/// If a deformation raises the cost of a search by this factor, the partition is made anew.
-constexpr double kPoor = 1.5;
 
 template <typename S>
 class Refit {
@@ -33,7 +31,7 @@ class Refit {
     if (!tree_.boxes.empty()) fitBoxes(points, tree_);  // none need be flat now
     fitRootBox(points, tree_);
     measureLeaves(tree_);
-    return searchCost(tree_) <= kPoor * tree_.cost;
+    return searchCost(tree_) <= tuning::kPoor * tree_.cost;
   }
 
  private:

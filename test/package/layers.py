@@ -75,6 +75,7 @@ SMALL_OR_USED_ONCE = {
     "clearance/exact_pair.h": "what two .cpp share",
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
     "continuous/tuning.h": "a table of constants", "scene/tuning.h": "a table of constants",
+    "build/tuning.h": "a table of constants", "tree/tuning.h": "a table of constants",
     "linkage/local_slabs.h": "tested alone",
     "linkage/near_pairs.h": "tested alone", "model/stored_format.h": "also what tests alter",
     "search/pairs_apart.h": "memory of exact answers, beside the evaluators that ask for them",

@@ -69,7 +69,8 @@ TYPED_TEST(Scales, ModerateLengths) {
 }
 
 // Down to kLeastReach and up to kLargestReach, and what is refused beyond. Squares of squares of
-// lengths over- and underflow there: separate(), in leaf_cull-inl.h, then takes leaves for apart.
+// lengths over- and underflow there: provesApart(), in leaf_cull-inl.h, then takes leaves for
+// apart.
 TYPED_TEST(Scales, ExtremeLengths) {
   for (int e = -38; e < -16; e += 2) EXPECT_EQ(wrongAnswers<TypeParam>(e), 0) << "scale 2^" << e;
   for (int e = 25; e <= 41; e += 2) EXPECT_EQ(wrongAnswers<TypeParam>(e), 0) << "scale 2^" << e;

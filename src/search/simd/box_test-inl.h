@@ -23,26 +23,6 @@ HWY_INLINE void move(const Box& box, const FloatPose& X, Box& out) {
   }
 }
 
-struct V3 {
-  // The compiler's own constructors would not be of the instruction set that V's are.
-  HWY_INLINE V3() {}
-  HWY_INLINE V3(V x, V y, V z) : x(x), y(y), z(z) {}
-
-  V x, y, z;
-};
-HWY_INLINE V dot(const V3& a, const V3& b) { return dot(a.x, a.y, a.z, b.x, b.y, b.z); }
-
-HWY_INLINE V3 abs(const V3& v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
-HWY_INLINE V3 operator+(const V3& a, const V3& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE V3 operator-(const V3& a, const V3& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-HWY_INLINE V3 operator*(V s, const V3& a) {
-  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
-}
-
 /// Boxes in one frame, one a lane: axes, centre, half extents.
 struct BoxLanes {
   BoxLanes(const BoxBlock& block, size_t l)

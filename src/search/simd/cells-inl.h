@@ -34,14 +34,10 @@ struct SphereLanes {
           p[i] = hn::Add(hn::LoadU(d, base), hn::Mul(sign, hn::LoadU(d, half)));
         }
       }
-      const auto moved = [&](int i) {
-        return hn::Add(dot(hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2]),
-                           p[0], p[1], p[2]),
-                       hn::Set(d, X.t[i]));
-      };
-      hn::Store(moved(0), d, x.v + l);
-      hn::Store(moved(1), d, y.v + l);
-      hn::Store(moved(2), d, z.v + l);
+      const V3 center = moved(X, {p[0], p[1], p[2]});
+      hn::Store(center.x, d, x.v + l);
+      hn::Store(center.y, d, y.v + l);
+      hn::Store(center.z, d, z.v + l);
       hn::Store(p[3], d, r.v + l);
     }
   }
@@ -59,11 +55,10 @@ struct MovedTriangles {
     for (size_t l = 0; l < kLanes; l += step()) {
       for (int k = 0; k < 3; ++k) {
         const V3 corner = corners.pointOf(view.vertices, k, l);
-        for (int i = 0; i < 3; ++i) {
-          const V moved =
-              dot({hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2])}, corner);
-          hn::Store(hn::Add(moved, hn::Set(d, X.t[i])), d, p[k][i].v + l);
-        }
+        const V3 p_k = moved(X, corner);
+        hn::Store(p_k.x, d, p[k][0].v + l);
+        hn::Store(p_k.y, d, p[k][1].v + l);
+        hn::Store(p_k.z, d, p[k][2].v + l);
       }
     }
   }
@@ -198,23 +193,6 @@ class CellTraversal {
 
   float grown(float half, float pad) const { return half * (1 + 0x1p-20F) + pad; }
   float at(int32_t units) const { return static_cast<float>(units) * frame_.unit; }
-  /// R p + t.
-  V3 moved(const V3& p, const float (&t)[3]) const {
-    const auto row = [&](int i) {
-      return hn::Add(dot(hn::Set(d, X_.R[i][0]), hn::Set(d, X_.R[i][1]), hn::Set(d, X_.R[i][2]),
-                         p.x, p.y, p.z),
-                     hn::Set(d, t[i]));
-    };
-    return {row(0), row(1), row(2)};
-  }
-  V3 turned(const V3& p) const {
-    const auto row = [&](int i) {
-      return dot(hn::Set(d, X_.R[i][0]), hn::Set(d, X_.R[i][1]), hn::Set(d, X_.R[i][2]), p.x, p.y,
-                 p.z);
-    };
-    return {row(0), row(1), row(2)};
-  }
-
   /// The eight children against the node's spheres, one sphere a lane: along each axis there are
   /// but two distances from them.
   void openCell(const Entry& entry, const Node& node, float half) {
@@ -268,9 +246,9 @@ class CellTraversal {
       for (uint32_t k = 0; k < 3; ++k) c[k][i] = (i >> k & 1) != 0 ? high[k] : low[k];
     }
     V3 e[3];
-    for (int j = 0; j < 3; ++j) e[j] = turned(BoxLanes::column(box, j));
+    for (int j = 0; j < 3; ++j) e[j] = rotated(X_, BoxLanes::column(box, j));
     const V3 half = {hn::Set(d, box.half[0]), hn::Set(d, box.half[1]), hn::Set(d, box.half[2])};
-    const V3 center = moved(BoxLanes::column(box, kCenter), X_.t);
+    const V3 center = moved(X_, BoxLanes::column(box, kCenter));
     const V g = hn::Set(d, grown(h, frame_.box_pad));
     uint32_t apart = 0;
     for (size_t l = 0; l < kLanes; l += step()) {
@@ -288,32 +266,30 @@ class CellTraversal {
     const Children& children = tree_.children[block_at];
     ++search_.counts.expansions;
     search_.counts.volume_tests += children.count;
-    const float t[3] = {X_.t[0] - at(entry.cell.x), X_.t[1] - at(entry.cell.y),
-                        X_.t[2] - at(entry.cell.z)};
-    const V g = hn::Set(d, grown(half, frame_.pad)), sign = hn::SignBit(d);
+    FloatPose X = X_;  // to the cell's middle
+    X.t[0] -= at(entry.cell.x);
+    X.t[1] -= at(entry.cell.y);
+    X.t[2] -= at(entry.cell.z);
+    const V g = hn::Set(d, grown(half, frame_.pad));
     uint32_t near = 0;
     alignas(32) float from_middle[kLanes];
     for (size_t l = 0; l < kLanes; l += step()) {
-      const auto row = [&](int i) {
-        return V3{load(block.x[i], l), load(block.y[i], l), load(block.z[i], l)};
-      };
       const auto beyond = [&](V p) { return hn::Max(hn::Sub(hn::Abs(p), g), hn::Zero(d)); };
       const auto apart = [&](const V3& p, V r) {
         return hn::Gt(square(beyond(p.x), beyond(p.y), beyond(p.z)), hn::Mul(r, r));
       };
-      const V3 p = moved(row(kCentral), t);
+      const Spheres s0 = spheresAt(block, kCentral, l);
+      const V3 p = moved(X, s0.center);
       hn::Store(square(p.x, p.y, p.z), d, from_middle + l);
-      auto away = apart(p, load(block.r[kCentral], l));
+      auto away = apart(p, s0.r);
       if (!hn::AllTrue(d, away)) {
         const V3 w = {hn::CopySign(beyond(p.x), p.x), hn::CopySign(beyond(p.y), p.y),
                       hn::CopySign(beyond(p.z), p.z)};
         for (const int middle : {int{kMiddle2}, int{kMiddle1}}) {
-          const V3 m = moved(row(middle), t), by = turned(row(middle + 1));
-          const V s = hn::And(dot(by, w), sign);
-          const V3 cap = {hn::Add(m.x, hn::Xor(by.x, s)), hn::Add(m.y, hn::Xor(by.y, s)),
-                          hn::Add(m.z, hn::Xor(by.z, s))};
-          const V r = hn::Add(load(block.r[middle], l), hn::Xor(load(block.r[middle + 1], l), s));
-          away = hn::Or(away, apart(cap, r));
+          const Spheres m = spheresAt(block, middle, l), h = spheresAt(block, middle + 1, l);
+          const V3 by = rotated(X, h.center);
+          const Spheres cap = capOf({moved(X, m.center), m.r}, {by, h.r}, dot(by, w));
+          away = hn::Or(away, apart(cap.center, cap.r));
         }
       }
       near |= (~bitsOf(away) & ((1U << step()) - 1)) << l;
@@ -325,9 +301,9 @@ class CellTraversal {
       uint32_t apart = 0;
       for (size_t l = 0; l < kLanes; l += step()) {
         V3 e[3];
-        for (int j = 0; j < 3; ++j) e[j] = turned(BoxLanes::column(boxes, j, l));
+        for (int j = 0; j < 3; ++j) e[j] = rotated(X, BoxLanes::column(boxes, j, l));
         const V3 halves = {load(boxes.half[0], l), load(boxes.half[1], l), load(boxes.half[2], l)};
-        const V3 c = moved(BoxLanes::column(boxes, kCenter, l), t);
+        const V3 c = moved(X, BoxLanes::column(boxes, kCenter, l));
         apart |= apartBits(widestGap(e, halves, c, box_g)) << l;
       }
       near &= ~apart;

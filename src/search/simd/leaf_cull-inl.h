@@ -21,22 +21,16 @@ HWY_INLINE Vec3 rotated(const FloatPose& X, Vec3 v) {
 HWY_INLINE Vec3 moved(const FloatPose& X, Vec3 v) { return rotated(X, v) + vec3(X.t); }
 
 HWY_INLINE V3 inAllLanes(Vec3 v) { return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)}; }
-/// Lanes from l on of a chunk of points, rows x, y, z.
-HWY_INLINE V3 rowsAt(const Lanes* rows, size_t l) {
-  return {load(rows[0], l), load(rows[1], l), load(rows[2], l)};
-}
-
 /// The first `count` lanes, all if there are more, as bits.
 HWY_INLINE uint32_t firstLanes(int count) { return count >= kLanes ? 0xFFU : (1U << count) - 1; }
 
 /// Moves a chunk of points, rows x, y, z, to another frame.
 HWY_INLINE void moveRows(const Lanes* from, const FloatPose& X, Lanes* to) {
   for (size_t l = 0; l < kLanes; l += step()) {
-    const V x = load(from[0], l), y = load(from[1], l), z = load(from[2], l);
-    for (int i = 0; i < 3; ++i) {
-      const V r = dot(hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2]), x, y, z);
-      hn::Store(hn::Add(r, hn::Set(d, X.t[i])), d, to[i].v + l);
-    }
+    const V3 p = moved(X, rowsAt(from, l));
+    hn::Store(p.x, d, to[0].v + l);
+    hn::Store(p.y, d, to[1].v + l);
+    hn::Store(p.z, d, to[2].v + l);
   }
 }
 
@@ -63,11 +57,7 @@ class Hull {
  public:
   HWY_INLINE explicit Hull(const Lanes* rows) : rows_(rows) {
     for (int i = 0; i < kVectors; ++i) {
-      const Lanes* const chunk = rows + 3 * (i * kStep / kLanes);
-      const size_t l = static_cast<size_t>(i * kStep % kLanes);
-      x_[i] = load(chunk[0], l);
-      y_[i] = load(chunk[1], l);
-      z_[i] = load(chunk[2], l);
+      points_[i] = rowsAt(rows + 3 * (i * kStep / kLanes), static_cast<size_t>(i * kStep % kLanes));
     }
   }
 
@@ -91,15 +81,15 @@ class Hull {
   static constexpr int kVectors = kChunks * kLanes / kStep;
 
   HWY_INLINE V topOf(Vec3 w, V* dots) const {
-    const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
-    for (int i = 0; i < kVectors; ++i) dots[i] = dot(x_[i], y_[i], z_[i], wx, wy, wz);
+    const V3 along = inAllLanes(w);
+    for (int i = 0; i < kVectors; ++i) dots[i] = dot(points_[i], along);
     V best = dots[0];
     for (int i = 1; i < kVectors; ++i) best = hn::Max(best, dots[i]);
     return hn::MaxOfLanes(d, best);
   }
 
   const Lanes* rows_;
-  V x_[kVectors], y_[kVectors], z_[kVectors];
+  V3 points_[kVectors];
 };
 
 /// A direction along which points are compared, made by directionOf() alone. Its square lies in

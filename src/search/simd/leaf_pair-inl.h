@@ -184,14 +184,13 @@ HWY_INLINE void betweenHulls(const Points& a, const Points& b, const Look& look)
 
 /// Vertices with w . p >= least, as bits.
 HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
-  const V wx = hn::Set(d, w.x), wy = hn::Set(d, w.y), wz = hn::Set(d, w.z);
+  const V3 along = inAllLanes(w);
   const V leasts = hn::Set(d, least);
   uint32_t result = 0;
   for (int c = 0; c < vertices.chunks; ++c) {
     const Lanes* const rows = vertices.rows + 3 * c;
     for (size_t l = 0; l < kLanes; l += step()) {
-      const V along = dot(load(rows[0], l), load(rows[1], l), load(rows[2], l), wx, wy, wz);
-      result |= bitsOf(hn::Ge(along, leasts)) << (kLanes * c + l);
+      result |= bitsOf(hn::Ge(dot(rowsAt(rows, l), along), leasts)) << (kLanes * c + l);
     }
   }
   return result;
@@ -201,9 +200,7 @@ HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
 struct Faces {
   V height(const V3& p) const { return plane(kFacePlane, p); }
   V inside(int k, const V3& p) const { return plane(kEdgePlanes + 4 * k, p); }
-  V slope(int row, const V3& v) const {
-    return dot(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l), v.x, v.y, v.z);
-  }
+  V slope(int row, const V3& v) const { return dot(rowsAt(rows + row, l), v); }
   V plane(int row, const V3& p) const { return hn::Add(slope(row, p), load(rows[row + 3], l)); }
 
   const Lanes* rows;

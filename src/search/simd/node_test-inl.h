@@ -21,6 +21,41 @@ HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
 }
 HWY_INLINE V square(V x, V y, V z) { return dot(x, y, z, x, y, z); }
 
+struct V3 {
+  // The compiler's own constructors would not be of the instruction set that V's are.
+  HWY_INLINE V3() {}
+  HWY_INLINE V3(V x, V y, V z) : x(x), y(y), z(z) {}
+
+  V x, y, z;
+};
+HWY_INLINE V dot(const V3& a, const V3& b) { return dot(a.x, a.y, a.z, b.x, b.y, b.z); }
+
+HWY_INLINE V3 abs(const V3& v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
+HWY_INLINE V3 operator+(const V3& a, const V3& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE V3 operator-(const V3& a, const V3& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE V3 operator*(V s, const V3& a) {
+  return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)};
+}
+
+/// Points in another frame, and differences of points.
+HWY_INLINE V3 rotated(const FloatPose& X, const V3& v) {
+  const auto row = [&](int i) {
+    return dot({hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2])}, v);
+  };
+  return {row(0), row(1), row(2)};
+}
+HWY_INLINE V3 moved(const FloatPose& X, const V3& p) {
+  return rotated(X, p) + V3(hn::Set(d, X.t[0]), hn::Set(d, X.t[1]), hn::Set(d, X.t[2]));
+}
+/// Lanes from l on of points, rows x, y, z.
+HWY_INLINE V3 rowsAt(const Lanes* rows, size_t l) {
+  return {load(rows[0], l), load(rows[1], l), load(rows[2], l)};
+}
+
 /// Rows of a node in another frame: rows that are differences are only rotated.
 struct alignas(64) MovedNode {
   float x[kLanes], y[kLanes], z[kLanes];
@@ -31,17 +66,12 @@ HWY_INLINE void move(const Node& node, const FloatPose& X, float pad, MovedNode&
   alignas(32) static constexpr float kPoint[kLanes] = {1, 1, 0, 1, 0, 0, 0, 0};
   for (size_t l = 0; l < kLanes; l += step()) {
     const float* const rows = reinterpret_cast<const float*>(&node) + l;
-    const V px = hn::LoadU(d, rows), py = hn::LoadU(d, rows + kSphereRows),
-            pz = hn::LoadU(d, rows + 2 * kSphereRows);
+    const V3 turned = rotated(X, {hn::LoadU(d, rows), hn::LoadU(d, rows + kSphereRows),
+                                  hn::LoadU(d, rows + 2 * kSphereRows)});
     const V point = hn::Load(d, kPoint + l);
-    const auto row = [&](int i) {
-      const V rotated =
-          dot(hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2]), px, py, pz);
-      return hn::Add(rotated, hn::Mul(point, hn::Set(d, X.t[i])));
-    };
-    hn::Store(row(0), d, out.x + l);
-    hn::Store(row(1), d, out.y + l);
-    hn::Store(row(2), d, out.z + l);
+    hn::Store(hn::Add(turned.x, hn::Mul(point, hn::Set(d, X.t[0]))), d, out.x + l);
+    hn::Store(hn::Add(turned.y, hn::Mul(point, hn::Set(d, X.t[1]))), d, out.y + l);
+    hn::Store(hn::Add(turned.z, hn::Mul(point, hn::Set(d, X.t[2]))), d, out.z + l);
   }
   out.r[kCentral] = node.r[kCentral] + pad;
   out.r[kMiddle2] = node.r[kMiddle2] + pad;
@@ -51,34 +81,45 @@ HWY_INLINE void move(const Node& node, const FloatPose& X, float pad, MovedNode&
 }
 
 struct Spheres {
-  V x, y, z, r;
+  V3 center;
+  V r;
 };
+
+HWY_INLINE Spheres spheresAt(const Block& block, int row, size_t l) {
+  return {{load(block.x[row], l), load(block.y[row], l), load(block.z[row], l)},
+          load(block.r[row], l)};
+}
+
+/// Caps of a pair: the minus one where the sign bit of `side` is set.
+HWY_INLINE Spheres capOf(const Spheres& middle, const Spheres& half, V side) {
+  const V s = hn::And(side, hn::SignBit(d));
+  const V3 &m = middle.center, &h = half.center;
+  return {
+      {hn::Add(m.x, hn::Xor(h.x, s)), hn::Add(m.y, hn::Xor(h.y, s)), hn::Add(m.z, hn::Xor(h.z, s))},
+      hn::Add(middle.r, hn::Xor(half.r, s))};
+}
 
 /// The bound over a pair of spheres.
 HWY_INLINE V separation(const Spheres& a, const Spheres& b) {
-  const V length = hn::Sqrt(square(hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)));
-  return hn::Sub(length, hn::Add(a.r, b.r));
+  const V3 way = a.center - b.center;
+  return hn::Sub(hn::Sqrt(dot(way, way)), hn::Add(a.r, b.r));
 }
 
 /// Lower bounds of the distances of a block's children to X, lanes from `l`: of the 25 sphere pairs
 /// the nine of both S0 and, for each axis, the cap whose centre lies on the far side. Any choice is
 /// valid.
 HWY_INLINE V lowerBounds(const Block& block, size_t l, const MovedNode& X) {
-  const auto row = [&](int i) {
-    return Spheres{load(block.x[i], l), load(block.y[i], l), load(block.z[i], l),
-                   load(block.r[i], l)};
-  };
+  const auto row = [&](int i) { return spheresAt(block, i, l); };
   const auto moved = [&](int i) {
-    return Spheres{hn::Set(d, X.x[i]), hn::Set(d, X.y[i]), hn::Set(d, X.z[i]), hn::Set(d, X.r[i])};
+    return Spheres{{hn::Set(d, X.x[i]), hn::Set(d, X.y[i]), hn::Set(d, X.z[i])},
+                   hn::Set(d, X.r[i])};
   };
   const V sign = hn::SignBit(d);
   const Spheres c0 = row(kCentral), x0 = moved(kCentral);
-  const V wx = hn::Sub(c0.x, x0.x), wy = hn::Sub(c0.y, x0.y), wz = hn::Sub(c0.z, x0.z);
+  const V3 w = c0.center - x0.center;
   // The child's cap with (cap - middle) . w > 0, X's with < 0.
   const auto farCap = [&](const Spheres& middle, const Spheres& half, V flip) {
-    const V s = hn::And(hn::Xor(dot(half.x, half.y, half.z, wx, wy, wz), flip), sign);
-    return Spheres{hn::Add(middle.x, hn::Xor(half.x, s)), hn::Add(middle.y, hn::Xor(half.y, s)),
-                   hn::Add(middle.z, hn::Xor(half.z, s)), hn::Add(middle.r, hn::Xor(half.r, s))};
+    return capOf(middle, half, hn::Xor(dot(half.center, w), flip));
   };
   const Spheres c2 = farCap(row(kMiddle2), row(kHalf2), hn::Zero(d));
   const Spheres c1 = farCap(row(kMiddle1), row(kHalf1), hn::Zero(d));

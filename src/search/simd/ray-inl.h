@@ -43,23 +43,19 @@ class RayTraversal {
   static constexpr size_t kUsual = 256;
 
   V set(float v) const { return hn::Set(d, v); }
-  V alongRay(V x, V y, V z) const {
-    return dot(x, y, z, set(ray_.direction[0]), set(ray_.direction[1]), set(ray_.direction[2]));
+  V3 origin() const { return {set(ray_.origin[0]), set(ray_.origin[1]), set(ray_.origin[2])}; }
+  V3 direction() const {
+    return {set(ray_.direction[0]), set(ray_.direction[1]), set(ray_.direction[2])};
   }
 
   /// Cuts [low, high] to what of the line a sphere contains; `square` gets negative if there is
   /// nothing.
-  HWY_INLINE void clip(V x, V y, V z, V r, V& low, V& high, V& square) const {
-    x = hn::Sub(x, set(ray_.origin[0]));
-    y = hn::Sub(y, set(ray_.origin[1]));
-    z = hn::Sub(z, set(ray_.origin[2]));
-    const V b = alongRay(x, y, z);
-    const V off =
-        kios::engine::HWY_NAMESPACE::square(hn::Sub(x, hn::Mul(b, set(ray_.direction[0]))),
-                                            hn::Sub(y, hn::Mul(b, set(ray_.direction[1]))),
-                                            hn::Sub(z, hn::Mul(b, set(ray_.direction[2]))));
-    r = hn::Add(r, set(ray_.pad));
-    const V h2 = hn::Sub(hn::Mul(r, r), off);
+  HWY_INLINE void clip(const V3& center, V radius, V& low, V& high, V& square) const {
+    const V3 to_center = center - origin();
+    const V b = dot(to_center, direction());
+    const V3 off = to_center - b * direction();
+    const V r = hn::Add(radius, set(ray_.pad));
+    const V h2 = hn::Sub(hn::Mul(r, r), dot(off, off));
     square = hn::Min(square, h2);
     const V h = hn::Sqrt(hn::Max(h2, hn::Zero(d)));
     low = hn::Max(low, hn::Sub(b, h));
@@ -69,14 +65,12 @@ class RayTraversal {
   /// Returns as bits the boxes of a block that the ray may meet before its end, lanes from `l`;
   /// raises `enters` to the lower bounds of where it does.
   HWY_INLINE uint32_t meets(const BoxBlock& block, size_t l, float* enters) const {
-    const V x = hn::Sub(set(ray_.origin[0]), load(block.x[kCenter], l));
-    const V y = hn::Sub(set(ray_.origin[1]), load(block.y[kCenter], l));
-    const V z = hn::Sub(set(ray_.origin[2]), load(block.z[kCenter], l));
+    const V3 from_center = origin() - BoxLanes::column(block, kCenter, l);
     const V pad = set(ray_.pad), least = set(0x1p-60F);
     V low = set(-kInfinityFloat), high = hn::Neg(low);
     for (int axis = kAxes; axis < kAxes + 3; ++axis) {
-      const V ex = load(block.x[axis], l), ey = load(block.y[axis], l), ez = load(block.z[axis], l);
-      const V at = dot(ex, ey, ez, x, y, z), slope = alongRay(ex, ey, ez);
+      const V3 e = BoxLanes::column(block, axis, l);
+      const V at = dot(e, from_center), slope = dot(e, direction());
       // Within the model a slope that small moves nothing by more than the pad.
       const V way = hn::IfThenElse(hn::Lt(hn::Abs(slope), least), least, slope);
       const V half = hn::Add(load(block.half[axis], l), pad);
@@ -104,16 +98,12 @@ class RayTraversal {
     const V pad = set(ray_.pad), begin = set(ray_.begin), end = set(search_.evaluator.end);
     for (size_t l = 0; l < kLanes; l += step()) {
       V low = set(-kInfinityFloat), high = hn::Neg(low), h2 = high;
-      clip(load(block.x[kCentral], l), load(block.y[kCentral], l), load(block.z[kCentral], l),
-           load(block.r[kCentral], l), low, high, h2);
+      const Spheres s0 = spheresAt(block, kCentral, l);
+      clip(s0.center, s0.r, low, high, h2);
       for (const int middle : {int{kMiddle2}, int{kMiddle1}}) {
-        const int half = middle + 1;
-        const V mx = load(block.x[middle], l), hx = load(block.x[half], l);
-        const V my = load(block.y[middle], l), hy = load(block.y[half], l);
-        const V mz = load(block.z[middle], l), hz = load(block.z[half], l);
-        const V mr = load(block.r[middle], l), hr = load(block.r[half], l);
-        clip(hn::Add(mx, hx), hn::Add(my, hy), hn::Add(mz, hz), hn::Add(mr, hr), low, high, h2);
-        clip(hn::Sub(mx, hx), hn::Sub(my, hy), hn::Sub(mz, hz), hn::Sub(mr, hr), low, high, h2);
+        const Spheres m = spheresAt(block, middle, l), half = spheresAt(block, middle + 1, l);
+        clip(m.center + half.center, hn::Add(m.r, half.r), low, high, h2);
+        clip(m.center - half.center, hn::Sub(m.r, half.r), low, high, h2);
       }
       low = hn::Sub(low, pad);
       high = hn::Add(high, pad);
@@ -151,22 +141,16 @@ class RayTraversal {
     const V pad = set(2 * ray_.pad), begin = set(ray_.begin), end = set(search_.evaluator.end);
     const V sign = hn::SignBit(d);
     for (size_t l = 0; l < kLanes; l += step()) {
-      const auto height = [&](int row) {
-        const V h = dot(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l),
-                        set(ray_.origin[0]), set(ray_.origin[1]), set(ray_.origin[2]));
-        return hn::Add(h, load(rows[row + 3], l));
-      };
-      const auto slope = [&](int row) {
-        return alongRay(load(rows[row], l), load(rows[row + 1], l), load(rows[row + 2], l));
-      };
-      const V H = height(kFacePlane), D = slope(kFacePlane);
+      const Faces faces = {rows, l};
+      const V H = faces.height(origin()), D = faces.slope(kFacePlane, direction());
       const V flip = hn::And(D, sign), steep = hn::Abs(D);
       const V way = hn::Neg(hn::Xor(H, flip));  // to the plane, times |D|
       auto inside = hn::And(hn::Le(way, hn::Add(hn::Mul(end, steep), pad)),
                             hn::Ge(way, hn::Sub(hn::Mul(begin, steep), pad)));
       for (int k = 0; k < 3; ++k) {
         const int row = kEdgePlanes + 4 * k;
-        const V above = hn::Sub(hn::Mul(height(row), D), hn::Mul(H, slope(row)));
+        const V above = hn::Sub(hn::Mul(faces.plane(row, origin()), D),
+                                hn::Mul(H, faces.slope(row, direction())));
         inside = hn::And(inside, hn::Ge(hn::Xor(above, flip), hn::Neg(pad)));
       }
       near |= bitsOf(inside) << l;

@@ -102,8 +102,8 @@ class SolidTraversal {
     for (size_t l = 0; l < kLanes; l += step()) {
       const uint32_t used = children.all() >> l & ((1U << step()) - 1);
       V bounds = hn::Max(bounds_.spheres(block, l), least);
-      const V central = overSlab({load(block.x[0], l), load(block.y[0], l), load(block.z[0], l)});
-      bounds = hn::Max(bounds, hn::Sub(central, hn::Add(load(block.r[0], l), pad())));
+      const Spheres s0 = spheresAt(block, kCentral, l);
+      bounds = hn::Max(bounds, hn::Sub(overSlab(s0.center), hn::Add(s0.r, pad())));
       uint32_t near = used & bitsOf(hn::Lt(bounds, limit));
       if (near != 0 && !tree_.box_blocks.empty()) {
         bounds = bounds_.boxes(tree_.box_blocks[at], l, contact_, bounds);
@@ -139,7 +139,7 @@ class SolidTraversal {
       const Lanes* const rows = view.vertices.rows + 3 * c;
       Lanes* const to = values + kRows * c;
       for (size_t l = 0; l < kLanes; l += step()) {
-        const V3 p = {load(rows[0], l), load(rows[1], l), load(rows[2], l)};
+        const V3 p = rowsAt(rows, l);
         const V bound = bounds_.isBounded() ? bounds_.points(p) : bounds_.height(p);
         least = hn::Min(least, bounds_.isPlane() ? hn::Abs(bound) : bound);
         hn::Store(bound, d, to[kBound].v + l);

@@ -36,11 +36,9 @@ class SolidBounds {
 
   /// Lower bounds by S0, and for two axes the caps on the far side; the pad is subtracted.
   HWY_INLINE V spheres(const Block& block, size_t l) const {
-    const auto row = [&](int i) {
-      return V3{load(block.x[i], l), load(block.y[i], l), load(block.z[i], l)};
-    };
-    const V3 c = row(kCentral);
-    V best = hn::Sub(points(c), load(block.r[kCentral], l));
+    const Spheres s0 = spheresAt(block, kCentral, l);
+    const V3& c = s0.center;
+    V best = hn::Sub(points(c), s0.r);
     V3 way = normal_;
     if (isBounded()) {
       const V3 v = c - box_.center;
@@ -49,13 +47,9 @@ class SolidBounds {
       way = height(c) * normal_;
     }
     for (const int middle : {int{kMiddle2}, int{kMiddle1}}) {
-      const V3 half = row(middle + 1);
-      const V s = hn::And(dot(half, way), hn::SignBit(d));
-      const V3 m = row(middle);
-      const V3 cap = {hn::Add(m.x, hn::Xor(half.x, s)), hn::Add(m.y, hn::Xor(half.y, s)),
-                      hn::Add(m.z, hn::Xor(half.z, s))};
-      const V r = hn::Add(load(block.r[middle], l), hn::Xor(load(block.r[middle + 1], l), s));
-      best = hn::Max(best, hn::Sub(points(cap), r));
+      const Spheres half = spheresAt(block, middle + 1, l);
+      const Spheres cap = capOf(spheresAt(block, middle, l), half, dot(half.center, way));
+      best = hn::Max(best, hn::Sub(points(cap.center), cap.r));
     }
     return hn::Sub(best, set(solid_.pad));
   }
@@ -79,13 +73,12 @@ class SolidBounds {
   /// Raises the bounds of spheres, or of triangles, by the slabs that were added.
   V spheresOverSlabs(const Block& block, size_t l, const std::vector<FloatSlab>& slabs,
                      V bounds) const {
-    const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
-                  load(block.z[kCentral], l)};
+    const Spheres s0 = spheresAt(block, kCentral, l);
     V highest = hn::Set(d, -kInfinityFloat);
     for (const FloatSlab& slab : slabs) {
-      highest = hn::Max(highest, hn::Sub(dot(vec(slab.n), c), set(slab.offset)));
+      highest = hn::Max(highest, hn::Sub(dot(vec(slab.n), s0.center), set(slab.offset)));
     }
-    return hn::Max(bounds, hn::Sub(highest, hn::Add(load(block.r[kCentral], l), set(solid_.pad))));
+    return hn::Max(bounds, hn::Sub(highest, hn::Add(s0.r, set(solid_.pad))));
   }
   V trianglesOverSlabs(const V3 (&p)[3], const std::vector<FloatSlab>& slabs, V bounds) const {
     V highest = hn::Set(d, -kInfinityFloat);

@@ -190,7 +190,7 @@ class Expander {
     const Node& other = *e.other;
     const Vec3 c =
         moved(*sides_.to[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
-    const V3 center = {hn::Set(d, c.x), hn::Set(d, c.y), hn::Set(d, c.z)};
+    const V3 center = inAllLanes(c);
     const V reach = hn::Set(d, other.r[kCentral] + prismPad(sides_.search.frames));
     const LeafView leaf(*sides_.trees[e.side], sides_.trees[e.side]->leaves[e.parent->leaf()]);
     for (size_t l = 0; l < kLanes; l += step()) {
@@ -205,10 +205,9 @@ class Expander {
     const Block& block = sides_.blockOf(e);
     const V pad = hn::Set(d, prismPad(sides_.search.frames));
     for (size_t l = 0; l < kLanes; l += step()) {
-      const V3 c = {load(block.x[kCentral], l), load(block.y[kCentral], l),
-                    load(block.z[kCentral], l)};
-      V lower = hn::Sub(prism.distances(c), load(block.r[kCentral], l));
-      if (!sides_.has_boxes[e.side]) lower = hn::Max(lower, byCaps(block, l, prism, c));
+      const Spheres s0 = spheresAt(block, kCentral, l);
+      V lower = hn::Sub(prism.distances(s0.center), s0.r);
+      if (!sides_.has_boxes[e.side]) lower = hn::Max(lower, byCaps(block, l, prism, s0.center));
       sides_.keep(e, l, hn::Sub(lower, pad));
     }
   }
@@ -216,13 +215,10 @@ class Expander {
   static V byCaps(const Block& block, size_t l, const Prisms& prism, const V3& c) {
     const V height = hn::Add(dot(prism.normal[0], c), prism.offset[0]);
     const auto byCap = [&](int middle, int half) {
-      const V3 h = {load(block.x[half], l), load(block.y[half], l), load(block.z[half], l)};
-      const V s = hn::And(hn::Xor(dot(prism.normal[0], h), height), hn::SignBit(d));
-      const V3 cap = {hn::Add(load(block.x[middle], l), hn::Xor(h.x, s)),
-                      hn::Add(load(block.y[middle], l), hn::Xor(h.y, s)),
-                      hn::Add(load(block.z[middle], l), hn::Xor(h.z, s))};
-      const V r = hn::Add(load(block.r[middle], l), hn::Xor(load(block.r[half], l), s));
-      return hn::Sub(prism.distances(cap), r);
+      const Spheres h = spheresAt(block, half, l);
+      const V side = hn::Xor(dot(prism.normal[0], h.center), height);
+      const Spheres cap = capOf(spheresAt(block, middle, l), h, side);
+      return hn::Sub(prism.distances(cap.center), cap.r);
     };
     return hn::Max(byCap(kMiddle2, kHalf2), byCap(kMiddle1, kHalf1));
   }

@@ -52,9 +52,7 @@ HWY_INLINE Axes axesAlong(const V3& direction) {
   for (size_t l = 0; l < kLanes; l += step()) {
     V3 p[3];
     for (int k = 0; k < 3; ++k) p[k] = corners.pointOf(leaf.vertices, k, l);
-    const auto row = [&](int i) {
-      return V3{load(leaf.faces[i], l), load(leaf.faces[i + 1], l), load(leaf.faces[i + 2], l)};
-    };
+    const auto row = [&](int i) { return rowsAt(leaf.faces + i, l); };
     const V3 e0 = p[1] - p[0], e1 = p[2] - p[1], e2 = p[0] - p[2];
     const V square0 = dot(e0, e0), square1 = dot(e1, e1), square2 = dot(e2, e2);
     const auto second = hn::Gt(square1, square0);
@@ -173,7 +171,7 @@ HWY_INLINE Prisms prismsOf(const LeafView& leaf, size_t l) {
   Prisms out;
   for (int i = 0; i < 4; ++i) {
     const Lanes* const rows = leaf.faces + 4 * i;
-    out.normal[i] = {load(rows[0], l), load(rows[1], l), load(rows[2], l)};
+    out.normal[i] = rowsAt(rows, l);
     out.offset[i] = load(rows[3], l);
   }
   return out;
@@ -185,7 +183,7 @@ HWY_INLINE Prisms movedPrism(const LeafView& leaf, uint32_t lane, const FloatPos
   for (int i = 0; i < 4; ++i) {
     const Lanes* const rows = leaf.faces + 4 * i;
     const Vec3 n = rotated(X, {rows[0].v[lane], rows[1].v[lane], rows[2].v[lane]});
-    out.normal[i] = {hn::Set(d, n.x), hn::Set(d, n.y), hn::Set(d, n.z)};
+    out.normal[i] = inAllLanes(n);
     out.offset[i] = hn::Set(d, rows[3].v[lane] - dot(n, vec3(X.t)));
   }
   return out;

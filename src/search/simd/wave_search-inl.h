@@ -11,7 +11,7 @@ namespace kios::engine::HWY_NAMESPACE {
 ///
 /// With kBracket also a lower bound is proven, and where an error is allowed less work is done: two
 /// vertices are an upper bound that prunes, as their triangles are evaluated in the end if nothing
-/// nearer was found. The class of its own for exact answers makes distances 8 to 15 % faster.
+/// nearer was found. The instance for exact answers makes these 8 to 15 % faster.
 ///
 /// A pair that was not evaluated is still in the frontier or in flight, or was left out as not
 /// nearer than cull_distance, which only falls. So min(cull_distance, bounds of the waiting pairs)
