@@ -3,6 +3,7 @@
 #pragma once
 
 #include "linkage/configuration.h"
+#include "query/mesh_pair.h"
 #include "solid/mesh_and_other.h"
 #include "volume/rounding.h"
 
@@ -64,6 +65,7 @@ class BodyQueries {
   Nearness askMeshes(Pair& pair, const Configuration& at, double enough) const;
   Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                            double enough) const;
+  MeshPair<double> meshPair(const Pair& pair, const Configuration& at) const;
   /// A pair of which one is a mesh.
   MeshAndOther<double> meshAndOther(const Pair& pair, const Configuration& at) const;
   Nearness askShapes(Pair& pair, const Configuration& at) const;

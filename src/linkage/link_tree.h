@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -83,21 +82,6 @@ struct CarriedBody {
   static constexpr int kNever = -1;
 };
 
-struct Scratch;
-
-/// Memory of a search that ended, for the next one; whoever takes it has it alone. A copy is empty.
-class SpareScratch {
- public:
-  SpareScratch() = default;
-  SpareScratch(const SpareScratch& /*other*/) {}
-  SpareScratch& operator=(const SpareScratch&) = delete;
-  ~SpareScratch();
-  std::unique_ptr<Scratch> exchange(std::unique_ptr<Scratch> by) const;
-
- private:
-  mutable std::atomic<Scratch*> kept_{nullptr};
-};
-
 /// A linkage like another one, whose octrees were measured later. A copy is empty.
 class RenewedLinkage {
  public:
@@ -114,17 +98,17 @@ class RenewedLinkage {
   mutable std::shared_ptr<const Linkage::Impl> impl_;
 };
 
-/// A proven lower bound of the distance of two shapes, of which one is bounded at least: GJK, our
-/// own for balls and capsules, else FCL's, proposes a direction, and the slab across it, as wide as
-/// the shapes' supports leave it, is the bound, whatever GJK got wrong. Negative if no slab was
+/// A proven lower bound of the distance of two shapes, of which one is bounded at least: GJK
+/// proposes a direction, and the slab across it, as wide as the shapes' supports leave it, is the
+/// bound, whatever GJK got wrong. Negative if no slab was
 /// found. Off by rounding alone, which is below 2^-46 of the lengths from the world's origin.
 /// `direction`, if given, is set to the slab's, from a to b in the world, if both are bounded.
 double shapeGap(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
                 const fcl::Transform3d& X_WB, fcl::Vector3d* direction = nullptr);
 
-/// FCL's own verdict: are they in contact, or at most `within` > 0 apart? Half-spaces and planes
-/// are judged by their gap, which is exact but for rounding: FCL finds cylinders in planes that
-/// they don't meet, unless it is asked for contacts.
+/// FCL's own verdict: are they in contact? Or are they at most `within` > 0 apart? Half-spaces and
+/// planes are judged by their gap, which is exact but for rounding: FCL finds cylinders in planes
+/// that they don't meet, unless it is asked for contacts.
 bool shapesMeet(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
                 const fcl::Transform3d& X_WB, double within);
 
@@ -161,8 +145,6 @@ class Linkage::Impl {
   std::shared_ptr<const Impl> current() const;
   bool holdsCells() const;
   void measureOctrees();
-
-  articulated::SpareScratch spare;
 
   /// The number of moving joints that carry both links.
   int shared(int link_a, int link_b) const;

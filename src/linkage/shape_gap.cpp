@@ -3,12 +3,10 @@
 #include "linkage/link_tree.h"
 
 #include <algorithm>
-#include <exception>
 
 #include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/distance.h>
 #include "fcl_kios/fcl_own.h"
-#include "shape/gjk.h"
+#include "shape/simplex.h"
 #include "volume/rounding.h"
 
 namespace kios::articulated {
@@ -41,32 +39,25 @@ double gapFromPlane(const BodyData& plane, const Transform3d& X_WP, const BodyDa
   return std::max(above, offset - supportIn(b, X_WB, n));
 }
 
-/// From a ball or capsule `a` to another bounded shape, of any length. The nearest point of b to
-/// a's centre or axis is known well however small the gap is, unlike one to the surface.
-Vector3d fromCore(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
-                  const Transform3d& X_WB) {
-  const double half = a.solid.half_length;  // 0 for a ball
-  const Vector3d ends[2] = {{0, 0, -half}, {0, 0, half}};
-  Vector3d core[2];
-  const int count = half > 0 ? 2 : 1;
-  for (int i = 0; i < count; ++i) {
-    core[i] = X_WB.linear().transpose() * (X_WA * ends[i] - X_WB.translation());
-  }
-  const shape::CoreDistance nearest = shape::gjkDistance(b.solid, core, count, kInfinity);
-  return X_WB.linear() * (nearest.on_core - nearest.point);
-}
-
-/// FCL's nearest points, or none where its solver gives up. Of its two solvers the one that rests
-/// on libccd aborts the process by an assertion for some shapes that touch.
-bool nearestPoints(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
-                   const Transform3d& X_WB, fcl::DistanceResultd& result) {
-  fcl::DistanceRequestd request(true);
-  request.gjk_solver_type = fcl::GST_INDEP;
-  try {
-    return fcl_own::distance(a.geometry.get(), X_WA, b.geometry.get(), X_WB, request, result) > 0;
-  } catch (const std::exception&) {
-    return false;
-  }
+/// From the core of a bounded shape to that of another, by GJK; zero if they overlap. The nearest
+/// points of cores are known well however small the gap of round shapes is.
+Vector3d betweenCores(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
+                      const Transform3d& X_WB) {
+  constexpr int kMostSteps = 128;
+  const auto support = [](const BodyData& body, const Transform3d& X, const Vector3d& n) {
+    return Vector3d(X.linear() * shape::coreSupport(body.solid, X.linear().transpose() * n));
+  };
+  const Vector3d way = X_WB.translation() - X_WA.translation();
+  shape::Simplex s;
+  const auto add = [&](const Vector3d& v) {
+    s.add(support(a, X_WA, -v), way + support(b, X_WB, v));
+    return s.on_a[s.size - 1].lpNorm<1>() + s.on_b[s.size - 1].lpNorm<1>();
+  };
+  add(-way);
+  if (!(shape::descend(s, add, kInfinity, kMostSteps).squared > 0)) return Vector3d::Zero();
+  Vector3d between = Vector3d::Zero();
+  for (int i = 0; i < s.size; ++i) between -= s.weight[i] * s.y[i];
+  return between;
 }
 
 }  // namespace
@@ -83,15 +74,7 @@ double shapeGap(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
     if (direction) *direction = n.normalized();
   };
   attempt(X_WB.translation() - X_WA.translation());
-  const auto isRound = [](const BodyData& body) { return body.solid.margin() > 0; };
-  fcl::DistanceResultd result;
-  if (isRound(a)) {
-    attempt(fromCore(a, X_WA, b, X_WB));
-  } else if (isRound(b)) {
-    attempt(-fromCore(b, X_WB, a, X_WA));
-  } else if (nearestPoints(a, X_WA, b, X_WB, result)) {
-    attempt(result.nearest_points[1] - result.nearest_points[0]);
-  }
+  attempt(betweenCores(a, X_WA, b, X_WB));
   for (const auto* X : {&X_WA, &X_WB}) {
     for (int i = 0; i < 3; ++i) {
       attempt(X->linear().col(i));
@@ -113,9 +96,8 @@ bool shapesMeet(const BodyData& a, const Transform3d& X_WA, const BodyData& b,
                        contacts) > 0) {
     return true;
   }
-  if (!(within > 0)) return false;
-  fcl::DistanceResultd result;
-  return nearestPoints(a, X_WA, b, X_WB, result) && result.min_distance <= within;
+  const double margins = a.solid.margin() + b.solid.margin();
+  return within > 0 && betweenCores(a, X_WA, b, X_WB).norm() <= within + margins;
 }
 
 }  // namespace kios::articulated

@@ -111,19 +111,15 @@ CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* fa
 TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const ConvexFaces* faces,
                                   const std::optional<Vec>& common) {
   Exit exit(s, t);
-  if (faces && !faces->known()) faces = nullptr;
+  std::optional<ConvexFaces> own;
+  if (!faces && s.kind == Kind::kConvex) faces = &own.emplace(s);
   const CoreDistance core = commonCore(s, t, faces, common);
   const Vec& position = core.point;
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
-  if (s.kind == Kind::kConvex && s.num_faces > 0) {
-    // The depth is that of all points, not of thin faces.
-    if (faces) {
-      const ConvexFaces::Slab slab = faces->leastExit(t);
-      exit.offerSlab(slab.normal, slab.offset);
-    } else {
-      exit.offer(leastFaceExit(s, t));
-    }
+  if (faces && faces->known()) {  // the depth is that of all points, not of thin faces
+    const ConvexFaces::Slab slab = faces->leastExit(t);
+    exit.offerSlab(slab.normal, slab.offset);
     return {position, exit.normal(), std::max(0.0, exit.depth())};
   }
   const Vec edges[3] = {t[1] - t[0], t[2] - t[1], t[0] - t[2]};

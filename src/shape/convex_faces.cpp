@@ -6,25 +6,9 @@
 #include <cmath>
 
 #include "shape/point_rows.h"
-#include "volume/lanes.h"
 
 namespace kios::shape {
 namespace {
-
-using lanes::Double2;
-
-/// Two vectors.
-struct Pair {
-  Double2 x, y, z;
-
-  Pair(Double2 x, Double2 y, Double2 z) : x(x), y(y), z(z) {}
-  Pair(const Vec& a, const Vec& b) : x{a.x(), b.x()}, y{a.y(), b.y()}, z{a.z(), b.z()} {}
-  Pair operator-(const Pair& o) const { return {x - o.x, y - o.y, z - o.z}; }
-};
-Double2 dot(const Pair& a, const Pair& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Pair cross(const Pair& a, const Pair& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 constexpr double kLeastSquare = 0x1p-900;  ///< of faces that have a direction
 
@@ -40,44 +24,46 @@ bool deepIn(const Vec& apex, const Vec& a, const Vec& b, const Vec& c, const Vec
 
 }  // namespace
 
+// A face's normal is that of the largest triangle of its fan.
 ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
-  const std::size_t faces = static_cast<std::size_t>(std::max(0, solid.num_faces));
   if (solid.kind != Kind::kConvex || solid.points.size() < 4) return;
   for (const Vec& p : solid.points) middle_ += p;
   middle_ /= static_cast<double>(solid.points.size());
   reach_ = solid.reach();
-  faces_.reserve(faces + 1);
+  faces_.reserve(static_cast<std::size_t>(std::max(0, solid.num_faces)) + 8);
+  std::vector<Vec> normals;
+  normals.reserve(faces_.capacity());
   const int* face = solid.faces;
-  for (std::size_t f = 0; f < faces; ++f, face += face[0] + 1) {
-    if (face[0] >= 3) faces_.push_back(face);
+  for (int f = 0; f < solid.num_faces; ++f, face += face[0] + 1) {
+    const auto to = [&](int k) -> Vec { return solid.points[face[k]] - solid.points[face[1]]; };
+    Vec n = Vec::Zero();
+    double most = kLeastSquare;
+    for (int k = 3; k <= face[0]; ++k) {
+      const Vec m = to(k - 1).cross(to(k));
+      const double square = m.squaredNorm();
+      if (square > most) n = m;
+      most = std::max(most, square);
+    }
+    if (!(most > kLeastSquare)) continue;
+    faces_.push_back(face);
+    normals.push_back(n / std::sqrt(most));
   }
   if (faces_.empty()) return;
-  while (faces_.size() % 8 != 0) faces_.push_back(faces_.back());  // as PlaneRows asks
+  while (faces_.size() % 8 != 0) {  // as PlaneRows asks
+    faces_.push_back(faces_.back());
+    normals.push_back(normals.back());
+  }
   const auto count = static_cast<Eigen::Index>(faces_.size());
   normals_.resize(count, 3);
   offsets_.resize(count);
   Eigen::ArrayXd depths(count);
-  for (Eigen::Index i = 0; i < count; i += 2) {
-    const int* const* const two = &faces_[static_cast<std::size_t>(i)];
-    const auto corner = [&](int k) {
-      return Pair(solid.points[static_cast<std::size_t>(two[0][k])],
-                  solid.points[static_cast<std::size_t>(two[1][k])]);
-    };
-    const Pair a = corner(1), n = cross(corner(2) - a, corner(3) - a);
-    const Double2 square = dot(n, n);
-    if (!(square[0] > kLeastSquare && square[1] > kLeastSquare)) {
-      offsets_.resize(0);
-      return;
-    }
-    const Double2 outwards = dot(n, a - Pair(middle_, middle_));
-    const Double2 per_length = 1.0 / lanes::sqrt(square);
-    const Double2 to_unit = {std::copysign(per_length[0], outwards[0]),
-                             std::copysign(per_length[1], outwards[1])};
-    lanes::store(&normals_(i, 0), to_unit * n.x);
-    lanes::store(&normals_(i, 1), to_unit * n.y);
-    lanes::store(&normals_(i, 2), to_unit * n.z);
-    lanes::store(&offsets_[i], to_unit * dot(n, a));
-    lanes::store(&depths[i], to_unit * outwards);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Vec& a = solid.points[faces_[i][1]];
+    Vec& n = normals[i];
+    if (n.dot(a - middle_) < 0) n = -n;
+    normals_.row(i) = n;
+    offsets_[i] = n.dot(a);
+    depths[i] = n.dot(a - middle_);
   }
   if (depths.minCoeff() > 0x1p-40 * reach_) per_depth_ = depths.inverse();
 }

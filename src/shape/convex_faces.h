@@ -13,8 +13,7 @@ namespace kios::shape {
 /// face and the points' middle. For one thread.
 class ConvexFaces {
  public:
-  /// None for other solids, and for those without faces or with one without an area. The solid must
-  /// outlive this.
+  /// Takes all faces with an area; other solids have none. The solid must outlive this.
   explicit ConvexFaces(const Solid& solid);
 
   bool known() const { return offsets_.size() > 0; }

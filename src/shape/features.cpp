@@ -7,6 +7,7 @@
 #include "shape/meets.h"
 #include "shape/nearest_point.h"
 #include "shape/simplex.h"
+#include "volume/rounding.h"
 
 namespace kios::shape {
 namespace {
@@ -53,24 +54,55 @@ class Features {
     return face(corners_[least].normal, 0);
   }
 
+  /// Takes the nearest of all features, whatever their slabs prove.
+  void takeNearest() {
+    core_.upper = kInfinity;
+    core_.inside = false;
+    for (int i = 0; i < 3; ++i) {
+      corners_[i] = nearestPoint(solid_, t_[i]);
+      offer(t_[i], corners_[i]);
+    }
+    Vec x;
+    NearestPoint q;
+    for (int i = 0; i < 3; ++i) {
+      if (nearestOnEdge(i, (i + 1) % 3, x, q)) offer(x, q);
+    }
+    const Vec n = faceNormal(t_).normalized();
+    for (const Vec& out : {n, Vec(-n)}) {
+      if (foot(n, out, 0, x, q)) offer(x, nearestPoint(solid_, x));
+    }
+  }
+
  private:
   static constexpr int kNone = -1;
 
   double tolerance() const { return 0x1p-49 * size_; }
 
-  /// Takes x, a point of the triangle, if its slab proves that it is the nearest one, or that the
-  /// pair is farther than is asked.
-  bool decides(const Vec& x, const NearestPoint& q) {
-    const double rise =
-        std::min({q.normal.dot(t_[0] - x), q.normal.dot(t_[1] - x), q.normal.dot(t_[2] - x)});
-    const double lower = q.distance + std::min(rise, 0.0);
-    const bool nearest = rise >= -tolerance();
-    if (!nearest && !(lower > required_ + tolerance())) return false;
-    if (!(q.distance > 0x1p-36 * size_)) return false;
-    core_.lower = lower;
+  /// How far the triangle rises above x along the normal at q: what a slab there lacks, if
+  /// negative.
+  double rise(const Vec& x, const NearestPoint& q) const {
+    const Vec& n = q.normal;
+    return std::min({n.dot(t_[0] - x), n.dot(t_[1] - x), n.dot(t_[2] - x)});
+  }
+
+  void take(const Vec& x, const NearestPoint& q, double rise) {
+    core_.lower = q.distance + std::min(rise, 0.0);
     core_.upper = q.distance;
     core_.point = x;
     core_.on_core = q.on_shape;
+  }
+  void offer(const Vec& x, const NearestPoint& q) {
+    if (q.distance < core_.upper) take(x, q, rise(x, q));
+  }
+
+  /// Takes x, a point of the triangle, if its slab proves that it is the nearest one, or that the
+  /// pair is farther than is asked.
+  bool decides(const Vec& x, const NearestPoint& q) {
+    const double rises = rise(x, q);
+    const bool farther = q.distance + std::min(rises, 0.0) > required_ + tolerance();
+    if (rises < -tolerance() && !farther) return false;
+    if (!(q.distance > 0x1p-36 * size_)) return false;
+    take(x, q, rises);
     return true;
   }
 
@@ -133,24 +165,24 @@ class Features {
 
   // Half the derivative of the squared distance along the edge is found to be 0 by false position,
   // after Illinois: next to a box and a capsule it is linear but for a few bends.
-  bool edge(int i, int j) {
+  bool nearestOnEdge(int i, int j, Vec& x, NearestPoint& q) const {
     if (isBefore(t_[j], t_[i])) std::swap(i, j);
     const Vec& a = t_[i];
     const Vec along = t_[j] - a;
     const auto slope = [&along](const NearestPoint& q) { return q.distance * q.normal.dot(along); };
     double low = 0, high = 1, at_low = slope(corners_[i]), at_high = slope(corners_[j]);
     if (!(at_low < 0 && at_high > 0)) return false;
-    constexpr int kSteps = 40;
-    int kept = 0;  // the end that stayed where it was: -1 low, 1 high
+    constexpr int kGuesses = 16, kSteps = 68;  // halvings follow, for triple roots where both touch
+    int kept = 0;                              // the end that stayed where it was: -1 low, 1 high
     for (int step = 0; step < kSteps; ++step) {
       double way = step == 0 && full_ellipsoid_
                        ? guessOnEdge(a, along)
                        : low + (high - low) * (at_low / (at_low - at_high));
-      if (!(way > low && way < high)) way = 0.5 * (low + high);
-      const Vec x = a + way * along;
-      const NearestPoint q = nearestPoint(solid_, x);
+      if (step >= kGuesses || !(way > low && way < high)) way = 0.5 * (low + high);
+      x = a + way * along;
+      q = nearestPoint(solid_, x);
       const double steep = q.normal.dot(along);
-      if (std::min(-way * steep, (1 - way) * steep) >= -tolerance()) return decides(x, q);
+      if (std::min(-way * steep, (1 - way) * steep) >= -tolerance()) break;
       const double at = q.distance * steep;
       if (at < 0) {
         low = way;
@@ -164,32 +196,49 @@ class Features {
         kept = -1;
       }
     }
-    return false;
+    return true;
   }
 
-  /// The face is nearest where the solid's support point along its normal projects into it, by
-  /// `inside` of its altitudes, which are that share of all lengths at least.
-  bool face(const Vec& outwards, double inside) {
-    Vec n = faceNormal(t_);
-    const double length = n.norm();
-    if (!(length > 0)) return false;
-    n /= length;
-    if (n.dot(outwards) < 0) n = -n;
+  bool edge(int i, int j) {
+    Vec x;
     NearestPoint q;
-    q.on_shape = coreSupport(solid_, n);
-    q.normal = n;
-    const Vec u = t_[1] - t_[0], v = t_[2] - t_[0], w = q.on_shape - t_[0];
-    const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm();
-    const double uw = u.dot(w), vw = v.dot(w), determinant = uu * vv - uv * uv;
-    if (!(determinant > 0)) return false;
-    const double s = (vv * uw - uv * vw) / determinant, t = (uu * vw - uv * uw) / determinant;
-    if (!(s >= inside && t >= inside && s + t <= 1 - inside)) return false;
-    const double longest = std::max({uu, vv, uu + vv - 2 * uv});
-    if (!(determinant >= inside * inside * size_ * size_ * longest)) return false;
-    const Vec x = t_[0] + s * u + t * v;
+    return nearestOnEdge(i, j, x, q) && decides(x, q);
+  }
+
+  /// Sets q to the solid's support point along `out`, n or -n, and x to its projection into the
+  /// face, by `inside` of its altitudes, which are that share of all lengths at least. False if
+  /// there is none, or the face's plane cuts the solid. Coordinates are along the longest edge,
+  /// from a to b, and across it, towards c: a thin face leaves others few digits.
+  bool foot(const Vec& n, const Vec& out, double inside, Vec& x, NearestPoint& q) const {
+    int longest = 0;
+    double uu = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double square = (t_[(i + 1) % 3] - t_[i]).squaredNorm();
+      if (square > uu) longest = i;
+      uu = std::max(uu, square);
+    }
+    const Vec &a = t_[longest], &b = t_[(longest + 1) % 3], &c = t_[(longest + 2) % 3];
+    const Vec u = b - a, v = n.cross(u), w = c - a;
+    const double width = w.dot(v);
+    if (!(width > 0 && width * width >= inside * inside * size_ * size_ * uu)) return false;
+    q.on_shape = coreSupport(solid_, out);
+    q.normal = out;
+    const Vec to = q.on_shape - a;
+    if (out.dot(to) > 0x1p-48 * size_) return false;
+    const double across = to.dot(v) / width, along = (to.dot(u) - across * w.dot(u)) / uu;
+    if (!(across >= inside && along >= inside && across + along <= 1 - inside)) return false;
+    x = a + along * u + across * w;
     q.distance = (x - q.on_shape).norm();
-    // A thin face leaves s and t, and x with them, few digits.
-    return q.distance - n.dot(x - q.on_shape) <= 0.5 * tolerance() && decides(x, q);
+    return true;
+  }
+
+  bool face(const Vec& outwards, double inside) {
+    const Vec n = faceNormal(t_).normalized();  // zero stays zero
+    const Vec out = n.dot(outwards) < 0 ? Vec(-n) : n;
+    Vec x;
+    NearestPoint q;
+    return foot(n, out, inside, x, q) &&
+           q.distance - out.dot(x - q.on_shape) <= 0.5 * tolerance() && decides(x, q);
   }
 
   const Solid& solid_;
@@ -205,6 +254,12 @@ class Features {
 bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double required,
                            CoreDistance& core) {
   return Features(solid, triangle, required, core).run();
+}
+
+CoreDistance nearestFeature(const Solid& solid, const Triangle& triangle) {
+  CoreDistance core;
+  Features(solid, triangle, kInfinity, core).takeNearest();
+  return core;
 }
 
 }  // namespace kios::shape

@@ -79,12 +79,6 @@ bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p) {
          signs.orient3d(0, 1, kPoint, kApex) * volume >= 0;
 }
 
-Vec middleOf(const Solid& s) {
-  Vec sum = Vec::Zero();
-  for (const Vec& q : s.points) sum += q;
-  return sum / static_cast<double>(s.points.size());
-}
-
 /// True if p lies in a hull that has a volume: in one of the tetrahedra of a vertex and the faces,
 /// whichever way the corners of those run.
 bool contains(const Solid& s, const Vec& p) {
@@ -234,26 +228,6 @@ CoreDistance closedBracket(const Solid& s, const Triangle& t, double required,
   }
   closed.lower = std::min(closed.upper, exact.lower);
   return closed;
-}
-
-Vec leastFaceExit(const Solid& s, const Triangle& t) {
-  const Vec middle = middleOf(s);
-  Vec best = Vec::UnitZ();
-  double least = kInfinity;
-  anyFace(s, [&](const Triangle& face) {
-    Vec n = (face[1] - face[0]).cross(face[2] - face[0]);
-    if (n.dot(middle - face[0]) > 0) n = -n;
-    const double length = n.norm();
-    if (!(length > 0)) return false;
-    const double depth =
-        (n.dot(face[0]) - std::min({n.dot(t[0]), n.dot(t[1]), n.dot(t[2])})) / length;
-    if (depth < least) {
-      least = depth;
-      best = n / length;
-    }
-    return false;
-  });
-  return best;
 }
 
 }  // namespace kios::shape

@@ -33,8 +33,4 @@ TriangleShapeDistance distanceToPoints(const Solid& convex, const Triangle& tria
 CoreDistance closedBracket(const Solid& solid, const Triangle& triangle, double required,
                            const CoreDistance& core);
 
-/// The unit normal outwards of the face of a convex shape by which a triangle leaves the hull on
-/// the shortest way; the z axis if no face has one.
-Vec leastFaceExit(const Solid& convex, const Triangle& triangle);
-
 }  // namespace kios::shape

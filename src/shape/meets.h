@@ -34,4 +34,9 @@ bool meetsAt(const Solid& solid, const Triangle& triangle, const CoreDistance& c
 bool distanceByCertificate(const Solid& solid, const Triangle& triangle, double required,
                            CoreDistance& core);
 
+/// The nearest of these features of a cylinder, cone or ellipsoid and a triangle that don't
+/// intersect, for those that GJK, which sees chords of them, can't resolve: within about 2^-48 of
+/// the extent.
+CoreDistance nearestFeature(const Solid& solid, const Triangle& triangle);
+
 }  // namespace kios::shape

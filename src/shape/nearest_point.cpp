@@ -88,58 +88,6 @@ NearestPoint onEllipsoid(const Solid& s, const Vec& p) {
   return {0, p, length > 0 ? Vec(n / length) : Vec::UnitZ()};
 }
 
-/// Offers the pair of x, on the triangle, and its nearest point.
-void offer(const Triangle& t, const Solid& s, const Vec& x, TriangleShapeDistance& best) {
-  const NearestPoint q = nearestPoint(s, x);
-  if (!(q.distance < best.distance)) return;
-  best.distance = q.distance;
-  best.on_triangle = x;
-  best.on_shape = q.on_shape;
-  best.lower = std::min({q.normal.dot(t[0]), q.normal.dot(t[1]), q.normal.dot(t[2])}) -
-               extentAlong(s, q.normal);
-}
-
-void offerEdge(const Triangle& t, const Solid& s, const Vec& a, const Vec& b,
-               TriangleShapeDistance& best) {
-  double low = 0, high = 1;
-  constexpr int kHalvings = 52;
-  for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    const bool falling = nearestPoint(s, a + middle * (b - a)).normal.dot(b - a) < 0;
-    (falling ? low : high) = middle;
-  }
-  offer(t, s, a + 0.5 * (low + high) * (b - a), best);
-}
-
-// An inaccurate normal would turn the support point away from the face, and by more than a thin
-// face is wide.
-void offerFace(const Triangle& t, const Solid& s, TriangleShapeDistance& best) {
-  Vec n = faceNormal(t);
-  if (!(n.squaredNorm() > 0)) return;
-  n.normalize();
-  // Coordinates along the longest edge, from a to b, and across it, towards c.
-  int longest = 0;
-  for (int i = 1; i < 3; ++i) {
-    if ((t[(i + 1) % 3] - t[i]).squaredNorm() > (t[(longest + 1) % 3] - t[longest]).squaredNorm()) {
-      longest = i;
-    }
-  }
-  const Vec &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
-  const Vec u = b - a, v = n.cross(u), w = c - a;
-  const double uu = u.squaredNorm(), width = w.dot(v);
-  if (!(width > 0)) return;
-  for (const Vec& out : {n, Vec(-n)}) {
-    const Vec extreme = coreSupport(s, out);
-    const Vec x = extreme - a;
-    if (out.dot(x) > 0x1p-48 * (sizeOf(t) + s.reach())) continue;  // the plane cuts the solid
-    const double across = x.dot(v) / width;
-    const double along = (x.dot(u) - across * w.dot(u)) / uu;
-    if (across >= 0 && along >= 0 && across + along <= 1) {
-      offer(t, s, a + along * u + across * w, best);
-    }
-  }
-}
-
 }  // namespace
 
 Vec faceNormal(const Triangle& t) {
@@ -175,17 +123,6 @@ NearestPoint nearestPoint(const Solid& s, const Vec& p) {
   const Vec way = p - q;
   const double distance = way.norm();
   return {distance, q, distance > 0 ? Vec(way / distance) : Vec::UnitZ()};
-}
-
-TriangleShapeDistance distanceByFeatures(const Solid& s, const Triangle& t) {
-  TriangleShapeDistance best;
-  best.distance = best.lower = kInfinity;
-  for (int i = 0; i < 3; ++i) {
-    offer(t, s, t[i], best);
-    offerEdge(t, s, t[i], t[(i + 1) % 3], best);
-  }
-  offerFace(t, s, best);
-  return best;
 }
 
 }  // namespace kios::shape

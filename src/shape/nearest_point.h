@@ -5,8 +5,7 @@
 #include "shape/solid.h"
 #include "shape/triangle_shape.h"
 
-// Nearest points by closed forms; and for cylinder, cone and ellipsoid what GJK, which sees chords
-// of them, can't resolve where they nearly touch. All in the solid's frame.
+// Nearest points by closed forms, in the solid's frame.
 
 namespace kios::shape {
 
@@ -23,11 +22,5 @@ Vec faceNormal(const Triangle& triangle);
 /// The point of the core of a bounded solid, other than a convex one, nearest to p. For boxes,
 /// capsules and spheres the normal of a point of the core means nothing.
 NearestPoint nearestPoint(const Solid& solid, const Vec& p);
-
-/// Distance of a triangle and a cylinder, cone or ellipsoid that don't intersect, by the triangle's
-/// features. The face is nearest where the solid's support point along its normal projects into it.
-/// Along an edge the distance is convex and its slope, the normal's component, is bisected.
-/// Error: about 2^-48 of the extent.
-TriangleShapeDistance distanceByFeatures(const Solid& solid, const Triangle& triangle);
 
 }  // namespace kios::shape

@@ -77,8 +77,8 @@ Vec coreSupport(const Solid& solid, const Vec& n);
 double extentAlong(const Solid& solid, const Vec& n);
 
 /// Lower bound of the distance of p to the shape, exact but for rounding for all kinds except the
-/// ellipsoid and the convex shape. Negative inside (for a plane: never), where it is
-/// -(the depth at most). Error by rounding: below 2^-48 (|p|_1 + reach).
+/// convex shape; not above 0 inside (for a plane: never negative). Error by rounding: below 2^-48
+/// (|p|_1 + reach).
 double pointBound(const Solid& solid, const Vec& p);
 
 }  // namespace kios::shape

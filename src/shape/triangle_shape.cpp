@@ -68,9 +68,12 @@ TriangleShapeDistance distance(const Solid& s, const Triangle& t, double require
   if (s.kind == Kind::kConvex || !distanceByCertificate(s, t, beyond, core)) {
     const bool direct = margin == 0 && s.kind != Kind::kConvex;
     bool touching = direct && meets(s, t, &answer.on_triangle);
-    if (!touching) core = gjkDistance(s, t.data(), 3, beyond);
-    if (s.kind == Kind::kConvex && core.lower <= clearOf(t, core)) {
-      touching = meetsAt(s, t, core, &answer.on_triangle);
+    if (!touching && isCurved(s)) {
+      core = nearestFeature(s, t);
+    } else if (!touching) {
+      core = gjkDistance(s, t.data(), 3, beyond);
+      touching = s.kind == Kind::kConvex && core.lower <= clearOf(t, core) &&
+                 meetsAt(s, t, core, &answer.on_triangle);
     }
     if (touching) {
       answer.distance = answer.lower = 0;
@@ -88,14 +91,7 @@ TriangleShapeDistance distance(const Solid& s, const Triangle& t, double require
     answer.on_shape = answer.on_triangle;
     return answer;
   }
-  if (margin > 0) {
-    answer.on_shape += margin / core.upper * (core.point - core.on_core);
-  } else if (isCurved(s) && answer.lower <= required &&
-             answer.distance - answer.lower > 0x1p-45 * sizeOf(t)) {
-    TriangleShapeDistance exact = distanceByFeatures(s, t);
-    exact.lower = std::max(exact.lower, answer.lower);
-    if (exact.distance <= answer.distance) answer = exact;
-  }
+  if (margin > 0) answer.on_shape += margin / core.upper * (core.point - core.on_core);
   answer.distance = std::max(answer.distance, kTiny);
   return answer;
 }

@@ -34,21 +34,6 @@ inline TwofoldDeterminant determinant(const Twofold (&m)[3][3]) {
   return det;
 }
 
-/// Exactly, if nothing underflows.
-inline Expansion<192> determinant(const Expansion<2> (&m)[3][3]) {
-  const auto minor = [&m](int r, int s) {
-    return sum(product(m[r][0], m[s][1]), negated(product(m[s][0], m[r][1])));
-  };
-  return sum(sum(product(minor(1, 2), m[0][2]), product(minor(2, 0), m[1][2])),
-             product(minor(0, 1), m[2][2]));
-}
-
-template <int N>
-Sign signOf(const Expansion<N>& e) {
-  if (e.size == 0) return kZero;
-  return e.terms[e.size - 1] > 0 ? kPlus : kMinus;
-}
-
 inline Sign signBeyond(double value, double error) {
   return value > error ? kPlus : (value < -error ? kMinus : kUnknown);
 }

@@ -33,13 +33,6 @@ Rounded roundedInteger(const Integer& n, long exponent) {
   return {n < 0 ? -mantissa : mantissa, exponent + drop};
 }
 
-template <typename Rounded, int N>
-Rounded roundedExpansion(const Expansion<N>& e) {
-  double sum = 0;
-  for (int i = 0; i < e.size; ++i) sum += e.terms[i];
-  return {sum, 0};
-}
-
 }  // namespace
 
 PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scaled_(points) {
@@ -69,7 +62,7 @@ PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scal
     plain_exact_ &= least > 0;  // else one has underflowed
   }
   // Bits of coordinates lie above 2^-324, those of triple products above 2^-972.
-  expansions_exact_ = least >= 0x1p-270;
+  none_underflows_ = least >= 0x1p-270;
 }
 
 constexpr double kBound3d = 8 * 0x1p-53;
@@ -119,13 +112,13 @@ std::array<int, 3> PairPredicates::sides(const int (&points)[3], int j, int k, i
 }
 
 int PairPredicates::signOf(const Filtered& orient3d, int i, int j, int k, int l) const {
-  if (plain_exact_ || (orient3d.vanishes && expansions_exact_)) return signOf(orient3d.value);
+  if (plain_exact_ || (orient3d.vanishes && none_underflows_)) return signOf(orient3d.value);
   if (same(i, j) || same(i, k) || same(i, l) || same(j, k) || same(j, l) || same(k, l)) return 0;
   return signOf(exactOrient3d(i, j, k, l, 1).mantissa);
 }
 
 int PairPredicates::signOf(const Filtered& cross2d, int i, int j, int k, int l, int axis) const {
-  if (plain_exact_ || (cross2d.vanishes && expansions_exact_)) return signOf(cross2d.value);
+  if (plain_exact_ || (cross2d.vanishes && none_underflows_)) return signOf(cross2d.value);
   if (same(i, j) || same(k, l) || (same(i, k) && same(j, l)) || (same(i, l) && same(j, k)))
     return 0;
   return signOf(exactCross2d(i, j, k, l, axis, 1).mantissa);
@@ -185,17 +178,9 @@ PairPredicates::Rounded PairPredicates::exactOrient3d(int i, int j, int k, int l
   const TwofoldDeterminant det = determinant(d);
   if (std::abs(det.rounded()) > margin * det.error()) return {det.rounded(), 0};
 
-  if (!expansions_exact_) {
-    IntegerVector m[3];
-    for (int r = 0; r < 3; ++r) m[r] = integers(given_[rows[r]]) - integers(given_[l]);
-    const Integer det = dot(m[0], cross(m[1], m[2]));
-    return roundedInteger<Rounded>(det, 3 * (scale_ - 1074));
-  }
-  Expansion<2> m[3][3];
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 3; ++c) m[r][c] = difference(scaled_[rows[r]][c], scaled_[l][c]);
-  }
-  return roundedExpansion<Rounded>(determinant(m));
+  IntegerVector m[3];
+  for (int r = 0; r < 3; ++r) m[r] = integers(given_[rows[r]]) - integers(given_[l]);
+  return roundedInteger<Rounded>(dot(m[0], cross(m[1], m[2])), 3 * (scale_ - 1074));
 }
 
 PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l, int axis,
@@ -213,18 +198,11 @@ PairPredicates::Rounded PairPredicates::exactCross2d(int i, int j, int k, int l,
   const double size = std::abs(left.high) + std::abs(right.high);
   if (std::abs(value) > margin * (20 * kUlp * kUlp * size + 0x1p-800)) return {value, 0};
 
-  if (!expansions_exact_) {
-    const auto d = [this](int to, int from, int c) {
-      return Integer(integer(given_[to][c]) - integer(given_[from][c]));
-    };
-    return roundedInteger<Rounded>(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u),
-                                   2 * (scale_ - 1074));
-  }
   const auto d = [this](int to, int from, int c) {
-    return difference(scaled_[to][c], scaled_[from][c]);
+    return Integer(integer(given_[to][c]) - integer(given_[from][c]));
   };
-  return roundedExpansion<Rounded>(
-      sum(product(d(j, i, u), d(l, k, v)), negated(product(d(j, i, v), d(l, k, u)))));
+  return roundedInteger<Rounded>(d(j, i, u) * d(l, k, v) - d(j, i, v) * d(l, k, u),
+                                 2 * (scale_ - 1074));
 }
 
 }  // namespace kios

@@ -77,8 +77,8 @@ class PairPredicates {
   const Coordinates& given_;
   Coordinates scaled_;  ///< given_ times 2^scale_, largest magnitude within 2^+-200
   int scale_ = 0;
-  bool expansions_exact_;  ///< no term of an expansion can underflow
-  bool plain_exact_;       ///< plain doubles are exact, too
+  bool none_underflows_;  ///< of the products that are not 0
+  bool plain_exact_;      ///< plain doubles are exact, too
 };
 
 template <typename S>

@@ -18,20 +18,6 @@ Crossing verdict(Sign height, const Sign (&sides)[3]) {
   return height > 0 ? Crossing::kForward : Crossing::kBackward;
 }
 
-/// The side on which the turned ray passes the edge from corner i to j, relative to the origin, is
-/// the sign of d . (i x j), by along_ray(i, j), else of its term in e, component(i, j, 0), else of
-/// that in e^2. All three vanish only where the corners lie on a line with the origin.
-template <typename Dot, typename Component>
-Crossing turnedVerdict(Sign height, const Dot& along_ray, const Component& component) {
-  Sign sides[3];
-  for (int i = 0; i < 3; ++i) {
-    const int j = kNext[i];
-    sides[i] = along_ray(i, j);
-    for (int axis = 0; axis < 2 && sides[i] == kZero; ++axis) sides[i] = component(i, j, axis);
-  }
-  return verdict(height, sides);
-}
-
 }  // namespace
 
 RayCrossing::RayCrossing(const Point<double>& origin, const Point<double>& direction,
@@ -54,56 +40,28 @@ Crossing RayCrossing::cross(const TriangleVertices<double>& corners) const {
     unknown |= sides[i] == kUnknown;
   }
   if (left && right) return Crossing::kNone;  // the line misses the closed triangle
-  if (unknown) return crossExactly(t, corners);
+  if (unknown) return crossInIntegers(corners);
   const Sign height = filteredSign(t.from_origin[0], t.from_origin[1], t.from_origin[2]);
-  if (height == kUnknown) return crossExactly(t, corners);
+  if (height == kUnknown) return crossInIntegers(corners);
   return verdict(height, sides);
 }
 
-Crossing RayCrossing::crossExactly(const ScaledOrigin::Corners& t,
-                                   const TriangleVertices<double>& corners) const {
-  Magnitudes sizes;
-  Expansion<2> p[3][3];
-  for (int c = 0; c < 3; ++c) {
-    sizes.add(origin_[c]);
-    sizes.add(direction_[c]);
-    for (int i = 0; i < 3; ++i) {
-      sizes.add(t.corner[i][c]);
-      p[i][c] = difference(t.corner[i][c], origin_[c]);
-    }
-  }
-  if (!sizes.suitExpansions()) return crossInIntegers(corners);
-  const auto row = [&](Expansion<2>(&m)[3][3], int r, int i) {
-    for (int c = 0; c < 3; ++c) m[r][c] = p[i][c];
-  };
-  Expansion<2> m[3][3];
-  for (int i = 0; i < 3; ++i) row(m, i, i);
-  const Sign height = signOf(determinant(m));
-  if (height == kZero) return ifOrigin(corners);
-  const auto along_ray = [&](int i, int j) {
-    for (int c = 0; c < 3; ++c) {
-      m[0][c] = Expansion<2>();
-      m[0][c].append(direction_[c]);
-    }
-    row(m, 1, i);
-    row(m, 2, j);
-    return signOf(determinant(m));
-  };
-  return turnedVerdict(height, along_ray, [&](int i, int j, int axis) {
-    const int y = kNext[axis], z = kNext[y];
-    return signOf(sum(product(p[i][y], p[j][z]), negated(product(p[i][z], p[j][y]))));
-  });
-}
-
+// The side on which the turned ray passes the edge from corner i to j, relative to the origin, is
+// the sign of d . (i x j), else of its term in e, that product's x, else of that in e^2. All three
+// vanish only where the corners lie on a line with the origin.
 Crossing RayCrossing::crossInIntegers(const TriangleVertices<double>& corners) const {
   const IntegerVector origin = integers(given_origin_), d = integers(direction_);
   IntegerVector p[3];
   for (int i = 0; i < 3; ++i) p[i] = integers(corners[i]) - origin;
   const Sign height = signOf(dot(p[0], kios::cross(p[1], p[2])));
   if (height == kZero) return ifOrigin(corners);
-  return turnedVerdict(
-      height, [&](int i, int j) { return signOf(dot(d, kios::cross(p[i], p[j]))); },
-      [&](int i, int j, int axis) { return signOf(kios::cross(p[i], p[j])[axis]); });
+  Sign sides[3];
+  for (int i = 0; i < 3; ++i) {
+    const IntegerVector across = kios::cross(p[i], p[kNext[i]]);
+    sides[i] = signOf(dot(d, across));
+    for (int axis = 0; axis < 2 && sides[i] == kZero; ++axis) sides[i] = signOf(across[axis]);
+  }
+  return verdict(height, sides);
 }
 
 Crossing RayCrossing::ifOrigin(const TriangleVertices<double>& corners) const {

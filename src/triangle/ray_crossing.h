@@ -29,8 +29,6 @@ class RayCrossing {
   Crossing cross(const TriangleVertices<double>& corners) const;
 
  private:
-  Crossing crossExactly(const ScaledOrigin::Corners& t,
-                        const TriangleVertices<double>& corners) const;
   Crossing crossInIntegers(const TriangleVertices<double>& corners) const;
   Crossing ifOrigin(const TriangleVertices<double>& corners) const;
 

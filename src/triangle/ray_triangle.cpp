@@ -41,8 +41,6 @@ ExactRay::ExactRay(const GivenRay& ray, double largest)
   for (int c = 0; c < 3; ++c) {
     direction_[c] = ray.direction[c] * scale;
     exact_ &= direction_[c] / scale == ray.direction[c];
-    sizes_.add(origin_[c]);
-    sizes_.add(direction_[c]);
   }
 }
 
@@ -52,7 +50,7 @@ Sign ExactRay::filteredSide(const Corners& t, int i, int j) const {
   return filteredSign(direction_, t.from_origin[i], along);
 }
 
-Sign ExactRay::exactSide(const Corners& t, int i, int j) const {
+Sign ExactRay::twofoldSide(const Corners& t, int i, int j) const {
   Twofold twofold[3][3];
   for (int c = 0; c < 3; ++c) {
     twofold[0][c] = {direction_[c], 0};
@@ -60,21 +58,7 @@ Sign ExactRay::exactSide(const Corners& t, int i, int j) const {
     twofold[2][c] = twofoldDifference(t.corner[j][c], t.corner[i][c]);
   }
   const TwofoldDeterminant det = determinant(twofold);
-  const Sign sign = signBeyond(det.rounded(), det.error());
-  if (sign != kUnknown) return sign;
-  Magnitudes sizes = sizes_;
-  for (int c = 0; c < 3; ++c) {
-    sizes.add(t.corner[i][c]);
-    sizes.add(t.corner[j][c]);
-  }
-  if (!sizes.suitExpansions()) return kUnknown;
-  Expansion<2> exact[3][3];
-  for (int c = 0; c < 3; ++c) {
-    exact[0][c].append(direction_[c]);
-    exact[1][c] = difference(t.corner[i][c], origin_[c]);
-    exact[2][c] = difference(t.corner[j][c], t.corner[i][c]);
-  }
-  return signOf(determinant(exact));
+  return signBeyond(det.rounded(), det.error());
 }
 
 bool ExactRay::hits(const TriangleVertices<double>& corners, TriangleHit& hit) const {
@@ -92,7 +76,7 @@ bool ExactRay::hits(const TriangleVertices<double>& corners, TriangleHit& hit) c
   if (left && right) return false;
   for (int i = 0; i < 3; ++i) {
     if (sides[i] != kUnknown) continue;
-    sides[i] = exactSide(t, i, kNext[i]);
+    sides[i] = twofoldSide(t, i, kNext[i]);
     if (sides[i] == kUnknown) return hitInIntegers(given_, corners, hit);
     left |= sides[i] == kPlus;
     right |= sides[i] == kMinus;

@@ -41,7 +41,7 @@ class ExactRay {
   /// Returns the sign of direction . ((corner i - origin) x (corner j - corner i)): the side on
   /// which the ray passes the edge.
   Sign filteredSide(const Corners& t, int i, int j) const;
-  Sign exactSide(const Corners& t, int i, int j) const;
+  Sign twofoldSide(const Corners& t, int i, int j) const;
   /// Sets the hit of a face that the ray's line crosses. False if rounding leaves something open.
   bool cross(const Corners& t, TriangleHit& hit, bool& in_range) const;
 
@@ -50,7 +50,6 @@ class ExactRay {
   double direction_[3];  ///< scaled, of at most 2
   int shift_;            ///< t = that of the scaled ray times 2^shift
   bool exact_ = true;    ///< nothing of the direction is lost by that
-  Magnitudes sizes_;     ///< of the scaled ray's coordinates
 };
 
 /// Decides it in integers of any size.

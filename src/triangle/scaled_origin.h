@@ -53,19 +53,6 @@ class ScaledOrigin {
   bool exact_ = true;
 };
 
-/// Holds the range of magnitudes of numbers that aren't 0.
-struct Magnitudes {
-  double least = kInfinity, largest = 0;
-
-  void add(double v) {
-    if (v != 0) least = std::min(least, std::abs(v));
-    largest = std::max(largest, std::abs(v));
-  }
-  /// Returns true if expansions of determinants of the numbers' differences are exact: bits lie
-  /// above 2^-324, those of triple products above 2^-972.
-  bool suitExpansions() const { return least >= 0x1p-270 && largest <= 0x1p201; }
-};
-
 /// Names the sign of a determinant: kUnknown where rounding might have made it.
 enum Sign { kMinus = -1, kZero = 0, kPlus = 1, kUnknown = 2 };
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -21,21 +20,13 @@ using lanes::Float4;
 template <typename S>
 bool before(const kIOS<S>& a, const kIOS<S>& b) {
   if (a.radius0 != b.radius0) return a.radius0 < b.radius0;
-  constexpr std::size_t kBytes = 3 * sizeof(S) + sizeof(a.cap_x) * 4 + sizeof(a.exponent) + 1;
-  const auto bytes = [](const kIOS<S>& v) {
-    std::array<unsigned char, kBytes> all;
-    unsigned char* out = all.data();
-    const auto append = [&out](const auto* field, std::size_t size) {
-      std::memcpy(out, field, size);
-      out += size;
-    };
-    append(v.center0.data(), 3 * sizeof(S));
-    for (const float* cap : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) append(cap, sizeof(v.cap_x));
-    append(&v.exponent, sizeof(v.exponent));
-    append(&v.num_spheres, 1);
-    return all;
-  };
-  return bytes(a) < bytes(b);
+  const auto order = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof(x)); };
+  for (const int by : {order(a.center0, b.center0), order(a.cap_x, b.cap_x),
+                       order(a.cap_y, b.cap_y), order(a.cap_z, b.cap_z), order(a.cap_r, b.cap_r),
+                       order(a.exponent, b.exponent), order(a.num_spheres, b.num_spheres)}) {
+    if (by != 0) return by < 0;
+  }
+  return false;
 }
 
 /// The spheres of one operand around the merged centre, in the merged node's units, as floats. The

@@ -8,7 +8,7 @@ namespace kios {
 
 /// Returns true if and only if the two closed triangles have a point in common: exact for every
 /// finite input, coplanar, touching and degenerate (segments, points) ones included. Evaluated with
-/// a static filter, floating-point expansions behind it, and integers where those could underflow.
+/// a static filter, numbers in two doubles behind it, and integers where those leave it open.
 /// S = double or float; coordinates in one frame.
 template <typename S>
 bool trianglesIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
