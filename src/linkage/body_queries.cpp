@@ -77,8 +77,8 @@ double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double 
   const BodyData &first = body(a), &second = body(b);
   const double pad = path_.pad(a, b);
   if (first.model && second.model) {
-    // The volumes decide: MeshPair::rootBound() takes longer and parts few more pairs, where a slab
-    // is tried next. With it short free motions amid obstacles take 1.15 times as long.
+    // The volumes decide, as a slab is tried next: MeshPair::rootBound() takes longer, and with it
+    // short free motions amid obstacles took 1.1 times as long (motions/arm_cell/valid/0.05).
     const RelativePose<double> X_AB(at.pose(a), at.pose(b),
                                     path_.rotationSquare(a) + path_.rotationSquare(b));
     return separation(first.model->getBV(0).bv, second.model->getBV(0).bv, X_AB, enough + pad) -

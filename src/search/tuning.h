@@ -6,8 +6,8 @@
 #include <cstdint>
 
 // The constants of searches that were found by trying, each with what it serves, and the speed of
-// rows of kios_bench with something else in its place as measured on 2026-11-28 by scripts/compare;
-// "not measured": not since it was chosen. They change no answer.
+// rows of kios_bench with something else in its place as measured on 2026-11-28 by kios_bench
+// --compare; "not measured": not since it was chosen. They change no answer.
 
 namespace kios::engine::tuning {
 
