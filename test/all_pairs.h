@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -16,35 +17,47 @@
 
 namespace kios::testing {
 
-template <typename S>
-using Triangles = std::vector<TriangleVertices<S>>;
+using Triangles = std::vector<TriangleVerticesd>;
 
 template <typename S>
-Triangles<S> trianglesOf(const MeshIn<S>& mesh) {
-  Triangles<S> triangles;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) triangles.push_back(mesh.corners(t));
+TriangleVerticesd inDouble(const TriangleVertices<S>& t) {
+  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
+}
+template <typename S>
+Triangles trianglesOf(const MeshIn<S>& mesh) {
+  Triangles triangles;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    triangles.push_back(inDouble<S>(mesh.corners(t)));
+  }
   return triangles;
 }
 template <typename S>
-Triangles<S> trianglesOf(const Model<S>& m) {
-  Triangles<S> triangles;
+Triangles trianglesOf(const Model<S>& m) {
+  Triangles triangles;
   for (int t = 0; t < m.num_tris; ++t) {
     const fcl::Triangle& ids = m.tri_indices[t];
-    triangles.push_back({m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]});
+    triangles.push_back(inDouble<S>({m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]}));
   }
   return triangles;
 }
 
-/// Holds what the kernels say of all pairs of a and b, whose triangles X_AB moves to A's frame.
+/// Returns a distance as a query in S answers: rounded once, never to 0.
 template <typename S>
+S roundedAnswer(double distance) {
+  const S nearest = static_cast<S>(distance);
+  return distance > 0 ? std::max(nearest, std::numeric_limits<S>::denorm_min()) : S(0);
+}
+
+/// Holds what the kernels say of all pairs of a and b, whose triangles X_AB moves to A's frame: in
+/// double, as queries of float models have it, too.
 struct AllPairs {
   using Ids = std::pair<int, int>;
 
-  AllPairs(const Triangles<S>& a, Triangles<S> b, const RelativePose<S>& X_AB) {
+  AllPairs(const Triangles& a, Triangles b, const RelativePosed& X_AB) {
     for (auto& q : b) q = {X_AB * q[0], X_AB * q[1], X_AB * q[2]};
     for (int i = 0; i < static_cast<int>(a.size()); ++i) {
       for (int j = 0; j < static_cast<int>(b.size()); ++j) {
-        const S d = triangleDistance(a[i], b[j]).distance;
+        const double d = triangleDistance(a[i], b[j]).distance;
         if (d < distance) {
           distance = d;
           nearest = {i, j};
@@ -55,7 +68,12 @@ struct AllPairs {
     }
   }
 
-  S distance = std::numeric_limits<S>::infinity();
+  template <typename S>
+  S rounded() const {
+    return roundedAnswer<S>(distance);
+  }
+
+  double distance = std::numeric_limits<double>::infinity();
   Ids nearest{-1, -1};  ///< the least ids at that distance
   double extent = 0;    ///< of that pair
   std::vector<Ids> hits;

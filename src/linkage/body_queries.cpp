@@ -8,7 +8,7 @@
 #include "fcl_kios/query/mesh_queries.h"
 #include "linkage/link_tree.h"
 #include "linkage/tuning.h"
-#include "model/kios_model.h"
+#include "model/prepared.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
@@ -153,8 +153,8 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
            !(gapOfShapes(pair.a, pair.b, at) > 0);
   }
   if (!a.model || !b.model || areSolids(pair)) return meshAndOther(pair, at).touch();
-  const MeshPair<double> frame(*a.model, at.pose(pair.a), *b.model, at.pose(pair.b),
-                               path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
+  const MeshPair frame(meshOf(*a.model), at.pose(pair.a), meshOf(*b.model), at.pose(pair.b),
+                       path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b));
   SearchCounts counts;
   const bool touch = !searchContacts(frame, 1, counts).empty();
   counts_.expansions += counts.expansions;
@@ -170,8 +170,8 @@ MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configura
 Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough) const {
   const int a = pair.a, b = pair.b;
   const double pad = path_.pad(a, b);
-  const MeshPair<double> frame(*body(a).model, at.pose(a), *body(b).model, at.pose(b),
-                               path_.rotationSquare(a) + path_.rotationSquare(b));
+  const MeshPair frame(meshOf(*body(a).model), at.pose(a), meshOf(*body(b).model), at.pose(b),
+                       path_.rotationSquare(a) + path_.rotationSquare(b));
   engine::PairQuery query;
   query.rel_err = kRelErr;
   query.near_enough = min_separation_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "search/double_bound.h"
-#include "volume/instantiate.h"
 #include "volume/lanes.h"
 
 namespace kios::engine {
@@ -61,13 +60,12 @@ double offPlane(const RootBody& a, const RootBody& b, const Vec& ball, const Vec
 // The axes e_k are o_k, at right angles and of length 1, but for u = 2^-24 each, so content has
 // |o_k . (p - c)| <= h_k + u |p - c|, and along any axis reaches at most 1.8 u sum h_k farther than
 // the box of axes o_k. Stored vertices are off by kStored of the extent.
-template <typename S>
-[[gnu::hot]] RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree) {
-  const Eigen::Map<const Vec> origin(tree.origin);
-  const Box& box = tree.root_box;
+[[gnu::hot]] RootBody rootOf(const Mesh& mesh) {
+  const Eigen::Map<const Vec> origin(mesh.tree().origin);
+  const Box& box = mesh.tree().root_box;
   RootBody body;
-  body.center = root.center0.template cast<double>() - origin;
-  body.radius = double{root.radius0};
+  body.center = mesh.center() - origin;
+  body.radius = mesh.radius();
   const auto set = [](const auto& from, Double2(&to)[2]) {
     to[0] = Double2{double{from[0]}, double{from[1]}};
     to[1] = Double2{double{from[2]}, double{from[3]}};
@@ -159,7 +157,5 @@ template <typename S>
   }
   return bound;
 }
-
-KIOS_INSTANTIATE_FUNCTION(rootOf);
 
 }  // namespace kios::engine

@@ -9,7 +9,6 @@
 
 #include "triangle/certified_distance.h"
 #include "triangle/common_point.h"
-#include "triangle/known_distance.h"
 #include "triangle/pair.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
@@ -101,32 +100,27 @@ TriangleDistance<S> touchingAt(const Vec& at) {
   return {S(0), p, p, TriangleFeature::kFace, TriangleFeature::kFace};
 }
 
-/// What is known of two triangles before their distance is.
-enum class Known { kNothing, kApart, kTouching };
+}  // namespace
 
 template <typename S>
-TriangleDistance<S> distanceOf(const TriangleVertices<S>& a, const TriangleVertices<S>& b,
-                               Known known) {
+TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
   const Sorted sa(a), sb(b);
   const bool swapped = before(sb, sa);
   const Sorted &p = swapped ? sb : sa, &q = swapped ? sa : sb;
-  if (known != Known::kApart) {
-    for (int i = 0; i < 3; ++i) {  // neighbours in a mesh share a vertex as stored
-      for (int j = 0; j < 3; ++j) {
-        if (sa.v[i] != sb.v[j]) continue;
-        const Point<S>& common = a[sa.index[i]];
-        return {S(0), common, common, static_cast<TriangleFeature>(sa.index[i]),
-                static_cast<TriangleFeature>(sb.index[j])};
-      }
+  for (int i = 0; i < 3; ++i) {  // neighbours in a mesh share a vertex as stored
+    for (int j = 0; j < 3; ++j) {
+      if (sa.v[i] != sb.v[j]) continue;
+      const Point<S>& common = a[sa.index[i]];
+      return {S(0), common, common, static_cast<TriangleFeature>(sa.index[i]),
+              static_cast<TriangleFeature>(sb.index[j])};
     }
   }
   Vec common;
-  if (known == Known::kTouching && commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
   const Vec origin = p.v[0];
   TrianglePair pair = relativeTo(origin, p, q);
   const int exponent = normalize(pair);
 
-  bool disjoint = known == Known::kApart;
+  bool disjoint = false;
   PairDistance found;
   CertifiedDistance fast(pair);
   bool certified = fast.nearestEdges(0, 1, found);
@@ -157,25 +151,6 @@ TriangleDistance<S> distanceOf(const TriangleVertices<S>& a, const TriangleVerti
   return result;
 }
 
-}  // namespace
-
-template <typename S>
-TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  return distanceOf(a, b, Known::kNothing);
-}
-
-template <typename S>
-TriangleDistance<S> disjointDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  return distanceOf(a, b, Known::kApart);
-}
-
-template <typename S>
-TriangleDistance<S> touchingDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
-  return distanceOf(a, b, Known::kTouching);
-}
-
 KIOS_INSTANTIATE_FUNCTION(triangleDistance);
-KIOS_INSTANTIATE_FUNCTION(touchingDistance);
-KIOS_INSTANTIATE_FUNCTION(disjointDistance);
 
 }  // namespace kios

@@ -82,7 +82,6 @@ SMALL_OR_USED_ONCE = {
     "tree/weld.h": "one function",
     "triangle/common_point.h": "what two .cpp share",
     "triangle/integer.h": "Boost's integers, which take long to compile",
-    "triangle/known_distance.h": "triangleDistance() for those who know more",
     "volume/ball_lanes.h": "tested alone", "volume/errors.h": "the one way to refuse",
     "volume/instantiate.h": "macros",
     "volume/simd_targets.h": "before Highway's headers",

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
+#include "all_pairs.h"
 #include "fcl_kios/triangle/distance.h"
 #include "fcl_kios/triangle/intersection.h"
 #include "fcl_kios/volume/separation.h"
@@ -20,12 +20,8 @@
 
 namespace kios::fuzz {
 
-template <typename S>
-TriangleVertices<S> placed(const TriangleVertices<S>& t, const RelativePose<S>& X) {
-  return {X * t[0], X * t[1], X * t[2]};
-}
-
-/// Holds all pairs of triangles of two meshes, in the frame of the first.
+/// Holds all pairs of triangles of two meshes, in the frame of the first: in double, as S holds the
+/// meshes, but for the distances, which are rounded to S as answers are.
 template <typename S>
 class BruteForce {
  public:
@@ -37,15 +33,17 @@ class BruteForce {
   BruteForce(const Mesh& a, const fcl::Transform3<S>& X_WA, const Mesh& b,
              const fcl::Transform3<S>& X_WB)
       : X_AB(X_WA, X_WB), a_(trianglesOf(a)), b_in_b_(trianglesOf(b)), b_(b_in_b_) {
-    for (auto& t : b_) t = placed(t, X_AB);
+    for (auto& t : b_) t = {X_AB * t[0], X_AB * t[1], X_AB * t[2]};
     distances_.reserve(a_.size() * b_.size());
+    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < a_.size(); ++i) {
       for (std::size_t j = 0; j < b_.size(); ++j) {
-        const S d = triangleDistance(a_[i], b_[j]).distance;
+        const double d = triangleDistance(a_[i], b_[j]).distance;
         const Ids ids = {static_cast<int>(i), static_cast<int>(j)};
-        distances_.push_back(d);
-        if (distances_.size() == 1 || d < distance) {
-          distance = d;
+        distances_.push_back(testing::roundedAnswer<S>(d));
+        if (d < least) {
+          least = d;
+          distance = distances_.back();
           nearest = ids;
         }
         if (trianglesIntersect(a_[i], b_[j])) hits.push_back(ids);
@@ -75,33 +73,35 @@ class BruteForce {
   double frameError(int b) const {
     double most = 0;
     for (const auto& p : b_in_b_[static_cast<std::size_t>(b)]) {
-      most = std::max(most, p.template cast<double>().stableNorm());
+      most = std::max(most, p.stableNorm());
     }
     const auto& bounds = detail::boundsOf(X_AB);
     return 4 * 1.8 * kEps * ((1 + bounds.stretch) * most + bounds.T_norm1);
   }
   const std::vector<S>& distances() const { return distances_; }
-  const std::vector<TriangleVertices<S>>& trianglesOfA() const { return a_; }
-  const std::vector<TriangleVertices<S>>& trianglesOfB() const { return b_; }  ///< in A
-  const std::vector<TriangleVertices<S>>& trianglesInB() const { return b_in_b_; }
+  const std::vector<TriangleVerticesd>& trianglesOfA() const { return a_; }
+  const std::vector<TriangleVerticesd>& trianglesOfB() const { return b_; }  ///< in A
+  const std::vector<TriangleVerticesd>& trianglesInB() const { return b_in_b_; }
 
-  const RelativePose<S> X_AB;
+  const RelativePosed X_AB;
   S distance = 0;
   Ids nearest;  ///< the least ids at that distance
   std::vector<Ids> hits;
 
-  static std::vector<TriangleVertices<S>> trianglesOf(const Mesh& mesh) {
-    std::vector<TriangleVertices<S>> triangles;
+  static std::vector<TriangleVerticesd> trianglesOf(const Mesh& mesh) {
+    std::vector<TriangleVerticesd> triangles;
     for (const fcl::Triangle& t : mesh.triangles) {
-      triangles.push_back({mesh.vertices[t[0]].cast<S>(), mesh.vertices[t[1]].cast<S>(),
-                           mesh.vertices[t[2]].cast<S>()});
+      const auto held = [&](int k) {
+        return Pointd(mesh.vertices[t[k]].template cast<S>().template cast<double>());
+      };
+      triangles.push_back({held(0), held(1), held(2)});
     }
     return triangles;
   }
 
  private:
-  const std::vector<TriangleVertices<S>> a_, b_in_b_;
-  std::vector<TriangleVertices<S>> b_;
+  const std::vector<TriangleVerticesd> a_, b_in_b_;
+  std::vector<TriangleVerticesd> b_;
   std::vector<S> distances_;  ///< [a][b]
 };
 
