@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "query/mesh_pair.h"
+#include "model/prepared.h"
+#include "search/mesh_pair.h"
 #include "shape/triangle_shape.h"
 #include "volume/balls.h"
 #include "volume/errors.h"

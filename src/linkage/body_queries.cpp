@@ -8,7 +8,7 @@
 #include "fcl_kios/query/mesh_queries.h"
 #include "linkage/link_tree.h"
 #include "linkage/tuning.h"
-#include "model/kios_model.h"
+#include "model/prepared.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
@@ -161,9 +161,9 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
   return touch;
 }
 
-MeshPair<double> BodyQueries::meshPair(const Pair& pair, const Configuration& at) const {
-  return {*body(pair.a).model, at.pose(pair.a), *body(pair.b).model, at.pose(pair.b),
-          path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b)};
+MeshPair BodyQueries::meshPair(const Pair& pair, const Configuration& at) const {
+  return {meshOf(*body(pair.a).model), at.pose(pair.a), meshOf(*body(pair.b).model),
+          at.pose(pair.b), path_.rotationSquare(pair.a) + path_.rotationSquare(pair.b)};
 }
 
 MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configuration& at) const {
@@ -175,7 +175,7 @@ MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configura
 Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough) const {
   const int a = pair.a, b = pair.b;
   const double pad = path_.pad(a, b);
-  const MeshPair<double> frame = meshPair(pair, at);
+  const MeshPair frame = meshPair(pair, at);
   engine::PairQuery query;
   query.rel_err = kRelErr;
   query.near_enough = min_separation_;

@@ -65,7 +65,7 @@ class BodyQueries {
   Nearness askMeshes(Pair& pair, const Configuration& at, double enough) const;
   Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
                            double enough) const;
-  MeshPair<double> meshPair(const Pair& pair, const Configuration& at) const;
+  MeshPair meshPair(const Pair& pair, const Configuration& at) const;
   /// A pair of which one is a mesh.
   MeshAndOther<double> meshAndOther(const Pair& pair, const Configuration& at) const;
   Nearness askShapes(Pair& pair, const Configuration& at) const;

@@ -9,6 +9,8 @@
 
 #include "build/mesh_view.h"
 #include "fcl_kios/model/model.h"
+#include "model/kios_model.h"
+#include "search/mesh.h"
 #include "tree/content_hash.h"
 #include "tree/tree.h"
 
@@ -108,6 +110,26 @@ template <typename S>
 engine::MeshView<S> viewOf(const Model<S>& model) {
   return {model.vertices, static_cast<std::size_t>(model.num_vertices), model.tri_indices,
           static_cast<std::size_t>(model.num_tris)};
+}
+
+/// A finished mesh for queries. Throws std::invalid_argument if the model isn't one.
+template <typename S>
+Mesh meshOf(const Model<S>& model) {
+  requireFinished(model);
+  return Mesh(viewOf(model), treeOf(model), model.getBV(0).bv);
+}
+
+template <typename S>
+TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
+  const engine::MeshView<S> mesh = viewOf(model);
+  const auto t = static_cast<std::size_t>(triangle);
+  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+}
+
+template <typename S>
+TriangleVerticesd cornersInDouble(const Model<S>& model, int triangle) {
+  const TriangleVertices<S> t = cornersOf(model, triangle);
+  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
 }
 
 /// Tells one state of a model from every later one: builds, refits and marks change it, and arrays

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/prepared.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
@@ -28,11 +29,24 @@ engine::PairQuery queryOf(const DistanceOptions<S>& options) {
   query.rel_err = options.rel_err;
   query.abs_err = options.abs_err;
   query.near_enough = options.near_enough;
-  query.far_enough = options.far_enough;
+  query.far_enough = roundsDownTo<S>(options.far_enough);  // lower_bound is to be at least that
   query.max_expansions = options.max_expansions;
   if (options.warm_start)
     query.start = {options.warm_start->triangle_a, options.warm_start->triangle_b};
   return query;
+}
+
+template <typename S>
+DistanceAnswer<S> inScalar(const DistanceAnswerd& answer) {
+  DistanceAnswer<S> rounded;
+  rounded.distance = roundedLength<S>(answer.distance);
+  rounded.lower_bound = roundDown<S>(answer.lower_bound);
+  rounded.upper_bound = roundUp<S>(answer.upper_bound);
+  rounded.triangle_a = answer.triangle_a;
+  rounded.triangle_b = answer.triangle_b;
+  rounded.stop = answer.stop;
+  rounded.counts = answer.counts;
+  return rounded;
 }
 
 }  // namespace
@@ -41,34 +55,36 @@ template <typename S>
 DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                            const fcl::Transform3<S>& X_WB, const DistanceOptions<S>& options) {
   requireValid(options);
-  const MeshPair<S> frame(a, X_WA, b, X_WB);
-  DistanceAnswer<S> answer = bracketDistance(frame, queryOf(options));
+  const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB);
+  const DistanceAnswerd found = bracketDistance(frame, queryOf(options));
+  auto answer = inScalar<S>(found);
   if (answer.triangle_a < 0) return answer;
   if (options.warm_start) *options.warm_start = {answer.triangle_a, answer.triangle_b};
   if (options.nearest_points) {
-    answer.point_a = detail::transform<S>(X_WA, answer.point_a);
-    answer.point_b = detail::transform<S>(X_WA, answer.point_b);
-  } else {
-    answer.point_a = answer.point_b = DistanceAnswer<S>().point_a;
+    answer.point_a = toWorld<S>(X_WA, found.point_a);
+    answer.point_b = toWorld<S>(X_WA, found.point_b);
   }
   return answer;
 }
 
-// Within distanceError() of t an exact answer decides. Farther from it no rounding can part this
-// verdict from the exact answer's: the pair that realises that is not farther than the pair found
-// here, and not nearer than what was proven, by more than distanceError().
+// Within distanceError() of t, and within its rounding to S, an exact answer decides. Farther from
+// it no rounding can part this verdict from the exact answer's: the pair that realises that is not
+// farther than the pair found here, and not nearer than what was proven, by more than
+// distanceError().
 template <typename S>
 bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                 const fcl::Transform3<S>& X_WB, std::common_type_t<S> t,
                 std::common_type_t<DistanceAnswer<S>>* certificate, WarmStart* warm_start) {
   require(!std::isnan(t), "the distance asked for", t, "a number");
-  const MeshPair<S> frame(a, X_WA, b, X_WB);
-  DistanceAnswer<S> unused;
-  DistanceAnswer<S>& answer = certificate ? *certificate : unused;
-  answer = DistanceAnswer<S>();
+  const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB);
+  DistanceAnswerd answer;
+  const auto decided = [&](bool closer) {
+    if (certificate) *certificate = inScalar<S>(answer);
+    return closer;
+  };
   if (t < 0) {
     answer.stop = DistanceStop::kFar;
-    return false;
+    return decided(false);
   }
   if (t == 0 && !certificate && !warm_start) {  // as the distance is 0 where triangles intersect
     return !searchContacts(frame, 1, answer.counts).empty();
@@ -78,7 +94,7 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
   engine::PairQuery query = queryOf(options);
   const double error = frame.distanceError(t);
   query.near_enough = t < kInfinity ? t - error : t;
-  query.far_enough = t + 2 * error;
+  query.far_enough = roundsDownTo<S>(t + 2 * error);
   const auto ask = [&](const engine::PairQuery& question) {
     const SearchCounts before = answer.counts;
     answer = bracketDistance(frame, question);
@@ -87,10 +103,9 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
   };
   ask(query);
   const bool far = answer.stop == DistanceStop::kFar;
-  const bool near = answer.distance == 0 || double{answer.distance} <= query.near_enough;
+  const bool near = answer.distance == 0 || answer.distance <= query.near_enough;
   if (!far && !near) ask(queryOf(options));
-  answer.point_a = answer.point_b = DistanceAnswer<S>().point_a;
-  return !far && (near || answer.distance <= t);
+  return decided(!far && (near || roundedLength<S>(answer.distance) <= t));
 }
 
 template DistanceAnswerd distance(const Modeld&, const fcl::Transform3d&, const Modeld&,

@@ -9,8 +9,10 @@
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/distance_request.h>
 #include "fcl_kios/model/model.h"
-#include "query/mesh_pair.h"
+#include "model/prepared.h"
+#include "search/mesh_pair.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -22,26 +24,24 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
 }
 
 /// The contact that FCL reports for two triangles that intersect, in their common frame.
-template <typename S>
 struct TriangleContact {
-  Point<S> points[2];
+  Pointd points[2];
   std::size_t num_points;  ///< 1 or 2
-  Point<S> normal;         ///< unit, from the first triangle to the second as FCL orients it
-  S depth;
+  Pointd normal;           ///< unit, from the first triangle to the second as FCL orients it
+  double depth;
 };
 
 /// The deepest vertices of one triangle below the other's plane, that plane's normal and their
 /// depth, as FCL's routine gives them; where it gives none, or a triangle has no normal, a point of
 /// the intersection, the other triangle's normal (x if neither has one) and depth 0. The triangles
 /// must intersect.
-template <typename S>
-TriangleContact<S> triangleContact(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
+TriangleContact triangleContact(const TriangleVerticesd& a, const TriangleVerticesd& b);
 
 /// Reports two triangles that intersect, p and q in A's frame, as FCL does: up to two
 /// contacts, as many as the request leaves room for.
 template <typename S>
-[[gnu::hot]] void addContacts(const Model<S>& a, int id_a, const TriangleVertices<S>& p,
-                              const Model<S>& b, int id_b, const TriangleVertices<S>& q,
+[[gnu::hot]] void addContacts(const Model<S>& a, int id_a, const TriangleVerticesd& p,
+                              const Model<S>& b, int id_b, const TriangleVerticesd& q,
                               const fcl::Transform3<S>& X_WA,
                               const fcl::CollisionRequest<S>& request,
                               fcl::CollisionResult<S>& result) {
@@ -54,11 +54,12 @@ template <typename S>
     }
     return;
   }
-  const TriangleContact<S> contact = triangleContact(p, q);
+  const TriangleContact contact = triangleContact(p, q);
+  const fcl::Vector3<S> normal =
+      roundedTo<S>(detail::rotate<double>(X_WA.linear().template cast<double>(), contact.normal));
   for (std::size_t i = 0; i < std::min(room, contact.num_points); ++i) {
-    result.addContact(
-        fcl::Contact<S>(&a, &b, id_a, id_b, detail::transform<S>(X_WA, contact.points[i]),
-                        detail::rotate<S>(X_WA.linear(), contact.normal), contact.depth));
+    result.addContact(fcl::Contact<S>(&a, &b, id_a, id_b, toWorld<S>(X_WA, contact.points[i]),
+                                      normal, roundedTo<S>(contact.depth)));
   }
 }
 
@@ -75,9 +76,9 @@ struct Reports {
 /// Reports two triangles that intersect as addContacts() does, and as a cost source: the part that
 /// their boxes in the world have in common.
 template <typename S>
-void addReports(const Reports<S>& reports, const Model<S>& a, int id_a,
-                const TriangleVertices<S>& p, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                int id_b, const TriangleVertices<S>& q, const fcl::Transform3<S>& X_WB,
+void addReports(const Reports<S>& reports, const Model<S>& a, int id_a, const TriangleVerticesd& p,
+                const fcl::Transform3<S>& X_WA, const Model<S>& b, int id_b,
+                const TriangleVerticesd& q, const fcl::Transform3<S>& X_WB,
                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   if (reports.contacts) addContacts(a, id_a, p, b, id_b, q, X_WA, request, result);
   if (!reports.costs) return;

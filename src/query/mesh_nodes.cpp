@@ -50,7 +50,7 @@ void MeshCollisionTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (!reports.contacts && !reports.costs) return;
 
   const int id_a = a.getBV(b1).primitiveId(), id_b = b.getBV(b2).primitiveId();
-  const auto p = cornersOf(a, id_a), q = transformed(cornersOf(b, id_b), *X_AB);
+  const auto p = cornersInDouble(a, id_a), q = transformed(cornersInDouble(b, id_b), *X_AB);
   if (!trianglesIntersect(p, q)) return;
   addReports(reports, a, id_a, p, this->tf1, b, id_b, q, this->tf2, request, result);
 }
@@ -85,11 +85,12 @@ void MeshDistanceTraversalNode<S>::leafTesting(int b1, int b2) const {
   if (this->enable_statistics) this->num_leaf_tests++;
   const int id_a = this->model1->getBV(b1).primitiveId();
   const int id_b = this->model2->getBV(b2).primitiveId();
-  const auto p = cornersOf(*this->model1, id_a);
-  const auto q = transformed(cornersOf(*this->model2, id_b), *X_AB);
-  const TriangleDistance<S> nearest = triangleDistance(p, q);
-  if (!(nearest.distance < best_)) return;
-  lowerTo(nearest.distance);
+  const auto p = cornersInDouble(*this->model1, id_a);
+  const auto q = transformed(cornersInDouble(*this->model2, id_b), *X_AB);
+  const TriangleDistanced nearest = triangleDistance(p, q);
+  const S distance = roundedLength<S>(nearest.distance);
+  if (!(distance < best_)) return;
+  lowerTo(distance);
   triangle_a_ = id_a;
   triangle_b_ = id_b;
   point_a_ = nearest.point_a;
@@ -101,8 +102,7 @@ void MeshDistanceTraversalNode<S>::postprocess() {
   if (triangle_a_ < 0) return;
   if (this->request.enable_nearest_points) {
     this->result->update(best_, this->model1, this->model2, triangle_a_, triangle_b_,
-                         detail::transform<S>(this->tf1, point_a_),
-                         detail::transform<S>(this->tf1, point_b_));
+                         toWorld<S>(this->tf1, point_a_), toWorld<S>(this->tf1, point_b_));
   } else {
     this->result->update(best_, this->model1, this->model2, triangle_a_, triangle_b_);
   }

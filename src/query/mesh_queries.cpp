@@ -6,35 +6,33 @@
 #include <iostream>
 #include <limits>
 
-#include "model/kios_model.h"
+#include "model/prepared.h"
 #include "query/mesh_contacts.h"
 #include "query/pair_search.h"
 #include "search/root_body.h"
 #include "volume/instantiate.h"
 #include "volume/rotation.h"
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
 
-/// True only if the balls of finished models' roots are proven farther apart than `margin`.
+/// True only if the balls of the roots are proven farther apart than `margin`.
 template <typename S>
-bool ballsApart(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+bool ballsApart(const Mesh& a, const fcl::Transform3<S>& X_WA, const Mesh& b,
                 const fcl::Transform3<S>& X_WB, double squared_errors, double margin) {
-  const kIOS<S>&root_a = a.getBV(0).bv, &root_b = b.getBV(0).bv;
-  return engine::ballsApart(root_a.center0, X_WA, root_b.center0, X_WB,
-                            double{root_a.radius0} + double{root_b.radius0}, squared_errors,
-                            margin);
+  return engine::ballsApart(a.center(), X_WA, b.center(), X_WB, a.radius() + b.radius(),
+                            squared_errors, margin);
 }
 
 /// collideMeshes() of models that may touch, for all that their roots tell at once.
 template <typename S>
-[[gnu::noinline, gnu::hot]] void collideNear(const MeshPair<S>& frame,
-                                             const fcl::Transform3<S>& X_WA,
+[[gnu::noinline, gnu::hot]] void collideNear(const MeshPair& frame, const Model<S>& a,
+                                             const fcl::Transform3<S>& X_WA, const Model<S>& b,
                                              const fcl::Transform3<S>& X_WB,
                                              const fcl::CollisionRequest<S>& request,
                                              fcl::CollisionResult<S>& result,
                                              SearchCounts& counts) {
-  const Model<S>&a = frame.a, &b = frame.b;
   const Reports<S> reports(a, b, request);
   if (!reports.contacts && !reports.costs) return;
   const std::size_t room =
@@ -54,18 +52,18 @@ template <typename S>
                                        const Model<S>& b, const fcl::Transform3<S>& X_WB,
                                        const fcl::CollisionRequest<S>& request,
                                        fcl::CollisionResult<S>& result, SearchCounts* counts) {
-  requireFinished(a);
-  requireFinished(b);
+  const Mesh mesh_a = meshOf(a), mesh_b = meshOf(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
-  if (done || !ballsApart(a, X_WA, b, X_WB, squared_errors, 0)) {
-    const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);  // throws where they can't tell
-    if (request.num_max_contacts == 0) {                        // FCL's warning and answer
+  if (done || !ballsApart(mesh_a, X_WA, mesh_b, X_WB, squared_errors, 0)) {
+    const MeshPair frame(mesh_a, X_WA, mesh_b, X_WB,
+                         squared_errors);  // throws where they can't tell
+    if (request.num_max_contacts == 0) {   // FCL's warning and answer
       std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
       return 0;
     }
     SearchCounts unused;
-    if (!done) collideNear(frame, X_WA, X_WB, request, result, counts ? *counts : unused);
+    if (!done) collideNear(frame, a, X_WA, b, X_WB, request, result, counts ? *counts : unused);
   }
   return result.numContacts();
 }
@@ -76,8 +74,7 @@ template <typename S>
                               const fcl::DistanceRequest<S>& request,
                               fcl::DistanceResult<S>& result, SearchCounts* counts) {
   requireErrorBounds(request);
-  requireFinished(a);
-  requireFinished(b);
+  const Mesh mesh_a = meshOf(a), mesh_b = meshOf(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   engine::PairQuery query;
   query.rel_err = request.rel_err;
@@ -86,20 +83,21 @@ template <typename S>
   const bool bounded = result.min_distance < std::numeric_limits<S>::max();
   if (bounded) {  // as if a pair so far were found
     query.far_enough = query.cullDistance(result.min_distance);
-    if (ballsApart(a, X_WA, b, X_WB, squared_errors, query.far_enough)) return result.min_distance;
+    if (ballsApart(mesh_a, X_WA, mesh_b, X_WB, squared_errors, query.far_enough))
+      return result.min_distance;
   }
-  const MeshPair<S> frame(a, X_WA, b, X_WB, squared_errors);
+  const MeshPair frame(mesh_a, X_WA, mesh_b, X_WB, squared_errors);
   if (request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
-  const engine::PairAnswer<S> answer = searchNearest(frame, query, counts ? *counts : unused);
-  const TriangleDistance<S>& nearest = answer.nearest;
-  if (!answer.found() || !(nearest.distance < result.min_distance)) return result.min_distance;
+  const engine::PairAnswer answer = searchNearest(frame, query, counts ? *counts : unused);
+  const S distance = roundedLength<S>(answer.nearest.distance);
+  if (!answer.found() || !(distance < result.min_distance)) return result.min_distance;
   if (request.enable_nearest_points) {
-    result.update(nearest.distance, &a, &b, answer.ids.a, answer.ids.b,
-                  detail::transform<S>(X_WA, nearest.point_a),
-                  detail::transform<S>(X_WA, nearest.point_b));
+    result.update(distance, &a, &b, answer.ids.a, answer.ids.b,
+                  toWorld<S>(X_WA, answer.nearest.point_a),
+                  toWorld<S>(X_WA, answer.nearest.point_b));
   } else {
-    result.update(nearest.distance, &a, &b, answer.ids.a, answer.ids.b);
+    result.update(distance, &a, &b, answer.ids.a, answer.ids.b);
   }
   return result.min_distance;
 }

@@ -5,13 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/triangle/intersection.h"
-#include "model/prepared.h"
 #include "model/walk.h"
 #include "search/mesh_search.h"
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
-#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -23,34 +20,22 @@ using engine::SearchEnd;
 using engine::TrianglePairIds;
 using PairIds = std::vector<TrianglePairIds>;
 
-template <typename S>
-engine::PreparedPair<S> preparedPair(const MeshPair<S>& frame) {
-  engine::FloatFrame frames;
-  engine::makeFloatFrame(frame.X_trees, frames);
-  return {{frame.tree_a, viewOf(frame.a)},
-          {frame.tree_b, viewOf(frame.b)},
-          frame.X_AB,
-          frame.X_trees,
-          frames};
-}
-
 /// A search of two trees in double, by the nodes' central spheres, for models that floats can't
 /// tell of together: either is of no ordinary size, or they are far apart for their sizes. Depth
 /// first, the nearer of two children before the other. With a budget it is best first, so that more
 /// of it never proves less.
-template <typename S>
 class DoubleSearch {
  public:
-  DoubleSearch(const MeshPair<S>& frame, SearchCounts& counts)
+  DoubleSearch(const MeshPair& frame, SearchCounts& counts)
       : frame_(frame),
-        a_{frame.tree_a, Eigen::Matrix3d::Identity()},
-        b_{frame.tree_b, frame.X_AB.R().template cast<double>()},
+        a_{frame.a.tree(), Eigen::Matrix3d::Identity()},
+        b_{frame.b.tree(), frame.X_AB.R()},
         counts_(counts) {
-    const engine::Tree &a = frame.tree_a, &b = frame.tree_b;
+    const engine::Tree &a = frame.a.tree(), &b = frame.b.tree();
     ++counts.tree_searches;
     const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
     const detail::PoseBounds& bounds = detail::boundsOf(frame.X_AB);
-    const Eigen::Vector3d t = b_.R * origin_b + frame.X_AB.T().template cast<double>() - origin_a;
+    const Eigen::Vector3d t = b_.R * origin_b + frame.X_AB.T() - origin_a;
     const double reach_a = std::ldexp(double{a.reach}, a.exponent),
                  reach_b = std::ldexp(double{b.reach}, b.exponent);
     // In units of a power of two no square over- or underflows, but of what doesn't matter.
@@ -60,15 +45,14 @@ class DoubleSearch {
     b_.unit = std::ldexp(1.0, b.exponent - exponent_);
     for (int c = 0; c < 3; ++c) t_[c] = toUnits(t[c]);
     const double reach = toUnits(reach_a) + toUnits(reach_b);
-    const double points = error_bounds::volumeError<S>(
-        origin_b.template lpNorm<1>() + 2 * reach_b, bounds.T_norm1 + origin_a.template lpNorm<1>(),
-        2 * reach_a, 0);
+    const double points = error_bounds::volumeError<double>(
+        origin_b.lpNorm<1>() + 2 * reach_b, bounds.T_norm1 + origin_a.lpNorm<1>(), 2 * reach_a, 0);
     // This bounds the error of points as stored and as posed, and a dozen roundings here.
     error_ = error_bounds::laneError(reach) + toUnits(points) +
-             (2 * bounds.stretch + engine::kDouble) * (reach + t_.template lpNorm<1>());
+             (2 * bounds.stretch + engine::kDouble) * (reach + t_.lpNorm<1>());
   }
 
-  PairAnswer<S> nearest(const PairQuery& query) {
+  PairAnswer nearest(const PairQuery& query) {
     query_ = &query;
     cull_distance_ = query.far_enough;
     if (begin()) return result_;
@@ -114,9 +98,7 @@ class DoubleSearch {
     PairIds found;
     visitTouching([&](const TrianglePairIds& ids) {
       ++counts_.exact;
-      if (trianglesIntersect(frame_.triangleA(ids.a), frame_.triangleB(ids.b))) {
-        found.push_back(ids);
-      }
+      if (frame_.intersect(ids)) found.push_back(ids);
       return found.size() >= limit;
     });
     std::sort(found.begin(), found.end());
@@ -190,7 +172,7 @@ class DoubleSearch {
   /// the start.
   bool begin() {
     if (!frame_.exist(query_->start)) return false;
-    const double distance = double{frame_.distanceOf(query_->start).distance};
+    const double distance = frame_.distanceOf(query_->start).distance;
     const bool near = query_->near_enough > 0 && distance <= query_->near_enough;
     if (!query_->isExact() || query_->hasBudget() || near) {
       return evaluate(query_->start, -kInfinity);
@@ -208,8 +190,8 @@ class DoubleSearch {
   /// Triangles in volumes that are at least `bound` apart. True to end the search.
   bool evaluate(const TrianglePairIds& ids, double bound) {
     ++counts_.exact;
-    const TriangleDistance<S> found = frame_.distanceOf(ids);
-    const double distance = double{found.distance}, best = result_.least_evaluated;
+    const TriangleDistanced found = frame_.distanceOf(ids);
+    const double distance = found.distance, best = result_.least_evaluated;
     const double proven = std::max(bound, distance - frame_.distanceError(distance));
     result_.proven_evaluated =
         best < kInfinity ? std::min(result_.proven_evaluated, proven) : proven;
@@ -225,7 +207,7 @@ class DoubleSearch {
     return true;
   }
 
-  const MeshPair<S>& frame_;
+  const MeshPair& frame_;
   Side a_, b_;
   Eigen::Vector3d t_;  ///< from a's origin to b's, in units
   int exponent_;       ///< of the unit
@@ -234,12 +216,11 @@ class DoubleSearch {
   const PairQuery* query_ = nullptr;
   double cull_distance_ = kInfinity;
   double left_out_ = kInfinity;  ///< least bound of the pairs left out
-  PairAnswer<S> result_;
+  PairAnswer result_;
 };
 
 /// Sets what was proven, with all rounding paid for.
-template <typename S>
-void setBounds(const MeshPair<S>& frame, const PairAnswer<S>& found, DistanceAnswer<S>& answer) {
+void setBounds(const MeshPair& frame, const PairAnswer& found, DistanceAnswerd& answer) {
   double lower = found.least_other;
   if (found.least_evaluated < kInfinity) {
     const double error = frame.distanceError(found.least_evaluated);
@@ -247,70 +228,65 @@ void setBounds(const MeshPair<S>& frame, const PairAnswer<S>& found, DistanceAns
   }
   if (found.found()) {
     answer.distance = found.nearest.distance;
-    answer.upper_bound = roundUp<S>(double{answer.distance} + frame.distanceErrorOf(found.ids));
+    answer.upper_bound = answer.distance + frame.distanceErrorOf(found.ids);
     answer.triangle_a = found.ids.a;
     answer.triangle_b = found.ids.b;
     answer.point_a = found.nearest.point_a;
     answer.point_b = found.nearest.point_b;
-    lower = std::min(lower, double{answer.distance});
+    lower = std::min(lower, answer.distance);
   }
-  answer.lower_bound = roundDown<S>(std::max(lower, found.roots));
+  answer.lower_bound = std::max(lower, found.roots);
 }
 
 }  // namespace
 
-template <typename S>
-[[gnu::hot]] PairAnswer<S> searchNearest(const MeshPair<S>& frame, const PairQuery& query,
-                                         SearchCounts& counts) {
+[[gnu::hot]] PairAnswer searchNearest(const MeshPair& frame, const PairQuery& query,
+                                      SearchCounts& counts) {
   double roots = 0;
   if (query.far_enough < kInfinity || query.hasBudget()) {
     roots = std::max(0.0, frame.rootBound(std::min(query.far_enough, 0x1p1000)));
   }
   if (roots > 0 && roots >= query.far_enough) {
-    PairAnswer<S> far;
-    far.nearest.point_a = far.nearest.point_b = fcl::Vector3<S>::Zero();
+    PairAnswer far;
+    far.nearest.point_a = far.nearest.point_b = Pointd::Zero();
     far.least_other = far.roots = roots;
     return far;
   }
-  PairAnswer<S> answer = frame.floats_serve
-                             ? engine::nearestTriangles(preparedPair(frame), query, counts)
-                             : DoubleSearch<S>(frame, counts).nearest(query);
+  PairAnswer answer = frame.floats_serve ? engine::nearestTriangles(frame, query, counts)
+                                         : DoubleSearch(frame, counts).nearest(query);
   answer.roots = roots;
   return answer;
 }
 
-template <typename S>
-[[gnu::hot]] PairIds searchContacts(const MeshPair<S>& frame, std::size_t limit,
+[[gnu::hot]] PairIds searchContacts(const MeshPair& frame, std::size_t limit,
                                     SearchCounts& counts) {
   if (frame.rootBound(0) > 0) return {};
-  if (!frame.floats_serve) return DoubleSearch<S>(frame, counts).contacts(limit);
-  return engine::intersectingTriangles(preparedPair(frame), limit, counts);
+  if (!frame.floats_serve) return DoubleSearch(frame, counts).contacts(limit);
+  return engine::intersectingTriangles(frame, limit, counts);
 }
 
-template <typename S>
-void visitTouching(const MeshPair<S>& frame, const engine::VisitPair& visit, SearchCounts& counts) {
-  if (!frame.floats_serve) return DoubleSearch<S>(frame, counts).visitTouching(visit);
-  engine::visitTouching(preparedPair(frame), visit, counts);
+void visitTouching(const MeshPair& frame, const engine::VisitPair& visit, SearchCounts& counts) {
+  if (!frame.floats_serve) return DoubleSearch(frame, counts).visitTouching(visit);
+  engine::visitTouching(frame, visit, counts);
 }
 
-template <typename S>
-DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const PairQuery& query) {
-  DistanceAnswer<S> answer;
+DistanceAnswerd bracketDistance(const MeshPair& frame, const PairQuery& query) {
+  DistanceAnswerd answer;
   if (query.far_enough <= 0) {
     answer.stop = DistanceStop::kFar;
     return answer;
   }
-  const PairAnswer<S> found = searchNearest(frame, query, answer.counts);
+  const PairAnswer found = searchNearest(frame, query, answer.counts);
   setBounds(frame, found, answer);
   if (answer.distance == 0) {
     answer.stop = DistanceStop::kTolerance;
   } else if (found.end == SearchEnd::kNear) {
     answer.stop = DistanceStop::kNear;
-  } else if (double{answer.lower_bound} >= query.far_enough) {
+  } else if (answer.lower_bound >= query.far_enough) {
     answer.stop = DistanceStop::kFar;
   } else if (found.end == SearchEnd::kBudget) {
     answer.stop = DistanceStop::kBudget;
-  } else if (double{answer.distance} > query.far_enough) {
+  } else if (answer.distance > query.far_enough) {
     // Within rounding of far_enough neither this is proven nor all that is nearer than the answer
     // was looked at: a search without it decides. With a budget the bracket stands as it is.
     if (query.hasBudget()) {
@@ -325,10 +301,5 @@ DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const PairQuery& que
   }
   return answer;
 }
-
-KIOS_INSTANTIATE_FUNCTION(bracketDistance);
-KIOS_INSTANTIATE_FUNCTION(searchNearest);
-KIOS_INSTANTIATE_FUNCTION(searchContacts);
-KIOS_INSTANTIATE_FUNCTION(visitTouching);
 
 }  // namespace kios

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fcl_kios/query/distance.h"
-#include "query/mesh_pair.h"
+#include "search/mesh_pair.h"
 #include "search/mesh_search.h"
 #include "search/pair_query.h"
 
@@ -17,22 +17,18 @@ namespace kios {
 
 /// The nearest triangles. Throws nothing of its own, as the pair was checked when its frame was
 /// built.
-template <typename S>
-engine::PairAnswer<S> searchNearest(const MeshPair<S>& frame, const engine::PairQuery& query,
-                                    SearchCounts& counts);
+engine::PairAnswer searchNearest(const MeshPair& frame, const engine::PairQuery& query,
+                                 SearchCounts& counts);
 
 /// Shows every pair of triangles that may touch, once, until visit(ids) returns true.
-template <typename S>
-void visitTouching(const MeshPair<S>& frame, const engine::VisitPair& visit, SearchCounts& counts);
+void visitTouching(const MeshPair& frame, const engine::VisitPair& visit, SearchCounts& counts);
 
 /// Up to `limit` > 0 pairs of triangles that intersect, by ids.
-template <typename S>
-std::vector<engine::TrianglePairIds> searchContacts(const MeshPair<S>& frame, std::size_t limit,
+std::vector<engine::TrianglePairIds> searchContacts(const MeshPair& frame, std::size_t limit,
                                                     SearchCounts& counts);
 
 /// The answer of kios::distance(), but for the nearest points: in A's frame, set if a pair was
 /// found.
-template <typename S>
-DistanceAnswer<S> bracketDistance(const MeshPair<S>& frame, const engine::PairQuery& query);
+DistanceAnswerd bracketDistance(const MeshPair& frame, const engine::PairQuery& query);
 
 }  // namespace kios

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fcl_kios/model/model.h"
-#include "query/mesh_pair.h"
+#include "model/prepared.h"
 #include "search/ray_search.h"
 #include "tree/tree.h"
 #include "triangle/ray_triangle.h"

@@ -18,8 +18,8 @@ namespace kios::scene {
 namespace {
 
 template <typename S>
-MeshPair<S> frameOf(const Body<S>& a, const Body<S>& b) {
-  return {*a.model, a.X_W, *b.model, b.X_W, a.rotation_square + b.rotation_square};
+MeshPair frameOf(const Body<S>& a, const Body<S>& b) {
+  return {meshOf(*a.model), a.X_W, meshOf(*b.model), b.X_W, a.rotation_square + b.rotation_square};
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ BodyPair<S>::BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, Pa
       proof_(lasting() ? memory.find(id_a, a, id_b, b) : nullptr) {}
 
 template <typename S>
-const MeshPair<S>& BodyPair<S>::frame() const {
+const MeshPair& BodyPair<S>::frame() const {
   if (!frame_) frame_.emplace(frameOf(a_, b_));
   return *frame_;
 }
@@ -142,9 +142,9 @@ typename BodyPair<S>::Answer BodyPair<S>::searchMeshes(double limit, SearchCount
   }
   // Above the limit also where all is 0, or S rounds it down.
   if (wanted < kMax) query.far_enough = std::nextafter(roundedTo<S>(wanted), kMax);
-  const engine::PairAnswer<S> found = searchNearest(frame(), query, counts);
-  const S distance = found.nearest.distance;
-  if (found.found() && distance < query.far_enough) {
+  const engine::PairAnswer found = searchNearest(frame(), query, counts);
+  if (found.found() && found.nearest.distance < query.far_enough) {
+    const S distance = roundedLength<S>(found.nearest.distance);
     const Answer answer = {distance <= limit, distance, found.ids.a, found.ids.b};
     remember(double{distance}, true, answer);
     return answer;
@@ -164,12 +164,12 @@ typename BodyPair<S>::Answer BodyPair<S>::decideMeshes(double limit, SearchCount
   query.far_enough = std::nextafter(limit + 2 * rounding, kInfinity);
   query.near_enough = std::max(0.0, limit - 2 * rounding);
 
-  const DistanceAnswer<S> found = bracketDistance(frame(), query);
+  const DistanceAnswerd found = bracketDistance(frame(), query);
   counts += found.counts;
-  Answer answer = {true, found.distance, found.triangle_a, found.triangle_b};
+  Answer answer = {true, roundedLength<S>(found.distance), found.triangle_a, found.triangle_b};
   if (found.stop == DistanceStop::kTolerance) {
-    answer.within = found.distance <= limit;
-    remember(double{found.distance}, true, answer);
+    answer.within = answer.distance <= limit;
+    remember(double{answer.distance}, true, answer);
   } else {
     answer.within = found.stop == DistanceStop::kNear;
     const double apart = found.lower_bound;
@@ -181,7 +181,7 @@ typename BodyPair<S>::Answer BodyPair<S>::decideMeshes(double limit, SearchCount
 template <typename S>
 bool BodyPair<S>::contained(SearchCounts& counts) const {
   if (!areSolids(*a_.model, *b_.model) || frame().rootBound(0) > 0) return false;
-  return containedPoint(frame(), counts).has_value();
+  return containedPoint(*a_.model, *b_.model, frame(), counts).has_value();
 }
 
 template <typename S>
@@ -220,10 +220,10 @@ typename BodyPair<S>::Answer BodyPair<S>::ask(double limit, bool exact, SearchCo
 template <typename S>
 void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair) {
   if (a.model && b.model && pair.triangle_a >= 0) {
-    const TriangleDistance<S> nearest = frameOf(a, b).distanceOf(
+    const TriangleDistanced nearest = frameOf(a, b).distanceOf(
         {static_cast<int>(pair.triangle_a), static_cast<int>(pair.triangle_b)});
-    pair.nearest_a = a.X_W * nearest.point_a;
-    pair.nearest_b = a.X_W * nearest.point_b;
+    pair.nearest_a = toWorld<S>(a.X_W, nearest.point_a);
+    pair.nearest_b = toWorld<S>(a.X_W, nearest.point_b);
     return;
   }
   const fcl::DistanceResult<S> found = distanceOfAny(*a.geometry, a.X_W, *b.geometry, b.X_W, true);

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "query/mesh_pair.h"
 #include "scene/body.h"
 #include "scene/pair_memory.h"
+#include "search/mesh_pair.h"
 #include "volume/rounding.h"
 
 namespace kios::scene {
@@ -62,7 +62,7 @@ class BodyPair {
   bool lasting() const { return a_.watched() && b_.watched(); }
   bool meshes() const { return a_.model && b_.model; }
   /// Returns the frame of two meshes, made at its first use.
-  const MeshPair<S>& frame() const;
+  const MeshPair& frame() const;
   /// Bounds the error of computed distances about d against exact ones in the common frame.
   double roundingOf(double d) const;
   /// Returns true if the bodies are solids and one, whose surface is apart from the other's, lies
@@ -77,7 +77,7 @@ class BodyPair {
   const Body<S>&a_, &b_;
   PairMemory<S>& memory_;
   const Proof<S>* proof_;
-  mutable std::optional<MeshPair<S>> frame_;
+  mutable std::optional<MeshPair> frame_;
 };
 
 /// Counts a pair that `source` proves to be too far.

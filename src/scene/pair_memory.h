@@ -22,8 +22,8 @@ inline std::uint64_t keyOfEither(int a, int b) { return pairKey(std::min(a, b), 
 template <typename S>
 struct Proof {
   std::uint64_t generation_a = 0, generation_b = 0;  ///< 0: nothing was proven
-  fcl::Matrix3<S> R;                                 ///< pose of b in a, as RelativePose has it
-  fcl::Vector3<S> T;
+  fcl::Matrix3d R;                                   ///< pose of b in a, as RelativePose has it
+  fcl::Vector3d T;
   std::uint64_t pose_a = 0, pose_b = 0;
   double apart = 0;  ///< the narrow phase would compute at least that there
   S distance = 0;    ///< the distance that it computes there, if `exact`

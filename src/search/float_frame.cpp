@@ -9,7 +9,6 @@
 #include "search/tuning.h"
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
-#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -26,24 +25,22 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 
 }  // namespace
 
-template <typename S>
-[[gnu::hot]] bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB,
-                               TreePose& out) {
+[[gnu::hot]] bool makeTreePose(const TreeRoot& a, const TreeRoot& b,
+                               const RelativePose<double>& X_AB, TreePose& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
   const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
-  out.R = X_AB.R().template cast<double>();
-  out.t = detail::rotate<double>(out.R, origin_b) + X_AB.T().template cast<double>() - origin_a;
+  out.R = X_AB.R();
+  out.t = X_AB * Eigen::Vector3d(origin_b) - origin_a;
   const double reach_a = a.reach, reach_b = b.reach;
-  out.scale = reach_a + reach_b + out.t.template lpNorm<1>();
+  out.scale = reach_a + reach_b + out.t.lpNorm<1>();
   if (a.exponent != 0 || b.exponent != 0 || !(out.scale <= kLargestReach)) return false;
-  const double points =
-      error_bounds::volumeError<S>(origin_b.template lpNorm<1>() + 2 * reach_b,
-                                   bounds.T_norm1 + origin_a.template lpNorm<1>(), 2 * reach_a, 0);
+  const double points = error_bounds::volumeError<double>(
+      origin_b.lpNorm<1>() + 2 * reach_b, bounds.T_norm1 + origin_a.lpNorm<1>(), 2 * reach_a, 0);
   out.stretch = bounds.stretch;
   out.frame_error = 2 * bounds.stretch * out.scale + points;
   out.pad = error_bounds::laneError(out.scale) + out.frame_error;
   out.box_pad = error_bounds::boxError(out.scale) + out.frame_error;
-  return out.t.template lpNorm<1>() <= tuning::kFarAway * (reach_a + reach_b) ||
+  return out.t.lpNorm<1>() <= tuning::kFarAway * (reach_a + reach_b) ||
          out.pad <= tuning::kCoarse * std::min(reach_a, reach_b);
 }
 
@@ -63,7 +60,5 @@ template <typename S>
   out.box_pad = roundUpFloat(X_AB.box_pad);
   out.scale = roundUpFloat(X_AB.scale);
 }
-
-KIOS_INSTANTIATE_FUNCTION(makeTreePose);
 
 }  // namespace kios::engine

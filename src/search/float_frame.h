@@ -28,7 +28,7 @@ struct FloatPose {
 ///   S; points 9 u S. Separating directions likewise, with 4 u S more for the normal.
 /// 2^-19 S = 32 u S covers each of them, and the rounding of thresholds (a few u S).
 /// - boxes, which need not fit as tightly as spheres: below. box_pad has 128 u S in its place.
-/// - the common frame's own rounding in double or float, as in volume/separation.cpp;
+/// - the common frame's own rounding in double, as in volume/separation.cpp;
 /// - a rotation that is one only to `stretch`: radii and bounds scale by at most 1 + stretch on the
 ///   way to the other frame and back: 2 stretch S.
 ///
@@ -80,8 +80,8 @@ struct TreePose {
 
 /// False if floats can't serve the pair: lengths out of range, or models so far apart for their
 /// sizes that the pad hides either.
-template <typename S>
-bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB, TreePose& out);
+bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<double>& X_AB,
+                  TreePose& out);
 void makeFloatFrame(const TreePose& X_AB, FloatFrame& out);
 
 }  // namespace kios::engine

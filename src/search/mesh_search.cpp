@@ -9,7 +9,6 @@
 #include "search/feature_distance.h"
 #include "search/pairs_apart.h"
 #include "volume/error_bounds.h"
-#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -24,14 +23,31 @@ float downToFloat(double v) {
 
 using error_bounds::featureError;
 
-template <typename S>
-bool exists(const TrianglePairIds& ids, const PreparedPair<S>& pair) {
-  return ids.a >= 0 && static_cast<std::size_t>(ids.a) < pair.a.mesh.num_triangles && ids.b >= 0 &&
-         static_cast<std::size_t>(ids.b) < pair.b.mesh.num_triangles;
-}
-
 TrianglePairIds idsOf(const Candidate& c) {
   return {static_cast<int>(c.a.triangle()), static_cast<int>(c.b.triangle())};
+}
+
+/// Extents of edges are at most four times the scale.
+double largestExtent(const MeshPair& pair) { return 4 * pair.X_trees.scale; }
+
+/// How far all of b lies beyond all of a along n, of any length, from `origin`; less than what
+/// rounding may have made of it. A difference, three products and two sums: each height is off by
+/// at most 6 u of the sum of its terms' absolute values.
+double gapAlong(const MeshPair& pair, const Pointd& n, const Pointd& origin) {
+  const auto least = [&](std::size_t num_triangles, double sign, const auto& triangleOf) {
+    double height = kInfinity, terms = 0;
+    for (int t = 0; t < static_cast<int>(num_triangles); ++t) {
+      for (const Pointd& p : triangleOf(t)) {
+        const Pointd v = n.cwiseProduct(p - origin);
+        height = std::min(height, sign * (v[0] + v[1] + v[2]));
+        terms = std::max(terms, v.lpNorm<1>());
+      }
+    }
+    return height - 8 * kUlpDouble * terms;
+  };
+  const double of_b = least(pair.b.numTriangles(), 1, [&](int t) { return pair.triangleB(t); }),
+               of_a = least(pair.a.numTriangles(), -1, [&](int t) { return pair.triangleA(t); });
+  return (of_b + of_a) / n.norm() * (1 - 8 * kUlpDouble);
 }
 
 /// The plane of the face that was asked for last: a large one is near many vertices of a mesh.
@@ -51,22 +67,20 @@ class LastPlane {
   FacePlane plane_;
 };
 
-template <typename S>
 class NearestEvaluator final : public RefineCallback {
  public:
-  /// Extents of edges are at most four times the scale.
-  NearestEvaluator(const Corners<S>& corners, double scale, const PairQuery& query)
-      : corners_(corners),
+  NearestEvaluator(const MeshPair& pair, const PairQuery& query)
+      : pair_(pair),
         query_(query),
         by_faces_(query.hasBudget()),
-        least_shared_(featureError<S>(4 * scale)) {
+        least_shared_(featureError(largestExtent(pair))) {
     cull_distance = candidate_limit = upToFloat(query.far_enough);
   }
 
   [[gnu::hot]] bool evaluate(const Candidate& c) override {
     if (c.kind == PairKind::kEdgeFace || c.kind == PairKind::kFaceEdge) {
       const TrianglePairIds ids = idsOf(c);
-      if (!apart_.intersect(corners_, ids)) return false;
+      if (!apart_.intersect(pair_, ids)) return false;
       least_ = 0;
       take(0, ids);
       return true;
@@ -77,11 +91,11 @@ class NearestEvaluator final : public RefineCallback {
     double distance = found.distance;
     // As near as rounding can tell, or so small that squares vanish: do their triangles meet?
     const bool vanishing = found.extent < kLeastExtent;
-    if (distance <= featureError<S>(found.extent) || vanishing) {
-      if (apart_.intersect(corners_, ids)) {
+    if (distance <= featureError(found.extent) || vanishing) {
+      if (apart_.intersect(pair_, ids)) {
         distance = 0;
       } else {
-        if (vanishing) distance = double{corners_.distanceOf(ids).distance};
+        if (vanishing) distance = pair_.distanceOf(ids).distance;
         distance = std::max(distance, std::numeric_limits<double>::denorm_min());
       }
     }
@@ -89,7 +103,7 @@ class NearestEvaluator final : public RefineCallback {
     if (by_faces_) return distance < best_ && evaluateFaces(ids);
     if (++num_evaluated_ == next_look_ && nothingIsNearer()) return true;
     if (ids_.a < 0) {  // what was asked for may be the exact answer: certified() decides
-      if (distance < best_ + featureError<S>(found.extent)) take(distance, ids);
+      if (distance < best_ + featureError(found.extent)) take(distance, ids);
     } else if (distance < best_ || (distance == best_ && ids < ids_)) {
       take(distance, ids);
     }
@@ -113,8 +127,8 @@ class NearestEvaluator final : public RefineCallback {
   TrianglePairIds ids() const { return ids_; }
   double least() const { return least_; }  ///< of all that was evaluated
   bool endedNear() const { return ended_near_; }
-  TriangleDistance<S> certified() const {
-    return faces_ == ids_ ? of_faces_ : corners_.distanceOf(ids_);
+  TriangleDistanced certified() const {
+    return faces_ == ids_ ? of_faces_ : pair_.distanceOf(ids_);
   }
 
   bool keeps_pairs =
@@ -125,27 +139,38 @@ class NearestEvaluator final : public RefineCallback {
   /// number: see feature_distance.cpp.
   static constexpr double kLeastExtent = 0x1p-220;
 
+  static std::size_t cornerOf(FeatureId id, std::uint32_t step) {
+    const std::uint32_t k = id.corner() + step;
+    return k < 3 ? k : k - 3;
+  }
+  Pointd ofA(FeatureId id, std::uint32_t step = 0) const {
+    return pair_.a.corner(id.triangle(), cornerOf(id, step));
+  }
+  Pointd ofB(FeatureId id, std::uint32_t step = 0) const {
+    return pair_.X_AB * pair_.b.corner(id.triangle(), cornerOf(id, step));
+  }
+
   FeatureDistance distanceOf(const Candidate& c) {
     if (c.kind == PairKind::kEdgeEdge) {
-      const Eigen::Vector3d p0 = corners_.ofA(c.a), p1 = corners_.ofA(c.a, 1);
-      const Eigen::Vector3d q0 = corners_.ofB(c.b), q1 = corners_.ofB(c.b, 1);
+      const Eigen::Vector3d p0 = ofA(c.a), p1 = ofA(c.a, 1);
+      const Eigen::Vector3d q0 = ofB(c.b), q1 = ofB(c.b, 1);
       if (ends_.distance > least_shared_ && nearestAt(ends_, p0, p1, q0, q1))
         return {ends_.distance, ends_.distance};
       return edgeDistance(p0, p1, q0, q1, ends_);
     }
     if (c.kind == PairKind::kVertexFace) {
-      const auto corner = [&](std::uint32_t k) { return corners_.ofB(c.b, k); };
-      return plane_of_b_.of(c.b, corner).distance(corners_.ofA(c.a));
+      const auto corner = [&](std::uint32_t k) { return ofB(c.b, k); };
+      return plane_of_b_.of(c.b, corner).distance(ofA(c.a));
     }
-    const auto corner = [&](std::uint32_t k) { return corners_.ofA(c.a, k); };
-    return plane_of_a_.of(c.a, corner).distance(corners_.ofB(c.b));
+    const auto corner = [&](std::uint32_t k) { return ofA(c.a, k); };
+    return plane_of_a_.of(c.a, corner).distance(ofB(c.b));
   }
 
   /// Triangles as a whole: they may be nearer than the features that named them.
   bool evaluateFaces(const TrianglePairIds& ids) {
     faces_ = ids;
-    of_faces_ = corners_.distanceOf(ids);
-    const double distance = double{of_faces_.distance};
+    of_faces_ = pair_.distanceOf(ids);
+    const double distance = of_faces_.distance;
     least_ = std::min(least_, distance);
     if (distance < best_) take(distance, ids);
     return distance <= query_.near_enough && endsWith(ids);
@@ -154,8 +179,8 @@ class NearestEvaluator final : public RefineCallback {
   /// Called when features were found near enough. Evaluates their triangles, by the distance that
   /// the answer states, and returns true if those are near enough to end the search.
   bool endsWith(const TrianglePairIds& ids) {
-    if (!(faces_ == ids)) of_faces_ = corners_.distanceOf(faces_ = ids);
-    if (!(double{of_faces_.distance} <= query_.near_enough)) return false;
+    if (!(faces_ == ids)) of_faces_ = pair_.distanceOf(faces_ = ids);
+    if (!(of_faces_.distance <= query_.near_enough)) return false;
     ids_ = ids;
     ended_near_ = true;
     return true;
@@ -173,12 +198,10 @@ class NearestEvaluator final : public RefineCallback {
   bool nothingIsNearer() {
     next_look_ *= 2;
     if (keeps_pairs || !(best_ > 0) || ids_.a < 0) return false;
-    const TriangleDistance<S> nearest = corners_.distanceOf(ids_);
-    const Eigen::Vector3d origin = nearest.point_a.template cast<double>();
-    const Eigen::Vector3d n = nearest.point_b.template cast<double>() - origin;
-    const double distance = double{nearest.distance};
+    const TriangleDistanced nearest = pair_.distanceOf(ids_);
+    const Pointd n = nearest.point_b - nearest.point_a;
     return n.norm() > 0 &&
-           corners_.gapAlong(n, origin) >= (1 - 24 * error_bounds::kUlp<S>)*distance;
+           gapAlong(pair_, n, nearest.point_a) >= (1 - 24 * kUlpDouble) * nearest.distance;
   }
 
   /// Called when a pair at this distance was found, or when no farther one is asked for.
@@ -188,17 +211,18 @@ class NearestEvaluator final : public RefineCallback {
     cull_distance = std::min(cull_distance, upToFloat(query_.cullDistance(distance)));
   }
 
-  const Corners<S> corners_;
+  const MeshPair& pair_;
   const PairQuery& query_;
   const bool
       by_faces_;  ///< triangles are evaluated at once, so that no step makes the answer worse
   double best_ = kInfinity;  ///< of ids_
   double least_ = kInfinity;
   TrianglePairIds ids_, faces_;  ///< the nearest; those evaluated as faces
-  TriangleDistance<S> of_faces_;
+  TriangleDistanced of_faces_;
   bool ended_near_ = false;
   std::size_t num_evaluated_ = 0;
-  std::size_t next_look_ = 1024 + corners_.numTriangles();  ///< at nothingIsNearer()
+  std::size_t next_look_ =
+      1024 + pair_.a.numTriangles() + pair_.b.numTriangles();  ///< at nothingIsNearer()
   NearestEnds ends_;
   PairsApart apart_;
   LastPlane plane_of_a_, plane_of_b_;
@@ -219,43 +243,44 @@ class TouchingEvaluator final : public RefineCallback {
   const VisitPair& visit_;
 };
 
-/// Visits the pairs that `kernel` evaluates.
-template <typename S>
-void visitBy(void (*kernel)(const Search&), const PreparedPair<S>& pair, const VisitPair& visit,
-             SearchCounts& counts) {
-  TouchingEvaluator evaluator(visit);
-  kernel({pair.a.tree, pair.b.tree, pair.pose, pair.frames, evaluator, counts, pair.audit});
-}
+/// A search of a pair, which lasts as long as its frames.
+struct PairSearch {
+  PairSearch(const MeshPair& pair, RefineCallback& evaluator, SearchCounts& counts, Audit* audit)
+      : search{pair.a.tree(), pair.b.tree(), pair.X_trees, frames, evaluator, counts, audit} {
+    makeFloatFrame(pair.X_trees, frames);
+  }
+  FloatFrame frames;
+  Search search;
+};
 
 }  // namespace
 
-template <typename S>
-[[gnu::hot]] PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
-                                            SearchCounts& counts) {
-  NearestEvaluator<S> evaluator(Corners<S>(pair), double{pair.frames.scale}, query);
+[[gnu::hot]] PairAnswer nearestTriangles(const MeshPair& pair, const PairQuery& query,
+                                         SearchCounts& counts, Audit* audit) {
+  NearestEvaluator evaluator(pair, query);
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
   const bool exact = query.usesExactSearch() && !query.endsEarly();
   evaluator.keeps_pairs = !exact;
   bool has_bound = false, done = false;
-  if (exists(query.start, pair)) {
-    const double distance = double{Corners<S>(pair).distanceOf(query.start).distance};
+  if (pair.exist(query.start)) {
+    const double distance = pair.distanceOf(query.start).distance;
     const bool near = query.near_enough > 0 && distance <= query.near_enough;
     if (!query.isExact() || query.hasBudget() || near) {
       done = evaluator.start(query.start, distance);
     } else if (distance > 0) {
-      evaluator.addUpperBound(upToFloat(distance + featureError<S>(4 * double{pair.frames.scale})));
+      evaluator.addUpperBound(upToFloat(distance + featureError(largestExtent(pair))));
       has_bound = true;
     }
   }
-  Search search = {pair.a.tree, pair.b.tree, pair.pose,  pair.frames,
-                   evaluator,   counts,      pair.audit, &bracket};
-  if (!done) (exact ? kernels().distance : kernels().bracket)(search);
-  PairAnswer<S> result;
+  PairSearch of(pair, evaluator, counts, audit);
+  of.search.bracket = &bracket;
+  if (!done) (exact ? kernels().distance : kernels().bracket)(of.search);
+  PairAnswer result;
   result.ids = evaluator.ids();
   if (query.any_touching && evaluator.least() == 0) {  // no points are asked for
-    result.nearest.point_a = result.nearest.point_b = fcl::Vector3<S>::Zero();
+    result.nearest.point_a = result.nearest.point_b = Pointd::Zero();
   } else if (result.ids.a >= 0) {
     result.nearest = evaluator.certified();
   }
@@ -263,7 +288,7 @@ template <typename S>
       result.nearest.distance == 0) {  // any pair that intersects: which must not depend
     PairQuery cold = query;            // on where it began
     cold.start = {};
-    return nearestTriangles(pair, cold, counts);
+    return nearestTriangles(pair, cold, counts, audit);
   }
   result.least_evaluated = evaluator.least();
   result.least_other = std::max(0.0F, exact ? evaluator.cull_distance : bracket.proven);
@@ -275,41 +300,36 @@ template <typename S>
   return result;
 }
 
-template <typename S>
-void visitTouching(const PreparedPair<S>& pair, const VisitPair& visit, SearchCounts& counts) {
-  visitBy(kernels().contacts, pair, visit, counts);
+void visitTouching(const MeshPair& pair, const VisitPair& visit, SearchCounts& counts,
+                   Audit* audit) {
+  TouchingEvaluator evaluator(visit);
+  kernels().contacts(PairSearch(pair, evaluator, counts, audit).search);
 }
 
-template <typename S>
-[[gnu::hot]] std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair,
+[[gnu::hot]] std::vector<TrianglePairIds> intersectingTriangles(const MeshPair& pair,
                                                                 std::size_t limit,
-                                                                SearchCounts& counts) {
+                                                                SearchCounts& counts,
+                                                                Audit* audit) {
   std::vector<TrianglePairIds> found;
-  const Corners<S> corners(pair);
   if (limit == 1) {  // features name triangles many times
     PairsApart apart;
-    visitBy(
-        kernels().contact, pair,
-        [&](const TrianglePairIds& ids) {
-          if (apart.intersect(corners, ids)) found.push_back(ids);
-          return !found.empty();
-        },
-        counts);
+    const VisitPair visit = [&](const TrianglePairIds& ids) {
+      if (apart.intersect(pair, ids)) found.push_back(ids);
+      return !found.empty();
+    };
+    TouchingEvaluator evaluator(visit);
+    kernels().contact(PairSearch(pair, evaluator, counts, audit).search);
     return found;
   }
   visitTouching(
       pair,
       [&](const TrianglePairIds& ids) {
-        if (corners.intersect(ids)) found.push_back(ids);
+        if (pair.intersect(ids)) found.push_back(ids);
         return found.size() >= limit;
       },
-      counts);
+      counts, audit);
   std::sort(found.begin(), found.end());
   return found;
 }
-
-KIOS_INSTANTIATE_FUNCTION(nearestTriangles);
-KIOS_INSTANTIATE_FUNCTION(visitTouching);
-KIOS_INSTANTIATE_FUNCTION(intersectingTriangles);
 
 }  // namespace kios::engine

@@ -4,47 +4,27 @@
 
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
-#include "build/mesh_view.h"
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/volume/separation.h"
+#include "search/mesh_pair.h"
 #include "search/pair_query.h"
 #include "search/search.h"
 
 namespace kios::engine {
 
-/// A mesh with its tree.
-template <typename S>
-struct PreparedMesh {
-  const Tree& tree;
-  MeshView<S> mesh;
-};
-
-/// Two meshes at a pose, in the frame of the first.
-template <typename S>
-struct PreparedPair {
-  PreparedMesh<S> a, b;
-  const RelativePose<S>& X_AB;
-  const TreePose& pose;  ///< of the trees
-  FloatFrame frames;
-  Audit* audit = nullptr;
-};
+// Searches by the kernels, of pairs whose lengths are in the range of floats.
 
 /// The answer in the trees. Exact answers don't depend on where the search began.
-template <typename S>
-PairAnswer<S> nearestTriangles(const PreparedPair<S>& pair, const PairQuery& query,
-                               SearchCounts& counts);
+PairAnswer nearestTriangles(const MeshPair& pair, const PairQuery& query, SearchCounts& counts,
+                            Audit* audit = nullptr);
 
 /// Shows every pair of triangles that may touch, once, until visit(ids) returns true.
 using VisitPair = std::function<bool(const TrianglePairIds&)>;
-template <typename S>
-void visitTouching(const PreparedPair<S>& pair, const VisitPair& visit, SearchCounts& counts);
+void visitTouching(const MeshPair& pair, const VisitPair& visit, SearchCounts& counts,
+                   Audit* audit = nullptr);
 
 /// Up to `limit` pairs of triangles that intersect, all of them if there are no more; by ids.
-template <typename S>
-std::vector<TrianglePairIds> intersectingTriangles(const PreparedPair<S>& pair, std::size_t limit,
-                                                   SearchCounts& counts);
+std::vector<TrianglePairIds> intersectingTriangles(const MeshPair& pair, std::size_t limit,
+                                                   SearchCounts& counts, Audit* audit = nullptr);
 
 }  // namespace kios::engine

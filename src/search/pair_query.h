@@ -56,10 +56,9 @@ enum class SearchEnd {
 /// The nearest triangles that were found: distance - exact <= max(rel_err * exact, abs_err), and 16
 /// eps of their extent where both are 0, if the search was done and the pair is nearer than
 /// far_enough. Of equally near pairs that with the least ids, at distance 0 any.
-template <typename S>
 struct PairAnswer {
-  TrianglePairIds ids;               ///< none if no pair was looked at
-  TriangleDistance<S> nearest = {};  ///< of ids, in A's frame
+  TrianglePairIds ids;             ///< none if no pair was looked at
+  TriangleDistanced nearest = {};  ///< of ids, in A's frame
   /// The least distance that was evaluated, right to 16 eps of the extent of any two triangles.
   double least_evaluated = kInfinity;
   double least_other = 0;  ///< proven of all pairs that were not evaluated

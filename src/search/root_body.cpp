@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "tree/box_fit.h"
-#include "volume/instantiate.h"
 #include "volume/lanes.h"
 
 namespace kios::engine {
@@ -106,12 +105,11 @@ RootBody bodyOf(const Tree& tree, std::uint32_t id) {
 
 }  // namespace
 
-template <typename S>
-[[gnu::hot]] RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree) {
+[[gnu::hot]] RootBody rootOf(const Mesh& mesh) {
   RootBody body;
-  body.center = root.center0.template cast<double>() - Eigen::Map<const Vec>(tree.origin);
-  body.radius = double{root.radius0};
-  setBox(tree.root_box, body);
+  body.center = mesh.center() - Eigen::Map<const Vec>(mesh.tree().origin);
+  body.radius = mesh.radius();
+  setBox(mesh.tree().root_box, body);
   return body;
 }
 
@@ -217,7 +215,5 @@ double boundAlong(const float (&direction)[3], const StoredPoints& a, const Stor
   const double gap = w.dot(X.t) + least(b, X.R.transpose() * w) + least(a, -w);
   return gap / w.norm() - 2 * kStored * farthest - X.frame_error - kDouble * X.scale;
 }
-
-KIOS_INSTANTIATE_FUNCTION(rootOf);
 
 }  // namespace kios::engine

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "fcl_kios/volume/kios.h"
 #include "search/float_frame.h"
+#include "search/mesh.h"
 #include "search/search.h"
 #include "tree/tree.h"
 #include "volume/lanes.h"
@@ -35,8 +35,7 @@ struct RootBody {
 };
 
 /// Root of a mesh with a tree of ordinary size.
-template <typename S>
-RootBody rootOf(const kIOS<S>& root, const TreeRoot& tree);
+RootBody rootOf(const Mesh& mesh);
 
 /// Lower bound of the distance of two bodies as the narrow phase computes it in a's frame, by
 /// balls, balls and boxes, the boxes' axes and the products of these: the best of them, or the

@@ -10,8 +10,7 @@
 namespace kios {
 template <typename S>
 BallPairs::BallPairs(const SolidPair<S>& pair) : unit_(pair.size()) {
-  const InnerBalls &a = pair.stateA().balls(pair.frame().a),
-                   &b = pair.stateB().balls(pair.frame().b);
+  const InnerBalls &a = pair.stateA().balls(pair.a()), &b = pair.stateB().balls(pair.b());
   const auto n = static_cast<Eigen::Index>(a.balls.size() * b.balls.size());
   for (auto* const lanes : {&x_, &y_, &z_, &inner_square_, &grown_square_}) lanes->resize(n);
   Eigen::Index i = 0;

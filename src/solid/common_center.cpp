@@ -34,24 +34,24 @@ class CommonCenter {
   // for inverseError(): if b's surface is farther than that, both are on one side. R shrinks no
   // distance by more than the same share of it, which is within the error, too.
   Balls at(const Vec& c, double least) {
-    const MeshPair<S>& frame = pair_.frame();
+    const RelativePose<double>& X_AB = pair_.frame().X_AB;
     Balls balls;
-    const Vec y = toB(frame.X_AB, c);
+    const Vec y = toB(X_AB, c);
     // No surface lies within the balls of the last point in both.
     const double moved = 1.001 * (c - last_).norm() + 4 * pair_.rounding();
-    balls.in_a = moved < radius_a_ || placeOf(c, frame.a, pair_.counts()).inside();
-    balls.in_b = moved < radius_b_ || placeOf(y, frame.b, pair_.counts()).inside();
+    balls.in_a = moved < radius_a_ || placeOf(c, pair_.a(), pair_.counts()).inside();
+    balls.in_b = moved < radius_b_ || placeOf(y, pair_.b(), pair_.counts()).inside();
     if (!balls.in_a || !balls.in_b) return balls;
     constexpr double kCoarse = 0.02;
     constexpr double kFar = kInfinity;
     const NearestSurface a =
-        nearestSurface(frame.a, c, kCoarse, kFar, known_ ? least - 1.03 * radius_b_ - moved : 0);
+        nearestSurface(pair_.a(), c, kCoarse, kFar, known_ ? least - 1.03 * radius_b_ - moved : 0);
     const NearestSurface b =
-        nearestSurface(frame.b, y, kCoarse, kFar, a.lower > 0 ? least - a.upper : kFar);
+        nearestSurface(pair_.b(), y, kCoarse, kFar, a.lower > 0 ? least - a.upper : kFar);
     on_a_.push_back(a.point);
     if (a.lower > 0) on_b_.push_back(pair_.R_AB() * b.point + pair_.T_AB());
     const double error =
-        2 * inverseError(frame.X_AB, c.lpNorm<1>() + 4 * pair_.size()) + 2 * pair_.rounding();
+        2 * inverseError(X_AB, c.lpNorm<1>() + 4 * pair_.size()) + 2 * pair_.rounding();
     if (!(b.lower > error) || !(a.lower > pair_.rounding())) return balls;
     last_ = c;
     known_ = true;

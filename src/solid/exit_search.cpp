@@ -129,7 +129,7 @@ std::optional<Exit> goAlong(SolidPair<S>& pair, const Vec& n, double length, dou
                             int tries) {
   double margin = 8 * pair.rounding();
   for (int i = 0; i < tries; ++i, margin *= 4) {
-    const Vec x = roundedTo<S>((std::max(length, 0.0) + margin) * n).template cast<double>();
+    const Vec x = (std::max(length, 0.0) + margin) * n;
     if (!(x.norm() < most)) break;
     const Separation after = pair.test(x, std::min(most, pair.size()));
     if (after.apart) return Exit{x, x.norm(), after};
@@ -179,7 +179,7 @@ class ExitSearch {
         if (exhausted()) return false;
         const std::size_t known = polytopes.size();
         const auto overlap =
-            known == 0 ? pair_.overlap() : pair_.overlapAfter(rounded(inWorld(x)), kContacts);
+            known == 0 ? pair_.overlap() : pair_.overlapAfter(inWorld(x), kContacts);
         if (!overlap.any() && prove(inWorld(x) / length, length)) return true;
         for (const auto& contact : overlap.contacts)
           polytopes.emplace_back(contact.a, contact.b, x);
@@ -210,7 +210,6 @@ class ExitSearch {
 
   bool exhausted() const { return pair_.tests() >= last_test_; }
   Vec inWorld(const Vec& v) const { return pair_.R_WA() * v; }
-  Vec rounded(const Vec& x) const { return roundedTo<S>(x).template cast<double>(); }
 
   bool prove(const Vec& n, double length) {
     constexpr int kTries = 4;
@@ -242,7 +241,7 @@ class ExitSearch {
     starts.resize(kMost);
     for (const Vec& start : starts) {
       for (const double grow : {0.95, 1.15, 1.6}) {
-        const Vec x = rounded(inWorld(grow * start));
+        const Vec x = inWorld(grow * start);
         if (!(x.norm() < 0.97 * best.norm()) || exhausted()) break;
         if (balls.meet(grow * start) || pair_.overlapAfter(x, 1).any()) continue;
         best = x;
@@ -277,7 +276,7 @@ class ExitSearch {
       Vec guess = nearest->x;
       Separation next;
       for (int i = 0; i < 3 && !next.apart && !exhausted(); ++i) {
-        guess = rounded(i == 0 ? guess : Vec(0.5 * (at + guess)));
+        guess = i == 0 ? guess : Vec(0.5 * (at + guess));
         if (!balls.meet(pair_.R_WA().transpose() * guess)) next = pair_.test(guess, length);
       }
       if (!next.apart || !(guess.norm() < length)) break;

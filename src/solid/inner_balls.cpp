@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include <Eigen/Geometry>
-#include "query/mesh_pair.h"
+#include "model/prepared.h"
 #include "solid/nearest_surface.h"
 #include "solid/winding.h"
 #include "volume/rounding.h"

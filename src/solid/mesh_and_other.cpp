@@ -19,12 +19,12 @@ constexpr int kNone = -1;
 template <typename S>
 std::optional<fcl::Vector3<S>> containedIn(const MeshAndOther<S>& o) {
   if (!o.other_mesh) return shapePointIn(o);
-  const MeshPair<S> frame(o.mesh, o.X_WM, *o.other_mesh, o.X_WO);
+  const MeshPair frame(meshOf(o.mesh), o.X_WM, meshOf(*o.other_mesh), o.X_WO);
   SearchCounts unused;
   if (frame.rootBound(0) > 0) return std::nullopt;
-  const auto point = containedPoint(frame, unused);
+  const auto point = containedPoint(o.mesh, *o.other_mesh, frame, unused);
   if (!point) return std::nullopt;
-  return detail::transform<S>(o.X_WM, roundedTo<S>(*point));
+  return toWorld<S>(o.X_WM, *point);
 }
 
 template <typename S>

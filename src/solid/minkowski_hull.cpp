@@ -142,8 +142,8 @@ Vec farthestOf(const Model<S>& model, const Vec& n) {
 template <typename S>
 Differences<S>::Differences(const SolidPair<S>& pair)
     : pair_(pair),
-      a_(pair.frame().a),
-      b_(pair.frame().b),
+      a_(pair.a()),
+      b_(pair.b()),
       graph_a_(pair.stateA().convexity(a_).graph),
       graph_b_(pair.stateB().convexity(b_).graph),
       error_(0x1p-46 * (largestOf(a_) + 2 * largestOf(b_) + pair.T_AB().cwiseAbs().maxCoeff())) {}

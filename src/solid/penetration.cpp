@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "query/pair_search.h"
 #include "solid/ball_pairs.h"
 #include "solid/common_center.h"
 #include "solid/containment.h"
@@ -31,8 +32,8 @@ void requireValid(const PenetrationOptions& options) {
 }
 
 /// Returns the side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
-template <typename S, typename Corners>
-int sideOf(const TriangleVertices<S>& plane, int num_triangles, const Corners& corners_of) {
+template <typename Corners>
+int sideOf(const TriangleVerticesd& plane, int num_triangles, const Corners& corners_of) {
   int side = 0;
   for (int t = 0; t < num_triangles; ++t) {
     const PairPredicates::Coordinates points = coordinatesOf(plane, corners_of(t));
@@ -52,7 +53,7 @@ int sideOf(const TriangleVertices<S>& plane, int num_triangles, const Corners& c
 /// interiors are disjoint. What meets tells, but for rounding, which planes may.
 template <typename S>
 bool partedByFace(SolidPair<S>& pair) {
-  const MeshPair<S>& frame = pair.frame();
+  const MeshPair& frame = pair.frame();
   const auto& contacts = pair.overlap().contacts;
   const double rounding = 16 * pair.rounding();
   const auto mayPart = [&](const Vec& n, const Vec& p) {
@@ -69,10 +70,8 @@ bool partedByFace(SolidPair<S>& pair) {
     for (const auto& face : {contact.a, contact.b}) {
       const Vec n = normalOf(face);
       if (!mayPart(n, face[0]) && !mayPart(-n, face[0])) continue;
-      const TriangleVertices<S> plane = {roundedTo<S>(face[0]), roundedTo<S>(face[1]),
-                                         roundedTo<S>(face[2])};
-      const int side = sideOf(plane, frame.a.num_tris, of_a);
-      if (side != 0 && sideOf(plane, frame.b.num_tris, of_b) == -side) return true;
+      const int side = sideOf(face, pair.a().num_tris, of_a);
+      if (side != 0 && sideOf(face, pair.b().num_tris, of_b) == -side) return true;
     }
   }
   return false;
@@ -102,10 +101,9 @@ class PenetrationQuery {
       : pair_(pair), options_(options) {}
 
   Penetration run() {
-    const MeshPair<S>& frame = pair_.frame();
     const Differences<S> differences(pair_);
     std::vector<Vec> directions;
-    if (pair_.stateA().convexity(frame.a).convex && pair_.stateB().convexity(frame.b).convex) {
+    if (pair_.stateA().convexity(pair_.a()).convex && pair_.stateB().convexity(pair_.b()).convex) {
       constexpr int kPoints = 128;
       constexpr double kShare = 0.9;
       const HullDepth hull =
@@ -173,9 +171,8 @@ class PenetrationQuery {
   // The vertices of both hulls lie within `moved` of points of the solids, whose hulls are in the
   // solids: see Convexity. So does each difference of two vertices.
   double lowerOfHulls(double lower) const {
-    const MeshPair<S>& frame = pair_.frame();
-    return inWorld(lower - pair_.stateA().convexity(frame.a).moved -
-                   1.01 * pair_.stateB().convexity(frame.b).moved - pair_.rounding());
+    return inWorld(lower - pair_.stateA().convexity(pair_.a()).moved -
+                   1.01 * pair_.stateB().convexity(pair_.b()).moved - pair_.rounding());
   }
 
   /// A translation in the world has R_WA^T of it in a's frame, longer by the stretch at most.
@@ -203,9 +200,10 @@ Penetration penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
   const bool as_given = comesFirst(solid1, X_W1, solid2, X_W2);
   SolidPair<S> pair = as_given ? SolidPair<S>(solid1, X_W1, solid2, X_W2, counts, false)
                                : SolidPair<S>(solid2, X_W2, solid1, X_W1, counts, true);
-  const MeshPair<S>& frame = pair.frame();
+  const MeshPair& frame = pair.frame();
   if (frame.rootBound(0) > 0) return {};
-  if (!surfacesMeet(frame, counts) && !containedPoint(frame, counts)) return {};
+  const bool surfaces_meet = !searchContacts(frame, 1, counts).empty();
+  if (!surfaces_meet && !containedPoint(pair.a(), pair.b(), frame, counts)) return {};
   return PenetrationQuery<S>(pair, options).run();
 }
 

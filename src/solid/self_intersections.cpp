@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/prepared.h"
 #include "query/pair_search.h"
 #include "volume/instantiate.h"
 
@@ -12,16 +13,16 @@ namespace kios {
 
 template <typename S>
 std::vector<SelfIntersection> selfIntersections(const Model<S>& model, std::size_t limit) {
-  const auto X = fcl::Transform3<S>::Identity();
-  const MeshPair<S> itself(model, X, model, X);
+  const Mesh mesh = meshOf(model);
+  const fcl::Transform3d X = fcl::Transform3d::Identity();
+  const MeshPair itself(mesh, X, mesh, X);
   SearchCounts unused;
   std::vector<SelfIntersection> found;
   visitTouching(
       itself,
       [&](const engine::TrianglePairIds& ids) {  // each pair in both orders
         if (ids.a >= ids.b) return false;
-        const Meeting meeting =
-            meetingOf(cornersInDouble(model, ids.a), cornersInDouble(model, ids.b));
+        const Meeting meeting = meetingOf(itself.triangleA(ids.a), itself.triangleA(ids.b));
         if (meeting != Meeting::kNone) found.push_back({ids.a, ids.b, meeting});
         return false;
       },

@@ -17,11 +17,6 @@ namespace {
 
 using Vec = fcl::Vector3d;
 
-template <typename S>
-TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
-  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
-}
-
 }  // namespace
 
 Vec normalOf(const TriangleVertices<double>& t) {
@@ -33,18 +28,21 @@ Vec normalOf(const TriangleVertices<double>& t) {
 template <typename S>
 SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                         const fcl::Transform3<S>& X_WB, SearchCounts& counts, bool moves_a)
-    : X_WA_(X_WA),
-      X_WB_(X_WB),
+    : a_(a),
+      b_(b),
+      X_WA_(X_WA.template cast<double>()),
+      X_WB_(X_WB.template cast<double>()),
       counts_(counts),
       moves_a_(moves_a),
-      frame_(a, X_WA, b, X_WB),
+      squared_errors_(squaredRotationErrors(X_WA, X_WB)),
+      frame_(meshOf(a), X_WA, meshOf(b), X_WB, squared_errors_),
       state_a_(requireSolid(a)),
       state_b_(requireSolid(b)),
-      R_WA_(X_WA.linear().template cast<double>()),
-      t_WA_(X_WA.translation().template cast<double>()) {
-  R_AB_ = R_WA_.transpose() * X_WB.linear().template cast<double>();
-  T_AB_ = R_WA_.transpose() * (X_WB.translation().template cast<double>() - t_WA_);
-  size_ = double{frame_.rootA().radius0} + double{frame_.rootB().radius0};
+      R_WA_(X_WA_.linear()),
+      t_WA_(X_WA_.translation()) {
+  R_AB_ = R_WA_.transpose() * X_WB_.linear();
+  T_AB_ = R_WA_.transpose() * (X_WB_.translation() - t_WA_);
+  size_ = frame_.a.radius() + frame_.b.radius();
   rounding_ = frame_.distanceError(size_);
   if (!(size_ >= 0x1p-300 && size_ <= 0x1p300)) {  // lengths are squared
     refuse("solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
@@ -52,14 +50,14 @@ SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const
 }
 
 template <typename S>
-MeshPair<S> SolidPair<S>::moved(const Vec& translation) const {
-  fcl::Transform3<S> X_WA = X_WA_, X_WB = X_WB_;
+MeshPair SolidPair<S>::moved(const Vec& translation) const {
+  fcl::Transform3d X_WA = X_WA_, X_WB = X_WB_;
   if (moves_a_) {
-    X_WA.translation() -= roundedTo<S>(translation);
+    X_WA.translation() -= translation;
   } else {
-    X_WB.translation() += roundedTo<S>(translation);
+    X_WB.translation() += translation;
   }
-  return {frame_.a, X_WA, frame_.b, X_WB};
+  return {frame_.a, X_WA, frame_.b, X_WB, squared_errors_};
 }
 
 template <typename S>
@@ -67,17 +65,17 @@ typename SolidPair<S>::Overlap SolidPair<S>::overlapAfter(const Vec& translation
                                                           std::size_t limit) {
   ++tests_;
   Overlap result;
-  const MeshPair<S> frame = moved(translation);
+  const MeshPair frame = moved(translation);
   if (frame.rootBound(0) > 0) return result;
   for (const auto& ids : searchContacts(frame, limit, counts_)) {
-    result.contacts.push_back({inDouble(frame.triangleA(ids.a)), inDouble(frame.triangleB(ids.b))});
+    result.contacts.push_back({frame.triangleA(ids.a), frame.triangleB(ids.b)});
   }
   if (!result.contacts.empty()) return result;
-  if (const auto p = containedPoint(frame, counts_)) {  // on the one's surface, in the other
+  if (const auto p =
+          containedPoint(a_, b_, frame, counts_)) {  // on the one's surface, in the other
     constexpr double kCoarse = 0.05;
-    const Vec on_b = nearestSurface(frame.b, toB(frame.X_AB, *p), kCoarse).point;
-    result.to_wall = nearestSurface(frame.a, *p, kCoarse).point -
-                     (frame.X_AB * roundedTo<S>(on_b)).template cast<double>();
+    const Vec on_b = nearestSurface(b_, toB(frame.X_AB, *p), kCoarse).point;
+    result.to_wall = nearestSurface(a_, *p, kCoarse).point - frame.X_AB * on_b;
   }
   return result;
 }
@@ -92,24 +90,23 @@ const typename SolidPair<S>::Overlap& SolidPair<S>::overlap() {
 template <typename S>
 Separation SolidPair<S>::test(const Vec& translation, double reach) {
   ++tests_;
-  const MeshPair<S> moved = this->moved(translation);
+  const MeshPair moved = this->moved(translation);
   Separation result;
   engine::PairQuery query;
   query.rel_err = 0.1;
   query.far_enough = std::max(reach, 8 * rounding_);
-  const DistanceAnswer<S> answer = bracketDistance(moved, query);
+  const DistanceAnswerd answer = bracketDistance(moved, query);
   counts_ += answer.counts;
   result.gap = answer.lower_bound;
-  if (!(result.gap > 0) || containedPoint(moved, counts_)) return result;
+  if (!(result.gap > 0) || containedPoint(a_, b_, moved, counts_)) return result;
   result.apart = true;
   if (answer.triangle_a < 0) return result;
-  const Vec on_a = answer.point_a.template cast<double>();
-  const Vec between = answer.point_b.template cast<double>() - on_a;
+  const Vec on_a = answer.point_a, between = answer.point_b - on_a;
   const double length = between.norm();
   if (!(length > 64 * rounding_)) {
     // The difference has lost its digits; the faces' normals have not.
-    const Vec n = normalOf(inDouble(moved.triangleA(answer.triangle_a))) -
-                  normalOf(inDouble(moved.triangleB(answer.triangle_b)));
+    const Vec n =
+        normalOf(moved.triangleA(answer.triangle_a)) - normalOf(moved.triangleB(answer.triangle_b));
     if (!(n.norm() > 0x1p-20)) return result;
     result.normal = R_WA_ * n.normalized();
   } else {

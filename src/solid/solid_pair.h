@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fcl_kios/search/counts.h"
-#include "query/mesh_pair.h"
+#include "search/mesh_pair.h"
 #include "search/pair_query.h"
 #include "solid/solid_mark.h"
 
@@ -35,7 +35,7 @@ class SolidPair {
   SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
             const fcl::Transform3<S>& X_WB, SearchCounts& counts, bool moves_a);
 
-  /// Tests `translation` as S rounds it. Nearest points are looked for up to `reach`.
+  /// Tests a translation. Nearest points are looked for up to `reach`.
   Separation test(const fcl::Vector3d& translation, double reach);
   /// Holds two triangles that meet, in a's frame.
   struct Contact {
@@ -53,7 +53,9 @@ class SolidPair {
   /// Returns what meets as the poses are; found once.
   const Overlap& overlap();
   int tests() const { return tests_; }
-  const MeshPair<S>& frame() const { return frame_; }
+  const Model<S>& a() const { return a_; }
+  const Model<S>& b() const { return b_; }
+  const MeshPair& frame() const { return frame_; }
   const SolidState<S>& stateA() const { return state_a_; }
   const SolidState<S>& stateB() const { return state_b_; }
   /// Returns b's pose in a, in double.
@@ -69,12 +71,14 @@ class SolidPair {
   bool movesA() const { return moves_a_; }
 
  private:
-  MeshPair<S> moved(const fcl::Vector3d& translation) const;
+  MeshPair moved(const fcl::Vector3d& translation) const;
 
-  const fcl::Transform3<S>&X_WA_, &X_WB_;
+  const Model<S>&a_, &b_;
+  const fcl::Transform3d X_WA_, X_WB_;
   SearchCounts& counts_;
   const bool moves_a_;
-  const MeshPair<S> frame_;
+  const double squared_errors_;  ///< see RelativePose
+  const MeshPair frame_;
   const SolidState<S>&state_a_, &state_b_;
   const fcl::Matrix3d R_WA_;
   const fcl::Vector3d t_WA_;

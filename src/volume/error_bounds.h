@@ -97,11 +97,8 @@ inline double extentOf(double d, double radius_a, double radius_b) {
 }
 
 /// Bounds the difference of the distance of two features, evaluated by themselves, from that of
-/// their triangles: each is known to 32 u of the extent.
-template <typename S>
-double featureError(double extent) {
-  return 64 * kUlp<S> * extent;
-}
+/// their triangles, in double: each is known to 32 u of the extent.
+inline double featureError(double extent) { return 64 * kUlpDouble * extent; }
 
 /// Bounds that of a length between a shape and a volume or a triangle, in double: 5 roundings a
 /// coordinate of the pose, and less than 2^-48 of the lengths from the kernels of src/shape.

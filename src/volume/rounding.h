@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -66,6 +67,17 @@ inline float roundDown<float>(double v) {
   if (v > double{kMax}) return kMax;
   const double down = v * (1 - 0x1p-23) - 0x1p-126;
   return down > 0 ? roundedTo<float>(down) : 0.0F;
+}
+
+/// A length rounded to the nearest S, as an answer: never to 0 from above.
+template <typename S>
+S roundedLength(double length) {
+  return length > 0 ? std::max(roundedTo<S>(length), std::numeric_limits<S>::denorm_min()) : S(0);
+}
+/// A length whose roundDown() is at least v, by little more.
+template <typename S>
+double roundsDownTo(double v) {
+  return sizeof(S) == sizeof(double) || !(v > 0) ? v : v * (1 + 0x1p-21) + 0x1p-124;
 }
 
 /// Largest coordinate whose differences and sums of a few stay finite in S.

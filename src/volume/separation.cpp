@@ -23,8 +23,8 @@ struct Offset {
   double pad;
 };
 
-template <typename S>
-[[gnu::hot]] Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X) {
+template <typename S, typename P>
+[[gnu::hot]] Offset offset(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<P>& X) {
   const double ax = a.center0[0], ay = a.center0[1], az = a.center0[2];
   const double bx = b.center0[0], by = b.center0[1], bz = b.center0[2];
   Offset d;
@@ -33,7 +33,7 @@ template <typename S>
   d.z = ((X.R()(2, 0) * bx + X.R()(2, 1) * by) + X.R()(2, 2) * bz) + X.T()[2] - az;
   d.norm1 = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
   const double rb = b.radius0;
-  d.pad = error_bounds::volumeError<S>(
+  d.pad = error_bounds::volumeError<P>(
               std::abs(bx) + std::abs(by) + std::abs(bz),
               detail::boundsOf(X).T_norm1 + (std::abs(ax) + std::abs(ay) + std::abs(az)), a.radius0,
               rb) +
@@ -45,8 +45,8 @@ template <typename S>
 // Each lane's |D + R o_b - o_a| - r_a - r_b has at most 16 u (|D| + reach_a + reach_b) of error:
 // u |D| and 11 u |o_b|, 2 u |o_a| from rounding D, R, products and sums, 3 u of the root, 2 u a
 // subtraction. 2^-19 is 32 u. Squares that underflow make the bound smaller.
-template <typename S>
-[[gnu::hot]] double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+template <typename S, typename P>
+[[gnu::hot]] double capSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<P>& X,
                                   const Offset& d) {
   using lanes::Float4;
   const float dx = roundedTo<float>(d.x), dy = roundedTo<float>(d.y), dz = roundedTo<float>(d.z);
@@ -80,8 +80,8 @@ struct ScaledBound {
 
 // Scaled by a power of two so that the largest length is about 1: no overflow, and what underflows
 // is below 2^-1000 of it. Roundings: as in offset(), in units of 2^-52 of lengths <= |d| + reach.
-template <typename S>
-ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+template <typename S, typename P>
+ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<P>& X,
                              const Offset& d) {
   const double reach_a = std::max<double>(scaled(a.reach, a.exponent), a.radius0);
   const double reach_b = std::max<double>(scaled(b.reach, b.exponent), b.radius0);
@@ -124,8 +124,8 @@ ScaledBound scaledSeparation(const kIOS<S>& a, const kIOS<S>& b, const RelativeP
   return best;
 }
 
-template <typename S>
-[[gnu::hot]] double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X,
+template <typename S, typename P>
+[[gnu::hot]] double separationFrom(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<P>& X,
                                    const Offset& d, double required) {
   constexpr double kFar = 0x1p40;
   if ((a.exponent | b.exponent) != 0 || !(d.norm1 < kFar)) {
@@ -208,24 +208,29 @@ RelativePose<S>::RelativePose(const fcl::Matrix3<S>& R_AB, const fcl::Vector3<S>
 }
 
 template <typename S>
-RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB)
+template <typename P>
+RelativePose<S>::RelativePose(const fcl::Transform3<P>& X_WA, const fcl::Transform3<P>& X_WB)
     : RelativePose(X_WA, X_WB, squaredRotationErrors(X_WA, X_WB)) {}
 
 template <typename S>
-[[gnu::hot]] RelativePose<S>::RelativePose(const fcl::Transform3<S>& X_WA,
-                                           const fcl::Transform3<S>& X_WB, double squared_errors) {
-  const fcl::Matrix3<S> inverse = X_WA.linear().transpose();
-  for (int j = 0; j < 3; ++j) R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j));
+template <typename P>
+[[gnu::hot]] RelativePose<S>::RelativePose(const fcl::Transform3<P>& X_WA,
+                                           const fcl::Transform3<P>& X_WB, double squared_errors) {
+  const fcl::Matrix3<S> inverse = X_WA.linear().transpose().template cast<S>();
+  for (int j = 0; j < 3; ++j) {
+    R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j).template cast<S>());
+  }
   // By the roundings of R^T R equal bodies at equal poses would miss each other. With I in its
   // place a coordinate of R x is off by the row of R^T R - I, 7 u |x| at most, and by no rounding:
-  // by no more than any other.
+  // by no more than any other. The u is the poses': docs/guarantees.md defines the frame so.
   if (X_WA.linear() == X_WB.linear() && R_ != fcl::Matrix3<S>::Identity() &&
-      isRoundedRotation<S>(X_WA.linear())) {
+      isRoundedRotation<P>(X_WA.linear())) {
     R_.setIdentity();
   }
-  T_ = detail::rotate<S>(inverse, X_WB.translation() - X_WA.translation());
+  T_ = detail::rotate<S>(
+      inverse, X_WB.translation().template cast<S>() - X_WA.translation().template cast<S>());
   computeBounds(squared_errors);
-  if (!(bounds_.T_norm1 <= kMaxCoordinate<S>)) refuseTranslations(X_WA, X_WB);
+  if (!(bounds_.T_norm1 <= kMaxCoordinate<P>)) refuseTranslations(X_WA, X_WB);
 }
 
 template <typename S>
@@ -237,8 +242,8 @@ void RelativePose<S>::computeBounds(double squared_errors) {
   }
 }
 
-template <typename S>
-[[gnu::hot]] double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB,
+template <typename S, typename P>
+[[gnu::hot]] double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<P>& X_AB,
                                double required) {
   if (a.num_spheres == 0 || b.num_spheres == 0) return kInfinity;
   return separationFrom(a, b, X_AB, offset(a, b, X_AB), required);
@@ -301,5 +306,14 @@ S kIOS<S>::distance(const kIOS& other, fcl::Vector3<S>* P, fcl::Vector3<S>* Q) c
 KIOS_INSTANTIATE(double)
 KIOS_INSTANTIATE(float)
 #undef KIOS_INSTANTIATE
+#define KIOS_INSTANTIATE_POSE(S, P)                                                             \
+  template RelativePose<S>::RelativePose(const fcl::Transform3<P>&, const fcl::Transform3<P>&); \
+  template RelativePose<S>::RelativePose(const fcl::Transform3<P>&, const fcl::Transform3<P>&,  \
+                                         double);
+KIOS_INSTANTIATE_POSE(double, double)
+KIOS_INSTANTIATE_POSE(double, float)
+KIOS_INSTANTIATE_POSE(float, float)
+#undef KIOS_INSTANTIATE_POSE
+template double separation(const kIOSf&, const kIOSf&, const RelativePosed&, double);
 
 }  // namespace kios

@@ -110,7 +110,7 @@ Pairs contactPairs(const fcl::CollisionResult<S>& result) {
 }
 
 /// Returns the library's triangle kernels over all pairs of triangles, without a tree.
-inline AllPairs<double> allPairs(const Mesh& a, const Mesh& b, const Frame& frame) {
+inline AllPairs allPairs(const Mesh& a, const Mesh& b, const Frame& frame) {
   return {trianglesOf(MeshIn<double>(a)), trianglesOf(MeshIn<double>(b)),
           RelativePose<double>(frame.X_WA, frame.X_WB)};
 }

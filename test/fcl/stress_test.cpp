@@ -44,9 +44,9 @@ std::shared_ptr<Modeld> modelOf(const std::vector<Vector3d>& corners) {
 
 void expectBruteForce(const std::shared_ptr<Modeld>& a, const Transform3d& X_WA,
                       const std::shared_ptr<Modeld>& b, const Transform3d& X_WB) {
-  const Triangles<double> triangles_a = trianglesOf(*a), triangles_b = trianglesOf(*b);
+  const Triangles triangles_a = trianglesOf(*a), triangles_b = trianglesOf(*b);
   const RelativePose<double> X_AB(X_WA, X_WB);
-  const AllPairs<double> expected(triangles_a, triangles_b, X_AB);
+  const AllPairs expected(triangles_a, triangles_b, X_AB);
   Eigen::AlignedBox3d box;  // of everything, in the common frame
   for (const auto& t : triangles_a) {
     for (const Vector3d& p : t) box.extend(p);

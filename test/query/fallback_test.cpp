@@ -67,12 +67,13 @@ TYPED_TEST(Fallback, EveryCallNamesTheNearestOfBruteForce) {
   for (int i = 0; i < 400; ++i) {
     const SoupPair<S> pair(i, 1e-2, random);
     const auto& [scale, a, b, X_WA, X_WB] = pair;
-    const AllPairs<S> all(trianglesOf(*a), trianglesOf(*b), RelativePose<S>(X_WA, X_WB));
+    const AllPairs all(trianglesOf(*a), trianglesOf(*b), RelativePosed(X_WA, X_WB));
     const auto answer = kios::distance(*a, X_WA, *b, X_WB);
     ASSERT_EQ(answer.counts.tree_searches, 1);
-    ASSERT_EQ(answer.distance, all.distance);
+    ASSERT_EQ(answer.distance, all.rounded<S>());
     fcl::DistanceResult<S> result;
-    ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result), all.distance);
+    ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result),
+              all.rounded<S>());
     if (all.distance == 0) continue;
     ASSERT_EQ(std::make_pair(answer.triangle_a, answer.triangle_b), all.nearest);
     ASSERT_EQ(result.b1, all.nearest.first);

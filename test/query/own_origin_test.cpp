@@ -39,7 +39,8 @@ KIOS_SCALAR_SUITE(OwnOrigin);
 // Two points near each other in the world, each `offset` from its model's origin, poses at random.
 TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {
   using S = TypeParam;
-  constexpr double kEps = std::numeric_limits<S>::epsilon();
+  constexpr bool kRounds = sizeof(S) == sizeof(float);
+  constexpr double kEps = std::numeric_limits<double>::epsilon();
   scenes::Random random(11);
   std::uint64_t seed = 0;
   double worst = 0;
@@ -66,7 +67,8 @@ TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {
       const DistanceAnswer<S> answer = kios::distance(*a, X_W1, *b, X_W2);
       const double size = static_cast<double>(x_2.template lpNorm<1>() + t.norm());
       const auto error = static_cast<double>(std::abs((long double)(answer.distance) - exact));
-      const double of_triangles = 16 * kEps * static_cast<double>(exact);
+      const double of_triangles =
+          (16 * kEps + (kRounds ? 0x1p-24 : 0)) * static_cast<double>(exact);
       ASSERT_LE(error, of_triangles + std::sqrt(3.0) * 4 * kEps * size) << offset;
       ASSERT_LE((long double)(answer.lower_bound), exact) << offset;
       ASSERT_GE((long double)(answer.upper_bound), exact) << offset;
@@ -81,8 +83,8 @@ TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {
       worst_here = std::max(worst_here, error / (kEps * size));
     }
     std::printf("offset %g: %.3f eps (|x|_1 + |t2 - t1|)\n", offset, worst_here);
-    if (offset < 1e4) continue;            // where the triangles' own error shows
-    EXPECT_GT(worst_here, 0.1) << offset;  // else nothing was measured
+    if (offset < 1e4 || kRounds) continue;  // where the triangles' own error or the answer's shows
+    EXPECT_GT(worst_here, 0.1) << offset;   // else nothing was measured
     worst = std::max(worst, worst_here);
   }
   EXPECT_LT(worst, 0.75) << "the figure of docs/guarantees.md";

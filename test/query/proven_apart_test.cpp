@@ -113,7 +113,7 @@ TYPED_TEST(ProvenApart, BoundsTheDistanceOfSegments) {
              (X_WB.linear().template cast<Real>() * b->vertices[k].template cast<Real>() + between);
     }
     const Real distance = segmentDistance(p, q);
-    const MeshPair<S> pair(*a, X_WA, *b, X_WB);
+    const MeshPair pair(meshOf(*a), X_WA, meshOf(*b), X_WB);
     const double best = pair.rootBound(kInfinity), any = pair.rootBound(0);
     sum.wrong += Real{best} > distance || Real{any} > distance || (any > 0) != (best > 0);
     const bool is_off =
@@ -143,16 +143,16 @@ void tryPoses(const Mesh& mesh_a, const Mesh& mesh_b, double size, double offset
     if (!parallel) X_AB.linear() = turned<double>(random, 0);
     X_AB.translation() = away - X_AB.linear() * away + size * (2 * inCube(random));
     for (int step = 0; step < 3; ++step) {  // towards the gap
-      const MeshPair<S> pair(*a, fcl::Transform3<S>::Identity(), *b, X_AB.cast<S>());
-      const AllPairs<S> all(trianglesOf(*a), trianglesOf(*b), pair.X_AB);
-      const double distance = double{all.distance};
+      const MeshPair pair(meshOf(*a), fcl::Transform3<S>::Identity(), meshOf(*b), X_AB.cast<S>());
+      const AllPairs all(trianglesOf(*a), trianglesOf(*b), pair.X_AB);
+      const double distance = all.distance;
       const double best = pair.rootBound(kInfinity), any = pair.rootBound(0);
       sum.wrong += best > distance || any > distance || (any > 0) != (best > 0);
       sum.apart += distance > 0.2 * size;
       sum.told += distance > 0.2 * size && best > 0.1 * size;
       if (!(distance > 0)) break;
       const auto nearest = pair.distanceOf({all.nearest.first, all.nearest.second});
-      const fcl::Vector3d way = (nearest.point_a - nearest.point_b).template cast<double>();
+      const fcl::Vector3d way = nearest.point_a - nearest.point_b;
       X_AB.translation() += (1 - gap * size / distance) * way;
     }
   }

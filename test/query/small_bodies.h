@@ -84,8 +84,8 @@ Poses<S> poseAt(int kind, double apart, Random& random) {
 }
 
 template <typename S>
-AllPairs<S> allPairs(const Model<S>& a, const Model<S>& b, const Poses<S>& X) {
-  return {trianglesOf(a), trianglesOf(b), RelativePose<S>(X.X_WA, X.X_WB)};
+AllPairs allPairs(const Model<S>& a, const Model<S>& b, const Poses<S>& X) {
+  return {trianglesOf(a), trianglesOf(b), RelativePosed(X.X_WA, X.X_WB)};
 }
 
 }  // namespace kios::testing

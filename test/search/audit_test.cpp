@@ -35,11 +35,6 @@ std::vector<std::vector<std::uint32_t>> contents(const engine::Tree& tree) {
 }
 
 template <typename S>
-TriangleVertices<double> inDouble(const TriangleVertices<S>& t) {
-  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
-}
-
-template <typename S>
 class Auditor final : public engine::Audit {
  public:
   explicit Auditor(const Mesh& a, const Mesh& b, bool refitted = false)
@@ -56,7 +51,7 @@ class Auditor final : public engine::Audit {
   bool search(const fcl::Transform3d& X_A, const fcl::Transform3d& X_B) {
     if (!posed_.pose(X_A.cast<S>(), X_B.cast<S>())) return false;
     measure();
-    const engine::PreparedPair<S> pair = posed_.pair(this);
+    const MeshPair& pair = posed_.pair();
     constexpr S kInfinity = std::numeric_limits<S>::max();
     for (const double at_most : {double{kInfinity}, 3 * nearest_, 1.01 * nearest_, 0.9 * nearest_,
                                  nearest_ + size_, 1e-3 * size_}) {
@@ -65,12 +60,12 @@ class Auditor final : public engine::Audit {
         query.rel_err = rel_err;
         if (at_most < kInfinity) query.far_enough = query.cullDistance(at_most);
         SearchCounts counts;
-        engine::nearestTriangles(pair, query, counts);
+        engine::nearestTriangles(pair, query, counts, this);
       }
     }
     SearchCounts counts;
-    engine::intersectingTriangles(pair, 1, counts);
-    engine::intersectingTriangles(pair, std::numeric_limits<std::size_t>::max(), counts);
+    engine::intersectingTriangles(pair, 1, counts, this);
+    engine::intersectingTriangles(pair, std::numeric_limits<std::size_t>::max(), counts, this);
     return true;
   }
 
@@ -96,9 +91,9 @@ class Auditor final : public engine::Audit {
     distances_.resize(n * m);
     nearest_ = std::numeric_limits<double>::infinity();
     std::vector<TriangleVertices<double>> of_b(m);
-    for (std::size_t j = 0; j < m; ++j) of_b[j] = inDouble<S>(posed_.cornersOfB(j));
+    for (std::size_t j = 0; j < m; ++j) of_b[j] = posed_.pair().triangleB(static_cast<int>(j));
     for (std::size_t i = 0; i < n; ++i) {
-      const TriangleVertices<double> p = inDouble<S>(posed_.a.corners(i));
+      const TriangleVertices<double> p = posed_.pair().triangleA(static_cast<int>(i));
       for (std::size_t j = 0; j < m; ++j) {
         const auto found = triangleDistance(p, of_b[j]);
         distances_[i * m + j] = found.distance;

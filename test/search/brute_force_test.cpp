@@ -27,7 +27,7 @@ class Searches {
 
   void check(const fcl::Transform3d& X_A, const fcl::Transform3d& X_B, Seen& seen) {
     ASSERT_TRUE(posed_.pose(X_A.cast<S>(), X_B.cast<S>()));
-    const AllPairs<S> all = posed_.all();
+    const AllPairs all = posed_.all();
     ++(all.hits.empty() ? seen.apart : seen.touching);
     checkDistance(all);
     checkBounds(all);
@@ -36,14 +36,16 @@ class Searches {
   }
 
  private:
-  static constexpr double kEps = std::numeric_limits<S>::epsilon();
+  static constexpr double kEps = std::numeric_limits<double>::epsilon();
 
   /// Returns the distance if that is less than at_most, else at_most and no ids.
-  S distance(S at_most, TrianglePairIds& ids, double rel_err = 0, double abs_err = 0) const {
+  double distance(double at_most, TrianglePairIds& ids, double rel_err = 0,
+                  double abs_err = 0) const {
     engine::PairQuery query;
     query.rel_err = rel_err;
     query.abs_err = abs_err;
-    if (at_most < std::numeric_limits<S>::max()) query.far_enough = query.cullDistance(at_most);
+    if (at_most < std::numeric_limits<double>::max())
+      query.far_enough = query.cullDistance(at_most);
     SearchCounts counts;
     const auto found = engine::nearestTriangles(posed_.pair(), query, counts);
     const bool nearer = found.found() && found.nearest.distance < at_most;
@@ -52,54 +54,51 @@ class Searches {
   }
 
   // The answer is the kernel's for the pair that it names, and no pair is nearer.
-  void checkDistance(const AllPairs<S>& all) const {
+  void checkDistance(const AllPairs& all) const {
     TrianglePairIds ids;
-    const S d = distance(std::numeric_limits<S>::max(), ids);
+    const double d = distance(std::numeric_limits<double>::max(), ids);
     ASSERT_GE(ids.a, 0);
-    const auto p = posed_.a.corners(static_cast<std::size_t>(ids.a));
-    const auto q = posed_.cornersOfB(static_cast<std::size_t>(ids.b));
-    EXPECT_EQ(d, triangleDistance(p, q).distance);
+    EXPECT_EQ(d, posed_.pair().distanceOf(ids).distance);
     EXPECT_EQ(d == 0, !all.hits.empty());
-    EXPECT_LE(double{d} - double{all.distance}, 16 * kEps * std::max(all.extent, extentOf(p, q)));
+    EXPECT_LE(d - all.distance, 16 * kEps *
+                                    std::max(all.extent, extentOf(posed_.pair().triangleA(ids.a),
+                                                                  posed_.pair().triangleB(ids.b))));
   }
 
   // A bound on entry is kept if nothing is nearer, and beaten if something is.
-  void checkBounds(const AllPairs<S>& all) const {
+  void checkBounds(const AllPairs& all) const {
     const double slack = 32 * kEps * all.extent;
     for (const double factor : {0.5, 1 - 1e-3, 1.0, 1 + 1e-3, 2.0, 1e3}) {
-      const S at_most = static_cast<S>(factor * double{all.distance});
+      const double at_most = factor * all.distance;
       if (!(at_most > 0)) continue;
       TrianglePairIds ids;
-      const S d = distance(at_most, ids);
+      const double d = distance(at_most, ids);
       EXPECT_LE(d, at_most);
       EXPECT_EQ(ids.a < 0, d == at_most);
-      if (double{all.distance} < double{at_most} - slack) {
+      if (all.distance < at_most - slack) {
         EXPECT_NEAR(d, all.distance, slack);
-      } else if (double{all.distance} > double{at_most} + slack) {
+      } else if (all.distance > at_most + slack) {
         EXPECT_LT(ids.a, 0);
       }
     }
   }
 
-  void checkErrors(const AllPairs<S>& all) const {
+  void checkErrors(const AllPairs& all) const {
     const double slack = 32 * kEps * all.extent;
     for (const double rel_err : {0.0, 1e-6, 0.01, 0.3, 10.0}) {
-      for (const double abs_err : {0.0, 1e-3 * all.extent, 0.5 * double{all.distance}}) {
+      for (const double abs_err : {0.0, 1e-3 * all.extent, 0.5 * all.distance}) {
         TrianglePairIds ids;
-        const S d = distance(std::numeric_limits<S>::max(), ids, rel_err, abs_err);
-        const double error = double{d} - double{all.distance};
+        const double d = distance(std::numeric_limits<double>::max(), ids, rel_err, abs_err);
+        const double error = d - all.distance;
         EXPECT_GE(error, -slack);
-        EXPECT_LE(error,
-                  std::max(rel_err * double{all.distance}, abs_err) * (1 + 4 * kEps) + slack);
+        EXPECT_LE(error, std::max(rel_err * all.distance, abs_err) * (1 + 4 * kEps) + slack);
         ASSERT_GE(ids.a, 0);
-        EXPECT_EQ(d, triangleDistance(posed_.a.corners(static_cast<std::size_t>(ids.a)),
-                                      posed_.cornersOfB(static_cast<std::size_t>(ids.b)))
-                         .distance);
+        EXPECT_EQ(d, posed_.pair().distanceOf(ids).distance);
       }
     }
   }
 
-  void checkContacts(const AllPairs<S>& all) const {
+  void checkContacts(const AllPairs& all) const {
     const auto hitsUpTo = [this](std::size_t limit) {
       SearchCounts counts;
       std::vector<std::pair<int, int>> hits;

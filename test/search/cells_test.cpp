@@ -13,8 +13,8 @@
 
 #include "fcl_kios/model/prepare.h"
 #include "fcl_kios/query/octree_queries.h"
+#include "model/prepared.h"
 #include "query/cell_tree.h"
-#include "query/mesh_pair.h"
 #include "query/posed_solid.h"
 #include "scenes/foreign_fitter.h"
 #include "scenes/mesh.h"

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "all_pairs.h"
 #include "build/mesh_view.h"
-#include "fcl_kios/volume/separation.h"
 #include "search/mesh_search.h"
 #include "shapes.h"
 #include "tree/prepare.h"
@@ -40,23 +40,15 @@ class PosedPair {
 
   /// Returns false if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
-    X_AB = std::make_unique<RelativePose<S>>(X_A, X_B);
-    if (!engine::makeTreePose(*tree_a, *tree_b, *X_AB, pose_)) return false;
-    engine::makeFloatFrame(pose_, frames_);
-    return true;
+    pair_.emplace(kios::Mesh(viewOf(a), *tree_a, kIOS<S>()), X_A,
+                  kios::Mesh(viewOf(b), *tree_b, kIOS<S>()), X_B);
+    return pair_->floats_serve;
   }
-  engine::PreparedPair<S> pair(engine::Audit* audit = nullptr) const {
-    return {{*tree_a, viewOf(a)}, {*tree_b, viewOf(b)}, *X_AB, pose_, frames_, audit};
-  }
-  AllPairs<S> all() const { return {trianglesOf(a), trianglesOf(b), *X_AB}; }
-  TriangleVertices<S> cornersOfB(std::size_t t) const {  // in A's frame
-    const TriangleVertices<S> q = b.corners(t);
-    return {*X_AB * q[0], *X_AB * q[1], *X_AB * q[2]};
-  }
+  const MeshPair& pair() const { return *pair_; }
+  AllPairs all() const { return {trianglesOf(a), trianglesOf(b), pair_->X_AB}; }
 
   const MeshIn<S> a, b;
   const std::unique_ptr<engine::Tree> tree_a, tree_b;
-  std::unique_ptr<RelativePose<S>> X_AB;
 
  private:
   static std::unique_ptr<engine::Tree> made(const MeshIn<S>& shape, const Mesh& mesh,
@@ -65,8 +57,7 @@ class PosedPair {
     auto tree = treeOf(shape, refitted ? &before : nullptr);
     return tree ? std::move(tree) : engine::prepare(viewOf(shape));
   }
-  engine::TreePose pose_;
-  engine::FloatFrame frames_;
+  std::optional<MeshPair> pair_;
 };
 
 }  // namespace kios::testing

@@ -14,21 +14,21 @@ namespace {
 
 /// Counts wrong answers at one pose, with and without a bound on entry.
 template <typename S>
-int wrongAnswers(const PosedPair<S>& posed, TriangleDistance<S>& nearest) {
+int wrongAnswers(const PosedPair<S>& posed, TriangleDistanced& nearest) {
+  constexpr double kNoBound = std::numeric_limits<double>::max();
   int wrong = 0;
-  const AllPairs<S> all = posed.all();
-  const double slack = 16 * double{std::numeric_limits<S>::epsilon()} * all.extent;
+  const AllPairs all = posed.all();
+  const double slack = 16 * std::numeric_limits<double>::epsilon() * all.extent;
   SearchCounts counts;
-  for (const S at_most :
-       {S(3) * all.distance, S(1.001) * all.distance, std::numeric_limits<S>::max()}) {
+  for (const double at_most : {3 * all.distance, 1.001 * all.distance, kNoBound}) {
     if (!(at_most > 0)) continue;
     engine::PairQuery query;
-    if (at_most < std::numeric_limits<S>::max()) query.far_enough = at_most;
+    if (at_most < kNoBound) query.far_enough = at_most;
     nearest.distance = at_most;
     const auto found = engine::nearestTriangles(posed.pair(), query, counts);
     if (found.found() && found.nearest.distance < at_most) nearest = found.nearest;
-    const double expected = std::min(double{at_most}, double{all.distance});
-    wrong += !(std::abs(double{nearest.distance} - expected) <= slack);
+    const double expected = std::min(at_most, all.distance);
+    wrong += !(std::abs(nearest.distance - expected) <= slack);
   }
   const auto hits = engine::intersectingTriangles(posed.pair(), 1000000, counts);
   wrong += hits.size() != all.hits.size();
@@ -52,10 +52,10 @@ int wrongAnswers(int e) {
       X_B.translation() *= static_cast<S>(scale);
       for (int step = 0; step < 4; ++step) {  // to a hundredth of the distance each
         if (!posed.pose(X_A, X_B)) return 0;
-        TriangleDistance<S> nearest;
-        nearest.point_a = nearest.point_b = fcl::Vector3<S>::Zero();
+        TriangleDistanced nearest;
+        nearest.point_a = nearest.point_b = fcl::Vector3d::Zero();
         wrong += wrongAnswers(posed, nearest);
-        X_B.translation() -= S(1 - 1e-2) * (nearest.point_b - nearest.point_a);
+        X_B.translation() -= ((1 - 1e-2) * (nearest.point_b - nearest.point_a)).template cast<S>();
       }
     }
   }

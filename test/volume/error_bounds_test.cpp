@@ -214,7 +214,10 @@ TYPED_TEST(ErrorBounds, TrianglesAndTheirFeatures) {
                                         .distance);
       }
       if (oracle.intersect) continue;
-      features.add(std::abs(nearest - distance), error_bounds::featureError<S>(extent));
+      const double in_double = triangleDistance<double>({rounded.a[0], rounded.a[1], rounded.a[2]},
+                                                        {rounded.b[0], rounded.b[1], rounded.b[2]})
+                                   .distance;
+      features.add(std::abs(nearest - in_double), error_bounds::featureError(extent));
     }
   }
   triangles.expectWithin("triangles", 64);

@@ -22,7 +22,7 @@ class MeshCollisionTraversalNode : public fcl::detail::MeshCollisionTraversalNod
   bool BVTesting(int b1, int b2) const override;
   void leafTesting(int b1, int b2) const override;
 
-  std::optional<RelativePose<S>> X_AB;  ///< set by initialize()
+  std::optional<RelativePosed> X_AB;  ///< set by initialize()
 };
 using MeshCollisionTraversalNoded = MeshCollisionTraversalNode<double>;
 using MeshCollisionTraversalNodef = MeshCollisionTraversalNode<float>;
@@ -41,7 +41,7 @@ class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<
   void leafTesting(int b1, int b2) const override;
   bool canStop(S bound) const override;
 
-  std::optional<RelativePose<S>> X_AB;  ///< set by initialize()
+  std::optional<RelativePosed> X_AB;  ///< set by initialize()
 
  private:
   void lowerTo(S distance) const;
@@ -49,7 +49,7 @@ class MeshDistanceTraversalNode : public fcl::detail::MeshDistanceTraversalNode<
   mutable S best_;                                 ///< distance to beat
   mutable S prune_at_;                             ///< a node pair at least this far can't matter
   mutable int triangle_a_ = -1, triangle_b_ = -1;  ///< -1 while nothing nearer was found
-  mutable fcl::Vector3<S> point_a_, point_b_;      ///< nearest points in A's frame
+  mutable fcl::Vector3d point_a_, point_b_;        ///< nearest points in A's frame
 };
 using MeshDistanceTraversalNoded = MeshDistanceTraversalNode<double>;
 using MeshDistanceTraversalNodef = MeshDistanceTraversalNode<float>;

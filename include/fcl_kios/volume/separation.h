@@ -34,11 +34,13 @@ class RelativePose {
   /// (R_WB x + (t_WB - t_WA)); R = I for equal rotations that are ones but for rounding. A
   /// coordinate of a point is off by at most 3.5 eps (|R_WA|^T |R_WB| |x|) + 2.5 eps (|R_WA|^T
   /// |t_WB - t_WA|), absolute values by entry, so by 4 eps (|x|_1 + |t_WB - t_WA|) with room for
-  /// rotations that aren't quite orthonormal.
-  RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB);
+  /// rotations that aren't quite orthonormal. Poses in float may be taken in double, as they are.
+  template <typename P>
+  RelativePose(const fcl::Transform3<P>& X_WA, const fcl::Transform3<P>& X_WB);
   /// Takes rotations that were checked: `squared_errors` is at least the sum of the squares
   /// of their errors, |R^T R - I| each (Frobenius).
-  RelativePose(const fcl::Transform3<S>& X_WA, const fcl::Transform3<S>& X_WB,
+  template <typename P>
+  RelativePose(const fcl::Transform3<P>& X_WA, const fcl::Transform3<P>& X_WB,
                double squared_errors);
 
   /// Maps a point of B to A.
@@ -72,8 +74,8 @@ const PoseBounds& boundsOf(const RelativePose<S>& X_AB) {
 /// proves them apart. It also covers the rounding of b's points on their way to frame A. Once the
 /// bound of the central spheres exceeds `enough`, that is returned. An empty volume gives
 /// +infinity. Source: paper, Algorithm 2, kept signed so that deeper overlap orders first.
-template <typename S>
-double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<S>& X_AB, double enough);
+template <typename S, typename P>
+double separation(const kIOS<S>& a, const kIOS<S>& b, const RelativePose<P>& X_AB, double enough);
 
 /// FCL's forms of the tests, found by argument-dependent lookup: b sits at (R, T) in a's frame, P
 /// and Q are in a's frame. As kIOS::overlap and kIOS::distance otherwise.

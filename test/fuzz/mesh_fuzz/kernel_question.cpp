@@ -19,8 +19,12 @@ Verdict kernels(const Case& c) {
   for (int i = 0; i < std::min(a * b, 6); ++i) {
     const std::pair<int, int> ids =
         i == 0 ? truth.nearest : std::pair<int, int>{below(random, a), below(random, b)};
-    const auto& p = truth.trianglesOfA()[static_cast<std::size_t>(ids.first)];
-    const auto& q = truth.trianglesOfB()[static_cast<std::size_t>(ids.second)];
+    const auto held = [](const TriangleVerticesd& t) {
+      return TriangleVertices<S>{t[0].template cast<S>(), t[1].template cast<S>(),
+                                 t[2].template cast<S>()};
+    };
+    const auto p = held(truth.trianglesOfA()[static_cast<std::size_t>(ids.first)]);
+    const auto q = held(truth.trianglesOfB()[static_cast<std::size_t>(ids.second)]);
     scenes::TrianglePair exact;
     for (int k = 0; k < 3; ++k) {
       exact.a[k] = p[k].template cast<double>();

@@ -85,11 +85,11 @@ inline std::string text(const std::pair<int, int>& ids) {
 
 /// Returns the distance of a point and a triangle, both in the world, by the kernel.
 template <typename S>
-double distanceTo(const fcl::Vector3<S>& p, const TriangleVertices<S>& t,
+double distanceTo(const fcl::Vector3<S>& p, const TriangleVerticesd& t,
                   const fcl::Transform3<S>& X_W) {
   TriangleVertices<double> world;
   const fcl::Transform3d X = X_W.template cast<double>();
-  for (int k = 0; k < 3; ++k) world[k] = X * t[k].template cast<double>();
+  for (int k = 0; k < 3; ++k) world[k] = X * t[k];
   const Vector3d q = p.template cast<double>();
   return triangleDistance<double>({q, q, q}, world).distance;
 }

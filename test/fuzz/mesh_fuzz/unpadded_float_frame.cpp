@@ -10,16 +10,11 @@
 
 namespace kios::engine {
 
-template <typename S>
-bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<S>& X_AB,
+bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<double>& X_AB,
                   TreePose& out) {
   if (!makePaddedTreePose(a, b, X_AB, out)) return false;
   out.pad = out.box_pad = 0;
   return true;
 }
-
-template bool makeTreePose(const TreeRoot&, const TreeRoot&, const RelativePose<double>&,
-                           TreePose&);
-template bool makeTreePose(const TreeRoot&, const TreeRoot&, const RelativePose<float>&, TreePose&);
 
 }  // namespace kios::engine
