@@ -3,7 +3,7 @@
 #pragma once
 
 #include "linkage/configuration.h"
-#include "query/mesh_pair.h"
+#include "search/mesh_pair.h"
 #include "solid/mesh_and_other.h"
 #include "volume/rounding.h"
 
