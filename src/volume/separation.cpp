@@ -216,9 +216,11 @@ template <typename S>
 template <typename P>
 [[gnu::hot]] RelativePose<S>::RelativePose(const fcl::Transform3<P>& X_WA,
                                            const fcl::Transform3<P>& X_WB, double squared_errors) {
-  const fcl::Matrix3<S> inverse = X_WA.linear().transpose().template cast<S>();
+  static_assert(sizeof(S) >= sizeof(P), "a pose is widened, never rounded");
+  using Wide = S;
+  const fcl::Matrix3<S> inverse = X_WA.linear().transpose().template cast<Wide>();
   for (int j = 0; j < 3; ++j) {
-    R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j).template cast<S>());
+    R_.col(j) = detail::rotate<S>(inverse, X_WB.linear().col(j).template cast<Wide>());
   }
   // By the roundings of R^T R equal bodies at equal poses would miss each other. With I in its
   // place a coordinate of R x is off by the row of R^T R - I, 7 u |x| at most, and by no rounding:
@@ -228,7 +230,7 @@ template <typename P>
     R_.setIdentity();
   }
   T_ = detail::rotate<S>(
-      inverse, X_WB.translation().template cast<S>() - X_WA.translation().template cast<S>());
+      inverse, X_WB.translation().template cast<Wide>() - X_WA.translation().template cast<Wide>());
   computeBounds(squared_errors);
   if (!(bounds_.T_norm1 <= kMaxCoordinate<P>)) refuseTranslations(X_WA, X_WB);
 }
