@@ -164,7 +164,10 @@ TEST(LinkPairs, PairsThatAlwaysOverlapAreFoundAndIgnored) {
   EXPECT_FALSE(again.contact(q));
   robot.ignore(pairs);
   EXPECT_FALSE(robot.contact(q));
-  expectRefused([&] { robot.ignore({LinkPair{"a<", "e"}}); }, "'e'");
+  LinkPair other;
+  other.a = "a<";
+  other.b = "e";
+  expectRefused([&] { robot.ignore({other}); }, "'e'");
 }
 
 // The tip of a mesh reaches a ball at one angle only, which no sample finds.
