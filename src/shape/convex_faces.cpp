@@ -46,7 +46,7 @@ ConvexFaces::ConvexFaces(const Solid& solid) : solid_(solid) {
     }
     if (!(most > kLeastSquare)) continue;
     faces_.push_back(face);
-    normals.push_back(n / std::sqrt(most));
+    normals.emplace_back(n / std::sqrt(most));
   }
   if (faces_.empty()) return;
   while (faces_.size() % 8 != 0) {  // as PlaneRows asks
