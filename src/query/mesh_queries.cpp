@@ -17,32 +17,41 @@
 namespace kios {
 namespace {
 
-/// True only if the balls of the roots are proven farther apart than `margin`.
+/// True only if the balls of finished models' roots are proven farther apart than `margin`.
 template <typename S>
-bool ballsApart(const Mesh& a, const fcl::Transform3<S>& X_WA, const Mesh& b,
+bool ballsApart(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                 const fcl::Transform3<S>& X_WB, double squared_errors, double margin) {
-  return engine::ballsApart(a.center(), X_WA, b.center(), X_WB, a.radius() + b.radius(),
-                            squared_errors, margin);
+  const kIOS<S>&root_a = a.getBV(0).bv, &root_b = b.getBV(0).bv;
+  return engine::ballsApart(root_a.center0, X_WA, root_b.center0, X_WB,
+                            double{root_a.radius0} + double{root_b.radius0}, squared_errors,
+                            margin);
 }
 
-/// collideMeshes() of models that may touch, for all that their roots tell at once.
+/// collideMeshes() of models that may touch, for all that their roots tell at once. It stands apart
+/// so that pairs whose roots tell need no room for a frame: 10 % of their time.
 template <typename S>
-[[gnu::noinline, gnu::hot]] void collideNear(const MeshPair& frame, const Model<S>& a,
-                                             const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                                             const fcl::Transform3<S>& X_WB,
-                                             const fcl::CollisionRequest<S>& request,
-                                             fcl::CollisionResult<S>& result,
-                                             SearchCounts& counts) {
+[[gnu::noinline, gnu::hot]] std::size_t collideNear(
+    const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
+    const fcl::Transform3<S>& X_WB, double squared_errors, const fcl::CollisionRequest<S>& request,
+    fcl::CollisionResult<S>& result, SearchCounts* counts) {
+  const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB, squared_errors);  // may throw
+  if (request.num_max_contacts == 0) {                                     // FCL's answer
+    std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
+    return 0;
+  }
   const Reports<S> reports(a, b, request);
-  if (!reports.contacts && !reports.costs) return;
   const std::size_t room =
       request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
   const std::size_t limit = reports.costs ? std::numeric_limits<std::size_t>::max() : room;
-  if (limit == 0) return;
-  for (const auto& ids : searchContacts(frame, limit, counts)) {
+  if (request.isSatisfied(result) || limit == 0 || !(reports.contacts || reports.costs)) {
+    return result.numContacts();
+  }
+  SearchCounts unused;
+  for (const auto& ids : searchContacts(frame, limit, counts ? *counts : unused)) {
     addReports(reports, a, ids.a, frame.triangleA(ids.a), X_WA, b, ids.b, frame.triangleB(ids.b),
                X_WB, request, result);
   }
+  return result.numContacts();
 }
 
 }  // namespace
@@ -52,20 +61,13 @@ template <typename S>
                                        const Model<S>& b, const fcl::Transform3<S>& X_WB,
                                        const fcl::CollisionRequest<S>& request,
                                        fcl::CollisionResult<S>& result, SearchCounts* counts) {
-  const Mesh mesh_a = meshOf(a), mesh_b = meshOf(b);
+  requireFinished(a);
+  requireFinished(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
-  const bool done = request.num_max_contacts == 0 || request.isSatisfied(result);
-  if (done || !ballsApart(mesh_a, X_WA, mesh_b, X_WB, squared_errors, 0)) {
-    const MeshPair frame(mesh_a, X_WA, mesh_b, X_WB,
-                         squared_errors);  // throws where they can't tell
-    if (request.num_max_contacts == 0) {   // FCL's warning and answer
-      std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
-      return 0;
-    }
-    SearchCounts unused;
-    if (!done) collideNear(frame, a, X_WA, b, X_WB, request, result, counts ? *counts : unused);
+  if (request.num_max_contacts != 0 && ballsApart(a, X_WA, b, X_WB, squared_errors, 0)) {
+    return result.numContacts();
   }
-  return result.numContacts();
+  return collideNear(a, X_WA, b, X_WB, squared_errors, request, result, counts);
 }
 
 template <typename S>
@@ -74,7 +76,8 @@ template <typename S>
                               const fcl::DistanceRequest<S>& request,
                               fcl::DistanceResult<S>& result, SearchCounts* counts) {
   requireErrorBounds(request);
-  const Mesh mesh_a = meshOf(a), mesh_b = meshOf(b);
+  requireFinished(a);
+  requireFinished(b);
   const double squared_errors = squaredRotationErrors(X_WA, X_WB);
   engine::PairQuery query;
   query.rel_err = request.rel_err;
@@ -83,10 +86,9 @@ template <typename S>
   const bool bounded = result.min_distance < std::numeric_limits<S>::max();
   if (bounded) {  // as if a pair so far were found
     query.far_enough = query.cullDistance(result.min_distance);
-    if (ballsApart(mesh_a, X_WA, mesh_b, X_WB, squared_errors, query.far_enough))
-      return result.min_distance;
+    if (ballsApart(a, X_WA, b, X_WB, squared_errors, query.far_enough)) return result.min_distance;
   }
-  const MeshPair frame(mesh_a, X_WA, mesh_b, X_WB, squared_errors);
+  const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB, squared_errors);
   if (request.isSatisfied(result)) return result.min_distance;
   SearchCounts unused;
   const engine::PairAnswer answer = searchNearest(frame, query, counts ? *counts : unused);

@@ -72,13 +72,13 @@ template <typename S>
                               const fcl::Transform3<S>& X_WS, double squared_errors,
                               double margin) {
   const RootBody shape = rootOf(geometry);
-  const Mesh mesh = meshOf(model);
+  const kIOS<S>& root = model.getBV(0).bv;
   if (shape.form == RootBody::Form::kBox &&
-      engine::ballsApart(shape.center, X_WS, mesh.center(), X_WM, shape.radius + mesh.radius(),
-                         squared_errors, margin)) {
+      engine::ballsApart(shape.center, X_WS, root.center0, X_WM,
+                         shape.radius + double{root.radius0}, squared_errors, margin)) {
     return true;
   }
-  const engine::Tree& tree = mesh.tree();
+  const engine::Tree& tree = treeOf(model);
   if (tree.exponent != 0) return false;
   const Eigen::Map<const Vec> origin(tree.origin);
   const Eigen::Matrix3d R_SW = X_WS.linear().transpose().template cast<double>();
@@ -93,7 +93,7 @@ template <typename S>
   if (!(lengths > engine::kNearest && lengths < engine::kFarthest)) return false;
   X_SM.scale = lengths;
   X_SM.frame_error = 2 * X_SM.stretch * lengths + error_bounds::solidError(lengths);
-  return engine::rootBound(shape, engine::rootOf(mesh), X_SM, margin) > margin;
+  return engine::rootBound(shape, engine::rootOf(meshOf(model)), X_SM, margin) > margin;
 }
 
 KIOS_INSTANTIATE_FUNCTION(provenApart);

@@ -30,9 +30,9 @@ class BracketQuestion {
         pair_.X.template cast<double>(), pair_.Y.template cast<double>());
     // The oracle's signs are not exact for slivers: it counts where it agrees with the kernel as
     // far as the frame's rounding lets it.
-    const double apart = 16 * truth_.kEps * truth_.extentOf(truth_.nearest) +
+    const double apart = 16 * truth_.kEpsInDouble * truth_.extentOf(truth_.nearest) +
                          truth_.frameError(truth_.nearest.second);
-    if (std::abs(given - double{truth_.distance}) <= apart) given_ = given;
+    if (std::abs(given - truth_.in_double) <= apart) given_ = given;
   }
 
   Verdict brackets() {

@@ -27,6 +27,7 @@ class BruteForce {
  public:
   using Ids = std::pair<int, int>;
   static constexpr double kEps = std::numeric_limits<S>::epsilon();
+  static constexpr double kEpsInDouble = std::numeric_limits<double>::epsilon();  ///< the search's
   /// Below the scalar's normal numbers, results are rounded absolutely.
   static constexpr double kLeast = std::numeric_limits<S>::min();
 
@@ -35,14 +36,13 @@ class BruteForce {
       : X_AB(X_WA, X_WB), a_(trianglesOf(a)), b_in_b_(trianglesOf(b)), b_(b_in_b_) {
     for (auto& t : b_) t = {X_AB * t[0], X_AB * t[1], X_AB * t[2]};
     distances_.reserve(a_.size() * b_.size());
-    double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < a_.size(); ++i) {
       for (std::size_t j = 0; j < b_.size(); ++j) {
         const double d = triangleDistance(a_[i], b_[j]).distance;
         const Ids ids = {static_cast<int>(i), static_cast<int>(j)};
         distances_.push_back(testing::roundedAnswer<S>(d));
-        if (d < least) {
-          least = d;
+        if (d < in_double) {
+          in_double = d;
           distance = distances_.back();
           nearest = ids;
         }
@@ -76,7 +76,7 @@ class BruteForce {
       most = std::max(most, p.stableNorm());
     }
     const auto& bounds = detail::boundsOf(X_AB);
-    return 4 * 1.8 * kEps * ((1 + bounds.stretch) * most + bounds.T_norm1);
+    return 4 * 1.8 * kEpsInDouble * ((1 + bounds.stretch) * most + bounds.T_norm1);
   }
   const std::vector<S>& distances() const { return distances_; }
   const std::vector<TriangleVerticesd>& trianglesOfA() const { return a_; }
@@ -84,6 +84,7 @@ class BruteForce {
   const std::vector<TriangleVerticesd>& trianglesInB() const { return b_in_b_; }
 
   const RelativePosed X_AB;
+  double in_double = std::numeric_limits<double>::infinity();  ///< the distance before rounding
   S distance = 0;
   Ids nearest;  ///< the least ids at that distance
   std::vector<Ids> hits;
