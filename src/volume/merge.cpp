@@ -20,7 +20,9 @@ using lanes::Float4;
 template <typename S>
 bool before(const kIOS<S>& a, const kIOS<S>& b) {
   if (a.radius0 != b.radius0) return a.radius0 < b.radius0;
-  const auto order = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof(x)); };
+  const auto order = [](const auto& x, const auto& y) {
+    return std::memcmp(static_cast<const void*>(&x), static_cast<const void*>(&y), sizeof(x));
+  };
   for (const int by : {order(a.center0, b.center0), order(a.cap_x, b.cap_x),
                        order(a.cap_y, b.cap_y), order(a.cap_z, b.cap_z), order(a.cap_r, b.cap_r),
                        order(a.exponent, b.exponent), order(a.num_spheres, b.num_spheres)}) {
