@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -82,6 +83,21 @@ struct CarriedBody {
   static constexpr int kNever = -1;
 };
 
+struct Scratch;
+
+/// Memory of a search that ended, for the next one; whoever takes it has it alone. A copy is empty.
+class SpareScratch {
+ public:
+  SpareScratch() = default;
+  SpareScratch(const SpareScratch& /*other*/) {}
+  SpareScratch& operator=(const SpareScratch&) = delete;
+  ~SpareScratch();
+  std::unique_ptr<Scratch> exchange(std::unique_ptr<Scratch> by) const;
+
+ private:
+  mutable std::atomic<Scratch*> kept_{nullptr};
+};
+
 /// A linkage like another one, whose octrees were measured later. A copy is empty.
 class RenewedLinkage {
  public:
@@ -145,6 +161,8 @@ class Linkage::Impl {
   std::shared_ptr<const Impl> current() const;
   bool holdsCells() const;
   void measureOctrees();
+
+  articulated::SpareScratch spare;
 
   /// The number of moving joints that carry both links.
   int shared(int link_a, int link_b) const;

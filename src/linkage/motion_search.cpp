@@ -23,21 +23,19 @@ double middleOf(double from, double to) {
   return middle;
 }
 
-namespace {
+SpareScratch::~SpareScratch() { exchange(nullptr); }
 
-Scratch& scratchOfThread() {
-  thread_local Scratch scratch;
-  return scratch;
+std::unique_ptr<Scratch> SpareScratch::exchange(std::unique_ptr<Scratch> by) const {
+  return std::unique_ptr<Scratch>(kept_.exchange(by.release(), std::memory_order_acq_rel));
 }
-
-}  // namespace
 
 MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
     : path_(path),
       request_(request),
       queries_(path, request.min_separation, counts_),
       looks_for_touch_(!request.first_contact && request.min_separation == 0),
-      scratch_(scratchOfThread()),
+      own_(path.linkage().spare.exchange(nullptr)),
+      scratch_(own_ ? *own_ : *(own_ = std::make_unique<Scratch>())),
       cache_(scratch_.configurations),
       suspects_(scratch_.suspects),
       waiting_(scratch_.waiting) {
@@ -46,6 +44,8 @@ MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
   suspects_.clear();
   waiting_.clear();
 }
+
+MotionSearch::~MotionSearch() { path_.linkage().spare.exchange(std::move(own_)); }
 
 const Configuration& MotionSearch::at(double s) {
   for (std::size_t i = 0; i < cached_; ++i) {

@@ -43,7 +43,7 @@ struct MostUrgent {
 /// configuration.
 double middleOf(double from, double to);
 
-/// The memory of a search, which the thread's next one takes over.
+/// The memory of a search, which the next one takes over.
 struct Scratch {
   std::vector<Configuration> configurations;
   std::vector<Suspect> suspects;
@@ -60,6 +60,10 @@ struct Scratch {
 class MotionSearch {
  public:
   MotionSearch(const Path& path, const MotionRequest& request);
+  MotionSearch(const MotionSearch&) = delete;
+  ~MotionSearch();
+  MotionSearch& operator=(const MotionSearch&) = delete;
+
   MotionAnswer run();
 
  private:
@@ -122,6 +126,7 @@ class MotionSearch {
   MotionCounts counts_;
   const BodyQueries queries_;
   const bool looks_for_touch_;  ///< at single configurations, before intervals are looked at
+  std::unique_ptr<Scratch> own_;
   Scratch& scratch_;
   std::vector<Configuration>& cache_;
   std::size_t cached_ = 0, next_ = 0;  ///< configurations of this path; the one to be overwritten
