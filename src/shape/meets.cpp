@@ -10,7 +10,7 @@
 #include "shape/convex_faces.h"
 #include "shape/hull.h"
 #include "shape/polygon.h"
-#include "triangle/expansion.h"
+#include "triangle/twofold.h"
 #include "volume/rounding.h"
 
 namespace kios::shape {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "triangle/expansion.h"
+#include "triangle/twofold.h"
 #include "volume/rounding.h"
 
 namespace kios::shape {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "triangle/expansion.h"
+#include "triangle/twofold.h"
 
 namespace kios {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "triangle/expansion.h"
+#include "triangle/twofold.h"
 #include "triangle/scaled_origin.h"
 
 // Determinants of 3x3 matrices of differences, in the stages that exact predicates take.

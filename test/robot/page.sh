@@ -14,17 +14,7 @@ source "$here/../tools/browser.sh"
 mkdir -p "$dir"
 cd "$dir"
 
-cat >arm.urdf <<'END'
-<robot name="arm">
-  <link name="base"><collision><geometry><cylinder radius="0.15" length="0.1"/></geometry></collision></link>
-  <link name="upper"><collision><origin xyz="0 0 0.2"/><geometry><capsule radius="0.06" length="0.3"/></geometry></collision></link>
-  <link name="lower"><collision><origin xyz="0 0 0.25"/><geometry><box size="0.07 0.09 0.3"/></geometry></collision></link>
-  <link name="tool"><collision><geometry><sphere radius="0.06"/></geometry></collision></link>
-  <joint name="turn" type="continuous"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.12"/><axis xyz="0 0 1"/></joint>
-  <joint name="elbow" type="revolute"><parent link="upper"/><child link="lower"/><origin xyz="0 0 0.45"/><axis xyz="0 1 0"/><limit lower="-2.5" upper="2.5"/></joint>
-  <joint name="hold" type="fixed"><parent link="lower"/><child link="tool"/><origin xyz="0 0 0.45"/></joint>
-</robot>
-END
+cp "$here/arm.urdf" .
 cat >scene.yaml <<'END'
 name: page
 world:

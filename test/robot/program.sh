@@ -7,18 +7,11 @@
 set -euo pipefail
 
 robot=$(realpath "$1") dir=$2
+here=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$dir"
 mkdir -p "$dir"
 cd "$dir"
-cat >arm.urdf <<'END'
-<robot name="arm">
-  <link name="base"><collision><geometry><cylinder radius="0.15" length="0.1"/></geometry></collision></link>
-  <link name="upper"><collision><origin xyz="0 0 0.2"/><geometry><capsule radius="0.06" length="0.3"/></geometry></collision></link>
-  <link name="tool&lt;"><collision><origin xyz="0 0 0.3"/><geometry><sphere radius="0.06"/></geometry></collision></link>
-  <joint name="turn" type="continuous"><parent link="base"/><child link="upper"/><origin xyz="0 0 0.12"/><axis xyz="0 0 1"/></joint>
-  <joint name="elbow" type="revolute"><parent link="upper"/><child link="tool&lt;"/><origin xyz="0 0 0.45"/><axis xyz="0 1 0"/><limit lower="-2.9" upper="2.9"/></joint>
-</robot>
-END
+sed 's:"tool":"tool\&lt;":' "$here/arm.urdf" >arm.urdf  # a name that XML escapes
 cat >scene.yaml <<'END'
 name: page
 world:
@@ -62,8 +55,7 @@ expect 1 'contact of' contact "${scene[@]}" --at 0.785,1.2
 expect 0 'to obstacles: ' clearance "${scene[@]}" --at 3,0.5
 expect 1 'contact: ' motion "${scene[@]}" --from 0,1.2 --to 2,1.2 --first
 expect 0 'clear, all along' motion "${scene[@]}" --path plan.txt
-sed 's:arm_folder/::' arm.urdf |
-  sed 's:<sphere radius="0.06"/>:<mesh filename="package\://arm_folder/tool.stl"/>:' >meshes.urdf
+sed 's:<sphere radius="0.06"/>:<mesh filename="package\://arm_folder/tool.stl"/>:' arm.urdf >meshes.urdf
 expect 2 "the folder of 'arm_folder' by --package NAME=FOLDER" contact meshes.urdf
 
 "$robot" pairs arm.urdf --to-srdf >arm.srdf

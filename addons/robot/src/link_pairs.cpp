@@ -82,7 +82,10 @@ std::vector<LinkPair> Robot::linkPairs(const PairOptions& options) const {
 }
 
 void Robot::ignore(const std::vector<LinkPair>& pairs) {
-  for (const LinkPair& pair : pairs) impl_->requireLink(pair.a), impl_->requireLink(pair.b);
+  for (const LinkPair& pair : pairs) {
+    impl_->requireLink(pair.a);
+    impl_->requireLink(pair.b);
+  }
   for (const LinkPair& pair : pairs) {
     const bool ignored =
         pair.verdict == PairVerdict::kAlways || pair.verdict == PairVerdict::kNever;
@@ -102,7 +105,11 @@ std::string toSrdf(const std::vector<LinkPair>& pairs, const std::string& robot)
                                  : c == '\t' ? "&#9;"
                                  : c == '\r' ? "&#13;"
                                              : nullptr;
-      entity ? text += entity : text += c;
+      if (entity) {
+        text += entity;
+      } else {
+        text += c;
+      }
     }
     return text;
   };
