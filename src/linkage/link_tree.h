@@ -116,8 +116,8 @@ class RenewedLinkage {
 
 /// A proven lower bound of the distance of two shapes, of which one is bounded at least: GJK
 /// proposes a direction, and the slab across it, as wide as the shapes' supports leave it, is the
-/// bound, whatever GJK got wrong. Negative if no slab was
-/// found. Off by rounding alone, which is below 2^-46 of the lengths from the world's origin.
+/// bound, whatever GJK got wrong. Negative if no slab was found. Off by rounding alone, which is
+/// below 2^-46 of the lengths from the world's origin.
 /// `direction`, if given, is set to the slab's, from a to b in the world, if both are bounded.
 double shapeGap(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
                 const fcl::Transform3d& X_WB, fcl::Vector3d* direction = nullptr);
