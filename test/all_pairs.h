@@ -53,15 +53,18 @@ S roundedAnswer(double distance) {
 struct AllPairs {
   using Ids = std::pair<int, int>;
 
-  AllPairs(const Triangles& a, Triangles b, const RelativePosed& X_AB) {
+  AllPairs(Triangles of_a, Triangles of_b, const RelativePosed& X_AB)
+      : a(std::move(of_a)), b(std::move(of_b)) {
     for (auto& q : b) q = {X_AB * q[0], X_AB * q[1], X_AB * q[2]};
+    distances.reserve(a.size() * b.size());
     for (int i = 0; i < static_cast<int>(a.size()); ++i) {
       for (int j = 0; j < static_cast<int>(b.size()); ++j) {
         const double d = triangleDistance(a[i], b[j]).distance;
+        distances.push_back(d);
         if (d < distance) {
           distance = d;
           nearest = {i, j};
-          extent = extentOf(a[i], b[j]);
+          extent = extentOf(nearest);
         }
         if (trianglesIntersect(a[i], b[j])) hits.emplace_back(i, j);
       }
@@ -72,7 +75,22 @@ struct AllPairs {
   S rounded() const {
     return roundedAnswer<S>(distance);
   }
+  bool contains(const Ids& ids) const {
+    return ids.first >= 0 && ids.first < static_cast<int>(a.size()) && ids.second >= 0 &&
+           ids.second < static_cast<int>(b.size());
+  }
+  double distanceOf(const Ids& ids) const {
+    return distances[static_cast<std::size_t>(ids.first) * b.size() +
+                     static_cast<std::size_t>(ids.second)];
+  }
+  /// Returns L of the contract.
+  double extentOf(const Ids& ids) const {
+    return testing::extentOf(a[static_cast<std::size_t>(ids.first)],
+                             b[static_cast<std::size_t>(ids.second)]);
+  }
 
+  Triangles a, b;                 ///< in A
+  std::vector<double> distances;  ///< [a][b]
   double distance = std::numeric_limits<double>::infinity();
   Ids nearest{-1, -1};  ///< the least ids at that distance
   double extent = 0;    ///< of that pair

@@ -14,8 +14,7 @@ template <typename S>
 Verdict kernels(const Case& c) {
   Random random(c.draw);
   const BruteForce<S> truth(c.meshes[0], c.pose(0).cast<S>(), c.meshes[1], c.pose(1).cast<S>());
-  const int a = static_cast<int>(truth.trianglesOfA().size()),
-            b = static_cast<int>(truth.trianglesOfB().size());
+  const int a = static_cast<int>(truth.a.size()), b = static_cast<int>(truth.b.size());
   for (int i = 0; i < std::min(a * b, 6); ++i) {
     const std::pair<int, int> ids =
         i == 0 ? truth.nearest : std::pair<int, int>{below(random, a), below(random, b)};
@@ -23,8 +22,8 @@ Verdict kernels(const Case& c) {
       return TriangleVertices<S>{t[0].template cast<S>(), t[1].template cast<S>(),
                                  t[2].template cast<S>()};
     };
-    const auto p = held(truth.trianglesOfA()[static_cast<std::size_t>(ids.first)]);
-    const auto q = held(truth.trianglesOfB()[static_cast<std::size_t>(ids.second)]);
+    const auto p = held(truth.a[static_cast<std::size_t>(ids.first)]);
+    const auto q = held(truth.b[static_cast<std::size_t>(ids.second)]);
     scenes::TrianglePair exact;
     for (int k = 0; k < 3; ++k) {
       exact.a[k] = p[k].template cast<double>();

@@ -103,7 +103,7 @@ std::optional<std::string> faultOfPoints(const BruteForce<S>& truth, const std::
                                          S distance, const fcl::Transform3<S>& X_WA,
                                          const fcl::Transform3<S>& X_WB) {
   if (!p.allFinite() || !q.allFinite()) return "points that are not finite";
-  const auto& a = truth.trianglesOfA()[static_cast<std::size_t>(ids.first)];
+  const auto& a = truth.a[static_cast<std::size_t>(ids.first)];
   const auto& b = truth.trianglesInB()[static_cast<std::size_t>(ids.second)];
   double most = 0;
   for (const auto& v : a) most = std::max(most, v.template cast<double>().stableNorm());
