@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "triangle/twofold.h"
 #include "triangle/scaled_origin.h"
+#include "triangle/twofold.h"
 
 // Determinants of 3x3 matrices of differences, in the stages that exact predicates take.
 
