@@ -30,7 +30,7 @@ class BuildByCMake(build_ext):
         for command in (
                 ["cmake", "--preset", "library", "-B", built, "-DBUILD_SHARED_LIBS=OFF",
                  "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", "-DFCL_KIOS_BUILD_PYTHON=ON",
-                 "-DFCL_KIOS_PYTHON_DIR=.", f"-DCMAKE_INSTALL_PREFIX={prefix}",
+                 "-DFCL_KIOS_BUILD_ROBOT=AUTO", "-DFCL_KIOS_PYTHON_DIR=.", f"-DCMAKE_INSTALL_PREFIX={prefix}",
                  f"-DPython3_EXECUTABLE={sys.executable}", *pybind11_dir()],
                 ["cmake", "--build", built, "--target", "fcl_kios_python", "-j",
                  os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", jobs.stdout.strip())],

@@ -3,7 +3,7 @@
 #
 # How libfcl aligns Eigen's types, which -mavx, -march or EIGEN_DONT_ALIGN in a consumer's flags would
 # change: FCL's structs would then have other offsets on its side. Measured with the options that
-# FCL's target hands on, without those of this build; fcl_kios/compiler.h compares.
+# FCL's target hands on, without those of this build; fcl_kios/detail/compiler.h compares.
 if(NOT DEFINED FCL_KIOS_EIGEN_ALIGNMENT)
   string(REGEX REPLACE "(^| )-(m(arch|cpu|tune|avx|fma|sse)|DEIGEN_)[^ ]*" " " flags
     "${CMAKE_CXX_FLAGS}")

@@ -58,7 +58,6 @@ int main(int argc, char** argv) {
   }
   const auto torus = shapes::bumpyTorus<double>(1, 0.35, 48, 20);
   const auto mesh = kios::makeModel(torus.vertices, torus.triangles);
-  kios::prepare(*mesh);  // or the first query does it
 
   std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
   fcl::DynamicAABBTreeCollisionManagerd manager;

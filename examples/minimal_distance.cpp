@@ -29,9 +29,9 @@ int main() {
             << result.nearest_points[1].transpose().format(row) << ")\n";
 
   // A bracket of the distance, good to a tenth, and a question that needs no distance.
-  kios::DistanceOptionsd options;
+  kios::DistanceBracketRequestd options;
   options.rel_err = 0.1;
-  const auto answer = kios::distance(*mesh, at_origin, *mesh, aside, options);
+  const auto answer = kios::distanceBracket(*mesh, at_origin, *mesh, aside, options);
   std::cout << "proven to lie in [" << answer.lower_bound << ", " << answer.upper_bound << "]\n"
             << "nearer than 0.5: "
             << (kios::closerThan(*mesh, at_origin, *mesh, aside, 0.5) ? "yes" : "no") << '\n';

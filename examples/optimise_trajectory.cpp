@@ -8,7 +8,7 @@
 // Writes path, s, x, y, angle, then clearance and its slope by s: the smooth minimum over k-IOS,
 // the plain minimum, and the minimum over FCL's RSS at the same
 // level of its tree. scripts/plot draws it.
-#include <fcl_kios/clearance/clearance.h>
+#include <fcl_kios/clearance.h>
 
 #include <algorithm>
 #include <array>

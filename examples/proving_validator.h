@@ -23,7 +23,7 @@ inline Eigen::VectorXd coordinates(const ompl::base::SpaceInformation& si,
 class ProvingValidator : public ompl::base::MotionValidator {
  public:
   using State = ompl::base::State;
-  using Proof = std::function<kios::MotionAnswer(
+  using Proof = std::function<kios::MotionResult(
       const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, const kios::MotionRequest& request)>;
 
   ProvingValidator(const ompl::base::SpaceInformationPtr& si, Proof proof)

@@ -115,7 +115,7 @@ kios::Linkage linkageOf(const std::vector<Part>& parts) {
   for (std::size_t a = 0; a < parts.size(); ++a) {
     for (std::size_t b = a + 1; b < parts.size(); ++b) {
       if (adjacent(parts[a].link, parts[b].link)) {
-        linkage.allow(static_cast<int>(a), static_cast<int>(b));
+        linkage.ignorePair(static_cast<int>(a), static_cast<int>(b));
       }
     }
   }

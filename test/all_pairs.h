@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/model.h"
+#include "fcl_kios/triangle.h"
+#include "fcl_kios/volume.h"
 #include "shapes.h"
 
 // The triangle kernels over all pairs of triangles, whose answer every search must find.

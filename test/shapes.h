@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 #include "scenes/cad_shapes.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/clearance/clearance.h"
+#include "fcl_kios/clearance.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <limits>
 #include <utility>
 
-#include "clearance/exact_pair.h"
-#include "fcl_kios/build/fit.h"
+#include "clearance/nearest_pair.h"
+#include "fcl_kios/volume.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
@@ -253,7 +253,8 @@ Clearance smoothClearance(const Cover<S>& a, const Cover<S>& b, const RelativePo
   return result;
 }
 
-KIOS_INSTANTIATE_CLASS(Cover);
+template class Cover<double>;
+template class Cover<float>;
 KIOS_INSTANTIATE_FUNCTION(minimumClearance);
 KIOS_INSTANTIATE_FUNCTION(smoothClearance);
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/clearance/exact_distance.h"
+#include "fcl_kios/clearance.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "clearance/exact_pair.h"
 #include "clearance/nearest_pair.h"
 #include "volume/error_bounds.h"
 #include "volume/errors.h"

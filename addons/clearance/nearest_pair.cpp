@@ -21,7 +21,8 @@ namespace {
 
 /// Holds up to four differences z = y - x of points x of a and y of b, as in the algorithm of
 /// Gilbert, Johnson and Keerthi. Their convex hull is part of the set of all differences, which
-/// contains the origin if and only if the bodies meet.
+/// contains the origin if and only if the bodies meet. By the simplex of shapes, which drops flat
+/// tetrahedra, brackets of very uneven volumes stayed open by up to 1e-2 (exact_distance_test).
 class Simplex {
  public:
   /// Drops what does not hold the nearest point first; a full simplex around the origin stays.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "clearance/sphere_intersection.h"
+#include "fcl_kios/clearance.h"
 
 namespace kios::exact {
 
@@ -21,5 +22,10 @@ struct NearestPair {
 /// b sits at R x + offset, offset the vector between the S0 centres in frame A, a finite length.
 NearestPair nearestPair(const SphereIntersection& a, const SphereIntersection& b, const Matrix3d& R,
                         const Vector3d& offset);
+
+/// exactDistance() of volumes that aren't empty and whose bodies were made before.
+template <typename S>
+ExactDistance exactDistance(const kIOS<S>& a, const SphereIntersection& body_a, const kIOS<S>& b,
+                            const SphereIntersection& body_b, const RelativePose<S>& X_AB);
 
 }  // namespace kios::exact

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #include "volume/balls.h"
 
 namespace kios::exact {

@@ -15,6 +15,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <fstream>
 #include <new>
@@ -29,7 +30,8 @@ namespace {
 struct Soup {
   std::vector<char> error;
   std::vector<fcl::Vector3d> vertices;
-  std::vector<std::uint32_t> faces;  ///< a number of corners, the corners
+  std::vector<std::uint32_t> faces;  ///< a number of corners, the corners, the object
+  std::vector<char> objects;         ///< names, each with a 0 behind
   std::vector<char> parts;           ///< one each
 
   template <typename Function>
@@ -37,11 +39,12 @@ struct Soup {
     function(error);
     function(vertices);
     function(faces);
+    function(objects);
     function(parts);
   }
 };
 
-void append(const aiMesh& part, const Eigen::Affine3d& X, Soup& soup) {
+void append(const aiMesh& part, const Eigen::Affine3d& X, std::uint32_t object, Soup& soup) {
   const auto first = static_cast<std::uint32_t>(soup.vertices.size());
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& p = part.mVertices[i];
@@ -55,6 +58,7 @@ void append(const aiMesh& part, const Eigen::Affine3d& X, Soup& soup) {
       const unsigned k = face.mIndices[mirrored ? face.mNumIndices - 1 - c : c];
       soup.faces.push_back(k < part.mNumVertices ? first + k : UINT32_MAX);
     }
+    soup.faces.push_back(object);
   }
   soup.parts.push_back(1);
 }
@@ -71,6 +75,7 @@ void import(const std::string& file, Soup& soup) {
         soup.error.begin(), soup.error.end(), [](unsigned char c) { return c < ' '; }, ' ');
     return;
   }
+  std::uint32_t object = 0;
   std::vector<std::pair<const aiNode*, Eigen::Affine3d>> waiting;
   waiting.emplace_back(scene->mRootNode, Eigen::Affine3d::Identity());
   while (!waiting.empty()) {
@@ -80,7 +85,12 @@ void import(const std::string& file, Soup& soup) {
     using Rows = Eigen::Matrix<float, 4, 4, Eigen::RowMajor>;
     const Eigen::Affine3d X = X_P * Eigen::Affine3d(Eigen::Map<const Rows>(&m.a1).cast<double>());
     for (unsigned i = 0; i < node->mNumMeshes; ++i) {
-      append(*scene->mMeshes[node->mMeshes[i]], X, soup);
+      append(*scene->mMeshes[node->mMeshes[i]], X, object, soup);
+    }
+    if (node->mNumMeshes > 0) {
+      const char* const name = node->mName.C_Str();
+      soup.objects.insert(soup.objects.end(), name, name + std::strlen(name) + 1);
+      ++object;
     }
     for (unsigned i = node->mNumChildren; i-- > 0;) waiting.emplace_back(node->mChildren[i], X);
   }
@@ -180,9 +190,15 @@ Mesh readOther(const Input& input) {
   mesh.vertices = std::move(soup.vertices);
   mesh.parts = static_cast<int>(soup.parts.size());
   Faces faces(input);
-  for (std::size_t i = 0; i < soup.faces.size();) {
+  for (const char *name = soup.objects.data(), *const end = name + soup.objects.size(); name < end;
+       name += std::strlen(name) + 1) {
+    faces.beginObject(name);
+  }
+  // The process sends whole faces, each followed by its object.
+  for (std::size_t i = 0; i < soup.faces.size(); ++i) {
+    const std::size_t end = std::min<std::size_t>(i + 1 + soup.faces[i], soup.faces.size() - 1);
+    faces.resumeObject(static_cast<int>(soup.faces[end]));
     faces.begin(nullptr);
-    const std::size_t end = std::min<std::size_t>(i + 1 + soup.faces[i], soup.faces.size());
     while (++i < end) faces.add(soup.faces[i]);
   }
   Eigen::AlignedBox3d box;

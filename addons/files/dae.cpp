@@ -240,6 +240,16 @@ class Dae {
 
   void placeNode(const XMLElement& node, Eigen::Affine3d X, int depth) {
     if (depth > 100) fail(node, "is a hundred nodes deep, perhaps in a circle.");
+    int object = -1;
+    const auto place = [&](const XMLElement& geometry) {
+      if (object < 0) {
+        const char* const name =
+            node.Attribute("name") ? node.Attribute("name") : node.Attribute("id");
+        object = faces_.beginObject(name ? name : "");
+      }
+      faces_.resumeObject(object);
+      placeGeometry(geometry, X);
+    };
     grow(node, 64);
     for (const XMLElement* c = node.FirstChildElement(); c; c = c->NextSiblingElement()) {
       const auto numbers = [&](std::size_t n) { return parse<double>(*c, c->GetText(), n); };
@@ -261,13 +271,13 @@ class Dae {
       } else if (is(*c, "instance_node")) {
         placeNode(target(*c, "url", "node"), X, depth + 1);
       } else if (is(*c, "instance_geometry")) {
-        placeGeometry(target(*c, "url", "geometry"), X);
+        place(target(*c, "url", "geometry"));
       } else if (is(*c, "instance_controller")) {  // the mesh as it was bound
         const XMLElement& controller = target(*c, "url", "controller");
         const XMLElement* const kind =
             controller.FirstChildElement(controller.FirstChildElement("skin") ? "skin" : "morph");
         if (!kind) fail(controller, "needs a <skin> or a <morph>.");
-        placeGeometry(target(*kind, "source", "geometry"), X);
+        place(target(*kind, "source", "geometry"));
         ++left_out_[kind->Name()];
       }
     }

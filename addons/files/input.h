@@ -28,6 +28,9 @@ struct Input {
 /// A part of a file between quotation marks, cut short, of characters that can be printed.
 std::string quoted(std::string_view part);
 
+/// The length of the character of UTF-8 that begins a text, negative for controls; 0 if none does.
+int lengthOfCharacter(std::string_view text);
+
 /// Reads a number, whatever the locale; returns where it ends, null if it isn't a finite one. What
 /// is too small for a double is 0.
 const char* parseNumber(const char* at, const char* end, double& x);
@@ -49,6 +52,8 @@ class Text {
   void nextLine();
   /// The next word of the line, which is empty at its end.
   std::string_view word();
+  /// The words to the line's end, with a blank between two; the comment's sign is a letter.
+  std::string name();
   double number();
   long long integer();
   std::size_t count();
@@ -68,6 +73,7 @@ class Text {
 
   const Input& input_;
   const char* at_;
+  const char comment_;
   std::array<Kind, 256> kinds_{};
 };
 
@@ -77,8 +83,11 @@ class Faces {
   /// `base`: the number of the first vertex in the file.
   explicit Faces(const Input& input, int base = 0) : input_(input), base_(base) {}
 
+  /// Polygons from here on are an object's: a new one's, or that of a number returned before.
+  int beginObject(const std::string& name);
+  void resumeObject(int object) { object_ = object; }
   /// Begins a polygon; its place, null where the file has no lines.
-  void begin(const char* at) { faces_.emplace_back(corners_.size(), at); }
+  void begin(const char* at) { faces_.push_back({corners_.size(), at, object_}); }
   void add(long long vertex) { corners_.push_back(vertex); }
   /// Appends the triangles, and warnings. Refuses vertices that aren't there, and a mesh without
   /// triangles.
@@ -86,8 +95,15 @@ class Faces {
 
  private:
   const Input& input_;
+  struct Face {
+    std::size_t first;
+    const char* at;
+    int object;
+  };
   int base_;
-  std::vector<std::pair<std::size_t, const char*>> faces_;
+  int object_ = -1;
+  std::vector<std::string> objects_;
+  std::vector<Face> faces_;
   std::vector<long long> corners_;
 };
 

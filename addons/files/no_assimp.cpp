@@ -6,8 +6,8 @@ namespace kios::files {
 
 Mesh readOther(const Input& input) {
   input.refuse(nullptr,
-               "names that end in .stl, .obj, .off and .ply are read; others need assimp, "
-               "without which this was built (Debian: libassimp-dev).");
+               "it is of no kind that is read without assimp; convert it to one that ends in "
+               ".stl, .obj, .off or .ply.");
 }
 
 }  // namespace kios::files

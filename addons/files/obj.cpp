@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iterator>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -47,7 +48,8 @@ Mesh readObj(const Input& input) {
   Faces faces(input, 1);
   std::string names[3];         // of object, group and material
   std::set<std::string> parts;  // those that have faces
-  bool same_part = false;
+  bool same_part = false, has_objects = false;
+  std::map<std::string, int> groups;  // which may go on later, as objects don't
   std::size_t weights = 0, unknown = 0;
   std::string first_unknown;
   std::vector<long long> ends;  // of lines, and points
@@ -74,10 +76,18 @@ Mesh readObj(const Input& input) {
         ends.push_back(readCorner(input, text.word(), mesh.vertices.size()));
       }
     } else if (key == "o" || key == "g" || key == "usemtl") {
-      std::string& name = names[key == "o" ? 0 : key == "g" ? 1 : 2];
-      name.clear();
-      while (!text.lineEnded()) name.append(text.word()) += ' ';
+      const std::string& name = names[key == "o" ? 0 : key == "g" ? 1 : 2] = text.name();
       same_part = false;
+      if (key == "usemtl" || (key == "g" && has_objects)) continue;
+      has_objects = key == "o";
+      const auto group = groups.find(name);
+      if (has_objects) {
+        faces.beginObject(name);
+      } else if (group != groups.end()) {
+        faces.resumeObject(group->second);
+      } else {
+        groups[name] = faces.beginObject(name);
+      }
     } else if (!isOfLooks(key) && ++unknown == 1) {
       first_unknown = input.sentence(line, quoted(key));
     }

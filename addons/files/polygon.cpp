@@ -105,15 +105,25 @@ bool triangulate(const Input& input, const char* place, const std::vector<fcl::V
 
 }  // namespace
 
+int Faces::beginObject(const std::string& name) {
+  // What came before the first has no name.
+  if (objects_.empty() && !faces_.empty()) objects_.emplace_back();
+  objects_.push_back(name);
+  return object_ = static_cast<int>(objects_.size()) - 1;
+}
+
 void Faces::finish(Mesh& mesh) {
   std::vector<long long> polygon;
   std::string crossing;
   std::size_t crossings = 0;
   mesh.triangles.reserve(mesh.triangles.size() + faces_.size());
   const auto vertices = static_cast<long long>(mesh.vertices.size());
+  int object = 0;
   for (std::size_t i = 0; i < faces_.size(); ++i) {
+    mesh.object_of.resize(objects_.empty() ? 0 : mesh.triangles.size(), object);
     const std::size_t begin = faces_[i].first;
-    const char* const at = faces_[i].second;
+    const char* const at = faces_[i].at;
+    object = std::max(faces_[i].object, 0);
     const std::size_t end = i + 1 < faces_.size() ? faces_[i + 1].first : corners_.size();
     for (std::size_t c = begin; c < end; ++c) {
       if (0 <= corners_[c] && corners_[c] < vertices) continue;
@@ -139,6 +149,8 @@ void Faces::finish(Mesh& mesh) {
       crossing = input_.sentence(at, "face " + std::to_string(i));
     }
   }
+  mesh.object_of.resize(objects_.empty() ? 0 : mesh.triangles.size(), object);
+  mesh.objects = objects_;
   if (mesh.other_faces > 0) {
     mesh.warnings.push_back(input_.sentence(
         nullptr, counted(mesh.other_faces, "point or line", "points or lines") + " left out."));

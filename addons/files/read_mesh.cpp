@@ -66,7 +66,10 @@ std::string contentOf(const std::string& file, std::size_t most) {
 }
 
 Mesh readMesh(const std::string& file) {
-  std::string content = contentOf(file, std::size_t{1} << 32);
+  return readMesh(file, contentOf(file, std::size_t{1} << 32));
+}
+
+Mesh readMesh(const std::string& file, std::string content) {
   content += '\n';
   const Input input{file, std::string_view(content).substr(0, content.size() - 1)};
   std::string kind = std::filesystem::path(file).extension().string();

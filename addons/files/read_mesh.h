@@ -18,8 +18,12 @@ struct Mesh {
   std::vector<fcl::Vector3d> vertices;
   std::vector<fcl::Triangle> triangles;  ///< in the file's order; polygons are triangulated
   int parts = 0;                         ///< meshes, each counted as often as it is placed
-  std::size_t other_faces = 0;           ///< points and lines, left out
-  std::vector<std::string> warnings;     ///< a sentence for all that was left out or looks cut off
+  /// Nodes that hold meshes, objects of an OBJ or else groups, as the file names them; none where
+  /// it has none.
+  std::vector<std::string> objects;
+  std::vector<int> object_of;         ///< of each triangle; empty without objects
+  std::size_t other_faces = 0;        ///< points and lines, left out
+  std::vector<std::string> warnings;  ///< a sentence for all that was left out or looks cut off
 };
 
 /// A file that isn't there, is a directory or can't be opened.
@@ -37,6 +41,8 @@ std::string contentOf(const std::string& file, std::size_t most);
 /// others by assimp in floats, where it is there, in a process of its own. Throws as contentOf(),
 /// and std::invalid_argument for what is no mesh, with a sentence that begins with file and line.
 Mesh readMesh(const std::string& file);
+/// Reads what a file of that name would hold, of those five kinds.
+Mesh readMesh(const std::string& file, std::string content);
 
 /// Makes vertices of equal coordinates one, the first; triangles keep their order.
 void weld(Mesh& mesh);

@@ -34,7 +34,7 @@ void Input::refuse(const char* at, const std::string& what) const {
 }
 
 Text::Text(const Input& input, char comment, bool continued)
-    : input_(input), at_(input.content.data()) {
+    : input_(input), at_(input.content.data()), comment_(comment) {
   kinds_[' '] = kinds_['\t'] = kinds_['\v'] = kinds_['\f'] = kBlank;
   kinds_['\n'] = kinds_['\r'] = kBreak;
   if (continued) kinds_['\\'] = kContinued;
@@ -77,6 +77,33 @@ std::string_view Text::word() {
   do ++at_;
   while (kind(*at_) == kWord);
   return {begin, static_cast<std::size_t>(at_ - begin)};
+}
+
+std::string Text::name() {
+  Kind& kind_of_comment = kinds_[static_cast<unsigned char>(comment_)];
+  const Kind kept = std::exchange(kind_of_comment, kWord);
+  std::string name;
+  while (!lineEnded()) name.append(name.empty() ? "" : " ").append(word());
+  kind_of_comment = kept;
+  return name;
+}
+
+int lengthOfCharacter(std::string_view text) {
+  const auto byte = [&](int i) {
+    return static_cast<unsigned char>(text[static_cast<std::size_t>(i)]);
+  };
+  if (byte(0) < 0x80) return byte(0) < ' ' || byte(0) == 0x7f ? -1 : 1;
+  const int length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
+  if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < static_cast<std::size_t>(length)) return 0;
+  int code = byte(0) & (0x7f >> length);
+  for (int i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return 0;
+    code = code << 6 | (byte(i) & 0x3f);
+  }
+  constexpr int kLeast[] = {0x80, 0x800, 0x10000};
+  if (code < kLeast[length - 2] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return 0;
+  const bool control = code < 0xa0 || code == 0x2028 || code == 0x2029;  // two break lines
+  return control ? -length : length;
 }
 
 const char* parseNumber(const char* at, const char* end, double& x) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <cstddef>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -12,28 +12,7 @@
 namespace kios::inspect {
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
-
-/// Returns for each vertex the number of its coordinates, from 0, in lexicographic order (-0 = +0).
-std::pair<std::vector<std::uint32_t>, std::size_t> weld(const Mesh& mesh,
-                                                        const std::vector<bool>& used) {
-  const auto less = [&](std::uint32_t a, std::uint32_t b) {
-    const fcl::Vector3d &p = mesh.vertices[a], &q = mesh.vertices[b];
-    return std::tie(p[0], p[1], p[2]) < std::tie(q[0], q[1], q[2]);
-  };
-  std::vector<std::uint32_t> order;
-  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i) {
-    if (used[i]) order.push_back(i);
-  }
-  std::sort(order.begin(), order.end(), less);
-  std::vector<std::uint32_t> welded(mesh.vertices.size());
-  std::uint32_t count = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i > 0 && less(order[i - 1], order[i])) ++count;
-    welded[order[i]] = count;
-  }
-  return {std::move(welded), order.empty() ? 0 : count + 1};
-}
+using Corners = std::array<std::size_t, 3>;
 
 /// Returns the height over the longest edge, in units of it; 0 if all corners coincide.
 double relativeHeight(const fcl::Vector3d& a, const fcl::Vector3d& b, const fcl::Vector3d& c) {
@@ -79,13 +58,16 @@ Defects findDefects(const Mesh& mesh) {
   for (const fcl::Triangle& t : mesh.triangles) used[t[0]] = used[t[1]] = used[t[2]] = true;
   result.unreferenced = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
 
-  const auto [welded, distinct] = weld(mesh, used);
-  result.distinct_vertices = distinct;
+  Mesh welded = mesh;
+  files::weld(welded);
+  std::vector<bool> distinct(welded.vertices.size());
   std::vector<Corners> corners;
   corners.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const fcl::Triangle& t = mesh.triangles[i];
-    corners.push_back({welded[t[0]], welded[t[1]], welded[t[2]]});
+    const fcl::Triangle& w = welded.triangles[i];
+    corners.push_back({w[0], w[1], w[2]});
+    distinct[w[0]] = distinct[w[1]] = distinct[w[2]] = true;
     const double height =
         relativeHeight(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
     if (height <= kRounding) {
@@ -94,6 +76,8 @@ Defects findDefects(const Mesh& mesh) {
       if (result.slivers++ == 0) result.first_sliver = i;
     }
   }
+  result.distinct_vertices =
+      static_cast<std::size_t>(std::count(distinct.begin(), distinct.end(), true));
   result.surface = inspectClosedness<double>(mesh.vertices, mesh.triangles);
   countDuplicates(std::move(corners), result);
   return result;
@@ -120,7 +104,7 @@ std::vector<std::string> warnings(const Mesh& mesh, const Defects& defects) {
     result.push_back(std::to_string(defects.unreferenced) + " of " +
                      std::to_string(mesh.vertices.size()) + " vertices in no triangle");
   }
-  const Closednessd& surface = defects.surface;
+  const Closedness& surface = defects.surface;
   if (surface.branching_edges > 0) {
     const auto n = static_cast<std::size_t>(surface.branching_edges);
     result.push_back(counted(n, "edge", "edges") + " of more than two triangles");

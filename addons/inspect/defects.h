@@ -5,12 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/solid/closedness.h"
-#include "mesh.h"
+#include "fcl_kios/solids.h"
+#include "files/read_mesh.h"
 
 namespace kios::inspect {
 
-/// Is a triangle whose height over its longest edge is below this part of that edge is a sliver.
+using files::Mesh;
+
+/// A triangle whose height over its longest edge is below this part of that edge is a sliver.
 constexpr double kSliverHeight = 1e-3;
 
 /// Holds the oddities of a mesh. Queries answer exactly in spite of all; they cost time, or show
@@ -24,7 +26,7 @@ struct Defects {
   std::size_t first_zero_area = 0;    ///< a triangle of each kind, if there is one
   std::size_t first_sliver = 0;
   std::size_t first_duplicate = 0;
-  Closednessd surface;  ///< whether and why it can't be a solid
+  Closedness surface;  ///< whether and why it can't be a solid
 };
 
 Defects findDefects(const Mesh& mesh);

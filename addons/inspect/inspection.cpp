@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
 
 namespace kios::inspect {
 namespace {
@@ -43,7 +43,7 @@ std::vector<std::string> Inspection::warnings() const {
 }
 
 Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress,
-                   const RepairOptions* repair) {
+                   const RepairRequest* repair) {
   Inspection result;
   result.file = file.string();
   progress.step("reading " + result.file);
@@ -78,9 +78,6 @@ Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& 
     throw InputError(result.file + ": " + error.what());
   }
   result.build_seconds = progress.done();
-  progress.step("preparing " + triangles);
-  prepare(*result.model);
-  result.prepare_seconds = progress.done();
 
   progress.step("looking for intersections of " + triangles);
   result.self_intersections = selfIntersections(*result.model, kMostSelfIntersections);

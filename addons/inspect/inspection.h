@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "defects.h"
-#include "fcl_kios/solid/repair.h"
-#include "fcl_kios/solid/self_intersections.h"
-#include "mesh.h"
+#include "fcl_kios/repair.h"
+#include "inspect/output.h"
 #include "progress.h"
 #include "tightness.h"
 #include "volume_tree.h"
@@ -26,7 +25,7 @@ constexpr std::size_t kMostSelfIntersections = 1000000;
 struct Inspection {
   std::string file;
   Mesh mesh;  ///< repaired, if that was asked for
-  std::optional<Repairedd> repaired;
+  std::optional<RepairResultd> repaired;
   Defects defects;
   std::vector<SelfIntersection> self_intersections;  ///< up to kMostSelfIntersections
   std::shared_ptr<Modeld> model;
@@ -34,9 +33,9 @@ struct Inspection {
   Eigen::AlignedBox3d box;            ///< around the triangles
   std::array<std::size_t, 3> k = {};  ///< nodes of 1, 3 and 5 spheres
   std::size_t model_bytes = 0;        ///< vertices, indices and tree of volumes
-  std::size_t prepared_bytes = 0;     ///< of the tree that queries search; 0: they don't use one
+  std::size_t prepared_bytes = 0;     ///< of the tree that queries search
   std::vector<LevelTightness> levels;
-  double read_seconds = 0, build_seconds = 0, prepare_seconds = 0;
+  double read_seconds = 0, build_seconds = 0;
 
   int nodes() const { return model->getNumBVs(); }
   /// Returns how many of the pairs meet like that.
@@ -49,6 +48,6 @@ struct Inspection {
 /// beyond the library's range. `tightness`: measure the levels. With `repair` it is the repaired
 /// mesh that is examined.
 Inspection inspect(const std::filesystem::path& file, bool tightness, Progress& progress,
-                   const RepairOptions* repair = nullptr);
+                   const RepairRequest* repair = nullptr);
 
 }  // namespace kios::inspect

@@ -3,19 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "fcl_kios/version.h"
+#include "inspect/output.h"
 #include "inspection.h"
-#include "options.h"
 #include "page.h"
 #include "pair_query.h"
 #include "progress.h"
@@ -24,8 +21,8 @@
 namespace kios::inspect {
 namespace {
 
-// Exit codes, as docs/inspect.md and --help list them.
-constexpr int kFine = 0, kWarned = 1, kUsage = 2, kBadInput = 3, kNotWritten = 4;
+// Exit codes beside those of ExitError, as docs/inspect.md and --help list them.
+constexpr int kFine = 0, kWarned = 1, kUsage = 2;
 
 const char* const kFooter = R"(
 The table by level: volumes of the level (with the leaves above it, so that they contain the whole
@@ -39,6 +36,23 @@ transforms and numbered through.
 
 exit codes: 0 done; 1 done, with warnings, under --strict; 2 wrong command line; 3 a file can't be
 read or is no mesh that queries can use; 4 a file can't be written)";
+
+/// Holds the options of the command line.
+struct Options {
+  std::vector<std::filesystem::path> meshes;  // one, or two for their distance
+  std::string pose_a = "0,0,0", pose_b = "0,0,0";
+  int repeats = 101;
+  int level = -1;  // -1: not given
+  std::filesystem::path html;
+  double html_limit = 20;
+  bool repair = false;  // implied by the next three
+  double weld = 1e-5;
+  int fill_holes = 0;
+  std::filesystem::path write;  // the repaired mesh, as OBJ
+  bool json = false;
+  bool strict = false;
+  bool quiet = false;
+};
 
 std::string checkPose(const std::string& text) {
   try {
@@ -81,7 +95,7 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--fill-holes", options.fill_holes,
                  "fill holes of up to so many edges; implies --repair")
-      ->check(CLI::Range(0, int{RepairOptions::kMostHoleEdges}))
+      ->check(CLI::Range(0, int{RepairRequest::kMostHoleEdges}))
       ->capture_default_str();
   app.add_option("--write", options.write, "write the repaired mesh as OBJ; implies --repair");
   app.add_flag("--json", options.json, "print JSON instead of text");
@@ -90,10 +104,6 @@ void declare(CLI::App& app, Options& options) {
   app.footer(kFooter);
   app.set_version_flag("--version", std::string("kios_inspect ") + FCL_KIOS_VERSION_STRING);
 }
-
-struct UsageError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Refuses a level that none of the meshes has.
 void requireLevel(const Options& options, const std::vector<Inspection>& inspections) {
@@ -104,16 +114,8 @@ void requireLevel(const Options& options, const std::vector<Inspection>& inspect
                    std::to_string(deepest) + ".");
 }
 
-/// Refuses a missing folder, the commonest reason why a file can't be written, before minutes of
-/// work.
-void requireDirectory(const std::filesystem::path& file) {
-  const std::filesystem::path parent = file.parent_path();
-  if (file.empty() || parent.empty() || std::filesystem::is_directory(parent)) return;
-  throw OutputError(file.string() + ": there is no directory " + parent.string() + ".");
-}
-
 /// Returns the repaired mesh, every coordinate to its last digit.
-std::string toObj(const Repairedd& mesh) {
+std::string toObj(const RepairResultd& mesh) {
   std::string text = "# written by kios_inspect\n";
   char line[128];
   for (const fcl::Vector3d& p : mesh.vertices) {
@@ -127,20 +129,10 @@ std::string toObj(const Repairedd& mesh) {
   return text;
 }
 
-/// Writes all of it or throws OutputError.
-void writeFile(const std::filesystem::path& file, const std::string& content) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << content;
-  stream.close();
-  if (!stream) {
-    throw OutputError(file.string() + ": it can't be written: " + std::strerror(errno) + ".");
-  }
-}
-
 int run(const Options& options) {
   requireDirectory(options.html);
   requireDirectory(options.write);
-  RepairOptions repair;
+  RepairRequest repair;
   repair.relative_weld = options.weld;
   repair.max_hole_edges = options.fill_holes;
   Progress progress(options.quiet);
@@ -207,14 +199,8 @@ int main(int argc, char** argv) {
   }
   try {
     return run(options);
-  } catch (const UsageError& error) {
+  } catch (const ExitError& error) {
     std::fprintf(stderr, "kios_inspect: %s\n", error.what());
-    return kUsage;
-  } catch (const InputError& error) {
-    std::fprintf(stderr, "kios_inspect: %s\n", error.what());
-    return kBadInput;
-  } catch (const OutputError& error) {
-    std::fprintf(stderr, "kios_inspect: %s\n", error.what());
-    return kNotWritten;
+    return error.exit_code;
   }
 }

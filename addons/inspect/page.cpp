@@ -3,32 +3,48 @@
 #include "page.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
-#include "colors.h"
 #include "report.h"
 #include "viewer/viewer.h"
 
 namespace kios::inspect {
 namespace {
 
-struct Ball {
-  fcl::Vector3d center;
-  double radius;
-};
+using Color = std::array<std::uint8_t, 3>;  ///< sRGB
 
-/// Returns the spheres of a volume relative to the centre of S0, exactly as the volume stores them.
-std::vector<Ball> ballsOf(const kIOSd& volume) {
-  std::vector<Ball> balls = {{fcl::Vector3d::Zero(), volume.radius0}};
-  for (int i = 0; i + 1 < volume.k(); ++i) {
-    const auto scaled = [&](float x) {
-      return std::ldexp(static_cast<double>(x), volume.exponent);
-    };
-    balls.push_back({{scaled(volume.cap_x[i]), scaled(volume.cap_y[i]), scaled(volume.cap_z[i])},
-                     scaled(volume.cap_r[i])});
+/// Gives one colour a node: hues go around the circle once, in the order of the content, so that a
+/// volume's parts have colours like its own; neighbours differ in lightness. `place`: which of its
+/// level's volumes it is.
+// OKLCH, in which equal steps look equal; B. Ottosson, "A perceptual color space for image
+// processing", 2020.
+Color colorOf(const VolumeTree& tree, int node, std::size_t place) {
+  constexpr double kTurn = 6.283185307179586, kChroma = 0.125;
+  const double lightness = place % 2 == 0 ? 0.74 : 0.64;
+  const double hue = kTurn * (0.5 * (tree.first(node) + tree.last(node)) /
+                                  static_cast<double>(tree.triangles().size()) +
+                              0.2);
+  const double a = kChroma * std::cos(hue), b = kChroma * std::sin(hue);
+  const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
+  const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
+  const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+  const double rgb[3] = {4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s,
+                         -1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s,
+                         -0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s};
+  Color color;
+  for (int i = 0; i < 3; ++i) {
+    const double linear = std::clamp(rgb[i], 0.0, 1.0);
+    const double encoded =
+        linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+    color[i] = static_cast<std::uint8_t>(std::lround(255 * encoded));
   }
-  return balls;
+  return color;
 }
+
+/// Returns the colour of the first and the second mesh.
+Color meshColor(int which) { return which == 0 ? Color{214, 218, 224} : Color{226, 196, 150}; }
 
 /// Holds the page's units: each mesh about the middle of its box, lengths in parts of the largest
 /// mesh, so that floats serve wherever the meshes are and whatever their size.
@@ -54,18 +70,20 @@ struct Units {
     fcl::Vector3d lower, upper;
     volume.bounds(lower, upper);
     const fcl::Vector3d middle = (lower + upper) / 2;
-    std::vector<Ball> balls = ballsOf(volume);
-    balls.resize(kIOSd::kMaxSpheres, balls.front());
-    // A volume of a single point would have no curvature that floats can hold.
-    const auto radius = [&](const Ball& ball) { return std::max(ball.radius / scale, 1e-6); };
+    // Volumes of fewer spheres repeat the first. One of a single point would have no curvature that
+    // floats can hold.
+    const auto sphere = [&](int i) { return i < volume.k() ? i : 0; };
+    const auto radius = [&](int i) {
+      return std::max(volume.sphereRadius(sphere(i)) / scale, 1e-6);
+    };
     put((middle - inspection.box.center()) / scale, color[0] << 16 | color[1] << 8 | color[2]);
-    put((upper - lower) / (2 * scale), 1 / radius(balls[0]));
+    put((upper - lower) / (2 * scale), 1 / radius(0));
     for (int i = 1; i < kIOSd::kMaxSpheres; ++i) {
-      out.push_back(static_cast<float>(1 / radius(balls[i])));
+      out.push_back(static_cast<float>(1 / radius(i)));
     }
-    for (const Ball& ball : balls) {
-      const double r = radius(ball);
-      const fcl::Vector3d c = (volume.center0 - middle + ball.center) / scale;
+    for (int i = 0; i < kIOSd::kMaxSpheres; ++i) {
+      const double r = radius(i);
+      const fcl::Vector3d c = (volume.sphereCenter(sphere(i)) - middle) / scale;
       put(c / r, (c.norm() - r) * (c.norm() + r) / (2 * r));
     }
   }

@@ -54,10 +54,10 @@ PairQuery queryPair(const Modeld& a, const fcl::Transform3d& X_WA, const Modeld&
   std::vector<double> seconds;
   try {
     // The first one touches what the others find in the caches.
-    result.answer = distance(a, X_WA, b, X_WB);
+    result.answer = distanceBracket(a, X_WA, b, X_WB);
     for (int i = 0; i < repeats; ++i) {
       const Clock::time_point begin = Clock::now();
-      result.answer = distance(a, X_WA, b, X_WB);
+      result.answer = distanceBracket(a, X_WA, b, X_WB);
       seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
     }
   } catch (const std::invalid_argument& error) {

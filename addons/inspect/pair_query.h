@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "fcl_kios/query/distance.h"
+#include "fcl_kios/distance.h"
 #include "inspection.h"
 
 namespace kios::inspect {
@@ -17,7 +17,7 @@ fcl::Transform3d parsePose(const std::string& text);
 /// Holds the distance of two models at poses in the world, and its time.
 struct PairQuery {
   fcl::Transform3d X_WA, X_WB;
-  DistanceAnswer<double> answer;
+  DistanceBracketResult<double> answer;
   int repeats = 0;
   double median_seconds = 0, min_seconds = 0;  ///< of the repeats: the trees are prepared
 };

@@ -5,7 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
 
 namespace kios::inspect {
 namespace {
@@ -46,7 +46,7 @@ std::string bytes(std::size_t n) {
   return text;
 }
 
-std::string surface(const Closednessd& surface) {
+std::string surface(const Closedness& surface) {
   if (surface.edges == 0) return "not a surface";
   std::string text;
   if (surface.closed) {
@@ -58,7 +58,7 @@ std::string surface(const Closednessd& surface) {
   return text;
 }
 
-Json toJson(const Repairedd& r) {
+Json toJson(const RepairResultd& r) {
   return {{"weld", r.weld},
           {"welded_vertices", r.welded_vertices},
           {"moved_vertices", r.moved_vertices},
@@ -118,7 +118,6 @@ Json toJson(const Inspection& i) {
           {"prepared_bytes", i.prepared_bytes},
           {"read_seconds", i.read_seconds},
           {"build_seconds", i.build_seconds},
-          {"prepare_seconds", i.prepare_seconds},
           {"levels", levels}};
 }
 
@@ -160,13 +159,8 @@ std::string toText(const Inspection& i) {
   print(out, "  memory     model %s, prepared tree %s: %.0f B a triangle\n",
         bytes(i.model_bytes).c_str(), bytes(i.prepared_bytes).c_str(),
         static_cast<double>(i.model_bytes + i.prepared_bytes) / n);
-  print(out, "  time       read %s, build %s, prepare %s\n", seconds(i.read_seconds).c_str(),
-        seconds(i.build_seconds).c_str(), seconds(i.prepare_seconds).c_str());
-  if (i.prepared_bytes == 0) {
-    out +=
-        "  note       queries search the model's own tree: the mesh is beyond the range of "
-        "prepared ones\n";
-  }
+  print(out, "  time       read %s, build %s\n", seconds(i.read_seconds).c_str(),
+        seconds(i.build_seconds).c_str());
   for (const std::string& warning : i.warnings()) {
     out += "  warning    " + warning + "\n";
   }
@@ -185,7 +179,7 @@ std::string toText(const Inspection& i) {
 }
 
 std::string toText(const PairQuery& q) {
-  const DistanceAnswer<double>& a = q.answer;
+  const DistanceBracketResult<double>& a = q.answer;
   std::string out;
   print(out, "distance     %.17g%s\n", a.distance,
         a.distance == 0 ? " (the meshes touch or intersect)" : "");

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_kios/clearance/exact_distance.h"
+#include "fcl_kios/clearance.h"
 
 namespace kios::inspect {
 namespace {

@@ -26,7 +26,7 @@ struct Slack {
 /// Returns the slack of a node's volume; no slack if its content is a single point.
 Slack slackOf(const VolumeTree& tree, int node);
 
-/// Measures of the volumes of a level, those of VolumeTree::level().
+/// Measures of the volumes of a level.
 struct LevelTightness {
   int level = 0;
   std::size_t volumes = 0;

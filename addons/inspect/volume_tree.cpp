@@ -49,10 +49,4 @@ std::vector<int> VolumeTree::deeper(const std::vector<int>& nodes) const {
   return next;
 }
 
-std::vector<int> VolumeTree::level(int level) const {
-  std::vector<int> nodes = {0};
-  for (int i = 0; i < std::min(level, depth_); ++i) nodes = deeper(nodes);
-  return nodes;
-}
-
 }  // namespace kios::inspect

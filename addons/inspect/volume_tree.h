@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 
 namespace kios::inspect {
 
@@ -19,10 +19,8 @@ class VolumeTree {
   bool isLeaf(int node) const { return model_->getBV(node).isLeaf(); }
   int depth() const { return depth_; }  ///< the deepest leaf's level; the root's is 0
 
-  /// Returns the nodes at this level, and the leaves above it: together they contain the model. At
-  /// most 2^level, in the order of their content. The deepest level's beyond it.
-  std::vector<int> level(int level) const;
-  /// Returns the next level, of a level's nodes.
+  /// Returns the next level, of a level's nodes, in the order of their content: those at that level
+  /// and the leaves above it, which together contain the model. {0} is the root's.
   std::vector<int> deeper(const std::vector<int>& nodes) const;
 
   /// Returns triangles in an order in which each node's are contiguous, and the node's part of it.

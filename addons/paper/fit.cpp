@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 
 namespace kios {
 

@@ -12,8 +12,7 @@
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
-#include "fcl_kios/query/octree_queries.h"
-#include "fcl_kios/query/shape_queries.h"
+#include "fcl_kios/contact.h"
 #include "preload/implementation.h"
 #include "volume/rounding.h"
 

@@ -5,7 +5,7 @@
 #include <exception>
 #include <type_traits>
 
-#include "fcl_kios/query/mesh_queries.h"
+#include "fcl_kios/contact.h"
 #include "preload/fcl_search.h"
 #include "preload/implementation.h"
 #include "volume/rounding.h"

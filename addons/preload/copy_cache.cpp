@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
 #include "tree/fingerprint.h"
 
 namespace kios::preload {
@@ -66,7 +66,6 @@ std::unique_ptr<Content> makeContent(const Mesh& mesh, std::uint64_t fits) {
     content->mesh = mesh;
     content->fits_at_last_comparison.store(fits, std::memory_order_relaxed);
     const auto copy = makeModel(vertices, triangles);
-    prepare(*copy);
     const Mesh copied = {copy.get(), copy->vertices, copy->tri_indices, mesh.num_vertices,
                          mesh.num_triangles};
     content->print = fingerprintOf(copied);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "preload/calls.h"
 #include "preload/fcl_mesh.h"
 

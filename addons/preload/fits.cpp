@@ -3,7 +3,6 @@
 //
 // Stands in for libfcl's functions that fit volumes and end geometries, counts their calls and
 // hands them on. Only pointers and numbers pass through, so that no type of FCL is needed.
-#include "preload/fits.h"
 
 #include <cstddef>
 

@@ -8,21 +8,8 @@ namespace kios::preload {
 namespace {
 
 bool isOther(fcl::NODE_TYPE type) {
-  switch (type) {
-    case fcl::GEOM_BOX:
-    case fcl::GEOM_SPHERE:
-    case fcl::GEOM_ELLIPSOID:
-    case fcl::GEOM_CAPSULE:
-    case fcl::GEOM_CONE:
-    case fcl::GEOM_CYLINDER:
-    case fcl::GEOM_CONVEX:
-    case fcl::GEOM_PLANE:
-    case fcl::GEOM_HALFSPACE:
-    case fcl::GEOM_OCTREE:
-      return true;
-    default:
-      return false;
-  }
+  static_assert(fcl::GEOM_HALFSPACE - fcl::GEOM_BOX == 8, "FCL has other shapes");
+  return (type >= fcl::GEOM_BOX && type <= fcl::GEOM_HALFSPACE) || type == fcl::GEOM_OCTREE;
 }
 
 bool read(const Geometry* geometry, fcl::NODE_TYPE type, Mesh& mesh) {

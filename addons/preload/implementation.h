@@ -87,4 +87,10 @@ inline bool wantsContacts(const CollisionRequest& request) {
   return request.enable_contact || request.num_max_contacts > 1;
 }
 
+/// What of an FCL isn't as in the libfcl.so.0.7 that this library was built for: nullptr if all is
+/// that is looked at. A copy that a program brings along may have been built with other flags. Its
+/// tables of virtual functions are compared by size; then its constructors make objects, which are
+/// read, and compared with this library's own.
+const char* differenceOf(const Calls& fcl);
+
 }  // namespace kios::preload

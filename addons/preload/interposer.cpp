@@ -9,7 +9,6 @@
 #include <pthread.h>
 
 #include "preload/calls.h"
-#include "preload/fits.h"
 #include "preload/names.h"
 #include "preload/reach.h"
 #include "preload/sites.h"

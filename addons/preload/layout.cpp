@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "preload/layout.h"
+#include "preload/implementation.h"
 
 #include <cstdint>
 #include <cstring>

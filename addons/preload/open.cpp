@@ -5,7 +5,6 @@
 // none.
 #include "preload/call_recorder.h"
 #include "preload/implementation.h"
-#include "preload/layout.h"
 
 namespace kios::preload {
 namespace {
@@ -26,54 +25,47 @@ PosedPair pairOf(const Object& a, const Object& b) {
 }
 
 /// Answers about a pair that isServed(), by FCL where the implementation hands it on.
-template <bool kRecorded, typename Request, typename Result, typename AskFcl>
+template <typename Request, typename Result, typename AskFcl>
 auto answer(const PosedPair& pair, const Request& request, Result& result, const AskFcl& ask_fcl) {
-  if constexpr (kRecorded) {
-    return recorder->answer(pair, request, result, ask_fcl);
-  } else {
-    if (implementation->answer(pair, request, result) == By::kHandedOn) return ask_fcl(result);
-    return valueOf(result);
-  }
+  if (recorder) return recorder->answer(pair, request, result, ask_fcl);
+  if (implementation->answer(pair, request, result) == By::kHandedOn) return ask_fcl(result);
+  return valueOf(result);
 }
 
-template <bool kRecorded>
 std::size_t collideObjects(const Object* a, const Object* b, const CollisionRequest& request,
                            CollisionResult& result) {
   const auto ask_fcl = [&](CollisionResult& r) {
     return implementation->start.fcl.collide_objects(a, b, request, r);
   };
   if (!isServed(a, b)) return ask_fcl(result);
-  return answer<kRecorded>(pairOf(*a, *b), request, result, ask_fcl);
+  return answer(pairOf(*a, *b), request, result, ask_fcl);
 }
 
-template <bool kRecorded>
 std::size_t collide(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
                     const CollisionRequest& request, CollisionResult& result) {
   const auto ask_fcl = [&](CollisionResult& r) {
     return implementation->start.fcl.collide(a, X_WA, b, X_WB, request, r);
   };
   if (!isServed(a, b)) return ask_fcl(result);
-  return answer<kRecorded>({a, X_WA, b, X_WB}, request, result, ask_fcl);
+  return answer({a, X_WA, b, X_WB}, request, result, ask_fcl);
 }
 
-template <bool kRecorded>
 double distanceObjects(const Object* a, const Object* b, const DistanceRequest& request,
                        DistanceResult& result) {
   const auto ask_fcl = [&](DistanceResult& r) {
     return implementation->start.fcl.distance_objects(a, b, request, r);
   };
   if (!isServed(a, b)) return ask_fcl(result);
-  return answer<kRecorded>(pairOf(*a, *b), request, result, ask_fcl);
+  return answer(pairOf(*a, *b), request, result, ask_fcl);
 }
 
-template <bool kRecorded>
 double distance(const Geometry* a, const Pose& X_WA, const Geometry* b, const Pose& X_WB,
                 const DistanceRequest& request, DistanceResult& result) {
   const auto ask_fcl = [&](DistanceResult& r) {
     return implementation->start.fcl.distance(a, X_WA, b, X_WB, request, r);
   };
   if (!isServed(a, b)) return ask_fcl(result);
-  return answer<kRecorded>({a, X_WA, b, X_WB}, request, result, ask_fcl);
+  return answer({a, X_WA, b, X_WB}, request, result, ask_fcl);
 }
 
 struct ReportAtExit {
@@ -82,9 +74,7 @@ struct ReportAtExit {
   }
 } report_at_exit;
 
-template <bool kRecorded>
-constexpr Calls kCalls = {&collideObjects<kRecorded>, &collide<kRecorded>,
-                          &distanceObjects<kRecorded>, &distance<kRecorded>};
+constexpr Calls kCalls = {&collideObjects, &collide, &distanceObjects, &distance};
 constexpr Forks kForks = {[] { implementation->copies.beforeFork(); },
                           [] { implementation->copies.afterFork(); },
                           [] { implementation->copies.afterForkInChild(); }};
@@ -98,9 +88,8 @@ extern "C" __attribute__((visibility("default"))) kios::preload::Opened fcl_kios
   using namespace kios::preload;
   if (const char* const difference = differenceOf(start->fcl)) return {nullptr, {}, difference};
   implementation = new Implementation(*start);
-  if (start->mode != Mode::kVerify && start->mode != Mode::kStats) {
-    return {&kCalls<false>, kForks, nullptr};
+  if (start->mode == Mode::kVerify || start->mode == Mode::kStats) {
+    recorder = new CallRecorder(*implementation);
   }
-  recorder = new CallRecorder(*implementation);
-  return {&kCalls<true>, kForks, nullptr};
+  return {&kCalls, kForks, nullptr};
 }

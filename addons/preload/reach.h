@@ -32,6 +32,12 @@ void say(const char* words, const char* more = "", const char* end = "", const c
 /// Returns what FCL_KIOS_PRELOAD asks for. Says so, and is kOff, if it is none of the five words.
 Mode modeOfEnvironment();
 
+/// Returns the count of this process.
+const Fits& fits();
+
+/// From now on calls of FCL's fitting functions are counted; before, they are only handed on.
+void countFits();
+
 /// Opens the implementation; no calls, and says why, if it can't.
 Opened openImplementation(const Start& start);
 

@@ -4,8 +4,8 @@
 """usage: bench.py [--cpu] [--json FILE [--run NAME]] [--repeats N] [ROW...]
 
 Times of the package against python-fcl's way of doing the same, interleaved in one process. Needs
-the package fcl_kios on PYTHONPATH; python-fcl (`fcl`) and trimesh where they are installed, else
-the rows that compare with them have no ratio, which is said. Answers are compared, too.
+the package fcl_kios on PYTHONPATH; python-fcl (`fcl`), trimesh and Open3D where they are installed,
+else the rows that compare with them have no ratio, which is said. Answers are compared, too.
 --cpu takes the time of the process on all cores instead, for a machine that does other things."""
 import argparse
 import json
@@ -20,7 +20,7 @@ import time
 import numpy as np
 
 # Instead of this folder, whose fcl_kios isn't built.
-sys.path[0] = str(pathlib.Path(__file__).parent / "tests")
+sys.path[0] = str(pathlib.Path(__file__).resolve().parents[2] / "test/python")
 import fcl_kios  # noqa: E402
 import shapes  # noqa: E402
 from fcl_kios import fcl as ours  # noqa: E402
@@ -28,7 +28,7 @@ from fcl_kios import fcl as ours  # noqa: E402
 try:
     import fcl as theirs
 
-    if theirs is ours or not hasattr(theirs, "fcl"):
+    if theirs.__name__ != "fcl":
         raise ImportError("this fcl isn't python-fcl")
 except ImportError as error:
     theirs, why_not = None, str(error)
@@ -37,6 +37,10 @@ try:
     import trimesh.collision
 except ImportError:
     trimesh = None
+try:
+    import open3d
+except ImportError:
+    open3d = None
 
 ROWS = {}
 
@@ -138,6 +142,74 @@ def trimesh_min_distance(repeats):
     return compare(mine, other, repeats)
 
 
+def boxes_in(module, n=4000):
+    """A manager of boxes, a box far from all, and what asks whether they touch."""
+    random = np.random.default_rng(5)
+    objects = [module.CollisionObject(module.Box(0.5, 0.5, 0.5), module.Transform(np.eye(3), p))
+               for p in random.uniform(-50, 50, (n, 3))]
+    manager = module.DynamicAABBTreeCollisionManager()
+    manager.registerObjects(objects)
+    manager.setup()
+    far = module.CollisionObject(module.Box(1, 1, 1), module.Transform(np.eye(3), np.full(3, 200.0)))
+    data = module.CollisionData()
+
+    def ask():
+        for _ in range(100):
+            manager.collide(far, data, module.defaultCollisionCallback)
+
+    ask.keep = objects
+    return ask
+
+
+@row
+def manager_of_4000_boxes(repeats):
+    """manager.collide(box, data, defaultCollisionCallback) of a box far from 4,000"""
+    a, b, ratio = compare(boxes_in(ours), boxes_in(theirs) if theirs else None, 5 * repeats)
+    return a / 100, b and b / 100, ratio
+
+
+@row
+def trimesh_in_collision(repeats):
+    """trimesh's CollisionManager.in_collision_internal(), ten boxes that are apart"""
+    if not trimesh:
+        return None
+    box = trimesh.Trimesh(*shapes.box(), process=False)
+
+    def ask(module):
+        trimesh.collision.fcl = module
+        manager = trimesh.collision.CollisionManager()
+        for i in range(10):
+            manager.add_object(str(i), box, shapes.translation(3 * i))
+
+        def run():
+            trimesh.collision.fcl = module
+            return [manager.in_collision_internal() for _ in range(100)]
+
+        return run
+
+    a, b, ratio = compare(ask(ours), ask(theirs) if theirs else None, 5 * repeats)
+    return a / 100, b and b / 100, ratio
+
+
+@row
+def signed_distances(repeats):
+    """Mesh.signed_distance() of 100,000 points about a solid of 20,000 triangles, on one thread;
+    beside it Open3D's RaycastingScene"""
+    v, f = part()
+    points = np.random.default_rng(6).uniform(-1.6, 1.6, (100_000, 3))
+    solid = fcl_kios.Mesh(v, f, solid=True)
+    mine = lambda: solid.signed_distance(points, threads=1)
+    try:
+        import open3d
+    except ImportError:
+        return compare(mine, None, repeats)
+    scene = open3d.t.geometry.RaycastingScene()
+    scene.add_triangles(v.astype("f"), f.astype("u4"))
+    other = lambda: scene.compute_signed_distance(points.astype("f"), nthreads=1).numpy()
+    assert np.allclose(np.abs(mine()), np.abs(other()), atol=1e-4)
+    return compare(mine, other, repeats)
+
+
 def gripper():
     """5,000 triangles, and poses of which some touch the object."""
     v, f = part(5000)
@@ -190,6 +262,27 @@ def a_million_poses(repeats):
     hand, thing = fcl_kios.Mesh(*part(5000)), fcl_kios.Mesh(*part())
     poses = shapes.random_poses(1_000_000, 20, np.random.default_rng(4))
     return compare(lambda: thing.collides(hand, poses), None, 1)
+
+
+@row
+def signed_distances(repeats):
+    """100,000 points in and about a torus of 84,000 triangles: Mesh.signed_distance() beside Open3D's
+    RaycastingScene.compute_signed_distance(), which is in floats, on one thread each"""
+    vertices, faces = part(84_000)
+    random = np.random.default_rng(5)
+    points = random.uniform(1.2 * vertices.min(0), 1.2 * vertices.max(0), (100_000, 3))
+    mesh = fcl_kios.Mesh(vertices, faces, solid=True)
+    mine = lambda: mesh.signed_distance(points, threads=1)
+    if not open3d:
+        return compare(mine, None, repeats)
+    scene = open3d.t.geometry.RaycastingScene(nthreads=1)
+    scene.add_triangles(open3d.core.Tensor(vertices.astype(np.float32)),
+                        open3d.core.Tensor(faces.astype(np.uint32)))
+    asked = open3d.core.Tensor(points.astype(np.float32))
+    theirs_of = lambda: scene.compute_signed_distance(asked, nthreads=1).numpy()
+    # Not signs: the rays that tell them meet nothing in Debian's 0.16, whose signs are all positive.
+    assert np.abs(np.abs(mine()) - np.abs(theirs_of())).max() < 1e-6
+    return compare(mine, theirs_of, repeats)
 
 
 def unpickled(n, repeats):
@@ -251,7 +344,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("rows", nargs="*", choices=[[], *ROWS])
     parser.add_argument("--repeats", type=int, default=7)
-    parser.add_argument("--json", help="docs/measured/python.jsonl, say: its other runs stay")
+    parser.add_argument("--json", help="docs/measured/preload.jsonl, say: its other runs stay")
     parser.add_argument("--run", default="python", help="name of the run, beginning with python")
     parser.add_argument("--cpu", action="store_true")
     arguments = parser.parse_args()
@@ -262,6 +355,8 @@ def main():
         print(f"python-fcl isn't there ({why_not}): no row compares with it")
     if trimesh is None:
         print("trimesh isn't there: its rows are skipped")
+    if open3d is None:
+        print("Open3D isn't there (Debian: python3-open3d): no row compares with it")
     print("| what | fcl_kios | beside it | ratio |\n| --- | --: | --: | --: |")
     measured = []
     for name in arguments.rows or ROWS:

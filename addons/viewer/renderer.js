@@ -253,11 +253,10 @@ class Renderer {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     const views = this.meshes.map((mesh) => multiply(camera.view, mesh.matrix));
     if (shown.mesh) {
-      // What one looks through comes last; only the foremost of it is blended.
-      for (const faint of [false, true]) {
-        this.meshes.forEach((m, i) => m.opacity < 1 === faint &&
-          this.drawMesh(m, views[i], camera, shown));
-      }
+      // What one looks through comes last, the faintest at the end; only the foremost is blended.
+      const byOpacity = this.meshes.map((m, i) => [m, views[i]]).sort(
+        ([m], [n]) => n.opacity - m.opacity);
+      for (const [mesh, view] of byOpacity) this.drawMesh(mesh, view, camera, shown);
     }
     if (shown.volumes) {
       // Only the foremost volume of a pixel is blended: no order is needed.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // From vertices to a finished model: time and memory. Refits, and queries after them.
-#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,13 +13,13 @@
 
 #include "allocations.h"
 #include "contest.h"
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
+#include "library.h"
 #include "pose_finder.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/shapes.h"
 #include "scenes/unlike.h"
-#include "scenes/ur5_data.h"
 
 namespace kios::bench {
 namespace {
@@ -28,66 +28,35 @@ using Meshes = std::vector<scenes::Mesh>;
 
 constexpr char kReference[] = "fcl_obbrss";
 
-/// Says what is timed. kBuild: endModel(). kPrepared: and kios::prepare(). kAgain: as kPrepared,
-/// while equal models live.
-enum class Stage { kBuild, kPrepared, kAgain };
-
-const char* nameOf(Stage stage) {
-  constexpr const char* kNames[] = {"build", "prepared", "again"};
-  return kNames[static_cast<int>(stage)];
-}
-
-/// Takes models over a volume through a stage.
-class Builder {
- public:
-  virtual ~Builder() = default;
-
-  /// Makes models of these meshes up to endModel(), and drops those before.
-  virtual void begin(const Meshes& meshes) = 0;
-  virtual void run(Stage stage) = 0;
+/// Builds models over a volume: begin() up to endModel(), which end() is, of meshes like no others
+/// that live. It drops those before.
+struct Builder {
+  std::string bv, query;
+  std::function<void(const Meshes& meshes)> begin;
+  std::function<void()> end;
 };
 
+/// If `again`, models of the same meshes live already.
 template <typename BV>
-class BuilderOf final : public Builder {
- public:
-  void begin(const Meshes& meshes) override {
-    models_.clear();
+Builder builderOf(const char* bv, bool again = false) {
+  using Models = std::vector<std::shared_ptr<fcl::BVHModel<BV>>>;
+  const auto models = std::make_shared<Models>(), equal = std::make_shared<Models>();
+  const auto begin = [models, equal, again](const Meshes& meshes) {
+    models->clear();
+    equal->clear();
     for (const scenes::Mesh& mesh : meshes) {
-      auto& model = models_.emplace_back(std::make_shared<fcl::BVHModel<BV>>());
+      if (again) equal->push_back(scenes::buildModel<BV>(mesh));
+      auto& model = models->emplace_back(std::make_shared<fcl::BVHModel<BV>>());
       model->beginModel(static_cast<int>(mesh.triangles.size()),
                         static_cast<int>(mesh.vertices.size()));
       model->addSubModel(mesh.vertices, mesh.triangles);
     }
-  }
-
-  void run(Stage stage) override {
-    for (const auto& model : models_) {
-      model->endModel();
-      if constexpr (std::is_same_v<BV, kIOSd>) {
-        if (stage != Stage::kBuild) prepare(*model);
-      }
-    }
-  }
-
- private:
-  std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
-};
-
-struct Volume {
-  const char* name;
-  std::unique_ptr<Builder> (*make)();
-};
-
-template <typename BV>
-std::unique_ptr<Builder> make() {
-  return std::make_unique<BuilderOf<BV>>();
+  };
+  const auto end = [models] {
+    for (const auto& model : *models) model->endModel();
+  };
+  return {bv, again ? "again" : "build", begin, end};
 }
-
-constexpr Volume kVolumes[] = {{"kios", make<kIOSd>},
-                               {kReference, make<fcl::OBBRSSd>},
-                               {"fcl_kios_builtin", make<fcl::kIOSd>},
-                               {"fcl_aabb", make<fcl::AABBd>},
-                               {"fcl_kdop24", make<fcl::KDOPd<24>>}};
 
 /// Returns meshes whose models share nothing with those before.
 Meshes unlike(const Meshes& meshes) {
@@ -96,47 +65,24 @@ Meshes unlike(const Meshes& meshes) {
   return others;
 }
 
-/// Holds a volume at a stage.
-struct Entrant {
-  std::string bv;
-  Stage stage;
-  std::unique_ptr<Builder> builder, equal;  ///< `equal` lives at kAgain
-
-  /// Up to what is timed, with meshes like no others that live.
-  void begin(const Meshes& meshes) const {
-    builder->begin({});  // what the last run made goes
-    if (equal) {
-      equal->begin(meshes);
-      equal->run(stage);
-    }
-    builder->begin(meshes);
-  }
-};
-
-std::vector<Entrant> entrants(const Options& options) {
-  std::vector<Entrant> all;
-  for (const Volume& volume : kVolumes) {
-    const bool ours = volume.make == kVolumes[0].make;
-    if (options.quick && !ours && std::string(volume.name) != kReference) continue;
-    for (const Stage stage : {Stage::kBuild, Stage::kPrepared, Stage::kAgain}) {
-      if (stage != Stage::kBuild && !ours) continue;  // it would be kBuild
-      all.push_back(
-          {volume.name, stage, volume.make(), stage == Stage::kAgain ? volume.make() : nullptr});
-    }
-  }
+std::vector<Builder> builders(const Options& options) {
+  std::vector<Builder> all = {builderOf<kIOSd>(kOurs), builderOf<kIOSd>(kOurs, true),
+                              builderOf<fcl::OBBRSSd>(kReference)};
+  if (options.quick) return all;
+  all.push_back(builderOf<fcl::kIOSd>("fcl_kios_builtin"));
+  all.push_back(builderOf<fcl::AABBd>("fcl_aabb"));
   return all;
 }
 
-/// Returns bytes of a run, with those of the arrays that it begins with.
-Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles) {
+/// Returns bytes of a build, with those of the arrays that it begins with.
+Volumes memoryOf(const Builder& builder, const Meshes& meshes, double triangles) {
   Volumes volumes;
   const Meshes fresh = unlike(meshes);
-  entrant.begin(fresh);
-  entrant.builder->begin({});
+  builder.begin({});
   Allocations allocations;
-  entrant.builder->begin(fresh);
+  builder.begin(fresh);
   allocations.resetPeak();
-  entrant.builder->run(entrant.stage);
+  builder.end();
   if (allocations.peak() == 0) return volumes;
   volumes.bytes_per_triangle = static_cast<double>(allocations.held()) / triangles;
   volumes.peak_bytes_per_triangle = static_cast<double>(allocations.peak()) / triangles;
@@ -145,32 +91,23 @@ Volumes memoryOf(const Entrant& entrant, const Meshes& meshes, double triangles)
 
 void race(const std::string& scenario, const Meshes& meshes, const Options& options,
           Report& report) {
-  const std::vector<Entrant> all = entrants(options);
+  const std::vector<Builder> all = builders(options);
   std::vector<Competitor> competitors;
-  for (const Entrant& entrant : all) {
-    competitors.push_back({entrant.bv + " " + nameOf(entrant.stage),
-                           [&](std::size_t, std::size_t) { entrant.builder->run(entrant.stage); },
-                           [&](std::size_t, std::size_t) { entrant.begin(unlike(meshes)); }});
+  for (const Builder& builder : all) {
+    competitors.push_back({builder.bv + " " + builder.query,
+                           [&](std::size_t, std::size_t) { builder.end(); },
+                           [&](std::size_t, std::size_t) { builder.begin(unlike(meshes)); }});
   }
   Race{1, options.repeats}.run(competitors);
-  Row base;
-  base.scenario = scenario;
-  base.frames = 1;
-  base.seed = options.seed;
-  for (const scenes::Mesh& mesh : meshes) {
-    base.triangles += mesh.triangles.size();
-    base.largest_mesh = std::max(base.largest_mesh, mesh.triangles.size());
-    base.extent = std::max(base.extent, scenes::extent(mesh));
-  }
+  const Row base = baseRow(scenario, "", 1, options.seed, meshes);
   const auto triangles = static_cast<double>(base.triangles);
-  const Competitor* const reference =
-      named(std::string(kReference) + " " + nameOf(Stage::kBuild), competitors);
+  const Competitor* const reference = named(std::string(kReference) + " build", competitors);
   std::vector<Row> rows;
   for (std::size_t i = 0; i < all.size(); ++i) {
     Row& row = rows.emplace_back(base.of(competitors[i], reference));
     row.bv = all[i].bv;
-    row.query = nameOf(all[i].stage);
-    row.volumes = memoryOf(all[i], meshes, triangles);
+    row.query = all[i].query;
+    if (row.query == "build") row.volumes = memoryOf(all[i], meshes, triangles);
     row.volumes.build_us_per_triangle = row.times.median_us / triangles;
   }
   report.add(rows);
@@ -231,10 +168,10 @@ void runBuild(const Options& options, Report& report) {
       race("build/soup/" + std::to_string(size), {scenes::soup(torus)}, options, report);
     }
   }
-  const auto data = findData(options);
-  if (options.quick || !data || !scenes::holdsUr5(*data)) return;
+  const auto ur5 = findUr5(options);
+  if (options.quick || !ur5) return;
   Meshes links;
-  for (const scenes::Link& link : scenes::loadUr5(*data).links) links.push_back(link.mesh);
+  for (const scenes::Link& link : ur5->links) links.push_back(link.mesh);
   race("build/ur5", links, options, report);
 }
 

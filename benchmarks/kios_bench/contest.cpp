@@ -89,6 +89,26 @@ scenes::MovingPair generatedSpinning() {
   return {scenes::bumpyBlob(), scenes::bentTorus(), scenes::spinningMotion(kGeneratedFrames)};
 }
 
+std::vector<Question> robotQuestions(const scenes::Robot& robot, const fcl::Transform3d& X_W2,
+                                     int frames, std::uint64_t seed) {
+  constexpr int kMotionFrames = 400;
+  const int all = std::max(frames, kMotionFrames);
+  const auto motion_1 = scenes::jointMotion(robot, all, true, 2 * seed);
+  const auto motion_2 = scenes::jointMotion(robot, all, true, 2 * seed + 1);
+  std::vector<Question> questions;
+  for (int i = 0; i < frames; ++i) {
+    const int frame = i * all / frames;
+    const auto poses_1 = scenes::robotPoses(robot, fcl::Transform3d::Identity(), motion_1[frame]);
+    const auto poses_2 = scenes::robotPoses(robot, X_W2, motion_2[frame]);
+    for (std::size_t a = 0; a < poses_1.size(); ++a) {
+      for (std::size_t b = 0; b < poses_2.size(); ++b) {
+        questions.push_back({a, b, {poses_1[a], poses_2[b]}});
+      }
+    }
+  }
+  return questions;
+}
+
 Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames) {
   Task task{scenario, query, {}, frames.size(), {}};
   for (const scenes::Frame& frame : frames) task.questions.push_back({0, 1, frame});
@@ -97,10 +117,6 @@ Task pairTask(const std::string& scenario, Query query, const std::vector<scenes
 
 Contest::Contest(std::vector<scenes::Mesh> meshes, const Options& options, Geometries others)
     : options_(options), meshes_(std::move(meshes)), others_(std::move(others)) {
-  for (const scenes::Mesh& mesh : meshes_) {
-    extent_ = std::max(extent_, scenes::extent(mesh));
-    triangles_ += mesh.triangles.size();
-  }
   for (const std::string& bv : options.bvs) sets_[bv] = makeMeshSet(bv);
   builds_ = serving(Query::kBuild, [this](const std::string& bv, MeshSet& set) {
     return Competitor{bv, [this, &set](std::size_t, std::size_t) { set.build(meshes_); }};
@@ -146,8 +162,7 @@ double Contest::findTruth(Query query, const Question& question) {
   if (question.b < meshes_.size()) return truth(oracle(question.a, question.b), query, question);
   const auto oracle = shape_oracles_.try_emplace({question.a, question.b}, meshes_[question.a],
                                                  *others_[question.b - meshes_.size()]);
-  if (query == Query::kDistance || query == Query::kThreshold)
-    return oracle.first->second.distance(question.poses);
+  if (query == Query::kDistance) return oracle.first->second.distance(question.poses);
   const std::size_t most = query == Query::kCollide ? 1 : question.max_contacts;
   return oracle.first->second.contacts(question.poses, static_cast<double>(most));
 }
@@ -155,17 +170,8 @@ double Contest::findTruth(Query query, const Question& question) {
 std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::size_t frames,
                                  const std::vector<Competitor>& competitors,
                                  const Competitor* reference) const {
-  const auto triangles = static_cast<double>(triangles_);
-  Row base;
-  base.scenario = scenario;
-  base.query = name(query);
-  base.triangles = triangles_;
-  base.frames = frames;
-  base.seed = options_.seed;
-  base.extent = extent_;
-  for (const scenes::Mesh& mesh : meshes_) {
-    base.largest_mesh = std::max(base.largest_mesh, mesh.triangles.size());
-  }
+  const Row base = baseRow(scenario, name(query), frames, options_.seed, meshes_);
+  const auto triangles = static_cast<double>(base.triangles);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
     const auto found = sets_.find(competitor.name);
@@ -231,11 +237,6 @@ std::vector<Row> Contest::queryRows(const Task& task) {
         }
         return competitor;
       });
-  if (task.ours_alone) {
-    competitors.erase(std::remove_if(competitors.begin(), competitors.end(),
-                                     [](const Competitor& c) { return !isOurs(c.name); }),
-                      competitors.end());
-  }
   for (Competitor& competitor : competitors) {
     const double start = nowMicroseconds();
     competitor.answer(0, size);  // what models leave to their first query belongs to no repeat
@@ -260,36 +261,13 @@ std::vector<Row> Contest::queryRows(const Task& task) {
       row.pairs.skipped = 0;
       row.pairs.total = size;
     }
-    row.errors = compare(answers[row.bv], verdicts, task.query, task.questions, extent_);
+    row.errors = compare(answers[row.bv], verdicts, task.query, task.questions, row.extent);
     if (others_.empty() && task.query != Query::kCloserThan)
       row.tests = sets_[row.bv]->count(task.query, task.questions, task.frames);
     const auto before = answers.find(row.bv + kBefore);
     if (before != answers.end()) row.changes = changesOf(before->second, answers[row.bv]);
   }
   return rows;
-}
-
-std::map<std::string, std::vector<double>> Contest::frameTimes(const Task& task) {
-  const std::size_t pairs = task.questions.size() / task.frames;
-  std::vector<double> answers(task.questions.size());
-  std::vector<Competitor> competitors =
-      serving(task.query, [&](const std::string& bv, MeshSet& set) {
-        return Competitor{bv, [&](std::size_t begin, std::size_t end) {
-                            set.answer(task.query, task.questions, begin, end, answers);
-                          }};
-      });
-  Race{task.questions.size(), options_.repeats, Race::kAll, pairs}.run(competitors);
-  std::map<std::string, std::vector<double>> best;
-  for (const Competitor& competitor : competitors) {
-    std::vector<double>& least = best[competitor.name];
-    least = competitor.us[0];
-    for (const std::vector<double>& us : competitor.us) {
-      for (std::size_t frame = 0; frame < us.size(); ++frame) {
-        least[frame] = std::min(least[frame], us[frame]);
-      }
-    }
-  }
-  return best;
 }
 
 }  // namespace kios::bench

@@ -11,6 +11,7 @@
 
 #include "mesh_set.h"
 #include "options.h"
+#include "scenes/arms.h"
 #include "scenes/oracle.h"
 #include "scenes/pqp_data.h"
 #include "shape_oracle.h"
@@ -27,7 +28,6 @@ struct Task {
   bool cold = false;  // before every frame the processor has done something else
   /// Before every frame, where cold, this many bytes are written; 0: other code runs, over 4 MB.
   std::size_t streamed_bytes = 0;
-  bool ours_alone = false;  // FCL crashes
 };
 
 /// Returns the task of a scene with the meshes 0 and 1.
@@ -57,9 +57,6 @@ class Contest {
   /// compared with the oracle, and tests are counted in a pass that is not timed.
   std::vector<Row> queryRows(const Task& task);
 
-  /// Returns the least time of each frame over options.repeats, by volume, in microseconds.
-  std::map<std::string, std::vector<double>> frameTimes(const Task& task);
-
   /// Returns the oracle of two of the meshes, made when first asked for.
   const scenes::MeshOracle& oracle(std::size_t a = 0, std::size_t b = 1);
 
@@ -78,8 +75,6 @@ class Contest {
 
   Options options_;
   std::vector<scenes::Mesh> meshes_;
-  double extent_ = 0;
-  std::size_t triangles_ = 0;
   Geometries others_;
   std::map<std::pair<std::size_t, std::size_t>, scenes::MeshOracle> oracles_;
   std::map<std::pair<std::size_t, std::size_t>, ShapeOracle> shape_oracles_;
@@ -95,6 +90,11 @@ std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames
 /// Returns the frames thinned evenly to options.frames, or to a few for options.quick.
 std::vector<scenes::Frame> chosenFrames(const std::vector<scenes::Frame>& frames,
                                         const Options& options);
+
+/// Returns the questions about each link of a robot, whose base is the world, and each of another
+/// of its kind at X_W2, frame by frame, evenly chosen from a motion of 400 frames or more.
+std::vector<Question> robotQuestions(const scenes::Robot& robot, const fcl::Transform3d& X_W2,
+                                     int frames, std::uint64_t seed);
 
 /// Made by the program in place of the PQP data: 1200 frames of tori that fall onto each other, and
 /// of a blob and a torus that spin apart.

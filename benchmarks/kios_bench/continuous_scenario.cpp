@@ -109,7 +109,7 @@ Way obbrssWay(const scenes::Mesh& mesh_a, const scenes::Mesh& mesh_b, fcl::CCDSo
 
 }  // namespace
 
-void runContinuous(const Options& options, Report& report) {
+void reportContinuous(const Options& options, Report& report) {
   const int queries = options.frames > 0 ? options.frames : (options.quick ? 6 : 40);
   const int samples = options.quick ? 50 : 200;
   const int size = options.quick ? 400 : 2000;
@@ -142,12 +142,8 @@ void runContinuous(const Options& options, Report& report) {
       competitors.back().rounds = roundsOf(way.name);
     }
     Race{motions.size(), options.repeats}.run(competitors);
-    Row base;
-    base.scenario = std::string("continuous/") + motion_name;
-    base.query = "continuous";
-    base.triangles = a.triangles.size() + b.triangles.size();
-    base.frames = motions.size();
-    base.seed = options.seed;
+    const Row base = baseRow(std::string("continuous/") + motion_name, "continuous", motions.size(),
+                             options.seed, {a, b});
     std::vector<Row> rows;
     for (std::size_t w = 0; w < served.size(); ++w) {
       const Way& way = *served[w];

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "continuous_way.h"
 
-#include "fcl_kios/continuous/continuous.h"
-#include "fcl_kios/model/model.h"
+#include <fcl_kios/fcl_kios.h>
 
 namespace kios::bench {
 

@@ -7,9 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-
 #include "calls.h"
+#include "managed_bodies.h"
 #include "scenes/mesh.h"
 
 namespace kios::bench {
@@ -35,58 +34,44 @@ class Crowd {
 
 template <typename BV, typename Calls>
 class CrowdOf final : public Crowd {
-  using Object = fcl::CollisionObjectd;
-
  public:
   explicit CrowdOf(std::string name) : name_(std::move(name)) {}
   std::string name() const override { return name_; }
 
   void make(const std::vector<scenes::Mesh>& meshes,
             const std::vector<fcl::Transform3d>& poses) override {
-    manager_ = std::make_unique<fcl::DynamicAABBTreeCollisionManagerd>();
-    objects_.clear();
+    bodies_ = std::make_unique<ManagedBodies>();
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-      objects_.emplace_back(scenes::buildModel<BV>(meshes[i]), poses[i]);
+      bodies_->add(scenes::buildModel<BV>(meshes[i]), poses[i]);
     }
-    for (Object& object : objects_) manager_->registerObject(&object);
-    manager_->setup();
+    bodies_->setup();
   }
 
   void collide(std::vector<BodyPair>& pairs) override {
-    struct Pass {
-      const Object* first;
-      std::vector<BodyPair>& pairs;
-    } pass{objects_.data(), pairs};
     pairs.clear();
-    manager_->collide(&pass, [](Object* a, Object* b, void* data) {
-      Pass& to = *static_cast<Pass*>(data);
+    bodies_->collide([&](int a, int b) {
       const fcl::CollisionRequestd request;
       fcl::CollisionResultd result;
-      Calls::collide(a, b, request, result);
-      to.pairs.push_back(
-          {static_cast<int>(a - to.first), static_cast<int>(b - to.first), result.isCollision()});
+      Calls::collide(bodies_->object(a), bodies_->object(b), request, result);
+      pairs.push_back({a, b, result.isCollision()});
       return false;
     });
   }
 
   double distance() override {
-    fcl::DistanceResultd result;
-    manager_->distance(&result, [](Object* a, Object* b, void* data, double& distance) {
-      fcl::DistanceResultd& least = *static_cast<fcl::DistanceResultd*>(data);
+    fcl::DistanceResultd least;
+    bodies_->distance([&](int a, int b, double& reach) {
       const fcl::DistanceRequestd request;
-      distance = least.min_distance;
-      if (distance <= 0) return true;
-      Calls::distance(a, b, request, least);
-      distance = least.min_distance;
-      return distance <= 0;
+      Calls::distance(bodies_->object(a), bodies_->object(b), request, least);
+      reach = least.min_distance;
+      return reach <= 0;
     });
-    return result.min_distance;
+    return least.min_distance;
   }
 
  private:
   std::string name_;
-  std::vector<Object> objects_;
-  std::unique_ptr<fcl::DynamicAABBTreeCollisionManagerd> manager_;
+  std::unique_ptr<ManagedBodies> bodies_;
 };
 
 }  // namespace kios::bench

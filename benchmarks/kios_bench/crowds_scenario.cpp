@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <fcl/math/bv/OBBRSS.h>
-#include <fcl_kios/model/prepare.h>
+#include <fcl_kios/model.h>
 
 #include "contest.h"
 #include "crowd.h"
@@ -110,17 +110,9 @@ void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Qu
   }
   Race{std::size(kQueries), options.repeats, Race::kAll, 1}.run(competitors);
 
-  Row base;
-  base.query = name(query);
-  base.seed = options.seed;
-  for (const scenes::Mesh& mesh : scene.meshes) {
-    base.triangles += mesh.triangles.size();
-    base.largest_mesh = std::max(base.largest_mesh, mesh.triangles.size());
-    base.extent = std::max(base.extent, scenes::extent(mesh));
-  }
+  Row base = baseRow(scenario, name(query), 1, options.seed, scene.meshes);
   const double truth = query == Query::kDistance ? trueDistance(scene) : 0;
   std::vector<Row> rows;
-  base.frames = 1;
   for (std::size_t number = 0; number < std::size(kQueries); ++number) {
     std::vector<Competitor> parts;
     for (const Competitor& all : competitors) parts.push_back(part(all, number));

@@ -10,7 +10,6 @@
 #include "contest.h"
 #include "library.h"
 #include "mesh_set_of.h"
-#include "scenes/arms.h"
 #include "scenes/cad_parts.h"
 #include "scenes/placement.h"
 #include "scenes/worlds.h"
@@ -20,7 +19,12 @@
 extern "C" const kios::bench::Library kios_bench_library = {
     []() -> std::unique_ptr<kios::bench::MeshSet> {
       return std::make_unique<kios::bench::MeshSetOf<kios::bench::KiosKind>>(nullptr);
-    }};
+    },
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr,
+    nullptr};
 
 namespace kios::bench {
 namespace {
@@ -44,23 +48,9 @@ Scene twoTori() {
 /// Two arms that face each other, every pair of their links.
 Scene twoArms() {
   constexpr int kFrames = 4;
-  const scenes::Arm arm = scenes::cadArm();
-  fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
-  X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();
-  X_W2.translation().x() = 0.7;
-  const auto first = scenes::armMotion(arm, 400, 2), second = scenes::armMotion(arm, 400, 3);
-  Scene scene{"two arms", {}, {}, kFrames};
+  const scenes::Robot arm = scenes::cadArm();
+  Scene scene{"two arms", {}, robotQuestions(arm, scenes::facing(0.7), kFrames, 1), kFrames};
   for (const scenes::Link& link : arm.links) scene.meshes.push_back(link.mesh);
-  for (int i = 0; i < kFrames; ++i) {
-    const int at = 400 * i / kFrames;
-    const auto poses = scenes::linkPoses(arm, fcl::Transform3d::Identity(), first[at]);
-    const auto others = scenes::linkPoses(arm, X_W2, second[at]);
-    for (std::size_t a = 0; a < poses.size(); ++a) {
-      for (std::size_t b = 0; b < others.size(); ++b) {
-        scene.questions.push_back({a, b, {poses[a], others[b]}});
-      }
-    }
-  }
   return scene;
 }
 

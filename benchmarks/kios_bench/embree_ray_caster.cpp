@@ -42,36 +42,26 @@ class EmbreeCaster : public RayCaster {
     rtcReleaseDevice(device_);
   }
 
-  std::string name() const override { return "embree"; }
-
-  std::optional<CastHit> first(const Rayd& ray) override {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // fastest of both for single rays
-    RTCRayHit cast = {made(ray), {}};
-    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context, &cast);
-    if (cast.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return CastHit{double{cast.ray.tfar}, static_cast<int>(cast.hit.primID)};
-  }
-
-  bool any(const Rayd& ray) override {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay cast = made(ray);
-    rtcOccluded1(scene_, &context, &cast);
-    return cast.tfar < 0;
-  }
-
-  void all(const Rayd& ray, std::vector<CastHit>& hits) override {
+  void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) override {
     hits.clear();
     Collecting collecting;
     rtcInitIntersectContext(&collecting.context);
-    collecting.context.filter = &Collecting::collect;
-    collecting.hits = &hits;
     RTCRayHit cast = {made(ray), {}};
     cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(collecting_, &collecting.context, &cast);
+    if (query == RayQuery::kAny) {
+      rtcOccluded1(scene_, &collecting.context, &cast.ray);
+      if (cast.ray.tfar < 0) hits.push_back({0, -1});
+    } else if (query == RayQuery::kFirst) {
+      collecting.context.flags =
+          RTC_INTERSECT_CONTEXT_FLAG_COHERENT;  // the fastest for single rays
+      rtcIntersect1(scene_, &collecting.context, &cast);
+      if (cast.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+      hits.push_back({double{cast.ray.tfar}, static_cast<int>(cast.hit.primID)});
+    } else {
+      collecting.context.filter = &Collecting::collect;
+      collecting.hits = &hits;
+      rtcIntersect1(collecting_, &collecting.context, &cast);
+    }
   }
 
  private:

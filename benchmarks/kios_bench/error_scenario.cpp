@@ -18,7 +18,6 @@
 #include "contest.h"
 #include "fcl_models.h"
 #include "scenario.h"
-#include "scenes/arms.h"
 
 namespace kios::bench {
 namespace {
@@ -34,8 +33,9 @@ constexpr double kBudgets[] = {8, 16, 32, 64, 128, 256};
 constexpr double kThresholds[] = {0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10};
 
 /// A way to ask for a distance, and the error that it may have: at most one of the numbers is set;
-/// none asks for the exact distance. kBracket, kBudget: kios::distance; kDistance: fcl::distance,
-/// or FCL's node; kThreshold: is the pair nearer than a part of the exact distance of each frame?
+/// none asks for the exact distance. kBracket, kBudget: kios::distanceBracket; kDistance:
+/// fcl::distance, or FCL's node; kThreshold: is the pair nearer than a part of the exact distance
+/// of each frame?
 struct Setting {
   enum Query { kDistance, kBracket, kBudget, kThreshold };
   Query query = kDistance;
@@ -64,8 +64,6 @@ struct Way {
 /// Ours.
 Way kiosWay(const scenes::MovingPair& pair) {
   const auto a = scenes::buildModel<kIOSd>(pair.a), b = scenes::buildModel<kIOSd>(pair.b);
-  prepare(*a);
-  prepare(*b);
   return {"kios", true, [a, b](const Setting& setting, const ErrorQuestion& question) -> Bracket {
             const auto& [X_WA, X_WB] = question.poses;
             const Asked& asked = setting.asked;
@@ -80,12 +78,12 @@ Way kiosWay(const scenes::MovingPair& pair) {
               const double threshold = *asked.threshold * question.distance;
               bracket.upper = closerThan(*a, X_WA, *b, X_WB, threshold) ? 0 : kInfinity;
             } else {
-              DistanceOptions<double> options;
+              DistanceBracketRequest<double> options;
               options.rel_err = *asked.rel_err;
               options.abs_err = *asked.abs_err;
               if (asked.budget) options.max_expansions = static_cast<long long>(*asked.budget);
               options.nearest_points = false;
-              const auto answer = kios::distance(*a, X_WA, *b, X_WB, options);
+              const auto answer = kios::distanceBracket(*a, X_WA, *b, X_WB, options);
               bracket = {answer.lower_bound, answer.distance};
             }
             return bracket;
@@ -247,11 +245,7 @@ void reportPair(const std::string& scenario, const scenes::MovingPair& pair, con
     all.push_back({f, oracle.distance(f.X_WA, f.X_WB)});
     if (all.back().distance > 0) apart.push_back(all.back());
   }
-  Row base;
-  base.scenario = scenario;
-  base.triangles = pair.a.triangles.size() + pair.b.triangles.size();
-  base.seed = options.seed;
-  base.extent = std::max(scenes::extent(pair.a), scenes::extent(pair.b));
+  const Row base = baseRow(scenario, "", 0, options.seed, {pair.a, pair.b});
   reportSettings(base, ways, distanceSettings(), all, options.repeats, report);
   if (apart.empty()) return;
   reportSettings(base, ways, thresholdSettings(), apart, options.repeats, report);
@@ -261,17 +255,10 @@ void reportPair(const std::string& scenario, const scenes::MovingPair& pair, con
 scenes::MovingPair forearms(std::uint64_t seed) {
   constexpr int kMotionFrames = 1200;
   constexpr std::size_t kForearm = 4;
-  const scenes::Arm arm = scenes::cadArm();
-  fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
-  X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();
-  X_W2.translation().x() = 0.7;
-  const auto motion_1 = scenes::armMotion(arm, kMotionFrames, 2 * seed);
-  const auto motion_2 = scenes::armMotion(arm, kMotionFrames, 2 * seed + 1);
+  const scenes::Robot arm = scenes::cadArm();
   scenes::MovingPair pair{arm.links[kForearm].mesh, arm.links[kForearm].mesh, {}};
-  for (int i = 0; i < kMotionFrames; ++i) {
-    const auto poses_1 = scenes::linkPoses(arm, fcl::Transform3d::Identity(), motion_1[i]);
-    const auto poses_2 = scenes::linkPoses(arm, X_W2, motion_2[i]);
-    pair.frames.push_back({poses_1[kForearm], poses_2[kForearm]});
+  for (const Question& question : robotQuestions(arm, scenes::facing(0.7), kMotionFrames, seed)) {
+    if (question.a == kForearm && question.b == kForearm) pair.frames.push_back(question.poses);
   }
   return pair;
 }

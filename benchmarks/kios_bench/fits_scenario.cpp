@@ -5,13 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "contest.h"
-#include "fit_entrant.h"
+#include "fcl_kios/paper.h"
+#include "paper/fcl_policies.h"
+#include "paper/kios_policy.h"
+#include "paper/packed_policy.h"
+#include "paper/variant_tree.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
@@ -21,7 +26,150 @@ namespace kios::bench {
 namespace {
 
 using namespace paper;
+
+constexpr double kPi = 3.14159265358979323846;
 using Poses = std::vector<RelativePose<double>>;
+using Split = std::shared_ptr<const MeshSplit>;
+
+/// Two nodes of the splits of both meshes at a pose, and the distance of their triangles.
+struct NodePair {
+  int a, b;
+  RelativePose<double> X_AB;
+  double distance;
+};
+
+/// Holds means over the nodes of both trees: numbers that describe a volume, as the paper counts;
+/// bytes that it takes here; its spheres, 0 if it has none.
+struct FitSize {
+  double numbers = 0, bytes = 0, spheres = 0;
+};
+
+/// A volume over the splits of two meshes. All share splits, traversal and leaf tests, so that they
+/// differ by their volumes alone.
+struct FitTrees {
+  std::function<VariantResult(const RelativePose<double>&X_AB)> distance, collide;
+  /// Returns the bound of two nodes, for a distance query.
+  std::function<double(const NodePair& pair)> bound;
+  std::function<FitSize()> size;
+};
+
+/// Holds a volume and its fit.
+struct FitEntrant {
+  std::string name;
+  std::function<FitTrees(const Split& a, const Split& b)> build;
+};
+
+using Entrants = std::vector<FitEntrant>;
+
+/// Numbers that describe a volume, and its spheres.
+struct VolumeSize {
+  double numbers = 0;
+  double spheres = 0;
+};
+
+/// size_of(stored volume) is its VolumeSize.
+template <typename Policy, typename SizeOf>
+void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf size_of) {
+  using Tree = VariantTree<Policy>;
+  const auto build = [policy, size_of](const Split& split_a, const Split& split_b) {
+    const auto a = std::make_shared<const Tree>(split_a, policy);
+    const auto b = std::make_shared<const Tree>(split_b, policy);
+    FitTrees trees;
+    trees.distance = [a, b](const RelativePose<double>& X_AB) { return a->distance(*b, X_AB); };
+    trees.collide = [a, b](const RelativePose<double>& X_AB) { return a->collide(*b, X_AB); };
+    trees.bound = [a, b](const NodePair& pair) {
+      return a->policy().separation(a->store()[pair.a], b->store()[pair.b],
+                                    a->policy().place(a->shared(), b->shared(), pair.X_AB),
+                                    std::numeric_limits<double>::infinity());
+    };
+    trees.size = [a, b, size_of] {
+      FitSize mean;
+      double nodes = 0, floats = 0;
+      for (const Tree* tree : {a.get(), b.get()}) {
+        const auto count = static_cast<int>(tree->split().nodes().size());
+        for (int i = 0; i < count; ++i) {
+          const VolumeSize size = size_of(tree->store()[i]);
+          mean.numbers += size.numbers;
+          mean.spheres += size.spheres;
+        }
+        nodes += count;
+        floats += static_cast<double>(tree->store().floats());
+      }
+      mean.numbers /= nodes;
+      mean.spheres /= nodes;
+      mean.bytes = sizeof(float) * floats / nodes;
+      return mean;
+    };
+    return trees;
+  };
+  all.push_back({name, build});
+}
+
+/// Returns spheres with their own radii, or with one that all but S0 share.
+VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
+  const int k = bv.k();
+  const bool shares = shared_radius && k > 1;
+  return {shares ? 4.0 + 3 * (k - 1) + 1 : 4.0 * k, static_cast<double>(k)};
+}
+
+void addKios(Entrants& all, const std::string& name, const FitOptions& options) {
+  const bool shared = options.shared_radius;
+  add(all, name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); });
+}
+
+/// Volumes that hold no more floats than their kind needs: for each cap its place, of so many
+/// floats, and its radius.
+template <typename Policy>
+void addPacked(Entrants& all, const std::string& name, const Policy& policy, int floats_of_place) {
+  const auto size_of = [floats_of_place](const PackedStore::Packed& bv) {
+    int caps = 0;
+    for (int axis = 0; axis < 8; ++axis) caps += 2 * ((bv.pairs >> axis) & 1);
+    return VolumeSize{4.0 + (floats_of_place + 1) * caps, 1.0 + caps};
+  };
+  add(all, name, policy, size_of);
+}
+
+/// The paper's kinds (III-A) and its scale of k (V-B).
+void addKinds(Entrants& all) {
+  FitOptions every;
+  every.count = SphereCount::kAll;
+  addPacked(all, "kios_k3", OrientedKios<3>(every), 3);
+  addPacked(all, "kios_k7", OrientedKios<7>(every), 3);
+  addPacked(all, "kios_axis_aligned", AxisAlignedKios(), 1);
+  // Through the corners of an icosahedron: k = 13.
+  const double g = (1 + std::sqrt(5.0)) / 2;
+  const std::vector<fcl::Vector3d> six = {{0, 1, g},  {0, 1, -g}, {1, g, 0},
+                                          {1, -g, 0}, {g, 0, 1},  {-g, 0, 1}};
+  addPacked(all, "kios_fixed_6", FixedDirectionKios(six, every), 1);
+}
+
+template <typename Policy>
+void addOther(Entrants& all, const std::string& name, double numbers) {
+  const auto size_of = [numbers](const auto& /*bv*/) { return VolumeSize{numbers, 0}; };
+  add(all, name, Policy(), size_of);
+}
+
+/// Returns all constructions of k-IOS, and the volumes that they are compared with.
+std::vector<FitEntrant> fitEntrants() {
+  Entrants all;
+  addKios(all, "kios_method_i", FitMethod::kMethodI);
+  addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);
+  addKios(all, "kios_method_ii", FitMethod::kMethodII);
+  FitOptions shared(FitMethod::kMethodII), every, narrow;
+  shared.shared_radius = true;
+  addKios(all, "kios_method_ii_shared", shared);
+  addKios(all, "kios_tuned", FitMethod::kTuned);
+  every.count = SphereCount::kAll;
+  addKios(all, "kios_tuned_k5", every);
+  narrow.angle = kPi / 8;  // for the paper's pi/6
+  addKios(all, "kios_tuned_22deg", narrow);
+  addKinds(all);
+  // In the paper's words: two corners, a corner with axes and lengths, ...
+  addOther<AabbPolicy>(all, "fcl_aabb", 6);
+  addOther<OrientedPolicy<fcl::RSSd>>(all, "fcl_rss", 15);
+  addOther<OrientedPolicy<fcl::OBBRSSd>>(all, "fcl_obbrss", 30);
+  return all;
+}
 
 double distanceOf(const MeshSplit& a, const MeshSplit::Node& m, const MeshSplit& b,
                   const MeshSplit::Node& n, const RelativePose<double>& X_AB) {
@@ -107,25 +255,21 @@ std::vector<Lane> built(const std::vector<FitEntrant>& entrants, const Split& a,
         {"", [&](std::size_t, std::size_t) { trees = entrant.build(a, b); }}};
     Race{1, repeats}.run(builder);
     const double us = timesOf(builder[0], 1, nullptr).median_us;
-    const Bounds bounds = entrant.serves_distance ? boundsOf(trees, nodes) : Bounds();
-    lanes.push_back({&entrant, trees, trees.size(), us / triangles, bounds, {}, 0, 0});
+    lanes.push_back(
+        {&entrant, trees, trees.size(), us / triangles, boundsOf(trees, nodes), {}, 0, 0});
   }
   return lanes;
 }
 
-/// Asks all frames, the lanes taking turns at blocks of them; one row for each that serves the
-/// query.
+/// Asks all frames, the lanes taking turns at blocks of them; one row for each.
 std::vector<Row> ask(Row row, bool collide, const Poses& poses, int repeats,
                      const std::vector<Question>& questions, const Verdicts& verdicts,
                      std::vector<Lane>& lanes) {
   constexpr std::size_t kBlock = 64;
   std::vector<Competitor> competitors;
-  std::vector<Lane*> serving;
   for (Lane& lane : lanes) {
-    if (!collide && !lane.entrant->serves_distance) continue;
     lane.answers.assign(poses.size(), 0);
     lane.bv_tests = lane.leaf_tests = 0;
-    serving.push_back(&lane);
     competitors.push_back(
         {lane.entrant->name, [&lane, &poses, collide](std::size_t begin, std::size_t end) {
            for (std::size_t i = begin; i < end; ++i) {
@@ -142,8 +286,8 @@ std::vector<Row> ask(Row row, bool collide, const Poses& poses, int repeats,
   const double asked = static_cast<double>(poses.size()) * repeats;
   row.query = name(query);
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < serving.size(); ++i) {
-    const Lane& lane = *serving[i];
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
     Row& of = rows.emplace_back(row.of(competitors[i]));
     of.tests = {static_cast<double>(lane.bv_tests) / asked,
                 static_cast<double>(lane.leaf_tests) / asked};
@@ -152,7 +296,6 @@ std::vector<Row> ask(Row row, bool collide, const Poses& poses, int repeats,
     of.volumes.bytes_per_triangle = 2 * lane.size.bytes;  // of volumes
     if (lane.size.spheres > 0) of.volumes.mean_spheres = lane.size.spheres;
     of.errors = compare(lane.answers, verdicts, query, questions, row.extent);
-    if (!lane.entrant->serves_distance) continue;
     of.volumes.tightness = lane.bounds.tightness;
     *of.errors.wrong += lane.bounds.wrong;
   }
@@ -171,12 +314,7 @@ void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
   const std::vector<FitEntrant> entrants = fitEntrants();
   std::vector<Lane> lanes = built(entrants, a, b, nodes, options.repeats);
 
-  Row base;
-  base.scenario = scenario;
-  base.triangles = pair.a.triangles.size() + pair.b.triangles.size();
-  base.frames = frames.size();
-  base.seed = options.seed;
-  base.extent = std::max(scenes::extent(pair.a), scenes::extent(pair.b));
+  const Row base = baseRow(scenario, "", frames.size(), options.seed, {pair.a, pair.b});
   for (const bool collide : {false, true}) {
     const Query query = collide ? Query::kCollide : Query::kDistance;
     const std::vector<Question> questions = pairTask("", query, frames).questions;
@@ -189,7 +327,7 @@ void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
 
 }  // namespace
 
-void reportFits(const Options& options, Report& report) {
+void runPaper(const Options& options, Report& report) {
   constexpr int kFrames = 200;
   Options ours = options;
   if (ours.frames == 0) ours.frames = options.quick ? 10 : kFrames;

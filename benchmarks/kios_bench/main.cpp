@@ -42,8 +42,8 @@ void printList() {
   for (const std::string& bv : volumeNames()) {
     const auto set = makeMeshSet(bv);
     std::printf("  %-18s", bv.c_str());
-    for (const Query query : {Query::kDistance, Query::kCollide, Query::kThreshold,
-                              Query::kCloserThan, Query::kBuild, Query::kRefit}) {
+    for (const Query query :
+         {Query::kDistance, Query::kCollide, Query::kCloserThan, Query::kBuild, Query::kRefit}) {
       if (set->serves(query)) std::printf(" %s", name(query));
     }
     std::printf("\n");
@@ -138,7 +138,7 @@ int runCompared(std::vector<std::string> wanted, Options options, bool own_repea
                 Report& report) {
   constexpr std::size_t kShown = 10;
   if (wanted.empty()) {
-    wanted = {"tori", "robots", "world", "scene", "shapes", "build", "continuous", "motions"};
+    wanted = {"tori", "robots", "world", "scene", "shapes", "build", "motions"};
   }
   if (options.bvs == defaultVolumeNames()) options.bvs = {kOurs, "fcl_obbrss"};
   options.bvs = compared(options.bvs);

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <map>
+#include <memory>
 #include <numeric>
+#include <random>
 
 #include "fcl_kios/fcl_kios.h"
-#include "mbm_edges.h"
 #include "mbm_problems.h"
 #include "obbrss_cell.h"
 #include "rrt_connect.h"
@@ -124,12 +126,8 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     const Tally& tally = kind.ways[way];
     if (tally.seconds.empty()) continue;
     const double middle = median(tally.seconds);
-    Row row;
-    row.scenario = scenario;
-    row.query = "plan";
+    Row row = baseRow(scenario, "plan", tally.seconds.size(), seed);
     row.bv = kNames[way];
-    row.frames = tally.seconds.size();
-    row.seed = seed;
     row.times.median_us = 1e6 * middle;
     row.times.min_us = 1e6 * *std::min_element(tally.seconds.begin(), tally.seconds.end());
     if (middle > 0 && base > 0) row.times.ratio_to_fcl_obbrss = base / middle;
@@ -141,6 +139,98 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     rows.push_back(row);
   }
   return rows;
+}
+
+/// The robot among a problem's obstacles, as each competitor knows it.
+struct Place {
+  Robot robot;
+  std::unique_ptr<ObbrssCell> obbrss;
+};
+
+using Ask = std::function<void(const Place& place, const Eigen::MatrixXd& configurations)>;
+
+/// Asks each place about all its configurations.
+std::vector<Row> rowsOf(const std::string& scenario, const char* query,
+                        const std::vector<std::pair<const Place*, Eigen::MatrixXd>>& places,
+                        const std::vector<std::pair<const char*, Ask>>& ways, bool wall_clock,
+                        const Options& options) {
+  std::vector<Competitor> competitors;
+  for (const auto& [bv, ask] : ways) {
+    competitors.push_back({bv, [&places, ask = ask](std::size_t begin, std::size_t end) {
+                             for (std::size_t i = begin; i < end; ++i) {
+                               ask(*places[i].first, places[i].second);
+                             }
+                           }});
+  }
+  Race race{places.size(), options.quick ? 1 : options.repeats, 1, 1, true, wall_clock};
+  race.run(competitors);
+  std::size_t count = 0;
+  for (const auto& [place, q] : places) count += static_cast<std::size_t>(q.cols());
+  const Row base = baseRow(scenario, query, count, options.seed);
+  std::vector<Row> rows;
+  for (const Competitor& competitor : competitors) {
+    rows.push_back(base.of(competitor, named("fcl_obbrss", competitors)));
+  }
+  return rows;
+}
+
+/// What single questions cost among the problems' obstacles: configurations at random, in contact
+/// or not, one by one and all at once on all cores and on one; the clearance with its gradient.
+void measureQuestions(const std::string& name, const Robot& bare,
+                      const std::vector<Problem>& problems, const Options& options,
+                      Report& report) {
+  const int of_place = options.quick ? 500 : 10000;
+  std::vector<std::unique_ptr<Place>> places;
+  ObbrssModels models;
+  for (const Problem& problem : problems) {
+    places.push_back(std::unique_ptr<Place>(new Place{bare, nullptr}));
+    places.back()->robot.addScene(problem.scene.string());
+    places.back()->obbrss = std::make_unique<ObbrssCell>(places.back()->robot, models);
+    if (places.size() == 14) break;  // two of each kind
+  }
+  const VectorXd lower = bare.lower().cwiseMax(-2 * kPi), upper = bare.upper().cwiseMin(2 * kPi);
+  std::mt19937_64 random(options.seed);
+  std::vector<std::pair<const Place*, Eigen::MatrixXd>> all, some, clear;
+  for (const auto& place : places) {
+    Eigen::MatrixXd drawn(bare.coordinates(), of_place);
+    for (auto q : drawn.colwise()) {
+      for (Eigen::Index k = 0; k < q.size(); ++k) {
+        q[k] = std::uniform_real_distribution<double>(lower[k], upper[k])(random);
+      }
+    }
+    Eigen::MatrixXd free(bare.coordinates(), 0);
+    for (int i = 0; i < of_place / 12; ++i) {
+      if (place->robot.contact(drawn.col(i))) continue;
+      free.conservativeResize(Eigen::NoChange, free.cols() + 1);
+      free.rightCols(1) = drawn.col(i);
+    }
+    some.emplace_back(place.get(), drawn.leftCols(of_place / 12));
+    clear.emplace_back(place.get(), std::move(free));
+    all.emplace_back(place.get(), std::move(drawn));
+  }
+  const auto each = [](const auto& ask) {
+    return [ask](const Place& place, const Eigen::MatrixXd& q) {
+      for (Eigen::Index i = 0; i < q.cols(); ++i) ask(place, q.col(i));
+    };
+  };
+  const auto obbrss = each([](const Place& at, const VectorXd& q) { at.obbrss->isFree(q); });
+  const std::string scenario = "mbm/" + name;
+  report.add(
+      rowsOf(scenario + "/configurations", "collide", some,
+             {{"kios", each([](const Place& at, const VectorXd& q) { (void)at.robot.contact(q); })},
+              {"fcl_obbrss", obbrss}},
+             false, options));
+  report.add(rowsOf(
+      scenario + "/batches", "collide", all,
+      {{"kios", [](const Place& at, const Eigen::MatrixXd& q) { (void)at.robot.contacts(q); }},
+       {"kios_one_thread",
+        [](const Place& at, const Eigen::MatrixXd& q) { (void)at.robot.contacts(q, 1); }},
+       {"fcl_obbrss", obbrss}},
+      true, options));
+  report.add(rowsOf(
+      scenario + "/free", "gradient", clear,
+      {{"kios", each([](const Place& at, const VectorXd& q) { (void)at.robot.clearance(q); })}},
+      false, options));
 }
 
 void planAll(const std::string& name, const fs::path& folder, const Options& options,

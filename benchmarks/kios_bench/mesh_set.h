@@ -16,11 +16,10 @@
 
 namespace kios::bench {
 
-/// kThreshold: a distance query with a bound on entry, as FCL's broadphase asks: is anything
-/// nearer? kCloserThan: whether two meshes are at most that far apart, by kios::closerThan, or for
-/// FCL by such a query, or by collide where the bound is 0. kContacts: how many contacts there are.
+/// kCloserThan: whether two meshes are at most so far apart, by kios::closerThan, or for FCL by a
+/// distance with that bound on entry, or by collide where it is 0. kContacts: how many there are.
 /// kRefit: the refit of a model whose vertices moved, and a query.
-enum class Query { kDistance, kCollide, kContacts, kThreshold, kCloserThan, kBuild, kRefit };
+enum class Query { kDistance, kCollide, kContacts, kCloserThan, kBuild, kRefit };
 
 /// Returns the name of the query in tables and JSON.
 const char* name(Query query);
@@ -33,7 +32,7 @@ struct Question {
   std::size_t a = 0;
   std::size_t b = 1;
   scenes::Frame poses;
-  /// For kThreshold: DistanceResult::min_distance on entry. For kCloserThan: at most that far?
+  /// For kCloserThan.
   double threshold = std::numeric_limits<double>::infinity();
   /// For kContacts.
   std::size_t max_contacts = 1000000;
@@ -61,8 +60,7 @@ class MeshSet {
   virtual void replace(const std::vector<scenes::Mesh>& meshes, Refit how) = 0;
 
   /// Answers questions[begin, end) into answers[begin, end) with a fresh request and result each:
-  /// the distance, never above the threshold of a kThreshold query, or the number of contacts, at
-  /// most 1 for kCollide, or 1 for yes.
+  /// the distance, or the number of contacts, at most 1 for kCollide, or 1 for yes.
   virtual void answer(Query query, const std::vector<Question>& questions, std::size_t begin,
                       std::size_t end, std::vector<double>& answers) = 0;
 

@@ -11,10 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "fcl_kios/model/prepare.h"
-#include "fcl_kios/query/distance.h"
-#include "fcl_kios/query/mesh_nodes.h"
-#include "fcl_kios/query/mesh_queries.h"
+#include <fcl_kios/fcl_kios.h>
 #include "fcl_models.h"
 #include "mesh_set.h"
 
@@ -105,9 +102,6 @@ class MeshSetOf final : public MeshSet {
         case Query::kCloserThan:
           answers[i] = closer(a, b, question) ? 1 : 0;
           break;
-        case Query::kThreshold:
-          answers[i] = distanceBelow(a, b, question.threshold);
-          break;
         default:
           answers[i] = distanceBelow(a, b, std::numeric_limits<double>::max());
       }
@@ -127,7 +121,6 @@ class MeshSetOf final : public MeshSet {
         }
       } else {
         fcl::DistanceResultd result;
-        if (query == Query::kThreshold) result.min_distance = question.threshold;
         if constexpr (Kind::kDistance) {
           count<typename Kind::DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves,
                                              exact);

@@ -9,7 +9,7 @@
 #include <fcl/narrowphase/detail/traversal/collision/mesh_collision_traversal_node.h>
 #include <fcl/narrowphase/detail/traversal/distance/mesh_distance_traversal_node.h>
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "library.h"
 #include "mesh_set_of.h"
 
@@ -73,7 +73,7 @@ constexpr Entry kVolumes[] = {
 }  // namespace
 
 const char* name(Query query) {
-  constexpr const char* kNames[] = {"distance",    "collide", "contacts", "threshold",
+  constexpr const char* kNames[] = {"distance",    "collide", "contacts",
                                     "closer_than", "build",   "refit"};
   return kNames[static_cast<int>(query)];
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <fcl_kios/linkage/linkage.h>
+#include <fcl_kios/fcl_kios.h>
 
 #include "scenes/cells.h"
 
@@ -46,5 +46,11 @@ std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::
 /// Returns true if a configuration is free of contact, by the static query of every pair whose
 /// boxes meet.
 std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& cell);
+
+/// Returns the least distance of the admissible pairs on a straight path, by FCL's dynamic AABB
+/// trees over OBBRSS at samples between which nothing moves farther than `step`. The cell must
+/// outlive it.
+std::function<double(const scenes::Joints&, const scenes::Joints&)> makeSampledClearance(
+    const scenes::Cell& cell, double step);
 
 }  // namespace kios::bench

@@ -4,20 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <deque>
+#include <limits>
 #include <vector>
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/math/bv/OBBRSS.h>
-#include <fcl_kios/model/model.h>
+#include <fcl_kios/fcl_kios.h>
 
 #include "calls.h"
+#include "managed_bodies.h"
+#include "sampled_edge.h"
 
 namespace kios::bench {
 namespace {
-
-using Object = fcl::CollisionObjectd;
 
 Eigen::VectorXd vectorOf(const scenes::Joints& q) {
   return Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
@@ -39,7 +37,7 @@ class Certified final : public MotionSet {
       : MotionSet(name), linkage_(linkageOf(cell)) {}
 
   bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) override {
-    const MotionAnswer answer = checkMotion(linkage_, vectorOf(q0), vectorOf(q1));
+    const auto answer = checkMotion(linkage_, vectorOf(q0), vectorOf(q1));
     queried_ += answer.counts.narrow_queries;
     if (answer.verdict == MotionVerdict::kUnresolved) ++unresolved_;
     return answer.verdict == MotionVerdict::kClear;
@@ -52,83 +50,99 @@ class Certified final : public MotionSet {
   long long queried_ = 0, unresolved_ = 0;
 };
 
-/// Samples of a path, each by FCL's dynamic AABB trees, one of the links and one of what stands
-/// still.
+/// Samples of a path, each by FCL's dynamic AABB trees.
 template <typename BV, typename Calls>
 class Managed final : public MotionSet {
  public:
-  Managed(const std::string& name, const scenes::Cell& cell)
-      : MotionSet(name), cell_(cell), models_(modelsOf<BV>(cell)) {
+  Managed(const std::string& name, const scenes::Cell& cell) : MotionSet(name), cell_(cell) {
+    const auto models = modelsOf<BV>(cell);
     for (int body = 0; body < cell.bodies(); ++body) {
       const bool moves = body < cell.moving();
-      const auto X = moves ? fcl::Transform3d::Identity() : cell.places[body - cell.moving()];
-      objects_.push_back(std::make_unique<Object>(models_[body], X));
-      objects_.back()->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
-      (moves ? moving_ : still_).registerObject(objects_.back().get());
+      bodies_.add(models[body],
+                  moves ? fcl::Transform3d::Identity() : cell.places[body - cell.moving()], moves);
     }
-    moving_.setup();
-    still_.setup();
+    bodies_.setup();
   }
 
   bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) override {
-    constexpr double kStep = 0.01;
-    double most = 0;
-    for (std::size_t i = 0; i < q0.size(); ++i) most = std::max(most, std::abs(q1[i] - q0[i]));
-    const int count = std::max(1, static_cast<int>(std::ceil(most / kStep - 1e-9)));
-    if (!isFreeAt(q1)) return false;
-    halves_.assign(1, {1, count - 1});
-    while (!halves_.empty()) {
-      const auto [first, last] = halves_.front();
-      halves_.pop_front();
-      if (first > last) continue;
-      const int middle = (first + last) / 2;
-      if (!isFreeAt(scenes::between(q0, q1, 1.0 * middle / count))) return false;
-      halves_.emplace_back(first, middle - 1);
-      halves_.emplace_back(middle + 1, last);
-    }
-    return true;
+    const auto is_free = [this](const Eigen::VectorXd& q) {
+      return isFreeAt({q.data(), q.data() + q.size()});
+    };
+    return sampleInContact(is_free, vectorOf(q0), vectorOf(q1)).size() == 0;
   }
   long long takeQueried() override { return std::exchange(queried_, 0); }
 
   bool isFreeAt(const scenes::Joints& q) {
     scenes::placeLinks(cell_, q, poses_);
-    for (std::size_t i = 0; i < poses_.size(); ++i) {
-      objects_[i]->setTransform(poses_[i]);
-      objects_[i]->computeAABB();
-    }
-    moving_.update();
-    contact_ = false;
-    if (!still_.empty()) moving_.collide(&still_, this, &Managed::callback);
-    if (!contact_) moving_.collide(this, &Managed::callback);
-    return !contact_;
+    for (std::size_t i = 0; i < poses_.size(); ++i) bodies_.place(i, poses_[i]);
+    bodies_.update();
+    return !bodies_.collide([this](int a, int b) {
+      if (!cell_.admissible(a, b)) return false;
+      ++queried_;
+      fcl::CollisionResultd result;
+      Calls::collide(bodies_.object(a), bodies_.object(b), fcl::CollisionRequestd(), result);
+      return result.isCollision();
+    });
+  }
+  double distanceAt(const scenes::Joints& q) {
+    scenes::placeLinks(cell_, q, poses_);
+    for (std::size_t i = 0; i < poses_.size(); ++i) bodies_.place(i, poses_[i]);
+    bodies_.update();
+    double least = std::numeric_limits<double>::infinity();
+    bodies_.distance([&](int a, int b, double& reach) {
+      if (cell_.admissible(a, b)) {
+        fcl::DistanceResultd result;
+        Calls::distance(bodies_.object(a), bodies_.object(b), fcl::DistanceRequestd(), result);
+        least = std::min(least, result.min_distance);
+      }
+      reach = least;
+      return !(least > 0);
+    });
+    return std::max(least, 0.0);
   }
 
  private:
-  static int idOf(const Object* object) {
-    return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
-  }
-  static bool callback(Object* o1, Object* o2, void* data) {
-    Managed& self = *static_cast<Managed*>(data);
-    if (self.contact_) return true;
-    if (!self.cell_.admissible(idOf(o1), idOf(o2))) return false;
-    ++self.queried_;
-    fcl::CollisionResultd result;
-    Calls::collide(o1, o2, fcl::CollisionRequestd(), result);
-    self.contact_ = result.isCollision();
-    return self.contact_;
-  }
-
   const scenes::Cell& cell_;
-  std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models_;
-  std::vector<std::unique_ptr<Object>> objects_;
+  ManagedBodies bodies_;
   std::vector<fcl::Transform3d> poses_;
-  std::deque<std::pair<int, int>> halves_;
   long long queried_ = 0;
-  fcl::DynamicAABBTreeCollisionManagerd moving_, still_;
-  bool contact_ = false;
 };
 
+/// Bounds how far points of the robots move on a path: each joint's angle times what lies beyond
+/// it, the links that come after its own.
+double sweptBound(const scenes::Cell& cell, const scenes::Joints& q0, const scenes::Joints& q1) {
+  const std::vector<scenes::Link>& links = cell.robot.links;
+  std::vector<double> beyond(links.size(), 0);
+  double offsets = 0, radius = 0;
+  for (std::size_t i = links.size(); i-- > 0;) {
+    for (const auto& v : links[i].mesh.vertices) {
+      radius = std::max(radius, (links[i].X_LM * v).norm());
+    }
+    beyond[i] = offsets + radius;
+    offsets += links[i].X_PL.translation().norm();
+  }
+  double bound = 0;
+  const std::size_t joints = links.size() - 1;  // the first link stands still
+  for (std::size_t i = 0; i < q0.size(); ++i) {
+    bound += std::abs(q1[i] - q0[i]) * beyond[1 + i % joints];
+  }
+  return bound;
+}
+
 }  // namespace
+
+std::function<double(const scenes::Joints&, const scenes::Joints&)> makeSampledClearance(
+    const scenes::Cell& cell, double step) {
+  const auto set = std::make_shared<Managed<fcl::OBBRSSd, FclCalls>>("", cell);
+  return [&cell, set, step](const scenes::Joints& q0, const scenes::Joints& q1) {
+    const int samples = std::max(1, static_cast<int>(std::ceil(sweptBound(cell, q0, q1) / step)));
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= samples; ++i) {
+      least = std::min(least, set->distanceAt(scenes::between(q0, q1, 1.0 * i / samples)));
+    }
+    return least;
+  };
+}
 
 Linkage linkageOf(const scenes::Cell& cell) {
   Linkage linkage;

@@ -9,7 +9,7 @@
 #include "library.h"
 #include "motion_set.h"
 #include "scenario.h"
-#include "scenes/ur5_data.h"
+#include "scenes/placement.h"
 
 namespace kios::bench {
 namespace {
@@ -50,7 +50,7 @@ class Oracle {
       return Eigen::VectorXd(
           Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
     };
-    const MotionAnswer answer = checkMotion(linkage_, vector(edge.q0), vector(edge.q1));
+    const MotionResult answer = checkMotion(linkage_, vector(edge.q0), vector(edge.q1));
     if (answer.verdict != MotionVerdict::kContact) return true;
     return free_(scenes::between(edge.q0, edge.q1, answer.to));
   }
@@ -92,11 +92,7 @@ Edges drawEdges(const scenes::Cell& cell, const Oracle& oracle, double length, i
 
 Row rowOf(const std::string& scenario, const scenes::Cell& cell, std::size_t edges,
           const Options& options) {
-  Row row;
-  row.scenario = scenario;
-  row.query = "motion";
-  row.frames = edges;
-  row.seed = options.seed;
+  Row row = baseRow(scenario, "motion", edges, options.seed);
   for (int body = 0; body < cell.bodies(); ++body) {
     row.triangles += cell.mesh(body).triangles.size();
   }
@@ -196,19 +192,16 @@ void reportCell(const std::string& name, const scenes::Cell& cell, const Options
 }  // namespace
 
 void runMotions(const Options& options, Report& report) {
-  const auto data = findData(options);
-  const bool ur5 = data && scenes::holdsUr5(*data);
-  const scenes::Robot robot = scenes::robotOf(ur5 ? scenes::loadUr5(*data) : scenes::cadArm());
+  if (wanted(options, "range")) reportRanges(options, report);
+  if (wanted(options, "moved")) reportMoved(options, report);
+  if (wanted(options, "continuous")) reportContinuous(options, report);
+  if (!wanted(options, "paths")) return;
+  const auto ur5 = findUr5(options);
+  const scenes::Robot robot = ur5 ? *ur5 : scenes::cadArm();
   const std::string kind = ur5 ? "ur5" : "arm";
   reportCell("motions/" + kind + "_cell",
              scenes::workCell(robot, 20, options.quick ? 0.05 : 1, options.seed), options, report);
-  fcl::Transform3d X_W2 = fcl::Transform3d::Identity();
-  if (ur5) {
-    X_W2.translation().y() = 0.5;
-  } else {
-    X_W2.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();
-    X_W2.translation().x() = 0.7;
-  }
+  const fcl::Transform3d X_W2 = ur5 ? scenes::shift(0, 0.5, 0) : scenes::facing(0.7);
   reportCell("motions/" + kind + "_pair", scenes::sideBySide(robot, X_W2), options, report);
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "obbrss_cell.h"
 
+#include "calls.h"
 #include "fcl_kios/fcl_kios.h"
 
 namespace kios::bench {
@@ -30,57 +31,39 @@ std::shared_ptr<fcl::CollisionGeometryd> converted(const robot::Geometry& geomet
 
 ObbrssCell::ObbrssCell(const Robot& robot, ObbrssModels& models) : robot_(robot) {
   const auto& arm = *robot.impl().arm;
+  const auto add = [&](const robot::Geometry& geometry, const std::string& name, int node,
+                       const fcl::Transform3d& X) {
+    parts_.push_back({name, node, X});
+    bodies_.add(converted(geometry, models), X, node >= 0);
+  };
   for (const auto& body : arm.bodies) {
-    add(moving_, body.geometry, arm.links[static_cast<std::size_t>(body.entity)], body.node,
-        body.X_LB, models);
+    add(body.geometry, arm.links[static_cast<std::size_t>(body.entity)], body.node, body.X_LB);
   }
-  for (const auto& object : robot.impl().objects) {
-    const int node = object.link < 0 ? -1 : arm.tree.nodeOf(object.link);
-    for (const auto& element : object.elements) {
-      add(node < 0 ? still_ : moving_, element.geometry, object.name, node, object.X * element.X,
-          models);
+  for (const robot::Object* object : robot.impl().ordered()) {
+    const int node = object->link < 0 ? -1 : arm.tree.nodeOf(object->link);
+    for (const auto& element : object->elements) {
+      add(element.geometry, object->name, node, object->X * element.X);
     }
   }
-  moving_.setup();
-  still_.setup();
-}
-
-void ObbrssCell::add(fcl::DynamicAABBTreeCollisionManagerd& manager,
-                     const robot::Geometry& geometry, const std::string& name, int node,
-                     const fcl::Transform3d& X, ObbrssModels& models) {
-  parts_.push_back(std::unique_ptr<Part>(
-      new Part{name, node, X, fcl::CollisionObjectd(converted(geometry, models), X)}));
-  parts_.back()->object.setUserData(parts_.back().get());
-  manager.registerObject(&parts_.back()->object);
+  bodies_.setup();
 }
 
 bool ObbrssCell::isFree(const Eigen::VectorXd& q) {
   robot_.impl().arm->tree.place(q, placed_);
-  for (auto& part : parts_) {
-    if (part->node < 0) continue;
-    part->object.setTransform(placed_[static_cast<std::size_t>(part->node)].pose(part->X));
-    part->object.computeAABB();
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const Part& part = parts_[i];
+    if (part.node < 0) continue;
+    bodies_.place(i, placed_[static_cast<std::size_t>(part.node)].pose(part.X));
   }
-  moving_.update();
-  contact_ = false;
-  moving_.collide(this, &ObbrssCell::callback);
-  if (!contact_) moving_.collide(&still_, this, &ObbrssCell::callback);
-  return !contact_;
-}
-
-bool ObbrssCell::callback(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* cell) {
-  auto& self = *static_cast<ObbrssCell*>(cell);
-  const Part &first = *static_cast<const Part*>(a->getUserData()),
-             &second = *static_cast<const Part*>(b->getUserData());
-  if (first.node == second.node ||
-      self.robot_.impl().allowed.count(robot::namePair(first.name, second.name)) != 0) {
-    return false;
-  }
-  fcl::CollisionResultd result;
-  fcl_own::collide(a->collisionGeometry().get(), a->getTransform(), b->collisionGeometry().get(),
-                   b->getTransform(), fcl::CollisionRequestd(), result);
-  self.contact_ = self.contact_ || result.isCollision();
-  return self.contact_;
+  bodies_.update();
+  return !bodies_.collide([this](int a, int b) {
+    const Part &first = parts_[static_cast<std::size_t>(a)],
+               &second = parts_[static_cast<std::size_t>(b)];
+    if (first.node == second.node || robot_.impl().ignores(first.name, second.name)) return false;
+    fcl::CollisionResultd result;
+    FclCalls::collide(bodies_.object(a), bodies_.object(b), fcl::CollisionRequestd(), result);
+    return result.isCollision();
+  });
 }
 
 }  // namespace kios::bench

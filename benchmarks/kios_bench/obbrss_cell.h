@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "fcl_kios/robot/robot.h"
+#include "managed_bodies.h"
 #include "robot_impl.h"
 
 namespace kios::bench {
@@ -32,18 +31,12 @@ class ObbrssCell {
     std::string name;
     int node;
     fcl::Transform3d X;
-    fcl::CollisionObjectd object;
   };
 
-  void add(fcl::DynamicAABBTreeCollisionManagerd& manager, const robot::Geometry& geometry,
-           const std::string& name, int node, const fcl::Transform3d& X, ObbrssModels& models);
-  static bool callback(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* cell);
-
   const Robot& robot_;
-  std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<Part> parts_;  // by body
   std::vector<robot::PlacedLink> placed_;
-  fcl::DynamicAABBTreeCollisionManagerd moving_, still_;
-  bool contact_ = false;
+  ManagedBodies bodies_;
 };
 
 }  // namespace kios::bench

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scenes/pqp_data.h"
+#include "scenes/ur5_data.h"
 
 namespace kios::bench {
 
@@ -35,6 +36,13 @@ inline bool wanted(const Options& options, const std::string& part) {
 /// Returns the data folder that the command line names, else the one that is found.
 inline std::optional<std::filesystem::path> findData(const Options& options) {
   return options.data ? options.data : scenes::findData();
+}
+
+/// Returns the UR5 where its data is there.
+inline std::optional<scenes::Robot> findUr5(const Options& options) {
+  const auto data = findData(options);
+  if (!data || !scenes::holdsUr5(*data)) return std::nullopt;
+  return scenes::loadUr5(*data);
 }
 
 }  // namespace kios::bench

@@ -4,14 +4,14 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
-#include "fcl_kios/query/ray.h"
+#include "fcl_kios/rays.h"
 #include "scenes/mesh.h"
 
 namespace kios::bench {
+
+enum class RayQuery { kFirst, kAny, kAll };
 
 /// Holds a hit as all that cast rays tell it.
 struct CastHit {
@@ -24,20 +24,13 @@ class RayCaster {
  public:
   virtual ~RayCaster() = default;
 
-  virtual std::string name() const = 0;
-  virtual std::optional<CastHit> first(const Rayd& ray) = 0;
-  virtual bool any(const Rayd& ray) = 0;
-  virtual void all(const Rayd& ray, std::vector<CastHit>& hits) = 0;
-
-  /// Work done since it was made.
-  virtual std::optional<SearchCounts> counts() const { return std::nullopt; }
+  /// Sets the hits: of kFirst at most one, of kAny one of unknown place where there is any.
+  virtual void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) = 0;
 };
 
-/// Returns ours.
-std::unique_ptr<RayCaster> makeKiosCaster(const scenes::Mesh& mesh);
-
-/// Returns embree, single precision with its robust flag; nullptr if this program was built without
-/// it.
+#ifdef KIOS_HAVE_EMBREE
+/// Returns Embree, single precision with its robust flag.
 std::unique_ptr<RayCaster> makeEmbreeCaster(const scenes::Mesh& mesh);
+#endif
 
 }  // namespace kios::bench

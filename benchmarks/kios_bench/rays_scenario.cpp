@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <functional>
+#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
+#include "library.h"
 #include "ray_caster.h"
 #include "scenario.h"
 #include "scenes/cad_shapes.h"
@@ -104,120 +105,131 @@ class Oracle {
   std::vector<double> reach_;
 };
 
-/// Counts of a caster's wrong answers, by query.
-struct Verdicts {
-  std::size_t first = 0, any = 0, all = 0;
-  double error = 0;  // of lengths, where the right triangle was hit
+class KiosCaster final : public RayCaster {
+ public:
+  explicit KiosCaster(const scenes::Mesh& mesh) : model_(scenes::buildModel<kIOSd>(mesh)) {}
+
+  void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) override {
+    hits.clear();
+    if (query == RayQuery::kAny) {
+      if (anyHit(*model_, pose_, ray, &counts)) hits.push_back({0, -1});
+    } else if (query == RayQuery::kFirst) {
+      if (const auto hit = firstHit(*model_, pose_, ray, &counts)) {
+        hits.push_back({hit->t, hit->triangle});
+      }
+    } else {
+      constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+      for (const auto& hit : allHits(*model_, pose_, ray, kAll, &counts)) {
+        hits.push_back({hit.t, hit.triangle});
+      }
+    }
+  }
+
+  SearchCounts counts;  // work done since it was made
+
+ private:
+  const std::shared_ptr<Modeld> model_;
+  const fcl::Transform3d pose_ = fcl::Transform3d::Identity();
 };
 
-Verdicts judge(RayCaster& caster, const std::vector<Rayd>& rays,
-               const std::vector<std::vector<OracleHit>>& exact) {
-  Verdicts wrong;
-  const std::size_t step = rays.size() / exact.size();
-  for (std::size_t i = 0; i < exact.size(); ++i) {
-    const Rayd& ray = rays[i * step];
-    const auto nearest =
-        std::min_element(exact[i].begin(), exact[i].end(),
-                         [](const OracleHit& a, const OracleHit& b) { return a.t < b.t; });
-    const bool hit = nearest != exact[i].end();
-    const auto first = caster.first(ray);
-    bool right = first.has_value() == hit;
-    if (first && hit) {  // one of the triangles that are nearest as double tells
-      const long double last = nearest->t * (1 + 0x1p-52L);
-      right = std::any_of(exact[i].begin(), exact[i].end(), [&](const OracleHit& h) {
-        return h.triangle == first->triangle && h.t <= last;
-      });
-      const double error = std::abs(static_cast<double>(first->t - nearest->t));
-      if (right) wrong.error = std::max(wrong.error, error * ray.direction.norm());
-    }
-    wrong.first += right ? 0 : 1;
-    wrong.any += caster.any(ray) == hit ? 0 : 1;
-    std::vector<CastHit> all;
-    caster.all(ray, all);
-    std::sort(all.begin(), all.end(),
-              [](const CastHit& a, const CastHit& b) { return a.triangle < b.triangle; });
-    const bool same =
-        std::equal(all.begin(), all.end(), exact[i].begin(), exact[i].end(),
-                   [](const CastHit& a, const OracleHit& b) { return a.triangle == b.triangle; });
-    wrong.all += same ? 0 : 1;
+/// Whether hits, by triangle, are what a query asks for, and the error of the first one's length.
+bool isRight(RayQuery query, const Rayd& ray, const std::vector<CastHit>& hits,
+             const std::vector<OracleHit>& exact, double& worst) {
+  if (query == RayQuery::kAll) {
+    return std::equal(
+        hits.begin(), hits.end(), exact.begin(), exact.end(),
+        [](const CastHit& a, const OracleHit& b) { return a.triangle == b.triangle; });
   }
-  return wrong;
+  if (query == RayQuery::kAny || hits.empty() || exact.empty())
+    return hits.empty() == exact.empty();
+  const auto nearest = std::min_element(
+      exact.begin(), exact.end(), [](const OracleHit& a, const OracleHit& b) { return a.t < b.t; });
+  // One of the triangles that are nearest as double tells.
+  const long double last = nearest->t * (1 + 0x1p-52L);
+  const bool right = std::any_of(exact.begin(), exact.end(), [&](const OracleHit& h) {
+    return h.triangle == hits[0].triangle && h.t <= last;
+  });
+  const double error = std::abs(static_cast<double>(hits[0].t - nearest->t));
+  if (right) worst = std::max(worst, error * ray.direction.norm());
+  return right;
 }
 
-/// Returns the three queries of all casters. One row a query and caster.
-std::vector<Row> contest(const std::string& name,
-                         const std::vector<std::unique_ptr<RayCaster>>& casters,
-                         const std::vector<Rayd>& rays, const scenes::Mesh& mesh,
-                         const Oracle& oracle, const Options& options) {
-  std::vector<CastHit> hits;
-  std::size_t found = 0;  // so that no query is optimised away
-  const std::pair<const char*, std::function<void(RayCaster&, const Rayd&)>> queries[] = {
-      {"first", [&](RayCaster& c, const Rayd& r) { found += c.first(r) ? 1 : 0; }},
-      {"any", [&](RayCaster& c, const Rayd& r) { found += c.any(r) ? 1 : 0; }},
-      {"all", [&](RayCaster& c, const Rayd& r) {
-         c.all(r, hits);
-         found += hits.size();
-       }}};
-  const auto most =
-      static_cast<std::size_t>(std::max(20, 20000000 / static_cast<int>(mesh.triangles.size())));
-  const std::size_t judged = std::min(
-      {rays.size(), most,
-       options.oracle_frames > 0 ? static_cast<std::size_t>(options.oracle_frames) : rays.size()});
+/// The oracle's hits of some rays, evenly chosen.
+struct Judged {
+  std::size_t step;
   std::vector<std::vector<OracleHit>> exact;
-  for (std::size_t i = 0; i < judged; ++i)
-    exact.push_back(oracle.all(rays[i * (rays.size() / judged)]));
-  std::vector<Verdicts> wrong;
-  for (const auto& caster : casters) wrong.push_back(judge(*caster, rays, exact));
+};
 
-  Row base;
-  base.scenario = name;
-  base.triangles = mesh.triangles.size();
-  base.frames = rays.size();
-  base.seed = options.seed;
-  base.extent = scenes::extent(mesh);
+Judged judge(const std::vector<Rayd>& rays, const scenes::Mesh& mesh, const Options& options) {
+  const auto affordable =
+      static_cast<std::size_t>(std::max(20, 20000000 / static_cast<int>(mesh.triangles.size())));
+  std::size_t count = std::min(rays.size(), affordable);
+  if (options.oracle_frames > 0) {
+    count = std::min(count, static_cast<std::size_t>(options.oracle_frames));
+  }
+  const Oracle oracle(mesh);
+  Judged judged{rays.size() / count, {}};
+  for (std::size_t i = 0; i < count; ++i) judged.exact.push_back(oracle.all(rays[i * judged.step]));
+  return judged;
+}
+
+/// A row for each query and caster.
+std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
+                         const scenes::Mesh& mesh, const Options& options) {
+  KiosCaster ours(mesh);
+  std::vector<std::pair<const char*, RayCaster*>> casters = {{kOurs, &ours}};
+#ifdef KIOS_HAVE_EMBREE
+  const auto embree = makeEmbreeCaster(mesh);
+  casters.emplace_back("embree", embree.get());
+#endif
+  const Judged judged = judge(rays, mesh, options);
+  std::vector<CastHit> hits;
   std::vector<Row> rows;
-  for (const auto& [query, cast] : queries) {
+  for (const auto& [query, words] :
+       {std::pair(RayQuery::kFirst, "first"), std::pair(RayQuery::kAny, "any"),
+        std::pair(RayQuery::kAll, "all")}) {
     std::vector<Competitor> competitors;
-    for (const auto& caster : casters) {
-      competitors.push_back({caster->name(), [&](std::size_t begin, std::size_t end) {
-                               for (std::size_t i = begin; i < end; ++i) cast(*caster, rays[i]);
+    for (const auto& [bv, caster] : casters) {
+      competitors.push_back({bv, [&, query = query, caster = caster](auto begin, auto end) {
+                               for (std::size_t i = begin; i < end; ++i) {
+                                 caster->cast(query, rays[i], hits);
+                               }
                              }});
     }
     Race{rays.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-    base.query = query;
+    const Row base = baseRow(name, words, rays.size(), options.seed, {mesh});
     for (std::size_t c = 0; c < casters.size(); ++c) {
       Row& row = rows.emplace_back(base.of(competitors[c]));
-      if (row.bv == "kios") row.simd_target = simdTarget();
-      if (const auto before = casters[c]->counts()) {
-        competitors[c].answer(0, rays.size());
-        const auto after = casters[c]->counts();
-        const auto per_ray = [&](long long n) { return static_cast<double>(n) / rays.size(); };
-        row.tests = {per_ray(after->volume_tests - before->volume_tests),
-                     per_ray(after->exact - before->exact)};
+      double worst = 0;
+      std::size_t wrong = 0;
+      for (std::size_t i = 0; i < judged.exact.size(); ++i) {
+        const Rayd& ray = rays[i * judged.step];
+        casters[c].second->cast(query, ray, hits);
+        std::sort(hits.begin(), hits.end(),
+                  [](const CastHit& a, const CastHit& b) { return a.triangle < b.triangle; });
+        wrong += isRight(query, ray, hits, judged.exact[i], worst) ? 0 : 1;
       }
-      const auto& [first, any, all, error] = wrong[c];
-      row.errors.wrong = row.query == "first" ? first : row.query == "any" ? any : all;
-      if (row.query == "first") row.errors.max_abs = error;
+      row.errors.wrong = wrong;
+      if (query == RayQuery::kFirst) row.errors.max_abs = worst;
+      if (row.bv != kOurs) continue;
+      row.simd_target = simdTarget();
+      ours.counts = {};
+      competitors[c].answer(0, rays.size());
+      const auto count = static_cast<double>(rays.size());
+      row.tests = {static_cast<double>(ours.counts.volume_tests) / count,
+                   static_cast<double>(ours.counts.exact) / count};
     }
   }
-  if (found == 0) std::printf("no ray hits\n");
   return rows;
 }
 
 void castAt(const std::string& name, scenes::Mesh mesh, const Options& options, Report& report) {
   const int count = options.frames > 0 ? options.frames : (options.quick ? 100 : 4096);
   for (Vector& p : mesh.vertices) p = toFloats(p);
-  std::vector<std::unique_ptr<RayCaster>> casters;
-  casters.push_back(makeKiosCaster(mesh));
-  if (auto embree = makeEmbreeCaster(mesh)) casters.push_back(std::move(embree));
-  const Oracle oracle(mesh);
   std::vector<Row> rows;
-  const auto add = [&](const char* kind, const std::vector<Rayd>& rays) {
-    append(contest(name + "/" + kind, casters, rays, mesh, oracle, options), rows);
-  };
-  add("camera", cameraRays(count));
-  add("random", randomRays(count, options.seed));
-  add("edges", edgeRays(count, mesh, options.seed));
+  append(contest(name + "/camera", cameraRays(count), mesh, options), rows);
+  append(contest(name + "/random", randomRays(count, options.seed), mesh, options), rows);
+  append(contest(name + "/edges", edgeRays(count, mesh, options.seed), mesh, options), rows);
   report.add(rows);
 }
 

@@ -54,8 +54,6 @@ constexpr Field kFields[] = {
     {nullptr, "us/pair", "%.3f", pairMicroseconds},
     {"ratio_to_fcl_obbrss", "x OBBRSS", "%.2f",
      [](const Row& row) { return row.times.ratio_to_fcl_obbrss; }},
-    {"ratio_to_ssv", "x RSS", "%.2f", [](const Row& row) { return row.to_ssv.ratio; }},
-    {"max_ratio_to_ssv", "at most", "%.2f", [](const Row& row) { return row.to_ssv.max_ratio; }},
     {"bv_tests", "BV tests", "%.1f", [](const Row& row) { return row.tests.bvs; }},
     {"leaf_tests", "leaves", "%.1f", [](const Row& row) { return row.tests.leaves; }},
     {nullptr, "err/extent", "%.1e", scaledError},
@@ -78,6 +76,7 @@ constexpr Field kFields[] = {
     {"mean_spheres", "k", "%.2f", [](const Row& row) { return row.volumes.mean_spheres; }},
     {"floats_per_bv", "floats", "%.2f", [](const Row& row) { return row.volumes.floats_per_bv; }},
     {"tightness", "tightness", "%.3f", [](const Row& row) { return row.volumes.tightness; }},
+    {"bodies", "bodies", "%.0f", [](const Row& row) { return number(row.bodies); }, true},
     {"skipped_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.skipped); },
      true},
     {"total_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.total); }, true},
@@ -103,6 +102,21 @@ Row Row::of(const Competitor& competitor, const Competitor* reference) const {
   Row row = *this;
   row.bv = competitor.name;
   row.times = timesOf(competitor, frames, reference);
+  return row;
+}
+
+Row baseRow(const std::string& scenario, const std::string& query, std::size_t frames,
+            std::uint64_t seed, const std::vector<scenes::Mesh>& meshes) {
+  Row row;
+  row.scenario = scenario;
+  row.query = query;
+  row.frames = frames;
+  row.seed = seed;
+  for (const scenes::Mesh& mesh : meshes) {
+    row.triangles += mesh.triangles.size();
+    row.largest_mesh = std::max(row.largest_mesh, mesh.triangles.size());
+    row.extent = std::max(row.extent, scenes::extent(mesh));
+  }
   return row;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "race.h"
+#include "scenes/mesh.h"
 
 namespace kios::bench {
 
@@ -48,12 +49,6 @@ struct Volumes {
   Maybe tightness;                ///< mean of bound / true distance of the contents
 };
 
-/// Is as ratio_to_fcl_obbrss, to FCL's RSS in its own nodes.
-struct ToSsv {
-  Maybe ratio;
-  Maybe max_ratio;  ///< the largest of all frames
-};
-
 /// Holds pairs of a scene.
 struct Pairs {
   MaybeCount skipped;
@@ -79,6 +74,7 @@ struct Row {
   std::size_t triangles = 0;     ///< of all meshes
   std::size_t largest_mesh = 0;  ///< triangles of the largest one asked about; 0: unsaid
   std::size_t frames = 0;
+  MaybeCount bodies;  ///< of an assembly
   std::uint64_t seed = 0;
   /// Is that of the larger mesh, the scale of its errors; in the table only. 1 for pairs of
   /// triangles, whose errors are relative to the extent of each pair.
@@ -88,7 +84,6 @@ struct Row {
   Errors errors;
   Tests tests;
   Volumes volumes;
-  ToSsv to_ssv;
   Pairs pairs;
   Plans plans;
   std::optional<Changes> changes;  ///< not in JSON
@@ -97,6 +92,10 @@ struct Row {
   /// Returns a copy for a competitor, with its times.
   Row of(const Competitor& competitor, const Competitor* reference = nullptr) const;
 };
+
+/// Returns what all rows of a query have in common.
+Row baseRow(const std::string& scenario, const std::string& query, std::size_t frames,
+            std::uint64_t seed, const std::vector<scenes::Mesh>& meshes = {});
 
 /// Moves the rows to the end of `all`.
 void append(std::vector<Row> rows, std::vector<Row>& all);

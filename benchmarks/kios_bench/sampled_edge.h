@@ -16,7 +16,7 @@ Eigen::VectorXd sampleInContact(const IsFree& is_free, const Eigen::VectorXd& q0
                                 const Eigen::VectorXd& q1) {
   constexpr double kStep = 0.01;
   if (!is_free(q1)) return q1;
-  const int steps = static_cast<int>(std::ceil((q1 - q0).lpNorm<Eigen::Infinity>() / kStep));
+  const int steps = static_cast<int>(std::ceil((q1 - q0).lpNorm<Eigen::Infinity>() / kStep - 1e-9));
   std::vector<std::pair<int, int>> waiting = {{1, steps - 1}};
   for (std::size_t next = 0; next < waiting.size(); ++next) {
     const auto [low, high] = waiting[next];

@@ -39,7 +39,7 @@ void runScene(const Options& options, Report& report);
 void runShapes(const Options& options, Report& report);
 void runRays(const Options& options, Report& report);
 void runSolids(const Options& options, Report& report);
-void runContinuous(const Options& options, Report& report);
+void runClashes(const Options& options, Report& report);
 void runMotions(const Options& options, Report& report);
 #ifdef KIOS_HAVE_ROBOT
 void runMbm(const Options& options, Report& report);
@@ -55,9 +55,9 @@ void runPreload(const Options& options, Report& report);
 // Parts of several files.
 void reportRobotScenes(const Options& options, Report& report);  // of robots
 void reportCrowds(const Options& options, Report& report);       // of scene
-void reportFigure6(const Options& options, Report& report);      // of paper
-void reportFits(const Options& options, Report& report);         // of paper
-void reportPacking(const Options& options, Report& report);      // of paper
-void reportExactBounds(const Options& options, Report& report);  // of paper
+void reportPoints(const Options& options, Report& report);       // of solids
+void reportRanges(const Options& options, Report& report);       // of motions
+void reportMoved(const Options& options, Report& report);        // of motions
+void reportContinuous(const Options& options, Report& report);   // of motions
 
 }  // namespace kios::bench

@@ -29,14 +29,21 @@ const std::vector<Scenario>& scenarios() {
        "first, any and all hits of camera rays, random rays and rays at edges, bumpy tori and "
        "strips; FCL has no rays",
        runRays, 1024},
-      {"solids", "",
-       "points in solids; penetration of boxes, balls, tori, a blob in a torus, links in a table",
+      {"solids", "contains penetration depth points",
+       "points in solids; penetration and local depth of boxes, balls, a blob in a torus, links in "
+       "a table; 100,000 nearest points and signed distances, beside balls of radius 0; winding "
+       "numbers",
        runSolids, 0},
-      {"continuous", "", "first contact in time of two tori on random motions, and FCL's",
-       runContinuous, 10},
-      {"motions", "",
+      {"clashes", "1000 10000",
+       "clashes, touches and duplicates planted in a building of some 1,000 and 10,000 slabs, "
+       "columns, "
+       "walls and pipes; its contacts by FCL's manager",
+       runClashes, 1},
+      {"motions", "paths range moved continuous",
        "straight paths in joint space, UR5 (data) or a generated arm amid obstacles, and two arms: "
-       "proven, and sampled 0.01 rad apart",
+       "proven, and sampled 0.01 rad apart; the least clearance over ranges; contact amid spheres "
+       "of which one moves; first contact in time "
+       "of two tori on random motions",
        runMotions, 20},
 #ifdef KIOS_HAVE_ROBOT
       {"mbm", "panda ur5",
@@ -45,18 +52,15 @@ const std::vector<Scenario>& scenarios() {
        runMbm, 0},
 #endif
       {"build", "models refit",
-       "endModel, preparation, the same mesh again, memory: tori of 1k to 80k triangles (1M by "
+       "endModel, the same mesh again, memory: tori of 1k to 80k triangles (1M by "
        "--max-triangles), and the UR5 (data); refits of tori that sway",
        runBuild, 8},
       {"error", "",
        "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
        "with their error members set",
        runError, 20},
-      {"paper", "figure_6 fits packing exact",
-       "the k-IOS paper's Figure 6; constructions of k-IOS and other volumes over one tree; tests "
-       "of "
-       "two k-IOS in SIMD; their exact distance",
-       runPaper, 0},
+      {"paper", "", "the k-IOS paper's constructions and volumes of others over one tree", runPaper,
+       0},
       {"stability", "", "triangle distance and intersection over hard classes of pairs, and FCL's",
        runStability, 0},
 #ifdef KIOS_HAVE_PRELOAD
@@ -66,13 +70,6 @@ const std::vector<Scenario>& scenarios() {
 #endif
   };
   return all;
-}
-
-void runPaper(const Options& options, Report& report) {
-  if (wanted(options, "figure_6")) reportFigure6(options, report);
-  if (wanted(options, "fits")) reportFits(options, report);
-  if (wanted(options, "packing")) reportPacking(options, report);
-  if (wanted(options, "exact")) reportExactBounds(options, report);
 }
 
 }  // namespace kios::bench

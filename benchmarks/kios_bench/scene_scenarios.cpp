@@ -12,7 +12,7 @@
 #include "library.h"
 #include "scenario.h"
 #include "scene_set.h"
-#include "scenes/ur5_data.h"
+#include "scenes/placement.h"
 
 namespace kios::bench {
 namespace {
@@ -152,13 +152,7 @@ void reportScene(const std::string& scenario, const scenes::BodyScene& scene, st
       entrants.push_back({std::move(set), stride, {}, {}});
     }
   }
-  Row base;
-  base.query = "scene";
-  base.seed = options.seed;
-  for (const scenes::Mesh& mesh : scene.meshes) {
-    base.extent = std::max(base.extent, scenes::extent(mesh));
-    base.triangles += mesh.triangles.size();
-  }
+  Row base = baseRow(scenario, "scene", 0, options.seed, scene.meshes);
   for (std::size_t i = 0; i < queries; ++i) {
     base.scenario = scenario + "/" + kQueries[i].name;
     report.add(rowsOf(scene, kQueries[i].query, base, entrants, options.repeats));
@@ -188,23 +182,13 @@ void reportRobots(const std::string& scenario, const scenes::Robot& robot,
 }  // namespace
 
 void reportRobotScenes(const Options& options, Report& report) {
-  fcl::Transform3d X_facing = fcl::Transform3d::Identity();
-  X_facing.linear() = fcl::Vector3d(-1, -1, 1).asDiagonal();
-  X_facing.translation().x() = 0.7;
-  reportRobots("robots/generated", scenes::robotOf(scenes::cadArm()), X_facing, 6, options, report);
+  reportRobots("robots/generated", scenes::cadArm(), scenes::facing(0.7), 6, options, report);
   if (!options.quick) {  // which pairs of a humanoid may touch takes the oracle a while
-    X_facing.translation().x() = 0.8;
-    reportRobots("robots/humanoids", scenes::humanoid(), X_facing, 20, options, report);
+    reportRobots("robots/humanoids", scenes::humanoid(), scenes::facing(0.8), 20, options, report);
   }
-
-  const auto data = findData(options);
-  if (!data || !scenes::holdsUr5(*data)) {
-    std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
-    return;
+  if (const auto ur5 = findUr5(options)) {
+    reportRobots("robots/ur5", *ur5, scenes::shift(0, 0.5, 0), 6, options, report);
   }
-  fcl::Transform3d X_beside = fcl::Transform3d::Identity();
-  X_beside.translation().y() = 0.5;
-  reportRobots("robots/ur5", scenes::robotOf(scenes::loadUr5(*data)), X_beside, 6, options, report);
 }
 
 void runScene(const Options& options, Report& report) {
@@ -219,10 +203,9 @@ void runScene(const Options& options, Report& report) {
   };
   const int frames = options.frames > 0 ? options.frames : frameCount(options, 40);
   run("scene/crowd", scenes::driftingCrowd(bodies, frames, options.seed), frames);
-  const auto data = findData(options);
-  const bool ur5 = data && scenes::holdsUr5(*data);
+  const auto ur5 = findUr5(options);
   run(ur5 ? "scene/roadmap" : "scene/roadmap_generated",
-      scenes::roadmap(scenes::robotOf(ur5 ? scenes::loadUr5(*data) : scenes::cadArm()), bodies,
+      scenes::roadmap(ur5 ? *ur5 : scenes::cadArm(), bodies,
                       options.frames > 0 ? options.frames : frameCount(options, 1000),
                       options.seed),
       50);

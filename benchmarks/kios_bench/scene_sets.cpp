@@ -3,15 +3,13 @@
 #include "scene_set.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <limits>
 
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <fcl/math/bv/OBBRSS.h>
-#include <fcl_kios/model/prepare.h>
-#include <fcl_kios/scene/scene_distance.h>
+#include <fcl_kios/fcl_kios.h>
 
 #include "fcl_models.h"
+#include "managed_bodies.h"
 
 namespace kios::bench {
 namespace {
@@ -96,75 +94,55 @@ class ScenePairs final : public SceneSet {
 };
 
 /// Holds FCL's dynamic AABB tree with what its default distance callback does, after the filter.
-/// Bodies that stand still are in a manager of their own, and never asked about each other.
 class FclManager final : public SceneSet {
  public:
   FclManager(const std::string& name, const scenes::BodyScene& scene)
       : SceneSet(name), bodies_(scene) {
     for (int body = 0; body < scene.size(); ++body) {
-      Object* const object = bodies_.objects[body].get();
-      object->setUserData(reinterpret_cast<void*>(static_cast<std::intptr_t>(body)));
-      object->computeAABB();
-      (scene.obstacle[body] ? still_ : moving_).registerObject(object);
+      const Object& object = *bodies_.objects[body];
+      managed_.add(bodies_.models[scene.mesh_of[body]], object.getTransform(),
+                   !scene.obstacle[body]);
     }
-    moving_.setup();
-    still_.setup();
+    managed_.setup();
   }
 
   bool serves(SceneQuery query) const override { return query != SceneQuery::kClearances; }
   std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) override {
-    bodies_.place(frame);
-    for (int body = 0; body < bodies_.scene.moving(); ++body) bodies_.objects[body]->computeAABB();
-    moving_.update();
-    query_ = query;
-    margin_ = margin;
+    const auto& poses = bodies_.scene.frames[frame];
+    for (std::size_t body = 0; body < poses.size(); ++body) managed_.place(body, poses[body]);
+    managed_.update();
+    const bool closest = query == SceneQuery::kClosest;
+    std::vector<SceneAnswer> answers;
+    SceneAnswer best{-1, -1, std::numeric_limits<double>::max()};
     queried_ = 0;
-    answers_.clear();
-    closest_ = {-1, -1, std::numeric_limits<double>::max()};
-    moving_.distance(this, &FclManager::callback);
-    if (!still_.empty() && !done()) moving_.distance(&still_, this, &FclManager::callback);
-    if (query == SceneQuery::kClosest) answers_.push_back(closest_);
-    return answers_;
+    managed_.distance([&](int a, int b, double& reach) {
+      reach = closest ? best.distance : margin;
+      if (!bodies_.admissible(a, b)) return false;
+      ++queried_;
+      fcl::DistanceResultd result;
+      result.min_distance = reach;
+      FclCalls::distance(managed_.object(a), managed_.object(b), fcl::DistanceRequestd(), result);
+      if (result.min_distance >= reach) return false;
+      const auto [first, second] = std::minmax({a, b});
+      const SceneAnswer found{first, second, result.min_distance};
+      if (!closest) {
+        answers.push_back(found);
+        return false;
+      }
+      best = found;
+      reach = best.distance;
+      return reach <= 0;
+    });
+    if (closest) answers.push_back(best);
+    return answers;
   }
   long long queried() const override { return queried_; }
   std::size_t bytes() const override { return bodies_.bytes(); }
 
  private:
-  static int idOf(const Object* object) {
-    return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
-  }
-  bool done() const { return query_ == SceneQuery::kClosest && closest_.distance <= 0; }
-
-  static bool callback(Object* o1, Object* o2, void* data, double& dist) {
-    FclManager& self = *static_cast<FclManager*>(data);
-    const auto [a, b] = std::minmax({idOf(o1), idOf(o2)});
-    const bool closest = self.query_ == SceneQuery::kClosest;
-    dist = closest ? self.closest_.distance : self.margin_;
-    if (self.done()) return true;
-    if (!self.bodies_.admissible(a, b)) return false;
-    ++self.queried_;
-    fcl::DistanceResultd result;
-    result.min_distance = dist;
-    FclCalls::distance(self.bodies_.objects[a].get(), self.bodies_.objects[b].get(),
-                       fcl::DistanceRequestd(), result);
-    if (result.min_distance < dist) {
-      if (closest) {
-        self.closest_ = {a, b, result.min_distance};
-        dist = result.min_distance;
-      } else {
-        self.answers_.push_back({a, b, result.min_distance});
-      }
-    }
-    return self.done();
-  }
-
   SceneObjects<fcl::OBBRSSd> bodies_;
-  fcl::DynamicAABBTreeCollisionManagerd moving_, still_;
-  SceneQuery query_ = SceneQuery::kClosest;
-  double margin_ = 0;
+  ManagedBodies managed_;
   long long queried_ = 0;
-  SceneAnswer closest_{-1, -1, 0};
-  std::vector<SceneAnswer> answers_;
 };
 
 class KiosScene final : public SceneSet {

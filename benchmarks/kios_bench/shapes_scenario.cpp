@@ -17,8 +17,8 @@
 #include "library.h"
 #include "scenario.h"
 #include "scenes/random.h"
+#include "scenes/shape_geometry.h"
 #include "scenes/shapes.h"
-#include "shape_geometry.h"
 
 namespace kios::bench {
 namespace {
@@ -71,14 +71,14 @@ void runShapes(const Options& options, Report& report) {
       {"cylinder", std::make_shared<fcl::Cylinderd>(0.3, 0.8)},
       {"capsule", std::make_shared<fcl::Capsuled>(0.25, 0.6)},
       {"ellipsoid", std::make_shared<fcl::Ellipsoidd>(0.3, 0.4, 0.5)},
-      {"convex", convexOf(scenes::icosphere(0.4, 1))},
-      {"hull", convexOf(scenes::icosphere(0.4, 3))}};
+      {"convex", scenes::convexOf(scenes::icosphere(0.4, 1))},
+      {"hull", scenes::convexOf(scenes::icosphere(0.4, 3))}};
   for (const auto& [shape, geometry] : shapes) {
     reportGeometry(std::string("shapes/") + shape, mesh, geometry, frameCount(options), options,
                    report);
   }
   // Occupied cells about the surface of a sphere.
-  reportGeometry("octrees/shell", mesh, octreeOf(scenes::icosphere(0.4, 4).vertices, 0.05),
+  reportGeometry("octrees/shell", mesh, scenes::octreeOf(scenes::icosphere(0.4, 4).vertices, 0.05),
                  frameCount(options), options, report);
 }
 

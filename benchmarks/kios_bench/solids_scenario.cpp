@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Containment and penetration of solids.
+// Containment, penetration and local depth of solids.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -22,23 +22,12 @@
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
-#include "scenes/ur5_data.h"
 
 namespace kios::bench {
 namespace {
 
 using scenes::Frame;
 using scenes::Mesh;
-
-Row baseOf(const std::string& name, std::size_t triangles, std::size_t frames,
-           const Options& options) {
-  Row row;
-  row.scenario = name;
-  row.triangles = triangles;
-  row.frames = frames;
-  row.seed = options.seed;
-  return row;
-}
 
 /// Points in and about the mesh's box, judged by rational arithmetic.
 void contain(const std::string& name, const Mesh& mesh, const Options& options, Report& report) {
@@ -63,10 +52,7 @@ void contain(const std::string& name, const Mesh& mesh, const Options& options, 
                                             }
                                           }}};
   Race{points.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-  Row base = baseOf(name, mesh.triangles.size(), points.size(), options);
-  base.query = "contains";
-  base.extent = scenes::extent(mesh);
-  Row row = base.of(competitors[0]);
+  Row row = baseRow(name, "contains", points.size(), options.seed, {mesh}).of(competitors[0]);
   row.simd_target = simdTarget();
   const scenes::ContainmentOracle oracle(mesh);
   const std::size_t judged = std::min<std::size_t>(points.size(), 300);
@@ -95,8 +81,7 @@ class Overlaps {
         b_(scenes::buildModel<kIOSd>(b)),
         fcl_a_(scenes::buildModel<fcl::OBBRSSd>(a)),
         fcl_b_(scenes::buildModel<fcl::OBBRSSd>(b)),
-        triangles_(a.triangles.size() + b.triangles.size()),
-        extent_(std::max(scenes::extent(a), scenes::extent(b))) {
+        meshes_{a, b} {
     markSolid(*a_);
     markSolid(*b_);
   }
@@ -110,7 +95,7 @@ class Overlaps {
     }
     if (overlapping.empty()) return;
     const std::size_t n = overlapping.size();
-    std::vector<Penetration> found(n);
+    std::vector<PenetrationResult> found(n);
     std::vector<double> deepest(n);
     std::size_t contacts = 0;
     std::vector<Competitor> competitors = {{"penetration",
@@ -130,10 +115,8 @@ class Overlaps {
     Race{n, options.repeats, 8, 8, true}.run(competitors);
     std::vector<Row> rows;
     for (const Competitor& competitor : competitors) {
-      Row base = baseOf(name, triangles_, n, options);
-      base.extent = extent_;
-      Row& row = rows.emplace_back(base.of(competitor));
-      row.query = competitor.name;
+      Row& row = rows.emplace_back(
+          baseRow(name, competitor.name, n, options.seed, meshes_).of(competitor));
       row.bv = competitor.name == "contacts" ? "fcl_obbrss" : "kios";
       if (row.bv == "kios") row.simd_target = simdTarget();
     }
@@ -141,7 +124,7 @@ class Overlaps {
     std::size_t wrong = 0;
     double off = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const Penetration& p = found[i];
+      const PenetrationResult& p = found[i];
       ratios.push_back(p.lower > 0 ? p.upper / p.lower : std::numeric_limits<double>::infinity());
       off += std::abs(deepest[i] - p.upper) / p.upper / static_cast<double>(n);
       bool holds = partsThem(overlapping[i], p);
@@ -166,7 +149,7 @@ class Overlaps {
     return fcl::collide(a_.get(), f.X_WA, b_.get(), f.X_WB, request, result);
   }
 
-  Penetration depthOf(const Frame& f) const {
+  PenetrationResult depthOf(const Frame& f) const {
     return penetration<double>(*a_, f.X_WA, *b_, f.X_WB);
   }
 
@@ -182,7 +165,7 @@ class Overlaps {
   }
 
   /// By FCL's own volume, and by our verdicts about containment.
-  bool partsThem(Frame f, const Penetration& p) const {
+  bool partsThem(Frame f, const PenetrationResult& p) const {
     f.X_WB.translation() += p.translation;
     const fcl::CollisionRequestd request;
     fcl::CollisionResultd result;
@@ -192,8 +175,7 @@ class Overlaps {
 
   const std::shared_ptr<Modeld> a_, b_;
   const std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> fcl_a_, fcl_b_;
-  const std::size_t triangles_;
-  const double extent_;
+  const std::vector<Mesh> meshes_;
 };
 
 void overlap(const std::string& name, const Mesh& a, const Mesh& b,
@@ -204,6 +186,91 @@ void overlap(const std::string& name, const Mesh& a, const Mesh& b,
   } catch (const std::invalid_argument& refused) {
     std::printf("solids/%s is left out: %s\n", name.c_str(), refused.what());
   }
+}
+
+/// Time against error of local depths of frames of one true depth, at least and at most, beside
+/// fcl::collide of ours for one contact; and half and one and a half times it as thresholds.
+void depths(const std::string& name, const Mesh& a, const Mesh& b, const std::vector<Frame>& frames,
+            Overlaps::Known known, const Options& options, Report& report) {
+  const auto model_a = scenes::buildModel<kIOSd>(a), model_b = scenes::buildModel<kIOSd>(b);
+  markSolid(*model_a);
+  markSolid(*model_b);
+  const std::size_t n = frames.size();
+  const Row base = baseRow("solids/depth/" + name, "depth", n, options.seed, {a, b});
+  std::vector<Row> rows;
+  const auto race = [&](const char* query, const std::function<void(std::size_t)>& ask) -> Row& {
+    std::vector<Competitor> competitors = {{"kios", [&](std::size_t begin, std::size_t end) {
+                                              for (std::size_t i = begin; i < end; ++i) ask(i);
+                                            }}};
+    Race{n, options.repeats, 8, 8, true}.run(competitors);
+    Row& row = rows.emplace_back(base.of(competitors[0]));
+    row.query = query;
+    row.bv = "kios";
+    row.simd_target = simdTarget();
+    return row;
+  };
+  race("collide", [&](std::size_t i) {
+    fcl::CollisionResultd result;
+    fcl::collide(model_a.get(), frames[i].X_WA, model_b.get(), frames[i].X_WB,
+                 fcl::CollisionRequestd(), result);
+  });
+  std::vector<LocalDepthResult> found(n);
+  LocalDepthRequest request;
+  const auto ask = [&](std::size_t i) {
+    found[i] = localDepth<double>(*model_a, frames[i].X_WA, *model_b, frames[i].X_WB, request);
+  };
+  const auto wrong = [&](const auto& is_right) {
+    return static_cast<std::size_t>(n - std::count_if(found.begin(), found.end(), is_right));
+  };
+  constexpr double kRounding = 1e-13;
+  for (const double rel_err : {0.3, 0.1, 0.03, 0.01, 0.001}) {
+    request.rel_err = rel_err;
+    Row& row = race("depth", ask);
+    row.asked.rel_err = rel_err;
+    std::vector<double> ratios;
+    for (const LocalDepthResult& d : found) ratios.push_back(d.upper / d.lower);
+    row.errors.bracket_ratio = median(ratios);
+    row.errors.max_bracket_ratio = *std::max_element(ratios.begin(), ratios.end());
+    row.errors.wrong = wrong([&](const LocalDepthResult& d) {
+      return d.lower <= known.most + kRounding && d.upper >= known.least - kRounding && d.complete;
+    });
+  }
+  for (const double share : {0.5, 1.5}) {
+    request.threshold = share * known.most;
+    Row& row = race("deeper", ask);
+    row.asked.threshold = share;
+    row.errors.wrong = wrong([&](const LocalDepthResult& d) {
+      return share < 1 ? d.lower > request.threshold : d.upper <= request.threshold;
+    });
+  }
+  report.add(rows);
+}
+
+/// Boxes let into each other at a face that both overhang, a sheet through a block, balls.
+void depths(const Options& options, Report& report) {
+  const std::vector<fcl::Transform3d> worlds =
+      scenes::randomPoses(options.quick ? 2 : 20, 2, options.seed);
+  const auto framesAt = [&](const fcl::Vector3d& T_AB) {
+    std::vector<Frame> frames;
+    for (const fcl::Transform3d& X : worlds) frames.push_back({X, X * Eigen::Translation3d(T_AB)});
+    return frames;
+  };
+  const Mesh box = scenes::subdividedBox({1, 1.5, 0.7}, 1);
+  const Mesh fine = scenes::subdividedBox({1, 1.5, 0.7}, options.quick ? 4 : 29);
+  for (const double deep : {1e-1, 1e-3, 1e-6}) {
+    char name[32];
+    std::snprintf(name, sizeof name, "boxes/%g", deep);
+    depths(name, box, box, framesAt({0.2, 0.3, 0.7 - deep}), {deep, deep}, options, report);
+    std::snprintf(name, sizeof name, "flush/%g", deep);
+    depths(name, fine, fine, framesAt({0.2, 0.3, 0.7 - deep}), {deep, deep}, options, report);
+  }
+  depths("sheet", scenes::subdividedBox({1, 1, 1}, options.quick ? 2 : 8),
+         scenes::subdividedBox({2, 2, 0.02}, options.quick ? 2 : 20), framesAt({0, 0, 0}),
+         {0.49, 0.49}, options, report);
+  const Mesh ball = scenes::icosphere(0.8, options.quick ? 2 : 4);
+  const double facets = options.quick ? 0.95 : 0.997;
+  depths("balls", ball, ball, framesAt({0.3, 0.8, 0.9}),
+         {1.6 * facets - std::sqrt(1.54), 1.6 - std::sqrt(1.54)}, options, report);
 }
 
 /// b within a cube about a.
@@ -251,23 +318,12 @@ void penetrate(const Options& options, Report& report) {
         return Overlaps::Known{1.6 * kFacets - apart, 1.6 - apart};
       },
       options, report);
-  overlap("ball_and_box", ball, box, posesWithin(0.9, count, options.seed), nullptr, options,
-          report);
 
-  // PQP's tori and bunny have open edges: the generated ones stand for them.
-  const scenes::MovingPair falling = generatedFalling();
-  overlap("falling", falling.a, falling.b, falling.frames, nullptr, options, report);
   overlap("blob_in_torus", scenes::knobbyTorus(), scenes::bumpyBlob(),
           posesWithin(0.5, count, options.seed), nullptr, options, report);
 
-  std::vector<Frame> linked = posesWithin(0.35, count, options.seed + 1);
-  for (Frame& f : linked) f.X_WB.translation()[0] += 1;
-  const Mesh torus = scenes::bumpyTorus(2000);
-  overlap("linked_tori", torus, torus, linked, nullptr, options, report);
-
-  const auto data = findData(options);
-  const bool ur5 = data && scenes::holdsUr5(*data);
-  const scenes::Arm arm = ur5 ? scenes::loadUr5(*data) : scenes::cadArm();
+  const auto ur5 = findUr5(options);
+  const scenes::Robot arm = ur5 ? *ur5 : scenes::cadArm();
   const Mesh table = scenes::subdividedBox({4, 4, 0.4}, 8);
   scenes::Random random(options.seed);
   for (std::size_t i = 1; i < arm.links.size(); ++i) {
@@ -290,12 +346,16 @@ void penetrate(const Options& options, Report& report) {
 }  // namespace
 
 void runSolids(const Options& options, Report& report) {
-  contain("solids/contains/torus", scenes::bumpyTorus(options.quick ? 1000 : 20000), options,
-          report);
-  contain("solids/contains/box", scenes::subdividedBox({1, 2, 3}, options.quick ? 5 : 41), options,
-          report);
-  contain("solids/contains/ball", scenes::icosphere(1, options.quick ? 2 : 5), options, report);
-  penetrate(options, report);
+  if (wanted(options, "contains")) {
+    contain("solids/contains/torus", scenes::bumpyTorus(options.quick ? 1000 : 20000), options,
+            report);
+    contain("solids/contains/box", scenes::subdividedBox({1, 2, 3}, options.quick ? 5 : 41),
+            options, report);
+    contain("solids/contains/ball", scenes::icosphere(1, options.quick ? 2 : 5), options, report);
+  }
+  if (wanted(options, "penetration")) penetrate(options, report);
+  if (wanted(options, "depth")) depths(options, report);
+  if (wanted(options, "points")) reportPoints(options, report);
 }
 
 }  // namespace kios::bench

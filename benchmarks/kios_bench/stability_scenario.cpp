@@ -12,8 +12,7 @@
 
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/triangle_distance.h>
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
-#include <fcl_kios/triangle/distance.h>
-#include <fcl_kios/triangle/intersection.h>
+#include <fcl_kios/triangle.h>
 
 #include "scenario.h"
 #include "scenes/rational_oracle.h"
@@ -70,11 +69,8 @@ std::vector<Row> rowsOf(const std::string& name, const std::vector<TrianglePair>
                                              kernel<Fcl::distance>("fcl", pairs, answers[0][1])},
                                             {kernel<Ours::intersect>("kios", pairs, answers[1][0]),
                                              kernel<Fcl::intersect>("fcl", pairs, answers[1][1])}};
-  Row base;
-  base.scenario = "stability/" + name;
+  Row base = baseRow("stability/" + name, "", pairs.size(), options.seed);
   base.triangles = 2;
-  base.frames = pairs.size();
-  base.seed = options.seed;
   base.extent = 1;
   base.errors.wrong = 0;
   std::vector<Row> rows;

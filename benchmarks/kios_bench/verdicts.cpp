@@ -63,7 +63,7 @@ Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Que
   errors.wrong = 0;
   for (std::size_t i = 0; i < verdicts.questions.size(); ++i) {
     const double answer = answers[verdicts.questions[i]];
-    double exact = verdicts.answers[i];
+    const double exact = verdicts.answers[i];
     const double threshold = questions[verdicts.questions[i]].threshold;
     if (query == Query::kContacts) {
       if (answer != exact) ++*errors.wrong;
@@ -74,13 +74,7 @@ Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Que
       if (wrong && !undecided(exact, threshold, extent)) ++*errors.wrong;
       continue;
     }
-    if (query == Query::kThreshold) {
-      const bool wrong = (answer < threshold) != (exact < threshold);
-      if (wrong && !undecided(exact, threshold, extent)) ++*errors.wrong;
-      exact = std::min(exact, threshold);
-    } else if ((answer == 0) != (exact == 0)) {
-      ++*errors.wrong;
-    }
+    if ((answer == 0) != (exact == 0)) ++*errors.wrong;
     if (query == Query::kCollide) continue;
     const double error = absoluteError(answer, exact);
     errors.max_abs = std::max(errors.max_abs.value_or(0), error);

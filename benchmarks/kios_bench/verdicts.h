@@ -29,10 +29,8 @@ double truth(const scenes::MeshOracle& oracle, Query query, const Question& ques
 Verdicts judge(const TruthOf& truth, Query query, const std::vector<Question>& questions,
                int wanted);
 
-/// Errors and wrong verdicts of the answers. For kThreshold the exact answer is the distance, but
-/// at most the threshold, and the verdict whether something is nearer than that; for kCloserThan
-/// whether it is at most as far. A threshold of 0 asks for contact. No other verdict is wrong where
-/// distance and threshold agree within 16 eps of the scale that `extent` and they set.
+/// Errors and wrong verdicts of the answers. For kCloserThan no verdict is wrong where distance and
+/// threshold, unless it is 0, agree within 16 eps of the scale that `extent` and they set.
 Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Query query,
                const std::vector<Question>& questions, double extent);
 

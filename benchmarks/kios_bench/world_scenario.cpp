@@ -6,18 +6,119 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <fcl/geometry/octree/octree.h>
+#include <fcl/geometry/shape/box.h>
+
+#include "contest.h"
 #include "scenario.h"
 #include "scenes/cad_parts.h"
 #include "scenes/placement.h"
-#include "scenes/ur5_data.h"
-#include "world_tasks.h"
+#include "scenes/shape_geometry.h"
+#include "scenes/worlds.h"
 
 namespace kios::bench {
 namespace {
 
 constexpr int kPoses = 42;
 constexpr double kThresholds[] = {0, 1e-3, 2e-2};
+constexpr std::size_t kContacts = 100;  // of shapes
+
+/// Holds meshes that robots are made of.
+struct LinkSet {
+  std::string name;
+  std::vector<scenes::Mesh> meshes;
+};
+
+/// Holds a link, by its number, at a pose in the world's frame.
+struct PlacedLink {
+  std::size_t link;
+  fcl::Transform3d X_VL;
+};
+
+/// Returns a UR5's where the data is there, and parts of machines; a few of them for options.quick.
+std::vector<LinkSet> linkSets(const Options& options) {
+  std::vector<LinkSet> sets;
+  if (const auto ur5 = findUr5(options)) {
+    sets.push_back({"ur5", {}});
+    for (const scenes::Link& link : ur5->links) {
+      sets.back().meshes.push_back(link.mesh);
+    }
+  } else {
+    std::printf("world/*/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
+  }
+  sets.push_back({"parts", scenes::cadParts()});
+  if (options.quick) {
+    for (LinkSet& set : sets) set.meshes.resize(2);
+  }
+  return sets;
+}
+
+/// Returns poses near the world for all links in turn.
+std::vector<PlacedLink> placedLinks(const scenes::World& world,
+                                    const std::vector<scenes::Mesh>& links, int count,
+                                    std::uint64_t seed) {
+  // Every link gets all gaps in turn.
+  std::vector<PlacedLink> placed(static_cast<std::size_t>(count));
+  for (std::size_t link = 0; link < links.size(); ++link) {
+    const auto poses = scenes::posesNear(world, links[link], count, seed + 100 * link);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if ((i + i / scenes::kGapsOfPoses) % links.size() == link) placed[i] = {link, poses[i]};
+    }
+  }
+  return placed;
+}
+
+/// Returns where worlds stand: not at the origin, nor along its axes.
+fcl::Transform3d worldPose() {
+  return scenes::shift(1.5, -0.7, 0.2) * scenes::turn(0.4, fcl::Vector3d::UnitZ());
+}
+
+/// Returns `full` poses, a mesh scene's 42 in the run of all; fewer in proportion where the options
+/// name frames; seven for options.quick.
+int poseCount(int full, const Options& options) {
+  constexpr int kQuick = 7;
+  if (options.frames > 0) return std::max(1, options.frames * full / kPoses);
+  return options.quick ? kQuick : full;
+}
+
+/// Returns the options with FCL's RSS and OBBRSS beside ours, and a third of the frames judged,
+/// where the command line doesn't say.
+Options worldOptions(const Options& options) {
+  Options ours = options;
+  constexpr int kJudged = 14;
+  if (options.oracle_frames == Options().oracle_frames) ours.oracle_frames = kJudged;
+  if (options.bvs == defaultVolumeNames()) ours.bvs = {"kios", "fcl_rss", "fcl_obbrss"};
+  return ours;
+}
+
+/// Returns a copy of the task with at most so many of its frames, evenly chosen.
+Task fewer(const Task& task, std::size_t frames) {
+  const std::size_t of_frame = task.questions.size() / task.frames;
+  Task few = task;
+  few.frames = std::min(frames, task.frames);
+  few.questions.clear();
+  for (std::size_t i = 0; i < few.frames; ++i) {
+    const auto from = task.questions.begin() +
+                      static_cast<std::ptrdiff_t>(i * task.frames / few.frames * of_frame);
+    few.questions.insert(few.questions.end(), from, from + static_cast<std::ptrdiff_t>(of_frame));
+  }
+  return few;
+}
+
+/// Returns a copy of the task as cold as it gets: a few of its frames, 96 MB written before each.
+Task colder(const Task& task, const Options& options) {
+  const std::size_t streamed = (options.quick ? 1 : 96) << 20;
+  Task cold = fewer(task, options.quick ? 2 : 9);
+  cold.scenario += "/cold";
+  cold.cold = true;
+  cold.streamed_bytes = streamed;
+  return cold;
+}
 
 /// The links are the bodies from `first_link`, the world the last. In large worlds it comes first,
 /// since the oracle places all triangles of the second; else it is first for every other link.
@@ -136,79 +237,103 @@ void reportCoal(const Options& options, Report& report) {
   }
 }
 
+/// Shapes that are one world, and their mesh, near which links are placed.
+struct ShapeWorld {
+  scenes::World world;
+  Geometries shapes;
+  std::vector<fcl::Transform3d> places;  // of the shapes in the world's frame
+};
+
+/// The links are the first bodies, the shapes the last.
+std::vector<Question> boxQuestions(const ShapeWorld& of, const std::vector<PlacedLink>& placed,
+                                   std::size_t first_link, std::size_t first_shape) {
+  std::vector<Question> questions;
+  for (const auto& [link, X_VL] : placed) {
+    for (std::size_t i = 0; i < of.shapes.size(); ++i) {
+      Question question{
+          first_link + link, first_shape + i, {worldPose() * X_VL, worldPose() * of.places[i]}};
+      question.max_contacts = kContacts;
+      questions.push_back(question);
+    }
+  }
+  return questions;
+}
+
+/// The queries of all shapes, a frame for a pose: distances at `distances` of the poses alone.
+void reportShapes(const ShapeWorld& of, int poses, std::size_t distances,
+                  const std::vector<LinkSet>& sets, const Options& options, Report& report) {
+  std::vector<scenes::Mesh> meshes;
+  for (const LinkSet& set : sets) {
+    meshes.insert(meshes.end(), set.meshes.begin(), set.meshes.end());
+  }
+  Contest contest(meshes, options, of.shapes);
+  std::size_t first_link = 0;
+  for (const LinkSet& set : sets) {
+    std::vector<Row> rows;
+    Task task;
+    task.scenario = "world/" + of.world.name + "/" + set.name;
+    task.questions =
+        boxQuestions(of, placedLinks(of.world, set.meshes, poseCount(poses, options), options.seed),
+                     first_link, meshes.size());
+    task.frames = task.questions.size() / of.shapes.size();
+    Task cold = colder(task, options);
+    for (Task* each : {&task, &cold}) {
+      if (each == &cold && first_link > 0) continue;
+      for (const Query query : {Query::kDistance, Query::kCollide, Query::kContacts}) {
+        if (each == &cold && query == Query::kContacts) continue;
+        each->query = query;
+        append(contest.queryRows(query == Query::kDistance ? fewer(*each, distances) : *each),
+               rows);
+      }
+    }
+    first_link += set.meshes.size();
+    report.add(rows);
+  }
+}
+
+ShapeWorld asBoxes(const scenes::World& world) {
+  ShapeWorld of{world, {}, {}};
+  of.world.name += "_as_boxes";
+  for (const scenes::Board& board : world.boards) {
+    of.shapes.push_back(std::make_shared<fcl::Boxd>(board.size));
+    of.places.push_back(board.X_WB);
+  }
+  return of;
+}
+
+/// Returns a scan of a table before a wall in cells of this size, and the surfaces as scanned.
+ShapeWorld octree(const std::string& name, double cell) {
+  const scenes::World table = scenes::boxWorld("", {{{1.6, 1, 0.02}, scenes::shift(0, 0, 0.75)},
+                                                    {{2.4, 0.02, 2}, scenes::shift(0, 0.6, 1)}});
+  ShapeWorld of{table,
+                {scenes::octreeOf(scenes::scannedTable(0.6 * cell, 0.3 * cell, 1), cell)},
+                {fcl::Transform3d::Identity()}};
+  of.world.name = name;
+  return of;
+}
+
+/// Links and worlds as FCL's shapes: boxes of worlds that are made of them, octrees.
+void reportWorldShapes(const std::vector<LinkSet>& sets, const Options& all, Report& report) {
+  Options options = all;
+  options.bvs.erase(std::remove(options.bvs.begin(), options.bvs.end(), kCoal), options.bvs.end());
+  for (const scenes::World& world : scenes::boxWorlds()) {
+    const ShapeWorld boxes = asBoxes(world);
+    if (!wanted(options, boxes.world.name)) continue;
+    reportShapes(boxes, world.boards.size() > 1 ? kPoses / 3 : kPoses, kPoses, sets, options,
+                 report);
+  }
+  constexpr int kOctreePoses = 14;
+  constexpr std::size_t kOctreeDistances = 3;  // FCL takes up to 0.2 s for one
+  for (const auto& [name, cell] :
+       {std::pair("octree_18k", 0.02), std::pair("octree_34k", 0.0144)}) {
+    if (wanted(options, name)) {
+      reportShapes(octree(name, options.quick ? 4 * cell : cell), kOctreePoses, kOctreeDistances,
+                   sets, options, report);
+    }
+  }
+}
+
 }  // namespace
-
-std::vector<LinkSet> linkSets(const Options& options) {
-  std::vector<LinkSet> sets;
-  const auto data = findData(options);
-  if (data && scenes::holdsUr5(*data)) {
-    sets.push_back({"ur5", {}});
-    for (const scenes::Link& link : scenes::loadUr5(*data).links) {
-      sets.back().meshes.push_back(link.mesh);
-    }
-  } else {
-    std::printf("world/*/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
-  }
-  sets.push_back({"parts", scenes::cadParts()});
-  if (options.quick) {
-    for (LinkSet& set : sets) set.meshes.resize(2);
-  }
-  return sets;
-}
-
-std::vector<PlacedLink> placedLinks(const scenes::World& world,
-                                    const std::vector<scenes::Mesh>& links, int count,
-                                    std::uint64_t seed) {
-  // Every link gets all gaps in turn.
-  std::vector<PlacedLink> placed(static_cast<std::size_t>(count));
-  for (std::size_t link = 0; link < links.size(); ++link) {
-    const auto poses = scenes::posesNear(world, links[link], count, seed + 100 * link);
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      if ((i + i / scenes::kGapsOfPoses) % links.size() == link) placed[i] = {link, poses[i]};
-    }
-  }
-  return placed;
-}
-
-fcl::Transform3d worldPose() {
-  return scenes::shift(1.5, -0.7, 0.2) * scenes::turn(0.4, fcl::Vector3d::UnitZ());
-}
-
-int poseCount(int full, const Options& options) {
-  constexpr int kQuick = 7;
-  if (options.frames > 0) return std::max(1, options.frames * full / kPoses);
-  return options.quick ? kQuick : full;
-}
-
-Options worldOptions(const Options& options) {
-  Options ours = options;
-  constexpr int kJudged = 14;
-  if (options.oracle_frames == Options().oracle_frames) ours.oracle_frames = kJudged;
-  if (options.bvs == defaultVolumeNames()) ours.bvs = {"kios", "fcl_rss", "fcl_obbrss"};
-  return ours;
-}
-
-Task fewer(const Task& task, std::size_t frames) {
-  const std::size_t of_frame = task.questions.size() / task.frames;
-  Task few = task;
-  few.frames = std::min(frames, task.frames);
-  few.questions.clear();
-  for (std::size_t i = 0; i < few.frames; ++i) {
-    const auto from = task.questions.begin() +
-                      static_cast<std::ptrdiff_t>(i * task.frames / few.frames * of_frame);
-    few.questions.insert(few.questions.end(), from, from + static_cast<std::ptrdiff_t>(of_frame));
-  }
-  return few;
-}
-
-Task colder(const Task& task, const Options& options) {
-  const std::size_t streamed = (options.quick ? 1 : 96) << 20;
-  Task cold = fewer(task, options.quick ? 2 : 9);
-  cold.scenario += "/cold";
-  cold.cold = true;
-  cold.streamed_bytes = streamed;
-  return cold;
-}
 
 void runWorld(const Options& options, Report& report) {
   if (options.part == "coal") return reportCoal(options, report);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "paper/volume_policy.h"
 
 namespace kios::paper {

@@ -6,7 +6,7 @@
 
 #include <fcl/common/types.h>
 #include <fcl/math/triangle.h>
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 
 namespace kios::paper {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "paper/volume_policy.h"
 
 namespace kios::paper {

@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "paper/mesh_split.h"
 #include "paper/volume_policy.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/volume.h"
 
 // A VariantTree takes volumes of any policy. A volume policy P is a copyable class with
 //

@@ -36,23 +36,24 @@ Mesh cadLink(double length, double radius, int segments, bool across) {
 
 }  // namespace
 
-std::vector<Transform3d> linkPoses(const Arm& arm, const Transform3d& X_WB,
-                                   const std::vector<double>& angles) {
-  if (angles.size() + 1 != arm.links.size()) {
-    throw std::invalid_argument("linkPoses: one angle for each link but the base");
+std::vector<Transform3d> robotPoses(const Robot& robot, const Transform3d& X_WB,
+                                    const std::vector<double>& angles) {
+  if (angles.size() + 1 != robot.links.size()) {
+    throw std::invalid_argument("robotPoses: one angle for each link but the base");
   }
-  std::vector<Transform3d> poses;
-  Transform3d X_WL = X_WB;
-  for (std::size_t i = 0; i < arm.links.size(); ++i) {
-    const Link& link = arm.links[i];
-    X_WL = X_WL * link.X_PL;
+  std::vector<Transform3d> frames, poses;
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const Link& link = robot.links[i];
+    Transform3d X_WL = (i == 0 ? X_WB : frames[robot.parents[i]]) * link.X_PL;
     if (i > 0) X_WL = X_WL * turn(angles[i - 1], Vector3d::UnitZ());
+    frames.push_back(X_WL);
     poses.push_back(X_WL * link.X_LM);
   }
   return poses;
 }
 
-std::vector<std::vector<double>> armMotion(const Arm& arm, int frames, std::uint64_t seed) {
+std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
+                                             std::uint64_t seed) {
   constexpr double kTurnsPerFrame = 3.0 / 400;
   struct Swing {
     double turns_per_frame;
@@ -61,7 +62,15 @@ std::vector<std::vector<double>> armMotion(const Arm& arm, int frames, std::uint
   };
   Random random(seed);
   std::vector<std::vector<double>> motion(frames);
-  for (std::size_t joint = 0; joint < arm.centres.size(); ++joint) {
+  if (!smooth) {
+    for (auto& angles : motion) {
+      for (std::size_t joint = 0; joint < robot.centres.size(); ++joint) {
+        angles.push_back(robot.centres[joint] + robot.amplitudes[joint] * random.uniform(-1, 1));
+      }
+    }
+    return motion;
+  }
+  for (std::size_t joint = 0; joint < robot.centres.size(); ++joint) {
     Swing swings[2];
     for (Swing& swing : swings) {
       const bool slow = &swing == swings;
@@ -70,9 +79,9 @@ std::vector<std::vector<double>> armMotion(const Arm& arm, int frames, std::uint
       swing.share = slow ? 0.75 : 0.25;
     }
     for (int frame = 0; frame < frames; ++frame) {
-      double angle = arm.centres[joint];
+      double angle = robot.centres[joint];
       for (const Swing& swing : swings) {
-        angle += arm.amplitudes[joint] * swing.share *
+        angle += robot.amplitudes[joint] * swing.share *
                  std::sin(2 * kPi * swing.turns_per_frame * frame + swing.phase);
       }
       motion[frame].push_back(angle);
@@ -81,13 +90,19 @@ std::vector<std::vector<double>> armMotion(const Arm& arm, int frames, std::uint
   return motion;
 }
 
-Arm cadArm() {
+Transform3d facing(double distance) {
+  Transform3d X = shift(distance, 0, 0);
+  X.linear() = Vector3d(-1, -1, 1).asDiagonal();
+  return X;
+}
+
+Robot cadArm() {
   constexpr double kLengths[] = {0.25, 0.22, 0.26, 0.24, 0.22, 0.18, 0.13};
   constexpr double kRadii[] = {0.075, 0.065, 0.06, 0.055, 0.05, 0.045, 0.04};
   constexpr int kSegments[] = {96, 80, 64, 80, 48, 40, 32};
   constexpr double kCentres[] = {0.6, 0, 0.8, 0, 0.5, 0};  // leaning towards +x
   constexpr double kAmplitudes[] = {0.5, 1.5, 0.6, 1.5, 0.8, 1.5};
-  Arm arm;
+  Robot arm;
   for (int i = 0; i < 7; ++i) {
     // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
     // with -y along the arm.
@@ -103,18 +118,19 @@ Arm cadArm() {
     if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX());
     link.mesh = cadLink(kLengths[i], kRadii[i], kSegments[i], across);
     arm.links.push_back(link);
+    arm.parents.push_back(i - 1);
   }
   return arm;
 }
 
-Arm stripChain() {
+Robot stripChain() {
   struct Strips {
     int count;
     double width;
   };
   constexpr Strips kCylinders[] = {{100, 0.005}, {200, 0.003}, {400, 0.001}, {300, 0.002}};
   constexpr double kLength = 0.6;
-  Arm arm;
+  Robot arm;
   for (const Strips& strips : kCylinders) {
     // x is along the chain; each joint bends across the one before.
     Link link;
@@ -125,6 +141,7 @@ Arm stripChain() {
     }
     link.X_LM = turn(kPi / 2, Vector3d::UnitY());
     link.mesh = stripCylinder(strips.count, kLength, strips.width);
+    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
     arm.links.push_back(link);
   }
   return arm;

@@ -8,7 +8,7 @@
 
 #include "mesh.h"
 
-// Serial arms of rigid links. P is the link before, L the link, M its mesh.
+// Robots as trees of rigid links. P is the link before, L the link, M its mesh.
 
 namespace kios::scenes {
 
@@ -19,29 +19,34 @@ struct Link {
   Mesh mesh;
 };
 
-/// links[0] is the base, which stands still: it has no joint.
-struct Arm {
+/// Links and the joints that carry them; links[0] is the base and has none. A joint turns about its
+/// link's own z, after X_PL; parents[i] < i is the link that carries link i.
+struct Robot {
   std::vector<Link> links;
+  std::vector<int> parents;
   // Each joint swings about its centre by at most its amplitude, in radians.
-  std::vector<double> centres;
-  std::vector<double> amplitudes;
+  std::vector<double> centres, amplitudes;
 };
 
 /// Returns poses of the meshes of all links with the base at X_WB and the joints at `angles`.
-std::vector<fcl::Transform3d> linkPoses(const Arm& arm, const fcl::Transform3d& X_WB,
-                                        const std::vector<double>& angles);
+std::vector<fcl::Transform3d> robotPoses(const Robot& robot, const fcl::Transform3d& X_WB,
+                                         const std::vector<double>& angles);
 
-/// Returns joint angles for each frame: sums of two sines whose periods and phases the seed sets,
-/// smooth and in the arm's range, slow enough for about 3 swings of a joint in 400 frames.
-std::vector<std::vector<double>> armMotion(const Arm& arm, int frames, std::uint64_t seed);
+/// Returns joint angles for each frame in the robot's range: uniform, or smooth: sums of two sines
+/// whose periods and phases the seed sets, slow enough for about 3 swings of a joint in 400 frames.
+std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
+                                             std::uint64_t seed);
+
+/// Returns the pose of a robot that faces another of its kind at the origin.
+fcl::Transform3d facing(double distance);
 
 /// Returns an arm of 7 links, base included, 1.5 long when stretched, its joints twisting and
 /// bending in turn. Links are assemblies of flanged cylinders and bored blocks of 1.5k to 4.3k
 /// triangles.
-Arm cadArm();
+Robot cadArm();
 
 /// Returns a chain of 4 cylinders of length 0.6 whose sides are 100 to 400 strips 0.001 to 0.005
 /// wide.
-Arm stripChain();
+Robot stripChain();
 
 }  // namespace kios::scenes

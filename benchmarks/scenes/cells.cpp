@@ -56,17 +56,13 @@ bool Cell::admissible(int a, int b) const {
 }
 
 void placeLinks(const Cell& cell, const Joints& q, std::vector<Transform3d>& poses) {
-  const std::size_t links = cell.robot.links.size(), joints = cell.robot.centres.size();
-  poses.resize(links * cell.bases.size());
-  std::vector<Transform3d> frames(links);
-  for (std::size_t r = 0; r < cell.bases.size(); ++r) {
-    for (std::size_t i = 0; i < links; ++i) {
-      const Link& link = cell.robot.links[i];
-      Transform3d X = (i == 0 ? cell.bases[r] : frames[cell.robot.parents[i]]) * link.X_PL;
-      if (i > 0) X = X * turn(q[r * joints + i - 1], Vector3d::UnitZ());
-      frames[i] = X;
-      poses[r * links + i] = X * link.X_LM;
-    }
+  const auto joints = static_cast<std::ptrdiff_t>(cell.robot.centres.size());
+  poses.clear();
+  auto first = q.begin();
+  for (const Transform3d& X_WB : cell.bases) {
+    const auto placed = robotPoses(cell.robot, X_WB, {first, first + joints});
+    poses.insert(poses.end(), placed.begin(), placed.end());
+    first += joints;
   }
 }
 

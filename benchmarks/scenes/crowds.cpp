@@ -100,13 +100,10 @@ BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t se
       return Vector3d(x, y, random.uniform(least, most));
     };
     const Vector3d size = draw(0.2, 0.4), phase = draw(0, 3);
-    Mesh mesh = triangles == 12 ? subdividedBox(size, 1)
-                                : uvSphere(0.5, triangles / (2 * segments) + 1, segments);
-    if (triangles != 12) {
-      for (Vector3d& p : mesh.vertices) {
-        const double bump = std::sin(9 * p.x() + phase.x()) * std::sin(9 * p.y() + phase.y());
-        p = (1 + 0.1 * bump) * p.cwiseProduct(size);
-      }
+    Mesh mesh = uvSphere(0.5, triangles / (2 * segments) + 1, segments);
+    for (Vector3d& p : mesh.vertices) {
+      const double bump = std::sin(9 * p.x() + phase.x()) * std::sin(9 * p.y() + phase.y());
+      p = (1 + 0.1 * bump) * p.cwiseProduct(size);
     }
     scene.meshes.push_back(std::move(mesh));
     scene.mesh_of.push_back(i);

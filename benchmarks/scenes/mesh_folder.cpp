@@ -73,9 +73,9 @@ std::vector<Mesh> loadMeshes(const fs::path& folder) {
   return meshes;
 }
 
-Arm chainOf(const std::vector<Mesh>& meshes) {
+Robot chainOf(const std::vector<Mesh>& meshes) {
   constexpr double kCentre = 0.4, kTwist = 1.5, kBend = 0.7;
-  Arm arm;
+  Robot arm;
   double reach = 0;  // of the link before
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
@@ -93,12 +93,13 @@ Arm chainOf(const std::vector<Mesh>& meshes) {
     if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX()) * link.X_LM;
     link.mesh = meshes[i];
     reach = (box.high - box.low).maxCoeff();
+    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
     arm.links.push_back(std::move(link));
   }
   return arm;
 }
 
-double chainLength(const Arm& chain) {
+double chainLength(const Robot& chain) {
   double length = 0;
   for (const Link& link : chain.links) {
     const Box box = boxOf(link.mesh);

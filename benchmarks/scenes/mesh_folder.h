@@ -21,9 +21,9 @@ std::vector<Mesh> loadMeshes(const std::filesystem::path& folder);
 /// Returns the meshes as links of an arm, in their order: each with the longest side of its box
 /// along the arm, from joint to joint, the joints twisting and bending in turn. All that is known
 /// of the robot are its sizes.
-Arm chainOf(const std::vector<Mesh>& meshes);
+Robot chainOf(const std::vector<Mesh>& meshes);
 
 /// Returns the length of the chain when stretched.
-double chainLength(const Arm& chain);
+double chainLength(const Robot& chain);
 
 }  // namespace kios::scenes

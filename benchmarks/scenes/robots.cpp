@@ -43,15 +43,6 @@ Mesh block(const Vector3d& size, int segments) {
 
 }  // namespace
 
-Robot robotOf(const Arm& arm) {
-  Robot robot;
-  robot.links = arm.links;
-  for (std::size_t i = 0; i < arm.links.size(); ++i) robot.parents.push_back(int(i) - 1);
-  robot.centres = arm.centres;
-  robot.amplitudes = arm.amplitudes;
-  return robot;
-}
-
 // Every joint axis lies across the body, along the world's y where the robot stands upright, or
 // along x for the joints that abduct: X_PL turns z there, X_LM turns the mesh back.
 Robot humanoid() {
@@ -93,40 +84,6 @@ Robot humanoid() {
     add(shank, {0.05, 0, -0.41}, y, -0.1, 0.3, block({0.24, 0.09, 0.06}, 96));
   }
   return robot;
-}
-
-std::vector<Transform3d> robotPoses(const Robot& robot, const Transform3d& X_WB,
-                                    const std::vector<double>& angles) {
-  if (angles.size() + 1 != robot.links.size()) {
-    throw std::invalid_argument("robotPoses: one angle for each link but the base");
-  }
-  std::vector<Transform3d> frames, poses;
-  for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    const Link& link = robot.links[i];
-    Transform3d X_WL = (i == 0 ? X_WB : frames[robot.parents[i]]) * link.X_PL;
-    if (i > 0) X_WL = X_WL * turn(angles[i - 1], Vector3d::UnitZ());
-    frames.push_back(X_WL);
-    poses.push_back(X_WL * link.X_LM);
-  }
-  return poses;
-}
-
-std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
-                                             std::uint64_t seed) {
-  if (smooth) {
-    Arm joints;
-    joints.centres = robot.centres;
-    joints.amplitudes = robot.amplitudes;
-    return armMotion(joints, frames, seed);
-  }
-  Random random(seed);
-  std::vector<std::vector<double>> motion(frames);
-  for (auto& angles : motion) {
-    for (std::size_t joint = 0; joint < robot.centres.size(); ++joint) {
-      angles.push_back(robot.centres[joint] + robot.amplitudes[joint] * random.uniform(-1, 1));
-    }
-  }
-  return motion;
 }
 
 std::vector<std::pair<int, int>> allowedPairs(const Robot& robot) {

@@ -9,7 +9,7 @@
 
 #include "arms.h"
 
-// Robots as trees of rigid links, and scenes of many moving bodies.
+// A humanoid, and scenes of many moving bodies.
 
 namespace kios::scenes {
 
@@ -26,27 +26,9 @@ struct BodyScene {
   int moving() const { return size() - static_cast<int>(places.size()); }
 };
 
-/// Links and the joints that carry them; links[0] is the base and has none. A joint turns about its
-/// link's own z, after X_PL; parents[i] < i is the link that carries link i.
-struct Robot {
-  std::vector<Link> links;
-  std::vector<int> parents;
-  std::vector<double> centres, amplitudes;  // of the joints, as Arm's
-};
-
-Robot robotOf(const Arm& arm);
-
 /// Returns a humanoid of 19 links, 1.8 high: pelvis, chest and head, two arms and two legs of 4
 /// links each; 1.2k to 3.0k triangles a link.
 Robot humanoid();
-
-/// Returns poses of the meshes with the base at X_WB and the joints at `angles`.
-std::vector<fcl::Transform3d> robotPoses(const Robot& robot, const fcl::Transform3d& X_WB,
-                                         const std::vector<double>& angles);
-
-/// Returns joint angles for each frame: smooth as armMotion()'s, or uniform in the robot's range.
-std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
-                                             std::uint64_t seed);
 
 /// Returns pairs of links that a planner wouldn't ask about: neighbours, and those that touch in
 /// more than one of twenty random configurations.
@@ -62,8 +44,7 @@ BodyScene twoRobots(const Robot& robot, const fcl::Transform3d& X_W1, const fcl:
 BodyScene driftingCrowd(int count, int frames, std::uint64_t seed);
 
 /// Returns `count` bodies 0.2 to 0.4 across that stand still in a jittered grid of this spacing,
-/// each a mesh of its own: a box for 12 `triangles`, else a bumpy ball of as many, a multiple of
-/// 20.
+/// each a bumpy ball of its own of so many triangles, a multiple of 20.
 BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t seed);
 
 /// Returns a robot's configurations, all at random, amid `count` obstacles that stand still and

@@ -86,7 +86,7 @@ bool holdsUr5(const fs::path& data) {
   return fs::is_regular_file(data / "ur5" / "kinematics.yaml", ignored);
 }
 
-Arm loadUr5(const fs::path& data) {
+Robot loadUr5(const fs::path& data) {
   const fs::path folder = data / "ur5";
   const fs::path kinematics = folder / "kinematics.yaml";
   const std::map<std::string, double> numbers = readKinematics(kinematics);
@@ -95,7 +95,7 @@ Arm loadUr5(const fs::path& data) {
     if (found == numbers.end()) refuse(kinematics, "has no " + joint + "/" + key);
     return found->second;
   };
-  Arm arm;
+  Robot arm;
   for (const LinkData& from : kLinks) {
     Link link;
     if (from.joint != nullptr) {
@@ -106,6 +106,7 @@ Arm loadUr5(const fs::path& data) {
     }
     link.X_LM = pose(from.origin);
     link.mesh = loadMesh(folder / (std::string(from.mesh) + ".stl"));
+    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
     arm.links.push_back(std::move(link));
   }
   arm.centres.assign(std::begin(kCentres), std::end(kCentres));

@@ -14,6 +14,6 @@ bool holdsUr5(const std::filesystem::path& data);
 
 /// Returns the UR5 of the data folder: base and 6 links, equal vertices welded. Throws
 /// std::runtime_error, or as loadMesh(), naming the file and what is wrong with it.
-Arm loadUr5(const std::filesystem::path& data);
+Robot loadUr5(const std::filesystem::path& data);
 
 }  // namespace kios::scenes

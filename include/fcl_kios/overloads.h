@@ -6,7 +6,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "fcl_kios/fcl_own.h"
+#include "fcl_kios/detail/fcl_own.h"
 
 // fcl::collide, fcl::distance and fcl::continuousCollide for objects that may hold a kios::kIOS
 // model. FCL dispatches through tables inside libfcl that a foreign volume can't join; these
@@ -61,7 +61,7 @@ std::size_t collide(const CollisionGeometry<double>* o1, const Transform3<double
                     const CollisionRequest<double>& request, CollisionResult<double>& result);
 
 /// Returns result.min_distance: 0 for meshes that intersect (polygon soups have no inside, so
-/// enable_signed_distance adds nothing, but for marked solids: solid/solids.h), unchanged if the
+/// enable_signed_distance adds nothing, but for marked solids: fcl_kios/solids.h), unchanged if the
 /// pair is not nearer than it was on entry.
 double distance(const CollisionObject<double>* o1, const CollisionObject<double>* o2,
                 const DistanceRequest<double>& request, DistanceResult<double>& result);

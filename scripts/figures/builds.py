@@ -1,17 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tables of building, preparing and refitting models."""
+"""The tables of building and refitting models."""
 from figures.rows import OBBRSS, grid, number, spec, table, time
 
 
 BUILDERS = spec("""
 k-IOS: `endModel`            | build kios
-with `kios::prepare`         | prepared kios
-the same again, and prepared | again kios
+the same again               | again kios
 OBBRSS: `endModel`           | build fcl_obbrss
 FCL's kIOS                   | build fcl_kios_builtin
 AABB                         | build fcl_aabb
-k-DOP, 24 planes             | build fcl_kdop24
 """)
 BUILT = spec("""
 1k triangles          | welded/1000
@@ -31,8 +29,7 @@ def building(rows):
 
 def memory(rows):
     lines = spec("""
-k-IOS: a model                | build kios
-with what queries prepare     | prepared kios
+k-IOS                         | build kios
 OBBRSS                        | build fcl_obbrss
 AABB                          | build fcl_aabb
 """)

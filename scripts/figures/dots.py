@@ -35,10 +35,8 @@ def scenes(rows):
 def building(rows):
     lines = [(label, lambda of, words=words: (f"build/{words[0]}", *of))
              for label, (words, _) in BUILT]
-    # Queries search what endModel() prepares, so that its time counts.
-    names = {"prepared": "k-IOS", "again": "k-IOS, an equal model"}
-    series = [(names.get(words[0], label.partition(":")[0]), words)
-              for label, (words, _) in BUILDERS if words != ["build", "kios"]]
+    series = [("k-IOS, an equal model" if words[0] == "again" else label.partition(":")[0], words)
+              for label, (words, _) in BUILDERS]
     return medians(rows, lines, series)
 
 
@@ -52,5 +50,5 @@ def preload(rows):
 # Name of the picture, its function, what a time is of.
 PICTURES = (("plans", mbm, "median time of a plan"),
             ("scenes", scenes, "median time of a frame, smooth motion"),
-            ("building", building, "median time of building and preparing a model"),
+            ("building", building, "median time of building a model"),
             ("preload", preload, "median time of a query"))

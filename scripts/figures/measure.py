@@ -27,21 +27,23 @@ RUNS = {  # run: its file in docs/measured, and what kios_bench is asked
     "error": ("error", "error --frames 300 --repeats 5 --bv kios,fcl_rss,fcl_obbrss"),
     "shapes": ("shapes", "shapes --frames 60 --repeats 5"),
     "rays": ("shapes", "rays --frames 4096 --repeats 5"),
-    "solids": ("shapes", "solids --repeats 5"),
-    "continuous": ("motions", "continuous --frames 40 --repeats 5"),
-    "motions": ("motions", "motions --frames 200 --repeats 3 --oracle 1000"),
+    "solids": ("shapes", "solids/contains solids/penetration --repeats 5"),
+    "depth": ("shapes", "solids/depth --repeats 5"),
+    "points": ("shapes", "solids/points --repeats 5"),
+    "clashes": ("world", "clashes --repeats 5"),
+    "continuous": ("motions", "motions/continuous --frames 40 --repeats 5"),
+    "moved": ("motions", "motions/moved --repeats 5"),
+    "motions": ("motions", "motions/paths --frames 200 --repeats 3 --oracle 1000"),
+    "range": ("motions", "motions/range --repeats 3"),
     "mbm": ("motions", f"mbm --frames 700 {PAIR}"),
-    "paper": ("paper", "paper/figure_6 --frames 20 --repeats 2"),
-    "fits": ("paper", "paper/fits --frames 100 --repeats 3"),
-    "packing": ("paper", "paper/packing --repeats 5"),
-    "exact": ("paper", "paper/exact --repeats 5"),
+    "fits": ("tori", "paper --frames 100 --repeats 3"),
     "stability": ("stability", "stability --frames 2000 --repeats 1"),
     "preload": ("preload", "preload --repeats 3"),
 }
 
 # What no page has isn't kept.
 UNKEPT = ("min_us", "ratio_to_fcl_obbrss", "max_rel_error", "mean_abs_error", "bracket_width",
-          "skipped_pairs", "seed")
+          "skipped_pairs", "simd_target", "seed")
 
 
 def header(root, scenario, command):
@@ -64,14 +66,17 @@ def slim(row):
 
 
 def replace(file, run, lines):
-    """Puts the lines of a run, of which the first is its header, in the place of those before."""
-    kept, keeps = [], False
-    for line in file.read_text().splitlines() if file.exists() else []:
-        if "run" in (of := json.loads(line)):
-            keeps = of["run"] != run and (of["run"] in RUNS or of["run"].startswith("python"))
-        if keeps:
-            kept.append(line)
-    file.write_text("\n".join([*kept, *map(json.dumps, lines)]) + "\n")
+    """Puts the lines of a run, of which the first is its header, in the place of those before, and
+    of rows of the same scenarios that another run had. All other rows stay."""
+    fresh = {row["scenario"] for row in lines[1:]}
+    kept = []  # runs, each with its rows
+    for line in map(json.loads, file.read_text().splitlines() if file.exists() else []):
+        if "run" in line:
+            kept.append([line])
+        elif line["scenario"] not in fresh:
+            kept[-1].append(line)
+    kept = [of for of in kept if of[0]["run"] != run and len(of) > 1]
+    file.write_text("".join(json.dumps(line) + "\n" for of in [*kept, lines] for line in of))
 
 
 def measure(root, folder, runs):

@@ -50,7 +50,7 @@ MBM = [(f"{label}, {kind.replace('_', ' ')}" if kind else label,
 
 
 def mbm(rows):
-    """MotionBenchMaker's problems by robot and kind."""
+    """MotionBenchMaker's problems by kind, Panda's / UR5's."""
     columns = spec("""
 problems               | frames kios
 proven: solved         | solved kios
@@ -63,15 +63,17 @@ mean                   | mean_us fcl_obbrss
 contacts called free   | wrong_verdicts fcl_obbrss
 """)
 
-    def cell(line, column, _):
-        row = rows.find(line[0], "plan", column[1])
-        value = row[column[0]]
-        if not column[0].endswith("_us"):
+    def of_robot(scenario, key, bv):
+        value = rows.find(scenario, "plan", bv)[key]
+        if not key.endswith("_us"):
             return number(value)
-        base = rows.find(line[0], "plan")[column[0]]
-        return time(value) + (f" ({number(value / base)})" if column[1] == OBBRSS else "")
-    lines = [(label if "," in label else f"**{label}**", (words, {})) for label, words in MBM]
-    return grid("problems", lines, columns, cell)
+        base = rows.find(scenario, "plan")[key]
+        return time(value) + (f" ({number(value / base)})" if bv == OBBRSS else "")
+    kinds = len(MBM) // 2  # of each robot, the last of them all problems
+    lines = [(panda.partition(", ")[2] or "**all**", ([*words, *others], {}))
+             for (panda, words), (_, others) in zip(MBM[:kinds], MBM[kinds:])]
+    return grid("problems, Panda / UR5", lines, columns, lambda line, column, _: " / ".join(
+        of_robot(scenario, *column) for scenario in line))
 
 
 def mbm_cores(rows, robot):
@@ -87,12 +89,9 @@ def mbm_contact(rows, robot):
 
 def mbm_questions(rows):
     """What a question costs, by robot."""
-    kinds = [(f"a path of {length} rad a joint, {what}", f"{of}/{length} motion")
-             for what, of in (("free", "free"), ("not free", "blocked"))
-             for length in ("0.05", "0.2", "0.8")]
-    kinds += [("a configuration, in contact or not", "configurations collide"),
-              ("the same, 10,000 at once on all cores, by the clock", "batches collide"),
-              ("clearance and its gradient, free", "free gradient")]
+    kinds = [("a configuration, in contact or not", "configurations collide"),
+             ("the same, 10,000 at once on all cores, by the clock", "batches collide"),
+             ("clearance and its gradient, free", "free gradient")]
     columns = [(f"{label}{of}", ([robot, bv], {}))
                for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
                for bv, of in (("kios", ""), (OBBRSS, ", OBBRSS"))]

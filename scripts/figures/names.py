@@ -65,14 +65,22 @@ def declarations(text):
 
 NAME = re.compile(r"(?:template <[^{}]*?> )?(?:class|struct|enum class|using) (\w+)|"
                   r"[^(]*?(\w+)\(")
-# Instantiations, names for double and float, declarations of what is defined elsewhere.
-SKIPPED = re.compile(r"extern |using \w+[df] = \w+<|template <typename S> (?:class|struct) \w+$")
+# Instantiations, names for double and float, old names, declarations of what is defined elsewhere.
+SKIPPED = re.compile(r"extern |.*\[\[deprecated|using \w+[df] = \w+<|template <typename S> (?:class|struct) \w+$")
+# Headers whose names stand with those of the first header that includes them.
+DETAIL = re.compile(r'#include "(fcl_kios/detail/\w+\.h)"')
 
 
 def public_names():
     """The names in namespace kios as {header: {name: headline}}."""
-    found = {}
-    for header, text in headers():
+    found, shown = {}, set()
+    texts = dict(headers())
+    for header, text in texts.items():
+        if "/detail/" in header:
+            continue
+        text = "\n".join([text, *(texts.get(name, "") for name in DETAIL.findall(text)
+                                  if name not in shown)])
+        shown.update(DETAIL.findall(text))
         names = {}
         for scopes, declared, doc in declarations(text):
             path = "::".join(filter(None, scopes))
@@ -86,17 +94,15 @@ def public_names():
 
 
 def names(_):
-    """A line for each public name, by header."""
-    lines, nameless = [], []
-    for header, found in public_names().items():
-        first = f"`{header}`"
-        for name, sentence in found.items():
-            nameless += [] if sentence else [f"{header}: {name}"]
-            lines.append([first, f"`{name}`", sentence.rstrip(".:").replace("|", "\\|")])
-            first = ""
+    """A line for each header with its public names; LookupError names those without a docstring."""
+    found = public_names()
+    nameless = [f"{header}: {name}" for header, names in found.items()
+                for name, sentence in names.items() if not sentence]
     if nameless:
         raise LookupError("public names without a docstring: " + ", ".join(nameless))
-    return table(["header", "name", "what"], lines)
+    return table(["header", "names"], [
+        [f"`{header}`", ", ".join(f"`{name}`" for name in names)]
+        for header, names in found.items()]).replace("--:", "---")
 
 
 def default(_, name):
@@ -111,3 +117,17 @@ def default(_, name):
                 return f"2^{power[1]}"
             return f"{int(value[1]):,}" if value[1].isdigit() else value[1]
     raise LookupError(f"no public header gives {name} a default")
+
+
+def wrong_keywords(page, stub):
+    """What a page says of defaults, `mesh.bracket(other, rel_err=0.1)`, and the stub doesn't."""
+    for name, arguments in re.findall(r"`mesh\.(\w+)\((.*?)\)`", page):
+        declared = re.search(rf"def {name}\((.*?)\) ->", stub, re.S)
+        values = dict(re.findall(r"(\w+): [^=,]*(?:\[[^]]*\])? = ([^,\s]+)",
+                                 declared[1] if declared else ""))
+        for keyword, value in re.findall(r"(\w+)=([^,\s]+)", arguments):
+            there = values.get(keyword)
+            same = there == value or there == "..." or (
+                there and re.fullmatch(r"[\d.e-]+", value + there) and float(value) == float(there))
+            if not same:
+                yield f"mesh.{name}({keyword}={value}), where it is {there}"

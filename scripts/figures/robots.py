@@ -5,16 +5,12 @@ from figures.rows import OBBRSS, OURS, grid, number, spec, time
 
 
 def links(rows):
-    """What a pair costs by how near it is: ours, and how many times that OBBRSS takes."""
+    """What a pair costs: ours, and how many times that OBBRSS takes."""
     lines = spec("""
 distance                                       | - distance
 the same, after other work                     | /cold distance
 collide                                        | - collide
 the same, after other work                     | /cold collide
-of these, apart by their root volumes          | /root_reject collide
-farther apart than 2 % of their extent         | /apart collide
-nearer                                         | /near collide
-in contact                                     | /hit collide
 """)
     columns = spec("""
 UR5 | ur5

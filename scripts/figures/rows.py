@@ -34,7 +34,8 @@ class Rows:
     def us(self, *key, **settings):
         """Time of a query; of the mean pair, where a frame asks for several."""
         row = self.find(*key, **settings)
-        pairs = row.get("total_pairs") if row["query"] not in ("scene", "motion") else None
+        whole = row["query"] in ("scene", "motion", "clashes", "contact")
+        pairs = None if whole else row.get("total_pairs")
         return row["median_us"] / (pairs / row["frames"] if pairs else 1)
 
     def ratio(self, scenario, query, bv=OBBRSS, **settings):

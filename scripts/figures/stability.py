@@ -60,4 +60,10 @@ FCL                  | collide wrong_verdicts fcl
             return "not finite"
         return f"{max(values):.1e}" if key == "max_abs_error" else str(sum(values))
     groups = [[name for name in classes if family[name] == f] for f in FAMILIES]
-    return grid("class", [(label(names), (names, {})) for names in groups if names], columns, cell)
+    # Those of which FCL, too, gets all right are one row.
+    right = [names for names in groups if not any(
+        rows.find(name, query, "fcl")["wrong_verdicts"] for name in names
+        for query in ("distance", "collide"))]
+    lines = [(label(names), (names, {})) for names in groups if names and names not in right]
+    right = sum(right, [])
+    return grid("class", [*lines, (f"the other {len(right)} classes", (right, {}))], columns, cell)

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The blocks of README.md and docs/*.md by name, as functions of the measured rows.
 
-A block `<!-- report:NAME -->` is the table NAME(rows) below; one of several words, such as
-`<!-- report:ratios distance falling strips -->`, is a phrase: its function gets the other words."""
+A block `<!-- report:NAME -->` is the table NAME(rows) below; of several words, as
+`<!-- report:run falling -->`, its function gets the others."""
 from figures.builds import building, memory, refits  # noqa: F401
 from figures.motions import mbm, mbm_contact, mbm_cores, mbm_questions, missed, motions  # noqa: F401
 from figures.names import default, names  # noqa: F401
-from figures.paper import exact, figure_6, fits, packing, table_i  # noqa: F401
+from figures.paper import fits, table_i  # noqa: F401
 from figures.robots import links  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
 from figures.stability import stability, worst_triangles, wrong_zeros  # noqa: F401
@@ -50,23 +50,26 @@ closest of all pairs, two humanoids              | robots/humanoids/smooth/close
 all contacts of a mesh and a convex shape        | shapes/convex contacts fcl_obbrss
 moving tori, linear motion                       | continuous/linear continuous fcl_obbrss_sampling
 a path of 0.2 rad is free, UR5 in a cell         | motions/ur5_cell/valid/0.2 motion fcl_obbrss
+the least clearance over a path, to 1 mm, UR5    | motions/range/ur5/path range fcl_obbrss_samples
 first hit of a random ray, 80,000 triangles      | rays/80000/random first embree
-build and prepare a torus of 80,000 triangles    | build/welded/80000 prepared fcl_obbrss
-build and prepare an equal one                   | build/welded/80000 again fcl_obbrss
+build a torus of 80,000 triangles                | build/welded/80000 build fcl_obbrss
+build an equal one                               | build/welded/80000 again fcl_obbrss build
+distance of a point, ours signed, 84,000 triangles | points/torus signed fcl_obbrss ball
+contacts of a building's 10,000 parts            | clashes/10000 contact fcl_manager
 """)
 OTHERS = {OBBRSS: "FCL OBBRSS", "fcl_manager": "FCL's manager, OBBRSS", "embree":
           "Embree, single precision", "coal_obbrss": "Coal OBBRSS",
           "fcl_obbrss_sampling": "FCL OBBRSS, 1,000 samples",
+          "fcl_obbrss_samples": "FCL OBBRSS, a sample each 2 mm",
           "fcl_obbrss_advancement": "FCL OBBRSS, advancement"}
 
 
 def against(rows):
-    """The questions of the README as (label, our time, the other's, its name)."""
-    for label, ((scenario, query, bv), settings) in README:
-        # FCL has nothing to prepare, nor to share.
-        theirs = "build" if query in ("prepared", "again") else query
+    """The questions of the README as (label, our time, the other's, its name); a fourth word is the
+    query that the other has instead."""
+    for label, ((scenario, query, bv, *theirs), settings) in README:
         yield (label, rows.us(scenario, query, **settings),
-               rows.us(scenario, theirs, bv, **settings), OTHERS[bv])
+               rows.us(scenario, *(theirs or [query]), bv, **settings), OTHERS[bv])
 
 
 def readme(rows, count=None):
@@ -82,20 +85,13 @@ PAIRS = ("falling", "spinning", "generated", "generated_spinning", "robots")
 
 
 def errors(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} kios\n"
-                           f"the same, FCL OBBRSS | error/{pair} fcl_obbrss" for pair in PAIRS))
+    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} distance" for pair in PAIRS))
     columns = spec("\n".join(["exact | rel_err=0 abs_err=0",
                               *(f"rel_err {e} | rel_err={e} abs_err=0"
                                 for e in (0.01, 0.03, 0.1, 0.3, 0.5)),
                               *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))]))
-
-    def cell(line, _, settings):
-        us = rows.us(line[0], "distance", line[1], **settings)
-        if line[1] == OBBRSS:
-            return number(us)
-        exact = rows.us(line[0], "distance", OBBRSS, rel_err=0, abs_err=0)
-        return f"{number(us)} ({number(exact / us)})"
-    return grid("us (times exact OBBRSS)", lines, columns, cell)
+    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
+        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
 
 
 def thresholds(rows):
@@ -185,7 +181,7 @@ def calls(rows):
 do they touch? `fcl::collide`, one contact | collide kios
 nearer than ten times the distance? `kios::closerThan` | threshold kios threshold=10
 nearer than 1.1 times | threshold kios threshold=1.1
-how far, exactly? `fcl::distance`, `kios::distance` | distance kios rel_err=0 abs_err=0
+how far, exactly? `fcl::distance`, `kios::distanceBracket` | distance kios rel_err=0 abs_err=0
 how far, within a tenth? `rel_err = 0.1` | distance kios rel_err=0.1 abs_err=0
 how far, within 0.1? `abs_err = 0.1` | distance kios rel_err=0 abs_err=0.1
 a bracket after 32 expansions: `max_expansions = 32` | budget kios budget=32
@@ -278,7 +274,7 @@ def containment(rows):
 def solids(rows):
     lines = []
     for scenario in rows.scenarios("solids/*"):
-        if scenario.startswith("solids/contains/"):
+        if scenario.split("/")[1] in ("contains", "depth", "points"):
             continue
         row = rows.find(scenario, "penetration")
         us, collide = row["median_us"], rows.us(scenario, "collide")
@@ -289,6 +285,73 @@ def solids(rows):
                       f"{100 * off:.0f} %"])
     return table(["scene", "frames", "us", "in collide queries", "upper / lower, median",
                   "largest", "wrong", "FCL's deepest contact off by"], lines)
+
+
+def depths(rows):
+    lines = []
+    for scenario in rows.scenarios("solids/depth/*"):
+        of = [rows.find(scenario, "depth", rel_err=e) for e in (0.3, 0.1, 0.03, 0.01, 0.001)]
+        deeper = [rows.find(scenario, "deeper", threshold=t) for t in (0.5, 1.5)]
+        lines.append([scenario[13:].replace("/", ", "), f"{of[0]['triangles']:,}",
+                      number(rows.us(scenario, "collide")),
+                      *(number(row["median_us"]) for row in of + deeper),
+                      sum(row["wrong_verdicts"] for row in of + deeper)])
+    return table(["scene", "triangles", "collide", "rel_err 0.3", "0.1", "0.03", "0.01", "0.001",
+                  "deeper than half?", "than 1.5 times?", "wrong"], lines)
+
+
+# docs/robot.md, docs/points.md, docs/clash.md
+
+def moved(rows):
+    def us(query, bv=OURS):
+        return time(rows.us("motions/moved", query, bv))
+    row, anew = rows.find("motions/moved", "moved"), rows.find("motions/moved", "moved", "kios_anew")
+    return table(["spheres", "move one", "move one, and contact", "make all anew, and contact", "wrong"],
+                 [[f"{row['bodies']:,}", us("move"), us("moved"), us("moved", "kios_anew"),
+                   f"{row['wrong_verdicts']} of {anew['frames']}"]])
+
+
+def points(rows):
+    columns = spec("""
+torus of 84,000 triangles | points/torus
+scan of 500,000           | points/scan
+""")
+    lines = spec("""
+signed distance          | signed kios
+nearest point            | nearest kios
+a ball, `fcl::distance`  | ball kios
+a ball, FCL's OBBRSS     | ball fcl_obbrss
+winding number to 0.1    | winding_0.1 kios
+to 0.01                  | winding_0.01 kios
+to 0.001                 | winding_0.001 kios
+to 1e-4                  | winding_0.0001 kios
+to 1e-6                  | winding_1e-06 kios
+""")
+
+    def cell(line, column, _):
+        row = rows.find(*column, line[0].replace("_", " "), line[1])
+        error = row.get("max_abs_error")
+        return number(row["median_us"]) + (f" (off by {error:.0e})" if error else "")
+    return grid("us a point", lines, columns, cell)
+
+
+def clashes(rows):
+    columns = spec("""
+parts                      | bodies clashes kios
+pairs with a status        | total_pairs clashes kios
+`findClashes`              | median_us clashes kios
+wrong                      | wrong_verdicts clashes kios
+contacts, k-IOS            | median_us contact kios
+contacts, OBBRSS           | median_us contact fcl_manager
+clashes that these miss    | wrong_verdicts contact fcl_manager
+""")
+    lines = [(f"{int(scenario.split('/')[1]):,}", ([scenario], {}))
+             for scenario in rows.scenarios("clashes/*")]
+
+    def cell(line, column, _):
+        value = rows.find(line[0], *column[1:])[column[0]]
+        return time(value) if column[0] == "median_us" else f"{value:,}"
+    return grid("building", lines, columns, cell)
 
 
 def block(rows, name):

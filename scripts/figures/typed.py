@@ -37,11 +37,18 @@ def cells_of(lines):
 DEFAULT = re.compile(rf"\bdefaults?(?:\s+(?:is|are|of|to))?[:=]?\s+(?:a\s+)?(?:{COUNT}|million)\b"
                      rf"|\b(?:{COUNT}|million)\s+(?:by default|is the default)", re.I)
 
+# The same after the name of what it belongs to: `name` (12.
+VALUE_OF = re.compile(r"`[\w:.-]+`\s\(\d[\d.,]*\b")
+
 
 def typed(text):
     """Measured figures and defaults outside of blocks, code and links, as (number of the line,
     figure, the line with its neighbours)."""
     lines = text.splitlines()
+    for hidden in HIDDEN[:-2]:  # all but code spans and links
+        text = re.sub(hidden, lambda match: re.sub(r"[^\n]", " ", match[0]), text, flags=re.DOTALL)
+    values = [(text.count("\n", 0, match.start()) + 1, " ".join(match[0].split()))
+              for match in VALUE_OF.finditer(text)]
     for hidden in HIDDEN:
         text = re.sub(hidden, lambda match: re.sub(r"[^\n]", " ", match[0]), text, flags=re.DOTALL)
     shown = text.splitlines()
@@ -50,5 +57,5 @@ def typed(text):
     joined = "\n".join(shown)
     found += [(joined.count("\n", 0, match.start()) + 1, " ".join(match[0].split()))
               for match in DEFAULT.finditer(joined)]
-    for number, figure in sorted({*found, *cells_of(shown)}):
+    for number, figure in sorted({*found, *values, *cells_of(shown)}):
         yield number, figure, " ".join(map(str.strip, lines[max(0, number - 2):number + 1]))

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "build/block_partition.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -80,12 +79,13 @@ LaneFrame BlockPartition::principalFrame(const std::uint32_t* items, int n) cons
     for (int r = 0; r < 3; ++r) row[r] += d[r] * d;
   }
   const float part = 1.0F / roundedTo<float>(n);
-  const Eigen::Matrix3f axes = principalAxes(
-      Scatter<float>{0, 0, 0, row[0][0] - s[0] * s[0] * part, row[0][1] - s[0] * s[1] * part,
-                     row[0][2] - s[0] * s[2] * part, row[1][1] - s[1] * s[1] * part,
-                     row[1][2] - s[1] * s[2] * part, row[2][2] - s[2] * s[2] * part});
+  const auto about = [&](int r, int c) { return lanes::broadcast(row[r][c] - s[r] * s[c] * part); };
+  const FourAxes axes = principalAxes(Scatter<Float4>{
+      {}, {}, {}, about(0, 0), about(0, 1), about(0, 2), about(1, 1), about(1, 2), about(2, 2)});
   LaneFrame frame;
-  for (int c = 0; c < 3; ++c) frame.columns[c] = Float4{axes(c, 0), axes(c, 1), axes(c, 2), 0};
+  for (int c = 0; c < 3; ++c) {
+    frame.columns[c] = Float4{axes.column[0][c][0], axes.column[1][c][0], axes.column[2][c][0], 0};
+  }
   return frame;
 }
 
@@ -168,23 +168,6 @@ CutPlane BlockPartition::bestBin(const std::uint32_t* items, int n, float weight
   return best;
 }
 
-/// Each triangle's place is the number of those below it, which takes no branches; stable.
-void BlockPartition::sortByHeight(const std::uint32_t* items, int n, int axis,
-                                  std::uint32_t* sorted) const {
-  using lanes::Int4;
-  Float4 heights[kSweep / 4];
-  for (int i = 0; i < n; ++i) heights[i / 4][i % 4] = items_[items[i]].center[axis];
-  for (int i = n; i % 4 != 0; ++i) heights[i / 4][i % 4] = kInfinityFloat;
-  for (int i = 0; i < n; ++i) {
-    const float height = heights[i / 4][i % 4];
-    Int4 below = {}, at = {0, 1, 2, 3};
-    for (int j = 0; 4 * j < n; ++j, at += 4) {
-      below -= (heights[j] < height) | ((heights[j] == height) & (at < i));
-    }
-    sorted[below[0] + below[1] + below[2] + below[3]] = items[i];
-  }
-}
-
 /// The best of all splits between neighbours along the two axes that the centroids spread most
 /// along; along one for what is a leaf of the prepared tree, where triangles count, not leaves.
 int BlockPartition::sweep(std::uint32_t* items, int n) const {
@@ -203,7 +186,11 @@ int BlockPartition::sweep(std::uint32_t* items, int n) const {
   const int num_axes = n > kLeafTriangles ? 2 : 1;
   for (int a = 0; a < num_axes; ++a) {
     std::uint32_t sorted[kSweep];
-    sortByHeight(items, n, axes[a], sorted);
+    std::copy_n(items, n, sorted);
+    std::sort(sorted, sorted + n, [this, axis = axes[a]](std::uint32_t i, std::uint32_t j) {
+      const float of_i = items_[i].center[axis], of_j = items_[j].center[axis];
+      return of_i < of_j || (of_i == of_j && i < j);
+    });
     float suffix[kSweep];
     LaneBox box;
     for (int i = n - 1; i > 0; --i) {

@@ -81,7 +81,6 @@ class BlockPartition {
   LaneBox centersOf(const std::uint32_t* items, int n) const;
   CutPlane bestBin(const std::uint32_t* items, int n, float weight) const;
   int sweep(std::uint32_t* items, int n) const;
-  void sortByHeight(const std::uint32_t* items, int n, int axis, std::uint32_t* sorted) const;
   int halve(std::uint32_t* items, int n) const;
 
   const Corners* triangles_ = nullptr;

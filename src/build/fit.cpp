@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/volume.h"
 
 #include <algorithm>
 #include <cmath>

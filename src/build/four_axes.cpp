@@ -108,23 +108,6 @@ FourAxes principalAxes(const Scatter<Float4>& s) {
   return axes;
 }
 
-Eigen::Matrix3f principalAxes(const Scatter<float>& s) {
-  const FourAxes four = principalAxes(Scatter<Float4>{{},
-                                                      {},
-                                                      {},
-                                                      broadcast(s.xx),
-                                                      broadcast(s.xy),
-                                                      broadcast(s.xz),
-                                                      broadcast(s.yy),
-                                                      broadcast(s.yz),
-                                                      broadcast(s.zz)});
-  Eigen::Matrix3f axes;
-  for (int k = 0; k < 3; ++k) {
-    for (int r = 0; r < 3; ++r) axes(r, k) = four.column[k][r][0];
-  }
-  return axes;
-}
-
 Eigen::Matrix3f axesAlong(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d first = a.cast<double>(), second = b.cast<double>();

@@ -47,7 +47,6 @@ struct FourAxes {
 /// eigenvalues differ by that. Any matrix gives axes that are orthonormal to 1e-6, also one that is
 /// zero or not finite.
 FourAxes principalAxes(const Scatter<lanes::Float4>& scatter);
-Eigen::Matrix3f principalAxes(const Scatter<float>& scatter);
 
 /// Returns the axes by decreasing extent, of equal ones the first before.
 template <typename Extents>

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #include "volume/assemble.h"
 #include "volume/balls.h"
 #include "volume/errors.h"

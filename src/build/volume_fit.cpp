@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/volume.h"
 #include "volume/assemble.h"
 #include "volume/rounding.h"
 

@@ -8,7 +8,7 @@
 #include <fcl/geometry/bvh/BV_node.h>
 #include "build/lane_fit.h"
 #include "build/mesh_view.h"
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {

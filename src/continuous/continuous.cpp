@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/continuous/continuous.h"
+#include "fcl_kios/motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "continuous/motion.h"
 #include "continuous/step_search.h"
+#include "solid/mesh_and_other.h"
 #include "volume/errors.h"
 
 namespace kios {
@@ -18,12 +19,13 @@ using fcl::CollisionGeometryd;
 
 /// Returns a time at most that of every contact; none if there is no contact. Conservative
 /// advancement: proves one interval after the other free, until the end or until a contact at most
-/// toc_err later is known. Where the provable intervals shrink below toc_err / 2^20 and no contact
-/// is known, it gives up and reports one. Throws std::invalid_argument if toc_err is NaN or
-/// negative. Source: Mirtich, "Timewarp rigid body simulation" (2000); Zhang, Redon, Lee & Kim,
-/// "Continuous collision detection for articulated models using Taylor models and temporal culling"
-/// (2007).
-std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
+/// toc_err later is known, by touch(t). Where the provable intervals shrink below toc_err / 2^20
+/// and no contact is known, it gives up and reports one. Throws std::invalid_argument if toc_err is
+/// NaN or negative. Source: Mirtich, "Timewarp rigid body simulation" (2000); Zhang, Redon, Lee &
+/// Kim, "Continuous collision detection for articulated models using Taylor models and temporal
+/// culling" (2007).
+template <typename Touch>
+std::optional<double> advance(continuous::StepSearch& pair, const Touch& touch, double toc_err,
                               ContinuousCounts& counts) {
   require(toc_err >= 0, "ContinuousCollisionRequest::toc_err", toc_err, ">= 0");
   constexpr long long kMostSteps = 20000, kMostTests = 1 << 21;  // of short steps
@@ -31,11 +33,7 @@ std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
   const double tolerance = std::clamp(toc_err, 0x1p-48, 1.0);
   const double least = std::max(0x1p-20 * tolerance, 0x1p-52);
 
-  const auto touching = [&](double t) {
-    ++counts.collision_tests;
-    return pair.touching(t);
-  };
-  if (touching(0)) return 0;
+  if (touch(0)) return 0;
   double t = 0, look_from = 0;
   const auto tests = [&] { return counts.volume_tests + counts.leaf_tests; };
   long long short_steps = 0, short_tests = 0;
@@ -46,7 +44,7 @@ std::optional<double> advance(continuous::StepSearch& pair, double toc_err,
     if (h >= 1 - t) return std::nullopt;
     // Small steps: a contact is near, or the two pass each other closely.
     if (h < kSmall * tolerance && t >= look_from) {
-      if (touching(std::min(1.0, t + tolerance))) return t;
+      if (touch(std::min(1.0, t + tolerance))) return t;
       look_from = t + 0.5 * tolerance;
     }
     if (h < kShort) {
@@ -68,7 +66,12 @@ double firstContact(const CollisionGeometryd& a, const Motion& motion_a,
   const auto pair = continuous::movingPair(a, motion_a, b, motion_b, count);
   // As in collide(), a geometry that isn't occupied touches nothing.
   const bool occupied = a.isOccupied() && b.isOccupied();
-  const auto contact = occupied ? advance(*pair, toc_err, count) : std::nullopt;
+  const auto touch = [&](double t) {
+    ++count.collision_tests;
+    const fcl::Transform3d X_WA = motion_a.pose(t), X_WB = motion_b.pose(t);
+    return meshAndOther(a, X_WA, b, X_WB).touch();
+  };
+  const auto contact = occupied ? advance(*pair, touch, toc_err, count) : std::nullopt;
   const double time = contact.value_or(1);
   result.is_collide = contact.has_value();
   result.time_of_contact = time;

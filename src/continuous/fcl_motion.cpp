@@ -9,7 +9,7 @@
 #include <fcl/math/motion/screw_motion.h>
 #include <fcl/math/motion/spline_motion.h>
 #include <fcl/math/motion/translation_motion.h>
-#include "fcl_kios/model/motion_bounds.h"
+#include "fcl_kios/detail/motion_bounds.h"
 #include "volume/errors.h"
 
 namespace kios::continuous {

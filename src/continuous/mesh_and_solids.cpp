@@ -39,18 +39,13 @@ double reachOf(const std::vector<ShapeNode>& solids) {
 
 MovingMeshAndSolids::MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion,
                                          std::vector<ShapeNode> solids, const Motion& solids_motion,
-                                         Open open, Touching touching, ContinuousCounts& counts)
+                                         Open open, ContinuousCounts& counts)
     : StepSearch(solids_motion, reachOf(solids), mesh_motion, reachOf(mesh), counts),
       mesh_(mesh),
       solids_(std::move(solids)),
       open_(std::move(open)),
-      touching_(std::move(touching)),
       reach_(reachOf(solids_) + reachOf(mesh)) {
   if (!(reach_ <= 0x1p300)) refuse("a mesh or shape is too large for continuous collision.");
-}
-
-bool MovingMeshAndSolids::touching(double t) {
-  return !solids_.empty() && touching_(motion_.b().pose(t), motion_.a().pose(t));
 }
 
 // Four times the tolerance of the kernels, at the largest extent of a triangle and a solid; the
@@ -157,7 +152,7 @@ double MovingMeshAndSolids::leavesApart(NodePair pair, const RelativeVelocities&
                                         double required) {
   if (solids_.empty() || solids_[pair.b].state == ShapeNode::kEmpty) return required;
   const auto& node = mesh_.getBV(pair.a);
-  const auto corners = transformed(cornersOf(mesh_, node.primitiveId()), v.pose());
+  const auto corners = transformed(cornersInDouble(mesh_, node.primitiveId()), v.pose());
   const ShapeNode& part = solids_[pair.b];
   const shape::Solid& solid = part.solid;
   const auto nearest = shape::distance(

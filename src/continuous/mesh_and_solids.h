@@ -28,20 +28,13 @@ struct ShapeNode {
 /// pair nearer than 2^-40 of it counts as touching while something moves.
 class MovingMeshAndSolids final : public StepSearch {
  public:
-  /// The static query: returns true if the mesh and the solids touch at these poses.
-  using Touching =
-      std::function<bool(const fcl::Transform3d& X_mesh, const fcl::Transform3d& X_solids)>;
-
   /// Adds the children of a closed node.
   using Open = std::function<void(int node, std::vector<ShapeNode>& nodes)>;
 
   /// Takes the root of the solids. None: nothing is touched. Throws std::invalid_argument if the
   /// model is not finished, or a solid is larger than 2^300.
   MovingMeshAndSolids(const Modeld& mesh, const Motion& mesh_motion, std::vector<ShapeNode> solids,
-                      const Motion& solids_motion, Open open, Touching touching,
-                      ContinuousCounts& counts);
-
-  bool touching(double t) override;
+                      const Motion& solids_motion, Open open, ContinuousCounts& counts);
 
  private:
   // A node pair is a node of the mesh (a) and one of the solids (b).
@@ -58,7 +51,6 @@ class MovingMeshAndSolids final : public StepSearch {
   const Modeld& mesh_;
   std::vector<ShapeNode> solids_;
   const Open open_;
-  const Touching touching_;
   const double reach_;
   Eigen::Vector3d slab_ = Eigen::Vector3d::UnitZ();  ///< normal of the slab that did best of late
 };

@@ -6,12 +6,11 @@
 #include <iterator>
 #include <utility>
 
-#include "continuous/heights.h"
 #include "continuous/tuning.h"
-#include "fcl_kios/triangle/distance.h"
+#include "continuous/velocity_field.h"
+#include "fcl_kios/triangle.h"
 #include "model/prepared.h"
 #include "search/mesh_pair.h"
-#include "solid/mesh_and_other.h"
 #include "volume/balls.h"
 #include "volume/rounding.h"
 #include "volume/unit_vector.h"
@@ -78,6 +77,85 @@ class AlongChords {
   double sagitta_, caps_sagitta_;
 };
 
+/// Says how high the points of a moving body lie along a direction n, at the start of a time and at
+/// its end. Between them a point lies at most as high as on the line between both heights, since
+/// that at the end takes the largest acceleration along n for granted all the time.
+class Heights {
+ public:
+  /// n is of length 1, and it and the velocities are in one frame, in which the body lies at R, T.
+  Heights(const VelocityField& field, const Eigen::Matrix3d& R, const Eigen::Vector3d& T,
+          const Eigen::Vector3d& n, double duration);
+
+  struct Height {
+    double start, end;
+  };
+  /// Returns the height of a point of the body, in its own frame.
+  Height of(const Eigen::Vector3d& y) const {
+    return {n_[0].dot(y) + offset_[0], n_[1].dot(y) + offset_[1] + sagitta(y, 0)};
+  }
+  /// Returns true if all triangles under a node of the body's tree are proven to stay as low, at
+  /// the start and at the end. Gives up after `nodes_left` nodes, which is then 0 or less.
+  bool below(const Modeld& model, int node, const Height& limit, int& nodes_left) const;
+
+ private:
+  double sagitta(const Eigen::Vector3d& y, double radius) const {
+    if (!accelerates_) return 0;
+    return half_square_ * field_.accelerationAlong(direction_, R_ * y + T_, radius);
+  }
+
+  const VelocityField& field_;
+  const Eigen::Matrix3d& R_;
+  const Eigen::Vector3d& T_;
+  const Eigen::Vector3d direction_;
+  Eigen::Vector3d n_[2];  // in the body's frame
+  double length_[2], offset_[2];
+  double half_square_;
+  bool accelerates_;
+};
+
+// n (w x r) = (n x w) r
+Heights::Heights(const VelocityField& field, const Eigen::Matrix3d& R, const Vector3d& T,
+                 const Vector3d& n, double duration)
+    : field_(field),
+      R_(R),
+      T_(T),
+      direction_(n),
+      half_square_(0.5 * duration * duration * (1 + 0x1p-48)),
+      accelerates_(field.turn_acceleration > 0 || field.originAcceleration() > 0) {
+  const Vector3d turn = n.cross(field.angular), last = n + duration * turn;
+  n_[0].noalias() = R.transpose() * n;
+  n_[1].noalias() = R.transpose() * last;
+  offset_[0] = n.dot(T);
+  offset_[1] = last.dot(T) + duration * (n.dot(field.linear) - turn.dot(field.origin));
+  for (int i = 0; i < 2; ++i) length_[i] = n_[i].norm() * (1 + 0x1p-48);
+}
+
+bool Heights::below(const Modeld& model, int node, const Height& limit, int& nodes_left) const {
+  if (--nodes_left <= 0) return false;
+  const auto& entry = model.getBV(node);
+  if (entry.isLeaf()) {
+    const fcl::Triangle& t = model.tri_indices[entry.primitiveId()];
+    for (int k = 0; k < 3; ++k) {
+      const Height height = of(model.vertices[t[k]]);
+      if (!(height.start <= limit.start && height.end <= limit.end)) return false;
+    }
+    return true;
+  }
+  const kIOSd& bv = entry.bv;
+  Ball balls[kIOSd::kMaxSpheres];
+  const int k = toBalls(bv, {bv.center0[0], bv.center0[1], bv.center0[2]}, 0, balls);
+  const double leaves = sagitta(bv.center0, bv.radius0);
+  for (int i = 0; i < k; ++i) {
+    const Vector3d center(balls[i].x, balls[i].y, balls[i].z);
+    if (n_[0].dot(center) + offset_[0] + length_[0] * balls[i].r <= limit.start &&
+        n_[1].dot(center) + offset_[1] + leaves + length_[1] * balls[i].r <= limit.end) {
+      return true;
+    }
+  }
+  return below(model, entry.leftChild(), limit, nodes_left) &&
+         below(model, entry.rightChild(), limit, nodes_left);
+}
+
 /// True if any pair of spheres with a cap in it is proven apart; a has `k` spheres.
 bool capsApart(int k, const MovingBall& central_a, const FourBalls& caps_a,
                const MovingBall& central_b, const FourBalls& caps_b, const RelativeVelocities& v,
@@ -96,11 +174,6 @@ bool capsApart(int k, const MovingBall& central_a, const FourBalls& caps_a,
 }
 
 }  // namespace
-
-bool MovingMeshes::touching(double t) {
-  const fcl::Transform3d X_WA = motion_.a().pose(t), X_WB = motion_.b().pose(t);
-  return MeshAndOther<double>{a_, X_WA, b_, X_WB, &b_}.touch();
-}
 
 void MovingMeshes::beginStep(double t) {
   time_ = t;
@@ -179,7 +252,7 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     int nodes_left = order_ == Order::kLarger ? tuning::kNodesOfPlane : tuning::kNodesOfPlaneInHole;
     Heights::Height limit = {-kInfinity, -kInfinity};
     const auto highest = [&limit](const Heights& heights, const Modeld& model, int triangle) {
-      for (const Vector3d& corner : cornersOf(model, triangle)) {
+      for (const Vector3d& corner : cornersInDouble(model, triangle)) {
         const Heights::Height height = heights.of(corner);
         limit = {std::max(limit.start, height.start), std::max(limit.end, height.end)};
       }
@@ -192,7 +265,7 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, nodes_left);
   };
   const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
-    const auto t = cornersOf(model, triangle);
+    const auto t = cornersInDouble(model, triangle);
     const Vector3d normal = normalOf(t);
     const auto partsAcross = [&](const Vector3d& direction) {
       const Vector3d n = R_AM * direction;
@@ -226,8 +299,8 @@ bool MovingMeshes::nodesApart(NodePair pair, const RelativeVelocities& v, double
 }
 
 double MovingMeshes::leavesApart(NodePair pair, const RelativeVelocities& v, double required) {
-  const auto p = cornersOf(a_, a_.getBV(pair.a).primitiveId());
-  const auto q = transformed(cornersOf(b_, b_.getBV(pair.b).primitiveId()), v.pose());
+  const auto p = cornersInDouble(a_, a_.getBV(pair.a).primitiveId());
+  const auto q = transformed(cornersInDouble(b_, b_.getBV(pair.b).primitiveId()), v.pose());
   const TriangleDistance<double> nearest = triangleDistance(p, q);
   if (!(nearest.distance > 0)) return 0;
   // The distance is off by 32 u of the pair's extent, which the pad for rounding covers.

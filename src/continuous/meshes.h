@@ -16,8 +16,6 @@ class MovingMeshes final : public StepSearch {
                ContinuousCounts& counts)
       : StepSearch(motion_a, reachOf(a), motion_b, reachOf(b), counts), a_(a), b_(b) {}
 
-  bool touching(double t) override;
-
  private:
   void beginStep(double t) override;
   bool nodesApart(NodePair pair, const RelativeVelocities& v, double duration) override;

@@ -231,7 +231,7 @@ bool Motion::still() const {
 // known to u angle; arms are turned likewise.
 double Motion::rounding(double reach) const {
   if (kind_ == Kind::kKnown) return rounding_ + known_->rounding(reach);
-  const double turned = turnRounding() * reach;
+  const double turned = turnRounding() * reach + rounding_;
   if (kind_ == Kind::kSpline) return 64 * kUlpDouble * largest(Td_) + turned;
   return kUlpDouble * (16 * (T0_.norm() + velocity_.norm()) + 64 * std::abs(angle_) * arm_.norm()) +
          turned;

@@ -9,7 +9,7 @@
 #include <fcl/math/motion/motion_base.h>
 #include <fcl/narrowphase/continuous_collision_request.h>
 #include "continuous/velocity_field.h"
-#include "fcl_kios/fcl_own.h"
+#include "fcl_kios/detail/fcl_own.h"
 
 namespace kios::continuous {
 
@@ -51,6 +51,14 @@ class Motion {
   /// velocities round by.
   static Motion known(std::shared_ptr<const KnownMotion> motion, double rounding);
 
+  /// Returns the motion with more rounding: what is proven of it holds of a body that is wider by
+  /// so much.
+  Motion widened(double by) const {
+    Motion m = *this;
+    m.rounding_ += by;
+    return m;
+  }
+
   // Motions from pose to pose, as FCL's of these names: both poses rigid and finite.
   static Motion translation(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
   static Motion linear(const fcl::Transform3d& X_0, const fcl::Transform3d& X_1);
@@ -86,9 +94,8 @@ class Motion {
   // kSpline; axis_ as well, if all rotation vectors are along it.
   Points Td_, Rd_;
   bool fixed_axis_ = true;
-  // kKnown.
-  std::shared_ptr<const KnownMotion> known_;
-  double rounding_ = 0;
+  std::shared_ptr<const KnownMotion> known_;  // kKnown
+  double rounding_ = 0;                       // that is added to its own
 };
 
 /// Returns the motion that an FCL motion describes by its pose after integrate(t). The object is

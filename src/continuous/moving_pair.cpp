@@ -15,7 +15,6 @@
 #include "continuous/meshes.h"
 #include "continuous/occupied_box.h"
 #include "model/kios_model.h"
-#include "solid/mesh_and_other.h"
 
 namespace kios::continuous {
 
@@ -31,7 +30,7 @@ class Cells {
   explicit Cells(const fcl::OcTreed& octree) : octree_(octree), box_(occupiedBox(octree)) {}
 
   std::vector<ShapeNode> root() {
-    if (box_.empty()) return {};
+    if (box_.isEmpty()) return {};
     return {nodeOf(octree_.getRoot(), octree_.getRootBV())};
   }
 
@@ -55,8 +54,8 @@ class Cells {
 
   // Nothing is occupied beyond the box, in which inner cells need not reach farther than it.
   ShapeNode nodeOf(const fcl::OcTreed::OcTreeNode* cell, const Box& bounds) {
-    const Eigen::Vector3d low = bounds.min_.cwiseMax(box_.low),
-                          high = bounds.max_.cwiseMin(box_.high);
+    const Eigen::Vector3d low = bounds.min_.cwiseMax(box_.min()),
+                          high = bounds.max_.cwiseMin(box_.max());
     ShapeNode node;
     node.solid.kind = shape::Kind::kBox;
     node.solid.half = (0.5 * (high - low)).cwiseMax(0.0);
@@ -67,7 +66,7 @@ class Cells {
   }
 
   const fcl::OcTreed& octree_;
-  const OccupiedBox box_;
+  const Eigen::AlignedBox3d box_;
   std::vector<std::pair<const fcl::OcTreed::OcTreeNode*, Box>> cells_;  // by node
 };
 #endif
@@ -101,12 +100,8 @@ std::unique_ptr<StepSearch> movingPair(const CollisionGeometryd& a, const Motion
   } else {
     refusePair("continuousCollide", a, b);
   }
-  const auto touching = [&mesh, &geometry](const fcl::Transform3d& X_mesh,
-                                           const fcl::Transform3d& X_solids) {
-    return MeshAndOther<double>{mesh, X_mesh, geometry, X_solids, nullptr}.touch();
-  };
   return std::make_unique<MovingMeshAndSolids>(mesh, mesh_motion, std::move(solids), motion,
-                                               std::move(open), touching, counts);
+                                               std::move(open), counts);
 }
 
 }  // namespace kios::continuous

@@ -13,14 +13,13 @@ using Box = fcl::AABB<double>;
 /// Widens a box until no occupied cell is farther along one axis.
 class Widening {
  public:
-  Widening(const fcl::OcTreed& octree, int axis, bool up, OccupiedBox& box)
+  Widening(const fcl::OcTreed& octree, int axis, bool up, Eigen::AlignedBox3d& box)
       : octree_(octree), axis_(axis), up_(up), box_(box) {}
 
   void visit(const Cell* cell, const Box& bounds) {
     if (!octree_.isNodeOccupied(cell) || !exceeds(bounds)) return;
     if (!octree_.nodeHasChildren(cell)) {
-      box_.low = box_.low.cwiseMin(bounds.min_);
-      box_.high = box_.high.cwiseMax(bounds.max_);
+      box_.extend(Eigen::AlignedBox3d(bounds.min_, bounds.max_));
       return;
     }
     // Those first that may be farthest: they spare the others.
@@ -37,19 +36,19 @@ class Widening {
 
  private:
   bool exceeds(const Box& bounds) const {
-    return up_ ? bounds.max_[axis_] > box_.high[axis_] : bounds.min_[axis_] < box_.low[axis_];
+    return up_ ? bounds.max_[axis_] > box_.max()[axis_] : bounds.min_[axis_] < box_.min()[axis_];
   }
 
   const fcl::OcTreed& octree_;
   const int axis_;
   const bool up_;
-  OccupiedBox& box_;
+  Eigen::AlignedBox3d& box_;
 };
 
 }  // namespace
 
-OccupiedBox occupiedBox(const fcl::OcTreed& octree) {
-  OccupiedBox box;
+Eigen::AlignedBox3d occupiedBox(const fcl::OcTreed& octree) {
+  Eigen::AlignedBox3d box;
   const Cell* const root = octree.getRoot();
   if (!root) return box;
   for (int axis = 0; axis < 3; ++axis) {

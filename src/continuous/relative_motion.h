@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "continuous/motion.h"
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/volume.h"
 #include "volume/rounding.h"
 
 namespace kios::continuous {

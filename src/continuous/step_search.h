@@ -8,8 +8,8 @@
 
 #include "continuous/relative_motion.h"
 #include "continuous/tuning.h"
-#include "fcl_kios/continuous/continuous.h"
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
+#include "fcl_kios/motion.h"
 #include "volume/rounding.h"
 
 namespace kios::continuous {
@@ -24,8 +24,6 @@ double reachOf(const Modeld& model);
 class StepSearch {
  public:
   virtual ~StepSearch() = default;
-  /// Returns true if they touch at t; exact.
-  virtual bool touching(double t) = 0;
   /// Returns a time h <= 1 - t such that they are proven apart from t to t + h: the longest one
   /// that a search finds.
   double apartFor(double t);

@@ -11,6 +11,8 @@ namespace kios::continuous::tuning {
 /// so many times its length.
 constexpr long long kLeastBudget = 1000;
 constexpr double kLonger = 4;
+/// A query about a pair at one configuration counts as so many tests, in all budgets.
+constexpr long long kTestsOfQuery = 100;
 /// Bounds of a motion that aren't the same for every time are taken over so many steps.
 constexpr double kWindow = 8;
 
@@ -23,5 +25,12 @@ constexpr int kChords = 4;
 /// split before the other. Without planes, or that order, a rod in its ring takes 40 times as long
 /// (TightFits), and the rows of continuous 0.93 times as long.
 constexpr int kNodesOfPlane = 48, kNodesOfPlaneInHole = 512;
+
+/// Steps towards the least distance of a range end where distances differ by this part of the
+/// bracket; they begin so long where a proof was refuted, a path being of length 1.
+constexpr double kLevel = 0x1p-3, kNearby = 0x1p-6;
+/// The relative error of distances on the way there: of faces that are parallel, exact ones take a
+/// hundred times as long (motions/range/door).
+constexpr double kCoarseError = 0x1p-5;
 
 }  // namespace kios::continuous::tuning

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "volume/errors.h"
 
 #if defined(__linux__)

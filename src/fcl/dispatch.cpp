@@ -6,7 +6,7 @@
 
 #include <fcl/narrowphase/collision_object.h>
 #include <fcl/narrowphase/continuous_collision_object.h>
-#include "fcl_kios/continuous/continuous.h"
+#include "fcl_kios/motion.h"
 #include "fcl_kios/overloads.h"
 #include "model/in_double.h"
 #include "model/kios_model.h"
@@ -22,11 +22,11 @@ namespace {
 template <typename S>
 void requireRelativeError(const fcl::DistanceRequest<S>& request) {
   if (!(request.rel_err >= 1)) return;  // the query refuses negative values and NaN
-  refuse(
-      "DistanceRequest::rel_err is ", request.rel_err,
-      ", but must be below 1: fcl::DistanceRequest takes (enable_nearest_points, "
-      "enable_signed_distance, rel_err, abs_err, distance_tolerance, gjk_solver_type); set its "
-      "members by name, rel_err = 0 for exact distances (kios::distance() takes larger errors).");
+  refuse("DistanceRequest::rel_err is ", request.rel_err,
+         ", but must be below 1: fcl::DistanceRequest takes (enable_nearest_points, "
+         "enable_signed_distance, rel_err, abs_err, distance_tolerance, gjk_solver_type); set its "
+         "members by name, rel_err = 0 for exact distances (kios::distanceBracket() takes larger "
+         "errors).");
 }
 
 template <typename S>

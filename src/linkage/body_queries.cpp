@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/query/mesh_queries.h"
+#include "fcl_kios/contact.h"
 #include "linkage/link_tree.h"
 #include "linkage/tuning.h"
 #include "model/prepared.h"
 #include "query/pair_search.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
+#include "volume/unit_vector.h"
 
 namespace kios::articulated {
 namespace {
@@ -25,51 +26,24 @@ constexpr double kRelErr = 1;
 double ballBound(const BodyData& shape, const fcl::Transform3d& X_WS, const Eigen::Vector3d& center,
                  double radius) {
   const Eigen::Vector3d p = X_WS.linear().transpose() * (center - X_WS.translation());
-  return shape::pointBound(shape.solid, p) - radius;
-}
-
-Eigen::Vector3d unitOrZero(const Eigen::Vector3d& v) {
-  const double length = v.norm();
-  return length > 0x1p-500 ? Eigen::Vector3d(v / length) : Eigen::Vector3d::Zero();
-}
-
-/// What fcl::distance() gives. Searches that begin or end otherwise may find another of two pairs
-/// of triangles that are equally near, and so differ by a rounding.
-double distanceOfQuery(const Modeld& a, const fcl::Transform3d& X_WA, const Modeld& b,
-                       const fcl::Transform3d& X_WB) {
-  fcl::DistanceResultd result;
-  return distanceMeshes(a, X_WA, b, X_WB, fcl::DistanceRequestd(), result);
-}
-
-/// The error of the distance of a mesh from a shape or a cell, L the extent (docs/shapes.md).
-double kernelError(const BodyData& other, double length) {
-  const shape::Solid& solid = other.solid;
-  if (other.kind == BodyKind::kShape && solid.kind == shape::Kind::kConvex &&
-      solid.num_faces == 0) {
-    return 0x1p-28 * length;
-  }
-  double error = 0x1p-41 * length;
-  if (other.kind == BodyKind::kShape && solid.kind == shape::Kind::kEllipsoid) {
-    double least = kInfinity;
-    for (int i = 0; i < 3; ++i) {
-      if (!shape::isFlat(solid.half, i)) least = std::min(least, solid.half[i]);
-    }
-    if (least < length) error *= length / least;
-  }
-  return error;
+  return shape::pointBound(shape.own->solid, p) - radius;
 }
 
 }  // namespace
 
+bool isServed(const BodyData& a, const BodyData& b) {
+  if (a.kind == BodyKind::kMesh || b.kind == BodyKind::kMesh) return true;
+  const bool shapes = a.kind == BodyKind::kShape && b.kind == BodyKind::kShape;
+  return shapes && (a.bounded || b.bounded);
+}
+
 void BodyQueries::requireServed(int a, int b) const {
   const BodyData &first = body(a), &second = body(b);
-  if (first.kind == BodyKind::kMesh || second.kind == BodyKind::kMesh) return;
-  if (first.kind == BodyKind::kOctree || second.kind == BodyKind::kOctree) {
-    refusePair("checkMotion", *first.geometry, *second.geometry);
-  }
+  if (isServed(first, second)) return;
   if (!first.bounded && !second.bounded) {
-    refuse("half-spaces and planes are not checked against each other; allow the pair.");
+    refuse("half-spaces and planes are not checked against each other; ignore the pair.");
   }
+  refusePair("a linkage's query", *first.own->geometry, *second.own->geometry);
 }
 
 double BodyQueries::rootBound(const Pair& pair, const Configuration& at, double enough) const {
@@ -127,18 +101,72 @@ double BodyQueries::slab(Pair& pair, const Configuration& at, double enough) con
 }
 
 Nearness BodyQueries::ask(Pair& pair, const Configuration& at, double enough) const {
+  if (!body(pair.a).model && !body(pair.b).model) return askShapes(pair, at);
+  Measured near = measure(pair, at, enough, kRelErr, min_separation_);
+  if (near.lower > min_separation_ || !(min_separation_ > 0)) return {near.lower, near.contact};
+  // A bracket that holds the separation may not stay open: there it is as fcl::distance() finds it.
+  if (near.upper > min_separation_) near = measure(pair, at, enough, 0);
+  bool contact = near.upper <= min_separation_;
+  if (!contact && near.lower <= min_separation_) {
+    fcl::DistanceResultd result;
+    contact =
+        meshAndOther(pair, at).distanceSurfaces(fcl::DistanceRequestd(), result) <= min_separation_;
+  }
+  return {near.lower, contact};
+}
+
+Measured BodyQueries::measure(Pair& pair, const Configuration& at, double far, double rel_err,
+                              double near_enough) const {
   ++counts_.narrow_queries;
-  const bool mesh_a = body(pair.a).model, mesh_b = body(pair.b).model;
-  if (mesh_a && mesh_b) return askMeshes(pair, at, enough);
-  if (mesh_a) return askMeshAndOther(pair, pair.a, pair.b, at, enough);
-  if (mesh_b) return askMeshAndOther(pair, pair.b, pair.a, at, enough);
-  return askShapes(pair, at);
+  const int a = pair.a, b = pair.b;
+  const double pad = path_.pad(a, b), length = path_.length(a) + path_.length(b);
+  Measured near;
+  if (body(a).model && body(b).model) {
+    engine::PairQuery query;
+    query.rel_err = rel_err;
+    query.near_enough = near_enough;
+    query.far_enough = (far + pad) * (1 + 0x1p-40);
+    const DistanceBracketResultd answer = bracketDistance(meshPair(pair, at), query);
+    counts_.expansions += answer.counts.expansions;
+    near.lower = answer.lower_bound - pad;
+    near.contact = !(answer.distance > 0);
+    if (answer.triangle_a >= 0 && answer.distance < query.far_enough) {
+      near.upper = answer.upper_bound + pad;
+      near.point_a = at.pose(a) * answer.point_a;
+      near.point_b = at.pose(a) * answer.point_b;
+    }
+  } else if (body(a).model || body(b).model) {
+    const MeshAndOther<double> bodies = meshAndOther(pair, at);
+    const double error = pad + kernelError(shapeOf(body(a).model ? b : a), length);
+    fcl::DistanceRequestd request;
+    fcl::DistanceResultd result;
+    request.enable_nearest_points = true;
+    request.rel_err = rel_err;
+    result.min_distance =
+        std::min((far + error) * (1 + rel_err) * (1 + 0x1p-30), result.min_distance);
+    const double asked = result.min_distance, distance = bodies.distanceSurfaces(request, result);
+    near.lower = distance / (1 + rel_err) * (1 - 0x1p-40) - error;
+    near.contact = !(distance > error) && bodies.touch();
+    if (distance < asked) {
+      near.upper = std::max(0.0, distance) + error;
+      const int first = result.o1 == body(a).own->geometry.get() ? 0 : 1;
+      near.point_a = result.nearest_points[first];
+      near.point_b = result.nearest_points[1 - first];
+    }
+  } else {
+    near.lower = shapeGap(body(a), at.pose(a), body(b), at.pose(b)) - pad;
+    near.contact = !(near.lower > 0) && shapesMeet(body(a), at.pose(a), body(b), at.pose(b), 0);
+    nearPoints(body(a), at.pose(a), body(b), at.pose(b), near.point_a, near.point_b);
+    near.upper = (near.point_b - near.point_a).norm() + pad;
+  }
+  if (near.upper < kInfinity) pair.direction = unitVector(near.point_b - near.point_a);
+  return near;
 }
 
 bool BodyQueries::areSolids(const Pair& pair) const {
   const BodyData &a = body(pair.a), &b = body(pair.b);
-  if (!a.model) return b.model && kios::areSolids<double>(*b.model, *a.geometry, nullptr);
-  return kios::areSolids<double>(*a.model, *b.geometry, b.model);
+  if (!a.model) return b.model && kios::areSolids<double>(*b.model, *a.own->geometry, nullptr);
+  return kios::areSolids<double>(*a.model, *b.own->geometry, b.model);
 }
 
 bool BodyQueries::touching(const Pair& pair, const Configuration& at) const {
@@ -167,72 +195,8 @@ MeshPair BodyQueries::meshPair(const Pair& pair, const Configuration& at) const 
 }
 
 MeshAndOther<double> BodyQueries::meshAndOther(const Pair& pair, const Configuration& at) const {
-  const int mesh = body(pair.a).model ? pair.a : pair.b, other = mesh == pair.a ? pair.b : pair.a;
-  return {*body(mesh).model, at.pose(mesh), *body(other).geometry, at.pose(other),
-          body(other).model};
-}
-
-Nearness BodyQueries::askMeshes(Pair& pair, const Configuration& at, double enough) const {
-  const int a = pair.a, b = pair.b;
-  const double pad = path_.pad(a, b);
-  const MeshPair frame = meshPair(pair, at);
-  engine::PairQuery query;
-  query.rel_err = kRelErr;
-  query.near_enough = min_separation_;
-  query.far_enough = (enough + pad) * (1 + 0x1p-40);
-  const auto search = [&] {
-    const auto answer = bracketDistance(frame, query);
-    counts_.expansions += answer.counts.expansions;
-    query.start = {answer.triangle_a, answer.triangle_b};
-    return answer;
-  };
-  auto answer = search();
-  // A bracket that holds the separation asked for may not stay open.
-  if (answer.distance > min_separation_ && answer.lower_bound <= min_separation_ + pad &&
-      min_separation_ > 0) {
-    query.rel_err = 0;
-    answer = search();
-  }
-  if (answer.triangle_a >= 0) {
-    pair.direction = unitOrZero(at.pose(a).linear() * (answer.point_b - answer.point_a));
-  }
-  bool contact = answer.distance <= min_separation_;
-  if (contact && min_separation_ > 0 && answer.distance > min_separation_ - pad) {
-    contact =
-        distanceOfQuery(*body(a).model, at.pose(a), *body(b).model, at.pose(b)) <= min_separation_;
-  }
-  return {answer.lower_bound - pad, contact};
-}
-
-Nearness BodyQueries::askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
-                                      double enough) const {
-  const MeshAndOther<double> bodies = meshAndOther(pair, at);
-  const double error =
-      path_.pad(mesh, other) + kernelError(body(other), path_.length(mesh) + path_.length(other));
-  fcl::DistanceRequestd request;
-  fcl::DistanceResultd result;
-  request.rel_err = 0.5;
-  request.enable_nearest_points = true;
-  result.min_distance = (enough + error) * (1 + request.rel_err) * (1 + 0x1p-30);
-  const double asked = result.min_distance;
-  double distance = bodies.distanceSurfaces(request, result);
-  if (distance > 0 && distance < asked) {
-    const Eigen::Vector3d d = result.nearest_points[1] - result.nearest_points[0];
-    pair.direction = unitOrZero(result.o1 == body(pair.a).geometry.get() ? d : -d);
-  }
-  const double apart = distance / (1 + request.rel_err) * (1 - 0x1p-40) - error;
-  if (distance > min_separation_ && apart > min_separation_) return {apart, false};
-  if (distance >= asked) return {apart, false};
-  if (min_separation_ > 0) {
-    if (distance > min_separation_ - error) {  // as fcl::distance() finds it
-      request.rel_err = 0;
-      result = fcl::DistanceResultd();
-      distance = bodies.distanceSurfaces(request, result);
-    }
-    return {distance - error, distance <= min_separation_};
-  }
-  if (distance > error) return {apart, false};
-  return {apart, bodies.touch()};
+  return kios::meshAndOther(*body(pair.a).own->geometry, at.pose(pair.a),
+                            *body(pair.b).own->geometry, at.pose(pair.b));
 }
 
 double BodyQueries::gapOfShapes(int a, int b, const Configuration& at,
@@ -242,6 +206,7 @@ double BodyQueries::gapOfShapes(int a, int b, const Configuration& at,
 
 // What a slab proves counts: FCL's GJK sees contacts at gaps of up to 1e-6.
 Nearness BodyQueries::askShapes(Pair& pair, const Configuration& at) const {
+  ++counts_.narrow_queries;
   const int a = pair.a, b = pair.b;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   const double apart = gapOfShapes(a, b, at, &direction);

@@ -26,6 +26,16 @@ struct Nearness {
   bool slab = false;     ///< `apart` is the width of one across the pair's direction
 };
 
+/// What is measured of a pair of bodies: a bracket of their distance at exact kinematics.
+struct Measured {
+  double lower = 0, upper = kInfinity;  ///< the latter infinite if they are farther than was asked
+  bool contact = false;                 ///< of their surfaces, confirmed by the static query
+  Eigen::Vector3d point_a, point_b;     ///< nearest points in the world, if there is an upper bound
+};
+
+/// Returns true if a query serves the pair.
+bool isServed(const BodyData& a, const BodyData& b);
+
 /// The static queries about two bodies of a linkage at a configuration of a path, a < b. Asks by
 /// thresholds: nothing is computed more exactly than the motion needs.
 class BodyQueries {
@@ -42,6 +52,11 @@ class BodyQueries {
   /// By the narrow phase: apart by more than `enough`, or less well known, within a factor of two
   /// of the distance; or in contact. Sets the pair's direction.
   Nearness ask(Pair& pair, const Configuration& at, double enough) const;
+  /// The distance, of those that are nearer than `far`, which may exceed the exact one by rel_err
+  /// of it, and by what docs/shapes.md says; where none is found, `lower` isn't below `far`. Of two
+  /// meshes any that is at most `near_enough` will do. Sets the pair's direction.
+  Measured measure(Pair& pair, const Configuration& at, double far, double rel_err,
+                   double near_enough = 0) const;
   /// True only if the bodies are in contact, by a query that tells nothing else and takes less
   /// time; false if that would take a query as long as ask().
   bool touching(const Pair& pair, const Configuration& at) const;
@@ -62,9 +77,9 @@ class BodyQueries {
 
  private:
   const BodyData& body(int id) const { return path_.linkage().bodies[id]; }
-  Nearness askMeshes(Pair& pair, const Configuration& at, double enough) const;
-  Nearness askMeshAndOther(Pair& pair, int mesh, int other, const Configuration& at,
-                           double enough) const;
+  const shape::Solid* shapeOf(int id) const {
+    return body(id).kind == BodyKind::kShape ? &body(id).own->solid : nullptr;
+  }
   MeshPair meshPair(const Pair& pair, const Configuration& at) const;
   /// A pair of which one is a mesh.
   MeshAndOther<double> meshAndOther(const Pair& pair, const Configuration& at) const;

@@ -16,7 +16,7 @@ namespace articulated {
 namespace {
 
 /// The solid refers to a convex shape's faces where they lay.
-bool sameShape(const BodyData& body) {
+bool sameShape(const Content& body) {
   if (!hasShapeValues(*body.geometry, body.shape_values)) return false;
   return body.solid.kind != shape::Kind::kConvex ||
          static_cast<const fcl::Convexd&>(*body.geometry).getFaces().data() == body.solid.faces;
@@ -29,7 +29,7 @@ void requireSame(bool same, const char* what, std::size_t id) {
 
 }  // namespace
 
-void BodyData::requireUnchanged(std::size_t id) const {
+void Content::requireUnchanged(std::size_t id) const {
   if (kind == BodyKind::kMesh) {
     requireFinished(*model);
     requireSame(stateOf(*model) == state, "mesh", id);
@@ -39,10 +39,10 @@ void BodyData::requireUnchanged(std::size_t id) const {
   requireSame(geometry->isOccupied() == occupied, "occupancy", id);
 }
 
-bool BodyData::holdsCells() const {
+bool Content::holdsCells() const {
 #if FCL_HAVE_OCTOMAP
   if (kind == BodyKind::kOctree) {
-    return cells.holds(continuous::occupiedBox(static_cast<const fcl::OcTreed&>(*geometry)));
+    return cells.contains(continuous::occupiedBox(static_cast<const fcl::OcTreed&>(*geometry)));
   }
 #endif
   return true;
@@ -61,14 +61,16 @@ std::shared_ptr<const Linkage::Impl> RenewedLinkage::of(const Linkage::Impl& lin
 }  // namespace articulated
 
 std::shared_ptr<const Linkage::Impl> Linkage::Impl::current() const {
-  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].requireUnchanged(i);
-  if (!holdsCells()) return renewed_.of(*this);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].own) bodies[i].own->requireUnchanged(i);
+  }
+  if (!holdsCells()) return renewed.of(*this);
   return {std::shared_ptr<const Impl>(), this};
 }
 
 bool Linkage::Impl::holdsCells() const {
   return std::all_of(bodies.begin(), bodies.end(),
-                     [](const articulated::BodyData& body) { return body.holdsCells(); });
+                     [](const auto& body) { return !body.own || body.own->holdsCells(); });
 }
 
 }  // namespace kios

@@ -53,6 +53,10 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
         (std::abs(link.multiplier) * std::max(std::abs(a), std::abs(b)) + std::abs(link.offset)) *
         link.unit;
     rates_[i] = link.multiplier * (b - a) * link.unit;
+    if (rates_[i] != 0) {
+      ++sweep.moves;
+      moves_ = true;
+    }
     if (link.type == JointType::kPrismatic) {
       sum.travel += most * (1 + 0x1p-50);
       sum.shifts += kSlack * most;
@@ -88,6 +92,14 @@ double Path::swept(int body, int shared) const {
   return (all.turns - before.turns) * share.length - (all.arms - before.arms) +
          (all.slides - before.slides) +
          0x1p-48 * share.level * (all.turns * share.length + all.slides);
+}
+
+int Path::movesAfter(int body, int shared) const {
+  const int link = linkage_.bodies[body].link;
+  if (link < 0) return 0;
+  const auto& moving = linkage_.links[link].moving;
+  if (moving.size() <= static_cast<std::size_t>(shared)) return 0;
+  return sweeps_[moving.back()].moves - (shared > 0 ? sweeps_[moving[shared - 1]].moves : 0);
 }
 
 void Configuration::set(const Path& path, double s) {
@@ -235,3 +247,19 @@ double PairMotion::timeFor(double gap, double longest) const {
 }
 
 }  // namespace kios::articulated
+
+namespace kios {
+
+fcl::Transform3d Linkage::pose(int body, const Eigen::VectorXd& q) const {
+  impl_->at(body);
+  const articulated::Path path(*impl_, q, q);
+  return articulated::Configuration(path, 1).pose(body);
+}
+
+fcl::Transform3d Linkage::linkPose(int link, const Eigen::VectorXd& q) const {
+  if (link < 0 || link >= links()) refuse("the linkage has no link ", link, ".");
+  const articulated::Path path(*impl_, q, q);
+  return articulated::Configuration(path, 1).linkPose(link);
+}
+
+}  // namespace kios

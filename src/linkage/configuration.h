@@ -66,7 +66,8 @@ class Path {
   /// >= the pad of a carried body with any obstacle.
   double padOfObstacles(int body) const {
     const Share& share = shares_[slot(body)];
-    return 0x1p-43 * (share.level + 2) * (share.length + linkage_.farthest_obstacle) + share.slack;
+    return 0x1p-43 * (share.level + 2) * (share.length + linkage_.obstacles.farthest()) +
+           share.slack;
   }
   /// Returns a share: those of two carried bodies sum to at least their pad.
   double padShare(int body) const {
@@ -79,6 +80,12 @@ class Path {
   /// link that the first `shared` joints carry: rho_i <= the lengths from joint i to the body's
   /// farthest point. Takes no configuration.
   double swept(int body, int shared) const;
+  /// True if no joint moves the bodies of a pair, of which the first `shared` carry both, against
+  /// each other: what is proven of them at one configuration holds all along.
+  bool still(int a, int b, int shared) const {
+    return movesAfter(a, shared) + movesAfter(b, shared) == 0;
+  }
+  bool moves() const { return moves_; }  ///< true if any joint does
   /// >= the square of the Frobenius norm of E = R^T R - I of a body's pose.
   double rotationSquare(int body) const {
     const double error = 0x1p-44 * shares_[slot(body)].level;
@@ -93,12 +100,14 @@ class Path {
   /// turn, and this times `length`, which is what lies before an axis: of offsets, and of travel.
   struct Sweep {
     double slides = 0, turns = 0, arms = 0, length = 0;
+    int moves = 0;  ///< how many of the joints do
   };
+  int movesAfter(int body, int shared) const;
   std::size_t slot(int body) const {
     const int after_obstacles = linkage_.bodies[body].carried + 1;
     return static_cast<std::size_t>(after_obstacles);
   }
-  double obstacleLength(int body) const { return linkage_.bodies[body].obstacle_length; }
+  double obstacleLength(int body) const { return linkage_.bodies[body].box.length; }
 
   const Linkage::Impl& linkage_;
   const Eigen::VectorXd &q0_, &q1_;
@@ -106,6 +115,7 @@ class Path {
   std::vector<Share> shares_;  // of all obstacles, then by carried body
   std::vector<Sweep> sweeps_;  // by link
   double largest_level_ = 2;
+  bool moves_ = false;
 };
 
 /// The motion of a body near a configuration, seen from the link that carries another body as well:
@@ -180,12 +190,11 @@ class Configuration {
   }
   /// >= n . x for every point x of a bounded body in the world; `point` as SupportTable::along().
   double support(int id, const Eigen::Vector3d& n, Eigen::Vector3d& point) const {
-    const BodyData& body = path_->linkage().bodies[id];
-    if (body.link < 0) return body.supports.along(n, &point);
-    const PlacedLink& link = links_[body.link];
-    const double along = body.supports.along(link.R.transpose() * n, &point);
-    point = link.t + link.R * point;
-    return n.dot(link.t) + along;
+    const fcl::Transform3d& X = pose(id);
+    const double along =
+        path_->linkage().bodies[id].own->supports.along(X.linear().transpose() * n, &point);
+    point = X * point;
+    return n.dot(X.translation()) + along;
   }
   const Path& path() const { return *path_; }
   const PlacedLink& link(int link) const { return links_[link]; }

@@ -6,14 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include <fcl/config.h>
-#if FCL_HAVE_OCTOMAP
-#include <fcl/geometry/octree/octree.h>
-#endif
 #include "continuous/motion.h"
-#include "model/kios_model.h"
-#include "model/shape_values.h"
-#include "shape/shape_solid.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
 
@@ -21,7 +14,6 @@ namespace kios {
 namespace {
 
 using articulated::BodyData;
-using articulated::BodyKind;
 using articulated::CarriedBody;
 using articulated::LinkData;
 using Eigen::Vector3d;
@@ -34,152 +26,6 @@ void requireTranslation(const Vector3d& t, const char* what) {
   }
 }
 
-/// Points whose hull, grown by `margin`, contains a geometry, in its frame.
-struct Hull {
-  std::vector<Vector3d> points;
-  double margin = 0;
-  Vector3d center = Vector3d::Zero();
-};
-
-void addBox(const Vector3d& low, const Vector3d& high, std::vector<Vector3d>& points) {
-  for (int i = 0; i < 8; ++i) {
-    points.emplace_back((i & 1) != 0 ? high.x() : low.x(), (i & 2) != 0 ? high.y() : low.y(),
-                        (i & 4) != 0 ? high.z() : low.z());
-  }
-}
-
-/// Cylinders and cones lie in prisms of eight sides: 1 / cos(pi / 8) < 1.0824.
-void addPrism(double radius, double half_length, std::vector<Vector3d>& points) {
-  constexpr double kEighth = 0.7853981633974483;
-  for (int i = 0; i < 8; ++i) {
-    const double x = 1.0824 * radius * std::cos(i * kEighth);
-    const double y = 1.0824 * radius * std::sin(i * kEighth);
-    points.emplace_back(x, y, -half_length);
-    points.emplace_back(x, y, half_length);
-  }
-}
-
-Hull hullOf(const shape::Solid& solid) {
-  using shape::Kind;
-  Hull hull;
-  hull.margin = solid.margin();
-  switch (solid.kind) {
-    case Kind::kSphere:
-      hull.points = {Vector3d::Zero()};
-      break;
-    case Kind::kCapsule:
-      hull.points = {{0, 0, -solid.half_length}, {0, 0, solid.half_length}};
-      break;
-    case Kind::kBox:
-    case Kind::kEllipsoid:
-      addBox(-solid.half, solid.half, hull.points);
-      break;
-    case Kind::kCylinder:
-    case Kind::kCone:
-      addPrism(solid.radius, solid.half_length, hull.points);
-      break;
-    case Kind::kConvex: {
-      hull.points = solid.points;
-      const auto [low, high] = shape::rangeOf(hull.points);
-      hull.center = 0.5 * (low + high);
-      break;
-    }
-    default:
-      hull.points = {solid.offset * solid.normal};
-  }
-  return hull;
-}
-
-Hull hullOf(const Modeld& model) {
-  Hull hull;
-  std::vector<char> taken(static_cast<std::size_t>(model.num_vertices), 0);
-  hull.points.reserve(taken.size());
-  for (int i = 0; i < model.num_tris; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const std::size_t vertex = model.tri_indices[i][k];
-      if (taken[vertex] == 0) hull.points.push_back(model.vertices[vertex]);
-      taken[vertex] = 1;
-    }
-  }
-  hull.center = model.getBV(0).bv.center0;
-  return hull;
-}
-
-#if FCL_HAVE_OCTOMAP
-/// The box of the occupied cells; no points if there are none. Cells have their places by two sums
-/// in octomap and in FCL, which differ by rounding.
-Hull hullOf(const fcl::OcTreed& octree, const continuous::OccupiedBox& cells) {
-  Hull hull;
-  if (cells.empty()) return hull;
-  addBox(cells.low, cells.high, hull.points);
-  hull.center = 0.5 * (cells.low + cells.high);
-  hull.margin = 0x1p-40 * octree.getRootBV().max_.lpNorm<1>();
-  return hull;
-}
-#endif
-
-Hull measure(BodyData& body) {
-  const fcl::CollisionGeometryd& geometry = *body.geometry;
-  if (const Modeld* const model = asModel(&geometry)) {
-    requireFinished(*model);
-    body.kind = BodyKind::kMesh;
-    body.model = model;
-    body.state = stateOf(*model);
-    return hullOf(*model);
-  }
-  if (isShape(geometry)) {
-    body.kind = BodyKind::kShape;
-    body.solid = toSolid(geometry);
-    shape::makeRows(body.solid);
-    body.shape_values = shapeValues(geometry);
-    body.bounded = body.solid.bounded();
-    return hullOf(body.solid);
-  }
-#if FCL_HAVE_OCTOMAP
-  if (geometry.getObjectType() == fcl::OT_OCTREE) {
-    const auto& octree = static_cast<const fcl::OcTreed&>(geometry);
-    body.kind = BodyKind::kOctree;
-    body.cells = continuous::occupiedBox(octree);
-    return hullOf(octree, body.cells);
-  }
-#endif
-  const bool mesh = geometry.getObjectType() == fcl::OT_BVH;
-  refuse("a body of a linkage can't be a ", typeName(geometry),
-         mesh ? "; convert it by kios::toKIOS(model)."
-              : "; replace it by a mesh, built by kios::makeModel().");
-}
-
-/// Sets what bounds the content, whose hull in the geometry's frame is given.
-void setContent(BodyData& body, Hull hull) {
-  if (hull.points.empty()) hull.points.push_back(hull.center);
-  double size = hull.margin;
-  for (const Vector3d& p : hull.points) size = std::max(size, p.lpNorm<1>());
-  if (!(size <= kLargest)) refuse("a body of a linkage is too large.");
-
-  // Moved points round by less than 16 u of the lengths.
-  hull.margin += 0x1p-48 * (size + body.X_LB.translation().norm());
-  for (Vector3d& p : hull.points) p = body.X_LB * p;
-  hull.center = body.X_LB * hull.center;
-  body.content = articulated::boundOf(hull.points, hull.margin, hull.center);
-  body.reach = body.content.reach();
-  if (body.bounded) body.supports = articulated::SupportTable(hull.points, hull.margin);
-  if (body.link >= 0) {
-    return;
-  }
-  body.obstacle_length = (body.X_LB.translation().norm() + body.reach) * (1 + 0x1p-50);
-  for (int i = 0; i < 3; ++i) {
-    body.box.low[i] = kInfinity;
-    body.box.high[i] = -kInfinity;
-    for (const Vector3d& p : hull.points) {
-      body.box.low[i] = std::min(body.box.low[i], p[i] - hull.margin);
-      body.box.high[i] = std::max(body.box.high[i], p[i] + hull.margin);
-    }
-    if (body.bounded) continue;
-    body.box.low[i] = -kInfinity;
-    body.box.high[i] = kInfinity;
-  }
-}
-
 bool turns(const std::vector<LinkData>& links, int link) {
   if (link < 0) return false;
   const auto& moving = links[link].moving;
@@ -189,8 +35,22 @@ bool turns(const std::vector<LinkData>& links, int link) {
 
 }  // namespace
 
-int Linkage::Impl::addLink(int parent, const Joint& joint) {
-  const int link = static_cast<int>(links.size());
+Linkage::Linkage() : impl_(std::make_unique<Impl>()) {}
+Linkage::~Linkage() = default;
+Linkage::Linkage(const Linkage& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Linkage::Linkage(Linkage&& other) noexcept = default;
+Linkage& Linkage::operator=(Linkage other) noexcept {
+  impl_.swap(other.impl_);
+  return *this;
+}
+
+int Linkage::coordinates() const { return impl_->coordinates; }
+int Linkage::links() const { return static_cast<int>(impl_->links.size()); }
+int Linkage::bodies() const { return static_cast<int>(impl_->bodies.size()); }
+
+int Linkage::addLink(int parent, const Joint& joint) {
+  std::vector<LinkData>& links = impl_->links;
+  const int link = this->links();
   if (parent < -1 || parent >= link) {
     refuse("a link's parent must be -1, the world, or a link that was added before, but is ",
            parent, ".");
@@ -229,7 +89,7 @@ int Linkage::Impl::addLink(int parent, const Joint& joint) {
             std::abs(joint.offset) <= kLargestFactor)) {
         refuse("the multiplier or the offset of a joint is NaN, infinite or too large.");
       }
-      data.coordinate = joint.coordinate < 0 ? coordinates : joint.coordinate;
+      data.coordinate = joint.coordinate < 0 ? coordinates() : joint.coordinate;
       data.multiplier = joint.multiplier;
       data.offset = joint.offset;
       data.moving.push_back(link);
@@ -238,44 +98,106 @@ int Linkage::Impl::addLink(int parent, const Joint& joint) {
     default:
       refuse("a joint's type must be fixed, revolute or prismatic.");
   }
+  impl_->renewed.forget();
   links.push_back(std::move(data));
-  coordinates = std::max(coordinates, links.back().coordinate + 1);
+  impl_->coordinates = std::max(coordinates(), links.back().coordinate + 1);
   return link;
 }
 
-int Linkage::Impl::addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
+// The support table bounds the box: it is exact for most polyhedra along any direction.
+void articulated::BodyData::place(int to, const fcl::Transform3d& X) {
+  kind = own->kind;
+  model = own->model;
+  bounded = own->bounded;
+  meets = own->meets;
+  link = to;
+  X_LB = X;
+  box = {};
+  content = articulated::placed(*own, X);
+  reach = content.reach();
+  if (link >= 0) return;
+  const double far = X.translation().norm(), slack = 0x1p-48 * (own->size + far);
+  box.length = (far + reach) * (1 + 0x1p-50);
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d row = X.linear().row(i).transpose();
+    const double at = X.translation()[i];
+    box.low[i] = bounded ? at - own->supports.along(-row) - slack : -kInfinity;
+    box.high[i] = bounded ? at + own->supports.along(row) + slack : kInfinity;
+  }
+}
+
+int Linkage::Impl::addBody(int link, std::shared_ptr<const articulated::Content> own,
                            const fcl::Transform3d& X_LB) {
+  const fcl::Transform3d X = checkedPose(*own, link, X_LB);
+  if (free.empty()) {
+    bodies.emplace_back();
+    free.push_back(static_cast<int>(bodies.size()) - 1);
+  }
+  const int id = free.back();
+  free.pop_back();
+  renewed.forget();
+  bodies[id].own = std::move(own);
+  bodies[id].place(link, X);
+  addPairs(id);
+  return id;
+}
+
+int Linkage::addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
+                     const fcl::Transform3d& X_LB) {
+  return impl_->addBody(link, std::make_shared<const articulated::Content>(std::move(geometry)),
+                        X_LB);
+}
+
+int Linkage::addBody(int link, const Linkage& of, int body, const fcl::Transform3d& X_LB) {
+  if (!of.impl_->has(body)) refuse("the linkage has no body ", body, ".");
+  return impl_->addBody(link, of.impl_->bodies[body].own, X_LB);
+}
+
+void Linkage::moveBody(int body, const fcl::Transform3d& X_LB) {
+  moveBody(body, impl_->at(body).link, X_LB);
+}
+
+void Linkage::moveBody(int id, int link, const fcl::Transform3d& X_LB) {
+  BodyData& body = impl_->at(id);
+  const fcl::Transform3d X = impl_->checkedPose(*body.own, link, X_LB);
+  impl_->renewed.forget();
+  const bool pairs_stay = body.link == link && link >= 0;
+  if (!pairs_stay) impl_->dropPairs(id);
+  body.place(link, X);
+  if (!pairs_stay) impl_->addPairs(id);
+}
+
+fcl::Transform3d Linkage::Impl::checkedPose(const articulated::Content& body, int link,
+                                            const fcl::Transform3d& X_LB) const {
   if (link < -1 || link >= static_cast<int>(links.size())) {
     refuse("a body's link must be -1, an obstacle, or one that was added before, but is ", link,
            ".");
   }
-  if (!geometry) refuse("the geometry of a body of a linkage is null.");
-  BodyData body;
-  body.geometry = std::move(geometry);
-  body.link = link;
-  body.X_LB.setIdentity();
-  body.X_LB.linear() = continuous::orthonormal(X_LB.linear(), "pose of a body");
-  body.X_LB.translation() = X_LB.translation();
+  fcl::Transform3d X = fcl::Transform3d::Identity();
+  X.linear() = continuous::orthonormal(X_LB.linear(), "pose of a body");
+  X.translation() = X_LB.translation();
   requireTranslation(X_LB.translation(), "pose of a body");
-  const Hull hull = measure(body);
-  body.occupied = body.geometry->isOccupied();
-  body.meets = body.occupied && !hull.points.empty();
   if (!body.bounded && turns(links, link)) {
     refuse("a half-space or a plane can't turn: a revolute joint carries it.");
   }
-  setContent(body, hull);
-  if (link < 0) {
-    farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
-  } else {
-    body.carried = static_cast<int>(carried.size());
-    body.first_motion = num_motions;
-    num_motions += static_cast<int>(links[link].moving.size()) + 1;
+  return X;
+}
+
+void Linkage::removeBody(int id) {
+  BodyData& body = impl_->at(id);
+  impl_->free.push_back(id);
+  impl_->renewed.forget();
+  impl_->dropPairs(id);
+  for (const int other : body.ignored) {
+    std::vector<int>& list = impl_->bodies[other].ignored;
+    list.erase(std::lower_bound(list.begin(), list.end(), id));
   }
-  bodies.push_back(std::move(body));
-  const int id = static_cast<int>(bodies.size()) - 1;
-  bodies.back().box.body = id;
-  addPairs(id);
-  return id;
+  body = BodyData();
+}
+
+BodyData& Linkage::Impl::at(int body) {
+  if (!has(body)) refuse("the linkage has no body ", body, ".");
+  return bodies[body];
 }
 
 int Linkage::Impl::shared(int link_a, int link_b) const {
@@ -285,67 +207,96 @@ int Linkage::Impl::shared(int link_a, int link_b) const {
                           a.begin());
 }
 
-void Linkage::Impl::addPairs(int body) {
-  const BodyData& data = bodies[body];
-  const auto meet = [&](int other) { return data.meets && bodies[other].meets; };
-  if (data.link < 0) {
-    if (!data.meets) return;
-    obstacles.push_back(data.box);
-    lazy_tree_ = std::make_shared<LazyTree>();
-    for (const CarriedBody& other : carried) num_pairs += meet(other.body) ? 1 : 0;
+int Linkage::Impl::sharedOfPair(const BodyData& a, int b) const {
+  const BodyData& with = bodies[b];
+  const bool checked = a.meets && with.meets && a.link != with.link && !a.ignores(b);
+  return checked ? shared(with.link, a.link) : CarriedBody::kNever;
+}
+
+long long Linkage::Impl::pairs() const {
+  long long pairs = 0;
+  for (const CarriedBody& own : carried) {
+    for (const int shared : own.shared) pairs += shared != CarriedBody::kNever ? 1 : 0;
+    if (!bodies[own.body].meets) continue;
+    pairs += obstacles.size();
+    for (const int other : bodies[own.body].ignored) {
+      pairs -= bodies[other].meets && bodies[other].carried < 0 ? 1 : 0;
+    }
+  }
+  return pairs;
+}
+
+void Linkage::Impl::addPairs(int id) {
+  BodyData& body = bodies[id];
+  if (body.link < 0) {
+    body.box.body = id;
+    if (body.meets) obstacles.insert(body.box);
     return;
   }
   CarriedBody added;
-  added.body = body;
-  if (data.meets) num_pairs += static_cast<long long>(obstacles.size());
+  added.body = id;
   for (const CarriedBody& other : carried) {
-    const BodyData& with = bodies[other.body];
-    const bool checked = meet(other.body) && with.link != data.link;
-    added.shared.push_back(checked ? shared(with.link, data.link) : CarriedBody::kNever);
-    num_pairs += checked ? 1 : 0;
+    added.shared.push_back(sharedOfPair(body, other.body));
   }
+  body.carried = static_cast<int>(carried.size());
+  body.first_motion = num_motions;
+  num_motions += static_cast<int>(links[body.link].moving.size()) + 1;
   carried.push_back(std::move(added));
 }
 
-void Linkage::Impl::allow(int a, int b) {
-  const int count = static_cast<int>(bodies.size());
-  if (a < 0 || b < 0 || a >= count || b >= count) {
+// Bodies that were carried after it move up.
+void Linkage::Impl::dropPairs(int id) {
+  BodyData& body = bodies[id];
+  if (body.carried < 0) {
+    obstacles.remove(id);
+    return;
+  }
+  const int place = std::exchange(body.carried, -1);
+  carried.erase(carried.begin() + place);
+  num_motions = 1;
+  for (int i = 0; i < static_cast<int>(carried.size()); ++i) {
+    CarriedBody& other = carried[i];
+    if (i >= place) other.shared.erase(other.shared.begin() + place);
+    BodyData& data = bodies[other.body];
+    data.carried = i;
+    data.first_motion = num_motions;
+    num_motions += static_cast<int>(links[data.link].moving.size()) + 1;
+  }
+}
+
+void Linkage::ignorePair(int a, int b, bool ignored) {
+  std::vector<BodyData>& bodies = impl_->bodies;
+  if (!impl_->has(a) || !impl_->has(b)) {
     refuse("a pair of bodies is allowed of which one was not added: ", a, " and ", b, ".");
   }
   if (a == b) refuse("body ", a, " is allowed to touch itself, which is never checked.");
-  if (bodies[a].carried < bodies[b].carried) std::swap(a, b);
-  if (bodies[a].carried < 0) return;
-  allowed_.emplace_back(a, b);
-  CarriedBody& body = carried[bodies[a].carried];
-  if (bodies[b].carried >= 0) {
-    int& joints = body.shared[bodies[b].carried];
-    if (joints != CarriedBody::kNever) --num_pairs;
-    joints = CarriedBody::kNever;
-    return;
+  if (bodies[a].ignores(b) == ignored) return;
+  impl_->renewed.forget();
+  for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+    std::vector<int>& list = bodies[one].ignored;
+    const auto at = std::lower_bound(list.begin(), list.end(), other);
+    if (ignored) {
+      list.insert(at, other);
+    } else {
+      list.erase(at);
+    }
   }
-  const auto at = std::lower_bound(body.allowed.begin(), body.allowed.end(), b);
-  if (at != body.allowed.end() && *at == b) return;
-  body.allowed.insert(at, b);
-  if (bodies[a].meets && bodies[b].meets) --num_pairs;
+  if (bodies[a].carried < bodies[b].carried) std::swap(a, b);
+  const int slot = bodies[b].carried;
+  if (slot < 0) return;
+  impl_->carried[bodies[a].carried].shared[slot] = impl_->sharedOfPair(bodies[a], b);
 }
 
 void Linkage::Impl::measureOctrees() {
-  farthest_obstacle = 0;
-  for (BodyData& body : bodies) {
-    if (body.kind == BodyKind::kOctree) {
-      const Hull hull = measure(body);
-      body.meets = body.occupied && !hull.points.empty();
-      setContent(body, hull);
-    }
-    farthest_obstacle = std::max(farthest_obstacle, body.obstacle_length);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    BodyData& body = bodies[i];
+    if (!body.own || body.kind != articulated::BodyKind::kOctree) continue;
+    const auto id = static_cast<int>(i);
+    dropPairs(id);
+    body.own = std::make_shared<const articulated::Content>(body.own->geometry);
+    body.place(body.link, body.X_LB);
+    addPairs(id);
   }
-  const auto allowed = std::exchange(allowed_, {});
-  carried.clear();
-  obstacles.clear();
-  lazy_tree_ = std::make_shared<LazyTree>();
-  num_pairs = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i) addPairs(static_cast<int>(i));
-  for (const auto& [a, b] : allowed) allow(a, b);
 }
 
 }  // namespace kios

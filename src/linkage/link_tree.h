@@ -2,21 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <atomic>
-#include <cstdint>
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
-#include "continuous/occupied_box.h"
-#include "fcl_kios/linkage/linkage.h"
-#include "fcl_kios/model/model.h"
-#include "linkage/content_bound.h"
+#include "fcl_kios/linkage.h"
+#include "linkage/body_content.h"
 #include "linkage/obstacle_tree.h"
-#include "linkage/support.h"
-#include "model/prepared.h"
-#include "shape/solid.h"
 
 namespace kios::articulated {
 
@@ -40,42 +34,31 @@ struct LinkData {
   double offsets = 0;  ///< sum of |t_PJ| of those, rounded up
 };
 
-enum class BodyKind { kMesh, kShape, kOctree };
-
+/// A body where it is placed: on a link, or in the world. `own` is null once it was removed.
 struct BodyData {
-  std::shared_ptr<const fcl::CollisionGeometryd> geometry;
+  std::shared_ptr<const Content> own;
   BodyKind kind = BodyKind::kMesh;
   const Modeld* model = nullptr;  ///< of a mesh
-  shape::Solid solid;             ///< of a shape
+  bool bounded = true;            ///< half-spaces and planes are not
+  bool meets = false;             ///< anything can
   int link = -1;
   fcl::Transform3d X_LB;  ///< its rotation orthonormal as a link's
-  bool bounded = true;    ///< half-spaces and planes are not
-  bool occupied = true;
-  bool meets = true;      ///< false: it isn't occupied, or an octree without cells
   ContentBound content;   ///< in the link's frame
-  SupportTable supports;  ///< of the content in the link's frame; empty if unbounded
   double reach = 0;  ///< of the content from its link's origin; of an unbounded one, of its plane
-  ObstacleBox box = {};        ///< of an obstacle
-  double obstacle_length = 0;  ///< how far an obstacle reaches from the world's origin
-  int carried = -1;            ///< among those on links
-  int first_motion = 0;  ///< of its BodyMotions in a configuration; those of obstacles are all one
-  ModelState state;      ///< of a mesh when it was added
-  std::vector<double> shape_values;  ///< likewise of a shape; see model/shape_values.h
-#if FCL_HAVE_OCTOMAP
-  continuous::OccupiedBox cells;  ///< of an octree, when its content was measured
-#endif
+  ObstacleBox box = {};      ///< of an obstacle, and its farthest from the world's origin
+  int carried = -1;          ///< among those on links
+  int first_motion = 0;      ///< of its BodyMotions in a configuration; those of obstacles are one
+  std::vector<int> ignored;  ///< bodies with which it is not checked, ascending
 
-  /// Throws std::invalid_argument, naming the body, if what was measured of it when it was added
-  /// is not so any more. Octrees may change.
-  void requireUnchanged(std::size_t id) const;
-  /// True unless the body is an octree with cells outside of those that were measured.
-  bool holdsCells() const;
+  void place(int to, const fcl::Transform3d& X);
+  bool ignores(int other) const {
+    return std::binary_search(ignored.begin(), ignored.end(), other);
+  }
 };
 
-/// A body on a link, and those with which it must not come into contact.
+/// A body on a link.
 struct CarriedBody {
   int body;
-  std::vector<int> allowed;  ///< obstacles that it may touch, ascending
   /// By the bodies that are carried before it: the first `shared` moving joints on the ways from
   /// the world to both links are the same ones, and move both bodies alike. kNever if the pair
   /// isn't checked.
@@ -108,6 +91,7 @@ class RenewedLinkage {
 
   /// Measures the octrees of `linkage` again, unless the last time will do.
   std::shared_ptr<const Linkage::Impl> of(const Linkage::Impl& linkage) const;
+  void forget() { impl_.reset(); }
 
  private:
   mutable std::mutex mutex_;
@@ -122,6 +106,12 @@ class RenewedLinkage {
 double shapeGap(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
                 const fcl::Transform3d& X_WB, fcl::Vector3d* direction = nullptr);
 
+/// Sets points of two shapes, of which one is bounded at least, that are nearest to each other as
+/// GJK finds them, the supports being right to rounding: their distance is never less than that of
+/// the shapes.
+void nearPoints(const BodyData& a, const fcl::Transform3d& X_WA, const BodyData& b,
+                const fcl::Transform3d& X_WB, fcl::Vector3d& on_a, fcl::Vector3d& on_b);
+
 /// FCL's own verdict: are they in contact? Or are they at most `within` > 0 apart? Half-spaces and
 /// planes are judged by their gap, which is exact but for rounding: FCL finds cylinders in planes
 /// that they don't meet, unless it is asked for contacts.
@@ -135,26 +125,22 @@ namespace kios {
 class Linkage::Impl {
  public:
   std::vector<articulated::LinkData> links;
-  std::vector<articulated::BodyData> bodies;
-  /// The pairs to be checked: all but those of one link and those that are allowed.
-  std::vector<articulated::CarriedBody> carried;
-  std::vector<articulated::ObstacleBox> obstacles;  ///< those that anything can meet
+  std::vector<articulated::BodyData> bodies;      // by number; removed ones too
+  std::vector<articulated::CarriedBody> carried;  // their pairs to be checked
+  articulated::ObstacleTree obstacles;            // that anything can meet
   int coordinates = 0;
   int num_motions = 1;  ///< of bodies in a configuration: one by each moving joint, and one more
-  long long num_pairs = 0;
-  double farthest_obstacle = 0;  ///< the largest obstacle_length
 
-  /// The obstacles' tree, built by whoever asks for it first; threads may ask at once.
-  const articulated::ObstacleTree& obstacleTree() const {
-    std::call_once(lazy_tree_->built,
-                   [this] { lazy_tree_->tree = articulated::ObstacleTree(obstacles); });
-    return lazy_tree_->tree;
+  std::vector<int> free;  ///< numbers of bodies
+  articulated::SpareScratch spare;
+  articulated::RenewedLinkage renewed;
+
+  bool has(int body) const {
+    return body >= 0 && body < static_cast<int>(bodies.size()) && bodies[body].own;
   }
 
-  int addLink(int parent, const Joint& joint);
-  int addBody(int link, std::shared_ptr<const fcl::CollisionGeometryd> geometry,
-              const fcl::Transform3d& X_LB);
-  void allow(int a, int b);
+  /// Throws std::invalid_argument if there is no such body.
+  articulated::BodyData& at(int body);
 
   /// This one; or, where an octree has got cells outside of the box that was measured, one that
   /// holds them. Throws std::invalid_argument if any other geometry was changed.
@@ -162,22 +148,18 @@ class Linkage::Impl {
   bool holdsCells() const;
   void measureOctrees();
 
-  articulated::SpareScratch spare;
-
+  /// The number of pairs to be checked.
+  long long pairs() const;
   /// The number of moving joints that carry both links.
   int shared(int link_a, int link_b) const;
 
- private:
-  void addPairs(int body);
-
-  struct LazyTree {
-    std::once_flag built;
-    articulated::ObstacleTree tree;
-  };
-  std::shared_ptr<LazyTree> lazy_tree_ = std::make_shared<LazyTree>();  ///< copies share it
-
-  std::vector<std::pair<int, int>> allowed_;
-  articulated::RenewedLinkage renewed_;
+  fcl::Transform3d checkedPose(const articulated::Content& body, int link,
+                               const fcl::Transform3d& X_LB) const;
+  int addBody(int link, std::shared_ptr<const articulated::Content> own,
+              const fcl::Transform3d& X_LB);
+  void addPairs(int body);  // of one that is placed and has none
+  void dropPairs(int body);
+  int sharedOfPair(const articulated::BodyData& a, int b) const;
 };
 
 }  // namespace kios

@@ -19,8 +19,8 @@ class LocalSlabs {
   LocalSlabs(const Path& path, const Pair& pair, double min_separation)
       : motion_a_(motionOf(path, pair.a, pair.shared, path.pad(pair.a, pair.b) + min_separation)),
         motion_b_(motionOf(path, pair.b, pair.shared, 0)),
-        search_(continuous::movingPair(*path.linkage().bodies[pair.a].geometry, motion_a_,
-                                       *path.linkage().bodies[pair.b].geometry, motion_b_,
+        search_(continuous::movingPair(*path.linkage().bodies[pair.a].own->geometry, motion_a_,
+                                       *path.linkage().bodies[pair.b].own->geometry, motion_b_,
                                        counts_)) {}
 
   /// The end, at most `to`, of an interval from `from` on that is proven; `from` itself if none is.

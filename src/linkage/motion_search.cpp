@@ -8,6 +8,7 @@
 #include "linkage/orbits.h"
 #include "linkage/slab_motion.h"
 #include "linkage/tuning.h"
+#include "volume/errors.h"
 #include "volume/rounding.h"
 
 namespace kios::articulated {
@@ -29,9 +30,10 @@ std::unique_ptr<Scratch> SpareScratch::exchange(std::unique_ptr<Scratch> by) con
   return std::unique_ptr<Scratch>(kept_.exchange(by.release(), std::memory_order_acq_rel));
 }
 
-MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
+MotionSearch::MotionSearch(const Path& path, const MotionRequest& request, const Pair* only)
     : path_(path),
       request_(request),
+      only_(only),
       queries_(path, request.min_separation, counts_),
       looks_for_touch_(!request.first_contact && request.min_separation == 0),
       own_(path.linkage().spare.exchange(nullptr)),
@@ -39,7 +41,7 @@ MotionSearch::MotionSearch(const Path& path, const MotionRequest& request)
       cache_(scratch_.configurations),
       suspects_(scratch_.suspects),
       waiting_(scratch_.waiting) {
-  counts_.pairs = path.linkage().num_pairs;
+  counts_.pairs = only ? 1 : path.linkage().pairs();
   cache_.reserve(tuning::kCached);
   suspects_.clear();
   waiting_.clear();
@@ -195,14 +197,14 @@ bool MotionSearch::contactAt(double s, int suspect) {
   return queries_.ask(suspects_[suspect].pair, at(s), request_.min_separation).contact;
 }
 
-MotionAnswer MotionSearch::run() {
+MotionResult MotionSearch::run() {
   // A contact at the end is found first; there it is told as well what lies in what.
-  if (!looks_for_touch_ || !touchingAtEnd()) {
+  if (!touchingAtEnd()) {
     const bool found = findSuspects();
     const bool contained = !looks_for_touch_ && containedAt(request_.first_contact ? 0 : 0.5);
     if (!found && !contained) search();
   }
-  MotionAnswer answer;
+  MotionResult answer;
   answer.verdict = end_.verdict;
   answer.from = end_.from;
   answer.to = end_.to;
@@ -215,3 +217,20 @@ MotionAnswer MotionSearch::run() {
 }
 
 }  // namespace kios::articulated
+
+namespace kios {
+
+MotionResult checkMotion(const Linkage& linkage, const Eigen::VectorXd& q0,
+                         const Eigen::VectorXd& q1, const MotionRequest& request) {
+  require(request.min_separation >= 0 && request.min_separation <= 0x1p300,
+          "MotionRequest::min_separation", request.min_separation, "finite and >= 0");
+  require(request.resolution >= 0x1p-40 && request.resolution <= 1, "MotionRequest::resolution",
+          request.resolution, "in [2^-40, 1]");
+  require(request.max_queries >= 0, "MotionRequest::max_queries",
+          static_cast<double>(request.max_queries), ">= 0");
+  const auto impl = linkage.impl().current();
+  const articulated::Path path(*impl, q0, q1);
+  return articulated::MotionSearch(path, request).run();
+}
+
+}  // namespace kios

@@ -59,12 +59,13 @@ struct Scratch {
 /// whether it is proven as a whole; if not, the rest of it on both sides is asked about later.
 class MotionSearch {
  public:
-  MotionSearch(const Path& path, const MotionRequest& request);
+  /// Searches for all pairs, or for one alone.
+  MotionSearch(const Path& path, const MotionRequest& request, const Pair* only = nullptr);
   MotionSearch(const MotionSearch&) = delete;
   ~MotionSearch();
   MotionSearch& operator=(const MotionSearch&) = delete;
 
-  MotionAnswer run();
+  MotionResult run();
 
  private:
   /// What a task came to: the whole interval is proven; the part `from` to `to` of it is, which may
@@ -81,12 +82,17 @@ class MotionSearch {
   };
 
   const Configuration& at(double s);
-  /// Gathers the pairs that aren't proven apart within `time` of s.
+  /// Gathers the pairs that aren't proven apart within `time` of s; with a time above 0, those that
+  /// move.
   std::vector<Pair>& gather(double s, double time);
   /// Finds the pairs that volumes in the middle of the path don't prove clear for all of it.
   /// True if a contact is found there.
   bool findSuspects();
-  /// True if a contact is found at the end of the path.
+  /// Decides a pair that nothing moves by the configuration s, as far as that can be. True if it is
+  /// in contact.
+  bool stillTouching(Pair pair, double s);
+  /// True if a contact is found at the end of the path; at its start, of a pair that nothing moves,
+  /// where the first contact is asked for.
   bool touchingAtEnd();
   /// True if one of scratch_.near is in contact at s: pairs whose root volumes overlap, and that
   /// bound.
@@ -123,6 +129,7 @@ class MotionSearch {
 
   const Path& path_;
   const MotionRequest& request_;
+  const Pair* const only_;
   MotionCounts counts_;
   const BodyQueries queries_;
   const bool looks_for_touch_;  ///< at single configurations, before intervals are looked at

@@ -14,12 +14,12 @@ namespace kios::articulated {
 class NearPairs {
  public:
   /// Calls visit(pair) for every pair that may be within `distance` of each other at most `time` to
-  /// both sides of a configuration.
+  /// both sides of a configuration; with a time above 0, for pairs that move alone.
   template <typename Visit>
   void forEach(const Path& path, const Configuration& c, double distance, double time,
                const Visit& visit) {
     const Linkage::Impl& linkage = path.linkage();
-    const ObstacleTree& obstacles = linkage.obstacleTree();
+    const ObstacleTree& obstacles = linkage.obstacles;
     balls_.clear();
     for (const CarriedBody& carried : linkage.carried) {
       const int id = carried.body;
@@ -28,10 +28,10 @@ class NearPairs {
       // How far the body moves is measured only where something is near enough to need it.
       const double swept = !body.bounded ? kInfinity : time > 0 ? time * path.swept(id, 0) : 0;
       const double reach = body.content.radius + swept;
-      if (body.meets) {
+      if (body.meets && !(time > 0 && path.still(id, id, 0))) {
         const double still = distance + body.content.radius + path.padOfObstacles(id);
         const auto found = [&](int obstacle) {
-          if (std::binary_search(carried.allowed.begin(), carried.allowed.end(), obstacle)) {
+          if (linkage.bodies[obstacle].ignores(id)) {
             return false;
           }
           visit(Pair{std::min(id, obstacle), std::max(id, obstacle), 0});
@@ -47,7 +47,9 @@ class NearPairs {
         const int shared = carried.shared[slot], other = linkage.carried[slot].body;
         if (shared == CarriedBody::kNever) return false;
         const Pair pair{std::min(id, other), std::max(id, other), shared};
-        if (time > 0 && apart(path, c, pair, distance, time)) return false;
+        if (time > 0 && (path.still(id, other, shared) || apart(path, c, pair, distance, time))) {
+          return false;
+        }
         visit(pair);
         return false;
       });

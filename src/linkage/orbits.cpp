@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <Eigen/Dense>
-#include "shape/gjk.h"
+#include "shape/nearest_point.h"
 #include "volume/rounding.h"
 #include "volume/unit_vector.h"
 
@@ -154,7 +154,7 @@ Image ofShape(const shape::Solid& solid, const fcl::Transform3d& X, const Pivot&
 class Images {
  public:
   Images(const BodyData& body, const fcl::Transform3d& X, const Pivot& pivot) : model_(body.model) {
-    if (!model_) images_.push_back(ofShape(body.solid, X, pivot));
+    if (!model_) images_.push_back(ofShape(body.own->solid, X, pivot));
     images_.resize(model_ ? static_cast<std::size_t>(model_->getNumBVs()) : 1);
     // Children follow their parents.
     for (int node = model_ ? model_->getNumBVs() : 0; node-- > 0;) {

@@ -32,9 +32,9 @@ void SlabMotion::add(const Configuration& c, int id, int shared, const Vector3d&
   const auto& moving = linkage.links[body.link].moving;
   const auto first =
       moving.begin() + std::min<std::ptrdiff_t>(shared, moving.end() - moving.begin());
-  const Configuration::PlacedLink& own = c.link(body.link);
-  const ContentBound& content = body.content;
-  const Vector3d ends[2] = {own.R * content.ends[0], own.R * content.ends[1]};
+  const fcl::Transform3d& X = c.pose(id);
+  const ContentBound& content = body.own->content;
+  const Vector3d ends[2] = {X.linear() * content.ends[0], X.linear() * content.ends[1]};
   const double radius = content.capsule_radius + path.axisRounding(id);
   double turns = 0;  // |w| up to the joint at hand
   for (auto i = first; i != moving.end(); ++i) {
@@ -54,7 +54,7 @@ void SlabMotion::add(const Configuration& c, int id, int shared, const Vector3d&
       most += speed;
       continue;
     }
-    const Vector3d arm = own.t - joint.t, by_itself = w.cross(arm), across = n.cross(w);
+    const Vector3d arm = X.translation() - joint.t, by_itself = w.cross(arm), across = n.cross(w);
     change += across.dot(by_itself + 2 * velocity);
     second += across.cross(w + 2 * turning);
     velocity += by_itself;
@@ -69,11 +69,11 @@ void SlabMotion::add(const Configuration& c, int id, int shared, const Vector3d&
     turns = before;
   }
   Side& side = sides_[count_++];
-  side.supports = &body.supports;
-  side.depth = planes ? Vector3d(own.R.transpose() * n) : Vector3d::Zero();
-  side.support = planes ? body.supports.along(side.depth) : 0;
-  side.first = own.R.transpose() * n.cross(turning);
-  side.second = own.R.transpose() * second;
+  side.supports = &body.own->supports;
+  side.depth = planes ? Vector3d(X.linear().transpose() * n) : Vector3d::Zero();
+  side.support = planes ? side.supports->along(side.depth) : 0;
+  side.first = X.linear().transpose() * n.cross(turning);
+  side.second = X.linear().transpose() * second;
   side.speed = n.dot(velocity);
   side.change = change;
   rounding_ += c.motion(id, shared).rounding;

@@ -12,7 +12,7 @@ namespace kios::articulated {
 /// A point x of a, at a depth D(x) >= 0 below its plane, comes nearer to it by at most
 ///   t n . x' + t^2 / 2 n . x'' + |t|^3 / 6 (jerk + |t| growth)
 /// within t of s; lengths are the linkage's, times those of s, primes derivatives by s, and b is
-/// like a along -n. The body is rigid: with r the vector to x from the origin o of its link, and
+/// like a along -n. The body is rigid: with r the vector to x from its own origin o, and
 /// w_i the rate of joint i times its axis through o_i, j the joints after i,
 ///   n . x'  = n . o'  + (n x W) . r,                                   W = sum w_i
 ///   n . x'' = n . o'' + sum_i ((n x w_i) x (w_i + 2 sum_j w_j)) . r,
@@ -39,11 +39,11 @@ class SlabMotion {
   double timeFor(double gap, double sign, double longest) const;
 
  private:
-  /// A body that moves. Vectors are in its link's frame: of r in -D, n . x' and n . x''.
+  /// A body that moves. Vectors are in its own frame: of r in -D, n . x' and n . x''.
   struct Side {
     const SupportTable* supports;
     Eigen::Vector3d depth, first, second;
-    double support, speed, change;  ///< at the link's origin
+    double support, speed, change;  ///< at its origin
   };
   void add(const Configuration& c, int id, int shared, const Eigen::Vector3d& n, bool planes);
   /// What both bodies take at (p, q).

@@ -15,17 +15,43 @@ namespace kios::articulated {
 std::vector<Pair>& MotionSearch::gather(double s, double time) {
   std::vector<Pair>& pairs = scratch_.pairs;
   pairs.clear();
-  scratch_.near_pairs.forEach(path_, at(s), request_.min_separation, time, [&](const Pair& pair) {
+  const auto add = [&](const Pair& pair) {
     queries_.requireServed(pair.a, pair.b);
     pairs.push_back(pair);
-  });
+  };
+  if (!only_) {
+    scratch_.near_pairs.forEach(path_, at(s), request_.min_separation, time, add);
+  } else if (time == 0 || !path_.still(only_->a, only_->b, only_->shared)) {
+    add(*only_);
+  }
   return pairs;
+}
+
+// A pair is asked by its surfaces, and where these are apart what lies in what.
+bool MotionSearch::stillTouching(Pair pair, double s) {
+  const Configuration& c = at(s);
+  const double separation = request_.min_separation;
+  if (queries_.rootBound(pair, c, separation) > separation) return false;
+  ++counts_.queries;
+  if (queries_.slab(pair, c, separation) > separation) return false;
+  const Nearness near = queries_.ask(pair, c, separation);
+  const bool contact = near.contact || (queries_.areSolids(pair) && queries_.inContact(pair, c));
+  if (!contact && near.apart > separation) return false;
+  const int suspect = static_cast<int>(suspects_.size());
+  suspects_.push_back({pair});
+  if (contact) {
+    end_ = {MotionVerdict::kContact, s, s, suspect};
+  } else if (undecided_.suspect < 0) {  // nor would it be elsewhere
+    undecided_ = {MotionVerdict::kUnresolved, 0, request_.resolution, suspect};
+  }
+  return contact;
 }
 
 // Most pairs are so far apart at the middle of the path that half of it doesn't bring them
 // together. Where many aren't, they are looked for anew in both halves, rather than one by one.
 // Some may touch there.
 bool MotionSearch::findSuspects() {
+  if (!path_.moves()) return false;
   std::vector<std::pair<double, double>> intervals = {{0, 1}};
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     const double from = intervals[i].first, to = intervals[i].second;
@@ -54,13 +80,20 @@ bool MotionSearch::findSuspects() {
   return false;
 }
 
+// What doesn't move is decided here for the whole path: gather() leaves it out elsewhere.
 bool MotionSearch::touchingAtEnd() {
+  const double s = request_.first_contact ? 0 : 1;
   scratch_.near.clear();
-  for (const Pair& pair : gather(1, 0)) {
-    const double roots = queries_.rootBound(pair, at(1), 0);
-    if (!(roots > 0)) scratch_.near.emplace_back(roots, pair);
+  std::vector<Pair>& pairs = gather(s, 0);
+  const auto still = std::partition(pairs.begin(), pairs.end(), [&](const Pair& pair) {
+    return !path_.still(pair.a, pair.b, pair.shared);
+  });
+  for (auto pair = pairs.begin(); looks_for_touch_ && pair != still; ++pair) {
+    const double roots = queries_.rootBound(*pair, at(s), 0);
+    if (!(roots > 0)) scratch_.near.emplace_back(roots, *pair);
   }
-  return touching(1);
+  return touching(s) ||
+         std::any_of(still, pairs.end(), [&](const Pair& pair) { return stillTouching(pair, s); });
 }
 
 // First the pairs whose volumes overlap most for their size: they are in contact more often than

@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "continuous/tuning.h"
+
 // The constants of this folder that were found by trying, by what they serve: rows of kios_bench
 // motions and mbm, or tests of test/linkage (2026-11-28).
 
@@ -31,9 +33,10 @@ constexpr double kDeep = -0.4;
 /// Times that a slab is tried to last for, the whole interval first.
 constexpr int kTries = 5;
 
-/// The unit of cost of all provers is a test of two volumes; a query counts as so many, and an
-/// expansion of its search as so many more.
-constexpr long long kTestsOfQuery = 100, kTestsOfExpansion = 8;
+/// The unit of cost of all provers is a test of two volumes; an expansion of a query's search
+/// counts as so many, beside the query.
+using continuous::tuning::kTestsOfQuery;
+constexpr long long kTestsOfExpansion = 8;
 /// Slabs between a pair's triangles are tried once queries have cost so much (TightFits).
 constexpr long long kPatience = 100 * kTestsOfQuery;
 
@@ -42,5 +45,14 @@ constexpr int kMostUndecided = 256;
 /// Bodies close in more slowly than the bounds say: what is proven must come nearer to the first
 /// contact than the resolution is long (FirstContact).
 constexpr double kApproach = 0x1p-8;
+
+/// The tree of so few obstacles is built anew with each that comes, which takes 3 us and leaves it
+/// as good as one that is built at once (mbm's rows).
+constexpr long long kFewObstacles = 64;
+
+/// Rounds of steps along the coordinates of a box towards nearer configurations.
+constexpr int kRounds = 8;
+/// In a box a distance may be off by this part of what the pair moves by.
+constexpr double kOfMotion = 0.25;
 
 }  // namespace kios::articulated::tuning

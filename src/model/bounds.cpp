@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/model/bounds.h"
+#include "fcl_kios/model.h"
 
 #include <fcl/broadphase/broadphase_SaP.h>
 #include <fcl/narrowphase/collision_object.h>

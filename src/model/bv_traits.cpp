@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/model/bv_traits.h"
+#include "fcl_kios/detail/bv_traits.h"
 
 #include <algorithm>
 #include <limits>
@@ -81,25 +81,7 @@ fcl::AABB<S> toAABB(const kIOS<S>& bv, const fcl::Transform3<S>& X) {
   return fcl::AABB<S>(middle - extent, middle + extent);
 }
 
-template <typename S>
-void constructBox(const kIOS<S>& bv, const fcl::Transform3<S>& tf_bv, fcl::Box<S>& box,
-                  fcl::Transform3<S>& tf) {
-  const fcl::OBB<S> obb = toOBB(bv, tf_bv);
-  box = fcl::Box<S>(2 * obb.extent);
-  tf.linear() = obb.axis;
-  tf.translation() = obb.To;
-}
-
-template <typename S>
-void constructBox(const kIOS<S>& bv, fcl::Box<S>& box, fcl::Transform3<S>& tf) {
-  constructBox(bv, fcl::Transform3<S>(fcl::Transform3<S>::Identity()), box, tf);
-}
-
 KIOS_INSTANTIATE_FUNCTION(toOBB);
 KIOS_INSTANTIATE_FUNCTION(toAABB);
-template void constructBox(const kIOSd&, const fcl::Transform3d&, fcl::Boxd&, fcl::Transform3d&);
-template void constructBox(const kIOSf&, const fcl::Transform3f&, fcl::Boxf&, fcl::Transform3f&);
-template void constructBox(const kIOSd&, fcl::Boxd&, fcl::Transform3d&);
-template void constructBox(const kIOSf&, fcl::Boxf&, fcl::Transform3f&);
 
 }  // namespace kios

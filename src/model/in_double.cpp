@@ -6,17 +6,8 @@
 #include <vector>
 
 #include <fcl/config.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/ellipsoid.h>
-#include <fcl/geometry/shape/halfspace.h>
-#include <fcl/geometry/shape/plane.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/geometry/shape/triangle_p.h>
-#include "fcl_kios/model/convert.h"
+#include "fcl_kios/model.h"
+#include "shape/visit_shape.h"
 
 #if FCL_HAVE_OCTOMAP
 #include <fcl/geometry/octree/octree.h>
@@ -58,23 +49,6 @@ class Unknown final : public fcl::CollisionGeometryd {
   const fcl::NODE_TYPE node_;
 };
 
-template <typename Shape>
-const Shape& as(const fcl::CollisionGeometryf& geometry) {
-  return static_cast<const Shape&>(geometry);
-}
-
-template <template <typename> class Round>
-Geometry roundInDouble(const fcl::CollisionGeometryf& geometry) {
-  const auto& round = as<Round<float>>(geometry);
-  return std::make_shared<Round<double>>(round.radius, round.lz);
-}
-
-template <template <typename> class Flat>
-Geometry flatInDouble(const fcl::CollisionGeometryf& geometry) {
-  const auto& flat = as<Flat<float>>(geometry);
-  return std::make_shared<Flat<double>>(flat.n.template cast<double>(), flat.d);
-}
-
 Geometry convexInDouble(const fcl::Convexf& convex) {
   std::vector<fcl::Vector3d> vertices;
   vertices.reserve(convex.getVertices().size());
@@ -86,13 +60,15 @@ Geometry convexInDouble(const fcl::Convexf& convex) {
 
 template <typename BV>
 Geometry meshInDouble(const fcl::CollisionGeometryf& geometry) {
-  const auto& mesh = as<fcl::BVHModel<BV>>(geometry);
-  detail::requireConvertible(mesh.build_state, mesh.getModelType(), mesh.num_tris,
+  const auto& mesh = static_cast<const fcl::BVHModel<BV>&>(geometry);
+  const bool cloud = mesh.getModelType() == fcl::BVH_MODEL_POINTCLOUD;
+  detail::requireConvertible(mesh.build_state, cloud ? mesh.num_vertices : mesh.num_tris,
                              mesh.getNumBVs());
   std::vector<fcl::Vector3d> vertices;
   vertices.reserve(static_cast<std::size_t>(mesh.num_vertices));
   for (int i = 0; i < mesh.num_vertices; ++i)
     vertices.emplace_back(mesh.vertices[i].template cast<double>());
+  if (cloud) return makePointCloud(vertices);
   return makeModel(vertices, {mesh.tri_indices, mesh.tri_indices + mesh.num_tris});
 }
 
@@ -111,30 +87,28 @@ Geometry octreeInDouble(const fcl::OcTreef& octree) {
 #endif
 
 Geometry converted(const fcl::CollisionGeometryf& geometry) {
+  Geometry made;
+  const bool is_shape = visitShape(
+      geometry,
+      [&](const fcl::Boxf& s) { made = std::make_shared<fcl::Boxd>(s.side.cast<double>()); },
+      [&](const fcl::Spheref& s) { made = std::make_shared<fcl::Sphered>(s.radius); },
+      [&](const fcl::Ellipsoidf& s) {
+        made = std::make_shared<fcl::Ellipsoidd>(s.radii.cast<double>());
+      },
+      [&](const fcl::Capsulef& s) { made = std::make_shared<fcl::Capsuled>(s.radius, s.lz); },
+      [&](const fcl::Conef& s) { made = std::make_shared<fcl::Coned>(s.radius, s.lz); },
+      [&](const fcl::Cylinderf& s) { made = std::make_shared<fcl::Cylinderd>(s.radius, s.lz); },
+      [&](const fcl::Planef& s) { made = std::make_shared<fcl::Planed>(s.n.cast<double>(), s.d); },
+      [&](const fcl::Halfspacef& s) {
+        made = std::make_shared<fcl::Halfspaced>(s.n.cast<double>(), s.d);
+      },
+      [&](const fcl::TrianglePf& t) {
+        made = std::make_shared<fcl::TrianglePd>(t.a.cast<double>(), t.b.cast<double>(),
+                                                 t.c.cast<double>());
+      },
+      [&](const fcl::Convexf& convex) { made = convexInDouble(convex); });
+  if (is_shape) return made;
   switch (geometry.getNodeType()) {
-    case fcl::GEOM_BOX:
-      return std::make_shared<fcl::Boxd>(as<fcl::Boxf>(geometry).side.cast<double>());
-    case fcl::GEOM_SPHERE:
-      return std::make_shared<fcl::Sphered>(as<fcl::Spheref>(geometry).radius);
-    case fcl::GEOM_ELLIPSOID:
-      return std::make_shared<fcl::Ellipsoidd>(as<fcl::Ellipsoidf>(geometry).radii.cast<double>());
-    case fcl::GEOM_CAPSULE:
-      return roundInDouble<fcl::Capsule>(geometry);
-    case fcl::GEOM_CONE:
-      return roundInDouble<fcl::Cone>(geometry);
-    case fcl::GEOM_CYLINDER:
-      return roundInDouble<fcl::Cylinder>(geometry);
-    case fcl::GEOM_CONVEX:
-      return convexInDouble(as<fcl::Convexf>(geometry));
-    case fcl::GEOM_HALFSPACE:
-      return flatInDouble<fcl::Halfspace>(geometry);
-    case fcl::GEOM_PLANE:
-      return flatInDouble<fcl::Plane>(geometry);
-    case fcl::GEOM_TRIANGLE: {
-      const auto& t = as<fcl::TrianglePf>(geometry);
-      return std::make_shared<fcl::TrianglePd>(t.a.cast<double>(), t.b.cast<double>(),
-                                               t.c.cast<double>());
-    }
     case fcl::BV_AABB:
       return meshInDouble<fcl::AABBf>(geometry);
     case fcl::BV_OBB:
@@ -153,7 +127,7 @@ Geometry converted(const fcl::CollisionGeometryf& geometry) {
       return meshInDouble<fcl::KDOPf<24>>(geometry);
 #if FCL_HAVE_OCTOMAP
     case fcl::GEOM_OCTREE:
-      return octreeInDouble(as<fcl::OcTreef>(geometry));
+      return octreeInDouble(static_cast<const fcl::OcTreef&>(geometry));
 #endif
     default:
       return std::make_shared<Unknown>(geometry.getObjectType(), geometry.getNodeType());

@@ -5,7 +5,7 @@
 #include <string>
 #include <typeinfo>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "volume/errors.h"
 
 namespace kios {

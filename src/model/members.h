@@ -8,7 +8,7 @@
 #include <memory>
 #include <utility>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "model/prepared.h"
 
 namespace kios {
@@ -35,17 +35,17 @@ struct Members {
   Prepared& prepared() const { return *Prepared::before<S>(nodes); }
   /// Takes it in the place of what was held.
   void take(PreparedHandle made) const {
-    const PreparedHandle last(&prepared());
+    const PreparedHandle last(&prepared(), /*add_ref=*/false);
     nodes = made->template nodes<S>();
     primitives = made->template primitives<S>();
-    num_nodes = num_nodes_allocated = made.release()->num_nodes;
+    num_nodes = num_nodes_allocated = made.detach()->num_nodes;
   }
   /// Makes it the model's own, to be changed.
   void own() const {
-    PreparedHandle held(&prepared());
-    held.template own<S>();
+    PreparedHandle held(&prepared(), /*add_ref=*/false);
+    kios::own<S>(held);
     nodes = held->template nodes<S>();
-    primitives = held.release()->template primitives<S>();
+    primitives = held.detach()->template primitives<S>();
   }
 };
 
@@ -60,15 +60,11 @@ std::unique_ptr<T[]> makeArray(int n) {
 }
 
 template <typename T>
-std::unique_ptr<T[]> copyOf(const T* array, int n, int room) {
+std::unique_ptr<T[]> copyOf(const T* array, int n, int room = 0) {
   if (!array) return nullptr;
-  auto copy = makeArray<T>(room);
+  auto copy = makeArray<T>(std::max(n, room));
   std::copy_n(array, n, copy.get());
   return copy;
-}
-template <typename T>
-std::unique_ptr<T[]> copyOf(const T* array, int n) {
-  return copyOf(array, n, n);
 }
 
 template <typename T>
@@ -76,6 +72,9 @@ void replace(T*& array, std::unique_ptr<T[]> by) {
   delete[] array;
   array = by.release();
 }
+
+/// Throws std::invalid_argument for the first triangle that refers to a vertex that isn't there.
+void requireIndices(const fcl::Triangle* triangles, std::size_t n, std::size_t num_vertices);
 
 /// Says so as FCL does, and returns its code.
 int outOfMemory(const char* call);

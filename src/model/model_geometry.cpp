@@ -29,6 +29,16 @@ int outOfSequence(const char* call, const char* must) {
   return fcl::BVH_ERR_BUILD_OUT_OF_SEQUENCE;
 }
 
+/// True if the model's triangles are its vertices: it was built of these alone.
+template <typename S>
+bool isCloud(const Model<S>& model) {
+  const engine::MeshView<S> mesh = viewOf(model);
+  for (std::size_t i = 0; i < mesh.num_triangles; ++i) {
+    if (mesh.index(i, 0) != i || mesh.index(i, 1) != i || mesh.index(i, 2) != i) return false;
+  }
+  return model.num_tris > 0 && model.num_tris == model.num_vertices;
+}
+
 /// The room of an array that is to take `more` elements, at least doubled where it must grow, so
 /// that elements added one by one cost O(1); -1 if FCL's nodes can't count so many.
 int roomFor(int n, std::size_t more, int room) {
@@ -47,8 +57,10 @@ int add(Members<S> m, const char* call, Span<fcl::Vector3<S>> vertices,
       model.build_state == fcl::BVH_BUILD_STATE_EMPTY) {
     return outOfSequence(call, "Must do a beginModel() that returns 0 before geometry is added.");
   }
+  const bool points = triangles.count == 0 && isCloud(model);
   const int vertex_room = roomFor(model.num_vertices, vertices.count, m.num_vertices_allocated),
-            tri_room = roomFor(model.num_tris, triangles.count, m.num_tris_allocated);
+            tri_room = roomFor(model.num_tris, points ? vertices.count : triangles.count,
+                               m.num_tris_allocated);
   if (vertex_room < 0 || tri_room < 0) return outOfMemory(call);
   try {
     // All are made before one is replaced, so that the call may be repeated.
@@ -87,6 +99,9 @@ int add(Members<S> m, const char* call, Span<fcl::Vector3<S>> vertices,
   for (std::size_t i = 0; i < triangles.count; ++i) {
     const fcl::Triangle& t = triangles.first[i];
     model.tri_indices[model.num_tris++].set(shifted(t[0]), shifted(t[1]), shifted(t[2]));
+  }
+  for (std::size_t i = offset; points && i < offset + vertices.count; ++i) {
+    model.tri_indices[model.num_tris++].set(i, i, i);
   }
   return fcl::BVH_OK;
 }

@@ -18,6 +18,19 @@ int outOfMemory(const char* call) {
 
 namespace {
 
+/// Makes a triangle that is a point of each vertex: queries take a point cloud as such a mesh.
+template <typename S>
+void makePoints(const Members<S>& m) {
+  Model<S>& model = m.model;
+  auto triangles = makeArray<fcl::Triangle>(model.num_vertices);
+  for (int i = 0; i < model.num_vertices; ++i) {
+    const auto vertex = static_cast<std::size_t>(i);
+    triangles[vertex].set(vertex, vertex, vertex);
+  }
+  replace(model.tri_indices, std::move(triangles));
+  model.num_tris = m.num_tris_allocated = model.num_vertices;
+}
+
 template <typename T>
 void shrink(T*& array, int& allocated, int n) {
   if (allocated <= n) return;
@@ -32,7 +45,7 @@ void copy(const Model<S>& from, int num_vertices_given, int num_nodes, Members<S
   auto vertices = copyOf(from.vertices, from.num_vertices);
   auto triangles = copyOf(from.tri_indices, from.num_tris);
   auto previous = copyOf(from.prev_vertices, from.num_vertices);
-  to.take(PreparedHandle::share(Prepared::before<S>(&from.getBV(0))));
+  to.take(Prepared::before<S>(&from.getBV(0)));
   replace(model.vertices, std::move(vertices));
   replace(model.tri_indices, std::move(triangles));
   replace(model.prev_vertices, std::move(previous));
@@ -59,9 +72,9 @@ void clear(Members<S> m) {
 /// Gives up the tree, but not the attachment, which builds make anew.
 template <typename S>
 void dropTree(Members<S> m) {
-  PreparedHandle without;
+  PreparedHandle without = preparedForNone();
   if (m.prepared().attachment) {
-    without = PreparedHandle::make<S>(0);
+    without = makePrepared<S>(0);
     without->attachment = m.prepared().attachment;
   }
   m.take(std::move(without));
@@ -106,6 +119,7 @@ int end(Members<S> m) {
     std::cerr << "BVH Error! endModel() called on model with no triangles and vertices.\n";
     return fcl::BVH_ERR_BUILD_EMPTY_MODEL;
   }
+  if (model.num_tris == 0) makePoints(m);
   shrink(model.tri_indices, m.num_tris_allocated, model.num_tris);
   shrink(model.vertices, m.num_vertices_allocated, model.num_vertices);
   return fcl::BVH_OK;
@@ -157,7 +171,7 @@ namespace fcl {
         num_bvs_allocated(0),                                                           \
         num_vertex_updated(0),                                                          \
         primitive_indices(nullptr),                                                     \
-        bvs(kios::PreparedHandle().release()->nodes<S>()),                              \
+        bvs(kios::preparedForNone().detach()->nodes<S>()),                              \
         num_bvs(0) {}                                                                   \
   template <>                                                                           \
   BVHModel<kios::kIOS<S>>::BVHModel(const BVHModel& other)                              \
@@ -166,13 +180,13 @@ namespace fcl {
         tri_indices(nullptr),                                                           \
         prev_vertices(nullptr),                                                         \
         primitive_indices(nullptr),                                                     \
-        bvs(kios::PreparedHandle().release()->nodes<S>()) {                             \
+        bvs(kios::preparedForNone().detach()->nodes<S>()) {                             \
     kios::copy(other, other.num_vertex_updated, other.num_bvs, kios::membersOf(*this)); \
   }                                                                                     \
   template <>                                                                           \
   BVHModel<kios::kIOS<S>>::~BVHModel() {                                                \
     kios::clear(kios::membersOf(*this));                                                \
-    const kios::PreparedHandle last(kios::Prepared::before<S>(bvs));                    \
+    const kios::PreparedHandle last(kios::Prepared::before<S>(bvs), false);             \
   }                                                                                     \
   template <>                                                                           \
   int BVHModel<kios::kIOS<S>>::beginModel(int num_tris_, int num_vertices_) {           \

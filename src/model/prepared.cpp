@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
 #include "model/kios_model.h"
 #include "search/search.h"
 #include "tree/prepare.h"
@@ -53,80 +55,80 @@ std::uint64_t nextGeneration() {
   return 1 + last.fetch_add(1, std::memory_order_relaxed);
 }
 
-// Never freed: models may live until the process ends.
-PreparedHandle::PreparedHandle() : held_(nullptr) {
-  static Prepared* const none = allocate(0, 0);
-  *this = share(none);
+void intrusive_ptr_add_ref(Prepared* held) {
+  const std::lock_guard<std::mutex> lock(mutex);
+  ++held->holders;
 }
 
-PreparedHandle::~PreparedHandle() {
-  if (!held_) return;
+void intrusive_ptr_release(Prepared* held) {
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (--held_->holders > 0) return;
-    unlist(*held_);
+    if (--held->holders > 0) return;
+    unlist(*held);
   }
-  held_->~Prepared();
-  ::operator delete(held_);
+  held->~Prepared();
+  ::operator delete(held);
+}
+
+// Never freed: models may live until the process ends.
+PreparedHandle preparedForNone() {
+  static Prepared* const none = allocate(0, 0);
+  return none;
 }
 
 template <typename S>
-PreparedHandle PreparedHandle::make(int num_nodes) {
+PreparedHandle makePrepared(int num_nodes) {
   using Node = fcl::BVNode<kIOS<S>>;
   static_assert(std::is_trivially_destructible<Node>::value && alignof(Node) <= alignof(Prepared));
   const auto n = static_cast<std::size_t>(num_nodes);
-  PreparedHandle made(allocate(n * sizeof(Node) + (n + 1) / 2 * sizeof(unsigned int), num_nodes));
+  const std::size_t bytes = n * sizeof(Node) + (n + 1) / 2 * sizeof(unsigned int);
+  PreparedHandle made(allocate(bytes, num_nodes), /*add_ref=*/false);
   std::uninitialized_default_construct_n(made->nodes<S>(), n);
   return made;
 }
 
-PreparedHandle PreparedHandle::share(Prepared* held) {
+PreparedHandle findPrepared(const engine::ContentHash& content) {
   const std::lock_guard<std::mutex> lock(mutex);
-  ++held->holders;
-  return PreparedHandle(held);
-}
-
-PreparedHandle PreparedHandle::find(const engine::ContentHash& content) {
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (!registry) return PreparedHandle(nullptr);
+  if (!registry) return nullptr;
   const auto found = registry->find(content);
-  if (found == registry->end()) return PreparedHandle(nullptr);
+  if (found == registry->end()) return nullptr;
   ++found->second->holders;
-  return PreparedHandle(found->second);
+  return {found->second, /*add_ref=*/false};
 }
 
-void PreparedHandle::list(const engine::ContentHash& content) {
-  PreparedHandle equal(nullptr);  // released when the mutex is
+void list(PreparedHandle& held, const engine::ContentHash& content) {
+  PreparedHandle equal;  // released when the mutex is
   const std::lock_guard<std::mutex> lock(mutex);
   auto made = registry ? nullptr : std::make_unique<Registry>();
-  held_->content = content;
-  const auto [place, is_new] = (registry ? *registry : *made).emplace(content, held_);
+  held->content = content;
+  const auto [place, is_new] = (registry ? *registry : *made).emplace(content, held.get());
   if (made) registry = made.release();
   if (is_new) {
-    held_->listed = true;
+    held->listed = true;
     return;
   }
   ++place->second->holders;
-  equal = PreparedHandle(std::exchange(held_, place->second));
+  equal.swap(held);
+  held.reset(place->second, /*add_ref=*/false);
 }
 
 template <typename S>
-void PreparedHandle::own() {
+void own(PreparedHandle& held) {
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    if (held_->holders == 1) return unlist(*held_);
-    held_->tree_is_shared = true;
+    if (held->holders == 1) return unlist(*held);
+    held->tree_is_shared = true;
   }
-  PreparedHandle copy = make<S>(held_->num_nodes);
-  const auto n = static_cast<std::size_t>(held_->num_nodes);
-  std::copy_n(held_->nodes<S>(), n, copy->nodes<S>());
-  std::copy_n(held_->primitives<S>(), (n + 1) / 2, copy->primitives<S>());
-  copy->tree = held_->tree;
+  PreparedHandle copy = makePrepared<S>(held->num_nodes);
+  const auto n = static_cast<std::size_t>(held->num_nodes);
+  std::copy_n(held->nodes<S>(), n, copy->nodes<S>());
+  std::copy_n(held->primitives<S>(), (n + 1) / 2, copy->primitives<S>());
+  copy->tree = held->tree;
   copy->tree_is_shared = true;
-  copy->attachment = held_->attachment;
-  copy->generation = held_->generation;
-  copy->ordinary = held_->ordinary;
-  *this = std::move(copy);
+  copy->attachment = held->attachment;
+  copy->generation = held->generation;
+  copy->ordinary = held->ordinary;
+  held = std::move(copy);
 }
 
 template <typename S>
@@ -158,7 +160,9 @@ void refitTreeOf(const Model<S>& model, Prepared& prepared) {
   } else {
     prepareTree(model, prepared);
   }
-  if (prepared.attachment) prepared.attachment = prepared.attachment->renewed(&model);
+  if (prepared.attachment) {
+    prepared.attachment = renewed(*prepared.attachment, model, prepared);
+  }
 }
 
 template <typename S>
@@ -173,7 +177,7 @@ std::size_t preparedBytes(const Model<S>& model) {
 }
 
 template <typename S>
-void invalidate(Model<S>& model) {
+void verticesChanged(Model<S>& model) {
   validate(model);
   // Unfinished until the end, which may not come where memory runs out.
   const fcl::BVHBuildState finished =
@@ -184,16 +188,12 @@ void invalidate(Model<S>& model) {
 
 const char* simdTarget() { return engine::kernels().target; }
 
-#define KIOS_INSTANTIATE_HANDLE(S)                        \
-  template PreparedHandle PreparedHandle::make<S>(int n); \
-  template void PreparedHandle::own<S>();
-KIOS_INSTANTIATE_HANDLE(double)
-KIOS_INSTANTIATE_HANDLE(float)
-#undef KIOS_INSTANTIATE_HANDLE
+KIOS_INSTANTIATE_FUNCTION(makePrepared);
+KIOS_INSTANTIATE_FUNCTION(own);
 KIOS_INSTANTIATE_FUNCTION(prepareTree);
 KIOS_INSTANTIATE_FUNCTION(refitTreeOf);
 KIOS_INSTANTIATE_FUNCTION(prepare);
 KIOS_INSTANTIATE_FUNCTION(preparedBytes);
-KIOS_INSTANTIATE_FUNCTION(invalidate);
+KIOS_INSTANTIATE_FUNCTION(verticesChanged);
 
 }  // namespace kios

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <utility>
 
+#include <boost/smart_ptr/intrusive_ptr.hpp>
 #include "build/mesh_view.h"
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "model/kios_model.h"
 #include "search/mesh.h"
 #include "tree/content_hash.h"
@@ -21,8 +21,9 @@ namespace kios {
 class Attachment {
  public:
   virtual ~Attachment() = default;
-  /// Made anew for the model's present state; `model` is a Model<S>.
-  virtual std::shared_ptr<const Attachment> renewed(const void* model) const = 0;
+  /// Made anew for the present state of a model: a mesh that is about to be finished, or the point
+  /// cloud that it has become, without a tree.
+  virtual std::shared_ptr<const Attachment> renewed(const Mesh& mesh) const = 0;
 };
 
 /// What a model has beside its mesh once it is finished: the nodes and primitives of FCL's tree,
@@ -56,41 +57,23 @@ struct alignas(16) Prepared {
   }
 };
 
-/// Holds a Prepared.
-class PreparedHandle {
- public:
-  /// That of models without a tree.
-  PreparedHandle();
-  explicit PreparedHandle(Prepared* held) : held_(held) {}
-  PreparedHandle(PreparedHandle&& o) noexcept : held_(std::exchange(o.held_, nullptr)) {}
-  PreparedHandle& operator=(PreparedHandle&& o) noexcept {
-    std::swap(held_, o.held_);
-    return *this;
-  }
-  ~PreparedHandle();
+// Both lock the registry.
+void intrusive_ptr_add_ref(Prepared* held);
+void intrusive_ptr_release(Prepared* held);
+using PreparedHandle = boost::intrusive_ptr<Prepared>;
 
-  /// A new one with room for a tree of so many nodes. Throws std::bad_alloc.
-  template <typename S>
-  static PreparedHandle make(int num_nodes);
-  /// One more holder.
-  static PreparedHandle share(Prepared* held);
-  /// What is held anywhere for this content; false if nothing is.
-  static PreparedHandle find(const engine::ContentHash& content);
-
-  explicit operator bool() const { return held_ != nullptr; }
-  Prepared* operator->() const { return held_; }
-  Prepared* get() const { return held_; }
-  Prepared* release() { return std::exchange(held_, nullptr); }
-
-  /// Lets others find it by its content; takes the place of it what is listed already.
-  void list(const engine::ContentHash& content);
-  /// Makes it the holder's own, of which nobody else knows: a copy if need be.
-  template <typename S>
-  void own();
-
- private:
-  Prepared* held_;
-};
+/// What models without a tree have.
+PreparedHandle preparedForNone();
+/// A new one with room for a tree of so many nodes. Throws std::bad_alloc.
+template <typename S>
+PreparedHandle makePrepared(int num_nodes);
+/// What is held anywhere for this content; null if nothing is.
+PreparedHandle findPrepared(const engine::ContentHash& content);
+/// Lets others find it by its content; what is listed already takes its place.
+void list(PreparedHandle& held, const engine::ContentHash& content);
+/// Makes it the holder's own, of which nobody else knows: a copy if need be.
+template <typename S>
+void own(PreparedHandle& held);
 
 /// A number that no other call in this process returned; never 0.
 std::uint64_t nextGeneration();
@@ -116,20 +99,16 @@ engine::MeshView<S> viewOf(const Model<S>& model) {
 template <typename S>
 Mesh meshOf(const Model<S>& model) {
   requireFinished(model);
-  return Mesh(viewOf(model), treeOf(model), model.getBV(0).bv);
-}
-
-template <typename S>
-TriangleVertices<S> cornersOf(const Model<S>& model, int triangle) {
-  const engine::MeshView<S> mesh = viewOf(model);
-  const auto t = static_cast<std::size_t>(triangle);
-  return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+  return Mesh(viewOf(model), treeOf(model), model.getBV(0).bv, preparedOf(model).attachment.get());
 }
 
 template <typename S>
 TriangleVerticesd cornersInDouble(const Model<S>& model, int triangle) {
-  const TriangleVertices<S> t = cornersOf(model, triangle);
-  return {t[0].template cast<double>(), t[1].template cast<double>(), t[2].template cast<double>()};
+  const engine::MeshView<S> mesh = viewOf(model);
+  const auto corner = [&mesh, t = static_cast<std::size_t>(triangle)](std::size_t k) -> Pointd {
+    return mesh.corner(t, k).template cast<double>();
+  };
+  return {corner(0), corner(1), corner(2)};
 }
 
 /// Tells one state of a model from every later one: builds, refits and marks change it, and arrays
@@ -148,7 +127,16 @@ ModelState stateOf(const Model<S>& model) {
   return {preparedOf(model).generation, model.vertices, model.tri_indices};
 }
 
-/// Makes the tree of a mesh whose nodes are fitted, and the attachment.
+/// What takes the place of an attachment in the model's present state.
+template <typename S>
+std::shared_ptr<const Attachment> renewed(const Attachment& attachment, const Model<S>& model,
+                                          Prepared& prepared) {
+  if (!prepared.tree) return attachment.renewed(Mesh(viewOf(model)));
+  return attachment.renewed(
+      Mesh(viewOf(model), *prepared.tree, prepared.nodes<S>()->bv, &attachment));
+}
+
+/// Makes the tree of a mesh whose nodes are fitted.
 template <typename S>
 void prepareTree(const Model<S>& model, Prepared& prepared);
 /// Does so after a refit: the tree of the earlier state is moved where it can be.

@@ -4,19 +4,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <type_traits>
 #include <typeinfo>
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/ellipsoid.h>
-#include <fcl/geometry/shape/halfspace.h>
-#include <fcl/geometry/shape/plane.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/geometry/shape/triangle_p.h>
-
+#include "shape/visit_shape.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
 
@@ -29,67 +20,35 @@ void takeValues(const fcl::CollisionGeometry<S>& geometry, const Take& take) {
   const auto takeAll = [&](const fcl::Vector3<S>& v) {
     for (int i = 0; i < 3; ++i) take(v[i]);
   };
-  const auto takePlane = [&](const auto& plane) {
-    takeAll(plane.n);
-    take(plane.d);
-  };
-  const auto takeRound = [&](const auto& round) {
-    take(round.radius);
-    take(round.lz);
-  };
-  switch (geometry.getNodeType()) {
-    case fcl::GEOM_BOX:
-      takeAll(static_cast<const fcl::Box<S>&>(geometry).side);
-      break;
-    case fcl::GEOM_SPHERE:
-      take(static_cast<const fcl::Sphere<S>&>(geometry).radius);
-      break;
-    case fcl::GEOM_ELLIPSOID:
-      takeAll(static_cast<const fcl::Ellipsoid<S>&>(geometry).radii);
-      break;
-    case fcl::GEOM_CAPSULE:
-      takeRound(static_cast<const fcl::Capsule<S>&>(geometry));
-      break;
-    case fcl::GEOM_CONE:
-      takeRound(static_cast<const fcl::Cone<S>&>(geometry));
-      break;
-    case fcl::GEOM_CYLINDER:
-      takeRound(static_cast<const fcl::Cylinder<S>&>(geometry));
-      break;
-    case fcl::GEOM_CONVEX: {
-      const auto& convex = static_cast<const fcl::Convex<S>&>(geometry);
-      take(roundedTo<S>(convex.getFaceCount()));
-      for (const fcl::Vector3<S>& v : convex.getVertices()) takeAll(v);
-      for (const int i : convex.getFaces()) take(roundedTo<S>(i));
-      takeAll(convex.getInteriorPoint());
-      break;
-    }
-    case fcl::GEOM_PLANE:
-      takePlane(static_cast<const fcl::Plane<S>&>(geometry));
-      break;
-    case fcl::GEOM_HALFSPACE:
-      takePlane(static_cast<const fcl::Halfspace<S>&>(geometry));
-      break;
-    case fcl::GEOM_TRIANGLE:
-      takeAll(static_cast<const fcl::TriangleP<S>&>(geometry).a);
-      takeAll(static_cast<const fcl::TriangleP<S>&>(geometry).b);
-      takeAll(static_cast<const fcl::TriangleP<S>&>(geometry).c);
-      break;
-    default:
-      break;
-  }
+  const auto takeRound = [&](const auto& round) { take(round.radius), take(round.lz); };
+  const auto takePlane = [&](const auto& plane) { takeAll(plane.n), take(plane.d); };
+  visitShape(
+      geometry, [&](const fcl::Box<S>& box) { takeAll(box.side); },
+      [&](const fcl::Sphere<S>& sphere) { take(sphere.radius); },
+      [&](const fcl::Ellipsoid<S>& ellipsoid) { takeAll(ellipsoid.radii); },
+      [&](const fcl::Capsule<S>& capsule) { takeRound(capsule); },
+      [&](const fcl::Cone<S>& cone) { takeRound(cone); },
+      [&](const fcl::Cylinder<S>& cylinder) { takeRound(cylinder); },
+      [&](const fcl::Plane<S>& plane) { takePlane(plane); },
+      [&](const fcl::Halfspace<S>& halfspace) { takePlane(halfspace); },
+      [&](const fcl::TriangleP<S>& t) { takeAll(t.a), takeAll(t.b), takeAll(t.c); },
+      [&](const fcl::Convex<S>& convex) {
+        take(roundedTo<S>(convex.getFaceCount()));
+        for (const fcl::Vector3<S>& v : convex.getVertices()) takeAll(v);
+        for (const int i : convex.getFaces()) take(roundedTo<S>(i));
+        takeAll(convex.getInteriorPoint());
+      });
 }
 
 }  // namespace
 
 template <typename S>
 bool isShapeOfFcl(const fcl::CollisionGeometry<S>& geometry) {
-  const std::type_info& type = typeid(geometry);
-  return type == typeid(fcl::Box<S>) || type == typeid(fcl::Sphere<S>) ||
-         type == typeid(fcl::Ellipsoid<S>) || type == typeid(fcl::Capsule<S>) ||
-         type == typeid(fcl::Cone<S>) || type == typeid(fcl::Cylinder<S>) ||
-         type == typeid(fcl::Convex<S>) || type == typeid(fcl::Plane<S>) ||
-         type == typeid(fcl::Halfspace<S>) || type == typeid(fcl::TriangleP<S>);
+  bool same = false;
+  visitShape(geometry, [&](const auto& shape) {
+    same = typeid(geometry) == typeid(std::decay_t<decltype(shape)>);
+  });
+  return same;
 }
 
 template <typename S>

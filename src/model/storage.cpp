@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/model/storage.h"
+#include "fcl_kios/storage.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -144,137 +144,94 @@ Header readHeader(const unsigned char* bytes, std::size_t size) {
   return header;
 }
 
-/// Checks nodes that come in their order, in which FCL's recursion numbers them: all but how many
-/// triangles go left is known beforehand. Searches hold the way from the root in arrays of
-/// kMaxDepth.
+/// Whether a node's volume is one.
 template <typename S>
-class NodeCheck {
- public:
-  /// The triangles of the leaves are written to `primitives`, in their order.
-  NodeCheck(int num_triangles, unsigned int* primitives)
-      : num_triangles_(num_triangles), primitives_(primitives) {}
-
-  bool takeRoot(const Node<S>& root) {
-    if (root.first_primitive != 0 || root.num_primitives != num_triangles_ || !isVolume(root)) {
-      return false;
-    }
-    return take(root, 1);
+bool isVolume(const kIOS<S>& v) {
+  const int k = v.num_spheres;
+  bool finite = isFinite(v.radius0) && isFinite(v.reach);
+  for (int c = 0; c < 3; ++c) finite = finite && isFinite(v.center0[c]);
+  for (const float* const caps : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) {
+    for (int i = 0; i < kIOS<S>::kCaps; ++i) finite = finite && isFinite(caps[i]);
   }
+  return finite && (k == 1 || k == 3 || k == 5);
+}
 
-  /// Takes the two children that come next.
-  bool takeChildren(const Node<S>* pair) {
-    if (open_ == 0) return false;
-    const Open parent = stack_[--open_];
-    const Node<S>&left = pair[0], &right = pair[1];
-    const int left_count = left.num_primitives;
-    if (parent.first_child != next_ || parent.depth >= engine::kMaxDepth || left_count < 1 ||
-        left_count >= parent.count || left.first_primitive != parent.first ||
-        right.first_primitive != parent.first + left_count ||
-        right.num_primitives != parent.count - left_count || !(isVolume(left) && isVolume(right))) {
-      return false;
-    }
-    next_ += 2;
-    const bool right_is_sound = take(right, parent.depth + 1);
-    return take(left, parent.depth + 1) && right_is_sound;
-  }
-
-  bool isWhole() const { return open_ == 0; }
-
- private:
-  /// A node whose children come later.
+/// Whether nodes are a tree over so many triangles, in the order of FCL's recursion. Writes the
+/// triangles of the leaves to `primitives`, in their order.
+template <typename S>
+bool isTree(const Node<S>* nodes, int num_triangles, unsigned int* primitives) {
   struct Open {
-    int first_child, first, count, depth;
+    int node, first, count, depth;
   };
-
-  static bool isVolume(const Node<S>& node) {
-    const kIOS<S>& v = node.bv;
-    const int k = v.num_spheres;
-    bool finite = isFinite(v.radius0) && isFinite(v.reach);
-    for (int c = 0; c < 3; ++c) finite = finite && isFinite(v.center0[c]);
-    for (const float* const caps : {v.cap_x, v.cap_y, v.cap_z, v.cap_r}) {
-      for (int i = 0; i < kIOS<S>::kCaps; ++i) finite = finite && isFinite(caps[i]);
-    }
-    return finite && (k == 1 || k == 3 || k == 5);
-  }
-
-  /// Takes a node whose range is known to be sound. What isn't a leaf writes a primitive that its
-  /// first leaf overwrites, as no branch could be foreseen here.
-  bool take(const Node<S>& node, int depth) {
-    const bool is_leaf = node.num_primitives == 1;
-    const int triangle = ~node.first_child;  // -(it + 1)
-    primitives_[node.first_primitive] = static_cast<unsigned int>(triangle);
-    stack_[open_] = {node.first_child, node.first_primitive, node.num_primitives, depth};
-    open_ += is_leaf ? 0 : 1;
-    return !is_leaf || (triangle >= 0 && triangle < num_triangles_);
-  }
-
-  const int num_triangles_;
-  unsigned int* const primitives_;
-  int next_ = 1;  ///< the next pair's place
-  int open_ = 0;
-  Open stack_[engine::kMaxDepth + 2];
-};
-
-/// Copies the parts of a stored model, whose places were checked, and checks what they hold.
-template <typename S>
-class Reader {
- public:
-  Reader(const unsigned char* bytes, const Header& header)
-      : bytes_(bytes), header_(header), at_(Layout::of(header, S())) {}
-
-  /// The nodes and primitives of the tree.
-  PreparedHandle tree() const {
-    const std::size_t num_nodes = header_.num_nodes;
-    PreparedHandle made = PreparedHandle::make<S>(static_cast<int>(num_nodes));
-    Node<S>* const nodes = made->template nodes<S>();
-    unsigned int* const primitives = made->template primitives<S>();
-    std::memcpy(static_cast<void*>(nodes), bytes_ + at_.nodes, num_nodes * sizeof(*nodes));
-    NodeCheck<S> check(static_cast<int>(header_.num_triangles), primitives);
-    bool sound = check.takeRoot(nodes[0]);
-    for (std::size_t i = 1; sound && i < num_nodes; i += 2) sound = check.takeChildren(&nodes[i]);
-    if (!sound || !check.isWhole() || !hasAll(primitives)) {
-      refuseStored("was altered: its tree is none of its triangles.");
-    }
-    made->ordinary = true;
-    return made;
-  }
-
-  void vertices(fcl::Vector3<S>* to) const {
-    const std::size_t n = header_.num_vertices;
-    std::memcpy(reinterpret_cast<unsigned char*>(to), bytes_ + at_.vertices, n * sizeof(*to));
-    for (std::size_t i = 0; i < n; ++i) {
-      if (isFinite(to[i][0]) && isFinite(to[i][1]) && isFinite(to[i][2])) continue;
-      refuseStored("was altered: a vertex is not finite.");
-    }
-  }
-
-  void triangles(fcl::Triangle* to) const {
-    for (std::size_t t = 0; t < header_.num_triangles; ++t) {
-      std::uint32_t corners[3];
-      std::memcpy(corners, bytes_ + at_.triangles + sizeof(corners) * t, sizeof(corners));
-      if (std::max({corners[0], corners[1], corners[2]}) >= header_.num_vertices) {
-        refuseStored("was altered: a triangle refers to a vertex that it doesn't have.");
-      }
-      to[t].set(corners[0], corners[1], corners[2]);
-    }
-  }
-
- private:
-  /// Whether these primitives are those stored, and each triangle is one of them.
-  bool hasAll(const unsigned int* primitives) const {
-    const std::size_t n = header_.num_triangles;
-    if (std::memcmp(primitives, bytes_ + at_.primitives, n * sizeof(*primitives)) != 0) {
+  Open waiting[engine::kMaxDepth + 2] = {{0, 0, num_triangles, 1}};
+  int num_waiting = 1, next = 1;
+  while (num_waiting > 0) {
+    const Open at = waiting[--num_waiting];
+    const Node<S>& node = nodes[at.node];
+    if (node.first_primitive != at.first || node.num_primitives != at.count || !isVolume(node.bv)) {
       return false;
     }
-    std::vector<bool> met(n, false);
-    for (std::size_t i = 0; i < n; ++i) met[primitives[i]] = true;
-    return std::find(met.begin(), met.end(), false) == met.end();
+    if (at.count == 1) {
+      const int triangle = ~node.first_child;  // -(it + 1)
+      if (triangle < 0 || triangle >= num_triangles) return false;
+      primitives[at.first] = static_cast<unsigned int>(triangle);
+      continue;
+    }
+    const int left = nodes[next].num_primitives;
+    if (node.first_child != next || left < 1 || left >= at.count || at.depth >= engine::kMaxDepth) {
+      return false;
+    }
+    waiting[num_waiting++] = {next + 1, at.first + left, at.count - left, at.depth + 1};
+    waiting[num_waiting++] = {next, at.first, left, at.depth + 1};
+    next += 2;
   }
+  return true;
+}
 
-  const unsigned char* const bytes_;
-  const Header header_;
-  const Layout at_;
-};
+// The parts of a stored model, whose places were checked, are copied, and what they hold is
+// checked.
+
+/// The nodes and primitives of the tree: each triangle is one of these.
+template <typename S>
+PreparedHandle readTree(const unsigned char* bytes, const Header& header) {
+  const Layout at = Layout::of(header, S());
+  const std::size_t num_nodes = header.num_nodes, n = header.num_triangles;
+  PreparedHandle made = makePrepared<S>(static_cast<int>(num_nodes));
+  Node<S>* const nodes = made->template nodes<S>();
+  unsigned int* const primitives = made->template primitives<S>();
+  std::memcpy(static_cast<void*>(nodes), bytes + at.nodes, num_nodes * sizeof(*nodes));
+  std::vector<bool> met(n, false);
+  const bool is_tree = isTree(nodes, static_cast<int>(n), primitives) &&
+                       std::memcmp(primitives, bytes + at.primitives, n * sizeof(*primitives)) == 0;
+  for (std::size_t i = 0; is_tree && i < n; ++i) met[primitives[i]] = true;
+  if (std::find(met.begin(), met.end(), false) != met.end()) {
+    refuseStored("was altered: its tree is none of its triangles.");
+  }
+  made->ordinary = true;
+  return made;
+}
+
+template <typename S>
+void readVertices(const unsigned char* bytes, const Header& header, fcl::Vector3<S>* to) {
+  const std::size_t n = header.num_vertices;
+  std::memcpy(reinterpret_cast<unsigned char*>(to), bytes + Layout::of(header, S()).vertices,
+              n * sizeof(*to));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (isFinite(to[i][0]) && isFinite(to[i][1]) && isFinite(to[i][2])) continue;
+    refuseStored("was altered: a vertex is not finite.");
+  }
+}
+
+void readTriangles(const unsigned char* stored, const Header& header, fcl::Triangle* to) {
+  for (std::size_t t = 0; t < header.num_triangles; ++t) {
+    std::uint32_t corners[3];
+    std::memcpy(corners, stored + sizeof(corners) * t, sizeof(corners));
+    if (std::max({corners[0], corners[1], corners[2]}) >= header.num_vertices) {
+      refuseStored("was altered: a triangle refers to a vertex that it doesn't have.");
+    }
+    to[t].set(corners[0], corners[1], corners[2]);
+  }
+}
 
 }  // namespace
 
@@ -291,26 +248,25 @@ template <typename S>
 std::shared_ptr<Model<S>> load(const void* bytes, std::size_t size) {
   const auto* const begin = static_cast<const unsigned char*>(bytes);
   const Header header = readHeader<S>(begin, size);
-  const Reader<S> reader(begin, header);
   const bool has_tree = header.num_nodes != 0 && !header.isOlder();
-  PreparedHandle tree = has_tree ? reader.tree() : PreparedHandle(nullptr);
+  PreparedHandle tree = has_tree ? readTree<S>(begin, header) : nullptr;
   auto model = std::make_shared<Model<S>>();
   model->cost_density = roundedTo<S>(header.cost_density);
   model->threshold_occupied = roundedTo<S>(header.threshold_occupied);
   model->threshold_free = roundedTo<S>(header.threshold_free);
   requireBuilt(model->beginModel(static_cast<int>(header.num_triangles),
                                  static_cast<int>(header.num_vertices)));
-  reader.vertices(model->vertices);
-  reader.triangles(model->tri_indices);
+  readVertices(begin, header, model->vertices);
+  readTriangles(begin + Layout::of(header, S()).triangles, header, model->tri_indices);
   model->num_vertices = static_cast<int>(header.num_vertices);
   model->num_tris = static_cast<int>(header.num_triangles);
   if (tree) {  // endModel() finds it, or an equal one
     const engine::ContentHash content = engine::contentHash(viewOf(*model));
-    if (PreparedHandle equal = PreparedHandle::find(content)) {
+    if (PreparedHandle equal = findPrepared(content)) {
       tree = std::move(equal);
     } else {
       prepareTree(*model, *tree.get());
-      tree.list(content);
+      list(tree, content);
     }
   }
   requireBuilt(model->endModel());

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <fcl/geometry/bvh/BV_node.h>
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #include "volume/errors.h"
 
 #define XXH_INLINE_ALL  // the library links nothing for it

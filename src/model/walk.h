@@ -9,12 +9,6 @@
 
 namespace kios {
 
-/// A node of a tree and a lower bound of the distance of its content.
-struct BoundedNode {
-  double bound;
-  int node;
-};
-
 /// Walks a tree depth first, or best first: of the children of an item, or of all that waits, the
 /// one of the least `bound` is next. Of children with equal bounds the one that was added last is
 /// next.

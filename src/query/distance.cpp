@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/query/distance.h"
+#include "fcl_kios/distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,16 +15,19 @@ namespace kios {
 namespace {
 
 template <typename S>
-void requireValid(const DistanceOptions<S>& o) {
-  require(o.rel_err >= 0, "DistanceOptions::rel_err", o.rel_err, ">= 0");
-  require(o.abs_err >= 0, "DistanceOptions::abs_err", o.abs_err, ">= 0");
-  require(!std::isnan(o.far_enough), "DistanceOptions::far_enough", o.far_enough, "a number");
-  require(!std::isnan(o.near_enough), "DistanceOptions::near_enough", o.near_enough, "a number");
-  require(o.max_expansions >= 0, "DistanceOptions::max_expansions", o.max_expansions, ">= 0");
+void requireValid(const DistanceBracketRequest<S>& o) {
+  require(o.rel_err >= 0, "DistanceBracketRequest::rel_err", o.rel_err, ">= 0");
+  require(o.abs_err >= 0, "DistanceBracketRequest::abs_err", o.abs_err, ">= 0");
+  require(!std::isnan(o.far_enough), "DistanceBracketRequest::far_enough", o.far_enough,
+          "a number");
+  require(!std::isnan(o.near_enough), "DistanceBracketRequest::near_enough", o.near_enough,
+          "a number");
+  require(o.max_expansions >= 0, "DistanceBracketRequest::max_expansions", o.max_expansions,
+          ">= 0");
 }
 
 template <typename S>
-engine::PairQuery queryOf(const DistanceOptions<S>& options) {
+engine::PairQuery queryOf(const DistanceBracketRequest<S>& options) {
   engine::PairQuery query;
   query.rel_err = options.rel_err;
   query.abs_err = options.abs_err;
@@ -37,8 +40,8 @@ engine::PairQuery queryOf(const DistanceOptions<S>& options) {
 }
 
 template <typename S>
-DistanceAnswer<S> inScalar(const DistanceAnswerd& answer) {
-  DistanceAnswer<S> rounded;
+DistanceBracketResult<S> inScalar(const DistanceBracketResultd& answer) {
+  DistanceBracketResult<S> rounded;
   rounded.distance = roundedLength<S>(answer.distance);
   rounded.lower_bound = roundDown<S>(answer.lower_bound);
   rounded.upper_bound = roundUp<S>(answer.upper_bound);
@@ -52,11 +55,12 @@ DistanceAnswer<S> inScalar(const DistanceAnswerd& answer) {
 }  // namespace
 
 template <typename S>
-DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                           const fcl::Transform3<S>& X_WB, const DistanceOptions<S>& options) {
+DistanceBracketResult<S> distanceBracket(const Model<S>& a, const fcl::Transform3<S>& X_WA,
+                                         const Model<S>& b, const fcl::Transform3<S>& X_WB,
+                                         const DistanceBracketRequest<S>& options) {
   requireValid(options);
   const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB);
-  const DistanceAnswerd found = bracketDistance(frame, queryOf(options));
+  const DistanceBracketResultd found = bracketDistance(frame, queryOf(options));
   auto answer = inScalar<S>(found);
   if (answer.triangle_a < 0) return answer;
   if (options.warm_start) *options.warm_start = {answer.triangle_a, answer.triangle_b};
@@ -74,10 +78,10 @@ DistanceAnswer<S> distance(const Model<S>& a, const fcl::Transform3<S>& X_WA, co
 template <typename S>
 bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
                 const fcl::Transform3<S>& X_WB, std::common_type_t<S> t,
-                std::common_type_t<DistanceAnswer<S>>* certificate, WarmStart* warm_start) {
+                std::common_type_t<DistanceBracketResult<S>>* certificate, WarmStart* warm_start) {
   require(!std::isnan(t), "the distance asked for", t, "a number");
   const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB);
-  DistanceAnswerd answer;
+  DistanceBracketResultd answer;
   const auto decided = [&](bool closer) {
     if (certificate) *certificate = inScalar<S>(answer);
     return closer;
@@ -89,7 +93,7 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
   if (t == 0 && !certificate && !warm_start) {  // as the distance is 0 where triangles intersect
     return !searchContacts(frame, 1, answer.counts).empty();
   }
-  DistanceOptions<S> options;
+  DistanceBracketRequest<S> options;
   options.warm_start = warm_start;
   engine::PairQuery query = queryOf(options);
   const double error = frame.distanceError(t);
@@ -108,10 +112,7 @@ bool closerThan(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
   return decided(!far && (near || roundedLength<S>(answer.distance) <= t));
 }
 
-template DistanceAnswerd distance(const Modeld&, const fcl::Transform3d&, const Modeld&,
-                                  const fcl::Transform3d&, const DistanceOptionsd&);
-template DistanceAnswerf distance(const Modelf&, const fcl::Transform3f&, const Modelf&,
-                                  const fcl::Transform3f&, const DistanceOptionsf&);
+KIOS_INSTANTIATE_FUNCTION(distanceBracket);
 KIOS_INSTANTIATE_FUNCTION(closerThan);
 
 }  // namespace kios

@@ -7,7 +7,6 @@
 
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
-#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -66,8 +65,7 @@ void setCone(const shape::Solid& s, FloatSolid& out) {
 
 }  // namespace
 
-template <typename S>
-bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool any_slab,
+bool makeFloatSolid(const engine::Tree& tree, const PosedSolid& posed, bool any_slab,
                     FloatSolid& out) {
   const double reach = tree.reach;
   if (!posed.hasUnit1() || tree.exponent != 0) return false;
@@ -76,7 +74,7 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool a
   const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
   // In double: the mesh's points as posed, as PosedSolid bounds them.
   const double points = error_bounds::solidError(2 * (origin.lpNorm<1>() + 2 * reach) +
-                                                 posed.T().template lpNorm<1>() + solid_reach);
+                                                 posed.T().lpNorm<1>() + solid_reach);
   double scale = reach;
   out.margin = roundUpFloat(solid.margin());
   out.tells_inside = solid.kind != Kind::kConvex;
@@ -99,7 +97,7 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool a
     const Vec middle = 0.5 * (range.low + range.high), half = 0.5 * (range.high - range.low);
     const Vec center = inverse * (middle - posed.T()) - origin;
     setRows(posed.R(), center, half, out.box);
-    scale += solid.margin() + half.norm() + center.template lpNorm<1>();
+    scale += solid.margin() + half.norm() + center.lpNorm<1>();
     if (any_slab) scale += solid_reach;
   } else {
     out.form = solid.kind == Kind::kPlane ? Form::kPlane : Form::kHalfspace;
@@ -119,8 +117,7 @@ bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool a
 }
 
 // n y <= offset is n' x <= offset - n T - n' origin for y = R x + T and n' = R^T n.
-template <typename S>
-engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid<S>& posed, const Vec& n,
+engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid& posed, const Vec& n,
                              double offset) {
   engine::FloatSlab slab;
   const Eigen::Map<const Eigen::Vector3d> origin(tree.origin);
@@ -129,8 +126,5 @@ engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid<S>& pose
   slab.offset = roundedTo<float>(offset - n.dot(posed.T()) - across.dot(origin));
   return slab;
 }
-
-KIOS_INSTANTIATE_FUNCTION(makeFloatSolid);
-KIOS_INSTANTIATE_FUNCTION(slabInTree);
 
 }  // namespace kios

@@ -11,13 +11,11 @@ namespace kios {
 /// lengths out of range, or a pad that is not small against the mesh. The walk of the tree of
 /// volumes then does. `any_slab`: the pad is to cover slabs across anything, not only those across
 /// triangles of the tree.
-template <typename S>
-bool makeFloatSolid(const engine::Tree& tree, const PosedSolid<S>& posed, bool any_slab,
+bool makeFloatSolid(const engine::Tree& tree, const PosedSolid& posed, bool any_slab,
                     engine::FloatSolid& out);
 
 /// A slab {n x <= offset} of a bounded solid, n unit, in the tree's frame.
-template <typename S>
-engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid<S>& posed,
-                             const shape::Vec& n, double offset);
+engine::FloatSlab slabInTree(const engine::Tree& tree, const PosedSolid& posed, const shape::Vec& n,
+                             double offset);
 
 }  // namespace kios

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "volume/unit_vector.h"
 
 namespace kios {

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iostream>
 
 #include <fcl/narrowphase/collision_request.h>
 #include <fcl/narrowphase/collision_result.h>
 #include <fcl/narrowphase/distance_request.h>
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "model/prepared.h"
 #include "search/mesh_pair.h"
 #include "volume/errors.h"
@@ -22,6 +23,19 @@ void requireErrorBounds(const fcl::DistanceRequest<S>& request) {
   require(request.rel_err >= 0, "DistanceRequest::rel_err", request.rel_err, ">= 0");
   require(request.abs_err >= 0, "DistanceRequest::abs_err", request.abs_err, ">= 0");
 }
+
+/// FCL's warning and answer: true if a request wants no contact at all.
+inline bool wantsNothing(std::size_t num_max_contacts) {
+  if (num_max_contacts == 0) std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
+  return num_max_contacts == 0;
+}
+
+/// Adds FCL's approximate cost sources of a model and a shape or an octree: those that FCL finds
+/// for the box of the root volume in the model's place.
+template <typename S>
+void addApproximateCosts(const Model<S>& model, const fcl::Transform3<S>& X_WM,
+                         const fcl::CollisionGeometry<S>& other, const fcl::Transform3<S>& X_WO,
+                         const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result);
 
 /// The contact that FCL reports for two triangles that intersect, in their common frame.
 struct TriangleContact {
@@ -73,6 +87,14 @@ struct Reports {
   bool contacts, costs;
 };
 
+/// The box of a triangle in the world, placed in double and rounded once.
+template <typename S>
+fcl::AABB<S> boxInWorld(const Model<S>& model, int id, const fcl::Transform3<S>& X) {
+  const TriangleVerticesd t =
+      transformed(cornersInDouble(model, id), fcl::Transform3d(X.template cast<double>()));
+  return {roundedTo<S>(t[0]), roundedTo<S>(t[1]), roundedTo<S>(t[2])};
+}
+
 /// Reports two triangles that intersect as addContacts() does, and as a cost source: the part that
 /// their boxes in the world have in common.
 template <typename S>
@@ -82,12 +104,8 @@ void addReports(const Reports<S>& reports, const Model<S>& a, int id_a, const Tr
                 const fcl::CollisionRequest<S>& request, fcl::CollisionResult<S>& result) {
   if (reports.contacts) addContacts(a, id_a, p, b, id_b, q, X_WA, request, result);
   if (!reports.costs) return;
-  const auto boxOf = [](const Model<S>& model, int id, const fcl::Transform3<S>& X) {
-    const TriangleVertices<S> t = transformed(cornersOf(model, id), X);
-    return fcl::AABB<S>(t[0], t[1], t[2]);
-  };
   fcl::AABB<S> shared;
-  boxOf(a, id_a, X_WA).overlap(boxOf(b, id_b, X_WB), shared);
+  boxInWorld(a, id_a, X_WA).overlap(boxInWorld(b, id_b, X_WB), shared);
   result.addCostSource(fcl::CostSource<S>(shared, a.cost_density * b.cost_density),
                        request.num_max_cost_sources);
 }

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/query/mesh_nodes.h"
+#include "fcl_kios/fcl_nodes.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "query/mesh_contacts.h"
 #include "volume/rounding.h"
 

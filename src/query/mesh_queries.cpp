@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/query/mesh_queries.h"
+#include "fcl_kios/contact.h"
 
 #include <algorithm>
-#include <iostream>
 #include <limits>
 
 #include "model/prepared.h"
@@ -27,33 +26,6 @@ bool ballsApart(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S
                             margin);
 }
 
-/// collideMeshes() of models that may touch, for all that their roots tell at once. It stands apart
-/// so that pairs whose roots tell need no room for a frame: 10 % of their time.
-template <typename S>
-[[gnu::noinline, gnu::hot]] std::size_t collideNear(
-    const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-    const fcl::Transform3<S>& X_WB, double squared_errors, const fcl::CollisionRequest<S>& request,
-    fcl::CollisionResult<S>& result, SearchCounts* counts) {
-  const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB, squared_errors);  // may throw
-  if (request.num_max_contacts == 0) {                                     // FCL's answer
-    std::cerr << "Warning: should stop early as num_max_contact is 0 !\n";
-    return 0;
-  }
-  const Reports<S> reports(a, b, request);
-  const std::size_t room =
-      request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
-  const std::size_t limit = reports.costs ? std::numeric_limits<std::size_t>::max() : room;
-  if (request.isSatisfied(result) || limit == 0 || !(reports.contacts || reports.costs)) {
-    return result.numContacts();
-  }
-  SearchCounts unused;
-  for (const auto& ids : searchContacts(frame, limit, counts ? *counts : unused)) {
-    addReports(reports, a, ids.a, frame.triangleA(ids.a), X_WA, b, ids.b, frame.triangleB(ids.b),
-               X_WB, request, result);
-  }
-  return result.numContacts();
-}
-
 }  // namespace
 
 template <typename S>
@@ -67,7 +39,21 @@ template <typename S>
   if (request.num_max_contacts != 0 && ballsApart(a, X_WA, b, X_WB, squared_errors, 0)) {
     return result.numContacts();
   }
-  return collideNear(a, X_WA, b, X_WB, squared_errors, request, result, counts);
+  const MeshPair frame(meshOf(a), X_WA, meshOf(b), X_WB, squared_errors);  // may throw
+  if (wantsNothing(request.num_max_contacts)) return 0;
+  const Reports<S> reports(a, b, request);
+  const std::size_t room =
+      request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
+  const std::size_t limit = reports.costs ? std::numeric_limits<std::size_t>::max() : room;
+  if (request.isSatisfied(result) || limit == 0 || !(reports.contacts || reports.costs)) {
+    return result.numContacts();
+  }
+  SearchCounts unused;
+  for (const auto& ids : searchContacts(frame, limit, counts ? *counts : unused)) {
+    addReports(reports, a, ids.a, frame.triangleA(ids.a), X_WA, b, ids.b, frame.triangleB(ids.b),
+               X_WB, request, result);
+  }
+  return result.numContacts();
 }
 
 template <typename S>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/walk.h"
+#include "query/posed_tree.h"
 #include "search/mesh_search.h"
 #include "volume/balls.h"
 #include "volume/error_bounds.h"
@@ -28,8 +29,8 @@ class DoubleSearch {
  public:
   DoubleSearch(const MeshPair& frame, SearchCounts& counts)
       : frame_(frame),
-        a_{frame.a.tree(), Eigen::Matrix3d::Identity()},
-        b_{frame.b.tree(), frame.X_AB.R()},
+        a_{frame.a.tree(), Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), 1},
+        b_{frame.b.tree(), frame.X_AB.R(), frame.X_AB.T(), 1},
         counts_(counts) {
     const engine::Tree &a = frame.a.tree(), &b = frame.b.tree();
     ++counts.tree_searches;
@@ -43,19 +44,21 @@ class DoubleSearch {
     const auto toUnits = [this](double length) { return std::ldexp(length, -exponent_); };
     a_.unit = std::ldexp(1.0, a.exponent - exponent_);
     b_.unit = std::ldexp(1.0, b.exponent - exponent_);
-    for (int c = 0; c < 3; ++c) t_[c] = toUnits(t[c]);
+    for (int c = 0; c < 3; ++c) b_.t[c] = toUnits(t[c]);
     const double reach = toUnits(reach_a) + toUnits(reach_b);
     const double points = error_bounds::volumeError<double>(
         origin_b.lpNorm<1>() + 2 * reach_b, bounds.T_norm1 + origin_a.lpNorm<1>(), 2 * reach_a, 0);
     // This bounds the error of points as stored and as posed, and a dozen roundings here.
     error_ = error_bounds::laneError(reach) + toUnits(points) +
-             (2 * bounds.stretch + engine::kDouble) * (reach + t_.lpNorm<1>());
+             (2 * bounds.stretch + engine::kDouble) * (reach + b_.t.lpNorm<1>());
   }
 
   PairAnswer nearest(const PairQuery& query) {
     query_ = &query;
     cull_distance_ = query.far_enough;
-    if (begin()) return result_;
+    // Which pair an exact answer names must not depend on the start.
+    const bool starts = !query.isExact() || query.hasBudget();
+    if (starts && frame_.exist(query.start) && evaluate(query.start, -kInfinity)) return result_;
     long long left = query.max_expansions;
     const auto skip = [this](const NodePair& at) {
       if (!(at.bound >= cull_distance_)) return false;
@@ -106,19 +109,6 @@ class DoubleSearch {
   }
 
  private:
-  struct Side {
-    const engine::Tree& tree;
-    Eigen::Matrix3d R;  ///< to a's frame
-    double unit = 1;    ///< of its tree
-
-    const engine::Node& node(std::uint32_t n) const { return tree.nodes[n]; }
-    double radius(std::uint32_t n) const { return double{node(n).r[engine::kCentral]} * unit; }
-    Eigen::Vector3d center(std::uint32_t n) const {
-      const engine::Node& at = node(n);
-      return R * (unit * Eigen::Vector3d(at.x[engine::kCentral], at.y[engine::kCentral],
-                                         at.z[engine::kCentral]));
-    }
-  };
   struct NodePair {
     double bound;
     std::uint32_t a, b;
@@ -127,26 +117,20 @@ class DoubleSearch {
   NodePair bounded(std::uint32_t a, std::uint32_t b, double parent) const {
     ++counts_.volume_tests;
     const double apart =
-        (b_.center(b) + t_ - a_.center(a)).norm() - (a_.radius(a) + b_.radius(b)) - error_;
+        (b_.center(b) - a_.center(a)).norm() - (a_.radius(a) + b_.radius(b)) - error_;
     return {std::max(std::ldexp(apart, exponent_), parent), a, b};
   }
 
-  bool areLeaves(const NodePair& at) const {
-    return a_.node(at.a).isLeaf() && b_.node(at.b).isLeaf();
-  }
+  bool areLeaves(const NodePair& at) const { return a_.isLeaf(at.a) && b_.isLeaf(at.b); }
 
   /// Puts the children of the larger node in its place.
   template <typename Add>
   void expand(const NodePair& at, const Add& add) {
     ++counts_.expansions;
-    const bool split_a =
-        b_.node(at.b).isLeaf() || (!a_.node(at.a).isLeaf() && a_.radius(at.a) > b_.radius(at.b));
-    const Side& side = split_a ? a_ : b_;
-    const engine::Node& node = side.node(split_a ? at.a : at.b);
-    const std::uint32_t end =
-        node.first_child + side.tree.children[static_cast<std::size_t>(node.child)].count;
-    for (std::uint32_t child = node.first_child; child < end; ++child) {
-      add(split_a ? bounded(child, at.b, at.bound) : bounded(at.a, child, at.bound));
+    if (b_.isLeaf(at.b) || (!a_.isLeaf(at.a) && a_.radius(at.a) > b_.radius(at.b))) {
+      a_.forChildren(at.a, [&](std::uint32_t child) { add(bounded(child, at.b, at.bound)); });
+    } else {
+      b_.forChildren(at.b, [&](std::uint32_t child) { add(bounded(at.a, child, at.bound)); });
     }
   }
 
@@ -154,37 +138,11 @@ class DoubleSearch {
   template <typename Test>
   bool testLeaves(const NodePair& at, const Test& test) {
     ++counts_.leaf_pairs;
-    const engine::Leaf &a = a_.tree.leaves[a_.node(at.a).leaf()],
-                       &b = b_.tree.leaves[b_.node(at.b).leaf()];
-    for (std::uint32_t i = 0; i < a.num_faces; ++i) {
-      for (std::uint32_t j = 0; j < b.num_faces; ++j) {
-        const TrianglePairIds ids = {
-            static_cast<int>(a_.tree.features[a.feature_offset + i].triangle()),
-            static_cast<int>(b_.tree.features[b.feature_offset + j].triangle())};
-        if (test(ids)) return true;
-      }
-    }
-    return false;
-  }
-
-  /// From the triangles of the query's start; true to end the search. An exact answer only learns
-  /// of their distance, and nothing where they touch: which pair is named then must not depend on
-  /// the start.
-  bool begin() {
-    if (!frame_.exist(query_->start)) return false;
-    const double distance = frame_.distanceOf(query_->start).distance;
-    const bool near = query_->near_enough > 0 && distance <= query_->near_enough;
-    if (!query_->isExact() || query_->hasBudget() || near) {
-      return evaluate(query_->start, -kInfinity);
-    }
-    if (distance > 0) cull_distance_ = std::min(cull_distance_, withRounding(distance));
-    return false;
-  }
-
-  double withRounding(double distance) const {
-    // Bounds of volumes include the frame's rounding: no triangles in volumes that are farther
-    // apart than this are computed to be as near as `distance`.
-    return distance + frame_.kernelError(distance);
+    return a_.anyTriangle(at.a, [&](std::uint32_t a) {
+      return b_.anyTriangle(at.b, [&](std::uint32_t b) {
+        return test(TrianglePairIds{static_cast<int>(a), static_cast<int>(b)});
+      });
+    });
   }
 
   /// Triangles in volumes that are at least `bound` apart. True to end the search.
@@ -199,19 +157,20 @@ class DoubleSearch {
     result_.ids = ids;
     result_.nearest = found;
     result_.least_evaluated = distance;
-    // For an exact answer, every pair is evaluated that rounding alone may have made farther.
-    cull_distance_ = std::min(cull_distance_, query_->isExact() ? withRounding(distance)
-                                                                : query_->cullDistance(distance));
+    // For an exact answer, every pair is evaluated that rounding alone may have made farther:
+    // bounds of volumes include the frame's, and no pair beyond them is computed to be as near.
+    cull_distance_ =
+        std::min(cull_distance_, query_->isExact() ? distance + frame_.kernelError(distance)
+                                                   : query_->cullDistance(distance));
     if (!(distance <= query_->near_enough)) return false;
     result_.end = SearchEnd::kNear;
     return true;
   }
 
   const MeshPair& frame_;
-  Side a_, b_;
-  Eigen::Vector3d t_;  ///< from a's origin to b's, in units
-  int exponent_;       ///< of the unit
-  double error_;       ///< of a bound, in units
+  PosedTree a_, b_;  ///< about a's origin
+  int exponent_;     ///< of the unit
+  double error_;     ///< of a bound, in units
   SearchCounts& counts_;
   const PairQuery* query_ = nullptr;
   double cull_distance_ = kInfinity;
@@ -220,7 +179,7 @@ class DoubleSearch {
 };
 
 /// Sets what was proven, with all rounding paid for.
-void setBounds(const MeshPair& frame, const PairAnswer& found, DistanceAnswerd& answer) {
+void setBounds(const MeshPair& frame, const PairAnswer& found, DistanceBracketResultd& answer) {
   double lower = found.least_other;
   if (found.least_evaluated < kInfinity) {
     const double error = frame.distanceError(found.least_evaluated);
@@ -228,7 +187,7 @@ void setBounds(const MeshPair& frame, const PairAnswer& found, DistanceAnswerd& 
   }
   if (found.found()) {
     answer.distance = found.nearest.distance;
-    answer.upper_bound = answer.distance + frame.distanceErrorOf(found.ids);
+    answer.upper_bound = answer.distance + frame.distanceError(answer.distance);
     answer.triangle_a = found.ids.a;
     answer.triangle_b = found.ids.b;
     answer.point_a = found.nearest.point_a;
@@ -270,8 +229,8 @@ void visitTouching(const MeshPair& frame, const engine::VisitPair& visit, Search
   engine::visitTouching(frame, visit, counts);
 }
 
-DistanceAnswerd bracketDistance(const MeshPair& frame, const PairQuery& query) {
-  DistanceAnswerd answer;
+DistanceBracketResultd bracketDistance(const MeshPair& frame, const PairQuery& query) {
+  DistanceBracketResultd answer;
   if (query.far_enough <= 0) {
     answer.stop = DistanceStop::kFar;
     return answer;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fcl_kios/query/distance.h"
+#include "fcl_kios/distance.h"
 #include "search/mesh_pair.h"
 #include "search/mesh_search.h"
 #include "search/pair_query.h"
@@ -27,8 +27,8 @@ void visitTouching(const MeshPair& frame, const engine::VisitPair& visit, Search
 std::vector<engine::TrianglePairIds> searchContacts(const MeshPair& frame, std::size_t limit,
                                                     SearchCounts& counts);
 
-/// The answer of kios::distance(), but for the nearest points: in A's frame, set if a pair was
-/// found.
-DistanceAnswerd bracketDistance(const MeshPair& frame, const engine::PairQuery& query);
+/// The answer of kios::distanceBracket(), but for the nearest points: in A's frame, set if a pair
+/// was found.
+DistanceBracketResultd bracketDistance(const MeshPair& frame, const engine::PairQuery& query);
 
 }  // namespace kios

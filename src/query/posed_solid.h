@@ -2,27 +2,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/triangle/triangle.h"
-#include "fcl_kios/volume/kios.h"
+#include <utility>
+
+#include "fcl_kios/detail/rigid.h"
+#include "fcl_kios/triangle.h"
+#include "fcl_kios/volume.h"
+#include "search/mesh.h"
 #include "shape/solid.h"
-#include "volume/balls.h"
+#include "volume/rotation.h"
 
 namespace kios {
 
-/// A solid and the pose of a mesh in the solid's frame, in which all is evaluated, in double. The
-/// pose is x -> R2^T (R1 x + (t1 - t2)), 1 the mesh and 2 the solid: the common frame of
-/// docs/guarantees.md with the solid as the first object. Beyond 2^100 and below 2^-100 lengths are
-/// in units of a power of two, so that no square over- or underflows; else the unit is 1.
-template <typename S>
+/// A solid and the pose of a mesh in the solid's frame, in which all is evaluated, in double: the
+/// common frame of docs/guarantees.md with the solid as the first object. Beyond 2^100 and below
+/// 2^-100 lengths are in units of a power of two, so that no square over- or underflows; else the
+/// unit is 1.
 class PosedSolid {
  public:
-  /// `root` is the mesh's root volume. Throws std::invalid_argument if a pose is not rigid.
-  PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM, const fcl::Transform3<S>& X_WS,
-             const kIOS<S>& root);
+  /// Throws std::invalid_argument if a pose, in double or float, is not rigid.
+  template <typename P>
+  PosedSolid(shape::Solid solid, const fcl::Transform3<P>& X_WM, const fcl::Transform3<P>& X_WS,
+             const Mesh& mesh)
+      : PosedSolid(std::move(solid), X_WM, X_WS, mesh, squaredRotationErrors(X_WS, X_WM)) {}
   /// Takes rotations that were checked: `squared_errors` is squaredRotationErrors(X_WS, X_WM).
-  PosedSolid(shape::Solid solid, const fcl::Transform3<S>& X_WM, const fcl::Transform3<S>& X_WS,
-             const kIOS<S>& root, double squared_errors);
+  template <typename P>
+  PosedSolid(shape::Solid solid, const fcl::Transform3<P>& X_WM, const fcl::Transform3<P>& X_WS,
+             const Mesh& mesh, double squared_errors)
+      : solid_(std::move(solid)),
+        X_WS_(X_WS.template cast<double>()),
+        X_SM_(X_WS, X_WM, squared_errors) {
+    setUnit(mesh);
+  }
 
   /// The solid, in units.
   const shape::Solid& solid() const { return solid_; }
@@ -31,50 +41,45 @@ class PosedSolid {
   /// The box of a bounded solid's core, in its frame.
   const shape::Range& range() const { return range_; }
   /// The pose x -> R x + T of the mesh in the solid's frame, in units of 1 only if hasUnit1().
-  const Eigen::Matrix3d& R() const { return R_; }
+  const Eigen::Matrix3d& R() const { return X_SM_.R(); }
   const shape::Vec& T() const { return T_; }
   bool hasUnit1() const { return per_unit_ == 1; }
-  double stretch() const { return stretch_; }
+  double stretch() const { return detail::boundsOf(X_SM_).stretch; }
   /// A length in units, and back; the latter not to 0 from above.
   double toUnits(double length) const { return length * per_unit_; }
-  S fromUnits(double length) const;
+  double fromUnits(double length) const;
 
   /// A point or triangle of the mesh, in the solid's frame and units.
-  shape::Vec place(const fcl::Vector3<S>& x_M) const {
-    return R_ * (x_M.template cast<double>() * per_unit_) + T_;
+  shape::Vec place(const Pointd& x_M) const {
+    return detail::rotate<double>(R(), x_M * per_unit_) + T_;
   }
-  TriangleVertices<double> place(const TriangleVertices<S>& t) const {
+  TriangleVerticesd place(const TriangleVerticesd& t) const {
     return {place(t[0]), place(t[1]), place(t[2])};
   }
   /// A point of the solid's frame, in units, to the world; a direction likewise.
-  fcl::Vector3<S> toWorld(const shape::Vec& p) const;
-  fcl::Vector3<S> directionToWorld(const shape::Vec& n) const;
+  Pointd toWorld(const shape::Vec& p) const;
+  Pointd directionToWorld(const shape::Vec& n) const;
 
-  /// Half of what computed distances and bounds of the mesh's triangles may be off by; `root` is
-  /// its root volume.
-  double kernelError(const kIOS<S>& root) const;
-  /// The spheres of a volume of the mesh in the solid's frame and units, grown by all that
-  /// rounds, so that each contains the posed content however that is rounded. Returns k.
-  int placeSpheres(const kIOS<S>& bv, Ball* spheres) const;
+  /// Half of what computed distances and bounds of the mesh's triangles may be off by.
+  double kernelError(const Mesh& mesh) const;
 
  private:
+  void setUnit(const Mesh& mesh);
+
   shape::Solid solid_;
-  Eigen::Matrix3d R_, R_WS_;
-  shape::Vec T_, t_WS_;
+  fcl::Transform3d X_WS_;
+  RelativePosed X_SM_;
+  shape::Vec T_;  ///< its translation, in units
   double per_unit_ = 1, unit_ = 1;
-  double stretch_;      ///< |R|_2 - 1 <= stretch
   double reach_;        ///< of the solid, in units
   double offsets_;      ///< |T|_1 + the solid's reach
   shape::Range range_;  ///< of a bounded solid's core, in units
 };
 
-/// True only if a finished model is farther than `margin` >= 0 from one of FCL's nine shapes, told
-/// by its root; false says nothing. `squared_errors` is squaredRotationErrors(X_WS, X_WM). Throws
-/// std::invalid_argument if a size of the shape is none; a convex shape with such a vertex, or
-/// without any, gives false.
+/// True only if the roots prove a finished model farther than `margin` >= 0 from a solid; false
+/// says nothing. `squared_errors` is squaredRotationErrors(X_WS, X_WM).
 template <typename S>
-bool provenApart(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                 const fcl::CollisionGeometry<S>& shape, const fcl::Transform3<S>& X_WS,
-                 double squared_errors, double margin);
+bool provenApart(const Mesh& mesh, const fcl::Transform3<S>& X_WM, const shape::Solid& solid,
+                 const fcl::Transform3<S>& X_WS, double squared_errors, double margin);
 
 }  // namespace kios

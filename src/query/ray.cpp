@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/query/ray.h"
+#include "fcl_kios/rays.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/volume/separation.h"
-#include "model/kios_model.h"
-#include "query/ray_walk.h"
+#include "fcl_kios/volume.h"
+#include "model/prepared.h"
+#include "search/mesh_pair.h"
+#include "search/ray_search.h"
+#include "search/search.h"
 #include "triangle/ray_triangle.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
@@ -52,32 +54,43 @@ GivenRay mapped(const Ray<S>& ray, const fcl::Transform3<S>& X) {
           exponent, ray.t_min, t_max};
 }
 
-/// The search for the first hits of one ray, by t and then by triangle.
-template <typename S>
-class RayCast final : public RayWalk<S> {
- public:
-  struct Found {
-    TriangleHit hit;
-    int triangle;
-    bool operator<(const Found& o) const {
-      return hit.t != o.hit.t ? hit.t < o.hit.t : triangle < o.triangle;
-    }
-  };
+struct Found {
+  TriangleHit hit;
+  int triangle;
+  bool operator<(const Found& o) const {
+    return hit.t != o.hit.t ? hit.t < o.hit.t : triangle < o.triangle;
+  }
+};
 
-  RayCast(const Model<S>& model, const GivenRay& ray, std::size_t limit, bool any,
-          SearchCounts& counts)
-      : RayWalk<S>(model, ray, counts), ray_(ray, largestOf(model)), limit_(limit), any_(any) {}
+/// The search for the first hits of one ray, by t and then by triangle.
+class RayCast final : public engine::RayEvaluator {
+ public:
+  RayCast(const Mesh& mesh, const GivenRay& ray, std::size_t limit, bool any, SearchCounts& counts)
+      : mesh_(mesh),
+        given_(ray),
+        line_(ray.origin, ray.direction, ray.exponent),
+        ray_(ray, mesh.largest()),
+        limit_(limit),
+        any_(any),
+        counts_(counts) {}
 
   std::vector<Found> run() {
-    if (limit_ > 0) this->walk();
+    using engine::RayFit;
+    const engine::Tree& tree = mesh_.tree();
+    engine::FloatRay ray;
+    const RayFit fit = engine::makeFloatRay(tree, line_, given_.t_min, given_.t_max, near_, ray);
+    if (fit == RayFit::kMiss || limit_ == 0) return {};
+    lengths_known_ = fit == RayFit::kServed;
+    end = ray.end;
+    engine::kernels().ray({tree, ray, *this, counts_});
     std::sort(found_.begin(), found_.end());
     return std::move(found_);
   }
 
   bool evaluate(std::uint32_t triangle) override {
-    ++this->counts().exact;
+    ++counts_.exact;
     Found found = {{}, static_cast<int>(triangle)};
-    if (!ray_.hits(this->cornersOf(triangle), found.hit)) return false;
+    if (!ray_.hits(mesh_.triangle(triangle), found.hit)) return false;
     if (found_.size() == limit_) {  // a heap, the last hit on top
       if (!(found < found_.front())) return false;
       std::pop_heap(found_.begin(), found_.end());
@@ -85,38 +98,44 @@ class RayCast final : public RayWalk<S> {
     }
     found_.push_back(found);
     std::push_heap(found_.begin(), found_.end());
-    if (found_.size() == limit_) this->endAt(found_.front().hit.t);
+    if (found_.size() == limit_ && lengths_known_) {  // hits at a larger t don't matter
+      const engine::Tree& tree = mesh_.tree();
+      end = engine::toLength(tree, line_.lengthOf(found_.front().hit.t, near_.t, tree.exponent));
+    }
     return any_;
   }
 
  private:
+  const Mesh& mesh_;
+  const GivenRay& given_;
+  const RayLine line_;
   const ExactRay ray_;
   const std::size_t limit_;
   const bool any_;
+  SearchCounts& counts_;
+  bool lengths_known_ = false;  ///< in the tree
+  RayLine::Near near_ = {};
   std::vector<Found> found_;
 };
 
 template <typename S>
-std::vector<typename RayCast<S>::Found> cast(const Model<S>& model, const fcl::Transform3<S>& X_WM,
-                                             const Ray<S>& ray, std::size_t limit, bool any,
-                                             SearchCounts* counts) {
-  requireFinished(model);
+std::vector<Found> cast(const Model<S>& model, const fcl::Transform3<S>& X_WM, const Ray<S>& ray,
+                        std::size_t limit, bool any, SearchCounts* counts) {
+  const Mesh mesh = meshOf(model);
   requireValid(ray);
   const RelativePose<S> rigid(X_WM.linear(), X_WM.translation());  // or it throws
   SearchCounts unused;
-  return RayCast<S>(model, mapped(ray, X_WM), limit, any, counts ? *counts : unused).run();
+  const GivenRay given = mapped(ray, X_WM);
+  return RayCast(mesh, given, limit, any, counts ? *counts : unused).run();
 }
 
 template <typename S>
-RayHit<S> inWorld(const typename RayCast<S>::Found& found, const Model<S>& model,
-                  const fcl::Transform3<S>& X_WM) {
+RayHit<S> inWorld(const Found& found, const Model<S>& model, const fcl::Transform3<S>& X_WM) {
   const double* const w = found.hit.weights;
   const auto [p, q, r] = cornersInDouble(model, found.triangle);
-  const fcl::Vector3d point =
-      detail::transform<double>(X_WM.template cast<double>(), p + w[1] * (q - p) + w[2] * (r - p));
   RayHit<S> hit;
   hit.t = roundedTo<S>(found.hit.t);
-  hit.point = roundedTo<S>(point);
+  hit.point = toWorld<S>(X_WM, p + w[1] * (q - p) + w[2] * (r - p));
   for (int i = 0; i < 3; ++i) hit.weights[i] = roundedTo<S>(w[i]);
   hit.triangle = found.triangle;
   hit.side = found.hit.side < 0 ? RaySide::kFront
@@ -172,7 +191,7 @@ std::vector<RayHit<S>> allHits(const Model<S>& model, const fcl::Transform3<S>& 
                                const Ray<S>& ray, std::size_t limit, SearchCounts* counts) {
   std::vector<RayHit<S>> hits;
   for (const auto& found : cast(model, X_WM, ray, limit, false, counts)) {
-    hits.push_back(inWorld<S>(found, model, X_WM));
+    hits.push_back(inWorld(found, model, X_WM));
   }
   return hits;
 }

@@ -5,32 +5,29 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <optional>
 
-#include <fcl/geometry/collision_geometry.h>
-#include <fcl/narrowphase/collision_object.h>
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/scene/scene_types.h"
-#include "model/prepared.h"
+#include <fcl/common/types.h>
+#include "fcl_kios/scene.h"
 #include "scene/box.h"
+#include "search/mesh.h"
 #include "volume/error_bounds.h"
+#include "volume/rounding.h"
 
 namespace kios::scene {
 
 /// Holds a sphere around a content, in its body's frame.
 struct Sphere {
-  double center[3] = {0, 0, 0};
+  Pointd center = Pointd::Zero();
   double radius = 0;
 
   /// Returns a bound >= |y| of every y in it.
-  double reach() const {
-    return (std::abs(center[0]) + std::abs(center[1]) + std::abs(center[2]) + radius) *
-           (1 + 0x1p-48);
-  }
+  double reach() const { return (center.lpNorm<1>() + radius) * (1 + 0x1p-48); }
 };
 
+class Content;
+
 /// Holds an object of a scene as the last query found it.
-template <typename S>
 struct Body {
   // These members come first, as every query reads them in every body.
 
@@ -42,52 +39,34 @@ struct Body {
   /// Is a box around the content in the world, so wide that the gap of two bodies' boxes, less a
   /// share boxShare() of it, is at most the distance that the narrow phase would compute.
   Box box;
-  const fcl::CollisionObject<S>* followed = nullptr;  ///< where geometry and pose are read, if set
   Role role = Role::kBody;
-  bool shape = false;  ///< one of FCL's, whose sizes are compared at each query
+  /// A change of the geometry is seen. It is not of octrees and of the user's classes, of which
+  /// nothing is remembered.
+  bool watched = false;
 
-  std::shared_ptr<const fcl::CollisionGeometry<S>> geometry;
-  const Model<S>* model = nullptr;  ///< the geometry if it is a mesh over k-IOS
-  ModelState state;                 ///< of a mesh as it was measured
-  std::vector<S> shape_values;      ///< likewise of a shape; see model/shape_values.h
-  fcl::Transform3<S> X_W = fcl::Transform3<S>::Identity();
+  std::shared_ptr<Content> content;
+  std::optional<Mesh> mesh;  ///< of a mesh over k-IOS
+  fcl::Transform3d X_W = fcl::Transform3d::Identity();
   Sphere sphere;     ///< around the content, infinite for planes and the like
   double reach = 0;  ///< the sphere's
 
   bool used() const { return generation != 0; }
-  /// A change of the geometry is seen. It is not of octrees and of the user's classes, of which
-  /// nothing is remembered.
-  bool watched() const { return model != nullptr || shape; }
 };
 
-/// Makes the body that of a geometry at a pose.
-template <typename S>
-void place(Body<S>& body, std::shared_ptr<const fcl::CollisionGeometry<S>> geometry,
-           const fcl::Transform3<S>& X_W);
+/// By which rounding to float moves a length near 0.
+constexpr double kLeastFloat = 0x1p-149;
 
-/// Moves the body. Throws std::invalid_argument if the pose is not rigid; the body then is as it
-/// was.
-template <typename S>
-void move(Body<S>& body, const fcl::Transform3<S>& X_W);
+/// Sets the pose; `rotation_square` as in Body. The box is as it was.
+void setPose(Body& body, const fcl::Transform3d& X_W, double rotation_square);
 
-/// Measures the body's geometry anew, which has changed.
-template <typename S>
-void renew(Body<S>& body);
+/// Sets the box by the pose and the sphere.
+void setBox(Body& body);
 
-/// Does so if the body is a mesh or a shape that has changed. Throws std::invalid_argument if a
-/// mesh is not finished.
-template <typename S>
-void renewIfChanged(Body<S>& body);
-
-/// Brings the body up to date with its fcl::CollisionObject.
-template <typename S>
-void follow(Body<S>& body);
-
-/// See Body::box: `error` is the largest rotation error of the scene.
-template <typename S>
-double boxShare(double error) {
-  return 2 * error + error_bounds::triangleError<S>(error_bounds::extentOf(1, 0, 0)) +
-         error_bounds::frameError<S>(0, 1.74);
+/// See Body::box: `error` is the largest rotation error of the scene. Answers in float are rounded
+/// from doubles.
+inline double boxShare(double error) {
+  return 2 * error + error_bounds::triangleError<double>(error_bounds::extentOf(1, 0, 0)) +
+         error_bounds::frameError<double>(0, 1.74) + 2 * kUlpFloat;
 }
 
 }  // namespace kios::scene

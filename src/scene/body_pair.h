@@ -8,7 +8,6 @@
 #include "scene/body.h"
 #include "scene/pair_memory.h"
 #include "search/mesh_pair.h"
-#include "volume/rounding.h"
 
 namespace kios::scene {
 
@@ -23,15 +22,20 @@ struct PairBound {
 };
 
 /// A pair of bodies in a scene query: bounds that spare the narrow phase, and the narrow phase.
-template <typename S>
 class BodyPair {
  public:
-  BodyPair(int id_a, const Body<S>& a, int id_b, const Body<S>& b, PairMemory<S>& memory);
+  BodyPair(int id_a, const Body& a, int id_b, const Body& b, PairMemory& memory)
+      : id_a_(id_a),
+        id_b_(id_b),
+        a_(a),
+        b_(b),
+        memory_(memory),
+        proof_(lasting() ? memory.find(id_a, a, id_b, b) : nullptr) {}
 
   /// Holds the answer of the narrow phase.
   struct Answer {
     bool within = false;  ///< `distance` is at most the limit; else the pair is farther than that
-    S distance = 0;
+    double distance = 0;
     std::intptr_t triangle_a = -1, triangle_b = -1;
   };
   /// Decides without a search whether the pair is within the limit, if what is known allows that,
@@ -48,8 +52,6 @@ class BodyPair {
 
   /// Returns what the narrow phase computes at most, as the triangles of the last proof tell it.
   double ceiling() const;
-  /// Returns true if the narrow phase would compute exactly the proof's distance.
-  bool stoodStill() const { return proof_ && proof_->exact && still(); }
   /// The narrow phase computes at least this, wherever the bodies are.
   double lowerBound() const { return meshes() ? 0 : -kInfinity; }
 
@@ -59,24 +61,20 @@ class BodyPair {
   /// Gathers bounds, the cheapest first, until one exceeds `limit`.
   PairBound cachedLowerBound(double limit) const;
   /// An answer holds until something is seen to have changed.
-  bool lasting() const { return a_.watched() && b_.watched(); }
-  bool meshes() const { return a_.model && b_.model; }
+  bool lasting() const { return a_.watched && b_.watched; }
+  bool meshes() const { return a_.mesh && b_.mesh; }
   /// Returns the frame of two meshes, made at its first use.
   const MeshPair& frame() const;
-  /// Bounds the error of computed distances about d against exact ones in the common frame.
+  /// Bounds the error of answers about d against exact distances in the common frame.
   double roundingOf(double d) const;
-  /// Returns true if the bodies are solids and one, whose surface is apart from the other's, lies
-  /// in it.
-  bool contained(SearchCounts& counts) const;
   Answer ask(double limit, bool exact, SearchCounts& counts);
-  Answer searchMeshes(double limit, SearchCounts& counts);
-  Answer decideMeshes(double limit, SearchCounts& counts);
+  Answer searchMeshes(double limit, bool exact, SearchCounts& counts);
   void remember(double apart, bool exact, const Answer& answer);
 
   const int id_a_, id_b_;
-  const Body<S>&a_, &b_;
-  PairMemory<S>& memory_;
-  const Proof<S>* proof_;
+  const Body &a_, &b_;
+  PairMemory& memory_;
+  const Proof* proof_;
   mutable std::optional<MeshPair> frame_;
 };
 
@@ -84,7 +82,6 @@ class BodyPair {
 void countSkipped(PairBound::Source source, SceneCounts& counts);
 
 /// Finds the points that realise a pair's distance, in the world.
-template <typename S>
-void nearestPoints(const Body<S>& a, const Body<S>& b, ScenePair<S>& pair);
+void nearestPoints(const Body& a, const Body& b, ScenePaird& pair);
 
 }  // namespace kios::scene

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/scene/manager_query.h"
+#include "fcl_kios/scene.h"
 
 #include <cmath>
 #include <limits>
@@ -8,9 +8,10 @@
 #include <unordered_set>
 #include <utility>
 
-#include "fcl_kios/scene/scene_distance.h"
 #include "scene/body_pair.h"
+#include "scene/content.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
@@ -43,15 +44,16 @@ class ManagerQuery<S>::Impl {
       return false;
     }
     // A proof of (b, a) is no help: that distance may differ in its last bits.
-    scene::BodyPair<S> pair(a.id, a.body, b.id, b.body, memory_);
-    const double limit = std::nextafter(bound_, -std::numeric_limits<S>::infinity());
+    scene::BodyPair pair(a.id, a.body, b.id, b.body, memory_);
+    const double limit = std::nextafter(double{bound_}, -kInfinity);
     const auto answer = pair.answer(limit, true, counts);
     if (answer.within) {
       if (closest_) {
         pairs.clear();
-        dist = bound_ = answer.distance;
+        dist = bound_ = roundedTo<S>(answer.distance);
       }
-      pairs.push_back({o1, o2, answer.distance, answer.triangle_a, answer.triangle_b});
+      pairs.push_back(
+          {o1, o2, roundedTo<S>(answer.distance), answer.triangle_a, answer.triangle_b});
     }
     return done();
   }
@@ -60,10 +62,10 @@ class ManagerQuery<S>::Impl {
   SceneCounts counts;
 
  private:
-  using PairMemory = scene::PairMemory<S>;
+  using PairMemory = scene::PairMemory;
 
   struct Known {
-    scene::Body<S> body;
+    scene::Body body;
     int id = 0;
     std::uint64_t met = 0;
   };
@@ -71,14 +73,14 @@ class ManagerQuery<S>::Impl {
   bool done() const { return closest_ && bound_ <= 0; }
 
   Known& meet(const Object* object) {
-    const auto [it, is_new] = bodies_.try_emplace(object);
-    Known& known = it->second;
+    Known& known = bodies_[object];
     if (known.met == memory_.query()) return known;
-    scene::Body<S>& body = known.body;
-    if (is_new) known.id = next_id_++;
-    body.followed = object;
-    scene::follow(body);
-    scene::renewIfChanged(body);
+    if (known.body.used()) {
+      known.body.content->refresh(known.body);
+    } else {
+      known.body = scene::makeBody(*object);
+      known.id = next_id_++;
+    }
     known.met = memory_.query();
     ++met_;
     return known;

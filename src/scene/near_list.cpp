@@ -8,8 +8,7 @@
 
 namespace kios::scene {
 
-template <typename S>
-void NearList::follow(const std::vector<Body<S>>& bodies, bool others) {
+void NearList::follow(const std::vector<Body>& bodies, bool others) {
   ++age_;
   if (others) valid_ = false;
   if (resting_ > 0 && --resting_ > 0) return;
@@ -19,8 +18,7 @@ void NearList::follow(const std::vector<Body<S>>& bodies, bool others) {
   }
 }
 
-template <typename S>
-double NearList::startFor(double gap, const std::vector<Body<S>>& bodies) {
+double NearList::startFor(double gap, const std::vector<Body>& bodies) {
   valid_ = listing_ = false;
   if (resting_ > 0) return gap;
   const double per_query = 2 * moved_ / static_cast<double>(std::max(1LL, age_));
@@ -28,7 +26,7 @@ double NearList::startFor(double gap, const std::vector<Body<S>>& bodies) {
 
   boxes_.clear();
   double radii = 0;
-  for (const Body<S>& body : bodies) {
+  for (const Body& body : bodies) {
     boxes_.push_back(body.box);
     radii += std::min(body.sphere.radius, 1e300);
   }
@@ -57,10 +55,5 @@ void NearList::rest() {
   valid_ = listing_ = false;
   resting_ = tuning::kRest;
 }
-
-template void NearList::follow(const std::vector<Body<double>>& bodies, bool others);
-template void NearList::follow(const std::vector<Body<float>>& bodies, bool others);
-template double NearList::startFor(double gap, const std::vector<Body<double>>& bodies);
-template double NearList::startFor(double gap, const std::vector<Body<float>>& bodies);
 
 }  // namespace kios::scene

@@ -23,14 +23,12 @@ class NearList {
 
   /// Has to be called at each query once all bodies are up to date; `others` if some were added or
   /// removed.
-  template <typename S>
-  void follow(const std::vector<Body<S>>& bodies, bool others);
+  void follow(const std::vector<Body>& bodies, bool others);
 
   /// Starts a list at the present poses that serves `gap` and is likely to do so for a few more
   /// queries. Returns its reach, or the gap if there is none: bodies move too fast for that to pay,
   /// or there were too many pairs of late.
-  template <typename S>
-  double startFor(double gap, const std::vector<Body<S>>& bodies);
+  double startFor(double gap, const std::vector<Body>& bodies);
   /// Adds a pair within reach. Returns false if they have become too many, and there is no list.
   bool add(int a, int b);
   /// Has to be called once all pairs within reach were added: a search that throws leaves no list.

@@ -19,26 +19,24 @@ inline std::uint64_t keyOfEither(int a, int b) { return pairKey(std::min(a, b), 
 
 /// Holds the last answer of the narrow phase about two bodies, and their poses then. It says
 /// nothing of other states of their geometries.
-template <typename S>
 struct Proof {
   std::uint64_t generation_a = 0, generation_b = 0;  ///< 0: nothing was proven
   fcl::Matrix3d R;                                   ///< pose of b in a, as RelativePose has it
   fcl::Vector3d T;
   std::uint64_t pose_a = 0, pose_b = 0;
-  double apart = 0;  ///< the narrow phase would compute at least that there
-  S distance = 0;    ///< the distance that it computes there, if `exact`
+  double apart = 0;     ///< the narrow phase would compute at least that there
+  double distance = 0;  ///< the distance that it computes there, if `exact`
   bool exact = false;
   std::intptr_t triangle_a = -1, triangle_b = -1;  ///< near each other there, if not negative
   std::uint64_t used = 0;                          ///< number of the query that last did
 
-  bool tellsOf(const Body<S>& a, const Body<S>& b) const {
+  bool tellsOf(const Body& a, const Body& b) const {
     return generation_a == a.generation && generation_b == b.generation;
   }
 };
 
 /// Holds the proofs of the pairs that queries came near. Their number is bounded: a query forgets
 /// the proofs that it didn't use as soon as they are more than those that it used, plus kSpare.
-template <typename S>
 class PairMemory {
  public:
   static constexpr std::size_t kSpare = 1024;
@@ -58,13 +56,13 @@ class PairMemory {
   std::uint64_t query() const { return query_; }
 
   /// The proof of the pair in their present states; nullptr if there is none.
-  Proof<S>* find(int id_a, const Body<S>& a, int id_b, const Body<S>& b) {
+  Proof* find(int id_a, const Body& a, int id_b, const Body& b) {
     const auto found = proofs_.find(pairKey(id_a, id_b));
     if (found == proofs_.end() || !found->second.tellsOf(a, b)) return nullptr;
     return use(found->second);
   }
   /// Returns a place for a proof; nullptr if there is no room.
-  Proof<S>* obtain(int id_a, int id_b) {
+  Proof* obtain(int id_a, int id_b) {
     const std::uint64_t key = pairKey(id_a, id_b);
     if (proofs_.size() >= capacity_ && proofs_.count(key) == 0) return nullptr;
     return use(proofs_[key]);
@@ -80,13 +78,13 @@ class PairMemory {
       return key ^ key >> 32;
     }
   };
-  Proof<S>* use(Proof<S>& proof) {
+  Proof* use(Proof& proof) {
     if (proof.used != query_) ++used_;
     proof.used = query_;
     return &proof;
   }
 
-  std::unordered_map<std::uint64_t, Proof<S>, Hash> proofs_;
+  std::unordered_map<std::uint64_t, Proof, Hash> proofs_;
   std::size_t capacity_;
   std::uint64_t query_ = 0;
   std::size_t used_ = 0;

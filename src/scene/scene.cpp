@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/content.h"
 #include "volume/errors.h"
 
 namespace kios::scene {
 
-template <typename S>
-int Scene<S>::add(Body<S> body) {
+int Scene::add(Body body, Role role) {
   int id = static_cast<int>(bodies_.size());
   if (!free_.empty()) {
     id = *free_.begin();
@@ -19,15 +19,15 @@ int Scene<S>::add(Body<S> body) {
     bodies_.emplace_back();
   }
   bodies_[id] = std::move(body);
+  bodies_[id].role = role;
   tree_stale_ = true;
   return id;
 }
 
-template <typename S>
-void Scene<S>::remove(int id) {
+void Scene::remove(int id) {
   body(id);
   free_.insert(id);
-  bodies_[id] = Body<S>();
+  bodies_[id] = Body();
   for (auto it = excluded_.begin(); it != excluded_.end();) {
     const int a = static_cast<int>(*it >> 32), b = static_cast<int>(*it & 0xffffffffU);
     it = a == id || b == id ? excluded_.erase(it) : std::next(it);
@@ -35,53 +35,47 @@ void Scene<S>::remove(int id) {
   tree_stale_ = true;
 }
 
-template <typename S>
-Body<S>& Scene<S>::body(int id) {
+Body& Scene::body(int id) {
   if (!contains(id)) refuse("the scene has no object ", id, ".");
   return bodies_[id];
 }
 
-template <typename S>
-void Scene<S>::exclude(int a, int b, bool excluded) {
+void Scene::ignorePair(int a, int b, bool ignored) {
   body(a);
   body(b);
   if (a == b) {
-    refuse("the object ", a, " makes no pair with itself, which could be excluded.");
+    refuse("the object ", a, " makes no pair with itself, which could be ignored.");
   }
-  if (excluded) {
+  if (ignored) {
     excluded_.insert(keyOfEither(a, b));
   } else {
     excluded_.erase(keyOfEither(a, b));
   }
 }
 
-template <typename S>
-bool Scene<S>::admissible(int a, int b) const {
-  if (obstacles(a, b)) return false;
+bool Scene::admissible(int a, int b) const {
+  if (bodies_[a].role == Role::kObstacle && bodies_[b].role == Role::kObstacle) return false;
   if (!excluded_.empty() && excluded_.count(keyOfEither(a, b)) != 0) return false;
   return !filter || filter(a, b);
 }
 
-template <typename S>
-void Scene<S>::beginQuery() {
+void Scene::beginQuery() {
   counts = SceneCounts();
   counts.total = static_cast<long long>(size()) * (static_cast<long long>(size()) - 1) / 2;
   double error = 0;
   num_obstacles_ = 0;
-  for (Body<S>& body : bodies_) {
+  for (Body& body : bodies_) {
     if (!body.used()) continue;
-    if (body.followed) follow(body);
-    renewIfChanged(body);
+    body.content->refresh(body);
     error = std::max(error, body.rotation_error);
     num_obstacles_ += body.role == Role::kObstacle ? 1 : 0;
   }
-  box_share_ = 1 - boxShare<S>(error);
+  box_share_ = 1 - boxShare(error);
   near_.follow(bodies_, tree_stale_);
   memory.beginQuery();
 }
 
-template <typename S>
-void Scene<S>::updateTree() {
+void Scene::updateTree() {
   if (!tree_stale_) {
     tree_stale_ = !tree_.refit([this](int id) -> const Box& { return bodies_[id].box; });
   }
@@ -89,15 +83,12 @@ void Scene<S>::updateTree() {
     std::vector<BoxTree::Leaf> leaves;
     leaves.reserve(size());
     for (int id = 0; id < static_cast<int>(bodies_.size()); ++id) {
-      const Body<S>& body = bodies_[id];
+      const Body& body = bodies_[id];
       if (body.used()) leaves.push_back({id, body.box, body.role == Role::kObstacle});
     }
     tree_.build(std::move(leaves));
   }
   tree_stale_ = false;
 }
-
-template class Scene<double>;
-template class Scene<float>;
 
 }  // namespace kios::scene

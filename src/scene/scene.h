@@ -4,13 +4,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <set>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/scene/scene_distance.h"
+#include "fcl_kios/scene.h"
 #include "scene/body.h"
 #include "scene/body_pair.h"
 #include "scene/box_tree.h"
@@ -20,37 +21,35 @@
 namespace kios::scene {
 
 /// Holds the bodies of a SceneDistance, and its queries.
-template <typename S>
 class Scene {
  public:
-  int add(Body<S> body);
+  using Filter = std::function<bool(int a, int b)>;
+
+  int add(Body body, Role role);
   void remove(int id);
   /// Throws std::invalid_argument if there is no such body.
-  Body<S>& body(int id);
+  Body& body(int id);
   bool contains(int id) const {
     return id >= 0 && id < static_cast<int>(bodies_.size()) && bodies_[id].used();
   }
   std::size_t size() const { return bodies_.size() - free_.size(); }
-  void exclude(int a, int b, bool excluded);
+  void ignorePair(int a, int b, bool ignored);
 
-  std::optional<ScenePair<S>> closestPair(const SceneRequest& request);
-  std::vector<ScenePair<S>> pairsWithin(S margin, const SceneRequest& request);
-  std::vector<ScenePair<S>> clearances(const SceneRequest& request);
+  std::optional<ScenePaird> closestPair(const SceneRequest& request);
+  /// Without a limit boxes aren't looked at.
+  std::vector<ScenePaird> pairsWithin(double margin, const SceneRequest& request);
 
-  typename SceneDistance<S>::Filter filter;
+  Filter filter;
   SceneCounts counts;
-  PairMemory<S> memory{SceneDistance<S>::kMaxRemembered};
+  PairMemory memory{SceneDistanced::kMaxRemembered};
 
  private:
-  using Answer = typename BodyPair<S>::Answer;
+  using Answer = BodyPair::Answer;
 
   void beginQuery();
   void updateTree();
   bool admissible(int a, int b) const;
-  bool obstacles(int a, int b) const {
-    return bodies_[a].role == Role::kObstacle && bodies_[b].role == Role::kObstacle;
-  }
-  BodyPair<S> pairOf(int a, int b) { return {a, bodies_[a], b, bodies_[b], memory}; }
+  BodyPair pairOf(int a, int b) { return {a, bodies_[a], b, bodies_[b], memory}; }
   /// Calls visit(node, node) for the children of a pair of parts of the tree, or of one part with
   /// itself, which are not both full of obstacles.
   template <typename Visit>
@@ -66,10 +65,10 @@ class Scene {
   double boxBound(double square) const {
     return square < 0x1p1000 ? std::sqrt(square) * box_share_ * (1 - 0x1p-40) : 0x1p499;
   }
-  ScenePair<S> report(int a, int b, const Answer& answer, const SceneRequest& request) const;
+  ScenePaird report(int a, int b, const Answer& answer, const SceneRequest& request) const;
 
-  std::vector<Body<S>> bodies_;  // by id
-  std::set<int> free_;           // ids below that are free
+  std::vector<Body> bodies_;  // by id
+  std::set<int> free_;        // ids below that are free
   std::unordered_set<std::uint64_t> excluded_;
   BoxTree tree_;
   bool tree_stale_ = true;  // bodies were added or removed

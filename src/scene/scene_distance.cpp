@@ -1,16 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/scene/scene_distance.h"
+#include "fcl_kios/scene.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "scene/content.h"
 #include "scene/scene.h"
 #include "volume/errors.h"
+#include "volume/rounding.h"
 
 namespace kios {
 
+namespace {
+
 template <typename S>
-class SceneDistance<S>::Impl : public scene::Scene<S> {};
+ScenePair<S> inScalar(const ScenePaird& pair) {
+  return {pair.a,
+          pair.b,
+          roundedTo<S>(pair.distance),
+          pair.triangle_a,
+          pair.triangle_b,
+          roundedTo<S>(pair.nearest_a),
+          roundedTo<S>(pair.nearest_b)};
+}
+
+template <typename S>
+std::vector<ScenePair<S>> inScalar(const std::vector<ScenePaird>& pairs) {
+  std::vector<ScenePair<S>> rounded;
+  rounded.reserve(pairs.size());
+  for (const ScenePaird& pair : pairs) rounded.push_back(inScalar<S>(pair));
+  return rounded;
+}
+
+}  // namespace
+
+template <typename S>
+class SceneDistance<S>::Impl : public scene::Scene {};
 
 template <typename S>
 SceneDistance<S>::SceneDistance() : impl_(std::make_unique<Impl>()) {}
@@ -23,20 +50,13 @@ SceneDistance<S>& SceneDistance<S>::operator=(SceneDistance&&) noexcept = defaul
 
 template <typename S>
 int SceneDistance<S>::add(std::shared_ptr<const Geometry> geometry, const Pose& X_W, Role role) {
-  scene::Body<S> body;
-  scene::place(body, std::move(geometry), X_W);
-  body.role = role;
-  return impl_->add(std::move(body));
+  return impl_->add(scene::makeBody<S>(std::move(geometry), X_W), role);
 }
 
 template <typename S>
 int SceneDistance<S>::add(const fcl::CollisionObject<S>* object, Role role) {
   if (!object) refuse("an object added to a scene is null.");
-  scene::Body<S> body;
-  scene::place<S>(body, object->collisionGeometry(), object->getTransform());
-  body.followed = object;
-  body.role = role;
-  return impl_->add(std::move(body));
+  return impl_->add(scene::makeBody(*object), role);
 }
 
 template <typename S>
@@ -46,8 +66,8 @@ void SceneDistance<S>::remove(int id) {
 
 template <typename S>
 void SceneDistance<S>::move(int id, const Pose& X_W) {
-  scene::Body<S>& body = impl_->body(id);
-  if (body.followed) {
+  scene::Body& body = impl_->body(id);
+  if (body.content->isFollowed()) {
     refuse("the pose of an object added as an fcl::CollisionObject is read from that.");
   }
   scene::move(body, X_W);
@@ -55,8 +75,8 @@ void SceneDistance<S>::move(int id, const Pose& X_W) {
 
 template <typename S>
 void SceneDistance<S>::changed(int id) {
-  scene::Body<S>& body = impl_->body(id);
-  scene::renew(body);
+  scene::Body& body = impl_->body(id);
+  body.content->renew(body);
 }
 
 template <typename S>
@@ -70,8 +90,8 @@ std::size_t SceneDistance<S>::size() const {
 }
 
 template <typename S>
-void SceneDistance<S>::exclude(int a, int b, bool excluded) {
-  impl_->exclude(a, b, excluded);
+void SceneDistance<S>::ignorePair(int a, int b, bool ignored) {
+  impl_->ignorePair(a, b, ignored);
 }
 
 template <typename S>
@@ -81,18 +101,20 @@ void SceneDistance<S>::setFilter(const Filter& filter) {
 
 template <typename S>
 std::optional<ScenePair<S>> SceneDistance<S>::closestPair(const SceneRequest& request) {
-  return impl_->closestPair(request);
+  const std::optional<ScenePaird> pair = impl_->closestPair(request);
+  return pair ? std::optional(inScalar<S>(*pair)) : std::nullopt;
 }
 
 template <typename S>
 std::vector<ScenePair<S>> SceneDistance<S>::pairsWithin(S margin, const SceneRequest& request) {
   if (!(margin == margin)) refuse("a margin is NaN.");
-  return impl_->pairsWithin(margin, request);
+  const double most = std::min(margin, std::numeric_limits<S>::max());
+  return inScalar<S>(impl_->pairsWithin(most, request));
 }
 
 template <typename S>
 std::vector<ScenePair<S>> SceneDistance<S>::clearances(const SceneRequest& request) {
-  return impl_->clearances(request);
+  return inScalar<S>(impl_->pairsWithin(kInfinity, request));
 }
 
 template <typename S>

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 
 #include "scene/scene.h"
@@ -10,12 +9,6 @@
 
 namespace kios::scene {
 namespace {
-
-/// Returns the largest number below x.
-template <typename S>
-double below(S x) {
-  return std::nextafter(x, -std::numeric_limits<S>::infinity());
-}
 
 /// Holds two parts of the tree, or two bodies, whose distances are at least `bound`.
 struct Waiting {
@@ -36,9 +29,8 @@ class Queue : public std::priority_queue<Waiting> {
 
 }  // namespace
 
-template <typename S>
 template <typename Visit>
-void Scene<S>::forChildren(int n, int m, const Visit& visit) {
+void Scene::forChildren(int n, int m, const Visit& visit) {
   const auto visitPair = [&](int i, int j) {
     const BoxTree::Node &a = tree_[i], &b = tree_[j];
     if (i == j && a.isLeaf()) return;
@@ -62,9 +54,8 @@ void Scene<S>::forChildren(int n, int m, const Visit& visit) {
   }
 }
 
-template <typename S>
 template <typename Visit>
-void Scene<S>::forNearPairs(double limit, const Visit& visit) {
+void Scene::forNearPairs(double limit, const Visit& visit) {
   const double gap = gapOf(limit), gap_limit = squaredLimit(gap);
   const auto visitIfNear = [&](int a, int b) {
     const double square = squaredGap(bodies_[a].box, bodies_[b].box);
@@ -74,6 +65,15 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
       visit(a, b, square);
     }
   };
+  if (!(limit < kInfinity)) {
+    const int end = static_cast<int>(bodies_.size());
+    for (int a = 0; a < end; ++a) {
+      for (int b = a + 1; bodies_[a].used() && b < end; ++b) {
+        if (bodies_[b].used()) visit(a, b, 0.0);
+      }
+    }
+    return;
+  }
   if (near_.covers(gap)) {
     const auto listed = static_cast<long long>(near_.pairs().size());
     const long long of_obstacles = num_obstacles_ * (num_obstacles_ - 1) / 2;
@@ -112,10 +112,8 @@ void Scene<S>::forNearPairs(double limit, const Visit& visit) {
   near_.finish();
 }
 
-template <typename S>
-ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
-                              const SceneRequest& request) const {
-  ScenePair<S> pair;
+ScenePaird Scene::report(int a, int b, const Answer& answer, const SceneRequest& request) const {
+  ScenePaird pair;
   pair.a = a;
   pair.b = b;
   pair.distance = answer.distance;
@@ -127,8 +125,7 @@ ScenePair<S> Scene<S>::report(int a, int b, const Answer& answer,
 
 // Best first: the pair with the least bound is next, and the search ends when that exceeds the
 // best distance so far.
-template <typename S>
-std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
+std::optional<ScenePaird> Scene::closestPair(const SceneRequest& request) {
   beginQuery();
   bool found = false;
   std::pair<int, int> best;
@@ -174,8 +171,9 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
       ++counts.filtered;
       continue;
     }
-    BodyPair<S> pair = pairOf(next.a, next.b);
-    const double matters = found && best < ids ? below(nearest.distance) : limit;
+    BodyPair pair = pairOf(next.a, next.b);
+    const double matters =
+        found && best < ids ? std::nextafter(nearest.distance, -kInfinity) : limit;
     std::optional<Answer> answer;
     if (next.source == PairBound::Source::kNothing) {
       PairBound known;
@@ -193,7 +191,7 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
     found = true;
     best = ids;
     nearest = *answer;
-    limit = std::min(limit, double{nearest.distance});
+    limit = std::min(limit, nearest.distance);
   }
   for (const Waiting& item : queue.items()) {
     if (item.kind == Waiting::Kind::kBodies) {
@@ -209,57 +207,26 @@ std::optional<ScenePair<S>> Scene<S>::closestPair(const SceneRequest& request) {
   return report(best.first, best.second, nearest, request);
 }
 
-template <typename S>
-std::vector<ScenePair<S>> Scene<S>::pairsWithin(S margin, const SceneRequest& request) {
+std::vector<ScenePaird> Scene::pairsWithin(double margin, const SceneRequest& request) {
   beginQuery();
-  const double limit = std::min(margin, std::numeric_limits<S>::max());
-  std::vector<ScenePair<S>> pairs;
+  const bool exact = request.exact || !(margin < kInfinity);
+  std::vector<ScenePaird> pairs;
   const auto ask = [&](int a, int b, double /*square*/) {
     if (!admissible(a, b)) {
       ++counts.filtered;
       return;
     }
-    BodyPair<S> pair = pairOf(a, b);
-    const Answer answer = pair.answer(limit, request.exact, counts);
+    BodyPair pair = pairOf(a, b);
+    const Answer answer = pair.answer(margin, exact, counts);
     if (answer.within) pairs.push_back(report(a, b, answer, request));
   };
 
-  forNearPairs(limit, ask);
+  forNearPairs(margin, ask);
   memory.endQuery();
-  std::sort(pairs.begin(), pairs.end(), [](const ScenePair<S>& x, const ScenePair<S>& y) {
+  std::sort(pairs.begin(), pairs.end(), [](const ScenePaird& x, const ScenePaird& y) {
     return std::pair(x.a, x.b) < std::pair(y.a, y.b);
   });
   return pairs;
 }
-
-template <typename S>
-std::vector<ScenePair<S>> Scene<S>::clearances(const SceneRequest& request) {
-  beginQuery();
-  std::vector<ScenePair<S>> pairs;
-  const int end = static_cast<int>(bodies_.size());
-  for (int a = 0; a < end; ++a) {
-    for (int b = a + 1; bodies_[a].used() && b < end; ++b) {
-      if (!bodies_[b].used()) continue;
-      if (!admissible(a, b)) {
-        ++counts.filtered;
-        continue;
-      }
-      BodyPair<S> pair = pairOf(a, b);
-      const bool still = pair.stoodStill();
-      if (still) ++counts.still;
-      const Answer answer = still ? pair.proven(kInfinity) : pair.search(kInfinity, true, counts);
-      pairs.push_back(report(a, b, answer, request));
-    }
-  }
-  memory.endQuery();
-  return pairs;
-}
-
-template std::optional<ScenePair<double>> Scene<double>::closestPair(const SceneRequest&);
-template std::optional<ScenePair<float>> Scene<float>::closestPair(const SceneRequest&);
-template std::vector<ScenePair<double>> Scene<double>::pairsWithin(double, const SceneRequest&);
-template std::vector<ScenePair<float>> Scene<float>::pairsWithin(float, const SceneRequest&);
-template std::vector<ScenePair<double>> Scene<double>::clearances(const SceneRequest&);
-template std::vector<ScenePair<float>> Scene<float>::clearances(const SceneRequest&);
 
 }  // namespace kios::scene

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fcl_kios/search/counts.h"
+#include "fcl_kios/detail/counts.h"
 #include "search/float_frame.h"
 #include "tree/tree.h"
 

@@ -1,24 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All that is included outside of simd/ is included before the first target's pass, so that no
-// inline function is compiled for an instruction set that a machine may lack.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
+#include <boost/container/small_vector.hpp>
 
 #include "search/root_body.h"
 #include "search/search.h"
 #include "tree/compress_table.h"
-#include "volume/simd_targets.h"
+#include "volume/simd_targets.h"  // with what else is included before the first target's pass
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/distance_kernel.cpp"

@@ -18,13 +18,6 @@ double clamp01(double t) { return t > 0 ? std::min(t, 1.0) : 0.0; }
 /// a / b, and a for b = 0, which a is then: nothing is to be trapped.
 double quotient(double a, double b) { return a / (b > 0 ? b : 1.0); }
 
-/// Removes from v its part along a direction, returns that part in directions.
-double removePart(const Vec& direction, double square, Vec& v) {
-  const double t = quotient(v.dot(direction), square);
-  v -= t * direction;
-  return t;
-}
-
 /// True if two edges that start in p and q are nearest there, by a margin that exceeds the rounding
 /// of the products. The distance of two edges is convex, so that no other points can be nearer.
 bool leadAway(const Vec& p, const Vec& other_p, const Vec& q, const Vec& other_q) {
@@ -73,35 +66,10 @@ bool nearestAt(const NearestEnds& ends, const Vec& p0, const Vec& p1, const Vec&
   return leadAway(p, p0 == p ? p1 : p0, q, q0 == q ? q1 : q0);
 }
 
-// By Gram-Schmidt on the longest edge, twice: right for any aspect.
-FacePlane::FacePlane(const Vec (&face)[3]) {
-  int longest = 0;
-  edge2_ = -1;
-  for (int k = 0; k < 3; ++k) {
-    const double s = (face[(k + 1) % 3] - face[k]).squaredNorm();
-    if (s > edge2_) {
-      edge2_ = s;
-      longest = k;
-    }
-  }
-  corner_ = face[longest];
-  edge_ = face[(longest + 1) % 3] - corner_;
-  height_ = face[(longest + 2) % 3] - corner_;
-  foot_ = removePart(edge_, edge2_, height_);
-  foot_ += removePart(edge_, edge2_, height_);
-  height2_ = height_.squaredNorm();
-}
-
-FeatureDistance FacePlane::distance(const Vec& point) const {
-  Vec residual = point - corner_;
-  const double extent = std::sqrt(edge2_) + residual.lpNorm<Eigen::Infinity>();
-  double s = removePart(edge_, edge2_, residual), c = removePart(height_, height2_, residual);
-  s += removePart(edge_, edge2_, residual);
-  c += removePart(height_, height2_, residual);
-  s += removePart(edge_, edge2_, residual);
-  const double side = s - c * foot_;
-  const bool inside = height2_ > 0 && c >= 0 && side >= 0 && side + c <= 1;
-  return {inside ? residual.norm() : kInfinity, extent};
+FeatureDistance faceDistance(const FacePlane& face, const Vec& point) {
+  Vec residual;
+  const bool inside = face.project(point, residual);
+  return {inside ? residual.norm() : kInfinity, face.extentTo(point)};
 }
 
 }  // namespace kios::engine

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "triangle/face_plane.h"
+
 namespace kios::engine {
 
 /// Distance of two features by a pair of their points, and what its error scales with.
@@ -29,20 +31,8 @@ FeatureDistance edgeDistance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p
 bool nearestAt(const NearestEnds& ends, const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
                const Eigen::Vector3d& q0, const Eigen::Vector3d& q1);
 
-/// A triangle by two orthogonal directions from one corner: its longest edge, and its height on it.
-class FacePlane {
- public:
-  FacePlane() = default;  ///< is not to be asked
-  explicit FacePlane(const Eigen::Vector3d (&face)[3]);
-
-  /// A point and the inside of the triangle; infinity if the point projects outside (the edges then
-  /// are as near), or if the triangle has no plane.
-  FeatureDistance distance(const Eigen::Vector3d& point) const;
-
- private:
-  Eigen::Vector3d corner_, edge_, height_;
-  double edge2_, height2_;  ///< their squares
-  double foot_;             ///< of the height, in edges from the corner
-};
+/// A point and the inside of a triangle; infinity if the point projects outside (the edges then are
+/// as near), or if the triangle has no plane.
+FeatureDistance faceDistance(const FacePlane& face, const Eigen::Vector3d& point);
 
 }  // namespace kios::engine

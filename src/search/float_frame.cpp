@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "search/float_frame.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -25,8 +24,8 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 
 }  // namespace
 
-[[gnu::hot]] bool makeTreePose(const TreeRoot& a, const TreeRoot& b,
-                               const RelativePose<double>& X_AB, TreePose& out) {
+[[gnu::hot]] bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<double>& X_AB,
+                               TreePose& out) {
   const Eigen::Map<const Eigen::Vector3d> origin_a(a.origin), origin_b(b.origin);
   const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
   out.R = X_AB.R();
@@ -45,19 +44,14 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
 }
 
 // The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by
-// 3 stretch S: far below a rounding in float, which the counts have room for, if the stretch is.
+// 3 stretch S.
 [[gnu::hot]] void makeFloatFrame(const TreePose& X_AB, FloatFrame& out) {
-  constexpr double kRigid = 0x1p-30;
-  Eigen::Matrix3d inverse;
-  if (X_AB.stretch <= kRigid) {
-    inverse = X_AB.R.transpose();
-  } else {
-    inverse = X_AB.R.inverse();
-  }
+  const Eigen::Matrix3d inverse = X_AB.R.transpose();
+  const double of_inverse = 3 * X_AB.stretch * X_AB.scale;
   out.a_from_b = toFloat(X_AB.R, X_AB.t);
   out.b_from_a = toFloat(inverse, -detail::rotate<double>(inverse, X_AB.t));
-  out.pad = roundUpFloat(X_AB.pad);
-  out.box_pad = roundUpFloat(X_AB.box_pad);
+  out.pad = roundUpFloat(X_AB.pad + of_inverse);
+  out.box_pad = roundUpFloat(X_AB.box_pad + of_inverse);
   out.scale = roundUpFloat(X_AB.scale);
 }
 

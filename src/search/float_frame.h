@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/volume.h"
 #include "tree/tree.h"
 
 namespace kios::engine {
@@ -30,7 +30,7 @@ struct FloatPose {
 /// - boxes, which need not fit as tightly as spheres: below. box_pad has 128 u S in its place.
 /// - the common frame's own rounding in double, as in volume/separation.cpp;
 /// - a rotation that is one only to `stretch`: radii and bounds scale by at most 1 + stretch on the
-///   way to the other frame and back: 2 stretch S.
+///   way to the other frame and back: 2 stretch S; 3 stretch S for the transpose as the inverse.
 ///
 /// Boxes of either tree: c a centre, e_i axes, h_i half extents, with every point p at |e_i . (p -
 /// c)| <= h_i. All points lie in a sphere of radius r that holds the box's slabs to |(c - c0)_i| +
@@ -80,8 +80,7 @@ struct TreePose {
 
 /// False if floats can't serve the pair: lengths out of range, or models so far apart for their
 /// sizes that the pad hides either.
-bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<double>& X_AB,
-                  TreePose& out);
+bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<double>& X_AB, TreePose& out);
 void makeFloatFrame(const TreePose& X_AB, FloatFrame& out);
 
 }  // namespace kios::engine

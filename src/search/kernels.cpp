@@ -1,27 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// All that is included outside of simd/ is included before the first target's pass, so that no
-// inline function is compiled for an instruction set that a machine may lack.
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
+#include <boost/container/small_vector.hpp>
 
 #include "search/cell_search.h"
+#include "search/point_search.h"
 #include "search/ray_search.h"
 #include "search/root_body.h"
 #include "search/search.h"
 #include "search/solid_search.h"
 #include "tree/compress_table.h"
-#include "volume/simd_targets.h"
+#include "volume/simd_targets.h"  // with what else is included before the first target's pass
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "search/kernels.cpp"
@@ -41,6 +30,8 @@
 #include "search/simd/solid-inl.h"
 //
 #include "search/simd/cells-inl.h"
+//
+#include "search/simd/point-inl.h"
 #include "volume/errors.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -58,7 +49,8 @@ const Kernels kKernels = {&HWY_STR(HWY_NAMESPACE)[2],  // after N_
                           &contacts,
                           &ray,
                           &cells,
-                          &solid};
+                          &solid,
+                          &point};
 
 }  // namespace kios::engine::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/volume/rigid.h"
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/detail/rigid.h"
+#include "fcl_kios/triangle.h"
+#include "fcl_kios/volume.h"
 #include "search/float_frame.h"
 #include "search/mesh.h"
 #include "search/pair_query.h"
@@ -53,8 +53,19 @@ class MeshPair {
   engine::TreePose X_trees;  ///< if floats serve
   const bool floats_serve;   ///< false if floats can't tell of both
 
-  /// Lower bound of the distance by the roots; any above `enough` will do.
-  double rootBound(double enough) const;
+  /// Lower bound of the distance by the roots; any above `enough` will do. Where floats don't
+  /// serve, by the central spheres, as volume/separation.cpp does.
+  double rootBound(double enough) const {
+    if (floats_serve) {
+      return engine::rootBound(engine::rootOf(a), engine::rootOf(b), X_trees, enough);
+    }
+    const detail::PoseBounds& bounds = detail::boundsOf(X_AB);
+    const double error = error_bounds::volumeError<double>(b.center().lpNorm<1>(),
+                                                           bounds.T_norm1 + a.center().lpNorm<1>(),
+                                                           a.radius(), b.radius()) +
+                         bounds.stretch * b.radius();
+    return (X_AB * b.center() - a.center()).stableNorm() - a.radius() - b.radius() - error;
+  }
 
   TriangleVerticesd triangleA(int id) const { return a.triangle(static_cast<std::size_t>(id)); }
   TriangleVerticesd triangleB(int id) const {
@@ -67,7 +78,9 @@ class MeshPair {
   TriangleDistanced distanceOf(const engine::TrianglePairIds& ids) const {
     return triangleDistance(triangleA(ids.a), triangleB(ids.b));
   }
-  bool intersect(const engine::TrianglePairIds& ids) const;
+  bool intersect(const engine::TrianglePairIds& ids) const {
+    return trianglesIntersect(triangleA(ids.a), triangleB(ids.b));
+  }
 
   /// Bounds the error of the computed distance of any two triangles against the exact one in this
   /// frame as it is stored, if either is at most d.
@@ -77,18 +90,14 @@ class MeshPair {
   }
   /// Bounds the error against the distance in the exact common frame.
   double distanceError(double d) const {
-    return kernelError(d) + frameError(b.center().lpNorm<1>() + 1.8 * b.radius());
+    return kernelError(d) +
+           error_bounds::frameError<double>(b.center().lpNorm<1>() + 1.8 * b.radius(),
+                                            detail::boundsOf(X_AB).T_norm1);
   }
-  /// Bounds it for these two triangles, which are smaller than the models.
-  double distanceErrorOf(const engine::TrianglePairIds& ids) const;
 
  private:
   /// Results round absolutely below.
   static constexpr double kLeast = std::numeric_limits<double>::min();
-
-  double frameError(double norm1) const {
-    return error_bounds::frameError<double>(norm1, detail::boundsOf(X_AB).T_norm1);
-  }
 };
 
 }  // namespace kios

@@ -3,11 +3,12 @@
 #include "search/mesh_search.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "search/feature_distance.h"
-#include "search/pairs_apart.h"
 #include "volume/error_bounds.h"
 #include "volume/rounding.h"
 
@@ -65,6 +66,26 @@ class LastPlane {
  private:
   std::uint32_t face_ = ~0U;  ///< none
   FacePlane plane_;
+};
+
+/// Remembers some triangles that don't intersect: those that nearly touch are named by many of
+/// their features, and by edges that may cross faces.
+class PairsApart {
+ public:
+  /// Asks the triangles, unless they are known.
+  bool intersect(const MeshPair& pair, const TrianglePairIds& ids) {
+    if (!known_) known_.emplace();
+    const auto a = static_cast<std::uint32_t>(ids.a), b = static_cast<std::uint32_t>(ids.b);
+    TrianglePairIds& known = (*known_)[(a * 0x9E3779B1U + b * 0x85EBCA6BU) >> (32 - kBits)];
+    if (known == ids) return false;
+    if (pair.intersect(ids)) return true;
+    known = ids;
+    return false;
+  }
+
+ private:
+  static constexpr std::uint32_t kBits = 6, kNumber = 1U << kBits;
+  std::optional<std::array<TrianglePairIds, kNumber>> known_;  // most searches need none
 };
 
 class NearestEvaluator final : public RefineCallback {
@@ -160,10 +181,10 @@ class NearestEvaluator final : public RefineCallback {
     }
     if (c.kind == PairKind::kVertexFace) {
       const auto corner = [&](std::uint32_t k) { return ofB(c.b, k); };
-      return plane_of_b_.of(c.b, corner).distance(ofA(c.a));
+      return faceDistance(plane_of_b_.of(c.b, corner), ofA(c.a));
     }
     const auto corner = [&](std::uint32_t k) { return ofA(c.a, k); };
-    return plane_of_a_.of(c.a, corner).distance(ofB(c.b));
+    return faceDistance(plane_of_a_.of(c.a, corner), ofB(c.b));
   }
 
   /// Triangles as a whole: they may be nearer than the features that named them.

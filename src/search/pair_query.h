@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/triangle.h"
 #include "search/tuning.h"
 #include "volume/rounding.h"
 

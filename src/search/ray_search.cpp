@@ -17,12 +17,15 @@ RayFit makeFloatRay(const Tree& tree, const RayLine& line, double t_min, double 
                     RayLine::Near& near, FloatRay& ray) {
   const double reach = tree.reach;
   near = line.nearTo(fcl::Vector3d(tree.origin[0], tree.origin[1], tree.origin[2]), tree.exponent);
+  const double pad = 0x1p-18 * reach + near.error;
+  const Node& root = tree.nodes[0];
+  const double within = fcl::Vector3d(root.x[kCentral], root.y[kCentral], root.z[kCentral]).norm() +
+                        double{root.r[kCentral]} + pad;
+  if (near.from_it.norm() > within) return RayFit::kMiss;
   if (!(near.error <= 0x1p-6 * reach)) {
     ray = {{0, 0, 0}, {1, 0, 0}, 16 * tree.reach, -4 * tree.reach, 4 * tree.reach};
     return RayFit::kBlind;
   }
-  const double pad = 0x1p-18 * reach + near.error;
-  if (near.from_it.norm() > reach + pad) return RayFit::kMiss;
   for (int c = 0; c < 3; ++c) {
     ray.origin[c] = roundedTo<float>(-near.from_it[c]);
     ray.direction[c] = roundedTo<float>(line.unit()[c]);
@@ -30,7 +33,7 @@ RayFit makeFloatRay(const Tree& tree, const RayLine& line, double t_min, double 
   ray.pad = roundUpFloat(pad);
   ray.begin = toLength(tree, line.lengthOf(t_min, near.t, tree.exponent));
   ray.end = toLength(tree, line.lengthOf(t_max, near.t, tree.exponent));
-  return RayFit::kServed;
+  return ray.begin > within || ray.end < -within ? RayFit::kMiss : RayFit::kServed;
 }
 
 }  // namespace kios::engine

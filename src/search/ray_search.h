@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "fcl_kios/search/counts.h"
+#include "fcl_kios/detail/counts.h"
 #include "tree/tree.h"
 #include "volume/ray_interval.h"
 
@@ -36,7 +36,7 @@ struct FloatRay {
 
 enum class RayFit { kServed, kMiss, kBlind };
 
-/// kMiss: the line is proven to miss the model. kBlind: it comes from so far that floats tell
+/// kMiss: the ray is proven to miss the model. kBlind: it comes from so far that floats tell
 /// nothing of it, and the ray meets all.
 RayFit makeFloatRay(const Tree& tree, const RayLine& line, double t_min, double t_max,
                     RayLine::Near& near, FloatRay& ray);

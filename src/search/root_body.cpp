@@ -5,38 +5,21 @@
 #include <algorithm>
 
 #include "tree/box_fit.h"
-#include "volume/lanes.h"
 
 namespace kios::engine {
 namespace {
 
-using lanes::Double2;
 using Vec = Eigen::Vector3d;
+using Four = Eigen::Array4d;  // of the three axes of a box and its middle
 
-/// Four doubles: of the three axes of a box and its middle.
-struct Four {
-  Double2 low, high;
-
-  explicit Four(const Double2 (&p)[2]) : low(p[0]), high(p[1]) {}
-  Four(Double2 low, Double2 high) : low(low), high(high) {}
-  Four(double x, double y, double z) : low{x, y}, high{z, 0} {}
-  double operator[](int i) const { return i < 2 ? low[i] : high[i - 2]; }
-  Four operator+(const Four& o) const { return {low + o.low, high + o.high}; }
-  Four operator-(const Four& o) const { return {low - o.low, high - o.high}; }
-  Four operator*(double s) const { return {low * s, high * s}; }
-  Four abs() const { return {lanes::abs(low), lanes::abs(high)}; }
-  // These are of the axes alone.
-  double widest() const { return std::max({low[0], low[1], high[0]}); }
-  double dot(const Four& o) const {
-    const Double2 products = low * o.low;
-    return products[0] + products[1] + high[0] * o.high[0];
-  }
-  /// The norm of what is positive.
-  double norm() const {
-    const Four positive = {lanes::max(low, Double2{}), lanes::max(high, Double2{})};
-    return std::sqrt(positive.dot(positive));
-  }
-};
+// These are of the axes alone.
+double widest(const Four& v) { return std::max({v[0], v[1], v[2]}); }
+double sumOf(const Four& v) { return v[0] + v[1] + v[2]; }
+/// The norm of what is positive.
+double normOf(const Four& v) {
+  const Four positive = v.max(0);
+  return std::sqrt(sumOf(positive * positive));
+}
 
 /// Sum of the rows of a box by the coordinates of a vector.
 Four along(const Four (&rows)[3], const Vec& w) {
@@ -47,11 +30,11 @@ Four along(const Four (&rows)[3], const Vec& w) {
 /// from the plane's point.
 double offPlane(const RootBody& a, const RootBody& b, const Vec& ball, const Vec& middle,
                 const Four (&axes)[3]) {
-  const Vec n(a.rows[0][0][0], a.rows[1][0][0], a.rows[2][0][0]);
+  const Vec n(a.rows[0][0], a.rows[1][0], a.rows[2][0]);
   const auto height = [&](const Vec& p) {
     return a.form == RootBody::Form::kPlane ? std::abs(n.dot(p)) : n.dot(p);
   };
-  const double reach = along(axes, n).abs().dot(Four(b.half));
+  const double reach = sumOf(along(axes, n).abs() * b.half);
   return std::max(height(ball) - b.radius, height(middle) - reach - b.round);
 }
 
@@ -66,14 +49,11 @@ double extentOf(const Box& box) {
 // |o_k . (p - c)| <= h_k + u |p - c|, and along any axis reaches at most 1.8 u sum h_k farther than
 // the box of axes o_k. Stored vertices are off by kStored of the extent.
 void setBox(const Box& box, RootBody& body) {
-  const auto set = [](const auto& from, Double2(&to)[2]) {
-    to[0] = Double2{double{from[0]}, double{from[1]}};
-    to[1] = Double2{double{from[2]}, double{from[3]}};
-  };
-  set(box.x, body.rows[0]);
-  set(box.y, body.rows[1]);
-  set(box.z, body.rows[2]);
-  set(box.half, body.half);
+  const float* const rows[3] = {box.x, box.y, box.z};
+  for (int c = 0; c < 3; ++c) {
+    body.rows[c] = Eigen::Map<const Eigen::Array4f>(rows[c]).cast<double>();
+  }
+  body.half = Eigen::Map<const Eigen::Array4f>(box.half).cast<double>();
   body.skew = kUlpFloat;
   body.round = 3 * kUlpFloat * extentOf(box);
 }
@@ -96,9 +76,8 @@ RootBody bodyOf(const Tree& tree, std::uint32_t id) {
   if (id == 0 || !tree.boxes.empty()) {
     setBox(id == 0 ? tree.root_box : tree.boxes[id], body);
   } else {
-    for (int c = 0; c < 3; ++c) body.rows[c][1][1] = body.center[c];
-    body.half[0] = Double2{body.radius, body.radius};
-    body.half[1] = Double2{body.radius, 0};
+    for (int c = 0; c < 3; ++c) body.rows[c][3] = body.center[c];
+    body.half = {body.radius, body.radius, body.radius, 0};
   }
   return body;
 }
@@ -127,22 +106,20 @@ RootBody bodyOf(const Tree& tree, std::uint32_t id) {
 // rounding, and kDouble pays for what is computed here.
 [[gnu::hot]] double rootBound(const RootBody& a, const RootBody& b, const TreePose& X,
                               double enough) {
-  const Vec middle(a.rows[0][1][1], a.rows[1][1][1], a.rows[2][1][1]);
+  const Vec middle(a.rows[0][3], a.rows[1][3], a.rows[2][3]);
   const Vec ball = X.R * b.center + X.t;
   const double own = X.frame_error + kDouble * X.scale, stretch = 3 * X.stretch;
-  const Four half_a(a.half), half_b(b.half);
-  const Four rows_a[3] = {Four(a.rows[0]), Four(a.rows[1]), Four(a.rows[2])};
-  const Four rows_b[3] = {Four(b.rows[0]), Four(b.rows[1]), Four(b.rows[2])};
+  const Four &half_a = a.half, &half_b = b.half;
+  const Four(&rows_a)[3] = a.rows, (&rows_b)[3] = b.rows;
   double bound = -kInfinity;
   const auto raise = [&](double gap) {
     bound = std::max(bound, gap);
     return bound > enough;
   };
   const auto raiseBy = [&](const Four& gaps, double less) {
-    const double widest = gaps.widest();
-    return raise((widest > 0 ? gaps.norm() : widest) - less);
+    const double most = widest(gaps);
+    return raise((most > 0 ? normOf(gaps) : most) - less);
   };
-  const auto sumOf = [](const Four& half) { return half[0] + half[1] + half[2]; };
   const double balls = (ball - a.center).norm(), sum_a = sumOf(half_a), sum_b = sumOf(half_b),
                of_balls = balls + sum_a + a.radius + b.radius;
   const bool is_box = a.form == RootBody::Form::kBox;
@@ -154,7 +131,7 @@ RootBody bodyOf(const Tree& tree, std::uint32_t id) {
   const Vec of_b(rows_b[0][3], rows_b[1][3], rows_b[2][3]), to_b = X.R * of_b + X.t - middle;
   const Four out_a = along(rows_a, to_b).abs() - half_a;
   // A middle in the other's box, as a link's in a room: no axis parts them.
-  if (is_box && out_a.widest() <= 0) return bound;
+  if (is_box && widest(out_a) <= 0) return bound;
   const Four B[3] = {along(rows_b, X.R.row(0)), along(rows_b, X.R.row(1)),
                      along(rows_b, X.R.row(2))};
   const double way = to_b.lpNorm<1>(), lengths = of_balls + way + sum_b,
@@ -162,11 +139,12 @@ RootBody bodyOf(const Tree& tree, std::uint32_t id) {
                round = a.round + b.round + pad;
   if (!is_box) return offPlane(a, b, ball - middle, to_b, B) - skews * sum_b - pad;
   const Four out_b = along(B, to_b).abs() - half_b;
-  if (out_b.widest() <= 0) return bound;
+  if (widest(out_b) <= 0) return bound;
   const auto columnOfA = [&](int i) { return Vec(rows_a[0][i], rows_a[1][i], rows_a[2][i]); };
   const Four C[3] = {along(B, columnOfA(0)), along(B, columnOfA(1)), along(B, columnOfA(2))};
   const Four reach[3] = {C[0].abs(), C[1].abs(), C[2].abs()};
-  if (raiseBy(out_a - Four(reach[0].dot(half_b), reach[1].dot(half_b), reach[2].dot(half_b)),
+  if (raiseBy(out_a - Four(sumOf(reach[0] * half_b), sumOf(reach[1] * half_b),
+                           sumOf(reach[2] * half_b), 0),
               round + a.skew * way + skews * sum_b)) {
     return bound;
   }

@@ -28,8 +28,8 @@ struct RootBody {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of the ball
   double radius = 0;
   /// Coordinates x, y, z of the axes, which are orthonormal but for `skew` each, and of the middle.
-  lanes::Double2 rows[3][2] = {{{1, 0}, {0, 0}}, {{0, 1}, {0, 0}}, {{0, 0}, {1, 0}}};
-  lanes::Double2 half[2] = {{0, 0}, {0, 0}};
+  Eigen::Array4d rows[3] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+  Eigen::Array4d half = Eigen::Array4d::Zero();  ///< the fourth is 0
   double skew = 0;
   double round = 0;  ///< content is within this of the box
 };

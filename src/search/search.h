@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "fcl_kios/search/counts.h"
+#include "fcl_kios/detail/counts.h"
 #include "search/float_frame.h"
 #include "search/tuning.h"
 #include "tree/tree.h"
@@ -91,6 +91,7 @@ struct Bracket {
 };
 
 struct CellSearch;
+struct PointSearch;
 struct RaySearch;
 struct SolidSearch;
 
@@ -124,6 +125,8 @@ struct Kernels {
   void (*cells)(const CellSearch& search);
   /// Every triangle that may be nearer to the solid than evaluator.cull_distance is evaluated.
   void (*solid)(const SolidSearch& search);
+  /// Every triangle that may be nearer to the point than evaluator.cull_distance is evaluated.
+  void (*point)(const PointSearch& search);
 };
 
 /// The best instruction set of this machine, or that which the environment variable

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/search/counts.h"
+#include "fcl_kios/detail/counts.h"
 #include "search/tuning.h"
 #include "tree/tree.h"
 #include "volume/rounding.h"

@@ -18,10 +18,9 @@ constexpr float kWideLeaf = 8;
 /// large. By the leaf's size: 0.5 to 0.6 of world/strips. Other values: not measured.
 constexpr float kSplitLeaf = 4;
 /// The direction across a leaf is tried in distances with a bound on entry if the mean leaf is so
-/// many times as large as the other's: not measured.
+/// many times as large as the other's. Never, and boxes at each step of the descent: 0.85 of
+/// closerThan() at a table.
 constexpr float kGroundLeaf = 2;
-/// Boxes are tested in contact where spheres overlap by less of the smaller node: not measured.
-constexpr float kLittleOverlap = 0.25F;
 /// A wave of exact distances takes what lies within this part of the way from the nearest bound to
 /// cull_distance; one of bracketed distances, which may end early, less: not measured.
 constexpr float kWave = 0.5F, kBracketWave = 0.125F;

@@ -81,8 +81,8 @@ void descend(Exit& exit) {
   }
 }
 
-/// A point of both; for a capsule the pair of nearest points of its segment and the triangle. A box
-/// gets here where its slabs leave nothing of the triangle.
+/// A point of both; for a capsule the pair of nearest points of its segment and the triangle; for a
+/// box the middle of what its slabs leave of the triangle, unless rounding leaves nothing.
 CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* faces,
                         const std::optional<Vec>& common) {
   CoreDistance core = {};
@@ -98,7 +98,13 @@ CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* fa
     }
   } else if (s.kind == Kind::kCapsule) {
     if (distanceByCertificate(s, t, kInfinity, core)) return core;
-  } else if (s.kind != Kind::kBox && meets(s, t, &core.point)) {
+  } else if (s.kind == Kind::kBox) {
+    const Polygon polygon(t, s.half);
+    if (polygon.size > 0) {
+      core.point = core.on_core = polygon.middle();
+      return core;
+    }
+  } else if (meets(s, t, &core.point)) {
     core.on_core = core.point;
     return core;
   }
@@ -137,45 +143,6 @@ TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const Conve
   return {position, exit.normal(), std::max(0.0, exit.depth())};
 }
 
-/// The directions of solidContact() in closed form, and what the box's slabs leave of the triangle.
-/// False if rounding leaves nothing.
-bool boxContact(const Solid& s, const Triangle& t, TriangleShapeContact& contact) {
-  const Polygon polygon(t, s.half);
-  if (polygon.size == 0) return false;
-  contact = {polygon.middle(), Vec::UnitZ(), kInfinity};
-  // Depths along n and -n, of length `length`, of a box that reaches as far as `reach`.
-  const auto offer = [&](double x, double y, double z, double length, double reach, double low,
-                         double high) {
-    if (!(length > 0 && length < kInfinity)) return;
-    const double depth = (reach + std::min(-low, high)) / length;
-    if (!(depth < contact.depth)) return;
-    contact.depth = depth;
-    contact.normal = Vec(x, y, z) / (high < -low ? -length : length);
-  };
-  const Vec n = faceNormal(t), &h = s.half;
-  const double a = n.dot(t[0]), b = n.dot(t[1]), c = n.dot(t[2]);
-  offer(n.x(), n.y(), n.z(), n.norm(), h.dot(n.cwiseAbs()), std::min({a, b, c}),
-        std::max({a, b, c}));
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    offer(i == 0, i == 1, i == 2, 1, h[i], std::min({t[0][i], t[1][i], t[2][i]}),
-          std::max({t[0][i], t[1][i], t[2][i]}));
-    for (int edge = 0; edge < 3; ++edge) {  // unit vector i x edge: -ek along j, ej along k
-      const Vec &from = t[edge], &to = t[(edge + 1) % 3], &other = t[(edge + 2) % 3];
-      const double ej = to[j] - from[j], ek = to[k] - from[k];
-      const double p = ej * from[k] - ek * from[j], q = ej * to[k] - ek * to[j],
-                   r = ej * other[k] - ek * other[j];
-      Vec w = Vec::Zero();
-      w[j] = -ek;
-      w[k] = ej;
-      offer(w.x(), w.y(), w.z(), std::sqrt(ej * ej + ek * ek),
-            h[j] * std::abs(ek) + h[k] * std::abs(ej), std::min({p, q, r}), std::max({p, q, r}));
-    }
-  }
-  contact.depth = std::max(0.0, contact.depth);
-  return true;
-}
-
 TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
   double height[3];
   for (int i = 0; i < 3; ++i) height[i] = s.normal.dot(t[i]) - s.offset;
@@ -207,8 +174,6 @@ TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
 TriangleShapeContact contact(const Solid& s, const Triangle& t, const ConvexFaces* faces,
                              const std::optional<Vec>& common) {
   if (!s.bounded()) return planeContact(s, t);
-  TriangleShapeContact of_box;
-  if (s.kind == Kind::kBox && boxContact(s, t, of_box)) return of_box;
   if (s.kind != Kind::kSphere) return solidContact(s, t, faces, common);
   const Vec q = nearestToOrigin(t);
   const double length = q.norm();

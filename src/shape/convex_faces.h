@@ -10,7 +10,8 @@ namespace kios::shape {
 
 /// The planes of a convex shape's faces, made once for a query. What they tell doesn't rest on the
 /// faces: a slab is one of all points, and what is told to be inside lies in a tetrahedron of a
-/// face and the points' middle. For one thread.
+/// face and the points' middle. Where GJK decides what meets, and the kernels alone keep slabs,
+/// shapes/convex contacts takes 2.4 times as long. For one thread.
 class ConvexFaces {
  public:
   /// Takes all faces with an area; other solids have none. The solid must outlive this.

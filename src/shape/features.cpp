@@ -136,33 +136,6 @@ class Features {
     return rise > 0x1p-40 * size_ && decides(x, q);
   }
 
-  /// Guesses where on an edge an ellipsoid is nearest. x = a + s d has the nearest point e^2 n,
-  /// n = x / (e^2 + t), for s and t of |e n| = 1 and n d = 0: Newton's method for both, as in
-  /// nearestPoint(), from where the edge is nearest in units of the radii.
-  double guessOnEdge(const Vec& a, const Vec& d) const {
-    const Eigen::Array3d e = solid_.half.array(), e2 = e * e;
-    const Vec scaled_a = a.array() / e, scaled_d = d.array() / e;
-    double s = nearestOnSegment(scaled_a, scaled_a + scaled_d), t = 0;
-    constexpr int kSteps = 12;
-    for (int step = 0; step < kSteps; ++step) {
-      const Eigen::Array3d x = a + s * d;
-      t = std::max(t, (e * x.abs() - e2).maxCoeff());  // keeps |e_i n_i| within 1
-      const Eigen::Array3d over = 1 / (e2 + t), n = x * over, nd = n * d.array(),
-                           dd = d.array().square() * over;
-      const Eigen::Array3d w2 = e2 * n * n;
-      const double square = w2.sum(), r = (w2 * over).sum();
-      const double h = (std::sqrt(square) - 1) * square;
-      const double g = nd.sum(), a1 = dd.sum(), b = (e2 * nd * over).sum(), c = (nd * over).sum();
-      const double determinant = r * a1 - b * c;
-      if (!(determinant > 0)) break;
-      const double ds = (c * h - r * g) / determinant, dt = (a1 * h - b * g) / determinant;
-      s = std::clamp(s + ds, 0.0, 1.0);
-      t = std::max(0.0, t + dt);
-      if (std::abs(ds) <= 0x1p-30) break;
-    }
-    return s;
-  }
-
   // Half the derivative of the squared distance along the edge is found to be 0 by false position,
   // after Illinois: next to a box and a capsule it is linear but for a few bends.
   bool nearestOnEdge(int i, int j, Vec& x, NearestPoint& q) const {
@@ -175,9 +148,7 @@ class Features {
     constexpr int kGuesses = 16, kSteps = 68;  // halvings follow, for triple roots where both touch
     int kept = 0;                              // the end that stayed where it was: -1 low, 1 high
     for (int step = 0; step < kSteps; ++step) {
-      double way = step == 0 && full_ellipsoid_
-                       ? guessOnEdge(a, along)
-                       : low + (high - low) * (at_low / (at_low - at_high));
+      double way = low + (high - low) * (at_low / (at_low - at_high));
       if (step >= kGuesses || !(way > low && way < high)) way = 0.5 * (low + high);
       x = a + way * along;
       q = nearestPoint(solid_, x);

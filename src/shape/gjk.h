@@ -24,9 +24,4 @@ struct CoreDistance {
 CoreDistance gjkDistance(const Solid& solid, const Vec* hull, int num_points, double required,
                          int max_iterations = 128);
 
-/// The point of the triangle nearest to the origin: its distance is the least but for 2^-48 of the
-/// largest |x|_1 of the corners. Degenerate triangles are served as the segment or point that they
-/// are.
-Vec nearestToOrigin(const TriangleVertices<double>& t);
-
 }  // namespace kios::shape

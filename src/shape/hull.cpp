@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "shape/nearest_point.h"
-#include "triangle/common_point.h"
 #include "triangle/predicates.h"
 #include "volume/rounding.h"
 #include "volume/unit_vector.h"
@@ -83,7 +81,7 @@ bool inTetrahedron(const Vec& apex, const Triangle& face, const Vec& p) {
 /// whichever way the corners of those run.
 bool contains(const Solid& s, const Vec& p) {
   if (s.points.size() <= 3) return false;
-  const auto [low, high] = rangeOf(s.points);
+  const auto [low, high] = rangeOf(s);
   if ((p.array() < low.array()).any() || (p.array() > high.array()).any()) return false;
   return anyFace(s, [&](const Triangle& face) { return inTetrahedron(s.points[0], face, p); });
 }
@@ -137,7 +135,9 @@ bool hasFaces(const Solid& s) {
 
 bool meetsHull(const Solid& s, const Triangle& t, Vec* common) {
   const bool meets = anyFace(s, [&](const Triangle& face) {
-    return common ? commonPoint(t, face, *common) : trianglesIntersect(t, face);
+    if (!trianglesIntersect(t, face)) return false;
+    if (common) *common = intersectionPoint(t, face);
+    return true;
   });
   if (meets) return true;
   // Without a common point with the surface the triangle is inside as a whole, or not at all.
@@ -151,24 +151,20 @@ bool meetsHull(const Solid& s, const Triangle& t, Vec* common) {
   return false;
 }
 
-TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t, double within) {
-  TriangleShapeDistance best;
-  best.distance = best.lower = kInfinity;
+CoreDistance distanceToHull(const Solid& s, const Triangle& t, double within) {
+  CoreDistance best = {};
+  best.upper = kInfinity;
   // Upper bounds of distances are off by less than this.
   const double slack = 0x1p-46 * (sizeOf(t) + s.reach());
   const Vec low = t[0].cwiseMin(t[1]).cwiseMin(t[2]), high = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
   anyFace(s, [&](const Triangle& face) {
-    const double reach = std::min(within, best.distance) + slack;
+    const double reach = std::min(within, best.upper) + slack;
     for (int c = 0; c < 3; ++c) {
       if (std::min({face[0][c], face[1][c], face[2][c]}) > high[c] + reach) return false;
       if (std::max({face[0][c], face[1][c], face[2][c]}) < low[c] - reach) return false;
     }
     const TriangleDistance<double> d = triangleDistance(t, face);
-    if (d.distance < best.distance) {
-      best.distance = best.lower = d.distance;
-      best.on_triangle = d.point_a;
-      best.on_shape = d.point_b;
-    }
+    if (d.distance < best.upper) best = {d.distance, d.distance, false, d.point_a, d.point_b};
     return false;
   });
   return best;
@@ -176,9 +172,9 @@ TriangleShapeDistance distanceToHull(const Solid& s, const Triangle& t, double w
 
 // The direction towards the triangle loses digits as the distance falls, and a point beyond might
 // be passed over for that: so points count as far as the direction may be off.
-TriangleShapeDistance distanceToPoints(const Solid& s, const Triangle& t) {
-  TriangleShapeDistance best;
-  best.distance = best.lower = kInfinity;
+CoreDistance distanceToPoints(const Solid& s, const Triangle& t) {
+  CoreDistance best = {};
+  best.upper = kInfinity;
   std::vector<Vec> chosen = {coreSupport(s, t[0] - s.points[0])};
   Vec n = Vec::Zero();
   const double size = sizeOf(t) + s.reach();
@@ -191,21 +187,18 @@ TriangleShapeDistance distanceToPoints(const Solid& s, const Triangle& t) {
         const Triangle face = {chosen[i], chosen[j], next};
         for (std::size_t k = 0; k < i && i < j && j < last; ++k) {
           if (inTetrahedron(chosen[k], face, t[0])) {
-            best = {0, 0, t[0], t[0]};
-            return best;
+            return {0, 0, true, t[0], t[0]};
           }
         }
         const TriangleDistance<double> d = triangleDistance(t, face);
-        if (!(d.distance < best.distance)) continue;
-        best.distance = best.lower = d.distance;
-        best.on_triangle = d.point_a;
-        best.on_shape = d.point_b;
+        if (!(d.distance < best.upper)) continue;
+        best = {d.distance, d.distance, false, d.point_a, d.point_b};
         n = directionAcross(t, face, d);
       }
     }
-    if (best.distance <= 0x1p-48 * size || chosen.size() == kMost) break;
-    const double error = 0x1p-50 * size / best.distance;
-    const Vec* farthest = farthestBeyond(s, best.on_shape, n, error, chosen);
+    if (best.upper <= 0x1p-48 * size || chosen.size() == kMost) break;
+    const double error = 0x1p-50 * size / best.upper;
+    const Vec* farthest = farthestBeyond(s, best.on_core, n, error, chosen);
     if (!farthest) break;
     chosen.push_back(*farthest);
   }
@@ -218,16 +211,10 @@ CoreDistance closedBracket(const Solid& s, const Triangle& t, double required,
   const bool decided = core.inside || core.lower > required;
   if (decided || core.upper - core.lower <= tolerance) return core;
   if (!hasFaces(s) && s.kind != Kind::kConvex) return core;
-  const TriangleShapeDistance exact =
+  const CoreDistance exact =
       hasFaces(s) ? distanceToHull(s, t, core.upper) : distanceToPoints(s, t);
-  CoreDistance closed = core;
-  if (exact.distance <= core.upper) {
-    closed.upper = exact.distance;
-    closed.point = exact.on_triangle;
-    closed.on_core = exact.on_shape;
-  }
-  closed.lower = std::min(closed.upper, exact.lower);
-  return closed;
+  if (exact.upper <= core.upper) return exact;
+  return {core.upper, core.upper, core.inside, core.point, core.on_core};
 }
 
 }  // namespace kios::shape

@@ -21,12 +21,12 @@ bool meetsHull(const Solid& solid, const Triangle& triangle, Vec* common = nullp
 /// Distance of a triangle and a core that don't intersect: that of the nearest face, within 16 eps
 /// of the extent. Faces farther than `within` are passed over, which must be the distance of two
 /// points of the pair or infinite.
-TriangleShapeDistance distanceToHull(const Solid& solid, const Triangle& triangle, double within);
+CoreDistance distanceToHull(const Solid& solid, const Triangle& triangle, double within);
 
 /// Distance of a triangle and a convex shape whose faces aren't known, 0 if they meet: that of
 /// triangles over a few of the points, by the certified kernel. The point that lies farthest
 /// towards the triangle joins them until there is none beyond. Costs the cube of their number.
-TriangleShapeDistance distanceToPoints(const Solid& convex, const Triangle& triangle);
+CoreDistance distanceToPoints(const Solid& convex, const Triangle& triangle);
 
 /// GJK's bracket for the pair, or if that is left open beyond rounding around or below `required`,
 /// and the core is a polytope, the distance by its faces or points.

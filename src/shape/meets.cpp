@@ -9,6 +9,7 @@
 
 #include "shape/convex_faces.h"
 #include "shape/hull.h"
+#include "shape/nearest_point.h"
 #include "shape/polygon.h"
 #include "triangle/twofold.h"
 #include "volume/rounding.h"
@@ -67,7 +68,7 @@ bool meetsBox(const Solid& s, const Triangle& t, Vec* common) {
     if (common) *common = polygon.middle();
     return true;
   }
-  if (accurate) *common = distanceToHull(s, t, kInfinity).on_triangle;  // touching, rounded
+  if (accurate) *common = distanceToHull(s, t, kInfinity).point;  // touching, rounded
   return accurate;
 }
 
@@ -165,7 +166,7 @@ bool meetsFlatEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
 
 }  // namespace
 
-// The nearest point of a triangle of size S is off by 2^-48 S, in units of the radii as well.
+// The nearest point of a triangle of size S is off by 2^-46 S, in units of the radii as well.
 bool isLargeInRadii(const Vec& e, const Triangle& t) {
   const double most = e.maxCoeff();
   if (isFlat(e, 0) || isFlat(e, 1) || isFlat(e, 2)) return true;
@@ -199,9 +200,9 @@ bool meetsAt(const Solid& s, const Triangle& t, const CoreDistance& core, Vec* c
   if (core.inside && common) *common = core.point;
   if (core.inside && s.kind == Kind::kConvex) return true;
   if (s.kind == Kind::kConvex && !hasFaces(s)) {
-    const TriangleShapeDistance d = distanceToPoints(s, t);
-    if (common) *common = d.on_triangle;
-    return d.distance <= 0x1p-50 * sizeOf(t);
+    const CoreDistance d = distanceToPoints(s, t);
+    if (common) *common = d.point;
+    return d.upper <= 0x1p-50 * sizeOf(t);
   }
   return meets(s, t, core.inside ? nullptr : common);
 }

@@ -4,6 +4,7 @@
 
 #include "shape/solid.h"
 #include "shape/triangle_shape.h"
+#include "triangle/point_distance.h"
 
 // Nearest points by closed forms, in the solid's frame.
 
@@ -14,6 +15,10 @@ struct NearestPoint {
   Vec on_shape;
   Vec normal;  ///< unit, the gradient of the distance: accurate however small that is
 };
+
+/// The point of a triangle nearest to the origin: its distance is the least but for 16 eps of the
+/// diagonal of the box around both.
+inline Vec nearestToOrigin(const Triangle& t) { return nearestOnTriangle(Vec::Zero(), t).point; }
 
 /// The cross product of two edges, each component with nearly all its digits however thin the
 /// triangle is.

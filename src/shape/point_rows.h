@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 
 namespace kios::shape {
 

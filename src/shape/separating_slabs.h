@@ -12,7 +12,8 @@
 namespace kios::shape {
 
 /// Slabs that contain a bounded solid, each across a triangle that was found apart from it: most
-/// triangles near that one are beyond them, too, which takes less than another GJK. For one thread.
+/// triangles near that one are beyond them, too, which takes less than another GJK: without them
+/// shapes/convex distance takes twice as long, shapes/hull distance three times. For one thread.
 class SeparatingSlabs {
  public:
   /// The solid must outlive this.

@@ -4,15 +4,7 @@
 
 #include <cmath>
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/ellipsoid.h>
-#include <fcl/geometry/shape/halfspace.h>
-#include <fcl/geometry/shape/plane.h>
-#include <fcl/geometry/shape/sphere.h>
+#include "shape/visit_shape.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
@@ -29,6 +21,17 @@ double size(const char* shape, const char* name, S value) {
   refuse("the fcl::", shape, " has ", name, " ", value, ", which must be finite and not negative.");
 }
 
+template <typename S>
+Point<double> sizes(const char* shape, const char* name, const fcl::Vector3<S>& v) {
+  return {size(shape, name, v[0]), size(shape, name, v[1]), size(shape, name, v[2])};
+}
+
+template <typename Round>
+void setRound(const char* name, const Round& round, Solid& solid) {
+  solid.radius = size(name, "radius", round.radius);
+  solid.half_length = size(name, "length", round.lz) / 2;
+}
+
 /// Half-space or plane {n x <= or = d}, whatever the length of n.
 template <typename S, typename Shape>
 void setPlane(const char* name, const Shape& plane, Solid& solid) {
@@ -42,12 +45,6 @@ void setPlane(const char* name, const Shape& plane, Solid& solid) {
   if (!(std::abs(solid.offset) <= kMaxCoordinate<S>)) {
     refuse("the fcl::", name, " has an offset that is not finite.");
   }
-}
-
-template <typename Shape>
-void setRound(const char* name, const Shape& shape, Solid& solid) {
-  solid.radius = size(name, "radius", shape.radius);
-  solid.half_length = size(name, "length", shape.lz) / 2;
 }
 
 template <typename S>
@@ -68,70 +65,37 @@ void setConvex(const fcl::Convex<S>& convex, Solid& solid) {
 
 template <typename S>
 bool isShape(const fcl::CollisionGeometry<S>& geometry) {
-  if (geometry.getObjectType() != fcl::OT_GEOM) return false;
-  switch (geometry.getNodeType()) {
-    case fcl::GEOM_BOX:
-    case fcl::GEOM_SPHERE:
-    case fcl::GEOM_ELLIPSOID:
-    case fcl::GEOM_CAPSULE:
-    case fcl::GEOM_CONE:
-    case fcl::GEOM_CYLINDER:
-    case fcl::GEOM_CONVEX:
-    case fcl::GEOM_HALFSPACE:
-    case fcl::GEOM_PLANE:
-      return true;
-    default:
-      return false;
-  }
+  static_assert(fcl::GEOM_HALFSPACE == fcl::GEOM_BOX + 8 &&
+                fcl::GEOM_TRIANGLE > fcl::GEOM_HALFSPACE);
+  const fcl::NODE_TYPE type = geometry.getNodeType();
+  return geometry.getObjectType() == fcl::OT_GEOM && type >= fcl::GEOM_BOX &&
+         type <= fcl::GEOM_HALFSPACE;
 }
 
 template <typename S>
 Solid toSolid(const fcl::CollisionGeometry<S>& geometry) {
+  if (!isShape(geometry)) refuse("the geometry is none of FCL's nine shapes.");
   Solid solid;
-  switch (geometry.getNodeType()) {
-    case fcl::GEOM_BOX: {
-      solid.kind = Kind::kBox;
-      const auto& side = static_cast<const fcl::Box<S>&>(geometry).side;
-      for (int c = 0; c < 3; ++c) solid.half[c] = size("Box", "side", side[c]) / 2;
-      break;
-    }
-    case fcl::GEOM_SPHERE:
-      solid.kind = Kind::kSphere;
-      solid.radius = size("Sphere", "radius", static_cast<const fcl::Sphere<S>&>(geometry).radius);
-      break;
-    case fcl::GEOM_ELLIPSOID: {
-      solid.kind = Kind::kEllipsoid;
-      const auto& radii = static_cast<const fcl::Ellipsoid<S>&>(geometry).radii;
-      for (int c = 0; c < 3; ++c) solid.half[c] = size("Ellipsoid", "radius", radii[c]);
-      break;
-    }
-    case fcl::GEOM_CAPSULE:
-      solid.kind = Kind::kCapsule;
-      setRound("Capsule", static_cast<const fcl::Capsule<S>&>(geometry), solid);
-      break;
-    case fcl::GEOM_CONE:
-      solid.kind = Kind::kCone;
-      setRound("Cone", static_cast<const fcl::Cone<S>&>(geometry), solid);
-      break;
-    case fcl::GEOM_CYLINDER:
-      solid.kind = Kind::kCylinder;
-      setRound("Cylinder", static_cast<const fcl::Cylinder<S>&>(geometry), solid);
-      break;
-    case fcl::GEOM_CONVEX:
-      solid.kind = Kind::kConvex;
-      setConvex(static_cast<const fcl::Convex<S>&>(geometry), solid);
-      break;
-    case fcl::GEOM_HALFSPACE:
-      solid.kind = Kind::kHalfspace;
-      setPlane<S>("Halfspace", static_cast<const fcl::Halfspace<S>&>(geometry), solid);
-      break;
-    case fcl::GEOM_PLANE:
-      solid.kind = Kind::kPlane;
-      setPlane<S>("Plane", static_cast<const fcl::Plane<S>&>(geometry), solid);
-      break;
-    default:
-      refuse("the geometry is none of FCL's nine shapes.");
-  }
+  const auto set = [&](Kind kind) -> Solid& {
+    solid.kind = kind;
+    return solid;
+  };
+  visitShape(
+      geometry,
+      [&](const fcl::Box<S>& s) { set(Kind::kBox).half = sizes("Box", "side", s.side) / 2; },
+      [&](const fcl::Sphere<S>& s) {
+        set(Kind::kSphere).radius = size("Sphere", "radius", s.radius);
+      },
+      [&](const fcl::Ellipsoid<S>& s) {
+        set(Kind::kEllipsoid).half = sizes("Ellipsoid", "radius", s.radii);
+      },
+      [&](const fcl::Capsule<S>& s) { setRound("Capsule", s, set(Kind::kCapsule)); },
+      [&](const fcl::Cone<S>& s) { setRound("Cone", s, set(Kind::kCone)); },
+      [&](const fcl::Cylinder<S>& s) { setRound("Cylinder", s, set(Kind::kCylinder)); },
+      [&](const fcl::Convex<S>& s) { setConvex(s, set(Kind::kConvex)); },
+      [&](const fcl::Halfspace<S>& s) { setPlane<S>("Halfspace", s, set(Kind::kHalfspace)); },
+      [&](const fcl::Plane<S>& s) { setPlane<S>("Plane", s, set(Kind::kPlane)); },
+      [](const fcl::TriangleP<S>&) {});  // was refused
   return solid;
 }
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-// GJK's simplex, which the addon fcl_kios::robot uses as well: no symbols of the library.
+// GJK's simplex, which addons use as well: no symbols of the library.
 
 namespace kios::shape {
 

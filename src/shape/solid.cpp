@@ -52,15 +52,6 @@ double Solid::reach() const {
   }
 }
 
-Range rangeOf(const std::vector<Vec>& points) {
-  Range range = {points[0], points[0]};
-  for (const Vec& p : points) {
-    range.low = range.low.cwiseMin(p);
-    range.high = range.high.cwiseMax(p);
-  }
-  return range;
-}
-
 Range rangeOf(const Solid& s) {
   Vec half = s.half;
   switch (s.kind) {
@@ -74,8 +65,14 @@ Range rangeOf(const Solid& s) {
     case Kind::kCone:
       half = {s.radius, s.radius, s.half_length};
       break;
-    case Kind::kConvex:
-      return rangeOf(s.points);
+    case Kind::kConvex: {
+      Range range = {s.points[0], s.points[0]};
+      for (const Vec& p : s.points) {
+        range.low = range.low.cwiseMin(p);
+        range.high = range.high.cwiseMax(p);
+      }
+      return range;
+    }
     default:
       break;
   }

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 #include "shape/point_rows.h"
 
 namespace kios::shape {
@@ -55,9 +55,7 @@ struct Solid {
 struct Range {
   Vec low, high;
 };
-/// The box around a convex shape's points.
-Range rangeOf(const std::vector<Vec>& points);
-/// That around the core of a bounded shape.
+/// The box around the core of a bounded shape.
 Range rangeOf(const Solid& solid);
 
 /// True if an ellipsoid's radius counts as 0, since its square may vanish beside that of the

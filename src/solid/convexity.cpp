@@ -5,33 +5,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#include "fcl_kios/volume/rigid.h"
-#include "model/prepared.h"
-#include "solid/winding.h"
-#include "tree/weld.h"
-#include "volume/instantiate.h"
+#include "fcl_kios/detail/rigid.h"
+#include "solid/containment.h"
+#include "triangle/determinant.h"
 
 namespace kios {
 namespace {
 
 using Vec = fcl::Vector3d;
-using Fine = boost::multiprecision::cpp_bin_float_quad;
 
 /// Holds a mesh as seen from a point within, its vertices welded. Triangles with two equal corners
 /// are left out: they pass an edge once each way.
 class ConeMesh {
  public:
-  template <typename S>
-  explicit ConeMesh(const engine::MeshView<S>& mesh) {
-    const std::vector<std::uint32_t> welded = engine::weld(mesh);
-    std::vector<int> number(mesh.num_vertices, -1);
-    faces_.reserve(mesh.num_triangles);
-    for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
+  explicit ConeMesh(const Mesh& mesh) {
+    const std::vector<std::uint32_t> welded = mesh.weld();
+    std::vector<int> number(mesh.numVertices(), -1);
+    faces_.reserve(mesh.numTriangles());
+    for (std::size_t t = 0; t < mesh.numTriangles(); ++t) {
       std::array<std::uint32_t, 3> v;
       for (std::size_t k = 0; k < 3; ++k) v[k] = welded[mesh.index(t, k)];
       if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
@@ -39,7 +35,7 @@ class ConeMesh {
       for (std::size_t k = 0; k < 3; ++k) {
         if (number[v[k]] < 0) {
           number[v[k]] = static_cast<int>(points_.size());
-          points_.push_back(mesh.vertices[v[k]].template cast<double>());
+          points_.push_back(mesh.vertex(v[k]));
         }
         face[k] = number[v[k]];
       }
@@ -47,7 +43,7 @@ class ConeMesh {
     center_ = middle();
     for (const Vec& p : points_) farthest_ = std::max(farthest_, (p - center_).norm());
     farthest_ *= 1 + 0x1p-40;
-    fitBox();
+    measureBox(mesh.tree().root_box);
   }
 
   const Vec& center() const { return center_; }
@@ -58,110 +54,49 @@ class ConeMesh {
   bool measureCones() {
     cones_.reserve(faces_.size());
     for (const auto& face : faces_) {
-      const Vec p = point(face[0]) - center_, q = point(face[1]) - center_,
-                r = point(face[2]) - center_;
-      const double lengths = p.norm() * q.norm() * r.norm();
-      double volume = p.dot(q.cross(r)) - kError * lengths;
-      if (!(volume > 0)) {
-        volume = fineVolume(center_, point(face[0]), point(face[1]), point(face[2])) -
-                 kFineError * lengths;
-      }
-      if (!(volume > 0)) return false;
-      cones_.push_back(volume);
+      const auto [six, error] = sixVolumes(center_, point(face[0]), point(face[1]), point(face[2]));
+      if (!(six > error)) return false;
+      cones_.push_back(six - error);
     }
     return !cones_.empty();
   }
 
-  /// Sorts sides by the vertex from which they run. False unless all edges have two faces.
+  /// False unless all edges have two faces, each of which runs through it one way.
   bool pairSides() {
-    begin_.assign(points_.size() + 1, 0);
-    for (const auto& face : faces_) {
-      for (const int v : face) ++begin_[at(v) + 1];
-    }
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    to_.resize(3 * faces_.size());
-    face_.resize(to_.size());
-    std::vector<int> next(begin_.begin(), begin_.end() - 1);
-    for (std::size_t f = 0; f < faces_.size(); ++f) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = at(next[at(faces_[f][k])]++);
-        to_[i] = faces_[f][(k + 1) % 3];
-        face_[i] = static_cast<int>(f);
-      }
-    }
-    edges_.reserve(to_.size() / 2);
-    for (int v = 0; v < static_cast<int>(points_.size()); ++v) {
-      for (int i = begin_[at(v)]; i < begin_[at(v) + 1]; ++i) {
-        // The other side is looked for at the end that has fewer: in all that takes O(n).
-        const int w = to_[at(i)], fewer = degree(w) - degree(v);
-        if (fewer > 0 || (fewer == 0 && w < v)) continue;
-        int twin = -1;
-        for (int j = begin_[at(w)]; j < begin_[at(w) + 1]; ++j) {
-          if (to_[at(j)] != v) continue;
-          if (twin >= 0) return false;
-          twin = j;
-        }
-        if (twin < 0) return false;
-        edges_.emplace_back(v, i, twin);
-      }
-    }
-    return 2 * edges_.size() == to_.size();
+    sides_ = sidesOf(faces_.size(), [this](std::size_t f) { return faces_[f]; });
+    bool paired = true;
+    forEdges(sides_, [&](std::size_t begin, std::size_t end) {
+      paired &= end - begin == 2 && sides_[begin].forward != sides_[begin + 1].forward;
+    });
+    return paired;
   }
 
-  /// Holds E, and its share of edges that are reflex beyond the rounding of doubles.
-  struct Reflex {
-    double sum = 0, certain = 0;
-  };
-  /// Where `fine`, edges that rounding alone may have bent are measured in 113 bits, which costs
-  /// more; else they count as if they were as reflex as they may be. Ends where it exceeds
-  /// `max_reflex`.
-  Reflex measureReflex(bool fine, double max_reflex) const {
-    Reflex reflex;
-    for (const Edge& e : edges_) {
-      const int v = e.from, w = to_[at(e.side)];
-      const Vec &p = point(v), &q = point(w);
-      const Vec &a = point(opposite(e.side, v, w)), &b = point(opposite(e.twin, v, w));
-      const Vec along = q - p, in_a = a - p, in_b = b - p;
-      const double lengths =
-          std::sqrt(along.squaredNorm() * in_a.squaredNorm() * in_b.squaredNorm());
-      double error = kError * lengths;
-      double above = along.cross(in_a).dot(in_b);  // six times the volume of (p, q, a, b)
+  /// E, or something above `most`.
+  double measureReflex(double most) const {
+    double reflex = 0;
+    for (std::size_t i = 0; i < sides_.size() && reflex <= most; i += 2) {
+      const Side *side = &sides_[i], *twin = &sides_[i + 1];
+      if (!side->forward) std::swap(side, twin);
+      const Vec &p = point(side->low), &q = point(side->high);
+      const auto [above, error] = sixVolumes(p, q, opposite(*side), opposite(*twin));
       if (above <= -error) continue;
-      const bool certain = above > error;
-      if (fine && !certain) {
-        error = kFineError * lengths;
-        above = fineVolume(p, q, a, b);
-        if (above <= -error) continue;
-      }
-      const double term =
-          1.01 * (above + error) / cones_[at(face_[at(e.side)])] *
-          (farthestFromPlane(p - center_, q - center_) / cones_[at(face_[at(e.twin)])]);
-      reflex.sum += term;
-      if (certain) reflex.certain += term;
-      if (!((fine ? reflex.sum : reflex.certain) <= max_reflex)) break;
+      reflex += 1.01 * (above + error) / cones_[at(side->triangle)] *
+                (farthestFromPlane(p - center_, q - center_) / cones_[at(twin->triangle)]);
     }
     return reflex;
   }
 
-  VertexGraph graph() && { return {std::move(points_), std::move(begin_), std::move(to_)}; }
+  VertexGraph graph() && { return {std::move(points_), sides_}; }
 
  private:
   /// Bounds the error of determinants of differences of coordinates, relative to the product of
   /// their lengths.
   static constexpr double kError = 0x1p-48;
-  static constexpr double kFineError = 0x1p-100;
-
-  struct Edge {
-    int from, side, twin;
-    Edge(int from, int side, int twin) : from(from), side(side), twin(twin) {}
-  };
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   const Vec& point(int i) const { return points_[at(i)]; }
-  int degree(int v) const { return begin_[at(v) + 1] - begin_[at(v)]; }
-  int opposite(int side, int v, int w) const {
-    const auto& f = faces_[at(face_[at(side)])];
-    return f[0] != v && f[0] != w ? f[0] : f[1] != v && f[1] != w ? f[1] : f[2];
+  const Vec& opposite(const Side& s) const {
+    return point(faces_[at(s.triangle)][(s.corner + 2U) % 3]);
   }
 
   /// Returns the surface's centre, which lies well within a convex solid.
@@ -187,46 +122,30 @@ class ConeMesh {
     return sum;
   }
 
-  /// Returns (q - p) x (a - p) . (b - p), where doubles can't tell.
-  static double fineVolume(const Vec& p, const Vec& q, const Vec& a, const Vec& b) {
-    Fine d[3][3];
-    const Vec* const ends[3] = {&q, &a, &b};
-    for (int i = 0; i < 3; ++i) {
-      for (int c = 0; c < 3; ++c) d[i][c] = Fine((*ends[i])[c]) - Fine(p[c]);
+  /// (q - p) x (a - p) . (b - p) and a bound of its error: in twofold numbers where doubles can't
+  /// tell the sign. Where lengths are below 2^-260 these can't either.
+  static std::pair<double, double> sixVolumes(const Vec& p, const Vec& q, const Vec& a,
+                                              const Vec& b) {
+    const Vec u = q - p, v = a - p, w = b - p;
+    const double rounded = u.cross(v).dot(w), error = kError * u.norm() * v.norm() * w.norm();
+    if (std::abs(rounded) > error) return {rounded, error};
+    Twofold d[3][3];
+    for (int c = 0; c < 3; ++c) {
+      d[c][0] = twofoldDifference(q[c], p[c]);
+      d[c][1] = twofoldDifference(a[c], p[c]);
+      d[c][2] = twofoldDifference(b[c], p[c]);
     }
-    const Fine volume = d[2][0] * (d[0][1] * d[1][2] - d[0][2] * d[1][1]) +
-                        d[2][1] * (d[0][2] * d[1][0] - d[0][0] * d[1][2]) +
-                        d[2][2] * (d[0][0] * d[1][1] - d[0][1] * d[1][0]);
-    return static_cast<double>(volume);
+    const TwofoldDeterminant fine = determinant(d);
+    return {fine.rounded(), fine.error()};
   }
 
-  /// Fits a box around all vertices: along the way to the farthest, and to the farthest from that
-  /// line. Thin solids fill it, however they are turned, so that E tells how thick a dent is
+  /// Thin solids fill the box, however they are turned, so that E tells how thick a dent is
   /// relative to them.
-  void fitBox() {
-    const auto farthestFrom = [this](const auto& squared) {
-      Vec found = Vec::Zero();
-      double largest = 0;
-      for (const Vec& point : points_) {
-        const Vec v = point - center_;
-        const double square = squared(v);
-        if (!(square > largest)) continue;
-        largest = square;
-        found = v;
-      }
-      return found;
-    };
-    const Vec longest = farthestFrom([](const Vec& v) { return v.squaredNorm(); });
-    if (!(longest.squaredNorm() > 0)) return;
-    axes_.col(0) = longest.normalized();
-    const Vec wide = farthestFrom(
-        [this](const Vec& v) { return (v - v.dot(axes_.col(0)) * axes_.col(0)).squaredNorm(); });
-    const Vec across = wide - wide.dot(axes_.col(0)) * axes_.col(0);
-    axes_.col(1) =
-        across.squaredNorm() > 0 ? Vec(across.normalized()) : axes_.col(0).unitOrthogonal();
-    axes_.col(1) -= axes_.col(1).dot(axes_.col(0)) * axes_.col(0);
-    axes_.col(1).normalize();
-    axes_.col(2) = axes_.col(0).cross(axes_.col(1));
+  void measureBox(const engine::Box& box) {
+    const auto axis = [&](int i) { return Vec(box.x[i], box.y[i], box.z[i]); };
+    axes_.col(0) = axis(0).normalized();
+    axes_.col(2) = axis(0).cross(axis(1)).normalized();
+    axes_.col(1) = axes_.col(2).cross(axes_.col(0)).normalized();
     for (const Vec& point : points_) {
       half_ = half_.cwiseMax((axes_.transpose() * (point - center_)).cwiseAbs());
     }
@@ -237,15 +156,27 @@ class ConeMesh {
   std::vector<Vec> points_;
   std::vector<std::array<int, 3>> faces_;
   std::vector<double> cones_;
-  std::vector<int> begin_, to_, face_;  ///< sides, by the vertex from which they run
-  std::vector<Edge> edges_;
+  std::vector<Side> sides_;
   Vec center_;
   double farthest_ = 0;
-  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d axes_;
   Vec half_ = Vec::Zero();  ///< extents of the box about the centre, along the axes
 };
 
 }  // namespace
+
+VertexGraph::VertexGraph(std::vector<Vec> points, const std::vector<Side>& sides)
+    : points_(std::move(points)), begin_(points_.size() + 1, 0), neighbours_(sides.size()) {
+  const auto from = [](const Side& s) {
+    return static_cast<std::size_t>(s.forward ? s.low : s.high);
+  };
+  for (const Side& s : sides) ++begin_[from(s) + 1];
+  std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  std::vector<int> next(begin_.begin(), begin_.end() - 1);
+  for (const Side& s : sides) {
+    neighbours_[static_cast<std::size_t>(next[from(s)]++)] = s.forward ? s.high : s.low;
+  }
+}
 
 int VertexGraph::climb(const fcl::Vector3d& n, int start) const {
   int best = start;
@@ -265,24 +196,19 @@ int VertexGraph::climb(const fcl::Vector3d& n, int start) const {
   return best;
 }
 
-template <typename S>
-Convexity measureConvexity(const Model<S>& model) {
-  constexpr double kMost = 0x1p-20, kNothing = 0x1p-36;
-  ConeMesh mesh(viewOf(model));
-  if (!mesh.measureCones() || !mesh.pairSides()) return {};
-  auto reflex = mesh.measureReflex(false, kMost);
-  if (!(reflex.certain <= kMost)) return {};
-  if (reflex.sum > kNothing) reflex = mesh.measureReflex(true, kMost);
-  if (!(reflex.sum <= kMost)) return {};
+Convexity measureConvexity(const Mesh& mesh) {
+  constexpr double kMost = 0x1p-20;
+  ConeMesh cones(mesh);
+  if (!cones.measureCones() || !cones.pairSides()) return {};
+  const double reflex = cones.measureReflex(kMost);
+  if (!(reflex <= kMost)) return {};
   SearchCounts unused;
-  if (placeOf(mesh.center(), model, unused).winding != 1) return {};
+  if (placeOf(cones.center(), mesh, unused).winding != 1) return {};
   Convexity result;
   result.convex = true;
-  result.moved = reflex.sum * mesh.farthest();
-  result.graph = std::move(mesh).graph();
+  result.moved = reflex * cones.farthest();
+  result.graph = std::move(cones).graph();
   return result;
 }
-
-KIOS_INSTANTIATE_FUNCTION(measureConvexity);
 
 }  // namespace kios

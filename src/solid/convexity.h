@@ -2,31 +2,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <utility>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
+#include "search/mesh.h"
+#include "solid/sides.h"
 
 namespace kios {
 
-/// Holds the vertices of a mesh, equal ones as one, and the edges between them. On a convex one a
+/// The vertices of a mesh, equal ones as one, and the edges between them. On a convex one a
 /// walk uphill along edges ends at the farthest vertex.
 class VertexGraph {
  public:
   VertexGraph() = default;
-  /// The neighbours of vertex i are those from begin[i] to begin[i + 1].
-  VertexGraph(std::vector<fcl::Vector3d> points, std::vector<int> begin,
-              std::vector<int> neighbours)
-      : points_(std::move(points)), begin_(std::move(begin)), neighbours_(std::move(neighbours)) {}
+  /// `sides`: each edge once each way.
+  VertexGraph(std::vector<fcl::Vector3d> points, const std::vector<Side>& sides);
 
   bool empty() const { return points_.empty(); }
   const fcl::Vector3d& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
-  /// Returns a vertex with no neighbour that is farther along n, reached from `start`.
+  /// A vertex with no neighbour that is farther along n, reached from `start`.
   int climb(const fcl::Vector3d& n, int start) const;
 
  private:
   std::vector<fcl::Vector3d> points_;
-  std::vector<int> begin_, neighbours_;
+  std::vector<int> begin_, neighbours_;  ///< those of vertex i from begin_[i] to begin_[i + 1]
 };
 
 /// Says how nearly a solid is the hull of its vertices.
@@ -47,8 +45,7 @@ struct Convexity {
   VertexGraph graph;    ///< empty unless convex
 };
 
-/// The model must be a solid of one component. O(n).
-template <typename S>
-Convexity measureConvexity(const Model<S>& model);
+/// The mesh must be a solid of one component. O(n log n).
+Convexity measureConvexity(const Mesh& mesh);
 
 }  // namespace kios

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include <Eigen/Geometry>
+#include "solid/tuning.h"
 #include "volume/errors.h"
-#include "volume/instantiate.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -70,8 +70,7 @@ std::optional<Corner> nearestToOrigin(const std::vector<Plane>& planes, double m
 class DifferencePolytope {
  public:
   /// The triangles meet after a translation by x.
-  DifferencePolytope(const TriangleVertices<double>& a, const TriangleVertices<double>& b,
-                     const Vec& x) {
+  DifferencePolytope(const TriangleVerticesd& a, const TriangleVerticesd& b, const Vec& x) {
     const Vec normal_a = normalOf(a), normal_b = normalOf(b);
     const auto add = [&](const Vec& n) {
       const double square = n.squaredNorm();
@@ -122,178 +121,9 @@ class DifferencePolytope {
   int count_ = 0;
 };
 
-/// Goes `length` along n, unit, in the world, and a little farther for rounding. Gives up where
-/// that is no shorter than `most`, up to which nearest points are looked for.
-template <typename S>
-std::optional<Exit> goAlong(SolidPair<S>& pair, const Vec& n, double length, double most,
-                            int tries) {
-  double margin = 8 * pair.rounding();
-  for (int i = 0; i < tries; ++i, margin *= 4) {
-    const Vec x = (std::max(length, 0.0) + margin) * n;
-    if (!(x.norm() < most)) break;
-    const Separation after = pair.test(x, std::min(most, pair.size()));
-    if (after.apart) return Exit{x, x.norm(), after};
-  }
-  return std::nullopt;
-}
-
-template <typename S>
-class ExitSearch {
- public:
-  ExitSearch(SolidPair<S>& pair, long long last_test, Exit& exit)
-      : pair_(pair), last_test_(last_test), best_(exit) {}
-
-  bool byPlanes(std::size_t most_corners) {
-    std::vector<Corner> queue(1);
-    const auto farther = [](const Corner& p, const Corner& q) {
-      return p.x.squaredNorm() > q.x.squaredNorm();
-    };
-    std::vector<DifferencePolytope> polytopes;
-    std::vector<Vec> seen;
-    constexpr std::size_t kContacts = 16;
-    constexpr double kBeyond = 1e-10, kSame = 1e-12;
-    while (!queue.empty() && seen.size() < most_corners) {
-      std::pop_heap(queue.begin(), queue.end(), farther);
-      const Corner corner = std::move(queue.back());
-      queue.pop_back();
-      const Vec& x = corner.x;
-      const double length = x.norm(), most = kEnough * best_.length;
-      if (!(length < most)) return true;
-      if (std::any_of(seen.begin(), seen.end(), [&](const Vec& other) {
-            return (other - x).squaredNorm() <= kSame * length * length;
-          })) {
-        continue;
-      }
-      seen.push_back(x);
-      const DifferencePolytope* deepest = nullptr;
-      const auto findDeepest = [&](std::size_t from, double depth) {
-        for (std::size_t i = from; i < polytopes.size(); ++i) {
-          const double d = polytopes[i].depth(x, depth);
-          if (!(d > depth)) continue;
-          depth = d;
-          deepest = &polytopes[i];
-        }
-      };
-      findDeepest(0, 0);
-      if (!deepest) {  // triangles that met once spare most tests
-        if (exhausted()) return false;
-        const std::size_t known = polytopes.size();
-        const auto overlap =
-            known == 0 ? pair_.overlap() : pair_.overlapAfter(inWorld(x), kContacts);
-        if (!overlap.any() && prove(inWorld(x) / length, length)) return true;
-        for (const auto& contact : overlap.contacts)
-          polytopes.emplace_back(contact.a, contact.b, x);
-        findDeepest(known, -kInfinity);  // some only touch
-      }
-      if (!deepest) continue;
-      for (Plane plane : *deepest) {
-        plane.least += 4 * pair_.rounding() + kBeyond * std::abs(plane.least);
-        if (!(plane.normal.dot(x) < plane.least)) continue;
-        std::vector<Plane> planes = {plane};
-        planes.insert(planes.end(), corner.active.begin(), corner.active.end());
-        auto next = nearestToOrigin(planes, most, true);
-        if (!next) continue;
-        queue.push_back(std::move(*next));
-        std::push_heap(queue.begin(), queue.end(), farther);
-      }
-    }
-    return queue.empty() && !polytopes.empty();
-  }
-
-  void byBalls(const BallPairs& balls) {
-    tryStarts(balls);
-    descend(balls);
-  }
-
- private:
-  static constexpr double kEnough = 0.98;
-
-  bool exhausted() const { return pair_.tests() >= last_test_; }
-  Vec inWorld(const Vec& v) const { return pair_.R_WA() * v; }
-
-  bool prove(const Vec& n, double length) {
-    constexpr int kTries = 4;
-    const auto exit = goAlong(pair_, n, length, best_.length, kTries);
-    if (exit) best_ = *exit;
-    return exit.has_value();
-  }
-
-  /// Looks about places where inner balls, grown by what they leave out, part: on the way to where
-  /// the hulls are apart.
-  void tryStarts(const BallPairs& balls) {
-    std::vector<Vec> starts;
-    const auto add = [&](const Vec& n, double share) {
-      starts.push_back(balls.escape(share * pair_.size() * n));
-    };
-    constexpr double kNear = 0.1, kFar = 0.25;
-    for (const Vec& n : meanDirections(pair_)) {
-      add(n, kNear);
-      add(n, kFar);
-    }
-    for (int c = 0; c < 3; ++c) {
-      add(Vec::Unit(c), kFar);
-      add(-Vec::Unit(c), kFar);
-    }
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const Vec& a, const Vec& b) { return a.squaredNorm() < b.squaredNorm(); });
-    Vec best = best_.translation;
-    constexpr std::size_t kMost = 6;
-    starts.resize(kMost);
-    for (const Vec& start : starts) {
-      for (const double grow : {0.95, 1.15, 1.6}) {
-        const Vec x = inWorld(grow * start);
-        if (!(x.norm() < 0.97 * best.norm()) || exhausted()) break;
-        if (balls.meet(grow * start) || pair_.overlapAfter(x, 1).any()) continue;
-        best = x;
-        break;
-      }
-    }
-    if (best != best_.translation) prove(best.normalized(), best.norm());
-  }
-
-  // The planes between nearest points bound where b may go without passing a there, as long as it
-  // doesn't turn another corner of a: so the nearest translation that they all admit is a guess,
-  // and a test decides.
-  void descend(const BallPairs& balls) {
-    std::vector<Plane> planes;
-    constexpr std::size_t kPlanes = 6;
-    while (!exhausted()) {
-      const auto [at, length, after] = best_;
-      if (after.nearest) {
-        planes.push_back({after.normal, after.normal.dot(at) - after.gap + 4 * pair_.rounding()});
-        if (planes.size() > kPlanes) planes.erase(planes.begin());
-      }
-      if (planes.empty()) planes.push_back({at.normalized(), 0.5 * length});
-      const double most = kEnough * length;
-      auto nearest = nearestToOrigin(planes, most, false);
-      if (!nearest) {
-        // The planes admit nothing shorter. The last one alone may: the others are of places that
-        // no longer matter.
-        planes.erase(planes.begin(), planes.end() - 1);
-        nearest = nearestToOrigin(planes, most, false);
-      }
-      if (!nearest) break;
-      Vec guess = nearest->x;
-      Separation next;
-      for (int i = 0; i < 3 && !next.apart && !exhausted(); ++i) {
-        guess = i == 0 ? guess : Vec(0.5 * (at + guess));
-        if (!balls.meet(pair_.R_WA().transpose() * guess)) next = pair_.test(guess, length);
-      }
-      if (!next.apart || !(guess.norm() < length)) break;
-      best_ = {guess, guess.norm(), next};
-      if (!(best_.length < kEnough * length)) break;
-    }
-  }
-
-  SolidPair<S>& pair_;
-  const long long last_test_;
-  Exit& best_;
-};
-
 }  // namespace
 
-template <typename S>
-std::vector<Vec> meanDirections(SolidPair<S>& pair) {
+std::vector<Vec> meanDirections(SolidPair& pair) {
   std::vector<Vec> directions;
   const auto add = [&](const Vec& v) {
     if (v.norm() > 1e-6) directions.push_back(v.normalized());
@@ -310,9 +140,7 @@ std::vector<Vec> meanDirections(SolidPair<S>& pair) {
   return directions;
 }
 
-template <typename S>
-Exit leaveHulls(SolidPair<S>& pair, const Differences<S>& differences,
-                const std::vector<Vec>& directions) {
+void ExitSearch::leaveHulls(const Differences& differences, const std::vector<Vec>& directions) {
   Vec best = Vec::UnitX();
   double least = kInfinity;
   for (const Vec& n : directions) {
@@ -321,25 +149,150 @@ Exit leaveHulls(SolidPair<S>& pair, const Differences<S>& differences,
     least = height;
     best = n;
   }
-  constexpr int kTries = 60;
-  const auto exit = goAlong(pair, pair.R_WA() * best, least, kInfinity, kTries);
-  if (!exit) refuse<std::logic_error>("no translation parts the hulls of two solids.");
-  return *exit;
+  constexpr int kFarOut = 60;
+  if (!goAlong(pair_.inWorld(best), least, kFarOut)) {
+    refuse<std::logic_error>("no translation parts the hulls of two solids.");
+  }
 }
 
-template <typename S>
-bool leaveByPlanes(SolidPair<S>& pair, std::size_t most, long long last_test, Exit& exit) {
-  return ExitSearch<S>(pair, last_test, exit).byPlanes(most);
+/// Goes `length` along n, unit, in the world, and a little farther for rounding. Gives up where
+/// that is no shorter than the best exit, up to which nearest points are looked for.
+bool ExitSearch::goAlong(const Vec& n, double length, int tries) {
+  double margin = 8 * pair_.rounding();
+  for (int i = 0; i < tries; ++i, margin *= 4) {
+    const Vec x = (std::max(length, 0.0) + margin) * n;
+    if (!(x.norm() < best_.length)) break;
+    const Separation after = pair_.test(x, std::min(best_.length, pair_.size()));
+    if (!after.apart) continue;
+    best_ = {x, x.norm(), after};
+    return true;
+  }
+  return false;
 }
 
-template <typename S>
-void leaveByBalls(SolidPair<S>& pair, const BallPairs& balls, long long last_test, Exit& exit) {
-  ExitSearch<S>(pair, last_test, exit).byBalls(balls);
+bool ExitSearch::leaveByPlanes(long long last_test) {
+  last_test_ = last_test;
+  std::vector<Corner> queue(1);
+  const auto farther = [](const Corner& p, const Corner& q) {
+    return p.x.squaredNorm() > q.x.squaredNorm();
+  };
+  std::vector<DifferencePolytope> polytopes;
+  std::vector<Vec> seen;
+  constexpr double kBeyond = 1e-10, kSame = 1e-12;
+  while (!queue.empty() && seen.size() < tuning::kCorners) {
+    std::pop_heap(queue.begin(), queue.end(), farther);
+    const Corner corner = std::move(queue.back());
+    queue.pop_back();
+    const Vec& x = corner.x;
+    const double length = x.norm(), most = tuning::kEnough * best_.length;
+    if (!(length < most)) return true;
+    if (std::any_of(seen.begin(), seen.end(), [&](const Vec& other) {
+          return (other - x).squaredNorm() <= kSame * length * length;
+        })) {
+      continue;
+    }
+    seen.push_back(x);
+    const DifferencePolytope* deepest = nullptr;
+    const auto findDeepest = [&](std::size_t from, double depth) {
+      for (std::size_t i = from; i < polytopes.size(); ++i) {
+        const double d = polytopes[i].depth(x, depth);
+        if (!(d > depth)) continue;
+        depth = d;
+        deepest = &polytopes[i];
+      }
+    };
+    findDeepest(0, 0);
+    if (!deepest) {  // triangles that met once spare most tests
+      if (exhausted()) return false;
+      const std::size_t known = polytopes.size();
+      const auto overlap =
+          known == 0 ? pair_.overlap() : pair_.overlapAfter(pair_.inWorld(x), tuning::kContacts);
+      if (!overlap.any() && goAlong(pair_.inWorld(x) / length, length, 1)) return true;
+      for (const auto& contact : overlap.contacts) polytopes.emplace_back(contact.a, contact.b, x);
+      findDeepest(known, -kInfinity);  // some only touch
+    }
+    if (!deepest) continue;
+    for (Plane plane : *deepest) {
+      plane.least += 4 * pair_.rounding() + kBeyond * std::abs(plane.least);
+      if (!(plane.normal.dot(x) < plane.least)) continue;
+      std::vector<Plane> planes = {plane};
+      planes.insert(planes.end(), corner.active.begin(), corner.active.end());
+      auto next = nearestToOrigin(planes, most, true);
+      if (!next) continue;
+      queue.push_back(std::move(*next));
+      std::push_heap(queue.begin(), queue.end(), farther);
+    }
+  }
+  return queue.empty() && !polytopes.empty();
 }
 
-KIOS_INSTANTIATE_FUNCTION(meanDirections);
-KIOS_INSTANTIATE_FUNCTION(leaveHulls);
-KIOS_INSTANTIATE_FUNCTION(leaveByPlanes);
-KIOS_INSTANTIATE_FUNCTION(leaveByBalls);
+void ExitSearch::leaveByBalls(const BallPairs& balls, long long last_test) {
+  last_test_ = last_test;
+  tryStarts(balls);
+  descend(balls);
+}
+
+/// Looks about places where inner balls, grown by what they leave out, part: on the way to where
+/// the hulls are apart.
+void ExitSearch::tryStarts(const BallPairs& balls) {
+  std::vector<Vec> starts;
+  const auto add = [&](const Vec& n, double share) {
+    starts.push_back(balls.escape(share * pair_.size() * n));
+  };
+  for (const Vec& n : meanDirections(pair_)) {
+    add(n, tuning::kNear);
+    add(n, tuning::kFar);
+  }
+  for (int c = 0; c < 3; ++c) {
+    add(Vec::Unit(c), tuning::kFar);
+    add(-Vec::Unit(c), tuning::kFar);
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Vec& a, const Vec& b) { return a.squaredNorm() < b.squaredNorm(); });
+  Vec best = best_.translation;
+  for (const Vec& start : starts) {
+    for (const double grow : {0.95, 1.15, 1.6}) {
+      const Vec x = pair_.inWorld(grow * start);
+      if (!(x.norm() < 0.97 * best.norm()) || exhausted()) break;
+      if (balls.meet(grow * start) || pair_.overlapAfter(x, 1).any()) continue;
+      best = x;
+      break;
+    }
+  }
+  if (best != best_.translation) goAlong(best.normalized(), best.norm(), 1);
+}
+
+// The planes between nearest points bound where b may go without passing a there, as long as it
+// doesn't turn another corner of a: so the nearest translation that they all admit is a guess,
+// and a test decides.
+void ExitSearch::descend(const BallPairs& balls) {
+  std::vector<Plane> planes;
+  while (!exhausted()) {
+    const auto [at, length, after] = best_;
+    if (after.nearest) {
+      planes.push_back({after.normal, after.normal.dot(at) - after.gap + 4 * pair_.rounding()});
+      if (planes.size() > tuning::kPlanes) planes.erase(planes.begin());
+    }
+    if (planes.empty()) planes.push_back({at.normalized(), 0.5 * length});
+    const double most = tuning::kEnough * length;
+    auto nearest = nearestToOrigin(planes, most, false);
+    if (!nearest) {
+      // The planes admit nothing shorter. The last one alone may: the others are of places that
+      // no longer matter.
+      planes.erase(planes.begin(), planes.end() - 1);
+      nearest = nearestToOrigin(planes, most, false);
+    }
+    if (!nearest) break;
+    Vec guess = nearest->x;
+    Separation next;
+    for (int i = 0; i < 3 && !next.apart && !exhausted(); ++i) {
+      guess = i == 0 ? guess : Vec(0.5 * (at + guess));
+      if (!balls.meet(pair_.vectorInA(guess))) next = pair_.test(guess, length);
+    }
+    if (!next.apart || !(guess.norm() < length)) break;
+    best_ = {guess, guess.norm(), next};
+    if (!(best_.length < tuning::kEnough * length)) break;
+  }
+}
 
 }  // namespace kios

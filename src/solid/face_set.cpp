@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <map>
 #include <unordered_map>
 #include <utility>
+
+#include <Eigen/Geometry>
+#include "volume/rounding.h"
 
 namespace kios {
 namespace {
@@ -43,106 +47,95 @@ std::vector<Side> FaceSet::sides() const {
   return sidesOf(faces_.size(), [this](std::size_t f) { return faces_[f].corners; });
 }
 
-void FaceSet::take(const std::vector<bool>& dropped) {
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    if (!dropped[f]) faces_[kept++] = faces_[f];
-  }
-  faces_.resize(kept);
-}
-
 // The faces are a chain: each runs through its edges one way, and a surface is closed where as many
 // run through an edge one way as the other. Copies have the same three corners. A patch of copies
 // reaches as far as two and nothing else meet at an edge; with one face of each, wound to one side,
 // it is closed within. Where that closes more than the copies do, one face of each stays.
 int FaceSet::dropDoubles() {
-  struct Edge {
-    int sum = 0;  ///< of faces that pass it forward, less those that pass it backward
-    std::vector<std::pair<std::size_t, int>> copies;  ///< and the way that the first face passes
-    bool others = false;
-  };
-  struct Copies {
-    std::vector<int> faces;
-    std::vector<std::pair<std::size_t, int>> edges;  ///< likewise
-    int sum = 0;  ///< of faces wound as the first one, less those that aren't
-    int way = 0;  ///< in which one face would be wound relative to the first
-  };
+  // What belongs to some copies is kept with the first of them.
   std::map<std::array<int, 3>, std::size_t> by_corners;
-  std::vector<Copies> all;
-  std::vector<std::size_t> copies_of(faces_.size());
+  std::vector<std::vector<int>> copies(faces_.size());
+  std::vector<int> sum(faces_.size(), 0);  // of copies wound as the first one, less the others
+  std::vector<std::size_t> first_of;
   const auto isOdd = [this](int f) { return sorted(faces_[index(f)].corners).second; };
   for (std::size_t f = 0; f < faces_.size(); ++f) {
-    copies_of[f] =
-        by_corners.try_emplace(sorted(faces_[f].corners).first, all.size()).first->second;
-    if (copies_of[f] == all.size()) all.emplace_back();
-    Copies& copies = all[copies_of[f]];
-    copies.faces.push_back(static_cast<int>(f));
-    copies.sum += isOdd(copies.faces.front()) == isOdd(copies.faces.back()) ? 1 : -1;
+    first_of.push_back(by_corners.try_emplace(sorted(faces_[f].corners).first, f).first->second);
+    std::vector<int>& alike = copies[first_of.back()];
+    alike.push_back(static_cast<int>(f));
+    sum[first_of.back()] += isOdd(alike.front()) == isOdd(alike.back()) ? 1 : -1;
   }
+  struct Edge {
+    int sum = 0;  ///< of faces that pass it forward, less those that pass it backward
+    bool within_patch = false;
+  };
   std::vector<Edge> edges;
+  std::vector<std::vector<std::pair<std::size_t, int>>> passes(faces_.size());  // edge and way
+  std::vector<Side> joints;  // of the first of copies, where two and nothing else meet
   const std::vector<Side> sides = this->sides();
   forEdges(sides, [&](std::size_t begin, std::size_t end) {
     Edge& edge = edges.emplace_back();
+    std::vector<Side> firsts;
+    edge.within_patch = true;
     for (std::size_t i = begin; i < end; ++i) {
-      const int passes = sides[i].forward ? 1 : -1, f = sides[i].triangle;
-      Copies& copies = all[copies_of[index(f)]];
-      edge.sum += passes;
-      edge.others |= copies.faces.size() == 1;
-      if (copies.faces.front() != f) continue;
-      copies.edges.emplace_back(edges.size() - 1, passes);
-      if (copies.faces.size() > 1) edge.copies.emplace_back(copies_of[index(f)], passes);
+      const std::size_t f = index(sides[i].triangle);
+      const int way = sides[i].forward ? 1 : -1;
+      edge.sum += way;
+      edge.within_patch &= copies[first_of[f]].size() > 1;
+      if (first_of[f] != f) continue;
+      firsts.push_back(sides[i]);
+      passes[f].emplace_back(edges.size() - 1, way);
     }
+    edge.within_patch &= firsts.size() == 2;
+    if (edge.within_patch) joints.insert(joints.end(), firsts.begin(), firsts.end());
   });
+  Parts parts = partsOf(joints, faces_.size(), false);
   // Faces that all have backs enclose nothing: then the fronts stay.
-  const bool hollow =
-      std::all_of(all.begin(), all.end(), [](const Copies& copies) { return copies.sum == 0; });
+  bool hollow = true;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    hollow &= copies[f].empty() || sum[f] == 0;
+    if (copies[f].size() > 1 && parts.of[f] < 0) parts.triangles.push_back({static_cast<int>(f)});
+  }
+  std::sort(parts.triangles.begin(), parts.triangles.end());
   std::vector<bool> dropped(faces_.size(), false);
-  for (std::size_t first = 0; first < all.size(); ++first) {
-    if (all[first].faces.size() == 1 || all[first].way != 0) continue;
-    std::vector<std::size_t> patch = {first};
+  for (const std::vector<int>& patch : parts.triangles) {
     std::map<std::size_t, std::array<int, 2>> sums;  // of its copies, and of one face of each
     bool oriented = true, has_border = false;
-    all[first].way = 1;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const Copies& copies = all[patch[i]];
-      for (const auto& [e, passes] : copies.edges) {
-        sums[e][0] += copies.sum * passes;
-        sums[e][1] += copies.way * passes;
-        const auto& there = edges[e].copies;
-        if (there.size() != 2 || edges[e].others) {
-          has_border = true;
-          continue;
-        }
-        const auto& [next, next_passes] = there[there[0].first == patch[i] ? 1 : 0];
-        const int way = -copies.way * passes * next_passes;
-        oriented &= all[next].way == 0 || all[next].way == way;
-        if (all[next].way == 0) patch.push_back(next);
-        all[next].way = way;
+    for (const int f : patch) {
+      for (const auto& [e, way] : passes[index(f)]) {
+        sums[e][0] += sum[index(f)] * way;
+        sums[e][1] += parts.turned[index(f)] ? -way : way;
+        has_border |= !edges[e].within_patch;
       }
     }
-    const auto openWith = [&](int k) {  // one face of each, turned or not; 0: as they are
-      int open = 0;
-      for (const auto& [e, sum] : sums) {
-        open += std::abs(edges[e].sum + (k == 0 ? 0 : k * sum[1] - sum[0]));
-      }
-      return open;
-    };
-    const int k = openWith(-1) < openWith(1) ? -1 : 1;
-    if (!oriented || (openWith(k) >= openWith(0) && (!hollow || has_border))) continue;
-    for (const auto& [e, sum] : sums) edges[e].sum += k * sum[1] - sum[0];
-    for (const std::size_t c : patch) {
+    int open[3] = {0, 0, 0};  // with one face of each, turned or not; 1: as they are
+    for (const auto& [e, both] : sums) {
+      oriented &= !edges[e].within_patch || both[1] == 0;
+      const int others = edges[e].sum - both[0];
+      open[0] += std::abs(others - both[1]);
+      open[1] += std::abs(edges[e].sum);
+      open[2] += std::abs(others + both[1]);
+    }
+    const int k = open[0] < open[2] ? -1 : 1;
+    if (!oriented || (open[1 + k] >= open[1] && (!hollow || has_border))) continue;
+    for (const auto& [e, both] : sums) edges[e].sum += k * both[1] - both[0];
+    for (const int first : patch) {
       // The first face that is wound so stays; if none is, the first one, to be turned.
-      const std::vector<int>& faces = all[c].faces;
-      const auto wound = std::find_if(faces.begin(), faces.end(), [&](int f) {
-        return (isOdd(f) == isOdd(faces.front())) == (all[c].way == k);
+      const std::vector<int>& alike = copies[index(first)];
+      const bool as_first = parts.turned[index(first)] == (k < 0);
+      const auto wound = std::find_if(alike.begin(), alike.end(), [&](int f) {
+        return (isOdd(f) == isOdd(first)) == as_first;
       });
-      for (const int f : faces) dropped[index(f)] = true;
-      dropped[index(wound == faces.end() ? faces.front() : *wound)] = false;
+      for (const int f : alike) dropped[index(f)] = true;
+      dropped[index(wound == alike.end() ? first : *wound)] = false;
     }
   }
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    if (!dropped[f]) faces_[kept++] = faces_[f];
+  }
   const std::size_t before = faces_.size();
-  take(dropped);
-  return static_cast<int>(before - faces_.size());
+  faces_.resize(kept);
+  return static_cast<int>(before - kept);
 }
 
 void FaceSet::flip(std::size_t face) {
@@ -152,37 +145,15 @@ void FaceSet::flip(std::size_t face) {
 
 void FaceSet::fill(const std::array<int, 3>& corners) { faces_.push_back({corners, -1}); }
 
+// A surface that can't be oriented, such as a Moebius strip, keeps a seam.
 void FaceSet::turnNeighbours() {
-  struct Link {
-    int to;
-    bool turned;  ///< the two faces run through their edge the same way
-  };
-  std::vector<std::vector<Link>> links(faces_.size());
-  const std::vector<Side> all = sides();
-  forEdges(all, [&](std::size_t begin, std::size_t end) {
-    if (end - begin != 2) return;
-    const Side &a = all[begin], &b = all[begin + 1];
-    links[index(a.triangle)].push_back({b.triangle, a.forward == b.forward});
-    links[index(b.triangle)].push_back({a.triangle, a.forward == b.forward});
-  });
-  std::vector<int> turn(faces_.size(), -1);
-  for (std::size_t first = 0; first < faces_.size(); ++first) {
-    if (turn[first] >= 0) continue;
-    // A surface that can't be oriented, such as a Moebius strip, keeps a seam.
-    std::vector<int> patch = {static_cast<int>(first)};
-    turn[first] = 0;
-    std::size_t turned = 0;
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      for (const Link& link : links[index(patch[i])]) {
-        if (turn[index(link.to)] >= 0) continue;
-        turn[index(link.to)] = turn[index(patch[i])] ^ (link.turned ? 1 : 0);
-        turned += index(turn[index(link.to)]);
-        patch.push_back(link.to);
-      }
-    }
-    const int which = 2 * turned <= patch.size() ? 1 : 0;
-    for (const int f : patch) {
-      if (turn[index(f)] == which) flip(index(f));
+  const Parts parts = partsOf(sides(), faces_.size(), false);
+  for (const std::vector<int>& part : parts.triangles) {
+    const auto isTurned = [&](int f) { return parts.turned[index(f)]; };
+    const auto turned = std::count_if(part.begin(), part.end(), isTurned);
+    const bool fewer = 2 * static_cast<std::size_t>(turned) <= part.size();
+    for (const int f : part) {
+      if (isTurned(f) == fewer) flip(index(f));
     }
   }
 }
@@ -231,35 +202,81 @@ std::vector<std::vector<int>> FaceSet::holes() const {
 
 std::vector<FaceSet::Part> FaceSet::closedParts(bool across_branches) const {
   const std::vector<Side> all = sides();
-  const Parts connected = partsOf(all, faces_.size(), across_branches);
-  const std::vector<int>& part = connected.of;
-  const std::size_t count = index(connected.count);
-  std::vector<bool> closed(count, true);
+  Parts parts = partsOf(all, faces_.size(), across_branches);
+  std::vector<bool> closed(parts.triangles.size(), true);
   forEdges(all, [&](std::size_t begin, std::size_t end) {
     std::map<int, int> sums;  // of each part at the edge by itself
     for (std::size_t i = begin; i < end; ++i) {
-      sums[part[index(all[i].triangle)]] += all[i].forward ? 1 : -1;
+      sums[parts.of[index(all[i].triangle)]] += all[i].forward ? 1 : -1;
     }
     for (const auto& [p, sum] : sums) {
       if (sum != 0) closed[index(p)] = false;
     }
   });
-  std::vector<Part> parts(count);
-  std::vector<std::size_t> flipped(count, 0), given(count, 0);
-  for (std::size_t f = 0; f < faces_.size(); ++f) {
-    const std::size_t p = index(part[f]);
-    parts[p].faces.push_back(static_cast<int>(f));
-    if (faces_[f].given < 0) continue;
-    ++given[p];
-    flipped[p] += faces_[f].flipped ? 1 : 0;
-  }
   std::vector<Part> result;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
+  for (std::size_t p = 0; p < closed.size(); ++p) {
     if (!closed[p]) continue;
-    parts[p].as_given = flipped[p] == 0 || flipped[p] == given[p];
-    result.push_back(std::move(parts[p]));
+    std::size_t flipped = 0, given = 0;
+    for (const int f : parts.triangles[p]) {
+      const Face& face = faces_[index(f)];
+      given += face.given >= 0 ? 1 : 0;
+      flipped += face.given >= 0 && face.flipped ? 1 : 0;
+    }
+    result.push_back({std::move(parts.triangles[p]), flipped == 0 || flipped == given});
   }
   return result;
+}
+
+double perimeterOf(const std::vector<fcl::Vector3d>& corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    sum += (corners[(i + 1) % corners.size()] - corners[i]).stableNorm();
+  }
+  return sum;
+}
+
+std::vector<std::array<int, 3>> fillHole(const std::vector<fcl::Vector3d>& corners,
+                                         const std::function<bool(int, int)>& avoid) {
+  const std::size_t n = corners.size();
+  // Areas are in parts of the perimeter's square, so that they are below 1 and don't vanish.
+  const double perimeter = perimeterOf(corners);
+  const double unit = perimeter > 0 ? 1 / perimeter : 0;
+  const auto area = [&](std::size_t i, std::size_t j, std::size_t k) {
+    const fcl::Vector3d u = (corners[j] - corners[i]) * unit, v = (corners[k] - corners[i]) * unit;
+    return u.cross(v).norm();
+  };
+  constexpr double kAvoided = 1e6;
+  // least[i n + j]: of the part that the diagonal from i to j cuts off, by way of the corner
+  // middle.
+  std::vector<double> least(n * n, 0);
+  std::vector<std::size_t> middle(n * n, 0);
+  for (std::size_t span = 2; span < n; ++span) {
+    for (std::size_t i = 0; i + span < n; ++i) {
+      const std::size_t j = i + span;
+      double best = kInfinity;
+      for (std::size_t m = i + 1; m < j; ++m) {
+        const double sum = least[i * n + m] + least[m * n + j] + area(i, m, j);
+        if (!(sum < best)) continue;
+        best = sum;
+        middle[i * n + j] = m;
+      }
+      const bool diagonal = span + 1 < n;
+      if (diagonal && avoid(static_cast<int>(i), static_cast<int>(j))) best += kAvoided;
+      least[i * n + j] = best;
+    }
+  }
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, n - 1}};
+  while (!open.empty()) {
+    const auto [i, j] = open.back();
+    open.pop_back();
+    if (j - i < 2) continue;
+    const std::size_t m = middle[i * n + j];
+    triangles.push_back({static_cast<int>(i), static_cast<int>(m), static_cast<int>(j)});
+    open.emplace_back(m, j);
+    open.emplace_back(i, m);
+  }
+  return triangles;
 }
 
 }  // namespace kios

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include <Eigen/Geometry>
-#include "model/prepared.h"
-#include "solid/nearest_surface.h"
-#include "solid/winding.h"
+#include "query/nearest_on_mesh.h"
+#include "solid/containment.h"
+#include "solid/tuning.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -21,14 +21,11 @@ struct Sample {
   double gap = kInfinity;  ///< to the nearest ball
 };
 
-template <typename S>
-std::vector<Sample> samplesOf(const Model<S>& model) {
-  constexpr int kSamples = 256;
-  const int count = std::min(model.num_tris, kSamples);
+std::vector<Sample> samplesOf(const Mesh& mesh) {
+  const std::size_t count = std::min(mesh.numTriangles(), tuning::kSamples);
   std::vector<Sample> samples;
-  for (int i = 0; i < count; ++i) {
-    const long long t = static_cast<long long>(i) * model.num_tris / count;
-    const TriangleVertices<double> p = cornersInDouble(model, static_cast<int>(t));
+  for (std::size_t i = 0; i < count; ++i) {
+    const TriangleVerticesd p = mesh.triangle(i * mesh.numTriangles() / count);
     const Vec n = (p[2] - p[0]).cross(p[1] - p[0]);
     const double length = n.norm();
     if (length > 0) samples.push_back({(p[0] + p[1] + p[2]) / 3, n / length});
@@ -38,17 +35,14 @@ std::vector<Sample> samplesOf(const Model<S>& model) {
 
 /// The largest ball that touches the surface in the sample, about: it shrinks until nothing is
 /// within. Its radius is 0 if there is none.
-template <typename S>
-InnerBalls::Ball shrink(const Model<S>& model, const Sample& sample, double size) {
-  constexpr double kEnough = 0.98, kLeast = 1e-3;
-  constexpr int kSteps = 12;
+InnerBalls::Ball shrink(const Mesh& mesh, const Sample& sample, double size) {
   double radius = size;
-  for (int i = 0; i < kSteps && radius > kLeast * size; ++i) {
+  for (int i = 0; i < tuning::kUphill; ++i) {
     const Vec center = sample.point + radius * sample.inwards;
-    const NearestSurface near = nearestSurface(model, center, 0.02);
-    if (near.upper > kEnough * radius || i + 1 == kSteps) {
+    const NearestOnMesh near = nearestOnMesh(mesh, center, kInfinity);
+    if (near.distance > tuning::kEnough * radius || i + 1 == tuning::kUphill) {
       SearchCounts unused;
-      const bool inside = near.lower > 0 && placeOf(center, model, unused).inside();
+      const bool inside = near.lower > 0 && placeOf(center, mesh, unused).inside();
       return {center, inside ? near.lower : 0};
     }
     // The ball that touches the sample and passes through that point.
@@ -61,18 +55,16 @@ InnerBalls::Ball shrink(const Model<S>& model, const Sample& sample, double size
 
 }  // namespace
 
-template <typename S>
-InnerBalls innerBalls(const Model<S>& model) {
-  constexpr std::size_t kBalls = 16;
-  constexpr int kTries = 24;
-  const double size = model.getBV(0).bv.radius0;
-  std::vector<Sample> samples = samplesOf(model);
+InnerBalls innerBalls(const Mesh& mesh) {
+  const double size = mesh.radius();
+  std::vector<Sample> samples = samplesOf(mesh);
   InnerBalls found;
   const auto nearer = [](const Sample& a, const Sample& b) { return a.gap < b.gap; };
-  for (int i = 0; i < kTries && found.balls.size() < kBalls && !samples.empty(); ++i) {
+  for (std::size_t i = 0;
+       i < 2 * tuning::kBalls && found.balls.size() < tuning::kBalls && !samples.empty(); ++i) {
     const auto worst = std::max_element(samples.begin(), samples.end(), nearer);
     if (!(worst->gap > 1e-3 * size)) break;
-    const InnerBalls::Ball ball = shrink(model, *worst, size);
+    const InnerBalls::Ball ball = shrink(mesh, *worst, size);
     worst->gap = 0;
     if (!(ball.radius > 0)) continue;
     found.balls.push_back(ball);
@@ -85,7 +77,51 @@ InnerBalls innerBalls(const Model<S>& model) {
   return found;
 }
 
-template InnerBalls innerBalls(const Model<double>&);
-template InnerBalls innerBalls(const Model<float>&);
+BallPairs::BallPairs(const InnerBalls& a, const InnerBalls& b, const RelativePose<double>& X_AB)
+    : gap_(a.gap + b.gap) {
+  for (const InnerBalls::Ball& in_b : b.balls) {
+    const InnerBalls::Ball q = {X_AB * in_b.center, in_b.radius};
+    for (const InnerBalls::Ball& p : a.balls) {
+      const Vec between = q.center - p.center;
+      pairs_.push_back({-between, p.radius + q.radius});
+      const double apart = between.norm(), depth = p.radius + q.radius - apart;
+      if (!(depth > depth_)) continue;
+      depth_ = depth;
+      // The middle of what they share of the line through the centres.
+      const double near = std::max(-p.radius, apart - q.radius),
+                   far = std::min(p.radius, apart + q.radius);
+      const double share = apart > 0 ? 0.5 * (near + far) / apart : 0.0;
+      common_ = p.center + share * between;
+    }
+  }
+}
+
+bool BallPairs::meet(const Vec& translation) const {
+  constexpr double kSurely = 0.999;
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    return (translation - pair.center).squaredNorm() < kSurely * pair.radius * pair.radius;
+  });
+}
+
+Vec BallPairs::escape(const Vec& from) const {
+  constexpr double kBeyond = 1.02;  // so that rounding doesn't keep it within
+  Vec at = from;
+  for (int i = 0; i < tuning::kUphill; ++i) {
+    const Pair* deepest = nullptr;
+    double depth = 0;
+    for (const Pair& pair : pairs_) {
+      const double grown = pair.radius + gap_;
+      const double here = grown * grown - (at - pair.center).squaredNorm();
+      if (!(here > depth)) continue;
+      depth = here;
+      deepest = &pair;
+    }
+    const Vec way = deepest ? Vec(at - deepest->center) : Vec(Vec::Zero());
+    const double apart = way.norm();
+    if (!(apart > 0)) break;
+    at = deepest->center + kBeyond * (deepest->radius + gap_) / apart * way;
+  }
+  return at;
+}
 
 }  // namespace kios

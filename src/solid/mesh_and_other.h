@@ -4,9 +4,7 @@
 
 #include <cstddef>
 
-#include "fcl_kios/query/mesh_queries.h"
-#include "fcl_kios/query/octree_queries.h"
-#include "fcl_kios/query/shape_queries.h"
+#include "fcl_kios/contact.h"
 #include "model/kios_model.h"
 #include "shape/shape_solid.h"
 #include "solid/solid_mark.h"
@@ -23,10 +21,14 @@ bool areSolids(const Model<S>& mesh, const fcl::CollisionGeometry<S>& other,
     requireFinished(*other_mesh);
     return areSolids(mesh, *other_mesh);
   }
-  const SolidState<S>* const mark = isShape(other) ? markOf(mesh) : nullptr;
+  const SolidState* const mark = isShape(other) ? markOf(mesh) : nullptr;
   if (mark) mark->check();
   return mark != nullptr;
 }
+
+/// Bounds the error of a mesh's distance from a shape, or where that is null from a mesh or a cell,
+/// `length` the extent of both (docs/shapes.md).
+double kernelError(const shape::Solid* shape, double length);
 
 /// A mesh over k-IOS and another geometry, each at its pose: another mesh, one of FCL's nine shapes
 /// or an octree. They are asked about as solids if they are solids, else as surfaces. Most pairs of
@@ -94,5 +96,15 @@ struct MeshAndOther {
                             fcl::CollisionResult<S>& result) const;
   S distanceSolids(const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) const;
 };
+
+/// The pair of two geometries of which one at least is a mesh: a, if both are. Refers to all.
+inline MeshAndOther<double> meshAndOther(const fcl::CollisionGeometryd& a,
+                                         const fcl::Transform3d& X_WA,
+                                         const fcl::CollisionGeometryd& b,
+                                         const fcl::Transform3d& X_WB) {
+  const Modeld *const mesh_a = asModel(&a), *const mesh_b = asModel(&b);
+  if (mesh_a) return {*mesh_a, X_WA, b, X_WB, mesh_b};
+  return {*mesh_b, X_WB, a, X_WA, nullptr};
+}
 
 }  // namespace kios

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include "query/ray_walk.h"
-#include "solid/support_point.h"
-#include "volume/instantiate.h"
+#include "solid/farthest_vertex.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -107,9 +105,7 @@ class Polytope {
 };
 
 /// Finds four points that span the set, or none if it is flat.
-template <typename S>
-bool spanningPoints(const Differences<S>& set, double size,
-                    std::array<typename Differences<S>::Point, 4>& p) {
+bool spanningPoints(const Differences& set, double size, std::array<Differences::Point, 4>& p) {
   const double flat = 1e-9 * size;
   const auto farthest = [&](const Vec& n, int near) {
     return set.farthest(n, p[static_cast<std::size_t>(near)]);
@@ -132,45 +128,36 @@ bool spanningPoints(const Differences<S>& set, double size,
   return offPlane(p[3].at) > flat;
 }
 
-template <typename S>
-Vec farthestOf(const Model<S>& model, const Vec& n) {
-  return model.vertices[supportPoint(model, n).vertex].template cast<double>();
-}
-
 }  // namespace
 
-template <typename S>
-Differences<S>::Differences(const SolidPair<S>& pair)
-    : pair_(pair),
+Differences::Differences(const SolidPair& pair)
+    : X_AB_(pair.frame().X_AB),
       a_(pair.a()),
       b_(pair.b()),
-      graph_a_(pair.stateA().convexity(a_).graph),
-      graph_b_(pair.stateB().convexity(b_).graph),
-      error_(0x1p-46 * (largestOf(a_) + 2 * largestOf(b_) + pair.T_AB().cwiseAbs().maxCoeff())) {}
+      graph_a_(pair.convexityA().graph),
+      graph_b_(pair.convexityB().graph),
+      error_(0x1p-46 * (a_.largest() + 2 * b_.largest() + X_AB_.T().cwiseAbs().maxCoeff())) {}
 
-template <typename S>
-typename Differences<S>::Point Differences<S>::farthest(const Vec& n, const Point& near) const {
+Differences::Point Differences::farthest(const Vec& n, const Point& near) const {
   Point point = near;
-  const Vec down = -inB(n);
-  if (!graph_a_.empty()) point.a = graph_a_.climb(n, near.a);
-  if (!graph_b_.empty()) point.b = graph_b_.climb(down, near.b);
-  point.at = (graph_a_.empty() ? farthestOf(a_, n) : graph_a_.point(point.a)) -
-             inA(graph_b_.empty() ? farthestOf(b_, down) : graph_b_.point(point.b));
+  const Vec down = -(X_AB_.R().transpose() * n);
+  point.a = graph_a_.climb(n, near.a);
+  point.b = graph_b_.climb(down, near.b);
+  point.at = graph_a_.point(point.a) - X_AB_ * graph_b_.point(point.b);
   return point;
 }
 
-template <typename S>
-double Differences<S>::height(const Vec& n) const {
-  return n.dot(farthestOf(a_, n) - inA(farthestOf(b_, -inB(n)))) + 2 * error_;
+double Differences::height(const Vec& n) const {
+  const Vec down = -(X_AB_.R().transpose() * n);
+  return n.dot(farthestVertex(a_, n) - X_AB_ * farthestVertex(b_, down)) + 2 * error_;
 }
 
-template <typename S>
-HullDepth hullDepth(const Differences<S>& set, double size, double rel_gap, int max_points) {
+HullDepth hullDepth(const Differences& set, double size, double rel_gap, int max_points) {
   HullDepth result;
-  std::array<typename Differences<S>::Point, 4> start;
+  std::array<Differences::Point, 4> start;
   if (!spanningPoints(set, size, start)) return result;
   Polytope polytope({start[0].at, start[1].at, start[2].at, start[3].at});
-  std::vector<typename Differences<S>::Point> points(start.begin(), start.end());
+  std::vector<Differences::Point> points(start.begin(), start.end());
   if (polytope.point(1) != start[1].at) std::swap(points[1], points[2]);
   result.upper = kInfinity;
   // Tilted by a little, a direction has one extreme point, and that is a corner of the hull: no
@@ -197,8 +184,5 @@ HullDepth hullDepth(const Differences<S>& set, double size, double rel_gap, int 
   result.lower = polytope.certifiedRadius(set.error());
   return result;
 }
-
-KIOS_INSTANTIATE_CLASS(Differences);
-KIOS_INSTANTIATE_FUNCTION(hullDepth);
 
 }  // namespace kios

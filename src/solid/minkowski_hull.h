@@ -16,18 +16,17 @@ struct HullDepth {
 };
 
 /// Holds the extreme differences of vertices of two meshes, b's as posed in a's frame.
-template <typename S>
 class Differences {
  public:
-  /// Graphs of convex meshes spare the search of the trees. `pair` must outlive this.
-  explicit Differences(const SolidPair<S>& pair);
+  /// `pair` must outlive this.
+  explicit Differences(const SolidPair& pair);
 
   struct Point {
     fcl::Vector3d at;
     int a = 0, b = 0;  ///< vertices of the graphs, from which the next walk may start
   };
-  /// Returns a point that is farthest along n: proven by trees alone, and certain to be one of the
-  /// points.
+  /// Returns a point from which no step leads farther along n, and which is certain to be one of
+  /// the points. Both meshes must be convex.
   Point farthest(const fcl::Vector3d& n, const Point& near) const;
   /// n . p for the farthest point p: not less, rounding is paid for. n is a unit vector.
   double height(const fcl::Vector3d& n) const;
@@ -35,18 +34,14 @@ class Differences {
   double error() const { return error_; }
 
  private:
-  fcl::Vector3d inA(const fcl::Vector3d& p_B) const { return pair_.R_AB() * p_B + pair_.T_AB(); }
-  fcl::Vector3d inB(const fcl::Vector3d& n) const { return pair_.R_AB().transpose() * n; }
-
-  const SolidPair<S>& pair_;
-  const Model<S>&a_, &b_;
+  const RelativePose<double>& X_AB_;
+  const Mesh &a_, &b_;
   const VertexGraph &graph_a_, &graph_b_;
   const double error_;
 };
 
 /// Expands a polytope of differences towards the faces nearest to the origin (van den Bergen's
-/// EPA), until upper <= (1 + rel_gap) lower or `max_points` were added.
-template <typename S>
-HullDepth hullDepth(const Differences<S>& differences, double size, double rel_gap, int max_points);
+/// EPA), until upper <= (1 + rel_gap) lower or `max_points` were added. Both meshes must be convex.
+HullDepth hullDepth(const Differences& differences, double size, double rel_gap, int max_points);
 
 }  // namespace kios

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/solid/penetration.h"
+#include "fcl_kios/solids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,13 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "fcl_kios/triangle.h"
+#include "query/nearest_on_mesh.h"
 #include "query/pair_search.h"
-#include "solid/ball_pairs.h"
-#include "solid/common_center.h"
 #include "solid/containment.h"
 #include "solid/exit_search.h"
+#include "solid/inner_balls.h"
 #include "solid/minkowski_hull.h"
 #include "solid/solid_pair.h"
+#include "solid/tuning.h"
 #include "triangle/predicates.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
@@ -26,17 +28,157 @@ namespace {
 
 using Vec = fcl::Vector3d;
 
-void requireValid(const PenetrationOptions& options) {
-  require(options.rel_gap >= 0, "PenetrationOptions::rel_gap", options.rel_gap, ">= 0");
-  require(options.max_tests >= 0, "PenetrationOptions::max_tests", options.max_tests, ">= 0");
+void requireValid(const PenetrationRequest& options) {
+  require(options.rel_gap >= 0, "PenetrationRequest::rel_gap", options.rel_gap, ">= 0");
+  require(options.max_tests >= 0, "PenetrationRequest::max_tests", options.max_tests, ">= 0");
+}
+
+/// The balls about a point, in a's frame.
+struct Balls {
+  bool in_a = false, in_b = false;
+  double depth = 0;  ///< proven
+};
+
+class CommonCenter {
+ public:
+  explicit CommonCenter(SolidPair& pair) : pair_(pair) {}
+
+  // The place of c relative to b, and its distance, are those of y = R^T (c - T) in b's frame, but
+  // for inverseError(): if b's surface is farther than that, both are on one side. R shrinks no
+  // distance by more than the same share of it, which is within the error, too.
+  Balls at(const Vec& c) {
+    const RelativePose<double>& X_AB = pair_.frame().X_AB;
+    Balls balls;
+    const Vec y = toB(X_AB, c);
+    // No surface lies within the balls of the last point in both.
+    const double moved = 1.001 * (c - last_).norm() + 4 * pair_.rounding();
+    balls.in_a = moved < radius_a_ || placeOf(c, pair_.a(), pair_.counts()).inside();
+    balls.in_b = moved < radius_b_ || placeOf(y, pair_.b(), pair_.counts()).inside();
+    if (!balls.in_a || !balls.in_b) return balls;
+    const NearestOnMesh a = nearestOnMesh(pair_.a(), c, kInfinity);
+    const NearestOnMesh b = nearestOnMesh(pair_.b(), y, kInfinity);
+    on_a_.push_back(a.point);
+    on_b_.push_back(X_AB * b.point);
+    const double error =
+        2 * inverseError(X_AB, c.lpNorm<1>() + 4 * pair_.size()) + 2 * pair_.rounding();
+    if (!(b.lower > error) || !(a.lower > pair_.rounding())) return balls;
+    last_ = c;
+    radius_a_ = a.lower - error;
+    radius_b_ = b.lower - error;
+    balls.depth = a.lower - pair_.rounding() + b.lower - error;
+    return balls;
+  }
+
+  /// Returns where the balls may be largest within `reach` of c, by the points of the surfaces that
+  /// are known, and by how much at most.
+  std::pair<Vec, double> highest(const Vec& c, double reach) const {
+    const auto nearest = [](const std::vector<Vec>& points, const Vec& p, Vec& away) {
+      away.setZero();
+      double least = kInfinity;
+      for (const Vec& q : points) {
+        const double square = (p - q).squaredNorm();
+        if (!(square < least)) continue;
+        least = square;
+        away = p - q;
+      }
+      least = std::sqrt(least);
+      away /= least;
+      return least;
+    };
+    Vec top = c, at = c, u = Vec::Zero(), v = Vec::Zero();
+    double highest = 0, step = 0.5 * reach;
+    for (int i = 0; i < tuning::kUphill; ++i) {
+      const double depth = nearest(on_a_, at, u) + nearest(on_b_, at, v);
+      if (depth > highest) {
+        highest = depth;
+        top = at;
+      } else {
+        step *= 0.7;
+      }
+      const Vec uphill = u + v;
+      const double slope = uphill.norm();
+      if (!(slope > 1e-3)) break;
+      at += step / slope * uphill;
+      const Vec way = at - c;
+      if (way.norm() > reach) at = c + reach * way.normalized();
+    }
+    return {top, highest};
+  }
+
+ private:
+  SolidPair& pair_;
+  std::vector<Vec> on_a_, on_b_;  ///< points of the surfaces, in a's frame
+  Vec last_ = Vec::Zero();
+  double radius_a_ = 0, radius_b_ = 0;  ///< of balls about last_ that lie in a and b
+};
+
+/// Returns a lower bound of the length of any translation that parts the solids: if balls of radii
+/// r and s about one point lie in a and in b, their interiors part only where |t| >= r + s. The
+/// point is sought on the way by which b leaves, from `on_a` against `translation` (in the world):
+/// at its ends, where solids touch that overlap by little. If `fully`, it is sought between them
+/// and from `common` (in a's frame), and from there uphill, until the bound reaches `required` or
+/// little more can be hoped for. 0 if no common point was found.
+double depthOfBalls(SolidPair& pair, const Vec& on_a, const Vec& translation, double required,
+                    bool fully, const std::optional<Vec>& common) {
+  CommonCenter center(pair);
+  const Vec from = pair.inA(on_a), way = -pair.vectorInA(translation);
+  // Where a's surface is flat and b's isn't the balls are best at b's end, and at a's.
+  if (!fully) {
+    double depth = 0;
+    for (const double end : {0.985, 0.015}) {
+      if (depth < required) depth = std::max(depth, center.at(from + end * way).depth);
+    }
+    return depth;
+  }
+  Vec best = from;
+  Balls balls;
+  const auto tryPoint = [&](const Vec& c) {
+    const Balls here = center.at(c);
+    if (here.depth > balls.depth) {
+      balls = here;
+      best = c;
+    }
+    return here;
+  };
+  if (common) tryPoint(*common);
+  // Near 0 the way is in a, near 1 in b; in between it is in both, or never.
+  double low = 0, high = 1;
+  for (int i = 0; i < tuning::kHalvings && balls.depth < required; ++i) {
+    const double share = 0.5 * (low + high);
+    const Balls here = tryPoint(from + share * way);
+    if (here.in_a == here.in_b || balls.depth > tuning::kPoor * required) break;
+    (here.in_a ? low : high) = share;
+  }
+  // If that is poor, from where the surfaces meet, a little way into both.
+  const auto& contacts = pair.overlap().contacts;
+  for (std::size_t i = 0; i < contacts.size(); i += 2) {
+    const Vec seam = intersectionPoint(contacts[i].a, contacts[i].b);
+    const Vec inwards = -normalOf(contacts[i].a) - normalOf(contacts[i].b);
+    for (double step = 0.3 * translation.norm(); step > 0.01 * translation.norm(); step *= 0.3) {
+      if (balls.depth > tuning::kPoor * required) break;
+      if (tryPoint(seam + step * inwards).depth > 0) break;
+    }
+  }
+  if (!(balls.depth > 0)) return 0;
+  double reach = 0.8 * balls.depth;
+  for (int i = 0; i < tuning::kUphill && balls.depth < required; ++i) {
+    const auto [c, hope] = center.highest(best, reach);
+    if (!(hope > balls.depth)) break;
+    const double before = balls.depth;
+    tryPoint(c);
+    if (!(balls.depth > before)) reach *= 0.5;
+    if (balls.depth > 2 * before) reach = 0.8 * balls.depth;  // it began much too small
+  }
+  return balls.depth;
 }
 
 /// Returns the side of a plane on which a mesh lies: +1 or -1, touching or not, 0 if on both.
 template <typename Corners>
-int sideOf(const TriangleVerticesd& plane, int num_triangles, const Corners& corners_of) {
+int sideOf(const TriangleVerticesd& plane, std::size_t num_triangles, const Corners& corners_of) {
   int side = 0;
-  for (int t = 0; t < num_triangles; ++t) {
-    const PairPredicates::Coordinates points = coordinatesOf(plane, corners_of(t));
+  for (std::size_t t = 0; t < num_triangles; ++t) {
+    const PairPredicates::Coordinates points =
+        coordinatesOf(plane, corners_of(static_cast<int>(t)));
     const PairPredicates exact(points);
     for (int i = 3; i < 6; ++i) {
       const int sign = exact.orient3d(0, 1, 2, i);
@@ -51,8 +193,7 @@ int sideOf(const TriangleVerticesd& plane, int num_triangles, const Corners& cor
 /// Returns true if the plane of a triangle that meets another has all of a on one side and all of
 /// b, as posed in a's frame, on the other, in exact arithmetic: the solids touch, but their
 /// interiors are disjoint. What meets tells, but for rounding, which planes may.
-template <typename S>
-bool partedByFace(SolidPair<S>& pair) {
+bool partedByFace(SolidPair& pair) {
   const MeshPair& frame = pair.frame();
   const auto& contacts = pair.overlap().contacts;
   const double rounding = 16 * pair.rounding();
@@ -70,56 +211,36 @@ bool partedByFace(SolidPair<S>& pair) {
     for (const auto& face : {contact.a, contact.b}) {
       const Vec n = normalOf(face);
       if (!mayPart(n, face[0]) && !mayPart(-n, face[0])) continue;
-      const int side = sideOf(face, pair.a().num_tris, of_a);
-      if (side != 0 && sideOf(face, pair.b().num_tris, of_b) == -side) return true;
+      const int side = sideOf(face, pair.a().numTriangles(), of_a);
+      if (side != 0 && sideOf(face, pair.b().numTriangles(), of_b) == -side) return true;
     }
   }
   return false;
 }
 
-/// Returns an order of pairs that doesn't depend on which is named first: by size, by root volumes,
-/// by poses, by coordinates.
-template <typename S>
-bool comesFirst(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                const fcl::Transform3<S>& X_WB) {
-  int first = a.num_tris != b.num_tris ? a.num_tris - b.num_tris : a.num_vertices - b.num_vertices;
-  const auto compare = [&](const auto* p, const auto* q, std::ptrdiff_t n) {
-    if (first != 0) return;
-    const auto [x, y] = std::mismatch(p, p + n, q);
-    if (x != p + n) first = *x < *y ? 1 : -1;
-  };
-  compare(a.getBV(0).bv.center0.data(), b.getBV(0).bv.center0.data(), 3);
-  compare(X_WA.data(), X_WB.data(), 16);
-  if (&a != &b) compare(a.vertices->data(), b.vertices->data(), 3 * a.num_vertices);
-  return first >= 0;
-}
-
-template <typename S>
 class PenetrationQuery {
  public:
-  PenetrationQuery(SolidPair<S>& pair, const PenetrationOptions& options)
-      : pair_(pair), options_(options) {}
+  PenetrationQuery(SolidPair& pair, const PenetrationRequest& options)
+      : pair_(pair), options_(options), exits_(pair), exit_(exits_.best()) {}
 
-  Penetration run() {
-    const Differences<S> differences(pair_);
+  PenetrationResult run() {
+    const Differences differences(pair_);
     std::vector<Vec> directions;
-    if (pair_.stateA().convexity(pair_.a()).convex && pair_.stateB().convexity(pair_.b()).convex) {
-      constexpr int kPoints = 128;
-      constexpr double kShare = 0.9;
+    if (pair_.convexityA().convex && pair_.convexityB().convex) {
       const HullDepth hull =
-          hullDepth(differences, pair_.size(), kShare * options_.rel_gap, kPoints);
+          hullDepth(differences, pair_.size(), options_.rel_gap, tuning::kHullPoints);
       lower_ = lowerOfHulls(hull.lower);
       if (!hull.normal.isZero(0)) directions.push_back(hull.normal);
     }
     std::optional<BallPairs> balls;
     if (directions.empty()) {
       directions = meanDirections(pair_);
-      balls.emplace(pair_);
+      balls.emplace(pair_.ballsA(), pair_.ballsB(), pair_.frame().X_AB);
       if (balls->depth() > 0) directions.resize(1);  // they hardly leave as hulls do
     }
-    exit_ = leaveHulls(pair_, differences, directions);
+    exits_.leaveHulls(differences, directions);
     if (!closed()) {
-      if (!balls) balls.emplace(pair_);
+      if (!balls) balls.emplace(pair_.ballsA(), pair_.ballsB(), pair_.frame().X_AB);
       if (balls->depth() == 0) {
         raiseLower(false);
         if (!(lower_ > 0) && partedByFace(pair_)) return {};
@@ -127,17 +248,16 @@ class PenetrationQuery {
       common_ = balls->common();
       if (!closed()) search(*balls);
     }
-    Penetration result;
+    PenetrationResult result;
     result.upper = exit_.length;
     result.lower = std::min(lower_, exit_.length);
-    result.translation = pair_.movesA() ? Vec(-exit_.translation) : exit_.translation;
-    result.point = pair_.movesA() ? Vec(exit_.after.on_b - exit_.translation) : exit_.after.on_a;
+    result.translation = pair_.swapped() ? Vec(-exit_.translation) : exit_.translation;
+    result.point = pair_.swapped() ? Vec(exit_.after.on_b - exit_.translation) : exit_.after.on_a;
     return result;
   }
 
  private:
-  /// Planes of triangles come first, unless the hulls' exit is so much longer than they that the
-  /// balls probably close the bracket: then they follow if these don't.
+  /// By planes of triangles, unless balls are deep: there they find nothing shorter.
   void search(const BallPairs& balls) {
     double edge = 0;
     for (const auto& contact : pair_.overlap().contacts) {
@@ -145,17 +265,9 @@ class PenetrationQuery {
         edge = std::max({edge, (t[1] - t[0]).norm(), (t[2] - t[1]).norm()});
       }
     }
-    constexpr double kLong = 2.5, kDeep = 0.5;
-    constexpr std::size_t kMany = 256, kFew = 64;
-    const bool fine = exit_.length > kLong * edge;
-    const auto deep = [&] { return std::max(balls.depth(), lower_) > kDeep * edge; };
+    const bool deep = std::max(balls.depth(), lower_) > tuning::kDeep * edge;
     const long long first = pair_.tests(), last = first + options_.max_tests;
-    if (fine || deep() || !leaveByPlanes(pair_, kMany, (first + last) / 2, exit_)) {
-      leaveByBalls(pair_, balls, last, exit_);
-    }
-    raiseLower(true);
-    if (!fine || deep() || closed()) return;
-    leaveByPlanes(pair_, kFew, last, exit_);
+    if (deep || !exits_.leaveByPlanes((first + last) / 2)) exits_.leaveByBalls(balls, last);
     raiseLower(true);
   }
 
@@ -171,8 +283,8 @@ class PenetrationQuery {
   // The vertices of both hulls lie within `moved` of points of the solids, whose hulls are in the
   // solids: see Convexity. So does each difference of two vertices.
   double lowerOfHulls(double lower) const {
-    return inWorld(lower - pair_.stateA().convexity(pair_.a()).moved -
-                   1.01 * pair_.stateB().convexity(pair_.b()).moved - pair_.rounding());
+    return inWorld(lower - pair_.convexityA().moved - 1.01 * pair_.convexityB().moved -
+                   pair_.rounding());
   }
 
   /// A translation in the world has R_WA^T of it in a's frame, longer by the stretch at most.
@@ -181,9 +293,10 @@ class PenetrationQuery {
     return std::max(0.0, lower / (1 + 2.1 * stretch + 0x1p-48));
   }
 
-  SolidPair<S>& pair_;
-  const PenetrationOptions& options_;
-  Exit exit_;
+  SolidPair& pair_;
+  const PenetrationRequest& options_;
+  ExitSearch exits_;
+  const Exit& exit_;
   double lower_ = 0;
   std::optional<Vec> common_;  ///< a point in an inner ball of each, in a's frame
 };
@@ -191,20 +304,20 @@ class PenetrationQuery {
 }  // namespace
 
 template <typename S>
-Penetration penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
-                        const Model<S>& solid2, const fcl::Transform3<S>& X_W2,
-                        const PenetrationOptions& options) {
+PenetrationResult penetration(const Model<S>& solid1, const fcl::Transform3<S>& X_W1,
+                              const Model<S>& solid2, const fcl::Transform3<S>& X_W2,
+                              const PenetrationRequest& options) {
   requireValid(options);
   SearchCounts unused;
   SearchCounts& counts = options.counts ? *options.counts : unused;
-  const bool as_given = comesFirst(solid1, X_W1, solid2, X_W2);
-  SolidPair<S> pair = as_given ? SolidPair<S>(solid1, X_W1, solid2, X_W2, counts, false)
-                               : SolidPair<S>(solid2, X_W2, solid1, X_W1, counts, true);
+  SolidPair pair =
+      inOrder(meshOf(solid1), X_W1.template cast<double>(), meshOf(solid2),
+              X_W2.template cast<double>(), squaredRotationErrors(X_W1, X_W2), counts, true);
   const MeshPair& frame = pair.frame();
   if (frame.rootBound(0) > 0) return {};
   const bool surfaces_meet = !searchContacts(frame, 1, counts).empty();
-  if (!surfaces_meet && !containedPoint(pair.a(), pair.b(), frame, counts)) return {};
-  return PenetrationQuery<S>(pair, options).run();
+  if (!surfaces_meet && !containedPoint(frame, counts)) return {};
+  return PenetrationQuery(pair, options).run();
 }
 
 KIOS_INSTANTIATE_FUNCTION(penetration);

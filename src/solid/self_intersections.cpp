@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/solid/self_intersections.h"
+#include "fcl_kios/repair.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 namespace kios {
 
-/// Holds a side of a triangle, at the edge between two welded vertices.
+/// A side of a triangle, at the edge between two welded vertices.
 struct Side {
   int low, high, triangle;
   std::uint8_t corner;  ///< of the triangle, at which it begins
@@ -17,13 +18,11 @@ struct Side {
 
   bool sameEdge(const Side& o) const { return low == o.low && high == o.high; }
   bool operator<(const Side& o) const {
-    if (low != o.low) return low < o.low;
-    if (high != o.high) return high < o.high;
-    return triangle < o.triangle;
+    return std::tie(low, high, triangle) < std::tie(o.low, o.high, o.triangle);
   }
 };
 
-/// Returns the sides of triangles with distinct ends, edge by edge. corners_of(t) gives the three
+/// The sides of triangles with distinct ends, edge by edge. corners_of(t) gives the three
 /// vertices of a triangle.
 template <typename Corners>
 std::vector<Side> sidesOf(std::size_t num_triangles, const Corners& corners_of) {
@@ -51,10 +50,12 @@ void forEdges(const std::vector<Side>& sides, const Visit& visit) {
   }
 }
 
-/// Numbers the connected parts of a surface, in the order of their first triangles.
+/// The connected parts of a surface, in the order of their first triangles.
 struct Parts {
   std::vector<int> of;  ///< by triangle; -1 for one that has no side
-  int count = 0;
+  /// By triangle: it is wound against the first one of its part, along the way that joined them.
+  std::vector<bool> turned;
+  std::vector<std::vector<int>> triangles;
 };
 
 /// Finds the parts that are connected by edges of two triangles, or `across_branches` by any edges.

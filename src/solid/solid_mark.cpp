@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/solids.h"
 #include "model/kios_model.h"
 #include "model/members.h"
 #include "solid/components.h"
@@ -13,51 +13,46 @@
 #include "volume/instantiate.h"
 
 namespace kios {
-template <typename S>
-SolidState<S>::SolidState(const Model<S>& model) {
-  const Components<S> parts(viewOf(model));
+
+SolidState::SolidState(const Mesh& mesh) {
+  const Components parts(mesh);
   closedness_ = parts.closedness();
-  for (int c = 0; c < closedness_.components; ++c) {
-    const auto triangles = parts.trianglesOf(c);
-    const fcl::Triangle &first = model.tri_indices[*triangles.begin()],
-                        &last = model.tri_indices[*(triangles.end() - 1)];
+  inwards_ = parts.inwards();
+  for (const std::vector<int>& triangles : parts.triangles()) {
+    const auto first = static_cast<std::size_t>(triangles.front()),
+               last = static_cast<std::size_t>(triangles.back());
     Vertices& vertices = components_.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      vertices[k] = static_cast<int>(first[static_cast<int>(k)]);
-      vertices[k + 3] = static_cast<int>(last[static_cast<int>(k)]);
+      vertices[k] = mesh.corner(first, k);
+      vertices[k + 3] = mesh.corner(last, k);
     }
   }
 }
 
-template <typename S>
-const Convexity& SolidState<S>::convexity(const Model<S>& model) const {
+const Convexity& SolidState::convexity(const Mesh& mesh) const {
   std::call_once(convexity_known_, [&] {
-    if (closedness_.components == 1) convexity_ = measureConvexity(model);
+    if (closedness_.components == 1) convexity_ = measureConvexity(mesh);
   });
   return convexity_;
 }
 
-template <typename S>
-const InnerBalls& SolidState<S>::balls(const Model<S>& model) const {
-  std::call_once(balls_known_, [&] { balls_ = innerBalls(model); });
+const InnerBalls& SolidState::balls(const Mesh& mesh) const {
+  std::call_once(balls_known_, [&] { balls_ = innerBalls(mesh); });
   return balls_;
 }
 
-template <typename S>
-std::shared_ptr<const Attachment> SolidState<S>::renewed(const void* model) const {
-  return std::make_shared<const SolidState<S>>(*static_cast<const Model<S>*>(model));
+bool SolidState::hasInnerWalls(const Mesh& mesh) const {
+  std::call_once(walls_known_, [&] { walls_ = mayHaveInnerWalls(mesh, closedness_); });
+  return walls_;
 }
 
-template <typename S>
-void SolidState<S>::refuseOpened() const {
+void SolidState::refuseOpened() const {
   refuse("the model is marked as a solid, but was changed since, so that it is none: " +
          faultsOf(closedness_) + "; close it, or call kios::unmarkSolid().");
 }
 
-template <typename S>
-const SolidState<S>& requireSolid(const Model<S>& model) {
-  requireFinished(model);
-  const SolidState<S>* const mark = markOf(model);
+const SolidState& requireSolid(const Mesh& mesh) {
+  const auto* const mark = static_cast<const SolidState*>(mesh.attachment());
   if (!mark) refuse("the model is no solid: call kios::markSolid() first.");
   mark->check();
   return *mark;
@@ -80,7 +75,7 @@ void setMark(Model<S>& model, std::shared_ptr<const Attachment> mark) {
 template <typename S>
 void markSolid(Model<S>& model) {
   validate(model);
-  auto state = std::make_shared<const SolidState<S>>(model);
+  auto state = std::make_shared<const SolidState>(meshOf(model));
   if (!state->closedness().isSolid()) {  // before anything changes
     refuse("the model bounds no solid: " + faultsOf(state->closedness()) + ".");
   }
@@ -94,7 +89,7 @@ void unmarkSolid(Model<S>& model) {
 
 template <typename S>
 bool isSolid(const Model<S>& model) {
-  const SolidState<S>* const mark = markOf(model);
+  const SolidState* const mark = markOf(model);
   if (!mark) return false;
   try {
     requireFinished(model);
@@ -104,8 +99,6 @@ bool isSolid(const Model<S>& model) {
   return mark->closedness().isSolid();
 }
 
-KIOS_INSTANTIATE_CLASS(SolidState);
-KIOS_INSTANTIATE_FUNCTION(requireSolid);
 KIOS_INSTANTIATE_FUNCTION(markSolid);
 KIOS_INSTANTIATE_FUNCTION(unmarkSolid);
 KIOS_INSTANTIATE_FUNCTION(isSolid);

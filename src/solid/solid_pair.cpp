@@ -4,13 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include <Eigen/Geometry>
+#include "query/nearest_on_mesh.h"
 #include "query/pair_search.h"
 #include "solid/containment.h"
-#include "solid/nearest_surface.h"
+#include "solid/tuning.h"
 #include "volume/errors.h"
 #include "volume/rounding.h"
+#include "volume/unit_vector.h"
 
 namespace kios {
 namespace {
@@ -19,38 +23,33 @@ using Vec = fcl::Vector3d;
 
 }  // namespace
 
-Vec normalOf(const TriangleVertices<double>& t) {
+Vec normalOf(const TriangleVerticesd& t) {
   const Vec n = (t[1] - t[0]).cross(t[2] - t[0]);
   const double length = n.norm();
-  return length > 0 ? Vec(n / length) : Vec(Vec::Zero());
+  // Squares beyond this lose digits, or are none.
+  return length > 0x1p-450 && length < 0x1p450 ? Vec(n / length) : unitVector(n);
 }
 
-template <typename S>
-SolidPair<S>::SolidPair(const Model<S>& a, const fcl::Transform3<S>& X_WA, const Model<S>& b,
-                        const fcl::Transform3<S>& X_WB, SearchCounts& counts, bool moves_a)
-    : a_(a),
-      b_(b),
-      X_WA_(X_WA.template cast<double>()),
-      X_WB_(X_WB.template cast<double>()),
+SolidPair::SolidPair(const Mesh& a, const fcl::Transform3d& X_WA, const Mesh& b,
+                     const fcl::Transform3d& X_WB, double squared_errors, SearchCounts& counts,
+                     bool swapped, bool moves_a)
+    : X_WA_(X_WA),
+      X_WB_(X_WB),
+      squared_errors_(squared_errors),
       counts_(counts),
+      swapped_(swapped),
       moves_a_(moves_a),
-      squared_errors_(squaredRotationErrors(X_WA, X_WB)),
-      frame_(meshOf(a), X_WA, meshOf(b), X_WB, squared_errors_),
-      state_a_(requireSolid(a)),
-      state_b_(requireSolid(b)),
-      R_WA_(X_WA_.linear()),
-      t_WA_(X_WA_.translation()) {
-  R_AB_ = R_WA_.transpose() * X_WB_.linear();
-  T_AB_ = R_WA_.transpose() * (X_WB_.translation() - t_WA_);
-  size_ = frame_.a.radius() + frame_.b.radius();
-  rounding_ = frame_.distanceError(size_);
+      frame_(a, X_WA, b, X_WB, squared_errors),
+      size_(a.radius() + b.radius()),
+      rounding_(frame_.distanceError(size_)) {
+  requireSolid(a);
+  requireSolid(b);
   if (!(size_ >= 0x1p-300 && size_ <= 0x1p300)) {  // lengths are squared
     refuse("solids larger than 2^300 or smaller than 2^-300 have no depth; scale them.");
   }
 }
 
-template <typename S>
-MeshPair SolidPair<S>::moved(const Vec& translation) const {
+MeshPair SolidPair::moved(const Vec& translation) const {
   fcl::Transform3d X_WA = X_WA_, X_WB = X_WB_;
   if (moves_a_) {
     X_WA.translation() -= translation;
@@ -60,9 +59,7 @@ MeshPair SolidPair<S>::moved(const Vec& translation) const {
   return {frame_.a, X_WA, frame_.b, X_WB, squared_errors_};
 }
 
-template <typename S>
-typename SolidPair<S>::Overlap SolidPair<S>::overlapAfter(const Vec& translation,
-                                                          std::size_t limit) {
+SolidPair::Overlap SolidPair::overlapAfter(const Vec& translation, std::size_t limit) {
   ++tests_;
   Overlap result;
   const MeshPair frame = moved(translation);
@@ -71,34 +68,30 @@ typename SolidPair<S>::Overlap SolidPair<S>::overlapAfter(const Vec& translation
     result.contacts.push_back({frame.triangleA(ids.a), frame.triangleB(ids.b)});
   }
   if (!result.contacts.empty()) return result;
-  if (const auto p =
-          containedPoint(a_, b_, frame, counts_)) {  // on the one's surface, in the other
-    constexpr double kCoarse = 0.05;
-    const Vec on_b = nearestSurface(b_, toB(frame.X_AB, *p), kCoarse).point;
-    result.to_wall = nearestSurface(a_, *p, kCoarse).point - frame.X_AB * on_b;
+  if (const auto p = containedPoint(frame, counts_)) {  // on one's surface, in the other
+    const Vec on_b = nearestOnMesh(b(), toB(frame.X_AB, *p), kInfinity).point;
+    result.to_wall = nearestOnMesh(a(), *p, kInfinity).point - frame.X_AB * on_b;
   }
   return result;
 }
 
-template <typename S>
-const typename SolidPair<S>::Overlap& SolidPair<S>::overlap() {
-  constexpr std::size_t kContacts = 16;
-  if (!overlap_) overlap_ = overlapAfter(Vec::Zero(), kContacts);
+const SolidPair::Overlap& SolidPair::overlap() {
+  if (!overlap_) overlap_ = overlapAfter(Vec::Zero(), tuning::kContacts);
   return *overlap_;
 }
 
-template <typename S>
-Separation SolidPair<S>::test(const Vec& translation, double reach) {
+Separation SolidPair::test(const Vec& translation, double reach) {
   ++tests_;
   const MeshPair moved = this->moved(translation);
   Separation result;
+  result.moved = (moved.X_AB.T() - frame_.X_AB.T()).norm();
   engine::PairQuery query;
   query.rel_err = 0.1;
   query.far_enough = std::max(reach, 8 * rounding_);
-  const DistanceAnswerd answer = bracketDistance(moved, query);
+  const DistanceBracketResultd answer = bracketDistance(moved, query);
   counts_ += answer.counts;
   result.gap = answer.lower_bound;
-  if (!(result.gap > 0) || containedPoint(a_, b_, moved, counts_)) return result;
+  if (!(result.gap > 0) || containedPoint(moved, counts_)) return result;
   result.apart = true;
   if (answer.triangle_a < 0) return result;
   const Vec on_a = answer.point_a, between = answer.point_b - on_a;
@@ -108,17 +101,34 @@ Separation SolidPair<S>::test(const Vec& translation, double reach) {
     const Vec n =
         normalOf(moved.triangleA(answer.triangle_a)) - normalOf(moved.triangleB(answer.triangle_b));
     if (!(n.norm() > 0x1p-20)) return result;
-    result.normal = R_WA_ * n.normalized();
+    result.normal = inWorld(n.normalized());
   } else {
-    result.normal = R_WA_ * (between / length);
+    result.normal = inWorld(between / length);
   }
-  result.on_a = R_WA_ * on_a + t_WA_;
-  result.on_b = result.on_a + R_WA_ * between;
+  result.on_a = X_WA_ * on_a;
+  result.on_b = result.on_a + inWorld(between);
   result.nearest = true;
   return result;
 }
 
-template class SolidPair<double>;
-template class SolidPair<float>;
+SolidPair inOrder(const Mesh& mesh1, const fcl::Transform3d& X_W1, const Mesh& mesh2,
+                  const fcl::Transform3d& X_W2, double squared_errors, SearchCounts& counts,
+                  bool moves_second) {
+  const auto sizes = [](const Mesh& m) { return std::pair(m.numTriangles(), m.numVertices()); };
+  const auto compare = [](const auto& p, const auto& q) {  // < 0: p's first difference is larger
+    const auto* const end = p.data() + p.size();
+    const auto [x, y] = std::mismatch(p.data(), end, q.data());
+    return x == end ? 0 : *x < *y ? 1 : -1;
+  };
+  int first = sizes(mesh1) == sizes(mesh2) ? 0 : sizes(mesh1) > sizes(mesh2) ? 1 : -1;
+  if (first == 0) first = compare(mesh1.center(), mesh2.center());
+  if (first == 0) first = compare(X_W1.matrix(), X_W2.matrix());
+  for (std::size_t i = 0; i < mesh1.numVertices() && first == 0; ++i) {
+    first = compare(mesh1.vertex(i), mesh2.vertex(i));
+  }
+  return first >= 0
+             ? SolidPair(mesh1, X_W1, mesh2, X_W2, squared_errors, counts, false, false)
+             : SolidPair(mesh2, X_W2, mesh1, X_W1, squared_errors, counts, true, moves_second);
+}
 
 }  // namespace kios

@@ -130,7 +130,6 @@ const Keys& keys() {
 Fingerprint fingerprint(const void* one, std::size_t one_bytes, const void* other,
                         std::size_t other_bytes) {
   const Keys& of = keys();
-  const auto add_products = HWY_DYNAMIC_DISPATCH(addProducts);
   std::uint64_t polynomials[2] = {1, 1};
   const struct {
     const void* data;
@@ -141,7 +140,8 @@ Fingerprint fingerprint(const void* one, std::size_t one_bytes, const void* othe
     for (std::size_t left = array.bytes; left > 0;) {
       const std::size_t bytes = left < kBlock ? left : kBlock;
       std::uint64_t sums[2] = {0, 0};
-      add_products(at, bytes, of.of_sums[0], of.of_sums[1], sums);
+      // Anew for each block: what it gives at first chooses at every call, which takes 20 us.
+      HWY_DYNAMIC_DISPATCH(addProducts)(at, bytes, of.of_sums[0], of.of_sums[1], sums);
       for (int k = 0; k < 2; ++k) {  // Horner's rule, a step for each half of the sum
         polynomials[k] =
             Keys::reduced(Wide{polynomials[k]} * of.squares[k] +

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/volume/rigid.h"
+#include "fcl_kios/detail/rigid.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -17,13 +17,15 @@ using Vec = Eigen::Vector3d;
 /// A coordinate of eight faces.
 using Eight = double[kLanes];
 
-/// Planes and edge planes of up to eight faces; of those that are too thin or too small, planes
-/// that hold everywhere. Adds up the normals. Written without branches, for the compiler to
-/// vectorise.
+/// Planes and edge planes of up to eight faces; of those that are too thin, planes that hold
+/// everywhere, and of those that are points those of a small prism. Adds up the normals. Written
+/// without branches, for the compiler to vectorise.
 ///
 /// A normal is by the longest edge and the height above it, true to 2^-52 * aspect; a face for
-/// which that is more than a few 2^-30 is too thin. A face is too small where products of its
-/// squares lose precision or vanish: it is a point to any pad.
+/// which that is more than a few 2^-30 is too thin. A face is a point to any pad where products of
+/// its squares lose precision or vanish. A point has a normal like any face, and edge planes
+/// through it whose inward normals sum to 0: what touches it crosses its plane within all of them,
+/// and what is farther from it is so along the normal or behind one of them.
 void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_normals) {
   Eight v[3][3];  // by corner and coordinate
   for (int i = 0; i < kLanes; ++i) {
@@ -40,7 +42,7 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
                      edge[k][2][i] * edge[k][2][i];
     }
   }
-  Eight normal[3], usable;
+  Eight normal[3], usable, point;
   for (int i = 0; i < kLanes; ++i) {
     const bool second = square[1][i] > square[0][i];
     const double of_two = second ? square[1][i] : square[0][i];
@@ -56,6 +58,7 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
     for (int c = 0; c < 3; ++c) h[c] -= along * e[c];
     const double height = h[0] * h[0] + h[1] * h[1] + h[2] * h[2];
     const bool thick = height > 0x1p-40 * longest && longest > 0x1p-400;
+    point[i] = longest > 0x1p-400 ? 0.0 : 1.0;
     const double length = std::sqrt(thick ? longest * height : 1.0);
     usable[i] = thick ? 1.0 : 0.0;
     normal[0][i] = thick ? (e[1] * h[2] - e[2] * h[1]) / length : 0.0;
@@ -87,6 +90,19 @@ void writeFaces(const FaceCorners* faces, int count, Lanes* rows, Vec& sum_of_no
         height += double{plane[c].v[i]} * v[k][c][i];
       }
       plane[3].v[i] = roundedTo<float>(thick ? -height : 1.0);
+    }
+  }
+  constexpr float kPrism[4][2] = {{0, 0}, {1, 0}, {-0.5F, 0.8660254F}, {-0.5F, -0.8660254F}};
+  for (int i = 0; i < kLanes; ++i) {
+    if (point[i] == 0) continue;
+    for (int k = 0; k < 4; ++k) {
+      Lanes* const plane = rows + (k == 0 ? int{kFacePlane} : kEdgePlanes + 4 * (k - 1));
+      const float x = kPrism[k][0], y = kPrism[k][1], z = k == 0 ? 1.0F : 0.0F;
+      plane[0].v[i] = x;
+      plane[1].v[i] = y;
+      plane[2].v[i] = z;
+      plane[3].v[i] = roundedTo<float>(
+          -(double{x} * v[0][0][i] + double{y} * v[0][1][i] + double{z} * v[0][2][i]));
     }
   }
 }

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/volume/rigid.h"
+#include "fcl_kios/detail/rigid.h"
 #include "volume/assemble.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"

@@ -80,8 +80,8 @@ struct FeatureId {
 };
 
 /// Rows of a chunk of faces: unit normal and offset, then three inward unit edge planes; 16 rows.
-/// A face too thin or too small for a normal has height 0 everywhere and lies inside everywhere: it
-/// is always a candidate.
+/// A face too thin for a normal has height 0 everywhere and lies inside everywhere: it is always a
+/// candidate. One that is a point has any normal, and lies in a prism of no width.
 enum FaceRow { kFacePlane = 0, kEdgePlanes = 4, kFaceRows = 16 };
 
 /// Returns the chunks that vertices of a leaf take: two or three.
@@ -114,15 +114,11 @@ struct Children {
 /// The vertices of a triangle; of equal ones the first.
 using Corners3 = std::array<std::uint32_t, 3>;
 
-/// Holds what of a tree tells models apart that are farther apart than they look by their spheres.
-struct TreeRoot {
+struct Tree {
   Box root_box;           ///< of the root, flat or not
   double origin[3] = {};  ///< in the model's units
-  int exponent = 0;       ///< of the unit; 0 for ordinary sizes, which alone kernels search
+  int exponent = 0;       ///< of the unit, a power of two; 0 for ordinary sizes
   float reach = 0;        ///< >= |centre| + |radius| of all spheres
-};
-
-struct Tree : TreeRoot {
   float mean_leaf = 0;    ///< mean size of the leaves' nodes
   float widest_leaf = 0;  ///< their largest width
   int depth = 0;          ///< of blocks

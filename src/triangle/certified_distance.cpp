@@ -107,11 +107,6 @@ bool CertifiedDistance::nearestFace(PairDistance& found) const {
          takeFoot(facePair(plane_q_, pair_.p), kNone, found);
 }
 
-bool CertifiedDistance::nearestFlush(PairDistance& found) const {
-  return takeFoot(kNone, flushPair(plane_p_, pair_.q), found) ||
-         takeFoot(flushPair(plane_q_, pair_.p), kNone, found);
-}
-
 /// A vertex of either and its foot on the other's face; false if there is none.
 bool CertifiedDistance::takeFoot(int vertex_of_p, int vertex_of_q, PairDistance& found) const {
   if (vertex_of_p == kNone && vertex_of_q == kNone) return false;
@@ -229,17 +224,6 @@ int CertifiedDistance::facePair(const Plane& plane, const Vec (&other)[3]) const
   const bool far = std::abs(h[nearest]) > least_ * plane.length;
   const bool found = plane.side != 0 && far && isAbove(plane, other[nearest]) && isAccurate(plane);
   return found ? nearest : kNone;
-}
-
-/// The first vertex of `other` that is no farther from a face than the tolerance. The triangles are
-/// no farther apart than the vertex and its foot, whose distance is off by half the tolerance for
-/// the face and by 7 eps magnitude for the height: less than twice the tolerance in all.
-int CertifiedDistance::flushPair(const Plane& plane, const Vec (&other)[3]) const {
-  for (int i = 0; i < 3; ++i) {
-    const bool near = std::abs(plane.heights[i]) <= tolerance_ * plane.length;
-    if (near && isAbove(plane, other[i])) return isAccurate(plane) ? i : kNone;
-  }
-  return kNone;
 }
 
 }  // namespace kios

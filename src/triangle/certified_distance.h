@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
-
 #include "triangle/pair.h"
 #include "volume/rounding.h"
 
@@ -20,14 +18,9 @@ class CertifiedDistance {
   bool nearestEdges(int begin, int end, PairDistance& found);
   /// Edges have been found too near for any certificate.
   bool touching() const { return nearest_square_ <= least_ * least_; }
-  /// Least distance of edges so far, off by less than 16 eps magnitude; infinite without any.
-  double nearest() const { return std::sqrt(nearest_square_); }
   /// Computes the planes; true if each triangle has vertices in the other's or on both sides, as
   /// far as rounding tells, when it pays to ask for an intersection before going on.
   bool crossing();
-  /// After crossing(), of triangles that are disjoint: finds a vertex so near to the other one that
-  /// the distance, between 0 and this, needs no slab.
-  bool nearestFlush(PairDistance& found) const;
   /// Vertices against faces, after crossing().
   bool nearestFace(PairDistance& found) const;
 
@@ -49,7 +42,6 @@ class CertifiedDistance {
   bool isAccurate(const Plane& plane) const;
   bool isAbove(const Plane& plane, const Vec& vertex) const;
   int facePair(const Plane& plane, const Vec (&other)[3]) const;
-  int flushPair(const Plane& plane, const Vec (&other)[3]) const;
   bool takeFoot(int vertex_of_p, int vertex_of_q, PairDistance& found) const;
   bool certified(const Vec& direction, const Vec& x, double distance) const;
 

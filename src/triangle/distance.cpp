@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/triangle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "triangle/certified_distance.h"
-#include "triangle/common_point.h"
 #include "triangle/pair.h"
+#include "triangle/predicates.h"
 #include "volume/instantiate.h"
 #include "volume/rounding.h"
 
@@ -26,10 +26,7 @@ bool before(const Vec& a, const Vec& b) {
 
 /// A triangle's vertices by increasing coordinates, and where they came from.
 struct Sorted {
-  template <typename S>
-  explicit Sorted(const TriangleVertices<S>& t) {
-    const Vec u[3] = {t[0].template cast<double>(), t[1].template cast<double>(),
-                      t[2].template cast<double>()};
+  explicit Sorted(const TriangleVerticesd& u) {
     // Looked up, because no branch predictor knows the order.
     static constexpr int kOrders[8][3] = {{0, 1, 2}, {1, 0, 2}, {0, 2, 1}, {2, 1, 0},
                                           {0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
@@ -45,7 +42,7 @@ struct Sorted {
     return static_cast<TriangleFeature>(3 + (j == nextVertex(i) ? i : j));
   }
 
-  TriangleVertices<double> v;
+  TriangleVerticesd v;
   const int* index;
 };
 
@@ -88,34 +85,21 @@ int normalize(TrianglePair& pair) {
   return e;
 }
 
-/// Returns the distance of triangles that are disjoint: not 0 even where all digits have cancelled.
-template <typename S>
-S positive(double distance) {
-  return std::max(roundedTo<S>(distance), std::numeric_limits<S>::denorm_min());
+TriangleDistanced touchingAt(const Vec& p) {
+  return {0, p, p, TriangleFeature::kFace, TriangleFeature::kFace};
 }
 
-template <typename S>
-TriangleDistance<S> touchingAt(const Vec& at) {
-  const Point<S>& p = roundedTo<S>(at);
-  return {S(0), p, p, TriangleFeature::kFace, TriangleFeature::kFace};
-}
-
-}  // namespace
-
-template <typename S>
-TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+TriangleDistanced distanceOf(const TriangleVerticesd& a, const TriangleVerticesd& b) {
   const Sorted sa(a), sb(b);
   const bool swapped = before(sb, sa);
   const Sorted &p = swapped ? sb : sa, &q = swapped ? sa : sb;
   for (int i = 0; i < 3; ++i) {  // neighbours in a mesh share a vertex as stored
     for (int j = 0; j < 3; ++j) {
       if (sa.v[i] != sb.v[j]) continue;
-      const Point<S>& common = a[sa.index[i]];
-      return {S(0), common, common, static_cast<TriangleFeature>(sa.index[i]),
+      return {0, sa.v[i], sa.v[i], static_cast<TriangleFeature>(sa.index[i]),
               static_cast<TriangleFeature>(sb.index[j])};
     }
   }
-  Vec common;
   const Vec origin = p.v[0];
   TrianglePair pair = relativeTo(origin, p, q);
   const int exponent = normalize(pair);
@@ -125,16 +109,17 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
   CertifiedDistance fast(pair);
   bool certified = fast.nearestEdges(0, 1, found);
   if (!certified && (fast.crossing() || fast.touching())) {
-    if (commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
+    if (trianglesIntersect(p.v, q.v)) return touchingAt(intersectionPoint(p.v, q.v));
     disjoint = true;
-    certified = fast.nearestFlush(found);
   }
   if (!certified && !fast.touching()) {
     certified = fast.nearestEdges(1, 3, found) || (!fast.touching() && fast.nearestFace(found));
   }
   if (!certified) {
-    if (!disjoint && commonPoint(p.v, q.v, common)) return touchingAt<S>(common);
-    found = robustDistance(pair, fast.nearest());
+    if (!disjoint && trianglesIntersect(p.v, q.v)) {
+      return touchingAt(intersectionPoint(p.v, q.v));
+    }
+    found = robustDistance(pair);
   }
   if (exponent != 0) {
     found.distance = std::ldexp(found.distance, exponent);
@@ -142,13 +127,20 @@ TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const Triangl
     scale(found.on_q, exponent);
   }
   const Vec on_p = origin + found.on_p, on_q = origin + found.on_q;
-  TriangleDistance<S> result;
-  result.distance = positive<S>(found.distance);
-  result.point_a = roundedTo<S>(swapped ? on_q : on_p);
-  result.point_b = roundedTo<S>(swapped ? on_p : on_q);
-  result.feature_a = sa.feature(swapped ? found.feature_q : found.feature_p);
-  result.feature_b = sb.feature(swapped ? found.feature_p : found.feature_q);
-  return result;
+  // Not 0 even where all digits have cancelled.
+  return {std::max(found.distance, std::numeric_limits<double>::denorm_min()),
+          swapped ? on_q : on_p, swapped ? on_p : on_q,
+          sa.feature(swapped ? found.feature_q : found.feature_p),
+          sb.feature(swapped ? found.feature_p : found.feature_q)};
+}
+
+}  // namespace
+
+template <typename S>
+TriangleDistance<S> triangleDistance(const TriangleVertices<S>& a, const TriangleVertices<S>& b) {
+  const TriangleDistanced found = distanceOf(widened(a), widened(b));
+  return {roundedLength<S>(found.distance), roundedTo<S>(found.point_a),
+          roundedTo<S>(found.point_b), found.feature_a, found.feature_b};
 }
 
 KIOS_INSTANTIATE_FUNCTION(triangleDistance);

@@ -6,15 +6,19 @@
 
 namespace kios {
 
-Integer integer(double v) {
+int lowestBit(double v) {
   int e;
-  const double mantissa = std::frexp(v, &e);  // v = mantissa 2^e, |mantissa| in [1/2, 1)
-  const int shift = e - 53 + 1074;
-  if (shift < 0) return static_cast<long long>(std::ldexp(v, 1074));  // subnormal: below 2^52
+  const auto mantissa = static_cast<long long>(std::ldexp(std::frexp(v, &e), 53));
+  return e - 53 + std::ilogb(static_cast<double>(mantissa & -mantissa));
+}
+
+Integer integer(double v, int unit) {
+  if (v == 0) return 0;
+  const int e = lowestBit(v);
   // A shift would do, but g++ 14 warns of what it makes of Boost's.
   Integer power = 0;
-  bit_set(power, static_cast<unsigned>(shift));
-  return power * static_cast<long long>(std::ldexp(mantissa, 53));
+  bit_set(power, static_cast<unsigned>(e - unit));
+  return power * static_cast<long long>(std::ldexp(v, -e));
 }
 
 IntegerVector operator-(const IntegerVector& a, const IntegerVector& b) {

@@ -11,12 +11,14 @@ namespace kios {
 using Integer = boost::multiprecision::cpp_int;
 using IntegerVector = std::array<Integer, 3>;
 
-/// v 2^1074, an integer for every finite double.
-Integer integer(double v);
+/// v 2^-unit, which must be an integer, as it is for every finite double by default.
+Integer integer(double v, int unit = -1074);
 template <typename Vector>
-IntegerVector integers(const Vector& p) {
-  return {integer(p[0]), integer(p[1]), integer(p[2])};
+IntegerVector integers(const Vector& p, int unit = -1074) {
+  return {integer(p[0], unit), integer(p[1], unit), integer(p[2], unit)};
 }
+/// The exponent of the lowest bit that is set in v, which is not 0.
+int lowestBit(double v);
 
 IntegerVector operator-(const IntegerVector& a, const IntegerVector& b);
 IntegerVector cross(const IntegerVector& a, const IntegerVector& b);

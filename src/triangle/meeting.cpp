@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "triangle/pair_intersection.h"
 #include "triangle/plain_intersection.h"
 #include "triangle/predicates.h"
@@ -8,29 +8,10 @@
 namespace kios {
 namespace {
 
-/// Whether a segment meets a triangle, in this plane, where all signs that decide are clear.
-Plainly plainlyMeets(const Pointd& p, const Pointd& q, const TriangleVerticesd& t,
-                     const PlainPlane& plane) {
-  const int across = plane.side(p) * plane.side(q);
-  if (across > 0) return Plainly::kApart;
-  bool left = false, right = false, unclear = across == 0;
-  for (int k = 0; k < 3; ++k) {
-    const int side = PlainPlane(t[k], t[kNext[k]], p).side(q);
-    left |= side < 0;
-    right |= side > 0;
-    unclear |= side == 0;
-  }
-  if (left && right && across != 0) return Plainly::kApart;
-  return unclear ? Plainly::kUnclear : Plainly::kMeet;
-}
-
 /// Whether the edge opposite a corner meets another triangle.
-bool oppositeMeets(const TriangleVerticesd& t, int corner, const TriangleVerticesd& other,
-                   const PlainPlane& plane) {
-  const Pointd &p = t[kNext[corner]], &q = t[kNext[kNext[corner]]];
-  const Plainly plain = plainlyMeets(p, q, other, plane);
-  return plain == Plainly::kUnclear ? exactlyIntersect<double>({p, q, q}, other)
-                                    : plain == Plainly::kMeet;
+bool oppositeMeets(const TriangleVerticesd& t, int corner, const TriangleVerticesd& other) {
+  const Pointd& q = t[kNext[kNext[corner]]];
+  return trianglesIntersect<double>({t[kNext[corner]], q, q}, other);
 }
 
 }  // namespace
@@ -72,8 +53,7 @@ Meeting meetingOf(const TriangleVerticesd& a, const TriangleVerticesd& b) {
         signs.orient3d(0, 1, 2, 3 + last_b) == 0 && turn(last_a) == turn(3 + last_b);
     return folded ? Meeting::kOverlap : Meeting::kNone;
   }
-  if (count == 1 && !oppositeMeets(a, of_a[0], b, plane_b) &&
-      !oppositeMeets(b, of_b[0], a, plane_a)) {
+  if (count == 1 && !oppositeMeets(a, of_a[0], b) && !oppositeMeets(b, of_b[0], a)) {
     return Meeting::kNone;
   }
   return PairIntersection(points).meeting();

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 
 namespace kios {
 
@@ -32,9 +31,7 @@ struct PairDistance {
 constexpr int nextVertex(int i) { return i == 2 ? 0 : i + 1; }
 
 /// The distance of a disjoint pair: the least over all pairs of features, each evaluated so that
-/// its error is a few eps magnitude for any shape. Features proven to be farther apart than
-/// `within` are passed over, which must be the distance of two points of the triangles, to 16 eps
-/// magnitude, or infinite. The magnitude must lie within 2^+-32.
-PairDistance robustDistance(const TrianglePair& pair, double within);
+/// its error is a few eps magnitude for any shape. The magnitude must lie within 2^+-32.
+PairDistance robustDistance(const TrianglePair& pair);
 
 }  // namespace kios

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "triangle/predicates.h"
 
 namespace kios {
@@ -34,18 +34,11 @@ class PairIntersection {
   explicit PairIntersection(const PairPredicates::Coordinates& points)
       : points_(points), signs_(points) {}
 
-  /// Returns true if the triangles intersect; then `point`, unless null, becomes the common point
-  /// that is cheapest to find.
-  bool common(Coordinates* point) {
+  bool intersect() {
     if (!crossesPlanes()) return false;
-    if (a_.degenerate && b_.degenerate) {
-      if (!segmentsMeet(a_.v[0], a_.v[1], b_.v[0], b_.v[1])) return false;
-      if (point) *point = meetingPoint(a_.v[0], a_.v[1], b_.v[0], b_.v[1]);
-      return true;
-    }
-    if (a_.degenerate) return segmentMeets(a_, b_, point);
-    if (b_.degenerate) return segmentMeets(b_, a_, point);
-    return a_.inPlane() ? coplanarMeet(point) : intervalsMeet(point);
+    if (a_.degenerate) return segmentMeetsFace(a_.v[0], a_.v[1], a_.side[0], a_.side[1], b_);
+    if (b_.degenerate) return segmentMeetsFace(b_.v[0], b_.v[1], b_.side[0], b_.side[1], a_);
+    return a_.inPlane() ? coplanarMeet() : intervalsMeet();
   }
 
   /// How two triangles with areas, which intersect, do so.
@@ -54,7 +47,7 @@ class PairIntersection {
     if (a_.inPlane()) return shareArea() ? Meeting::kOverlap : Meeting::kTouch;
     // Only what has vertices on both sides of either plane passes through it.
     if (!a_.straddles() || !b_.straddles()) return Meeting::kTouch;
-    return intervalsMeet(nullptr, false) ? Meeting::kCross : Meeting::kTouch;
+    return intervalsMeet(false) ? Meeting::kCross : Meeting::kTouch;
   }
 
   /// Mean of the points where an edge of one of two triangles that intersect meets the other.
@@ -143,7 +136,7 @@ class PairIntersection {
   /// an edge of a and one of b tells which meets the line first (Guigue and Devillers, "Fast and
   /// robust triangle-triangle overlap test using orientation predicates", 2003).
   /// Intervals that have but an end in common meet only if `closed`.
-  bool intervalsMeet(Coordinates* point, bool closed = true) const {
+  bool intervalsMeet(bool closed = true) const {
     Interval a = intervalOf(a_), b = intervalOf(b_);
     if (a.above) std::swap(b.begin, b.end);
     if (!b.above) std::swap(a.begin, a.end);
@@ -151,44 +144,14 @@ class PairIntersection {
       return signs_.orient3d(a_.v[a.alone], a_.v[end_a], b_.v[b.alone], b_.v[end_b]);
     };
     const int first = order(a.begin, b.end), last = order(a.end, b.begin);
-    if (first > 0 || last < 0 || (!closed && first * last == 0)) return false;
-    if (!point) return true;
-    *point = order(a.begin, b.begin) > 0 ? crossing(a_, a.alone, a.begin, b_)
-                                         : crossing(b_, b.alone, b.begin, a_);
-    return true;
+    return first <= 0 && last >= 0 && (closed || first * last != 0);
   }
 
   /// Nothing separates two triangles of one plane if no edge of theirs does.
-  bool coplanarMeet(Coordinates* point) const {
+  bool coplanarMeet() const {
     const int axis = axisOf(a_);
-    int in_a[3][3], in_b[3][3];
-    if (!insides(a_, b_, axis, in_a)) return false;
-    for (int i = 0; i < 3 && !point; ++i) {
-      if (in_a[0][i] >= 0 && in_a[1][i] >= 0 && in_a[2][i] >= 0) return true;
-    }
-    if (!insides(b_, a_, axis, in_b)) return false;
-    if (!point) return true;
-    for (int i = 0; i < 3; ++i) {
-      if (in_a[0][i] >= 0 && in_a[1][i] >= 0 && in_a[2][i] >= 0) {
-        *point = points_[b_.v[i]];
-        return true;
-      }
-      if (in_b[0][i] >= 0 && in_b[1][i] >= 0 && in_b[2][i] >= 0) {
-        *point = points_[a_.v[i]];
-        return true;
-      }
-    }
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const int ni = kNext[i], nj = kNext[j];
-        if (in_a[i][j] * in_a[i][nj] > 0 || in_b[j][i] * in_b[j][ni] > 0) continue;
-        if ((in_a[i][j] | in_a[i][nj]) == 0) continue;  // on one line, but apart
-        const double t = signs_.crossing2d(a_.v[i], a_.v[ni], b_.v[j], b_.v[nj], axis);
-        *point = between(a_.v[i], a_.v[ni], t);
-        return true;
-      }
-    }
-    return true;
+    int in[3][3];
+    return insides(a_, b_, axis, in) && insides(b_, a_, axis, in);
   }
 
   /// Whether the insides of two triangles of one plane meet: no edge has all of the other beyond
@@ -213,28 +176,6 @@ class PairIntersection {
         in[e][i] = turn * signs_.orient2d(f.v[e], f.v[kNext[e]], other.v[i], axis);
       }
       if (in[e][0] + in[e][1] + in[e][2] == -3) return false;
-    }
-    return true;
-  }
-
-  /// A degenerate triangle and a face.
-  bool segmentMeets(const PairFace& segment, const PairFace& f, Coordinates* point) const {
-    const int p = segment.v[0], q = segment.v[1];
-    const int sp = segment.side[0], sq = segment.side[1];
-    if (!segmentMeetsFace(p, q, sp, sq, f)) return false;
-    if (!point) return true;
-    if (sp != 0 || sq != 0) {
-      *point = crossing(segment, 0, 1, f);
-    } else if (coplanarSegmentMeetsFace(p, p, f)) {
-      *point = points_[p];
-    } else {
-      *point = points_[q];
-      for (int e = 0; e < 3; ++e) {
-        const int r = f.v[e], s = f.v[kNext[e]];
-        if (!segmentsMeet(p, q, r, s)) continue;
-        *point = meetingPoint(p, q, r, s);
-        break;
-      }
     }
     return true;
   }

@@ -6,19 +6,15 @@
 #include <cmath>
 #include <utility>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 
 namespace kios {
 
 /// Signs of determinants by plain arithmetic: (p - origin) . (e x f).
 class PlainPlane {
  public:
-  PlainPlane() = default;
-  template <typename S>
-  PlainPlane(const Point<S>& origin, const Point<S>& to_e, const Point<S>& to_f)
-      : origin_(origin.template cast<double>()) {
-    const Point<double> e = to_e.template cast<double>() - origin_,
-                        f = to_f.template cast<double>() - origin_;
+  PlainPlane(const Pointd& origin, const Pointd& to_e, const Pointd& to_f) : origin_(origin) {
+    const Pointd e = to_e - origin, f = to_f - origin;
     size_ = e.lpNorm<1>() * f.lpNorm<1>();
     if (size_ <= kMostSize) normal_ = e.cross(f);  // infinities would raise flags
   }
@@ -27,9 +23,8 @@ class PlainPlane {
   // Differences are off by u each, so components of the normal by 4 u times the sizes of their two
   // products, and the sum of three products by 8 u |e|_1 |f|_1 |p - origin|_max, u = 2^-53. What
   // underflows adds less than 2^-700 within these ranges.
-  template <typename S>
-  int side(const Point<S>& p) const {
-    const Point<double> d = p.template cast<double>() - origin_;
+  int side(const Pointd& p) const {
+    const Pointd d = p - origin_;
     const double reach = d.lpNorm<Eigen::Infinity>();
     if (!(size_ <= kMostSize && reach <= 0x1p300)) return 0;
     const double height = normal_.dot(d), error = 16 * 0x1p-53 * size_ * reach + 0x1p-700;
@@ -39,24 +34,20 @@ class PlainPlane {
  private:
   static constexpr double kMostSize = 0x1p600;
 
-  Point<double> origin_, normal_;
+  Pointd origin_, normal_;
   double size_;
 };
 
 /// The plane of a triangle.
-template <typename S>
-PlainPlane planeOf(const TriangleVertices<S>& t) {
-  return {t[2], t[1], t[0]};
-}
+inline PlainPlane planeOf(const TriangleVerticesd& t) { return {t[2], t[1], t[0]}; }
 
 enum class Plainly { kApart, kMeet, kUnclear };
 
-/// Whether two triangles, in these planes, intersect, where every sign that decides is clear by
+/// Whether two triangles intersect, where every sign that decides is clear by
 /// plain arithmetic: nearly always. The steps are those of PairIntersection (Guigue and Devillers,
 /// 2003).
-template <typename S>
-[[gnu::hot]] Plainly plainlyMeet(const TriangleVertices<S>& a, const PlainPlane& plane_a,
-                                 const TriangleVertices<S>& b, const PlainPlane& plane_b) {
+[[gnu::hot]] inline Plainly plainlyMeet(const TriangleVerticesd& a, const TriangleVerticesd& b) {
+  const PlainPlane plane_a = planeOf(a), plane_b = planeOf(b);
   int side_a[3], side_b[3];
   for (int i = 0; i < 3; ++i) side_b[i] = plane_a.side(b[i]);
   if (std::abs(side_b[0] + side_b[1] + side_b[2]) == 3) return Plainly::kApart;
@@ -81,9 +72,5 @@ template <typename S>
   if (first > 0 || last < 0) return Plainly::kApart;
   return first < 0 && last > 0 ? Plainly::kMeet : Plainly::kUnclear;
 }
-
-/// trianglesIntersect() of triangles of which that isn't clear.
-template <typename S>
-bool exactlyIntersect(const TriangleVertices<S>& a, const TriangleVertices<S>& b);
 
 }  // namespace kios

@@ -65,48 +65,44 @@ PairPredicates::PairPredicates(const Coordinates& points) : given_(points), scal
   none_underflows_ = least >= 0x1p-270;
 }
 
-constexpr double kBound3d = 8 * 0x1p-53;
-
-// The filter: |det - exact| <= (7 + 56 u) u permanent with rounded differences (Shewchuk); products
-// that underflow add less than 2^-800 at this scale.
-PairPredicates::Filtered PairPredicates::filteredOrient3d(int i, int j, int k, int l) const {
-  const auto &a = scaled_[i], &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
-  const double adx = a[0] - d[0], ady = a[1] - d[1], adz = a[2] - d[2];
-  const double bdx = b[0] - d[0], bdy = b[1] - d[1], bdz = b[2] - d[2];
-  const double cdx = c[0] - d[0], cdy = c[1] - d[1], cdz = c[2] - d[2];
-  const double bxcy = bdx * cdy, cxby = cdx * bdy, cxay = cdx * ady, axcy = adx * cdy,
-               axby = adx * bdy, bxay = bdx * ady;
-  const double det = adz * (bxcy - cxby) + bdz * (cxay - axcy) + cdz * (axby - bxay);
-  const double permanent = (std::abs(bxcy) + std::abs(cxby)) * std::abs(adz) +
-                           (std::abs(cxay) + std::abs(axcy)) * std::abs(bdz) +
-                           (std::abs(axby) + std::abs(bxay)) * std::abs(cdz);
-  return {det, kBound3d * permanent + 0x1p-800, permanent == 0};
-}
-
-int PairPredicates::orient3d(int i, int j, int k, int l) const {
-  const Filtered det = filteredOrient3d(i, j, k, l);
-  return std::abs(det.value) > det.error ? signOf(det.value) : signOf(det, i, j, k, l);
-}
-
-// The filter holds for the determinant by its first row, too.
-std::array<int, 3> PairPredicates::sides(const int (&points)[3], int j, int k, int l) const {
+PairPredicates::Plane PairPredicates::planeOf(int j, int k, int l) const {
   const auto &b = scaled_[j], &c = scaled_[k], &d = scaled_[l];
-  double minors[3], sizes[3];
+  Plane plane;
+  plane.origin = l;
   for (int u = 0; u < 3; ++u) {
     const int v = u == 2 ? 0 : u + 1, w = u == 0 ? 2 : u - 1;
     const double left = (b[v] - d[v]) * (c[w] - d[w]), right = (b[w] - d[w]) * (c[v] - d[v]);
-    minors[u] = left - right;
-    sizes[u] = std::abs(left) + std::abs(right);
+    plane.minors[u] = left - right;
+    plane.sizes[u] = std::abs(left) + std::abs(right);
   }
+  return plane;
+}
+
+// The filter: |det - exact| <= (7 + 56 u) u permanent with rounded differences (Shewchuk); products
+// that underflow add less than 2^-800 at this scale.
+PairPredicates::Filtered PairPredicates::orient3d(int i, const Plane& plane) const {
+  const auto &a = scaled_[i], &d = scaled_[plane.origin];
+  double det = 0, permanent = 0;
+  for (int u = 0; u < 3; ++u) {
+    const double from_origin = a[u] - d[u];
+    det += from_origin * plane.minors[u];
+    permanent += std::abs(from_origin) * plane.sizes[u];
+  }
+  return {det, 8 * 0x1p-53 * permanent + 0x1p-800, permanent == 0};
+}
+
+int PairPredicates::orient3d(int i, int j, int k, int l) const {
+  const Filtered det = orient3d(i, planeOf(j, k, l));
+  return std::abs(det.value) > det.error ? signOf(det.value) : signOf(det, i, j, k, l);
+}
+
+std::array<int, 3> PairPredicates::sides(const int (&points)[3], int j, int k, int l) const {
+  const Plane plane = planeOf(j, k, l);
   std::array<int, 3> sides;
   for (int p = 0; p < 3; ++p) {
-    const auto& a = scaled_[points[p]];
-    const double x = a[0] - d[0], y = a[1] - d[1], z = a[2] - d[2];
-    const double value = x * minors[0] + y * minors[1] + z * minors[2];
-    const double permanent =
-        std::abs(x) * sizes[0] + std::abs(y) * sizes[1] + std::abs(z) * sizes[2];
-    const Filtered det = {value, kBound3d * permanent + 0x1p-800, permanent == 0};
-    sides[p] = std::abs(value) > det.error ? signOf(value) : signOf(det, points[p], j, k, l);
+    const Filtered det = orient3d(points[p], plane);
+    sides[p] =
+        std::abs(det.value) > det.error ? signOf(det.value) : signOf(det, points[p], j, k, l);
   }
   return sides;
 }
@@ -154,7 +150,8 @@ constexpr double kAccurate = 0x1p-46;
 constexpr double kMargin = 1 / kAccurate;
 
 double PairPredicates::crossing3d(int i, int j, int k, int l, int m) const {
-  const Filtered fi = filteredOrient3d(i, k, l, m), fj = filteredOrient3d(j, k, l, m);
+  const Plane plane = planeOf(k, l, m);
+  const Filtered fi = orient3d(i, plane), fj = orient3d(j, plane);
   const double size = std::abs(fi.value) + std::abs(fj.value);
   if (fi.error + fj.error <= kAccurate * size) return std::abs(fi.value) / size;
   return share(exactOrient3d(i, k, l, m, kMargin), exactOrient3d(j, k, l, m, kMargin));

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 
 namespace kios {
 
@@ -47,7 +47,13 @@ class PairPredicates {
     double value, error;
     bool vanishes;  ///< every product is 0; where none can underflow, so is the determinant
   };
-  Filtered filteredOrient3d(int i, int j, int k, int l) const;
+  /// Minors of p_i - p_l in orient3d(i, j, k, l), and the sizes of their terms.
+  struct Plane {
+    int origin;
+    double minors[3], sizes[3];
+  };
+  Plane planeOf(int j, int k, int l) const;
+  Filtered orient3d(int i, const Plane& plane) const;
   // The filter: |det - exact| <= (3 + 16 u) u permanent (Shewchuk).
   Filtered filteredCross2d(int i, int j, int k, int l, int axis) const {
     const int u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
@@ -81,9 +87,14 @@ class PairPredicates {
   bool plain_exact_;      ///< plain doubles are exact, too
 };
 
-template <typename S>
-PairPredicates::Coordinates coordinatesOf(const TriangleVertices<S>& a,
-                                          const TriangleVertices<S>& b) {
+/// Floats are doubles: what follows is decided for these alone.
+inline const TriangleVerticesd& widened(const TriangleVerticesd& t) { return t; }
+inline TriangleVerticesd widened(const TriangleVertices<float>& t) {
+  return {t[0].cast<double>(), t[1].cast<double>(), t[2].cast<double>()};
+}
+
+inline PairPredicates::Coordinates coordinatesOf(const TriangleVerticesd& a,
+                                                 const TriangleVerticesd& b) {
   PairPredicates::Coordinates all;
   for (std::size_t i = 0; i < 3; ++i) {
     all[i] = {a[i][0], a[i][1], a[i][2]};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 #include "triangle/scaled_origin.h"
 
 namespace kios {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 #include "triangle/predicates.h"
 #include "triangle/scaled_origin.h"
 

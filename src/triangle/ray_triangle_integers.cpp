@@ -14,35 +14,12 @@
 namespace kios {
 namespace {
 
-/// v = mantissa 2^exponent, the mantissa odd or 0.
-struct Binary {
-  explicit Binary(double v) {
-    if (v == 0) return;
-    mantissa = static_cast<long long>(std::ldexp(std::frexp(v, &exponent), 53));
-    exponent -= 53;
-    for (; mantissa % 2 == 0; mantissa /= 2) ++exponent;
+/// Lowers `unit` to the largest exponent of a power of two of which all coordinates are multiples.
+void divide(const Point<double>& p, int& unit) {
+  for (int c = 0; c < 3; ++c) {
+    if (p[c] != 0) unit = std::min(unit, lowestBit(p[c]));
   }
-  long long mantissa = 0;
-  int exponent = 0;
-};
-
-/// Points in units of 2^exponent, the largest that divides all.
-struct Units {
-  void count(const Point<double>& p) {
-    for (int c = 0; c < 3; ++c) {
-      if (p[c] != 0) exponent = std::min(exponent, Binary(p[c]).exponent);
-    }
-  }
-  IntegerVector in(const Point<double>& p) const {
-    IntegerVector v;
-    for (int c = 0; c < 3; ++c) {
-      const Binary b(p[c]);
-      if (b.mantissa != 0) v[c] = Integer(b.mantissa) << (b.exponent - exponent);
-    }
-    return v;
-  }
-  int exponent = std::numeric_limits<int>::max();
-};
+}
 
 /// numerator / denominator 2^exponent, denominator > 0.
 struct Fraction {
@@ -58,11 +35,9 @@ Fraction fraction(const Integer& n, const Integer& d) {
 }
 
 Fraction toFraction(double v, int exponent) {
-  const Binary b(v);
-  const int shift = b.exponent - exponent;
-  if (b.mantissa == 0) return {0, 1};
-  return shift >= 0 ? Fraction{Integer(b.mantissa) << shift, 1}
-                    : Fraction{b.mantissa, Integer(1) << -shift};
+  if (v == 0) return {0, 1};
+  const int unit = std::min(exponent, lowestBit(v));
+  return {integer(v, unit), Integer(1) << (exponent - unit)};
 }
 
 /// To nearest, of two the even; subnormal results too.
@@ -99,15 +74,15 @@ struct LinePoint {
 class IntegerTest {
  public:
   IntegerTest(const GivenRay& ray, const TriangleVertices<double>& corners) : ray_(ray) {
-    Units points, directions;
-    points.count(ray.origin);
-    directions.count(ray.direction);
-    for (const Point<double>& p : corners) points.count(p);
-    if (points.exponent == std::numeric_limits<int>::max()) points.exponent = 0;  // all at zero
-    exponent_ = points.exponent - directions.exponent - ray.exponent;
-    direction_ = directions.in(ray.direction);
-    const IntegerVector origin = points.in(ray.origin);
-    for (int i = 0; i < 3; ++i) corner_[i] = points.in(corners[i]) - origin;
+    int points = kNone, directions = kNone;
+    divide(ray.origin, points);
+    divide(ray.direction, directions);
+    for (const Point<double>& p : corners) divide(p, points);
+    if (points == kNone) points = 0;  // all at zero
+    exponent_ = points - directions - ray.exponent;
+    direction_ = integers(ray.direction, directions);
+    const IntegerVector origin = integers(ray.origin, points);
+    for (int i = 0; i < 3; ++i) corner_[i] = integers(corners[i], points) - origin;
     t_min_ = toFraction(ray.t_min, exponent_);
     t_max_ = toFraction(ray.t_max, exponent_);
   }
@@ -134,6 +109,8 @@ class IntegerTest {
   }
 
  private:
+  static constexpr int kNone = std::numeric_limits<int>::max();
+
   /// The ray's line and the triangle lie in a plane, or the latter is a segment or a point. The
   /// line's part in it ends at vertices on the line and where it crosses edges.
   bool coplanar(TriangleHit& hit) const {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/triangle/triangle.h"
+#include "fcl_kios/triangle.h"
 #include "volume/rounding.h"
 
 namespace kios {

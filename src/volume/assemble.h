@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #include "volume/balls.h"
 #include "volume/lanes.h"
 #include "volume/rounding.h"

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 
 namespace kios {
 

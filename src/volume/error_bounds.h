@@ -12,9 +12,9 @@
 //
 // The model of error: u is the unit roundoff of S, 2^-53 for double, 2^-24 for float. Each product,
 // sum, quotient and root is off by a factor of 1 + e, |e| <= u, or by less than what vanishes below
-// the scalar's range. Products and sums are those of volume/rigid.h, in one order. To first order n
-// roundings of terms whose absolute values add up to m err by n u m; every constant leaves room for
-// the second order.
+// the scalar's range. Products and sums are those of fcl_kios/detail/rigid.h, in one order. To
+// first order n roundings of terms whose absolute values add up to m err by n u m; every constant
+// leaves room for the second order.
 //
 //   quantity                                 bound           derivation
 //   length from coordinates R x + T - c      sumError        11 u in, 12 u of root and sums
@@ -84,7 +84,7 @@ inline double laneError(double scale) { return 0x1p-19 * scale; }
 inline double boxError(double scale) { return 4 * laneError(scale); }
 
 /// Bounds that of the distance of two triangles: the kernel promises 16 eps of their extent, the
-/// diagonal of their common box (triangle/distance.h).
+/// diagonal of their common box (fcl_kios/triangle.h).
 template <typename S>
 double triangleError(double extent) {
   return 32 * kUlp<S> * extent + kVanishing<S>;

@@ -10,8 +10,4 @@
   template decltype(function<double>) function<double>; \
   template decltype(function<float>) function<float>
 
-#define KIOS_INSTANTIATE_CLASS(Class) \
-  template class Class<double>;       \
-  template class Class<float>
-
 // NOLINTEND(bugprone-macro-parentheses)

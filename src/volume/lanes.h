@@ -48,15 +48,6 @@ inline Float4 select(Int4 mask, Float4 a, Float4 b) {
                                   (~mask & reinterpret_cast<Int4>(b)));
 }
 
-/// True if any lane of a mask is set.
-inline bool any(Int4 mask) {
-#if defined(__SSE2__)
-  return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
-#else
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-#endif
-}
-
 /// The lanes that a mask sets, the first in bit 0.
 inline unsigned int bits(Int4 mask) {
 #if defined(__SSE2__)
@@ -65,6 +56,9 @@ inline unsigned int bits(Int4 mask) {
   return (mask[0] & 1U) | (mask[1] & 2U) | (mask[2] & 4U) | (mask[3] & 8U);
 #endif
 }
+
+/// True if any lane of a mask is set.
+inline bool any(Int4 mask) { return bits(mask) != 0; }
 
 /// Calls visit(lane) for each of the first `count` lanes, of four at most, that the mask doesn't
 /// set, until it returns true, which is returned.
@@ -77,39 +71,13 @@ bool visitUnset(Int4 mask, std::size_t count, const Visit& visit) {
   return false;
 }
 
-/// Lane-wise maximum; b where a is NaN.
-inline Float4 max(Float4 a, Float4 b) {
-#if defined(__SSE2__)
-  return _mm_max_ps(a, b);
-#else
-  return select(a > b, a, b);
-#endif
-}
+/// Lane-wise maximum; b where a is NaN. One instruction.
+inline Float4 max(Float4 a, Float4 b) { return a > b ? a : b; }
+inline Double2 max(Double2 a, Double2 b) { return a > b ? a : b; }
 
-inline Double2 max(Double2 a, Double2 b) {
-#if defined(__SSE2__)
-  return _mm_max_pd(a, b);
-#else
-  return Double2{a[0] > b[0] ? a[0] : b[0], a[1] > b[1] ? a[1] : b[1]};
-#endif
-}
-
-/// Lane-wise minimum; b where a is NaN.
-inline Float4 min(Float4 a, Float4 b) {
-#if defined(__SSE2__)
-  return _mm_min_ps(a, b);
-#else
-  return select(a < b, a, b);
-#endif
-}
-
-inline Double2 min(Double2 a, Double2 b) {
-#if defined(__SSE2__)
-  return _mm_min_pd(a, b);
-#else
-  return Double2{a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]};
-#endif
-}
+/// Lane-wise minimum; b where a is NaN. One instruction.
+inline Float4 min(Float4 a, Float4 b) { return a < b ? a : b; }
+inline Double2 min(Double2 a, Double2 b) { return a < b ? a : b; }
 
 inline Float4 sqrt(Float4 v) {
 #if defined(__SSE2__)
@@ -130,23 +98,6 @@ inline Double2 sqrt(Double2 v) {
 inline Float4 abs(Float4 v) {
   return reinterpret_cast<Float4>(reinterpret_cast<Int4>(v) & 0x7fffffff);
 }
-
-/// The columns of three rows; their last lanes are 0.
-struct Columns {
-  Columns(Float4 a, Float4 b, Float4 c) {
-#if defined(__SSE2__)
-    const __m128 ab_low = _mm_unpacklo_ps(a, b), ab_high = _mm_unpackhi_ps(a, b);
-    const __m128 c_low = _mm_unpacklo_ps(c, Float4{}), c_high = _mm_unpackhi_ps(c, Float4{});
-    at[0] = _mm_movelh_ps(ab_low, c_low);
-    at[1] = _mm_movehl_ps(c_low, ab_low);
-    at[2] = _mm_movelh_ps(ab_high, c_high);
-    at[3] = _mm_movehl_ps(c_high, ab_high);
-#else
-    for (int i = 0; i < 4; ++i) at[i] = Float4{a[i], b[i], c[i], 0};
-#endif
-  }
-  Float4 at[4];
-};
 
 inline Double2 abs(Double2 v) {
 #if defined(__SSE2__)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #include "volume/assemble.h"
 #include "volume/balls.h"
 #include "volume/lanes.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 
 namespace kios {
 

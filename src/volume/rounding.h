@@ -43,26 +43,16 @@ inline float roundUpFloat(double v) {
 
 /// v >= 0 rounded up to S.
 template <typename S>
-S roundUp(double v);
-template <>
-inline double roundUp<double>(double v) {
-  return v;
-}
-template <>
-inline float roundUp<float>(double v) {
+S roundUp(double v) {
+  if constexpr (sizeof(S) == sizeof(double)) return v;
   constexpr float kMax = std::numeric_limits<float>::max();
   return v < 0x1p127 ? roundUpFloat(v) : (v < double{kMax} ? kMax : HUGE_VALF);
 }
 
 /// v >= 0 rounded down to S, at least 0.
 template <typename S>
-S roundDown(double v);
-template <>
-inline double roundDown<double>(double v) {
-  return v;
-}
-template <>
-inline float roundDown<float>(double v) {
+S roundDown(double v) {
+  if constexpr (sizeof(S) == sizeof(double)) return v;
   constexpr float kMax = std::numeric_limits<float>::max();
   if (v > double{kMax}) return kMax;
   const double down = v * (1 - 0x1p-23) - 0x1p-126;

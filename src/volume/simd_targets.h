@@ -2,6 +2,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+// What kernels of any folder include before the first target's pass: no inline function may be
+// compiled for an instruction set that a machine may lack.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
 // Highway's names of the instruction sets that kernels are compiled for, whatever else its version
 // knows; to be included before its headers. SVE is not among them: the size of its vectors is known
 // at run time only, so that they can't be members or elements of arrays. Machines with SVE have

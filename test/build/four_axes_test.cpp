@@ -13,13 +13,23 @@
 namespace kios::testing {
 namespace {
 
-Scatter<float> products(float xx, float xy, float xz, float yy, float yz, float zz) {
-  return {0, 0, 0, xx, xy, xz, yy, yz, zz};
-}
-
-Scatter<float> scatterOf(const Eigen::Matrix3d& m) {
-  const Eigen::Matrix3f f = m.cast<float>();
-  return products(f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2));
+/// By the first lane of four.
+Eigen::Matrix3d axesOf(float xx, float xy, float xz, float yy, float yz, float zz) {
+  using lanes::broadcast;
+  const FourAxes four = principalAxes(Scatter<lanes::Float4>{{},
+                                                             {},
+                                                             {},
+                                                             broadcast(xx),
+                                                             broadcast(xy),
+                                                             broadcast(xz),
+                                                             broadcast(yy),
+                                                             broadcast(yz),
+                                                             broadcast(zz)});
+  Eigen::Matrix3d axes;
+  for (int k = 0; k < 3; ++k) {
+    for (int r = 0; r < 3; ++r) axes(r, k) = four.column[k][r][0];
+  }
+  return axes;
 }
 
 double orthonormalError(const Eigen::Matrix3d& axes) {
@@ -40,7 +50,8 @@ TEST(FourAxes, AxesAreOrthonormalAndDiagonaliseTheMatrix) {
                                         .normalized();
     const Eigen::Matrix3d matrix =
         turn.toRotationMatrix() * values.asDiagonal() * turn.toRotationMatrix().transpose();
-    const Eigen::Matrix3d axes = principalAxes(scatterOf(matrix)).cast<double>();
+    const Eigen::Matrix3f f = matrix.cast<float>();
+    const Eigen::Matrix3d axes = axesOf(f(0, 0), f(0, 1), f(0, 2), f(1, 1), f(1, 2), f(2, 2));
     ASSERT_LT(orthonormalError(axes), 2e-6);
     const Eigen::Matrix3d diagonal = axes.transpose() * matrix * axes;
     worst = std::max(worst, std::max({std::abs(diagonal(0, 1)), std::abs(diagonal(0, 2)),
@@ -55,9 +66,9 @@ TEST(FourAxes, AnyMatrixGivesOrthonormalAxes) {
               huge = std::numeric_limits<float>::infinity();
   for (const float v : {0.0F, 1e-40F, 1e-20F, 1.0F, 1e20F, 1e38F, none, huge, -1.0F}) {
     for (const float w : {0.0F, 1e-38F, 1.0F, 1e38F, none, -huge}) {
-      for (const auto& s : {products(v, 0, 0, w, 0, 0), products(v, w, w, v, w, v),
-                            products(v, 0, w, v, 0, v), products(w, v, v, w, v, w)}) {
-        EXPECT_LT(orthonormalError(principalAxes(s).cast<double>()), 2e-6) << v << " " << w;
+      for (const auto& axes : {axesOf(v, 0, 0, w, 0, 0), axesOf(v, w, w, v, w, v),
+                               axesOf(v, 0, w, v, 0, v), axesOf(w, v, v, w, v, w)}) {
+        EXPECT_LT(orthonormalError(axes), 2e-6) << v << " " << w;
       }
     }
   }

@@ -12,7 +12,7 @@
 #include <numeric>
 #include <vector>
 
-#include "fcl_kios/build/fit.h"
+#include "fcl_kios/volume.h"
 #include "model/bvh_check.h"
 #include "scalars.h"
 #include "search/prepared_pair.h"

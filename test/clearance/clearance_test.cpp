@@ -3,7 +3,7 @@
 //
 // Clearance over a level of two trees: bounds of the meshes' distance, the gap of the smooth
 // minimum, and which of the two has a continuous gradient.
-#include "fcl_kios/clearance/clearance.h"
+#include "fcl_kios/clearance.h"
 
 #include <gtest/gtest.h>
 
@@ -101,35 +101,6 @@ TEST(Clearance, GradientOfTheSmoothMinimum) {
     ++checked;
   }
   EXPECT_GT(checked, 20);
-}
-
-// A small ball passes over two others: at half way the nearest changes.
-TEST(Clearance, OnlyTheSmoothMinimumIsC1) {
-  const auto ball = [](const fcl::Vector3d& center) {
-    const fcl::Vector3d ends[2] = {center - fcl::Vector3d::UnitX() / 4,
-                                   center + fcl::Vector3d::UnitX() / 4};
-    kIOSd v;
-    fit(ends, 2, v);
-    return v;
-  };
-  const Cover<double> two(std::vector<kIOSd>{ball({-1, 0, 0}), ball({1, 0, 0})});
-  const Cover<double> one(std::vector<kIOSd>{ball({0, 0, 1})});
-  const auto largestJump = [&](bool smooth, int steps) {
-    double largest = 0;
-    Clearance before;
-    for (int s = 0; s <= steps; ++s) {
-      const RelativePose<double> X(fcl::Matrix3d::Identity(), {2.0 * s / steps - 1, 0, 0});
-      const Clearance now =
-          smooth ? smoothClearance(two, one, X, 10) : minimumClearance(two, one, X);
-      if (s > 0) largest = std::max(largest, (now.by_translation - before.by_translation).norm());
-      before = now;
-    }
-    return largest;
-  };
-  EXPECT_GT(largestJump(false, 101), 0.9);
-  EXPECT_GT(largestJump(false, 1001), 0.9);
-  EXPECT_LT(largestJump(true, 101), 0.2);
-  EXPECT_LT(largestJump(true, 1001), 0.02);
 }
 
 TEST(Clearance, RefusesWhatItCannotCover) {

@@ -8,7 +8,7 @@
 #include <initializer_list>
 
 #include "clearance/interior_point.h"
-#include "fcl_kios/clearance/exact_distance.h"
+#include "fcl_kios/clearance.h"
 #include "volume/assemble.h"
 #include "volume/exact_pairs.h"
 

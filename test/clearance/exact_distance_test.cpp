@@ -3,7 +3,7 @@
 //
 // The exact distance of two k-IOS against convex optimisation in long double, and between the
 // conservative bound and the distance of the contents in 100 digits.
-#include "fcl_kios/clearance/exact_distance.h"
+#include "fcl_kios/clearance.h"
 
 #include <gtest/gtest.h>
 

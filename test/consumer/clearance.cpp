@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Asks the addon fcl_kios::clearance for the distance of two points as volumes.
+#include <fcl_kios/clearance.h>
 #include <fcl_kios/fcl_kios.h>
 
 #include <cmath>

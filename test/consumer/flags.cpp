@@ -5,8 +5,9 @@
 // Prints how the types of the interface lie in memory and, where it is given a robot, answers that
 // cross the library's boundary. Whatever flags this file is compiled with, the lines must be the
 // same: flags.sh compares, and finds types that are missing here.
+#include <fcl_kios/clearance.h>
 #include <fcl_kios/fcl_kios.h>
-#include <fcl_kios/paper/fit.h>
+#include <fcl_kios/paper.h>
 #if __has_include(<fcl_kios/robot/robot.h>)
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl_kios/robot/robot.h>
@@ -57,11 +58,14 @@ void moveLinks() {
   const fcl::Transform3d pose = arm.pose(0, Eigen::Vector2d(1.5, 0.25));
   std::printf("%.17g %.17g %.17g %.17g\n", read(2, 3), pose(0, 3), pose(1, 3), pose(2, 3));
   for (const double reach : {0.5, 2.5}) {
-    const kios::MotionAnswer answer =
+    const kios::MotionResult answer =
         kios::checkMotion(arm, Eigen::Vector2d(0, reach), Eigen::Vector2d(3.2, reach));
     std::printf("%d %.17g %d %d\n", static_cast<int>(answer.verdict), answer.to, answer.body_a,
                 answer.body_b);
   }
+  const kios::RangeResult range =
+      kios::leastClearance(arm, Eigen::Vector2d(0, 0.5), Eigen::Vector2d(1, 0.5));
+  std::printf("%.17g %.17g\n", range.upper, range.at.at(0));
 }
 
 // Answers that own memory, of objects that the caller owns.
@@ -69,7 +73,7 @@ void ask() {
   const std::vector<unsigned char> bytes = kios::save(*cube());
   const auto model = kios::load<double>(bytes.data(), bytes.size());
   const fcl::Transform3d here = fcl::Transform3d::Identity(), there(Eigen::Translation3d(2, 1, 3));
-  const kios::DistanceAnswerd d = kios::distance(*model, here, *model, there);
+  const kios::DistanceBracketResultd d = kios::distanceBracket(*model, here, *model, there);
   std::printf("%.17g %.17g %.17g\n", d.distance, d.point_a[2], d.point_b[2]);
   kios::Rayd ray;
   ray.origin = fcl::Vector3d(-4, 0.25, 0.125);
@@ -79,13 +83,20 @@ void ask() {
 
   kios::markSolid(*model);
   const fcl::Transform3d pressed(Eigen::Translation3d(0.75, 0.125, 0));
+  const kios::NearestPoint nearest = kios::nearestPoint(*model, {0.25, 0.125, 2});
+  std::printf("%.17g %.17g %.17g\n", nearest.distance, kios::signedDistance(*model, {0.25, 0, 0}),
+              kios::WindingTree(*model).at({0.25, 0, 0}, 0));
   std::printf("%.17g\n", kios::penetration(*model, here, *model, pressed).translation[0]);
+  kios::LocalDepthRequest shallow;
+  shallow.threshold = 0.01;
+  const kios::LocalDepthResult depth = kios::localDepth(*model, here, *model, pressed, shallow);
+  std::printf("%.17g %.17g %d\n", depth.lower, depth.point[0], depth.surface_of);
   const std::vector<fcl::Vector3d> corners(model->vertices, model->vertices + model->num_vertices);
   const std::vector<fcl::Triangle> open(model->tri_indices + 1,
                                         model->tri_indices + model->num_tris);
-  kios::RepairOptions options;
+  kios::RepairRequest options;
   options.max_hole_edges = 3;
-  const kios::Repairedd repaired = kios::repair(corners, open, options);
+  const kios::RepairResultd repaired = kios::repair(corners, open, options);
   std::printf("%s\n%zu\n", kios::summaryOf(repaired).c_str(), repaired.filled.size());
   std::printf("%s\n", kios::faultsOf(kios::inspectClosedness(corners, open)).c_str());
   std::printf("%.17g\n", kios::minimumClearance(kios::Coverd(*model, 2), kios::Coverd(*model, 2),
@@ -110,6 +121,13 @@ void ask() {
   scene.add(model, there);
   scene.add(&b);
   std::printf("%zu %zu\n", query.pairs().size(), scene.clearances().size());
+  std::vector<kios::ClashPart> parts(2);
+  parts[0].geometry = parts[1].geometry = model;
+  parts[0].name = "part";
+  parts[1].X_WP = pressed;
+  for (const kios::ClashResult& clash : kios::findClashes(parts)) {
+    std::printf("%zu %zu %.17g\n", clash.a, clash.b, clash.lower);
+  }
   fcl::ContinuousCollisionRequestd moving;
   fcl::ContinuousCollisionResultd first;
   fcl::continuousCollide(model.get(), here, here, model.get(), there, pressed, moving, first);
@@ -135,6 +153,8 @@ void askRobot(const std::string& urdf, const std::string& srdf) {
   for (const auto& one : robot.clearances(many)) std::printf("%.17g ", one.gradient[0]);
   for (const auto& one : robot.checkMotions(many, many)) std::printf("%s ", one.a.c_str());
   std::printf("%d\n", static_cast<int>(robot.checkMotion(zero, q).verdict));
+  const kios::RobotRange range = robot.leastClearance(zero, q);
+  std::printf("%s %s %.17g\n", range.a.c_str(), range.b.c_str(), range.upper);
   for (const kios::LinkPair& pair : robot.linkPairs()) {
     std::printf("%s %s %d %td\n", pair.a.c_str(), pair.b.c_str(), static_cast<int>(pair.verdict),
                 pair.q.size());
@@ -156,27 +176,37 @@ int main(int argc, char** argv) {
   PRINT_BOTH(ScenePair);
   PRINT(SceneCounts);
   PRINT(SceneRequest);
+  PRINT(ClashPart);
+  PRINT(ClashRequest);
+  PRINT(ClashResult);
   PRINT(SearchCounts);
   PRINT(SelfIntersection);
   PRINT(Linkage);
   PRINT(Joint);
-  PRINT(MotionAnswer);
+  PRINT(MotionResult);
   PRINT(MotionCounts);
   PRINT(MotionRequest);
+  PRINT(RangeRequest);
+  PRINT(RangeResult);
+  PRINT(JointBox);
   PRINT(ContinuousCounts);
   PRINT(Hole);
-  PRINT(RepairOptions);
-  PRINT_BOTH(Repaired);
+  PRINT(RepairRequest);
+  PRINT(RepairReport);
+  PRINT_BOTH(RepairResult);
   PRINT(Clearance);
   PRINT(ExactDistance);
   PRINT(FitOptions);
   PRINT(WarmStart);
-  PRINT_BOTH(DistanceOptions);
-  PRINT_BOTH(DistanceAnswer);
-  PRINT_BOTH(Closedness);
-  PRINT_BOTH(FaultyEdge);
-  PRINT(Penetration);
-  PRINT(PenetrationOptions);
+  PRINT_BOTH(DistanceBracketRequest);
+  PRINT_BOTH(DistanceBracketResult);
+  PRINT(Closedness);
+  PRINT(FaultyEdge);
+  PRINT(NearestPoint);
+  PRINT(PointRequest);
+  PRINT(WindingTree);
+  PRINT(PenetrationResult);
+  PRINT(PenetrationRequest);
   PRINT_BOTH(Ray);
   PRINT_BOTH(RayHit);
   PRINT_BOTH(RayInterval);
@@ -184,11 +214,14 @@ int main(int argc, char** argv) {
   PRINT_BOTH(TriangleVertices);
 #ifdef KIOS_ROBOT
   PRINT(RobotElement);
+  PRINT(RobotGroup);
   PRINT(RobotContact);
-  PRINT(ClearanceOptions);
+  PRINT(ClearanceRequest);
   PRINT(RobotClearance);
+  PRINT(RobotMotionRequest);
   PRINT(RobotMotion);
-  PRINT(PairOptions);
+  PRINT(RobotRange);
+  PRINT(PairRequest);
   PRINT(LinkPair);
   PRINT(RobotOptions);
   PRINT(Robot);

@@ -22,7 +22,7 @@ fail() {
 compile() { "$cxx" -std=c++17 -O1 "${flags[@]}" "${cflags[@]}" "$@"; }
 
 # Every struct and class of ours is printed, but for those of FCL's, with FCL's own members.
-headers=("$source_dir"/include/fcl_kios/*/*.h)
+headers=("$source_dir"/include/fcl_kios/*.h "$source_dir"/include/fcl_kios/detail/*.h)
 if [[ -f $(pkg-config --variable=includedir fcl_kios)/fcl_kios/robot/robot.h ]]; then
   headers+=("$source_dir"/addons/robot/include/fcl_kios/robot/*.h)
   libs=(-lfcl_kios_robot "${libs[@]}")

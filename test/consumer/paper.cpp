@@ -3,7 +3,7 @@
 //
 // Builds a model by a published fit, of the addon fcl_kios::paper.
 #include <fcl_kios/fcl_kios.h>
-#include <fcl_kios/paper/fit.h>
+#include <fcl_kios/paper.h>
 
 #include <memory>
 #include <vector>

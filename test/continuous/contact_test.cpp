@@ -39,14 +39,6 @@ TEST_P(FirstContact, HeadOnBoxes) {
   EXPECT_NEAR(result.contact_tf2.translation().x(), 2, 21e-6);
 }
 
-TEST_P(FirstContact, BothMove) {
-  const Mesh box = scenes::subdividedBox({2, 2, 2}, 1);
-  const auto result = ask(box, at(-10, 0.5, 0), at(10, 0.5, 0), box, at(10, 0, 0), at(-10, 0, 0));
-  EXPECT_TRUE(result.is_collide);
-  EXPECT_LE(result.time_of_contact, 0.45);
-  EXPECT_GE(result.time_of_contact, 0.45 - 1e-6);
-}
-
 TEST_P(FirstContact, ThinPlatesDontTunnel) {
   const Mesh plate = scenes::subdividedBox({2, 2, 1e-6}, 2);
   const auto result =
@@ -57,14 +49,6 @@ TEST_P(FirstContact, ThinPlatesDontTunnel) {
       ask(plate, at(0, 0, 0), at(0, 0, 0), plate, at(2.01, 0, 1000), at(2.01, 0, -3000));
   EXPECT_FALSE(beside.is_collide);
   EXPECT_EQ(beside.time_of_contact, 1);
-}
-
-TEST_P(FirstContact, SingleTrianglesDontTunnel) {
-  const Mesh triangle = scenes::singleTriangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
-  const auto result =
-      ask(triangle, at(0, 0, -100), at(0, 0, 100), triangle, at(0.1, 0, 300), at(0.1, 0, -100));
-  EXPECT_TRUE(result.is_collide);
-  EXPECT_NEAR(result.time_of_contact, 2.0 / 3, 2e-6);
 }
 
 TEST_P(FirstContact, GrazingPassesAreFree) {
@@ -100,16 +84,6 @@ TEST_P(FirstContact, WithoutMotionItIsTheStaticAnswer) {
         ask(box, at(0, 0, 0), at(0, 0, 0), box, at(2 + gap, 0, 0), at(2 + gap, 0, 0));
     EXPECT_FALSE(apart.is_collide) << gap;
   }
-}
-
-TEST_P(FirstContact, FarFromTheOrigin) {
-  const Mesh box = scenes::subdividedBox({2, 2, 2}, 1);
-  const Vector3d far(1e6, -2e6, 3e6);
-  const auto moved = [&](double x) { return at(far.x() + x, far.y(), far.z()); };
-  const auto result = ask(box, moved(0), moved(0), box, moved(10), moved(-10));
-  EXPECT_TRUE(result.is_collide);
-  EXPECT_LE(result.time_of_contact, 0.4 + 1e-9);
-  EXPECT_GE(result.time_of_contact, 0.4 - 2e-6);
 }
 
 TEST_P(FirstContact, ContactAtTheVeryEnd) {

@@ -73,55 +73,6 @@ TEST(HardCases, PointsPassAtAnyScale) {
   }
 }
 
-// Vertices far from the model's origin, and models far from the world's: turning about a far point.
-TEST(HardCases, FarVertices) {
-  const Vector3d far(1e6, -2e6, 5e5);
-  const Mesh box = scenes::subdividedBox({2, 2, 2}, 1);
-  const Pair pair(box, scaled(box, 1, far));
-  Transform3d X_0 = at(10, 0, 0), X_1 = at(-10, 0, 0);
-  X_0.translation() -= far;
-  X_1.translation() -= far;
-  fcl::ContinuousCollisionResultd result;
-  for (auto type : kMotionTypes) {
-    firstContact(*pair.a, at(0, 0, 0), at(0, 0, 0), *pair.b, X_0, X_1, requestFor(type, 1e-6),
-                 result);
-    EXPECT_TRUE(result.is_collide);
-    EXPECT_LE(result.time_of_contact, 0.4 + 1e-9);
-    EXPECT_GE(result.time_of_contact, 0.4 - 2e-6);
-  }
-  // Both at 1e9, where doubles are 1e-7 apart.
-  const Pair near(box, box);
-  const Vector3d out(1e9, 1e9, -1e9);
-  const auto pose = [&](double x) { return at(out.x() + x, out.y(), out.z()); };
-  firstContact(*near.a, pose(0), pose(0), *near.b, pose(10), pose(-10),
-               requestFor(fcl::CCDM_TRANS, 1e-6), result);
-  EXPECT_TRUE(result.is_collide);
-  EXPECT_NEAR(result.time_of_contact, 0.4, 2e-6);
-}
-
-TEST(HardCases, DegenerateTriangles) {
-  const Mesh needle = scenes::singleTriangle({0, 0, -1}, {0, 0, 1}, {0, 0, 0.5});
-  const Mesh point = scenes::singleTriangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
-  const Mesh sheet = scenes::sheet(2, 2, 4, 4, 0);
-  fcl::ContinuousCollisionResultd result;
-  for (auto type : kMotionTypes) {
-    const auto request = requestFor(type, 1e-7);
-    // A point through a sheet; a needle across another one.
-    const auto s = kiosModel(sheet), p = kiosModel(point), n = kiosModel(needle);
-    firstContact(*s, at(0, 0, 0), at(0, 0, 0), *p, at(0.1, 0.2, 4), at(0.1, 0.2, -4), request,
-                 result);
-    EXPECT_TRUE(result.is_collide);
-    EXPECT_NEAR(result.time_of_contact, 0.5, 1e-6);
-    firstContact(*n, at(0, 0, 0), at(0, 0, 0), *n, at(5, 1, 0.3, M_PI / 2, Vector3d::UnitX()),
-                 at(-5, 1, 0.3, M_PI / 2, Vector3d::UnitX()), request, result);
-    EXPECT_TRUE(result.is_collide);
-    EXPECT_NEAR(result.time_of_contact, 0.5, 1e-6);
-    firstContact(*p, at(0, 0, 0), at(0, 0, 0), *p, at(5, 1e-6, 0), at(-5, 1e-6, 0), request,
-                 result);
-    EXPECT_FALSE(result.is_collide);
-  }
-}
-
 // A wheel that turns at a small clearance to a wall: many turns, bounded work.
 TEST(HardCases, ASpinningWheelKeepsClear) {
   const Mesh wheel = scenes::uvSphere(1, 6, 12), wall = scenes::subdividedBox({0.2, 4, 4}, 2);
@@ -153,26 +104,6 @@ TEST(HardCases, ACurvedSlideTakesFewSteps) {
     EXPECT_FALSE(answer.result.is_collide) << gap;
     EXPECT_LT(answer.counts.steps, 60) << gap;
   }
-}
-
-TEST(HardCases, RefittedModels) {
-  const Mesh mesh = scenes::bumpyTorus(200);
-  const auto a = kiosModel(mesh), b = kiosModel(mesh);
-  std::vector<Vector3d> larger = mesh.vertices;
-  for (Vector3d& v : larger) v *= 2;
-  fcl::ContinuousCollisionResultd before, after, fresh;
-  const auto ask = [&](const Modeld& first, fcl::ContinuousCollisionResultd& result) {
-    firstContact(first, at(0, 0, 0), at(0, 0, 0, 1), *b, at(9, 0, 0), at(-9, 0, 0, 1),
-                 requestFor(fcl::CCDM_LINEAR, 1e-7), result);
-  };
-  ask(*a, before);
-  ASSERT_EQ(a->beginReplaceModel(), fcl::BVH_OK);
-  ASSERT_EQ(a->replaceSubModel(larger), fcl::BVH_OK);
-  ASSERT_EQ(a->endReplaceModel(true, true), fcl::BVH_OK);
-  ask(*a, after);
-  ask(*kiosModel(scaled(mesh, 2)), fresh);
-  EXPECT_LT(after.time_of_contact, before.time_of_contact - 0.01);
-  EXPECT_NEAR(after.time_of_contact, fresh.time_of_contact, 1e-7);
 }
 
 // Models that aren't occupied touch nothing, as in collide().

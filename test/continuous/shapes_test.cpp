@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Moving meshes against the nine moving shapes, both orders: known times of contact, and random
-// motions against dense sampling by the static query.
+// Moving meshes against the nine moving shapes and octrees, both orders: known times of contact,
+// and random motions against dense sampling by the static query.
 
 #include <cmath>
 #include <cstdio>
@@ -10,6 +10,7 @@
 #include <random>
 
 #include "continuous/moving_meshes.h"
+#include "scenes/shape_geometry.h"
 
 namespace kios::testing {
 namespace {
@@ -57,37 +58,25 @@ TEST(ShapeContact, KnownTimes) {
   }
 }
 
-TEST(ShapeContact, FallingOnHalfspaceAndPlane) {
-  const Geometry box = kiosModel(scenes::subdividedBox({2, 2, 2}, 2));
-  const Geometry floor = std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), 0);
-  const Geometry sheet = std::make_shared<fcl::Planed>(Vector3d::UnitZ(), 0);
+TEST(OctreeContact, KnownTimes) {
+  const auto box = kiosModel(scenes::subdividedBox({2, 2, 2}, 2));
+  const Geometry cells =
+      scenes::octreeOf({{0.1, 0.1, 0.1}, {0.1, 3.1, 0.1}}, 0.5);  // [0, 0.5]^3, and beside
   const Motion still = motionOf(fcl::CCDM_TRANS, at(0, 0, 0), at(0, 0, 0));
-  for (const Geometry& ground : {floor, sheet}) {
-    const Motion fall = motionOf(fcl::CCDM_LINEAR, at(3, 4, 11), at(-3, 2, -9));
-    EXPECT_NEAR(askBoth(*box, *fall, *ground, *still, 1e-7).time_of_contact, 0.5, 1e-7);
-    for (double gap : {1e-3, 1e-6, 1e-9}) {
-      ContinuousCounts counts;
-      const Motion slide = motionOf(fcl::CCDM_LINEAR, at(3, 4, 1 + gap), at(-3, 2, 1 + gap, 3));
-      EXPECT_FALSE(askBoth(*box, *slide, *ground, *still, 1e-4, &counts).is_collide) << gap;
-      EXPECT_LE(counts.steps, 20) << gap;
-    }
-  }
-  // Through the plane between two samples, and back from below a half-space: inside it at the
-  // start.
-  const Motion rise = motionOf(fcl::CCDM_TRANS, at(0, 0, -500), at(0, 0, 700));
-  EXPECT_NEAR(askBoth(*box, *rise, *sheet, *still, 1e-7).time_of_contact, 499. / 1200, 1e-7);
-  EXPECT_EQ(askBoth(*box, *rise, *floor, *still, 1e-7).time_of_contact, 0);
-}
-
-TEST(ShapeContact, AThinRodSpinsPastABall) {
-  const Geometry rod = kiosModel(scenes::subdividedBox({4, 0.01, 0.01}, 1));
-  const Geometry ball = std::make_shared<fcl::Sphered>(0.01);
-  const Vector3d z = Vector3d::UnitZ(), o = Vector3d::Zero();
-  const fcl::SplineMotion<double> spin(o, o, o, o, -z, 8 * z, 17 * z, 26 * z);
-  for (double x : {1.9, 2.05}) {
-    const Motion still = motionOf(fcl::CCDM_TRANS, at(0, x, 0), at(0, x, 0));
-    EXPECT_EQ(askBoth(*rod, spin, *ball, *still, 1e-5).is_collide, x < 2);
-  }
+  const Motion shoot = motionOf(fcl::CCDM_TRANS, at(100.5, 0.2, 0.3), at(-99.5, 0.2, 0.3));
+  auto result = askBoth(*box, *shoot, *cells, *still, 1e-7);
+  EXPECT_TRUE(result.is_collide);
+  EXPECT_NEAR(result.time_of_contact, 99. / 200, 1e-7);
+  // Between the cells; inside a full cell at the start; away from all.
+  const Motion between = motionOf(fcl::CCDM_LINEAR, at(9, 1.75, 0.3), at(-9, 1.75, 0.3));
+  EXPECT_FALSE(askBoth(*box, *between, *cells, *still, 1e-7).is_collide);
+  const auto grain = kiosModel(scenes::subdividedBox({0.1, 0.1, 0.1}, 1));
+  const Motion inside = motionOf(fcl::CCDM_TRANS, at(0.25, 0.25, 0.25), at(9, 0.25, 0.25));
+  EXPECT_EQ(askBoth(*grain, *inside, *cells, *still, 1e-7).time_of_contact, 0);
+  const Motion away = motionOf(fcl::CCDM_TRANS, at(50, 50, 50), at(90, 50, 40));
+  EXPECT_FALSE(askBoth(*box, *away, *cells, *still, 1e-7).is_collide);
+  const fcl::OcTreed nothing(0.1);
+  EXPECT_FALSE(askBoth(*box, *shoot, nothing, *still, 1e-7).is_collide);
 }
 
 TEST(ShapeContact, RandomMotionsAgreeWithDenseSampling) {
@@ -109,7 +98,11 @@ TEST(ShapeContact, RandomMotionsAgreeWithDenseSampling) {
                              kiosModel(scenes::randomSoup(60, 1, 1e-2, 1, 3)),
                              kiosModel(scenes::singleTriangle({1, 0, 0}, {-1, 1, 0}, {0, -1, 1}))};
   Outcomes outcomes;
-  for (const auto& [name, solid] : shapes()) {
+  auto others = shapes();
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 60; ++i) points.push_back(point(2));
+  others["octree"] = scenes::octreeOf(points, 0.1);
+  for (const auto& [name, solid] : others) {
     for (auto type : kMotionTypes) {
       for (int i = 0; i < 45; ++i) {
         SCOPED_TRACE(name + " " + std::to_string(type) + " " + std::to_string(i));

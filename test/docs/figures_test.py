@@ -34,7 +34,8 @@ PAGE = """FCL takes <!-- report:ratios distance falling strips -->{}<!-- /report
 TYPED = ["12.7 us", "12.7us", "3 ms", "20 ns", "0.24 s", "1.5 to 2.5 times", "three times", "4 %",
          "65 times", "20%", "1/11", "2x", "half as long", "a third faster", "twice as fast",
          "a quarter of the time", "slower by a tenth",
-         "the default is a million", "the default\nof 12", "12 by default"]
+         "the default is a million", "the default\nof 12", "12 by default",
+         "`max_boxes` (12"]
 LEFT_ALONE = ["within 16 eps L", "2^-46 L", "1e-300 to 1e300", "128 bytes a node", "k = 5",
               "20,000 triangles", "`12 us`", "```\n12 us\n```", "see [it](12us.md)", "FCL 0.7",
               "pi/6", "a^2/c", "u = eps / 2", "version 3 or 4", "sometimes", "ray_1/2.md",
@@ -79,11 +80,11 @@ class Figures(unittest.TestCase):
     def test_a_run_takes_the_place_of_the_one_before(self):
         file = self.folder / "tori.jsonl"
         runs = [{**RUN, "run": "falling"}, ROW, {**RUN, "run": "gone"}, ROW,
-                {**RUN, "run": "spinning"}, THEIRS]
+                {**RUN, "run": "spinning"}, THEIRS, STRIPS, {**RUN, "run": "strips"}, STRIPS]
         file.write_text("\n".join(map(json.dumps, runs)))
         measure.replace(file, "falling", [{**RUN, "commit": "new"}, STRIPS])
         self.assertEqual([json.loads(line) for line in file.read_text().splitlines()],
-                         [runs[4], THEIRS, {**RUN, "commit": "new"}, STRIPS])
+                         [*runs[2:6], {**RUN, "commit": "new"}, STRIPS])
 
     def test_names_and_defaults_are_those_of_the_headers(self):
         text = """namespace kios {
@@ -105,6 +106,15 @@ int hidden(); }
         self.assertEqual(names.default(None, "Options::most"), "1,000")
         self.assertEqual(names.default(None, "Options::least"), "2")
         self.assertRaisesRegex(LookupError, "x.h: Options", names.names, None)
+
+    def test_defaults_in_python_are_those_of_the_stubs(self):
+        stub = """def collides(self, other: Any) -> bool: ...
+    def bracket(self, other: Any,
+                rel_err: float = 0.1, threads: Optional[int] = None) -> Bracket: ..."""
+        page = "`mesh.bracket(other, rel_err={})` and `mesh.collides(other, X_AB)`"
+        self.assertEqual(list(names.wrong_keywords(page.format("0.1"), stub)), [])
+        for value in ("0.2", "1e-1, abs_err=0"):
+            self.assertEqual(len(list(names.wrong_keywords(page.format(value), stub))), 1, value)
 
     def test_check_names_what_is_wrong(self):
         report.ROOT, report.MEASURED = self.folder, self.folder

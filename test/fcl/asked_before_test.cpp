@@ -77,29 +77,5 @@ TEST(AskedBefore, AnswersAreTheSame) {
   EXPECT_GT(apart, 100);
 }
 
-// And so is the work.
-TEST(AskedBefore, CountsAreTheSame) {
-  const scenes::Mesh mesh = scenes::bumpyTorus(600);
-  const auto other = kiosModel(scenes::icosphere(0.5, 2));
-  for (const fcl::Transform3d& X_WM : scenes::randomPoses(20, 1.3, 78)) {
-    const auto work = [&](const Modeld& model) {
-      SearchCounts counts;
-      fcl::DistanceResultd distance;
-      fcl::CollisionResultd result;
-      distanceMeshes(model, X_WM, *other, fcl::Transform3d::Identity(), fcl::DistanceRequestd(),
-                     distance, &counts);
-      collideMeshes(model, X_WM, *other, fcl::Transform3d::Identity(), fcl::CollisionRequestd(),
-                    result, &counts);
-      return std::vector<long long>{counts.expansions, counts.volume_tests, counts.leaf_pairs,
-                                    counts.exact};
-    };
-    const auto model = kiosModel(mesh);
-    const auto first = work(*model);
-    EXPECT_EQ(work(*model), first);
-    EXPECT_EQ(work(Modeld(*model)), first);
-    EXPECT_EQ(work(*kiosModel(mesh)), first);
-  }
-}
-
 }  // namespace
 }  // namespace kios::testing

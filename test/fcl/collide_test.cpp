@@ -15,8 +15,6 @@
 namespace kios::testing {
 namespace {
 
-using ObbrssModel = fcl::BVHModel<fcl::OBBRSSd>;
-
 template <typename Model>
 fcl::CollisionResultd query(const Model& a, const Model& b, const Frame& frame,
                             std::size_t max_contacts, bool enable_contact,
@@ -66,15 +64,6 @@ TEST(Collide, PairsAreTheOraclesInBothOrders) {
   }
 }
 
-TEST(Collide, VerdictsOfNestedMeshes) {
-  const auto inner = kiosModel(scenes::icosphere(0.3, 2)),
-             outer = kiosModel(scenes::icosphere(2, 2));
-  for (const Frame& frame : randomFrames(20, 0.3, 22)) {
-    EXPECT_FALSE(query(*inner, *outer, frame, 1, false).isCollision());
-    EXPECT_FALSE(query(*outer, *inner, frame, kAllContacts, true).isCollision());
-  }
-}
-
 // Points, normal and depth of each pair are what FCL's triangle routine says, in the world frame;
 // a hit without a point counts with one contact.
 TEST(Collide, ContactsAreThoseOfFclsTriangleRoutine) {
@@ -108,30 +97,6 @@ TEST(Collide, ContactsAreThoseOfFclsTriangleRoutine) {
   }
 }
 
-TEST(Collide, ContactsEqualThoseOfObbrssModels) {
-  for (const MeshCase& pair : meshCases()) {
-    SCOPED_TRACE(pair.name);
-    const auto model_a = kiosModel(pair.a), model_b = kiosModel(pair.b);
-    const auto obbrss_a = scenes::buildModel<fcl::OBBRSSd>(pair.a);
-    const auto obbrss_b = scenes::buildModel<fcl::OBBRSSd>(pair.b);
-    for (const Frame& frame : randomFrames(100, pair.spread, 24)) {
-      const PairPoints ours = byPair(query(*model_a, *model_b, frame, kAllContacts, true));
-      const PairPoints theirs =
-          byPair(query<ObbrssModel>(*obbrss_a, *obbrss_b, frame, kAllContacts, true));
-      for (const auto& [ids, contacts] : theirs) {
-        const auto found = ours.find(ids);
-        ASSERT_NE(found, ours.end());
-        ASSERT_EQ(found->second.size(), contacts.size());
-        for (std::size_t i = 0; i < contacts.size(); ++i) {
-          EXPECT_LE((found->second[i].pos - contacts[i].pos).norm(), 1e-12);
-          EXPECT_LE((found->second[i].normal - contacts[i].normal).norm(), 1e-10);
-          EXPECT_NEAR(found->second[i].penetration_depth, contacts[i].penetration_depth, 1e-12);
-        }
-      }
-    }
-  }
-}
-
 // A wedge of A dips through the floor B: the normal leads from A to B.
 TEST(Collide, NormalsPointFromFirstToSecond) {
   const auto wedge = kiosModel(scenes::singleTriangle({0, 0, -0.1}, {0.5, 0.1, 1}, {-0.5, 0, 1}));
@@ -144,19 +109,6 @@ TEST(Collide, NormalsPointFromFirstToSecond) {
   const auto ba = query(*floor, *wedge, frame, kAllContacts, true);
   ASSERT_TRUE(ba.isCollision());
   EXPECT_LE((ba.getContact(0).normal - Vector3d(0, 0, 1)).norm(), 1e-14);
-}
-
-// An edge parallel to the floor has two deepest points.
-TEST(Collide, TwoDeepestPointsAreTwoContacts) {
-  const auto edge = kiosModel(scenes::singleTriangle({-0.5, 0, -0.1}, {0.5, 0, -0.1}, {0, 0.3, 1}));
-  const auto floor = kiosModel(scenes::singleTriangle({-9, -9, 0}, {9, -9, 0}, {0, 9, 0}));
-  const Frame frame{Transform3d::Identity(), Transform3d::Identity()};
-  const auto two = query(*edge, *floor, frame, kAllContacts, true);
-  ASSERT_EQ(two.numContacts(), 2u);
-  EXPECT_NEAR((two.getContact(0).pos - two.getContact(1).pos).norm(), 1, 1e-12);
-  EXPECT_NEAR(two.getContact(1).penetration_depth, 0.1, 1e-12);
-  EXPECT_EQ(query(*edge, *floor, frame, 1, true).numContacts(), 1u);
-  EXPECT_EQ(query(*edge, *floor, frame, kAllContacts, false).numContacts(), 1u);
 }
 
 TEST(Collide, NumberOfContactsIsHonoured) {
@@ -221,73 +173,6 @@ TEST(Collide, ObjectsGeometriesAndSolversAgree) {
       fcl::collide(&object_a, &object_b, request, result);
       EXPECT_EQ(contactPairs(result), expected);
     }
-  }
-}
-
-TEST(Collide, TouchingCoincidentAndTinyMeshesEqualTheLeafKernel) {
-  const auto expectEqualsLeaf = [](const Mesh& a, const Mesh& b, const std::vector<Frame>& frames) {
-    const auto model_a = kiosModel(a), model_b = kiosModel(b);
-    for (const Frame& frame : frames) {
-      const Pairs expected = leafPairs(a, b, frame);
-      EXPECT_EQ(contactPairs(query(*model_a, *model_b, frame, kAllContacts, false)), expected);
-      EXPECT_EQ(contactPairs(query(*model_a, *model_b, frame, kAllContacts, true)), expected);
-      EXPECT_EQ(query(*model_a, *model_b, frame, 1, true).isCollision(), !expected.empty());
-      fcl::DistanceResultd distance;
-      fcl::distance(model_a.get(), frame.X_WA, model_b.get(), frame.X_WB, fcl::DistanceRequestd(),
-                    distance);
-      EXPECT_EQ(distance.min_distance == 0, !expected.empty());
-    }
-  };
-  std::vector<Frame> frames;
-  for (const Transform3d& X : scenes::randomPoses(2, 2, 27)) {
-    for (const double shift : {0.0, 1e-9, 1.0, 2.0, 2 + 1e-12, 2.5}) {
-      frames.push_back({X, X * Eigen::Translation3d(shift, 0.25 * shift, 0)});
-      frames.push_back({Transform3d::Identity(), Transform3d(Eigen::Translation3d(shift, 0, 0))});
-    }
-  }
-  const Mesh box = scenes::subdividedBox({2, 2, 2}, 2), flat = scenes::sheet(2, 2, 4, 4, 0);
-  expectEqualsLeaf(box, box, frames);
-  expectEqualsLeaf(flat, flat, frames);
-  expectEqualsLeaf(flat, box, frames);
-  Mesh torus = scenes::bumpyTorus(140), soup = scenes::randomSoup(60, 1, 1e-2, 1, 6);
-  for (Vector3d& p : torus.vertices) p *= 1e-4;
-  for (Vector3d& p : soup.vertices) p *= 1e-4;
-  expectEqualsLeaf(torus, soup, randomFrames(20, 1e-4, 28));
-}
-
-// Lattice coordinates, so that nothing rounds: triangles that touch, and many without area.
-TEST(Collide, TouchingAndDegenerateOnALatticeIsExact) {
-  scenes::Random random(29);
-  const auto lattice = [&](int from, int to) {
-    return Vector3d(std::floor(random.uniform(from, to)), std::floor(random.uniform(from, to)),
-                    std::floor(random.uniform(from, to)));
-  };
-  const auto mesh = [&] {
-    Mesh result;
-    for (int i = 0; i < 20; ++i) {
-      const Vector3d p = lattice(0, 4), edge = lattice(-1, 2);
-      const Vector3d other = i % 3 == 0 ? Vector3d(2 * edge) : lattice(-1, 2);
-      const std::size_t first = result.vertices.size();
-      result.vertices.insert(result.vertices.end(), {p, p + edge, p + other});
-      result.triangles.emplace_back(first, first + 1, first + 2);
-    }
-    return result;
-  };
-  for (int round = 0; round < 100; ++round) {
-    const Mesh a = mesh(), b = mesh();
-    const auto model_a = kiosModel(a), model_b = kiosModel(b);
-    const scenes::MeshOracle oracle(a, b);
-    Frame frame{Transform3d::Identity(), Transform3d::Identity()};
-    frame.X_WB.translation() = lattice(-2, 3);
-    const Pairs expected = oracle.collidingPairs(frame.X_WA, frame.X_WB);
-    for (const bool enable_contact : {false, true}) {
-      EXPECT_EQ(contactPairs(query(*model_a, *model_b, frame, kAllContacts, enable_contact)),
-                expected);
-    }
-    fcl::DistanceResultd distance;
-    fcl::distance(model_a.get(), frame.X_WA, model_b.get(), frame.X_WB, fcl::DistanceRequestd(),
-                  distance);
-    EXPECT_EQ(distance.min_distance == 0, !expected.empty());
   }
 }
 

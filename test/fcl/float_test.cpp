@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// fcl::collide and fcl::distance of two float meshes against the oracle in long double: the cases
-// that collide_test, distance_test, request_test and model/refit_test ask in double.
+// fcl::collide and fcl::distance of two float meshes, and FCL's recursion over their nodes, against
+// the oracle in long double, before and after refits.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "fcl/mesh_cases.h"
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+
+#include "model/bvh_check.h"
 #include "model/deform.h"
-#include "scenes/random.h"
 
 namespace kios::testing {
 namespace {
@@ -43,20 +44,31 @@ struct FloatPair {
         b(scenes::buildModel<kIOSf>(mesh_b)),
         oracle(mesh_a, mesh_b) {}
 
-  fcl::CollisionResultf collide(const Frame& f, std::size_t contacts) const {
-    fcl::CollisionResultf result;
+  fcl::CollisionResultf collide(const Frame& f, std::size_t contacts, bool by_nodes) const {
+    const fcl::Transform3f X_WA = f.X_WA.cast<float>(), X_WB = f.X_WB.cast<float>();
     const fcl::CollisionRequestf request(contacts);
-    fcl::collide(a.get(), f.X_WA.cast<float>(), b.get(), f.X_WB.cast<float>(), request, result);
+    fcl::CollisionResultf result;
+    MeshCollisionTraversalNodef node;
+    if (!by_nodes) {
+      fcl::collide(a.get(), X_WA, b.get(), X_WB, request, result);
+    } else if (initialize(node, *a, X_WA, *b, X_WB, request, result)) {
+      fcl::detail::collide<float>(&node);
+    }
     return result;
   }
-  fcl::DistanceResultf distance(const Frame& f,
+  fcl::DistanceResultf distance(const Frame& f, bool by_nodes,
                                 float at_most = std::numeric_limits<float>::max()) const {
-    fcl::DistanceResultf result(at_most);
+    const fcl::Transform3f X_WA = f.X_WA.cast<float>(), X_WB = f.X_WB.cast<float>();
     const fcl::DistanceRequestf request(true);
-    fcl::distance(a.get(), f.X_WA.cast<float>(), b.get(), f.X_WB.cast<float>(), request, result);
+    fcl::DistanceResultf result(at_most);
+    MeshDistanceTraversalNodef node;
+    if (!by_nodes) {
+      fcl::distance(a.get(), X_WA, b.get(), X_WB, request, result);
+    } else if (initialize(node, *a, X_WA, *b, X_WB, request, result)) {
+      fcl::detail::distance<float>(&node);
+    }
     return result;
   }
-  double exact(const Frame& f) const { return oracle.distance(f.X_WA, f.X_WB); }
 
   Mesh mesh_a, mesh_b;
   std::shared_ptr<Modelf> a, b;
@@ -95,23 +107,25 @@ void expectRight(const FloatPair& pair, const std::vector<Frame>& frames) {
     const double tol =
         tolerance(size + frame.X_WA.translation().norm() + frame.X_WB.translation().norm());
     const Bracket truth = bracket(pair.oracle, frame, 8 * tol);
-    const double exact = pair.exact(frame);
-    const bool hit = pair.collide(frame, 1).isCollision();
-    EXPECT_TRUE(hit ? !truth.possibly.empty() : truth.surely.empty());
-    const Pairs pairs = contactPairs(pair.collide(frame, kAllContacts));
-    EXPECT_TRUE(within(truth.surely, pairs) && within(pairs, truth.possibly));
+    const double exact = pair.oracle.distance(frame.X_WA, frame.X_WB);
+    for (const bool by_nodes : {false, true}) {
+      const bool hit = pair.collide(frame, 1, by_nodes).isCollision();
+      EXPECT_TRUE(hit ? !truth.possibly.empty() : truth.surely.empty());
+      const Pairs pairs = contactPairs(pair.collide(frame, kAllContacts, by_nodes));
+      EXPECT_TRUE(within(truth.surely, pairs) && within(pairs, truth.possibly));
 
-    const auto near = pair.distance(frame);
-    EXPECT_NEAR(near.min_distance, exact, tol);
-    if (exact <= tol) continue;
-    const Vector3d p = near.nearest_points[0].cast<double>();
-    const Vector3d q = near.nearest_points[1].cast<double>();
-    EXPECT_NEAR((p - q).norm(), exact, tol);
-    EXPECT_LE(distanceToTriangle(p, frame.X_WA, pair.mesh_a, near.b1), tol);
-    EXPECT_LE(distanceToTriangle(q, frame.X_WB, pair.mesh_b, near.b2), tol);
-    const auto below = static_cast<float>(0.5 * exact), above = static_cast<float>(2 * exact);
-    EXPECT_EQ(pair.distance(frame, below).min_distance, below);
-    EXPECT_NEAR(pair.distance(frame, above).min_distance, exact, tol);
+      const auto near = pair.distance(frame, by_nodes);
+      EXPECT_NEAR(near.min_distance, exact, tol);
+      if (exact <= tol) continue;
+      const Vector3d p = near.nearest_points[0].cast<double>();
+      const Vector3d q = near.nearest_points[1].cast<double>();
+      EXPECT_NEAR((p - q).norm(), exact, tol);
+      EXPECT_LE(distanceToTriangle(p, frame.X_WA, pair.mesh_a, near.b1), tol);
+      EXPECT_LE(distanceToTriangle(q, frame.X_WB, pair.mesh_b, near.b2), tol);
+      const auto below = static_cast<float>(0.5 * exact), above = static_cast<float>(2 * exact);
+      EXPECT_EQ(pair.distance(frame, by_nodes, below).min_distance, below);
+      EXPECT_NEAR(pair.distance(frame, by_nodes, above).min_distance, exact, tol);
+    }
   }
 }
 
@@ -119,46 +133,6 @@ TEST(FloatMeshes, GeneralPosition) {
   for (const MeshCase& c : meshCases()) {
     SCOPED_TRACE(c.name);
     expectRight(FloatPair(c.a, c.b), floatFrames(30, c.spread, 301));
-  }
-}
-
-// Segments, points and slivers among the triangles.
-TEST(FloatMeshes, DegenerateTriangles) {
-  scenes::Random random(302);
-  const auto flatten = [&](Mesh mesh) {
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      Vector3d* p = &mesh.vertices[mesh.triangles[i][0]];  // a soup's corners stand together
-      if (i % 3 == 0) p[2] = p[0] + random.unit() * (p[1] - p[0]);
-      if (i % 3 == 1) p[2] = p[0] + random.unit() * (p[1] - p[0]) + Vector3d::Constant(1e-9);
-      if (i % 9 == 2) p[1] = p[2] = p[0];
-    }
-    return mesh;
-  };
-  for (int i = 0; i < 4; ++i) {
-    expectRight(FloatPair(flatten(scenes::randomSoup(40, 0.4, 0.1, 1, 303 + i)),
-                          flatten(scenes::randomSoup(40, 0.4, 0.1, 1, 313 + i))),
-                floatFrames(25, 1.2, 304));
-  }
-}
-
-// Boxes of dyadic size that share a face, an edge or a corner, or miss by 2^-10.
-TEST(FloatMeshes, Touching) {
-  const Mesh box = scenes::subdividedBox({1, 1, 1}, 2);
-  const FloatPair pair(box, box);
-  for (int x = 0; x <= 1; ++x) {
-    for (int y = 0; y <= 1; ++y) {
-      for (const double gap : {0.0, 0x1p-10}) {
-        for (const double shift : {0.0, 0.125, 0.3125}) {
-          Frame frame{Transform3d::Identity(), Transform3d::Identity()};
-          frame.X_WB.translation() = Vector3d(1 + gap, y ? 1 + gap : shift, x ? 1 + gap : shift);
-          const double exact = pair.exact(frame);
-          EXPECT_EQ(pair.collide(frame, 1).isCollision(), exact == 0);
-          const float d = pair.distance(frame).min_distance;
-          EXPECT_NEAR(d, exact, tolerance(2));
-          EXPECT_EQ(d == 0, exact == 0);
-        }
-      }
-    }
   }
 }
 
@@ -176,46 +150,8 @@ TEST(FloatMeshes, DeformingModels) {
     pair.a->beginReplaceModel();
     pair.a->replaceSubModel(vertices);
     pair.a->endReplaceModel(step % 3 != 2, step % 3 == 0);
+    expectValidTree(*pair.a);
     expectRight(pair, frames);
-  }
-}
-
-// One result for many queries keeps the nearest answer so far, and its points where they were.
-TEST(FloatMeshes, ReusedResult) {
-  const FloatPair pair(scenes::bumpyTorus(120), scenes::icosphere(0.4, 1));
-  fcl::DistanceResultf result;
-  fcl::Vector3f before = fcl::Vector3f::Zero();
-  float least = std::numeric_limits<float>::max();
-  int kept = 0;
-  for (const Frame& frame : floatFrames(400, 4, 306)) {
-    if (least < 0.05) {
-      result.clear();
-      least = std::numeric_limits<float>::max();
-    }
-    fcl::distance(pair.a.get(), frame.X_WA.cast<float>(), pair.b.get(), frame.X_WB.cast<float>(),
-                  fcl::DistanceRequestf(true), result);
-    if (result.min_distance == least) {
-      EXPECT_EQ(result.nearest_points[0], before);
-      ++kept;
-    }
-    least = result.min_distance;
-    before = result.nearest_points[0];
-  }
-  EXPECT_GT(kept, 100);
-}
-
-// Far from the world's origin together: the offset is common to both and costs nothing.
-TEST(FloatMeshes, CommonOffset) {
-  const FloatPair pair(scenes::bumpyTorus(150), scenes::bumpyTorus(150));
-  for (Frame frame : floatFrames(40, 2, 307)) {
-    frame.X_WA.translation() += Vector3d::Constant(0x1p10);
-    frame.X_WB.translation() += Vector3d::Constant(0x1p10);
-    frame = inFloats(frame);
-    const double exact = pair.exact(frame);
-    EXPECT_NEAR(pair.distance(frame).min_distance, exact, tolerance(8));
-    if (exact > tolerance(8)) {
-      EXPECT_FALSE(pair.collide(frame, 1).isCollision());
-    }
   }
 }
 

@@ -192,6 +192,31 @@ TEST_F(Nodes, AreReusable) {
   }
 }
 
+TEST_F(Nodes, CostSourcesAreThoseOfTheQuery) {
+  std::size_t sources = 0;
+  for (const Frame& frame : passage(20)) {
+    for (const std::size_t most : {std::size_t{3}, kAllContacts}) {
+      const fcl::CollisionRequestd request(kAllContacts, false, most, true);
+      fcl::CollisionResultd query, nodes;
+      fcl::collide(&a_, frame.X_WA, &b_, frame.X_WB, request, query);
+      CollisionNode node;
+      ASSERT_TRUE(initialize(node, a_, frame.X_WA, b_, frame.X_WB, request, nodes));
+      fcl::detail::collide<double>(&node);
+      EXPECT_EQ(contactPairs(nodes), contactPairs(query));
+      std::vector<fcl::CostSourced> costs, expected;
+      nodes.getCostSources(costs);
+      query.getCostSources(expected);
+      ASSERT_EQ(costs.size(), expected.size());
+      for (std::size_t i = 0; i < costs.size(); ++i) {
+        EXPECT_EQ(costs[i].total_cost, expected[i].total_cost);
+        EXPECT_EQ(costs[i].aabb_min, expected[i].aabb_min);
+      }
+      sources += costs.size();
+    }
+  }
+  EXPECT_GT(sources, 100U);
+}
+
 TEST_F(Nodes, CollisionTestsFewVolumes) {
   CollisionNode node;
   fcl::CollisionResultd result;

@@ -256,9 +256,10 @@ TYPED_TEST(Octree, ApproximateCostsAreThoseOfTheRootsBox) {
     const fcl::Transform3<S> X_WO(frame.X_WA.cast<S>()), X_WM(frame.X_WB.cast<S>());
     for (const auto& model : models) {
       model->cost_density = static_cast<S>(densities[i % 3]);
-      fcl::Box<S> box;
-      fcl::Transform3<S> X_WBox;
-      constructBox(model->getBV(0).bv, X_WM, box, X_WBox);
+      const fcl::OBB<S> volume = toOBB(model->getBV(0).bv, X_WM);
+      fcl::Box<S> box(2 * volume.extent);
+      const fcl::Transform3<S> X_WBox =
+          Eigen::Translation<S, 3>(volume.To) * fcl::Transform3<S>(volume.axis);
       box.cost_density = model->cost_density;
       for (const std::size_t limit : {1U, 7U, 100U, 1000000U}) {
         for (const auto& start : before) {

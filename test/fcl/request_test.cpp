@@ -157,9 +157,9 @@ TEST_F(Request, ArgumentsInTheWrongPlaceAreRefused) {
                 1e-5);
   }
   // That error is welcome where it is asked for by name.
-  DistanceOptions<double> options;
+  DistanceBracketRequest<double> options;
   options.rel_err = 3;
-  EXPECT_NO_THROW(kios::distance(*a_, here, *b_, there, options));
+  EXPECT_NO_THROW(kios::distanceBracket(*a_, here, *b_, there, options));
   fcl::DistanceResultd result;
   EXPECT_NO_THROW(fcl::distance(a_.get(), here, b_.get(), there,
                                 withErrors(std::nextafter(1, 0), kMax), result));
@@ -252,18 +252,6 @@ TEST_F(Request, SignedDistanceOfMeshesIsZeroAtOverlap) {
   EXPECT_GT(overlaps, 5);
 }
 
-TEST_F(Request, DistanceIsSymmetric) {
-  for (const MeshCase& pair : meshCases()) {
-    const auto a = kiosModel(pair.a), b = kiosModel(pair.b);
-    for (const Frame& frame : randomFrames(60, pair.spread, 43)) {
-      fcl::DistanceResultd ab, ba;
-      fcl::distance(a.get(), frame.X_WA, b.get(), frame.X_WB, fcl::DistanceRequestd(), ab);
-      fcl::distance(b.get(), frame.X_WB, a.get(), frame.X_WA, fcl::DistanceRequestd(), ba);
-      EXPECT_NEAR(ab.min_distance, ba.min_distance, 1e-13);
-    }
-  }
-}
-
 // An error bound without limit still gets the distance of some pair of triangles.
 TEST_F(Request, UnlimitedErrorStillAnswers) {
   for (const double abs : {kInfinity, kMax}) {
@@ -273,10 +261,10 @@ TEST_F(Request, UnlimitedErrorStillAnswers) {
     EXPECT_GE(result.b1, 0) << abs;
   }
   for (const double rel : {kInfinity, kMax}) {
-    DistanceOptions<double> options;
+    DistanceBracketRequest<double> options;
     options.rel_err = rel;
     const Frame& frame = frames_.front();
-    const auto answer = kios::distance(*a_, frame.X_WA, *b_, frame.X_WB, options);
+    const auto answer = kios::distanceBracket(*a_, frame.X_WA, *b_, frame.X_WB, options);
     EXPECT_LT(answer.distance, 100) << rel;
     EXPECT_GE(answer.triangle_a, 0) << rel;
   }

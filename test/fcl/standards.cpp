@@ -11,8 +11,8 @@
 #include "fcl_tables.h"
 #endif
 // Ours after FCL's.
-#include <fcl_kios/continuous/continuous.h>
-#include <fcl_kios/model/model.h>
+#include <fcl_kios/model.h>
+#include <fcl_kios/motion.h>
 #include <fcl_kios/overloads.h>
 
 #include <cmath>

@@ -14,75 +14,6 @@ namespace {
 
 constexpr int kThreads = 8;
 
-struct PairAnswer {
-  double distance = -1;
-  std::intptr_t b1 = -1, b2 = -1;
-  Vector3d p0 = Vector3d::Zero(), p1 = Vector3d::Zero();
-  Pairs pairs;
-  bool operator==(const PairAnswer& other) const {
-    return distance == other.distance && b1 == other.b1 && b2 == other.b2 && p0 == other.p0 &&
-           p1 == other.p1 && pairs == other.pairs;
-  }
-};
-
-PairAnswer ask(const Modeld& a, const Modeld& b, const Frame& frame) {
-  fcl::DistanceResultd distance;
-  fcl::CollisionResultd contacts;
-  PairAnswer answer;
-  answer.distance =
-      fcl::distance(&a, frame.X_WA, &b, frame.X_WB, fcl::DistanceRequestd(true), distance);
-  answer.b1 = distance.b1;
-  answer.b2 = distance.b2;
-  answer.p0 = distance.nearest_points[0];
-  answer.p1 = distance.nearest_points[1];
-  fcl::collide(&a, frame.X_WA, &b, frame.X_WB, fcl::CollisionRequestd(kAllContacts, true),
-               contacts);
-  answer.pairs = contactPairs(contacts);
-  return answer;
-}
-
-TEST(Threads, SharedModelsAnswerAsInOneThread) {
-  const Mesh mesh_a = scenes::bumpyTorus(2000), mesh_b = scenes::bumpyTorus(1200);
-  const auto frames = randomFrames(80, 1.5, 111);
-  std::vector<PairAnswer> expected;
-  {
-    const auto a = kiosModel(mesh_a), b = kiosModel(mesh_b);
-    for (const Frame& frame : frames) expected.push_back(ask(*a, *b, frame));
-  }
-  const auto a = kiosModel(mesh_a), b = kiosModel(mesh_b);  // nobody has queried these
-  std::atomic<int> wrong{0};
-  together(kThreads, [&](int t) {
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const std::size_t at = (i + 10 * t) % frames.size();
-      if (!(ask(*a, *b, frames[at]) == expected[at])) ++wrong;
-    }
-  });
-  EXPECT_EQ(wrong, 0);
-}
-
-TEST(Threads, QueriesAndBuildsOfOtherModelsDoNotMeet) {
-  const Mesh mesh = scenes::bumpyTorus(1000);
-  const auto shared = kiosModel(mesh);
-  const auto frames = randomFrames(20, 1.5, 112);
-  std::vector<PairAnswer> expected;
-  for (const Frame& frame : frames) expected.push_back(ask(*shared, *shared, frame));
-  std::atomic<int> wrong{0};
-  together(kThreads, [&](int t) {
-    // Copies share FCL's fitter; half the threads refit theirs between queries.
-    const auto own = std::make_shared<Modeld>(*shared);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      if (t % 2 == 0) {
-        own->beginReplaceModel();
-        own->replaceSubModel(mesh.vertices);
-        own->endReplaceModel(false);
-      }
-      if (!(ask(*shared, *shared, frames[i]) == expected[i])) ++wrong;
-      if (ask(*own, *shared, frames[i]).distance != expected[i].distance) ++wrong;
-    }
-  });
-  EXPECT_EQ(wrong, 0);
-}
-
 // A model and all that it may meet, to which nobody writes while the threads run. A fresh one has
 // prepared nothing.
 struct Shared {
@@ -128,10 +59,7 @@ Numbers everything(const Shared& shared, const Frame& frame) {
       numbers.push_back(nearest.nearest_points[1][1]);
     }
   }
-  // Where nobody has prepared the models, the steps of an advance depend on who asked before.
   const auto& mesh = static_cast<const Modeld&>(*shared.others.at("mesh"));
-  prepare(*shared.model);
-  prepare(mesh);
   fcl::ContinuousCollisionResultd moving;
   fcl::ContinuousCollisionRequestd request;
   request.ccd_solver_type = fcl::CCDC_CONSERVATIVE_ADVANCEMENT;

@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Queries with shapes and octrees, managers and scenes raise no floating-point flags, but where
-// FCL's own functions do.
-#include "fcl/managers.h"
+// Queries with shapes and octrees raise no floating-point flags, but where FCL's own functions do.
 #include "fcl/partners.h"
 #include "floating_point_flags.h"
 #include "scenes/cad_shapes.h"
@@ -69,52 +67,6 @@ TEST(Traps, ShapesAndOctrees) {
                        result);
         });
       }
-    }
-  }
-}
-
-TEST(Traps, ScenesAndManagers) {
-  Flags flags;
-  SceneDistanced scene;
-  std::vector<std::unique_ptr<fcl::CollisionObjectd>> objects;
-  Objects all;
-  const auto poses = scenes::randomPoses(40, 4, 5);
-  std::vector<Geometry> geometries;
-  for (const auto& [name, mesh] : meshes()) geometries.push_back(kiosModel(mesh));
-  geometries.push_back(partners().at("capsule"));  // one: pairs of shapes are FCL's
-  for (std::size_t i = 0; i < geometries.size(); ++i) {
-    flags.during("add", [&] { scene.add(geometries[i], poses[i]); });
-  }
-  for (int frame = 0; frame < 6; ++frame) {
-    flags.during("closestPair", [&] { scene.closestPair(); });
-    flags.during("pairsWithin", [&] { scene.pairsWithin(0.3); });
-    flags.during("clearances", [&] { scene.clearances(); });
-    for (std::size_t i = 0; i < geometries.size(); i += 2) {
-      Transform3d X = poses[i];
-      X.translation() += Vector3d(0.01 * frame, 0, 0);
-      flags.during("move", [&] { scene.move(static_cast<int>(i), X); });
-    }
-  }
-  for (std::size_t i = 0; i < geometries.size(); ++i) {
-    objects.push_back(std::make_unique<fcl::CollisionObjectd>(geometries[i], poses[i]));
-    all.push_back(objects.back().get());
-  }
-  for (const auto& [name, make] : managers()) {
-    const Manager manager = filled(make, all);
-    flags.during(name + ": collide", [&] {
-      fcl::DefaultCollisionData<double> data;
-      manager->collide(&data, fcl::DefaultCollisionFunction<double>);
-    });
-    flags.during(name + ": distance", [&] {
-      fcl::DefaultDistanceData<double> data;
-      manager->distance(&data, fcl::DefaultDistanceFunction<double>);
-    });
-    ManagerQueryd query;
-    for (int frame = 0; frame < 2; ++frame) {
-      flags.during(name + ": ManagerQuery", [&] {
-        query.findWithin(0.2);
-        manager->distance(&query, ManagerQueryd::callback);
-      });
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Models that can't be queried (bad vertices, unfinished, point clouds) are refused at every entry
+// Models that can't be queried (bad vertices, unfinished) are refused at every entry
 // point with one clear error: no crash, and results stay as they were.
 
 #include <gtest/gtest.h>
@@ -247,14 +247,6 @@ TEST_F(Unusable, TrianglesAddedAfterAnUpdate) {
             fcl::BVH_OK);
   expectUnusable(model, "geometry was added");
   expectRefused([&] { prepare(model); }, "triangles but a tree of");
-}
-
-TEST_F(Unusable, PointClouds) {
-  Modeld cloud;
-  cloud.beginModel();
-  cloud.addSubModel(mesh_.vertices);
-  ASSERT_EQ(cloud.endModel(), fcl::BVH_OK);
-  expectUnusable(cloud, "point cloud");
 }
 
 }  // namespace

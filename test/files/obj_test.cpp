@@ -92,5 +92,29 @@ TEST(Obj, WhatIsWrongIsRefusedWithItsLine) {
   expectUnread("a.obj", std::string("v 0 0 0\0\n", 9), ":1: '0?'");
 }
 
+TEST(Obj, ObjectsOrElseGroupsAreTold) {
+  const std::string faces = "f 1 2 3\nf 1 2 3 4\n",
+                    vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+  const auto objects = [&](const std::string& content) {
+    const files::Mesh mesh = readContent("objects.obj", vertices + content);
+    std::string text;
+    for (std::size_t t = 0; t < mesh.object_of.size(); ++t) {
+      text += mesh.objects.at(static_cast<std::size_t>(mesh.object_of[t])) + ',';
+    }
+    EXPECT_TRUE(mesh.objects.empty() || mesh.object_of.size() == mesh.triangles.size());
+    return text;
+  };
+  EXPECT_EQ(objects(faces), "");
+  EXPECT_EQ(objects(faces + "o a\n" + faces), ",,,a,a,a,");
+  EXPECT_EQ(objects("o a\ng x\n" + faces + "usemtl m\ng y\n" + faces), "a,a,a,a,a,a,");
+  EXPECT_EQ(objects("o pin #1\n" + faces + "o  pin #2\\\n b\nf 1 2 3 # pin\n"),
+            "pin #1,pin #1,pin #1,pin #2 b,");
+  EXPECT_EQ(objects("g x#1\nf 1 2 3\ng x #\nf 1 2 3\ng x#1\nf 1 2 3\n"), "x#1,x #,x#1,");
+  EXPECT_EQ(objects("g x\nf 1 2 3\ng y z\nf 1 2 3\ng x\n" + faces), "x,y z,x,x,x,");
+  const files::Mesh twice = readContent("twice.obj", vertices + "o a\n" + faces + "o a\n" + faces);
+  EXPECT_EQ(twice.objects.size(), 2u);
+  EXPECT_EQ(twice.object_of, (std::vector<int>{0, 0, 0, 1, 1, 1}));
+}
+
 }  // namespace
 }  // namespace kios::testing

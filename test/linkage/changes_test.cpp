@@ -5,6 +5,9 @@
 
 #include <fcl/config.h>
 
+#include <iterator>
+#include <map>
+
 #include "fcl/expect_refused.h"
 #include "linkage/robot_cases.h"
 
@@ -23,7 +26,7 @@ RobotCase slider(const BodyGeometry& obstacle, bool carried) {
   return robot;
 }
 
-MotionAnswer ask(const RobotCase& robot, double from, double to, bool first = false) {
+MotionResult ask(const RobotCase& robot, double from, double to, bool first = false) {
   MotionRequest request;
   request.first_contact = first;
   return checkMotion(robot.linkage, Joints::Constant(1, from), Joints::Constant(1, to), request);
@@ -95,10 +98,10 @@ TEST(ChangedGeometry, OctreesMayTakeUpMeasurements) {
     const RobotCase robot = slider(octree, carried);
     const double side = carried ? -1 : 1;
     const auto verdict = [&](double from, double to) {
-      const MotionAnswer any = ask(robot, side * from, side * to);
-      const MotionAnswer first = ask(robot, side * from, side * to, true);
+      const MotionResult any = ask(robot, side * from, side * to);
+      const MotionResult first = ask(robot, side * from, side * to, true);
       EXPECT_EQ(any.verdict, first.verdict);
-      const MotionAnswer copied = checkMotion(
+      const MotionResult copied = checkMotion(
           Linkage(robot.linkage), Joints::Constant(1, side * from), Joints::Constant(1, side * to));
       EXPECT_EQ(any.verdict, copied.verdict);
       return any.verdict;
@@ -128,12 +131,12 @@ TEST(ChangedGeometry, AnEmptyOctreeMayGetCells) {
   const auto octree = std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells));
   RobotCase robot = slider(octree, false);
   const int second = robot.addBody(0, boxOf(0.1, 0.1, 0.1), shifted(0, 2, 0));
-  robot.allow(second, 1);
+  robot.ignorePair(second, 1);
   EXPECT_EQ(ask(robot, -5, 5).verdict, MotionVerdict::kClear);
   cells->updateNode(point(0.05, 2.05, 0.05), true);
   EXPECT_EQ(ask(robot, -5, 5).verdict, MotionVerdict::kClear) << "the pair is allowed";
   cells->updateNode(point(0.05, 0.05, 0.05), true);
-  const MotionAnswer answer = ask(robot, -5, 5);
+  const MotionResult answer = ask(robot, -5, 5);
   EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
   EXPECT_EQ(answer.body_a, 0);
   EXPECT_EQ(answer.body_b, 1);
@@ -153,8 +156,8 @@ TEST(ChangedGeometry, GrowingMapsAreSeenAsTheyAre) {
       cells->updateNode(point(p.x(), 0.2 * p.y(), 0.2 * p.z()), random.unit() < 0.8);
       if (step % 7 == 6) cells->prune();
       const double from = random.uniform(-3, 3), to = from + random.uniform(-1, 1);
-      const MotionAnswer answer = ask(robot, from, to);
-      const MotionAnswer anew = ask(slider(octree, i % 2 == 1), from, to);
+      const MotionResult answer = ask(robot, from, to);
+      const MotionResult anew = ask(slider(octree, i % 2 == 1), from, to);
       ASSERT_EQ(answer.verdict, anew.verdict) << i << " " << step;
       contacts += answer.verdict == MotionVerdict::kContact ? 1 : 0;
       clear += answer.verdict == MotionVerdict::kClear ? 1 : 0;
@@ -163,7 +166,170 @@ TEST(ChangedGeometry, GrowingMapsAreSeenAsTheyAre) {
   EXPECT_GT(contacts, 50);
   EXPECT_GT(clear, 100);
 }
+
+// Links that come after the octree was measured again count, too.
+TEST(ChangedGeometry, LinksComeAfterAnOctreeGrew) {
+  const auto cells = std::make_shared<octomap::OcTree>(0.1);
+  cells->updateNode(point(0.05, 0.05, 0.05), true);
+  RobotCase robot =
+      slider(std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells)), false);
+  cells->updateNode(point(6.05, 0.05, 0.05), true);
+  EXPECT_EQ(ask(robot, 5, 7).verdict, MotionVerdict::kContact);
+  robot.linkage.addLink(0, joint(JointType::kRevolute));
+  EXPECT_EQ(checkMotion(robot.linkage, Eigen::Vector2d(5, 0), Eigen::Vector2d(7, 1)).verdict,
+            MotionVerdict::kContact);
+  EXPECT_EQ(checkMotion(robot.linkage, Eigen::Vector2d(2, 0), Eigen::Vector2d(4, 1)).verdict,
+            MotionVerdict::kClear);
+}
 #endif
+
+// A linkage whose bodies come, go and move answers as one that is built anew; so does a copy that
+// was made before.
+TEST(ChangedBodies, AnswerAsIfBuiltAnew) {
+  Random random(7);
+  const std::vector<BodyGeometry> geometries = {
+      boxOf(0.2, 0.1, 0.3), std::make_shared<fcl::Sphered>(0.1),
+      std::make_shared<fcl::Cylinderd>(0.1, 0.3),
+      std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -2.5), [] {
+        auto free = std::make_shared<fcl::Boxd>(0.3, 0.3, 0.3);
+        free->threshold_occupied = 2;
+        return free;
+      }()};
+  for (int round = 0; round < 12; ++round) {
+    Linkage base;
+    for (int i = 0; i < 4; ++i) {
+      base.addLink(i - 1, joint(i == 2 ? JointType::kPrismatic : JointType::kRevolute,
+                                0.5 * inBall(random), inBall(random)));
+    }
+    struct Known {
+      RobotCase::Body body;
+      std::set<int> ignored;
+    };
+    std::map<int, Known> known;
+    const auto build = [&](const std::map<int, Known>& all) {
+      Linkage fresh = base;
+      std::map<int, int> numbers;
+      for (const auto& [id, one] : all) {
+        numbers[id] = fresh.addBody(one.body.link, one.body.geometry, one.body.X_LB);
+        for (const int other : one.ignored) {
+          if (other < id) fresh.ignorePair(numbers[id], numbers[other]);
+        }
+      }
+      return fresh;
+    };
+    Linkage linkage = base, copy = base;
+    std::map<int, Known> copied;
+    for (int step = 0; step < 80; ++step) {
+      const double what = random.unit();
+      auto at = known.begin();
+      if (!known.empty()) {
+        std::advance(at, static_cast<long>(random.unit() * static_cast<double>(known.size() - 1)));
+      }
+      const auto g = static_cast<std::size_t>(random.uniform(0, 4.99));
+      const int link = static_cast<int>(random.uniform(-2, 3.99));
+      const Transform3d X = randomPose(random, random.unit() < 0.03 ? 1e9 : 1.5);
+      if (known.empty() || what < 0.3) {
+        const int to = g == 3 ? -1 : std::max(-1, link);
+        const int id = linkage.addBody(to, geometries[g], X);
+        ASSERT_EQ(known.count(id), 0U);
+        known[id] = {{to, geometries[g], X}, {}};
+      } else if (what < 0.5) {
+        at->second.body.X_LB = X;
+        linkage.moveBody(at->first, X);
+      } else if (what < 0.6 && at->second.body.geometry != geometries[3]) {
+        at->second.body.X_LB = X;
+        at->second.body.link = std::max(-1, link);
+        linkage.moveBody(at->first, at->second.body.link, X);
+      } else if (what < 0.7) {
+        linkage.removeBody(at->first);
+        for (auto& [id, other] : known) other.ignored.erase(at->first);
+        expectRefused([&] { linkage.moveBody(at->first, X); }, "no body");
+        known.erase(at);
+      } else if (known.size() > 1) {
+        const int other = std::prev(known.end())->first;
+        if (other == at->first) continue;
+        const bool ignored = known[other].ignored.count(at->first) == 0;
+        linkage.ignorePair(other, at->first, ignored);
+        linkage.ignorePair(at->first, other, ignored);
+        for (const auto& [a, b] : {std::pair(other, at->first), std::pair(at->first, other)}) {
+          if (ignored) {
+            known[a].ignored.insert(b);
+          } else {
+            known[a].ignored.erase(b);
+          }
+        }
+      }
+      Joints q(4), to(4);
+      for (int k = 0; k < 4; ++k) {
+        q[k] = random.uniform(-2, 2);
+        to[k] = q[k] + random.uniform(-0.3, 0.3);
+      }
+      const auto expectSame = [&](const Linkage& changed, const Linkage& fresh) {
+        MotionRequest request;
+        request.first_contact = true;
+        const MotionResult x = checkMotion(changed, q, to, request),
+                           y = checkMotion(fresh, q, to, request);
+        ASSERT_EQ(x.counts.pairs, y.counts.pairs) << round << " " << step;
+        ASSERT_EQ(x.verdict, y.verdict) << round << " " << step;
+        EXPECT_NEAR(x.to, y.to, 1e-5);
+        EXPECT_EQ(leastClearances(changed, q, q).size(), leastClearances(fresh, q, q).size());
+      };
+      expectSame(linkage, build(known));
+      if (step % 20 == 7) {
+        copy = linkage;
+        copied = known;
+      }
+      if (step % 20 == 17) expectSame(copy, build(copied));
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(ChangedBodies, AreMeasuredOnceForManyLinkages) {
+  const auto box = std::make_shared<fcl::Boxd>(0.1, 0.2, 0.3);
+  Linkage measured;
+  measured.addBody(-1, box);
+  Linkage wanted, linkage;
+  for (Linkage* const arm : {&wanted, &linkage}) {
+    arm->addLink(-1, joint(JointType::kRevolute));
+    arm->addBody(-1, std::make_shared<fcl::Sphered>(0.5), shifted(0.9, 0, 0));
+  }
+  wanted.addBody(0, box, shifted(0.4, 0, 0));
+  EXPECT_EQ(linkage.addBody(0, measured, 0, shifted(0.4, 0, 0)), 1);
+  const Joints q0 = Joints::Constant(1, -2), q1 = Joints::Constant(1, 1);
+  for (const Joints& q : {q0, Joints(0.5 * (q0 + q1)), q1}) {
+    EXPECT_EQ(linkage.pose(1, q).matrix(), wanted.pose(1, q).matrix());
+  }
+  const MotionResult answer = checkMotion(linkage, q0, q1), same = checkMotion(wanted, q0, q1);
+  EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
+  EXPECT_EQ(answer.to, same.to);
+  EXPECT_EQ(answer.counts.queries, same.counts.queries);
+  expectRefused([&] { linkage.addBody(0, measured, 1); }, "no body 1");
+  expectRefused([&] { linkage.addBody(5, measured, 0); }, "link");
+  box->side[0] = 3;
+  expectRefused([&] { checkMotion(linkage, q0, q1); }, "shape of body 1");
+}
+
+TEST(ChangedBodies, RefusesWhatIsNotThere) {
+  Linkage linkage;
+  linkage.addLink(-1, joint(JointType::kRevolute));
+  const int ball = linkage.addBody(0, std::make_shared<fcl::Sphered>(0.1));
+  const int floor = linkage.addBody(-1, std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -1));
+  Transform3d skew = Transform3d::Identity();
+  skew.linear()(0, 1) = 0.5;
+  expectRefused([&] { linkage.moveBody(2, Transform3d::Identity()); }, "no body 2");
+  expectRefused([&] { linkage.moveBody(ball, 1, Transform3d::Identity()); }, "link");
+  expectRefused([&] { linkage.moveBody(ball, skew); }, "pose of a body");
+  expectRefused([&] { linkage.moveBody(floor, 0, Transform3d::Identity()); }, "can't turn");
+  expectRefused([&] { linkage.addBody(0, nullptr); }, "null");
+  EXPECT_EQ(linkage.bodies(), 2);
+  linkage.removeBody(ball);
+  expectRefused([&] { linkage.removeBody(ball); }, "no body 0");
+  expectRefused([&] { linkage.ignorePair(ball, floor); }, "not added");
+  expectRefused([&] { linkage.pose(ball, Joints::Zero(1)); }, "no body 0");
+  EXPECT_EQ(checkMotion(linkage, Joints::Zero(1), Joints::Ones(1)).counts.pairs, 0);
+  EXPECT_EQ(linkage.addBody(-1, std::make_shared<fcl::Sphered>(0.1)), ball);
+}
 
 }  // namespace
 }  // namespace kios::testing

@@ -39,7 +39,7 @@ struct LineWorld {
     movers.push_back(x);
     links_.push_back(link);
     const int id = robot.addBody(link, plate(x, shape, true), along(0.5 * (x.from + x.to)));
-    for (const int other : ids_) robot.allow(other, id);
+    for (const int other : ids_) robot.ignorePair(other, id);
     ids_.push_back(id);
   }
   void addObstacle(const Interval& x, bool shape) {
@@ -104,7 +104,7 @@ void expectFirst(const LineWorld& world, double resolution, double separation, T
   MotionRequest request;
   request.first_contact = true;
   request.resolution = resolution;
-  const MotionAnswer answer = checkMotion(world.robot.linkage, q0, q1, request);
+  const MotionResult answer = checkMotion(world.robot.linkage, q0, q1, request);
   const double first = world.first();
   switch (answer.verdict) {
     case MotionVerdict::kClear:
@@ -134,7 +134,7 @@ void expectFirst(const LineWorld& world, double resolution, double separation, T
       ADD_FAILURE() << "no budget was asked for";
   }
   request.first_contact = false;
-  const MotionAnswer any = checkMotion(world.robot.linkage, q0, q1, request);
+  const MotionResult any = checkMotion(world.robot.linkage, q0, q1, request);
   if (any.verdict == MotionVerdict::kClear) {
     EXPECT_EQ(first, 2);
   }
@@ -234,7 +234,7 @@ TEST(FirstContacts, AtTheStartAlone) {
     world.addObstacle({-0.125, 0}, false);
     MotionRequest request;
     request.first_contact = true;
-    const MotionAnswer answer =
+    const MotionResult answer =
         checkMotion(world.robot.linkage, Joints::Zero(1), Joints::Ones(1), request);
     EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
     EXPECT_EQ(answer.from, 0);
@@ -271,7 +271,7 @@ TEST(FirstContacts, OfShapesHoldNoContradiction) {
     robot.addBody(-1, cone, X);
     MotionRequest request;
     request.first_contact = true;
-    const MotionAnswer answer =
+    const MotionResult answer =
         checkMotion(robot.linkage, Joints::Constant(1, -1), Joints::Constant(1, 3), request);
     contacts += answer.verdict == MotionVerdict::kContact ? 1 : 0;
     unresolved += answer.verdict == MotionVerdict::kUnresolved ? 1 : 0;
@@ -297,7 +297,7 @@ TEST(FirstContacts, AnyContactIsLookedForBesideWhatIsUndecided) {
     world.robot.addBody(1, LineWorld::plate({0, 0.125}, false, true), along(10));
     world.robot.addBody(-1, LineWorld::plate({0, 0.125}, false, false), along(10.125 + 1e-15));
     const Joints q0 = Joints::Zero(2), q1 = Joints::Ones(2);
-    const MotionAnswer answer = checkMotion(world.robot.linkage, q0, q1);
+    const MotionResult answer = checkMotion(world.robot.linkage, q0, q1);
     EXPECT_EQ(answer.verdict, MotionVerdict::kContact) << i;
     EXPECT_NEAR(answer.to, x, 0.01 + 2 * thick);
   }

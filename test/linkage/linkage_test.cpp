@@ -105,21 +105,21 @@ TEST(Linkages, WhichPairsAreChecked) {
             MotionVerdict::kContact);
   const int fixed = linkage.addBody(1, cube(), shifted(0, 0, 3));
   EXPECT_EQ(verdict(linkage), MotionVerdict::kContact);  // of a fixed link and an obstacle
-  const MotionAnswer still = checkMotion(linkage, Joints::Ones(1), Joints::Ones(1));
+  const MotionResult still = checkMotion(linkage, Joints::Ones(1), Joints::Ones(1));
   EXPECT_EQ(still.verdict, MotionVerdict::kContact);  // of one configuration
   EXPECT_EQ(std::pair(still.body_a, still.body_b), std::pair(std::min(wall, fixed), fixed));
-  expectRefused([&] { linkage.allow(wall, wall); }, "itself");
-  linkage.allow(wall, fixed);
-  linkage.allow(fixed, wall);
-  linkage.allow(fixed, 3);
+  expectRefused([&] { linkage.ignorePair(wall, wall); }, "itself");
+  linkage.ignorePair(wall, fixed);
+  linkage.ignorePair(fixed, wall);
+  linkage.ignorePair(fixed, 3);
   EXPECT_EQ(verdict(linkage), MotionVerdict::kClear);
-  const MotionAnswer far = checkMotion(linkage, Joints::Zero(1), 3 * Joints::Ones(1));
+  const MotionResult far = checkMotion(linkage, Joints::Zero(1), 3 * Joints::Ones(1));
   EXPECT_EQ(far.verdict, MotionVerdict::kContact);
   EXPECT_LT(far.body_a, 2);
   for (const int body : {a, b}) {
-    linkage.allow(body, wall);
-    linkage.allow(3, body);
-    linkage.allow(fixed, body);
+    linkage.ignorePair(body, wall);
+    linkage.ignorePair(3, body);
+    linkage.ignorePair(fixed, body);
   }
   EXPECT_EQ(checkMotion(linkage, Joints::Zero(1), 3 * Joints::Ones(1)).verdict,
             MotionVerdict::kClear);
@@ -209,8 +209,8 @@ TEST(Linkages, BadLinksAndBodiesAreRefused) {
   unchanged(1, 0, 1);
   linkage.addBody(0, cube());
   linkage.addBody(-1, cube(), shifted(9, 0, 0));
-  expectRefused([&] { linkage.allow(0, 2); }, "allowed");
-  expectRefused([&] { linkage.allow(-1, 0); }, "allowed");
+  expectRefused([&] { linkage.ignorePair(0, 2); }, "allowed");
+  expectRefused([&] { linkage.ignorePair(-1, 0); }, "allowed");
   expectRefused([&] { linkage.pose(2, Joints::Zero(1)); }, "no body 2");
   expectRefused([&] { linkage.pose(0, Joints::Zero(2)); }, "2 coordinates");
   unchanged(1, 2, 1);

@@ -29,6 +29,43 @@ long double distanceTo(const Vector3d& p, const ObstacleBox& box) {
   return std::sqrt(square);
 }
 
+ObstacleBox boxWithin(Random& random, double scale, int body) {
+  ObstacleBox box = {{}, {}, body, random.unit() * scale};
+  const Vector3d low = pointWithin(random, scale),
+                 size = pointWithin(random, 0.2 * scale).cwiseAbs();
+  const bool unbounded = random.unit() < 0.01;
+  for (int c = 0; c < 3; ++c) {
+    box.low[c] = unbounded ? -kInfinity : low[c];
+    box.high[c] = unbounded ? kInfinity : low[c] + size[c];
+  }
+  return box;
+}
+
+/// Moves, removes and adds boxes; at times in a row, by which the tree becomes deep.
+void changeAtRandom(Random& random, double scale, ObstacleTree& tree,
+                    std::vector<ObstacleBox>& boxes) {
+  int next = 100000;
+  double far = scale;
+  for (int k = static_cast<int>(random.uniform(0, 2.0 * static_cast<double>(boxes.size())));
+       k > 0 && !boxes.empty(); --k) {
+    const auto i = static_cast<std::size_t>(random.unit() * static_cast<double>(boxes.size() - 1));
+    if (random.unit() < 0.2) {
+      far *= 0.5;
+      boxes.push_back(boxWithin(random, far, next++));
+      tree.insert(boxes.back());
+      continue;
+    }
+    EXPECT_TRUE(tree.remove(boxes[i].body));
+    if (random.unit() < 0.3) {
+      boxes[i] = boxes.back();
+      boxes.pop_back();
+      continue;
+    }
+    boxes[i] = boxWithin(random, scale, boxes[i].body);
+    tree.insert(boxes[i]);
+  }
+}
+
 TEST(ObstacleTree, FindsAllThatIsNear) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {
@@ -37,17 +74,15 @@ TEST(ObstacleTree, FindsAllThatIsNear) {
                                  : static_cast<int>(std::pow(300, random.unit()));
     std::vector<ObstacleBox> boxes;
     for (int k = 0; k < count; ++k) {
-      ObstacleBox box = {{}, {}, 3 * k + 1};
-      const Vector3d low = pointWithin(random, scale),
-                     size = pointWithin(random, 0.2 * scale).cwiseAbs();
-      const bool unbounded = random.unit() < 0.01;
-      for (int c = 0; c < 3; ++c) {
-        box.low[c] = unbounded ? -kInfinity : low[c];
-        box.high[c] = unbounded ? kInfinity : low[c] + size[c];
-      }
-      boxes.push_back(box);
+      boxes.push_back(boxWithin(random, scale, 3 * k + 1));
     }
-    const ObstacleTree tree(boxes);
+    ObstacleTree tree(boxes);
+    changeAtRandom(random, scale, tree, boxes);
+    double farthest = 0;
+    for (const ObstacleBox& box : boxes) farthest = std::max(farthest, box.length);
+    EXPECT_EQ(tree.size(), static_cast<long long>(boxes.size()));
+    EXPECT_EQ(tree.farthest(), farthest);
+    EXPECT_FALSE(tree.remove(3 * count + 1));
     Vector3d p = pointWithin(random, 1.3 * scale);
     if (!boxes.empty() && i % 9 == 0 && boxes[0].high[0] < kInfinity) {  // beside a face
       p = {boxes[0].low[0] * (1 + 1e-9), boxes[0].low[1], boxes[0].high[2]};
@@ -76,6 +111,43 @@ TEST(ObstacleTree, FindsAllThatIsNear) {
 }
 
 // Obstacles that come after a path was asked about, and pairs that are allowed, in any order.
+// A half-space or a room holds the boxes of all others; boxes may be equal, or one in another.
+TEST(ObstacleTree, HoldsThousandsThatComeAndGo) {
+  Random random(11);
+  const int count = 5000;
+  for (int kind = 0; kind < 5; ++kind) {
+    SCOPED_TRACE(kind);
+    ObstacleTree tree;
+    const auto add = [&](int body) {
+      const double side = kind == 4 ? std::pow(0.99, body) : 0.1;
+      ObstacleBox box = {{0, 0, 0}, {side, side, side}, body, 1};
+      const bool first = body % count == 0;
+      for (int c = 0; c < 3 && kind < 2; ++c) {
+        box.low[c] = random.uniform(-5, 5);
+        box.high[c] = box.low[c] + 0.1;
+        if (first) box.low[c] = kind == 0 ? -kInfinity : -10;
+        if (first) box.high[c] = kind == 0 ? kInfinity : 10;
+      }
+      for (int c = 0; c < 3 && kind == 2; ++c) {
+        box.low[c] = -kInfinity;
+        box.high[c] = kInfinity;
+      }
+      tree.insert(box);
+    };
+    for (int body = 0; body < count; ++body) add(body);
+    for (int body = 0; body < count; ++body) {  // one goes, one comes
+      EXPECT_TRUE(tree.remove(body));
+      add(body + count);
+    }
+    int found = 0;
+    tree.forNear(Vector3d(0, 0, 0), 100, [&](int body) {
+      found += body >= count ? 1 : 0;
+      return false;
+    });
+    EXPECT_EQ(found, count);
+  }
+}
+
 TEST(NearPairs, AreThoseToBeChecked) {
   const BodyGeometry box = modelOf(scenes::subdividedBox({0.2, 0.2, 0.2}, 2));
   const auto shifted = [](double x) {
@@ -95,13 +167,13 @@ TEST(NearPairs, AreThoseToBeChecked) {
   EXPECT_EQ(ask().counts.pairs, 1);
   const int near = robot.addBody(-1, box, shifted(0.1)), far = robot.addBody(-1, box, shifted(9));
   EXPECT_EQ(ask().counts.pairs, 5);
-  MotionAnswer answer = ask();
+  MotionResult answer = ask();
   EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
   EXPECT_EQ(answer.body_a, a);
   EXPECT_EQ(answer.body_b, near);
-  robot.allow(near, a);
-  robot.allow(a, near);
-  robot.allow(near, far);
+  robot.ignorePair(near, a);
+  robot.ignorePair(a, near);
+  robot.ignorePair(near, far);
   EXPECT_EQ(ask().counts.pairs, 4);
   EXPECT_EQ(ask().verdict, MotionVerdict::kClear);
   const Linkage copy = robot.linkage;
@@ -111,8 +183,8 @@ TEST(NearPairs, AreThoseToBeChecked) {
   EXPECT_EQ(answer.body_a, b);
   EXPECT_EQ(answer.body_b, last);
   EXPECT_EQ(checkMotion(copy, q0, q1).verdict, MotionVerdict::kClear);
-  robot.allow(b, a);
-  robot.allow(a, b);
+  robot.ignorePair(b, a);
+  robot.ignorePair(a, b);
   EXPECT_EQ(ask().counts.pairs, 5);
 }
 

@@ -90,9 +90,9 @@ struct RobotCase {
     bodies.push_back({link, geometry, X_LB});
     return linkage.addBody(link, std::move(geometry), X_LB);
   }
-  void allow(int a, int b) {
+  void ignorePair(int a, int b) {
     allowed.insert(std::minmax(a, b));
-    linkage.allow(a, b);
+    linkage.ignorePair(a, b);
   }
   bool checked(int a, int b) const {
     return bodies[a].link != bodies[b].link && allowed.count(std::minmax(a, b)) == 0;
@@ -179,7 +179,7 @@ struct MotionTally {
   int first_unresolved = 0;  ///< of first contacts
   MotionCounts counts;
 
-  void add(const MotionAnswer& answer) {
+  void add(const MotionResult& answer) {
     clear += answer.verdict == MotionVerdict::kClear ? 1 : 0;
     contact += answer.verdict == MotionVerdict::kContact ? 1 : 0;
     unresolved += answer.verdict == MotionVerdict::kUnresolved ? 1 : 0;
@@ -202,13 +202,13 @@ inline void expectRight(const RobotCase& robot, const Joints& q0, const Joints& 
                         MotionTally& tally, double separation = 0) {
   MotionRequest request;
   request.min_separation = separation;
-  const MotionAnswer any = checkMotion(robot.linkage, q0, q1, request);
+  const MotionResult any = checkMotion(robot.linkage, q0, q1, request);
   request.first_contact = true;
-  const MotionAnswer first = checkMotion(robot.linkage, q0, q1, request);
+  const MotionResult first = checkMotion(robot.linkage, q0, q1, request);
   tally.add(any);
   tally.first_unresolved += first.verdict == MotionVerdict::kUnresolved ? 1 : 0;
   const double sample = robot.firstSample(q0, q1, n, separation);
-  for (const MotionAnswer& answer : {any, first}) {
+  for (const MotionResult& answer : {any, first}) {
     if (answer.verdict == MotionVerdict::kClear) {
       EXPECT_EQ(sample, 2) << "a contact was missed";
       EXPECT_EQ(answer.from, 0);

@@ -21,7 +21,7 @@ RobotCase robotOf(std::uint64_t seed) {
     Mesh mesh = scenes::bumpyTorus(400);
     for (Vector3d& p : mesh.vertices) p *= 0.1;
     robot.addBody(i, modelOf(mesh));
-    if (i > 0) robot.allow(i - 1, i);
+    if (i > 0) robot.ignorePair(i - 1, i);
   }
   for (int i = 0; i < 8; ++i) {
     Mesh mesh = scenes::bumpyTorus(600);
@@ -49,7 +49,7 @@ TEST(Threads, OneLinkageAnswersAsInOneThread) {
     return checkMotion(linkage, paths[i].first, paths[i].second, request);
   };
   const RobotCase alone = robotOf(3), shared = robotOf(3);  // nobody has asked the second
-  std::vector<MotionAnswer> expected;
+  std::vector<MotionResult> expected;
   int clear = 0;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     expected.push_back(ask(alone.linkage, i));
@@ -61,8 +61,8 @@ TEST(Threads, OneLinkageAnswersAsInOneThread) {
   together(8, [&](int t) {
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const std::size_t at = (i + 7 * t) % paths.size();
-      const MotionAnswer answer = ask(shared.linkage, at);
-      const MotionAnswer& one = expected[at];
+      const MotionResult answer = ask(shared.linkage, at);
+      const MotionResult& one = expected[at];
       if (answer.verdict != one.verdict || answer.from != one.from || answer.to != one.to ||
           answer.body_a != one.body_a || answer.body_b != one.body_b ||
           answer.counts.narrow_queries != one.counts.narrow_queries) {

@@ -113,7 +113,7 @@ inline void expectClear(const RobotCase& robot, const Joints& q1, long long most
     MotionRequest request;
     request.first_contact = first;
     request.min_separation = separation;
-    const MotionAnswer answer = checkMotion(robot.linkage, q0, q1, request);
+    const MotionResult answer = checkMotion(robot.linkage, q0, q1, request);
     EXPECT_EQ(answer.verdict, MotionVerdict::kClear) << first;
     EXPECT_LE(answer.counts.queries, most_queries) << first;
   }

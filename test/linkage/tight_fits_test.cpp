@@ -17,14 +17,14 @@ TEST(TightFits, ARodSlidesThroughARing) {
     const BodyGeometry peg = modelOf(rod(0.01, 2, 32, 0.37));
     for (const bool turned : {false, true}) {
       const RobotCase robot = fitted(peg, hole, JointType::kPrismatic, {{0, 0, 1}}, turned);
-      expectClear(robot, Joints::Constant(1, 0.5), 300);
-      if (clearance > 1e-7) expectClear(robot, Joints::Constant(1, 0.5), 300, 0.5 * clearance);
+      expectClear(robot, Joints::Constant(1, 0.5), 400);
+      if (clearance > 1e-7) expectClear(robot, Joints::Constant(1, 0.5), 400, 0.5 * clearance);
       // It holds the other way about, too, and for a shape.
       expectClear(fitted(hole, peg, JointType::kPrismatic, {{0, 0, 1}}, turned),
-                  Joints::Constant(1, 0.5), 300);
+                  Joints::Constant(1, 0.5), 400);
       expectClear(fitted(std::make_shared<fcl::Cylinderd>(0.01, 2), hole, JointType::kPrismatic,
                          {{0, 0, 1}}, turned),
-                  Joints::Constant(1, 0.5), 300);
+                  Joints::Constant(1, 0.5), 400);
     }
   }
 }
@@ -96,7 +96,7 @@ TEST(Budgets, ASpentBudgetIsSaid) {
     double last = 0;
     for (const long long most : {0, 1, 10, 100, 300, 1000}) {
       request.max_queries = most;
-      const MotionAnswer answer =
+      const MotionResult answer =
           checkMotion(robot.linkage, Joints::Zero(1), Joints::Constant(1, 0.5), request);
       EXPECT_EQ(answer.verdict, MotionVerdict::kBudgetSpent) << most;
       EXPECT_EQ(answer.body_a, 0);
@@ -127,7 +127,7 @@ TEST(Budgets, LongPathsEnd) {
       joint.axis = inBall(random).normalized();
       robot.addLink(link - 1, joint);
       robot.addBody(link, modelOf(rod(0.02, 0.3, 6, 0)));
-      if (link > 0) robot.allow(link - 1, link);
+      if (link > 0) robot.ignorePair(link - 1, link);
     }
     robot.addBody(-1, modelOf(ring(2, 2.2, 3, 12)));
     Joints q1(4);
@@ -136,7 +136,7 @@ TEST(Budgets, LongPathsEnd) {
       MotionRequest request;
       request.max_queries = 20000;
       request.first_contact = first;
-      const MotionAnswer answer = checkMotion(robot.linkage, Joints::Zero(4), q1, request);
+      const MotionResult answer = checkMotion(robot.linkage, Joints::Zero(4), q1, request);
       EXPECT_LE(answer.counts.queries, 21000);
       if (answer.verdict == MotionVerdict::kClear) {
         EXPECT_EQ(robot.firstSample(Joints::Zero(4), q1, 500), 2);

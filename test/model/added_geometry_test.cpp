@@ -83,7 +83,7 @@ TEST_F(AddedGeometry, ServesAfterEveryRefitAndBuild) {
           update(*model, vertices, refit, bottomup);
           EXPECT_EQ(verticesOf(*model), vertices);
           expectRight(*model);
-          invalidate(*model);
+          verticesChanged(*model);
           expectRight(*model);
           if (turn == 0) {
             add(*model, (way + 1) % kWays);

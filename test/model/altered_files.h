@@ -57,11 +57,11 @@ class AlteredFiles : public ::testing::Test {
 
   void askOnce(const Modeld& model) const {
     for (const Frame& frame : frames_) {
-      distance(model, frame.X_WA, *partner_, frame.X_WB);
-      DistanceOptionsd options;
+      distanceBracket(model, frame.X_WA, *partner_, frame.X_WB);
+      DistanceBracketRequestd options;
       options.rel_err = 0.1;
       options.max_expansions = 20;
-      distance(*plate_, frame.X_WA, model, frame.X_WB, options);
+      distanceBracket(*plate_, frame.X_WA, model, frame.X_WB, options);
       closerThan(model, frame.X_WA, model, frame.X_WB, 0.1);
       fcl::CollisionResultd contacts;
       fcl::collide(&model, frame.X_WA, partner_.get(), frame.X_WB, fcl::CollisionRequestd(9),

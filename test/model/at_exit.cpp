@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "fcl_kios/fcl_kios.h"
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "volume/exact_spheres.h"
 
 // Checks of the tree of an fcl::BVHModel over k-IOS; tree/tree_check.h checks prepared trees.

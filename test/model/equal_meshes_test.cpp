@@ -9,7 +9,7 @@
 #include <list>
 
 #include "fcl/mesh_cases.h"
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "model/bvh_check.h"
 #include "model/deform.h"
 #include "model/prepared.h"
@@ -80,7 +80,7 @@ TEST_F(EqualMeshes, OneMoves) {
     if (way == 4) std::copy(vertices.begin(), vertices.end(), moving->vertices);
     if (way == 5) {
       std::copy(vertices.begin(), vertices.end(), moving->vertices);
-      invalidate(*moving);
+      verticesChanged(*moving);
     }
     if (way != 3 && way != 4) expectAnswersOf(*moving, vertices);
     const auto still = kiosModel(mesh_), there = kiosModel({vertices, mesh_.triangles});

@@ -195,7 +195,7 @@ TEST_F(Memory, Queries) {
       [this](const Modeld& model) { contacts(model); },
       [this](const Modeld& model) {
         closerThan(model, far_.X_WA, *other_, far_.X_WB, 0.5);
-        kios::distance(model, near_.X_WA, *other_, near_.X_WB);
+        kios::distanceBracket(model, near_.X_WA, *other_, near_.X_WB);
       },
       [](const Modeld& model) {
         Rayd ray;
@@ -288,7 +288,7 @@ TEST_F(Memory, Invalidate) {
   written();
   exhaust(
       [&] {
-        invalidate(*model);
+        verticesChanged(*model);
         return true;
       },
       [&] {

@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Models that change after they were built: replaced, updated, refitted, made relative, copied.
+// Motions walk the nodes that change; collide() and distance() a tree of their own.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "fcl/mesh_cases.h"
+#include "continuous/moving_meshes.h"
 #include "model/bvh_check.h"
 #include "model/deform.h"
 #include "together.h"
@@ -43,6 +44,15 @@ class Refit : public ::testing::Test {
     const auto fresh = modelAlone({vertices, mesh_.triangles});
     EXPECT_TRUE(ask(model, *other_, frames_) == ask(*fresh, *other_, frames_));
     EXPECT_TRUE(ask(*other_, model, frames_) == ask(*other_, *fresh, frames_));
+    const double toc_err = 1e-7, time = contactTime(model, toc_err);
+    EXPECT_NEAR(time, contactTime(*fresh, toc_err), toc_err);
+    EXPECT_GT(time, 0.1);
+    EXPECT_LT(time, 0.5);
+  }
+  double contactTime(const Modeld& model, double toc_err) const {
+    fcl::ContinuousCollisionResultd result;
+    return firstContact(model, at(0, 0, 0), at(0, 0, 0, 1), *other_, at(9, 0, 0), at(-9, 0, 0, 1),
+                        requestFor(fcl::CCDM_LINEAR, toc_err), result);
   }
 
   const Mesh mesh_ = scenes::bumpyTorus(300);
@@ -89,6 +99,7 @@ TEST_F(Refit, UpdateEveryWayHoldsThePreviousPositionsToo) {
         EXPECT_EQ(model->build_state, fcl::BVH_BUILD_STATE_UPDATED);
         ASSERT_NE(model->prev_vertices, nullptr);
         expectValidTree(*model);
+        expectValidTree(Modeld(*model));
         expectAnswersOf(*model, vertices);
       }
     }
@@ -133,21 +144,37 @@ TEST_F(Refit, MakeParentRelativeKeepsEveryAnswer) {
   }
 }
 
-TEST_F(Refit, CopiesAreIndependent) {
-  auto original = kiosModel(mesh_);
-  update(*original, swayed(mesh_, 1), true, true);
-  Modeld copy(*original);
-  expectValidTree(copy);
-  EXPECT_TRUE(sameTree(copy, *original));
-  const Answers before = ask(*original, *other_, frames_);
-  EXPECT_TRUE(ask(copy, *other_, frames_) == before);
-  update(copy, swayed(mesh_, 2), true, false);
-  expectAnswersOf(copy, swayed(mesh_, 2));
-  EXPECT_TRUE(ask(*original, *other_, frames_) == before);
-  original.reset();
-  update(copy, swayed(mesh_, 4), false, true);
-  expectValidTree(copy);
-  expectAnswersOf(copy, swayed(mesh_, 4));
+/// Fits as ours does, but for nodes of at least so many triangles, which get a volume that it
+/// keeps.
+class StoringFitter final : public fcl::detail::BVFitter<kIOSd> {
+ public:
+  explicit StoringFitter(int least) : least_(least) {
+    const std::vector<Vector3d> far = scenes::icosphere(20, 1).vertices;
+    kios::fit(far.data(), static_cast<int>(far.size()), volume_);
+  }
+  kIOSd fit(unsigned int* primitives, int n) override {
+    return n >= least_ ? volume_ : fcl::detail::BVFitter<kIOSd>::fit(primitives, n);
+  }
+
+ private:
+  const int least_;
+  kIOSd volume_;
+};
+
+TEST_F(Refit, VolumesThatAUsersFitterStores) {
+  const int all = static_cast<int>(mesh_.triangles.size());
+  for (const int least : {all, all / 2, 1}) {
+    Modeld model;
+    model.bv_fitter = std::make_shared<StoringFitter>(least);
+    ASSERT_EQ(model.beginModel(), fcl::BVH_OK);
+    ASSERT_EQ(model.addSubModel(mesh_.vertices, mesh_.triangles), fcl::BVH_OK);
+    ASSERT_EQ(model.endModel(), fcl::BVH_OK);
+    for (int i = 0; i < 4; ++i) {
+      replace(model, swayed(mesh_, i), i > 0, i % 2 == 0);
+      expectValidTree(model);
+      expectAnswersOf(model, swayed(mesh_, i));
+    }
+  }
 }
 
 // FCL's copy constructor lets copies share one fitter and one splitter.
@@ -156,11 +183,12 @@ TEST_F(Refit, CopiesRefitInTwoThreadsAsInOne) {
   const Modeld original(*kiosModel(large));
   const auto work = [&](Modeld& model, double phase) {
     for (int i = 0; i < 6; ++i) {
-      if (i % 3 == 0) replace(model, swayed(large, phase + i), false, false);
-      if (i % 3 == 1) replace(model, swayed(large, phase + i), true, false);
-      if (i % 3 == 2) update(model, swayed(large, phase + i), false, false);
-      if (model.build_state == fcl::BVH_BUILD_STATE_UPDATED)
-        model.build_state = fcl::BVH_BUILD_STATE_PROCESSED;  // lets replace follow update
+      model.build_state = fcl::BVH_BUILD_STATE_PROCESSED;  // lets replace follow update
+      if (i % 3 == 2) {
+        update(model, swayed(large, phase + i), false, false);
+      } else {
+        replace(model, swayed(large, phase + i), i % 3 == 1, false);
+      }
     }
   };
   Modeld one(original), two(original), one_alone(original), two_alone(original);
@@ -173,15 +201,6 @@ TEST_F(Refit, CopiesRefitInTwoThreadsAsInOne) {
     EXPECT_TRUE(sameTree(a, one_alone));
     EXPECT_TRUE(sameTree(b, two_alone));
   }
-}
-
-TEST_F(Refit, ModelsBuiltInManyThreadsAreAsBuiltAlone) {
-  const auto meshOf = [&](std::size_t i) { return Mesh{swayed(mesh_, i), mesh_.triangles}; };
-  std::vector<std::vector<fcl::BVNode<kIOSd>>> alone;
-  for (std::size_t i = 0; i < 8; ++i) alone.push_back(nodesOf(*kiosModel(meshOf(i))));
-  std::vector<std::shared_ptr<Modeld>> models(8);
-  together(8, [&](int t) { models[t] = kiosModel(meshOf(t)); });
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_TRUE(sameTree(*models[i], alone[i])) << i;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 //
 // A loaded model is the one that was saved. Altered bytes: altered_storage_test.cpp.
 
-#include "fcl_kios/model/storage.h"
+#include "fcl_kios/storage.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST_F(Storage, LoadsWhatWasSaved) {
   const auto ask = [&](const Modeld& model) {
     std::vector<double> found;
     for (const Frame& frame : frames_) {
-      const DistanceAnswerd answer = distance(model, frame.X_WA, *other_, frame.X_WB);
+      const DistanceBracketResultd answer = distanceBracket(model, frame.X_WA, *other_, frame.X_WB);
       found.insert(found.end(), {answer.distance, double(answer.triangle_a), answer.point_a[0]});
     }
     return found;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/model/storage.h"
+#include "fcl_kios/storage.h"
 #include "model/stored_format.h"
 
 namespace kios::testing {

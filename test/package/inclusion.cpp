@@ -4,20 +4,20 @@
 // A file that uses FCL's templates over our volume, with FCL's headers before or after ours, and
 // with KIOS_MODEL or without the headers that define our specialisations. inclusion.sh compiles it.
 #ifdef KIOS_FIRST
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #ifdef KIOS_MODEL
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/model/motion_bounds.h"
+#include "fcl_kios/detail/motion_bounds.h"
+#include "fcl_kios/model.h"
 #endif
 #endif
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/utility.h>
 #include <fcl/math/motion/tbv_motion_bound_visitor.h>
 #include <fcl/math/motion/translation_motion.h>
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 #ifdef KIOS_MODEL
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/model/motion_bounds.h"
+#include "fcl_kios/detail/motion_bounds.h"
+#include "fcl_kios/model.h"
 #endif
 
 using Volume = kios::kIOSd;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 
 namespace kios::testing {
 

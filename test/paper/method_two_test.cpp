@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {

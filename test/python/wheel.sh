@@ -25,6 +25,11 @@ mesh = fcl_kios.Mesh(vertices, np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3,
 X = np.eye(4)
 X[0, 3] = 2
 assert mesh.distance(mesh, X) == 1
+pathlib.Path("ball.urdf").write_text("<robot name='r'><link name='l'><collision><geometry>"
+                                     "<sphere radius='1'/></geometry></collision></link></robot>")
+robot = fcl_kios.Robot("ball.urdf")
+robot.add("mesh", mesh)
+assert robot.contact([]).b == "mesh"
 package = pathlib.Path(fcl_kios.__file__).parent
 brought = {path.name for path in (package / "libs").glob("*.so*")}
 assert any(name.startswith("libfcl.so") for name in brought), brought

@@ -79,9 +79,9 @@ void expectRight(const Mesh& a, const Mesh& b, const Frame& frame, double size) 
   fcl::distance(model_a.get(), X_WA, model_b.get(), X_WB, fcl::DistanceRequestd(), result);
   EXPECT_NEAR(result.min_distance, exact, slack);
   for (const double rel_err : {0.0, 0.1}) {
-    DistanceOptions<double> options;
+    DistanceBracketRequest<double> options;
     options.rel_err = rel_err;
-    const auto answer = kios::distance(*model_a, X_WA, *model_b, X_WB, options);
+    const auto answer = kios::distanceBracket(*model_a, X_WA, *model_b, X_WB, options);
     EXPECT_LE(answer.lower_bound, exact + slack);
     EXPECT_GE(answer.upper_bound, exact);
     EXPECT_LE(answer.distance, exact * (1 + rel_err) + slack);

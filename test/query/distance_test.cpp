@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The options of kios::distance: exact answers are fcl::distance's whatever they start from,
-// budgets are monotone, tolerances are honoured everywhere, threads agree.
+// budgets are monotone, tolerances are honoured everywhere.
 
-#include "fcl_kios/query/distance.h"
+#include "fcl_kios/distance.h"
 
 #include <gtest/gtest.h>
 
 #include "query/query_cases.h"
 #include "scalars.h"
-#include "together.h"
 
 namespace kios::testing {
 namespace {
@@ -23,15 +22,15 @@ struct Scene {
   std::vector<Poses<S>> poses;
 };
 
-/// Returns pairs on their way and at random poses; by the engine and in FCL's tree.
+/// Returns pairs on their way and at random poses.
 template <typename S>
 std::vector<Scene<S>> scenesOf() {
   using namespace scenes;
   std::vector<Scene<S>> all;
-  const auto add = [&all](const char* name, const Mesh& a, const Mesh& b, bool engine,
+  const auto add = [&all](const char* name, const Mesh& a, const Mesh& b,
                           std::vector<Poses<S>> poses) {
-    all.push_back({name, rounded<S>(a), rounded<S>(b), modelOf<S>(a, engine), modelOf<S>(b, engine),
-                   std::move(poses)});
+    all.push_back(
+        {name, rounded<S>(a), rounded<S>(b), modelOf<S>(a), modelOf<S>(b), std::move(poses)});
   };
   const auto motion = [](const std::vector<Frame>& frames) {
     std::vector<Poses<S>> poses;
@@ -39,28 +38,26 @@ std::vector<Scene<S>> scenesOf() {
       poses.push_back({f.X_WA.template cast<S>(), f.X_WB.template cast<S>()});
     return poses;
   };
-  for (const bool engine : {true, false}) {
-    const int frames = engine ? 150 : 40;
-    add("falling", bentTorus(), knobbyTorus(), engine, motion(fallingMotion(frames)));
-    add("spinning", bumpyBlob(), bentTorus(), engine, motion(spinningMotion(frames / 2)));
-    const Mesh box = subdividedBox({1, 1.5, 2}, 6);
-    std::vector<Frame> grid;  // ties everywhere
-    for (int i = 0; i < frames; ++i) {
-      Frame f{fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
-      f.X_WB.translation() = fcl::Vector3d(i % 5 - 2, 1.75 - i % 3, (i % 7) * 0.5);
-      grid.push_back(f);
-    }
-    add("boxes", box, box, engine, motion(grid));
-    const Mesh soup = randomSoup(80, 1, 1e-2, 1, 3);
-    add("soup", soup, soup, engine, posesOf<S>(soup, soup, frames, 1.2, 4));
-    const Mesh points = degenerateMesh(60, 3, 8);
-    add("degenerate", points, points, engine, posesOf<S>(points, points, frames, 1.2, 5));
+  const int frames = 150;
+  add("falling", bentTorus(), knobbyTorus(), motion(fallingMotion(frames)));
+  add("spinning", bumpyBlob(), bentTorus(), motion(spinningMotion(frames / 2)));
+  const Mesh box = subdividedBox({1, 1.5, 2}, 6);
+  std::vector<Frame> grid;  // ties everywhere
+  for (int i = 0; i < frames; ++i) {
+    Frame f{fcl::Transform3d::Identity(), fcl::Transform3d::Identity()};
+    f.X_WB.translation() = fcl::Vector3d(i % 5 - 2, 1.75 - i % 3, (i % 7) * 0.5);
+    grid.push_back(f);
   }
+  add("boxes", box, box, motion(grid));
+  const Mesh soup = randomSoup(80, 1, 1e-2, 1, 3);
+  add("soup", soup, soup, posesOf<S>(soup, soup, frames, 1.2, 4));
+  const Mesh points = degenerateMesh(60, 3, 8);
+  add("degenerate", points, points, posesOf<S>(points, points, frames, 1.2, 5));
   return all;
 }
 
 template <typename S>
-bool sameAnswer(const DistanceAnswer<S>& a, const DistanceAnswer<S>& b) {
+bool sameAnswer(const DistanceBracketResult<S>& a, const DistanceBracketResult<S>& b) {
   return a.distance == b.distance && a.triangle_a == b.triangle_a && a.triangle_b == b.triangle_b &&
          a.point_a == b.point_a && a.point_b == b.point_b && a.lower_bound == b.lower_bound &&
          a.upper_bound == b.upper_bound && a.stop == b.stop;
@@ -76,31 +73,31 @@ TYPED_TEST(Distance, ExactAnswersDontDependOnTheStart) {
     SCOPED_TRACE(scene.name);
     WarmStart last;
     for (const auto& [X_WA, X_WB] : scene.poses) {
-      const auto cold = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB);
+      const auto cold = kios::distanceBracket(*scene.model_a, X_WA, *scene.model_b, X_WB);
       fcl::DistanceResult<S> result;
       SearchCounts counts;
       distanceMeshes(*scene.model_a, X_WA, *scene.model_b, X_WB, fcl::DistanceRequest<S>(true),
                      result, &counts);
       ASSERT_EQ(cold.distance, result.min_distance);
-      if (counts.tree_searches == 0) {
-        ASSERT_EQ(cold.triangle_a, result.b1);
-        ASSERT_EQ(cold.triangle_b, result.b2);
-        ASSERT_EQ(cold.counts.expansions, counts.expansions);
-        ASSERT_EQ(cold.counts.exact, counts.exact);
-      }
+      ASSERT_EQ(cold.triangle_a, result.b1);
+      ASSERT_EQ(cold.triangle_b, result.b2);
+      ASSERT_EQ(cold.counts.expansions, counts.expansions);
+      ASSERT_EQ(cold.counts.exact, counts.exact);
       WarmStart wrong = {static_cast<int>(random.uniform(-10, 1e4)),
                          static_cast<int>(random.uniform(-10, 1e2))};
       for (WarmStart* const start : {&last, &wrong}) {
-        DistanceOptions<S> options;
+        DistanceBracketRequest<S> options;
         options.warm_start = start;
-        const auto warm = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        const auto warm =
+            kios::distanceBracket(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
         ASSERT_EQ(start->triangle_a, cold.triangle_a);
         ASSERT_EQ(start->triangle_b, cold.triangle_b);
         ASSERT_TRUE(sameAnswer(warm, cold)) << warm.distance << " " << cold.distance;
         // Bounds that don't stop the search change nothing either, but what is proven.
         options.near_enough = S(0.5) * cold.distance;
         options.far_enough = 2 * cold.distance + S(1);
-        const auto bounded = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        const auto bounded =
+            kios::distanceBracket(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
         ASSERT_EQ(bounded.distance, cold.distance);
         if (cold.distance > 0) {
           ASSERT_EQ(bounded.triangle_a, cold.triangle_a);
@@ -119,13 +116,14 @@ TYPED_TEST(Distance, LargerBudgetsNeverGiveWiderBrackets) {
     for (std::size_t i = 0; i < scene.poses.size(); i += 5) {
       const auto& [X_WA, X_WB] = scene.poses[i];
       for (const S rel_err : {S(0), S(0.2)}) {
-        DistanceOptions<S> options;
+        DistanceBracketRequest<S> options;
         options.rel_err = rel_err;
-        DistanceAnswer<S> last;
+        DistanceBracketResult<S> last;
         bool finished = false;
         for (long long budget = 0; budget < 400; budget = budget * 5 / 4 + 1) {
           options.max_expansions = budget;
-          const auto answer = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+          const auto answer =
+              kios::distanceBracket(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
           ASSERT_LE(answer.counts.expansions, budget);
           ASSERT_GE(answer.lower_bound, last.lower_bound) << budget;
           ASSERT_LE(answer.distance, last.distance) << budget;
@@ -148,7 +146,7 @@ TYPED_TEST(Distance, TolerancesAreHonouredAndSaveWork) {
     for (const S e : {S(0), S(1e-2), S(0.1), S(0.5), S(10)}) {
       long long work = 0;
       for (const auto& [X_WA, X_WB] : scene.poses) {
-        const S exact = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB).distance;
+        const S exact = kios::distanceBracket(*scene.model_a, X_WA, *scene.model_b, X_WB).distance;
         fcl::DistanceRequest<S> request;
         request.rel_err = e;
         fcl::DistanceResult<S> result;
@@ -156,9 +154,10 @@ TYPED_TEST(Distance, TolerancesAreHonouredAndSaveWork) {
         distanceMeshes(*scene.model_a, X_WA, *scene.model_b, X_WB, request, result, &counts);
         ASSERT_LE(result.min_distance, double{exact} * (1 + double{e}) + 100 * eps * size);
         ASSERT_EQ(result.min_distance == 0, exact == 0);  // either tolerance, and 0 has none
-        DistanceOptions<S> options;
+        DistanceBracketRequest<S> options;
         options.abs_err = e;
-        const auto answer = kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
+        const auto answer =
+            kios::distanceBracket(*scene.model_a, X_WA, *scene.model_b, X_WB, options);
         ASSERT_LE(answer.distance, double{exact} + double{e} + 100 * eps * size);
         work += counts.volume_tests + answer.counts.volume_tests;
       }
@@ -168,42 +167,14 @@ TYPED_TEST(Distance, TolerancesAreHonouredAndSaveWork) {
   }
 }
 
-TYPED_TEST(Distance, ManyThreadsOneAnswer) {
-  using S = TypeParam;
-  const auto all = scenesOf<S>();
-  const auto& scene = all.front();
-  std::vector<std::vector<DistanceAnswer<S>>> all_answers(4);
-  together(4, [&](int thread) {
-    std::vector<DistanceAnswer<S>>& answers = all_answers[thread];
-    WarmStart warm;
-    for (const auto& [X_WA, X_WB] : scene.poses) {
-      DistanceOptions<S> options;
-      answers.push_back(kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options));
-      options.rel_err = S(0.1);
-      options.warm_start = &warm;
-      answers.push_back(kios::distance(*scene.model_a, X_WA, *scene.model_b, X_WB, options));
-      DistanceAnswer<S> proof;
-      closerThan(*scene.model_a, X_WA, *scene.model_b, X_WB, S(0.05), &proof);
-      answers.push_back(proof);
-    }
-  });
-  for (const auto& own : all_answers) {
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      ASSERT_EQ(own[i].distance, all_answers[0][i].distance);
-      ASSERT_EQ(own[i].lower_bound, all_answers[0][i].lower_bound);
-      ASSERT_EQ(own[i].triangle_a, all_answers[0][i].triangle_a);
-    }
-  }
-}
-
 TEST(DistanceOptionsTest, BadOnesAreRefused) {
   const auto model = modelOf<double>(scenes::bumpyTorus(200));
   const auto X = fcl::Transform3d::Identity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [&](const auto& change) {
-    DistanceOptions<double> options;
+    DistanceBracketRequest<double> options;
     change(options);
-    EXPECT_THROW(kios::distance(*model, X, *model, X, options), std::invalid_argument);
+    EXPECT_THROW(kios::distanceBracket(*model, X, *model, X, options), std::invalid_argument);
   };
   refused([](auto& o) { o.rel_err = -0.1; });
   refused([nan](auto& o) { o.rel_err = nan; });
@@ -215,9 +186,9 @@ TEST(DistanceOptionsTest, BadOnesAreRefused) {
   EXPECT_THROW(closerThan(*model, X, *model, X, nan), std::invalid_argument);
   fcl::Transform3d sheared = X;
   sheared.linear()(0, 1) = 0.1;
-  EXPECT_THROW(kios::distance(*model, X, *model, sheared), std::invalid_argument);
+  EXPECT_THROW(kios::distanceBracket(*model, X, *model, sheared), std::invalid_argument);
   EXPECT_THROW(closerThan(*model, X, *model, sheared, 1), std::invalid_argument);
-  EXPECT_THROW(kios::distance(Modeld(), X, *model, X), std::invalid_argument);
+  EXPECT_THROW(kios::distanceBracket(Modeld(), X, *model, X), std::invalid_argument);
   EXPECT_THROW(closerThan(Modeld(), X, *model, X, -1), std::invalid_argument);
 }
 
@@ -227,11 +198,11 @@ TEST(DistanceOptionsTest, NothingLookedAt) {
   fcl::Transform3d far = X;
   far.translation().x() = 100;
   for (const double far_enough : {0.0, -1.0, 50.0}) {
-    DistanceOptions<double> options;
+    DistanceBracketRequest<double> options;
     options.far_enough = far_enough;
     WarmStart warm = {7, 8};
     options.warm_start = &warm;
-    const auto answer = kios::distance(*model, X, *model, far, options);
+    const auto answer = kios::distanceBracket(*model, X, *model, far, options);
     EXPECT_EQ(answer.stop, DistanceStop::kFar);
     EXPECT_EQ(answer.distance, std::numeric_limits<double>::infinity());
     EXPECT_EQ(answer.triangle_a, -1);

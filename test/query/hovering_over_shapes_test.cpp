@@ -12,10 +12,11 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_kios/model/prepare.h"
-#include "fcl_kios/query/shape_queries.h"
+#include "fcl_kios/contact.h"
+#include "fcl_kios/model.h"
 #include "scalars.h"
 #include "scenes/cad_shapes.h"
+#include "scenes/shape_geometry.h"
 #include "shapes.h"
 
 namespace kios::testing {
@@ -31,17 +32,9 @@ struct FlatTop {
 template <typename S>
 std::vector<FlatTop<S>> flatTops() {
   const Mesh slab = scenes::subdividedBox({4, 4, 0.1}, 1);
-  auto points = std::make_shared<std::vector<fcl::Vector3<S>>>();
-  for (const fcl::Vector3d& v : slab.vertices) points->push_back(v.cast<S>());
-  auto faces = std::make_shared<std::vector<int>>();
-  for (const fcl::Triangle& t : slab.triangles) {
-    faces->insert(faces->end(),
-                  {3, static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
-  }
   return {{std::make_shared<fcl::Box<S>>(S(4), S(4), S(0.1)), 0.05},
           {std::make_shared<fcl::Cylinder<S>>(S(2), S(0.1)), 0.05},
-          {std::make_shared<fcl::Convex<S>>(points, static_cast<int>(slab.triangles.size()), faces),
-           0.05}};
+          {scenes::convexOf<S>(slab), 0.05}};
 }
 
 KIOS_SCALAR_SUITE(HoveringOverShapes);
@@ -58,7 +51,6 @@ TYPED_TEST(HoveringOverShapes, TheGapDecidesAndNoTriangleIsLookedAt) {
          {scenes::subdividedBox({0.3, 0.2, 0.15}, 1), scenes::stripCylinder(12, 0.3, 0.05),
           scenes::stripCylinder(60, 0.4, 0.015), scenes::uvSphere(0.2, 10, 12)}) {
       const auto model = makeModel<S>(MeshIn<S>(body).vertices, body.triangles);
-      prepare(*model);
       double low = std::numeric_limits<double>::infinity();
       for (const fcl::Vector3d& v : body.vertices) low = std::min(low, v.z());
       for (double gap = least; gap < 0.1; gap *= 3) {

@@ -64,7 +64,7 @@ TYPED_TEST(OwnOrigin, ErrorIsThatOfTheCommonFrame) {
       const long double in_world = (R2 * x_2 + t - R1 * p_1).norm();
 
       const auto a = pointModel<S>(p), b = pointModel<S>(x);
-      const DistanceAnswer<S> answer = kios::distance(*a, X_W1, *b, X_W2);
+      const DistanceBracketResult<S> answer = kios::distanceBracket(*a, X_W1, *b, X_W2);
       const double size = static_cast<double>(x_2.template lpNorm<1>() + t.norm());
       const auto error = static_cast<double>(std::abs((long double)(answer.distance) - exact));
       const double of_triangles =
@@ -114,7 +114,7 @@ TYPED_TEST(OwnOrigin, EqualRotationsLeaveNone) {
       for (const bool prepared : {false, true}) {
         if (prepared) prepare(*a), prepare(*b);
         if (longest > 7 * kUlp) continue;
-        EXPECT_EQ(kios::distance(*a, X, *b, X).distance, 0) << offset << ", " << k;
+        EXPECT_EQ(kios::distanceBracket(*a, X, *b, X).distance, 0) << offset << ", " << k;
         fcl::CollisionResult<S> result;
         EXPECT_EQ(fcl::collide(a.get(), X, b.get(), X, fcl::CollisionRequest<S>(), result), 1U)
             << offset << ", " << k;
@@ -128,7 +128,7 @@ TYPED_TEST(OwnOrigin, EqualRotationsLeaveNone) {
       const Long3 p_1 = p.template cast<long double>();
       const auto exact = static_cast<double>((R.transpose() * (R * p_1 + t) - p_1).norm());
       const double size = p.template lpNorm<1>() + static_cast<double>(t.norm());
-      EXPECT_NEAR(double{kios::distance(*at, X, *too, Y).distance}, exact,
+      EXPECT_NEAR(double{kios::distanceBracket(*at, X, *too, Y).distance}, exact,
                   32 * kUlp * exact + std::sqrt(3.0) * 8 * kUlp * size)
           << longest / kUlp;
     }

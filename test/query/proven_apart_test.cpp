@@ -17,7 +17,7 @@
 
 #include "all_pairs.h"
 #include "fcl/mesh_cases.h"
-#include "fcl_kios/query/shape_queries.h"
+#include "fcl_kios/contact.h"
 #include "floating_point_flags.h"
 #include "not_finite.h"
 #include "query/mesh_contacts.h"
@@ -225,11 +225,12 @@ struct ShapePair {
 
   /// Takes the exact distance, and moves the shape so that `gap` of it is left, or nearly so.
   void judge(double size, double gap, Told& sum) {
-    const PosedSolid<S> posed(toSolid(shape), X_WM, X_WS, model.getBV(0).bv);
+    const PosedSolid posed(toSolid(shape), X_WM, X_WS, meshOf(model));
     double distance = kInfinity;
     shape::Vec way = shape::Vec::Zero();
     for (int i = 0; i < model.num_tris; ++i) {
-      const auto d = shape::distance(posed.solid(), posed.place(cornersOf(model, i)), kInfinity);
+      const auto d =
+          shape::distance(posed.solid(), posed.place(cornersInDouble(model, i)), kInfinity);
       if (!(d.distance < distance)) continue;
       distance = d.distance;
       way = d.on_triangle - d.on_shape;
@@ -237,8 +238,8 @@ struct ShapePair {
     bool told = false;
     for (const double part : {0.0, 0.5, 0.999, 1.0, 1.001}) {
       const double margin = part * distance;
-      const bool off =
-          provenApart(model, X_WM, shape, X_WS, squaredRotationErrors(X_WS, X_WM), margin);
+      const bool off = provenApart(meshOf(model), X_WM, toSolid(shape), X_WS,
+                                   squaredRotationErrors(X_WS, X_WM), margin);
       sum.wrong += off && !(distance > margin);
       told |= off && part == 0.5;
     }
@@ -308,34 +309,31 @@ TEST_P(ProvenApartFromShape, BoundsTheDistanceInFloat) { tryAll<float>(GetParam(
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ProvenApartFromShape, ::testing::ValuesIn(kShapes), NameOfShape());
 
-// A convex shape is looked at before its vertices are checked.
 TEST(ProvenApartFromShape, IsNotOfVerticesThatAreNone) {
   const auto model = scenes::buildModel<kIOS<double>>(scenes::bumpyTorus(200));
   fcl::Transform3d X_WM = fcl::Transform3d::Identity();
   X_WM.translation().x() = 100;
-  const auto isOff = [&](const fcl::CollisionGeometryd& shape) {
-    return provenApart<double>(*model, X_WM, shape, fcl::Transform3d::Identity(), 0, 0);
+  const auto collides = [&](const fcl::CollisionGeometryd& shape) {
+    fcl::CollisionResultd result;
+    return collideShape<double>(*model, X_WM, shape, fcl::Transform3d::Identity(),
+                                fcl::CollisionRequestd(), result);
   };
   Random random(3);
   for (const double value : {kNaN, kInfinity, -kInfinity}) {
     for (int i = 0; i < 3; ++i) {
       ShapeSpec spec = randomShape(Shape::kConvex, random);
-      EXPECT_TRUE(isOff(*makeShape<double>(spec)));
+      EXPECT_EQ(collides(*makeShape<double>(spec)), 0U);
       spec.hull.vertices[static_cast<std::size_t>(3 * i % 6)][i] = value;
-      EXPECT_FALSE(isOff(*makeShape<double>(spec)));
+      EXPECT_THROW(collides(*makeShape<double>(spec)), std::invalid_argument);
     }
   }
   const auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
   const auto faces = std::make_shared<std::vector<int>>(std::vector<int>{3, 0, 1, 2});
   *vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const fcl::Convexd shape(vertices, 1, faces);
-  EXPECT_TRUE(isOff(shape));
+  EXPECT_EQ(collides(shape), 0U);
   vertices->clear();
-  EXPECT_FALSE(isOff(shape));
-  fcl::CollisionResultd result;
-  EXPECT_THROW(collideShape<double>(*model, X_WM, shape, fcl::Transform3d::Identity(),
-                                    fcl::CollisionRequestd(), result),
-               std::invalid_argument);
+  EXPECT_THROW(collides(shape), std::invalid_argument);
 }
 
 // Products of such lengths overflow, and their sums are then none.
@@ -356,7 +354,7 @@ TEST_P(ProvenApartFromShape, RaisesNoFlagsAtTheLargestLengths) {
         fcl::Transform3d X_WS = scenes::randomPoses(1, 1, 7)[0];
         X_WS.translation() = far * Vector3d(1, -1, 1);
         flags.during("provenApart", [&] {
-          provenApart(*model, fcl::Transform3d::Identity(), *shape, X_WS, 0, 0);
+          provenApart(meshOf(*model), fcl::Transform3d::Identity(), toSolid(*shape), X_WS, 0, 0);
         });
       }
     }

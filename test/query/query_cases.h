@@ -13,27 +13,15 @@
 #include "scenes/oracle.h"
 #include "shapes.h"
 
-// Pairs, poses and options for the tests of kios::distance and kios::closerThan.
+// Pairs, poses and options for the tests of kios::distanceBracket and kios::closerThan.
 
 namespace kios::testing {
 
 using scenes::Frame;
 
-/// A fitter that is not ours: its models have no prepared trees, and are searched in FCL's tree.
 template <typename S>
-class PlainFitter final : public fcl::detail::BVFitterBase<kIOS<S>> {
- public:
-  void set(fcl::Vector3<S>*, fcl::Triangle*, fcl::BVHModelType) override {}
-  void set(fcl::Vector3<S>*, fcl::Vector3<S>*, fcl::Triangle*, fcl::BVHModelType) override {}
-  kIOS<S> fit(unsigned int*, int) override { throw std::logic_error("built already"); }
-  void clear() override {}
-};
-
-template <typename S>
-std::shared_ptr<Model<S>> modelOf(const Mesh& mesh, bool own_fitter = true) {
-  const auto model = scenes::buildModel<kIOS<S>>(mesh);
-  if (!own_fitter) model->bv_fitter = std::make_shared<PlainFitter<S>>();
-  return model;
+std::shared_ptr<Model<S>> modelOf(const Mesh& mesh) {
+  return scenes::buildModel<kIOS<S>>(mesh);
 }
 
 /// Returns the mesh with vertices that S can hold.
@@ -73,8 +61,8 @@ std::vector<Poses<S>> posesOf(const Mesh& a, const Mesh& b, int count, double sp
 }
 
 template <typename S>
-DistanceOptions<S> randomOptions(Random& random, double exact, double length) {
-  DistanceOptions<S> options;
+DistanceBracketRequest<S> randomOptions(Random& random, double exact, double length) {
+  DistanceBracketRequest<S> options;
   const auto sometimes = [&random](double p) { return random.uniform(0, 1) < p; };
   const auto power = [&random](double low, double high) {
     return std::pow(10, random.uniform(low, high));
@@ -93,8 +81,8 @@ DistanceOptions<S> randomOptions(Random& random, double exact, double length) {
 
 /// Returns the fault of an answer, or nullptr.
 template <typename S>
-const char* faultOf(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options,
-                    double exact) {
+const char* faultOf(const DistanceBracketResult<S>& answer,
+                    const DistanceBracketRequest<S>& options, double exact) {
   const double lower = answer.lower_bound, distance = answer.distance, upper = answer.upper_bound;
   if (!(lower <= exact)) return "the lower bound exceeds the distance";
   if (!(upper >= exact)) return "the upper bound is below the distance";

@@ -9,8 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "fcl_kios/query/ray.h"
-#include "scenes/foreign_fitter.h"
+#include "fcl_kios/rays.h"
 #include "scenes/ray_oracle.h"
 #include "shapes.h"
 
@@ -20,17 +19,6 @@ namespace kios::testing {
 
 template <typename S>
 const fcl::Transform3<S> kIdentity = fcl::Transform3<S>::Identity();
-
-/// Returns a model whose fitter is the user's.
-template <typename S>
-std::shared_ptr<Model<S>> foreignModel(const Mesh& mesh) {
-  auto model = std::make_shared<Model<S>>();
-  model->bv_fitter.reset(new scenes::ForeignFitter<kIOS<S>>());
-  model->beginModel();
-  model->addSubModel(MeshIn<S>(mesh).vertices, mesh.triangles);
-  EXPECT_EQ(model->endModel(), fcl::BVH_OK);
-  return model;
-}
 
 struct ExactHit {
   int triangle;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Rays against meshes, by brute force with exact rational verdicts: the prepared tree and FCL's.
+// Rays against meshes, by brute force with exact rational verdicts.
 
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "model/deform.h"
 #include "query/ray_cases.h"
 #include "scalars.h"
 
@@ -25,29 +26,6 @@ TYPED_TEST(RayQuery, BruteForce) {
     for (int i = 0; i < 64; ++i) hits += expectBruteForce(*model, rays.next());
   }
   EXPECT_GT(hits, 2000u);
-}
-
-// Integers: vertices, edges and planes are met exactly.
-TYPED_TEST(RayQuery, ExactIncidences) {
-  using S = TypeParam;
-  Random random(9);
-  for (const Mesh& mesh : {scenes::subdividedBox({4, 4, 4}, 4), lattice(6, 1)}) {
-    const auto model = scenes::buildModel<kIOS<S>>(mesh);
-    std::size_t several = 0;
-    for (int i = 0; i < 300; ++i) {
-      const auto integers = [&](int n) {
-        fcl::Vector3<S> v;
-        for (int c = 0; c < 3; ++c) v[c] = std::floor(static_cast<S>(random.uniform(-n, n + 1)));
-        return v;
-      };
-      Ray<S> ray;
-      ray.origin = integers(6);
-      ray.direction = integers(2);
-      if (ray.direction.isZero(0)) continue;
-      several += expectBruteForce(*model, ray) > 2 ? 1 : 0;
-    }
-    EXPECT_GT(several, 15u);
-  }
 }
 
 // From inside a closed mesh every ray leaves it, and both ways; nothing passes at the vertices and
@@ -100,29 +78,6 @@ TYPED_TEST(RayQuery, OnePointHasOneParameter) {
     for (std::size_t k = 1; k < hits.size(); ++k) {
       if (hits[k].t == hits[k - 1].t) continue;
       EXPECT_GT((hits[k].point - hits[k - 1].point).norm(), S(1e-4));
-    }
-  }
-}
-
-TYPED_TEST(RayQuery, AnotherFitterAnswersBitwiseTheSame) {
-  using S = TypeParam;
-  for (const NamedMesh& named : unitMeshes()) {
-    SCOPED_TRACE(named.name);
-    const auto model = scenes::buildModel<kIOS<S>>(named.mesh);
-    const auto foreign = foreignModel<S>(named.mesh);
-    HardRays<S> rays(*model, 17);
-    for (const fcl::Transform3d& X_double : scenes::randomPoses(3, 1, 3)) {
-      const fcl::Transform3<S> X = X_double.cast<S>();
-      for (int i = 0; i < 16; ++i) {
-        Ray<S> ray = rays.next();
-        ray.origin = X * ray.origin;
-        ray.direction = X.linear() * ray.direction;
-        SearchCounts fast, slow;
-        const auto expected = askAll(*foreign, X, ray, &slow), hits = askAll(*model, X, ray, &fast);
-        EXPECT_EQ(fast.tree_searches, 0);
-        ASSERT_EQ(hits.size(), expected.size());
-        for (std::size_t k = 0; k < hits.size(); ++k) EXPECT_TRUE(same(hits[k], expected[k]));
-      }
     }
   }
 }
@@ -257,6 +212,32 @@ TYPED_TEST(RayQuery, TinyDirections) {
   EXPECT_FALSE(firstHit(*model, kIdentity<S>, ray));
   ray.origin[0] = -1;
   EXPECT_EQ(firstHit(*model, kIdentity<S>, ray)->t, 0);
+}
+
+TEST(RayModels, NeverStale) {
+  const Mesh mesh = scenes::bumpyTorus(200);
+  std::size_t hits = 0;
+  const auto expectRight = [&](const Modeld& model, std::uint64_t seed) {
+    HardRays<double> rays(model, seed);
+    for (int i = 0; i < 24; ++i) hits += expectBruteForce(model, rays.next());
+  };
+  for (const int way : {0, 1, 2, 3}) {
+    const auto replaced = kiosModel(mesh), updated = kiosModel(mesh);
+    Modeld copy(*replaced);
+    for (double phase = 0.5; phase < 3; phase += 0.5) {
+      replace(*replaced, swayed(mesh, phase), way % 2 == 0, way < 2);
+      update(*updated, swayed(mesh, -phase), way % 2 == 0, way < 2);
+      expectRight(*replaced, 3);
+      expectRight(*updated, 4);
+      expectRight(copy, 5);
+    }
+    for (int v = 0; v < copy.num_vertices; ++v) copy.vertices[v] += Vector3d(5, 0, 0);
+    verticesChanged(copy);
+    expectRight(copy, 2);
+    replaced->beginReplaceModel();
+    EXPECT_THROW(firstHit(*replaced, kIdentity<double>, Rayd()), std::invalid_argument);
+  }
+  EXPECT_GT(hits, 2000u);
 }
 
 }  // namespace

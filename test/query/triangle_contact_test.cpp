@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include <fcl/narrowphase/detail/traversal/collision/intersect.h>
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "scenes/random.h"
 
 namespace kios::testing {

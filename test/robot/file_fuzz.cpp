@@ -179,7 +179,7 @@ void ask(const Robot& robot, Random& random) {
 void ask(const std::shared_ptr<Modeld>& mesh, const Modeld& sound, Random& random) {
   fcl::Transform3d X = fcl::Transform3d::Identity();
   X.translation() = Vector3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
-  const double d = distance(*mesh, X, sound, fcl::Transform3d::Identity()).distance;
+  const double d = distanceBracket(*mesh, X, sound, fcl::Transform3d::Identity()).distance;
   const bool close = closerThan(*mesh, X, sound, fcl::Transform3d::Identity(), 0.1);
   if (std::isnan(d) || d < 0 || (close && d > 0.1 * (1 + 1e-9))) throw std::logic_error("distance");
   fcl::CollisionResultd contacts;

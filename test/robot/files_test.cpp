@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// What URDF, SRDF, meshes and scenes become, by small files that the tests write.
+// What URDF, meshes and scenes become, by small files that the tests write.
 
 #include <cmath>
 #include <limits>
@@ -161,7 +161,7 @@ TEST(RobotFiles, PackagesAreLookedForWhereRosHasThem) {
   const std::string urdf = folder.write(
       "far/r.urdf",
       "<robot name='r'>" + link("a", "<mesh filename='package://pack/m/box.obj'/>") + "</robot>");
-  expectRefused([&] { loadRobot(urdf); }, "RobotOptions::packages");
+  expectRefused([&] { loadRobot(urdf); }, "in `packages`");
   RobotOptions options;
   options.packages["pack"] = folder / "ws/share/pack";
   EXPECT_EQ(loadRobot(urdf, "", options).links().size(), 1u);
@@ -183,45 +183,6 @@ TEST(RobotFiles, PackagesMayHaveThreeSlashes) {
                    "<robot name='r'><link name='a'><collision><geometry><mesh "
                    "filename='package:///pkg/part.obj'/></geometry></collision></link></robot>");
   EXPECT_EQ(loadRobot(file).elements().size(), 1u);
-}
-
-TEST(RobotFiles, AnSrdfAllowsPairsAndNamesStates) {
-  const Folder folder;
-  const std::string urdf = manyJoints(folder);
-  const Robot robot = loadRobot(
-      urdf, folder.write("arm.srdf",
-                         "<robot name='arm'><virtual_joint name='v' type='fixed'/>"
-                         "<disable_collisions link1='cart' link2='upper' reason='Never'/>"
-                         "<disable_default_collisions link='left'/>"
-                         "<enable_collisions link1='base' link2='left'/>"
-                         "<disable_collisions link1='gone' link2='upper'/>"
-                         "<group_state name='home' group='g'><joint name='elbow' value='1.5'/>"
-                         "<joint name='drive' value='1 2 3'/><joint name='wrist' value='9'/>"
-                         "<joint name='v' value='9'/></group_state>"
-                         "<group_state name='odd' group='g'><joint name='none' value='1'/>"
-                         "</group_state></robot>"));
-  EXPECT_TRUE(robot.allowed("upper", "cart"));
-  EXPECT_FALSE(robot.allowed("cart", "turret"));
-  EXPECT_TRUE(robot.allowed("left", "right"));
-  EXPECT_FALSE(robot.allowed("left", "base"));
-  VectorXd home(8);
-  home << 1, 2, 3, 0, 0, 1.5, 0, 0;
-  EXPECT_EQ(robot.state("home"), home);
-  expectRefused([&] { robot.state("odd"); }, "none");
-  expectRefused([&] { robot.state("hom"); }, "home");
-}
-
-// The limit next to 0 where 0 is beyond.
-TEST(RobotFiles, StatesBeginWithinTheLimits) {
-  const Folder folder;
-  const Robot robot = loadRobot(
-      folder.write("r.urdf",
-                   "<robot name='r'>" + link("a") + link("b") + link("c") +
-                       joint("j", "revolute", "a", "b", "<limit lower='1' upper='2'/>") +
-                       joint("k", "revolute", "b", "c", "<limit lower='-2' upper='-1'/>") +
-                       "</robot>"),
-      folder.write("r.srdf", "<robot name='r'><group_state name='s' group='g'/></robot>"));
-  EXPECT_EQ(robot.state("s"), Eigen::Vector2d(1, -1));
 }
 
 TEST(RobotFiles, ScenesHoldObjectsAttachedOnesAndAllowedPairs) {
@@ -275,6 +236,15 @@ world:
       1e-14);
   EXPECT_TRUE(robot.allowed("cup", "slide"));
   EXPECT_FALSE(robot.allowed("cup", "right"));
+  // What it may touch, it may as long as it is attached.
+  Robot other = robot;
+  other.detach("cup", q);
+  EXPECT_FALSE(other.allowed("cup", "slide"));
+  other = robot;
+  other.addScene(folder.write("cup.yaml",
+                              "world:\n  collision_objects:\n    - {id: cup, "
+                              "primitives: [{type: sphere, dimensions: [0.1]}]}\n"));
+  EXPECT_FALSE(other.allowed("cup", "slide"));
   EXPECT_TRUE(robot.allowed("shelf", "base"));
   EXPECT_FALSE(robot.allowed("base", "cart"));  // joined, but the matrix says no
   EXPECT_TRUE(robot.allowed("turret", "cart"));
@@ -299,6 +269,38 @@ world:
   EXPECT_TRUE(robot.contact(q).has_value());
   EXPECT_EQ(robot.clearance(q).clearance, 0);
   expectRefused([&] { robot.remove("upper"); }, "link");
+}
+
+TEST(RobotFiles, LimitsThatAreHugeAreNone) {
+  const Folder folder;
+  const auto load = [&](const std::string& type, const std::string& lower,
+                        const std::string& upper) {
+    return loadRobot(folder.write(
+        "one.urdf",
+        "<robot name='one'>" + link("a") + link("b") +
+            joint("j", type, "a", "b", "<limit lower='" + lower + "' upper='" + upper + "'/>") +
+            "</robot>"));
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const char* const huge : {"1e16", "inf", "3.4e38", "Infinity"}) {
+    const Robot robot = load("revolute", "-" + std::string(huge), huge);
+    EXPECT_EQ(robot.lower()[0], -infinity);
+    EXPECT_EQ(robot.upper()[0], infinity);
+    EXPECT_TRUE(robot.withinLimits(VectorXd::Constant(1, 1e9)));
+  }
+  const Robot robot = load("revolute", "-7", "2");
+  EXPECT_TRUE(robot.withinLimits(VectorXd::Constant(1, 2)));
+  EXPECT_TRUE(robot.withinLimits(VectorXd::Constant(1, -7)));
+  EXPECT_FALSE(robot.withinLimits(VectorXd::Constant(1, std::nextafter(2, 3))));
+  EXPECT_FALSE(robot.withinLimits(VectorXd::Constant(1, -7.5)));
+  EXPECT_TRUE(robot.withinLimits(VectorXd::Constant(1, -7.5), 0.5));
+  expectRefused([&] { robot.withinLimits(VectorXd::Zero(1), -1); }, "slack");
+  expectRefused([&] { robot.withinLimits(VectorXd::Zero(2)); }, "2 coordinates");
+  EXPECT_EQ(load("prismatic", "-1e16", "1e16").upper()[0], 1e16);
+  expectRefused([&] { load("prismatic", "-inf", "inf"); }, "infinite");
+  expectRefused([&] { load("revolute", "0", "inf"); }, "infinite");
+  expectRefused([&] { load("revolute", "inf", "inf"); }, "exceeds");
+  expectRefused([&] { load("revolute", "nan", "1"); }, "finite");
 }
 
 }  // namespace

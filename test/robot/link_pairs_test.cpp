@@ -26,7 +26,7 @@ bool meetAt(Robot& alone, const LinkPair& pair, const VectorXd& q) {
 Robot strict(Robot robot) {
   for (const std::string& a : robot.links()) {
     for (const std::string& b : robot.links()) {
-      if (a != b) robot.allow(a, b, false);
+      if (a != b) robot.ignorePair(a, b, false);
     }
   }
   return robot;
@@ -75,7 +75,7 @@ TEST(LinkPairs, MotionBenchMakersRobotsAreSettled) {
 TEST(LinkPairs, AllShapesAndJoints) {
   const Folder folder;
   const Robot robot = loadRobot(manyJoints(folder));
-  PairOptions options;
+  PairRequest options;
   options.max_boxes = 300000;
   options.max_seconds = std::numeric_limits<double>::infinity();
   const auto pairs = robot.linkPairs(options);
@@ -120,12 +120,12 @@ TEST(LinkPairs, SmallGapsAreProvenAndSmallOverlapsFound) {
     Robot alone = strict(robot);
     EXPECT_TRUE(meetAt(alone, meet[0], meet[0].q));
   }
-  PairOptions none;
+  PairRequest none;
   none.max_boxes = 3;
   EXPECT_EQ(swinging(folder, 0.001).linkPairs(none)[0].verdict, PairVerdict::kOpen);
   none.max_boxes = -1;
   expectRefused([&] { swinging(folder, 1).linkPairs(none); }, "max_boxes");
-  PairOptions late;
+  PairRequest late;
   late.max_seconds = 0;
   EXPECT_EQ(swinging(folder, 1e-7).linkPairs(late)[0].verdict, PairVerdict::kOpen);
   late.max_seconds = -1;
@@ -146,7 +146,7 @@ TEST(LinkPairs, PairsThatAlwaysOverlapAreFoundAndIgnored) {
   const VectorXd q = VectorXd::Zero(3);
   EXPECT_TRUE(robot.contact(q));
   std::vector<std::size_t> settled;
-  PairOptions options;
+  PairRequest options;
   options.threads = 1;
   options.progress = [&](std::size_t done, std::size_t all) {
     EXPECT_EQ(all, 3u);
@@ -168,6 +168,39 @@ TEST(LinkPairs, PairsThatAlwaysOverlapAreFoundAndIgnored) {
   other.a = "a<";
   other.b = "e";
   expectRefused([&] { robot.ignore({other}); }, "'e'");
+}
+
+// What an SRDF has beside pairs stays, and what it knows of them but for what is proven wrong.
+TEST(LinkPairs, ASrdfIsWrittenWithItsGroups) {
+  const Folder folder;
+  const std::string ball = "<sphere radius='0.1'/>";
+  const std::string urdf = folder.write(
+      "o.urdf", "<robot name='o'>" + link("a", ball) + link("b &amp; c", ball) + link("d", ball) +
+                    link("e", ball) +
+                    joint("j", "fixed", "a", "b &amp; c", "<origin xyz='1 0 0'/>") +
+                    joint("k", "prismatic", "b &amp; c", "d",
+                          "<axis xyz='1 0 0'/><limit lower='-0.9' upper='0.9'/>") +
+                    joint("l", "fixed", "b &amp; c", "e", "<origin xyz='0 2 0'/>") + "</robot>");
+  const std::string old = folder.write(
+      "old.srdf",
+      "<robot name='o'><group name='arm'><chain base_link='a' tip_link='d'/></group>"
+      "<group_state name='home' group='arm'><joint name='k' value='0.5'/></group_state>"
+      "<end_effector name='hand' parent_link='d' group='arm' parent_group='arm'/>"
+      "<disable_collisions link1='a' link2='d' reason='Never'/>"
+      "<disable_collisions link1='a' link2='e' reason='User'/>"
+      "<disable_collisions link1='d' link2='e' reason='Default'/></robot>");
+  const Robot robot = loadRobot(urdf, old);
+  const std::string text = robot.toSrdf(robot.linkPairs());
+  const Robot again = loadRobot(urdf, folder.write("new.srdf", text));
+  EXPECT_TRUE(again.warnings().empty());
+  EXPECT_EQ(again.state("home")[0], 0.5);
+  EXPECT_EQ(again.group("arm").coordinates, robot.group("arm").coordinates);
+  EXPECT_EQ(again.group("arm").end_effectors, std::vector<std::string>{"arm"});
+  EXPECT_NE(text.find("link1=\"a\" link2=\"b &amp; c\" reason=\"Adjacent\""), std::string::npos);
+  EXPECT_NE(text.find("link1=\"a\" link2=\"e\" reason=\"Never\""), std::string::npos);
+  EXPECT_FALSE(again.allowed("a", "d")) << "they meet, whatever the file says";
+  EXPECT_EQ(again.toSrdf({}), text);
+  EXPECT_NE(robot.toSrdf({}).find("reason=\"User\""), std::string::npos);
 }
 
 // The tip of a mesh reaches a ball at one angle only, which no sample finds.

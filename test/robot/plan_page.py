@@ -28,6 +28,15 @@ def test(page):
     page.require("with them it looks as before", page.changed() == 0)
     page.slide("path", stops[3])
     page.require("the slider moves the robot among them", page.changed() > 0.003)
+    # The curve holds what the slider shows, and leads along the path.
+    page.require("the band holds what is seen", browser.value("""content.band.every((step, i) =>
+      step[0] > 0 && step[0] <= step[1] && [i, i + 1].every((k) => frames[k].clearance >= step[0]))"""))
+    browser.value("""(() => {
+      const box = document.querySelector('.curve svg').getBoundingClientRect();
+      document.querySelector('.curve').dispatchEvent(new MouseEvent('click',
+        {clientX: box.left + 0.5 * box.width, clientY: box.top + 5})); })()""")
+    place = browser.value("frames[shown.place].at")
+    page.require("a click on the curve leads to %.2f of the path" % place, abs(place - 0.5) < 0.02)
     page.slide("path", 0)
     page.require("back at the start it looks as before", page.changed() == 0)
 

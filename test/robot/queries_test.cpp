@@ -116,32 +116,10 @@ TEST(RobotQueries, GradientsAreThoseOfDifferences) {
   expectGradients(panda, 100, 3);
 }
 
-TEST(RobotQueries, TheLeastClearanceIsThatOfAllPairs) {
-  const Folder folder;
-  Robot robot = cluttered(folder);
-  Random random(2);
-  for (int i = 0; i < 200; ++i) {
-    VectorXd q = randomConfiguration(robot, random);
-    q.head(2) *= 0.4;
-    const RobotClearance least = robot.clearance(q);
-    const auto all = robot.clearances(q, kInfinity);
-    ASSERT_FALSE(all.empty());
-    EXPECT_EQ(all.front().clearance, least.clearance);
-    EXPECT_TRUE(std::is_sorted(all.begin(), all.end(), [](const auto& a, const auto& b) {
-      return a.clearance < b.clearance;
-    }));
-    const double within = all[all.size() / 2].clearance;
-    const auto some = robot.clearances(q, within);
-    std::size_t expected = 0;
-    for (const auto& pair : all) expected += pair.clearance <= within ? 1 : 0;
-    EXPECT_EQ(some.size(), expected);
-  }
-}
-
 TEST(RobotQueries, ClearanceToItselfAndToObstaclesApart) {
   const Folder folder;
   Robot robot = loadRobot(manyJoints(folder));
-  ClearanceOptions itself, obstacles;
+  ClearanceRequest itself, obstacles;
   itself.among = RobotPairs::kItself;
   obstacles.among = RobotPairs::kObstacles;
   Random random(4);
@@ -204,36 +182,20 @@ TEST(RobotQueries, PaddingIsTakenFromDistances) {
   EXPECT_NEAR(all.clearance(q).clearance, none.clearance(q).clearance - 0.02, 1e-15);
 }
 
-TEST(RobotQueries, MotionsAreProvenOrMeetContacts) {
+TEST(RobotQueries, MotionsBeyondLimitsAreRefusedWhereAsked) {
   const Folder folder;
-  const Robot robot = cluttered(folder);
-  Random random(6);
-  int clear = 0, contact = 0;
-  for (int i = 0; i < 200; ++i) {
-    const VectorXd q0 = free(robot, random);
-    VectorXd q1 = q0;
-    for (int k = 0; k < q1.size(); ++k) q1[k] += random.uniform(-0.5, 0.5);
-    const RobotMotion motion = robot.checkMotion(q0, q1);
-    MotionRequest request;
-    request.first_contact = true;
-    const RobotMotion first = robot.checkMotion(q0, q1, request);
-    EXPECT_EQ(first.verdict == MotionVerdict::kClear, motion.verdict == MotionVerdict::kClear);
-    if (first.verdict == MotionVerdict::kUnresolved) continue;
-    if (motion.verdict == MotionVerdict::kClear) {
-      ++clear;
-      for (int s = 0; s <= 50; ++s) EXPECT_FALSE(robot.contact(q0 + 0.02 * s * (q1 - q0)));
-    } else if (motion.verdict == MotionVerdict::kContact) {
-      ++contact;
-      const VectorXd at = motion.to == 1 ? q1 : VectorXd(q0 + motion.to * (q1 - q0));
-      EXPECT_TRUE(robot.contact(at).has_value()) << motion.a << " " << motion.b;
-      EXPECT_LE(first.from, motion.to);
-      for (int s = 0; s < 50; ++s) {
-        EXPECT_FALSE(robot.contact(q0 + 0.02 * s * first.from * (q1 - q0)));
-      }
-    }
-  }
-  EXPECT_GT(clear, 20);
-  EXPECT_GT(contact, 20);
+  const Robot robot = loadRobot(manyJoints(folder));
+  const VectorXd q0 = VectorXd::Zero(8);
+  VectorXd q1 = q0;
+  q1[5] = 2.6;  // the elbow, up to 2.5
+  RobotMotionRequest request;
+  robot.checkMotion(q0, q1, request);
+  request.within_limits = true;
+  robot.checkMotion(q0, q0, request);
+  expectRefused([&] { robot.checkMotion(q0, q1, request); },
+                "q1 is beyond the limits of the joint 'elbow'");
+  expectRefused([&] { robot.checkMotion(q1, q0, request); }, "q0 is beyond");
+  expectRefused([&] { robot.checkMotions(q0, q1, request); }, "q1, column 0, is beyond");
 }
 
 TEST(RobotQueries, BatchesAnswerAsOneByOne) {

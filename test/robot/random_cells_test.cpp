@@ -74,7 +74,7 @@ class Case {
     for (const Thing& a : things_) {
       for (const Thing& b : things_) {
         if (a.name < b.name && !isMesh(a.geometry) && !isMesh(b.geometry)) {
-          robot_.allow(a.name, b.name);
+          robot_.ignorePair(a.name, b.name);
         }
       }
     }
@@ -164,7 +164,7 @@ class Case {
     if (!clearances_.empty()) {
       EXPECT_NEAR(exact.clearance, least(), rounding_);
     }
-    ClearanceOptions options;
+    ClearanceRequest options;
     options.rel_err = random_.unit() < 0.5 ? 0 : random_.uniform(0, 2);
     options.abs_err = random_.unit() < 0.5 ? 0 : scale_ * random_.uniform(0, 0.1);
     if (random_.unit() < 0.5) options.far_enough = scale_ * random_.uniform(-0.2, 1);

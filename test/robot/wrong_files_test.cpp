@@ -111,6 +111,7 @@ TEST(WrongRobotFiles, BadScenesAreRefusedAndChangeNothing) {
   const std::pair<std::string, const char*> cases[] = {
       {"{", "no YAML"},
       {"[1, 2]", "planning scene"},
+      {"cell\n* shelf\n0 0 0\n0 0 0 1\n1\nbox\n1 1 1\n.\n", "MoveIt's text format"},
       {"a: b", "planning scene"},
       {"world: 3", "map"},
       {"world: {collision_objects: 3}", "list"},
@@ -132,9 +133,11 @@ TEST(WrongRobotFiles, BadScenesAreRefusedAndChangeNothing) {
        "primitive_poses"},
       {object + "      header: {frame_id: upper}\n      primitives: [{type: sphere, dimensions: "
                 "[1]}]",
-       "upper"},
+       "the joint 'shoulder' moves the frame 'upper'"},
       {object + "      meshes: [{vertices: [[0, 0, 0]], triangles: [[0, 0, 1]]}]", "indices"},
       {object + "      meshes: [{vertices: [[0, 0, 0]], triangles: []}]", "without triangles"},
+      {object + "      meshes: [{mesh_resource: part.stl}]", "a mesh_resource isn't read"},
+      {"world: {octomap: {octomap: {data: [1]}}}", "as a file, .bt or .ot"},
       {object + "      operation: MOVE", "ADD"},
       {"world: {collision_objects: [{id: upper, primitives: []}]}", "link's name"},
       {"robot_state: {attached_collision_objects: [{link_name: none}]}", "none"},

@@ -11,7 +11,7 @@
 #include <functional>
 
 #include "fcl/mesh_cases.h"
-#include "fcl_kios/scene/manager_query.h"
+#include "fcl_kios/scene.h"
 
 namespace kios::testing {
 namespace {
@@ -161,8 +161,8 @@ TEST(ShapesOfScenes, AreComparedByTheirSizes) {
   box->side[1] = 1.5;  // the same
   scene.clearances();
   EXPECT_EQ(scene.counts().queried, 0);
-  EXPECT_THROW(scene.exclude(1, 1), std::invalid_argument);
-  EXPECT_NO_THROW(scene.exclude(1, 2));
+  EXPECT_THROW(scene.ignorePair(1, 1), std::invalid_argument);
+  EXPECT_NO_THROW(scene.ignorePair(1, 2));
 }
 
 }  // namespace

@@ -3,12 +3,11 @@
 //
 // The callback for FCL's managers, against fcl::distance over all pairs.
 
-#include "fcl_kios/scene/manager_query.h"
+#include "fcl_kios/scene.h"
 
 #include <fcl/broadphase/broadphase_SSaP.h>
 #include <fcl/broadphase/broadphase_bruteforce.h>
 
-#include "fcl_kios/scene/scene_distance.h"
 #include "model/deform.h"
 #include "scenes/random.h"
 
@@ -38,75 +37,11 @@ class Bodies {
     fcl::DistanceResultd result;
     return fcl::distance(a, b, fcl::DistanceRequestd(), result);
   }
-  /// Returns those of all pairs, least first.
-  std::vector<double> distances() const {
-    std::vector<double> all;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-      for (std::size_t j = i + 1; j < objects.size(); ++j) {
-        all.push_back(distance(objects[i].get(), objects[j].get()));
-      }
-    }
-    std::sort(all.begin(), all.end());
-    return all;
-  }
 
   std::vector<Mesh> meshes;
   std::vector<std::shared_ptr<Modeld>> models;
   std::vector<std::unique_ptr<Object>> objects;
 };
-
-template <typename Manager>
-class ManagerQueryOf : public ::testing::Test {};
-using Managers = ::testing::Types<fcl::DynamicAABBTreeCollisionManagerd, fcl::SSaPCollisionManagerd,
-                                  fcl::NaiveCollisionManagerd>;
-TYPED_TEST_SUITE(ManagerQueryOf, Managers);
-
-// A manager's order of a pair need not be the test's, and the distance may differ by rounding.
-constexpr double kOrder = 1e-12;
-
-TYPED_TEST(ManagerQueryOf, EqualsBruteForceOverFrames) {
-  Bodies bodies(9, 3, 5);
-  TypeParam manager;
-  for (const auto& object : bodies.objects) manager.registerObject(object.get());
-  manager.setup();
-  Query query;
-  scenes::Random random(8);
-  long long skipped = 0;
-  for (int frame = 0; frame < 120; ++frame) {
-    for (int i = 0; i < 9; ++i) {
-      if (random.unit() < 0.6) continue;
-      Transform3d X = bodies.objects[i]->getTransform();
-      X.translation().x() += random.uniform(-0.02, 0.02);
-      bodies.place(i, random.unit() < 0.02 ? scenes::randomPoses(1, 3, frame)[0] : X);
-    }
-    if (frame % 20 == 10) {
-      const int i = frame / 20;
-      replace(*bodies.models[i], swayed(bodies.meshes[i], frame), frame % 40 == 10, true);
-      bodies.models[i]->computeLocalAABB();
-      bodies.objects[i]->computeAABB();
-    }
-    manager.update();
-    const auto truth = bodies.distances();
-
-    query.findClosest();
-    manager.distance(&query, Query::callback);
-    ASSERT_EQ(query.pairs().size(), 1u);
-    const auto& closest = query.pairs()[0];
-    EXPECT_NEAR(closest.distance, truth[0], kOrder);
-    EXPECT_EQ(closest.distance, Bodies::distance(closest.a, closest.b));
-    skipped += query.counts().skipped();
-
-    const double margin = random.uniform(0, 2);
-    query.findWithin(margin);
-    manager.distance(&query, Query::callback);
-    const auto within = std::lower_bound(truth.begin(), truth.end(), margin) - truth.begin();
-    ASSERT_EQ(query.pairs().size(), static_cast<std::size_t>(within)) << frame;
-    for (const auto& pair : query.pairs()) {
-      EXPECT_EQ(pair.distance, Bodies::distance(pair.a, pair.b));
-    }
-  }
-  EXPECT_GT(skipped, 100);
-}
 
 // Each answer is that of the order in which the manager gave the pair, whichever was first.
 TEST(ManagerQuery, KeepsTheManagersOrder) {

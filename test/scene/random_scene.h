@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/scene/scene_distance.h"
+#include "fcl_kios/scene.h"
 #include "model/deform.h"
 #include "scenes/cad_shapes.h"
 #include "scenes/random.h"
@@ -184,7 +184,7 @@ class RandomScene {
     const auto [low, high] = std::minmax({a, b});
     const bool exclude = excluded_.insert({low, high}).second;
     if (!exclude) excluded_.erase({low, high});
-    scene_.exclude(b, a, exclude);
+    scene_.ignorePair(b, a, exclude);
   }
 
   void changeFilter() {

@@ -170,7 +170,7 @@ TEST(SceneRefuses, BadInput) {
   EXPECT_THROW(scene.add(model, bad), std::invalid_argument);
   EXPECT_THROW(scene.move(id + 1, at(0)), std::invalid_argument);
   EXPECT_THROW(scene.remove(-1), std::invalid_argument);
-  EXPECT_THROW(scene.exclude(id, 7), std::invalid_argument);
+  EXPECT_THROW(scene.ignorePair(id, 7), std::invalid_argument);
   EXPECT_THROW(scene.pairsWithin(std::nan("")), std::invalid_argument);
   EXPECT_THROW(scene.add(std::shared_ptr<Modeld>(), at(0)), std::invalid_argument);
   EXPECT_THROW(scene.add(std::make_shared<Modeld>(), at(0)), std::invalid_argument);
@@ -203,43 +203,6 @@ TEST(SceneRefuses, BadInput) {
   EXPECT_EQ(closest->a, id);
   EXPECT_EQ(closest->b, far);
   EXPECT_EQ(closest->distance, 0);
-}
-
-TEST(SceneOf, FloatModelsEqualBruteForce) {
-  const Mesh mesh = scenes::bumpyTorus(200);
-  const auto model = scenes::buildModel<kIOSf>(mesh);
-  SceneDistance<float> scene;
-  std::vector<fcl::Transform3f> poses(6, fcl::Transform3f::Identity());
-  for (const auto& pose : poses) scene.add(model, pose);
-  scenes::Random random(3);
-  for (int frame = 0; frame < 400; ++frame) {
-    const double step = std::pow(10, random.uniform(-6, 0.5));
-    for (int i = 0; i < 6; ++i) {
-      poses[i].translation()[i % 3] += static_cast<float>(step * random.uniform(-1, 1));
-      const auto turn = static_cast<float>(step * random.uniform(-1, 1));
-      poses[i].linear() =
-          fcl::AngleAxisf(turn + static_cast<float>(i), fcl::Vector3f::UnitX()).matrix();
-      scene.move(i, poses[i]);
-    }
-    const auto margin = static_cast<float>(random.uniform(0, 1));
-    std::vector<std::tuple<int, int, float>> expected, found;
-    float least = std::numeric_limits<float>::max();
-    for (int a = 0; a < 6; ++a) {
-      for (int b = a + 1; b < 6; ++b) {
-        fcl::DistanceResultf result;
-        const float d = fcl::distance(model.get(), poses[a], model.get(), poses[b],
-                                      fcl::DistanceRequestf(), result);
-        least = std::min(least, d);
-        if (d < margin) expected.emplace_back(a, b, d);
-      }
-    }
-    for (const auto& pair : scene.pairsWithin(margin)) {
-      found.emplace_back(pair.a, pair.b, pair.distance);
-    }
-    EXPECT_EQ(found, expected) << frame;
-    EXPECT_EQ(scene.closestPair()->distance, least) << frame;
-    EXPECT_EQ(scene.clearances().size(), 15u);
-  }
 }
 
 TEST(SceneOf, ShapesOfFclEqualBruteForce) {

@@ -8,7 +8,7 @@
 
 #include <limits>
 
-#include "fcl_kios/triangle/distance.h"
+#include "fcl_kios/triangle.h"
 #include "search/prepared_pair.h"
 
 namespace kios::testing {

@@ -11,8 +11,8 @@
 #include <set>
 #include <utility>
 
-#include "fcl_kios/model/prepare.h"
-#include "fcl_kios/query/octree_queries.h"
+#include "fcl_kios/contact.h"
+#include "fcl_kios/model.h"
 #include "model/prepared.h"
 #include "query/cell_tree.h"
 #include "query/posed_solid.h"
@@ -56,26 +56,24 @@ std::shared_ptr<octomap::OcTree> makeTree(double resolution, const Eigen::Vector
 
 template <typename S>
 void bruteForce(const fcl::OcTree<S>& octree, const octomap::OcTreeNode* node,
-                const fcl::AABB<S>& box, const Model<S>& model, const PosedSolid<S>& posed,
+                const engine::Cell& cell, const Model<S>& model, const PosedSolid& posed,
                 Pairs& found) {
   if (octree.nodeHasChildren(node)) {
     for (unsigned int i = 0; i < 8; ++i) {
       if (!octree.nodeChildExists(node, i)) continue;
-      fcl::AABB<S> child;
-      fcl::computeChildBV(box, i, child);
-      bruteForce(octree, octree.getNodeChild(node, i), child, model, posed, found);
+      bruteForce(octree, octree.getNodeChild(node, i), cell.child(i, nullptr, false), model, posed,
+                 found);
     }
     return;
   }
   if (!octree.isNodeOccupied(node)) return;
-  const double unit = posed.toUnits(1);
+  const double unit = posed.solid().half.x() / engine::kRootHalf;
   shape::Solid solid;
   solid.kind = shape::Kind::kBox;
-  const shape::Vec low = box.min_.template cast<double>(), high = box.max_.template cast<double>();
-  const shape::Vec center = (0.5 * (low + high)) * unit;
-  solid.half = (0.5 * (high - low)) * unit;
+  const shape::Vec center = unit * shape::Vec(cell.x, cell.y, cell.z);
+  solid.half.setConstant(unit * cell.half);
   for (int id = 0; id < model.num_tris; ++id) {
-    shape::Triangle t = posed.place(cornersOf(model, id));
+    shape::Triangle t = posed.place(cornersInDouble(model, id));
     for (shape::Vec& p : t) p -= center;
     if (shape::intersects(solid, t)) found.emplace(node - octree.getRoot(), id);
   }
@@ -162,9 +160,10 @@ class Cells : public ::testing::Test {
         }
         X_OM.translation() += middle;
         const fcl::Transform3<S> X_WOs(X_WO.cast<S>()), X_WM((X_WO * X_OM).cast<S>());
-        const PosedSolid<S> posed(rootCube(octree), X_WM, X_WOs, prepared->getBV(0).bv);
+        const PosedSolid posed(rootCube(octree), X_WM, X_WOs, meshOf(*prepared));
         Pairs expected;
-        bruteForce(octree, octree.getRoot(), octree.getRootBV(), *prepared, posed, expected);
+        bruteForce(octree, octree.getRoot(), {nullptr, 0, 0, 0, engine::kRootHalf, 0}, *prepared,
+                   posed, expected);
         const auto fresh = scenes::buildModel<kIOS<S>>(transformed(mesh, 1 + 1e-14, {0, 0, 0}));
         EXPECT_EQ(contacts(octree, X_WOs, *prepared, X_WM, 1000000), expected);
         EXPECT_EQ(contacts(octree, X_WOs, *foreign, X_WM, 1000000), expected);

@@ -40,8 +40,8 @@ class PosedPair {
 
   /// Returns false if floats can't serve the pair there.
   bool pose(const fcl::Transform3<S>& X_A, const fcl::Transform3<S>& X_B) {
-    pair_.emplace(kios::Mesh(viewOf(a), *tree_a, kIOS<S>()), X_A,
-                  kios::Mesh(viewOf(b), *tree_b, kIOS<S>()), X_B);
+    pair_.emplace(kios::Mesh(viewOf(a), *tree_a, kIOS<S>(), nullptr), X_A,
+                  kios::Mesh(viewOf(b), *tree_b, kIOS<S>(), nullptr), X_B);
     return pair_->floats_serve;
   }
   const MeshPair& pair() const { return *pair_; }

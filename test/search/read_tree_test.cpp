@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "fcl_kios/fcl_kios.h"
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "model/prepared.h"
 #include "scenes/shapes.h"
 

@@ -12,8 +12,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fcl_kios/detail/rigid.h"
 #include "fcl_kios/fcl_kios.h"
-#include "fcl_kios/volume/rigid.h"
+#include "scenes/shape_geometry.h"
 #include "search/prepared_pair.h"
 
 namespace kios::testing {
@@ -87,15 +88,6 @@ void cast(const Model<S>& model, const fcl::Transform3<S>& X, std::uint64_t seed
 /// Returns FCL's shapes, of sizes about those of the mesh, and a floor.
 template <typename S>
 std::vector<std::shared_ptr<fcl::CollisionGeometry<S>>> shapes() {
-  const auto points = std::make_shared<std::vector<fcl::Vector3<S>>>();
-  const auto faces = std::make_shared<std::vector<int>>();
-  for (const fcl::Vector3d& p : rounded(scenes::icosphere(0.6, 0), 0x1p-20).vertices) {
-    points->push_back(p.template cast<S>());
-  }
-  for (const fcl::Triangle& t : scenes::icosphere(0.6, 0).triangles) {
-    faces->push_back(3);
-    for (int c = 0; c < 3; ++c) faces->push_back(static_cast<int>(t[c]));
-  }
   const fcl::Vector3<S> n(S(0.6), 0, S(0.8));
   return {std::make_shared<fcl::Box<S>>(S(0.5), S(0.75), S(0.25)),
           std::make_shared<fcl::Box<S>>(S(100), S(100), S(0.5)),
@@ -104,7 +96,7 @@ std::vector<std::shared_ptr<fcl::CollisionGeometry<S>>> shapes() {
           std::make_shared<fcl::Capsule<S>>(S(0.25), S(0.5)),
           std::make_shared<fcl::Cone<S>>(S(0.5), S(0.75)),
           std::make_shared<fcl::Cylinder<S>>(S(0.5), S(0.25)),
-          std::make_shared<fcl::Convex<S>>(points, static_cast<int>(faces->size() / 4), faces),
+          scenes::convexOf<S>(rounded(scenes::icosphere(0.6, 0), 0x1p-20)),
           std::make_shared<fcl::Halfspace<S>>(n, S(-0.5)),
           std::make_shared<fcl::Plane<S>>(n, S(0.5))};
 }

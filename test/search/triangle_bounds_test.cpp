@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -55,7 +56,7 @@ void pointMoved(const Tree& tree, const FloatFrame& frames, const float* point, 
   const Vec3 p = moved(frames.a_from_b, vec3(point));
   const V3 at = {hn::Set(d, p.x), hn::Set(d, p.y), hn::Set(d, p.z)};
   for (size_t l = 0; l < kLanes; l += step()) {
-    hn::StoreU(prismsOf(LeafView(tree, tree.leaves[0]), l).distances(at), d, out + l);
+    hn::StoreU(Faces{LeafView(tree, tree.leaves[0]).faces, l}.distances(at), d, out + l);
   }
 }
 
@@ -64,9 +65,8 @@ void trianglesMoved(const Tree& tree, const FloatFrame& frames, const float* poi
   const V3 at = {hn::Set(d, point[0]), hn::Set(d, point[1]), hn::Set(d, point[2])};
   const LeafView leaf(tree, tree.leaves[0]);
   for (uint32_t lane = 0; lane < kLanes; ++lane) {
-    const Prisms prism =
-        movedPrism(leaf, std::min(lane, leaf.leaf.num_faces - 1U), frames.b_from_a);
-    out[lane] = hn::GetLane(prism.distances(at));
+    const MovedFace face(leaf, std::min(lane, leaf.leaf.num_faces - 1U), frames.b_from_a);
+    out[lane] = hn::GetLane(face.faces().distances(at));
   }
 }
 

@@ -224,22 +224,19 @@ TEST_P(Queries, SolversAsArguments) {
   Scene<double> scene(scenes::bumpyTorus(160), randomShape(GetParam(), random));
   scene.pose(randomFrames(1, 1, 4).front());
   const fcl::CollisionGeometryd *m = scene.model.get(), *s = scene.shape.get();
-  fcl::DistanceResultd plain, libccd, indep;
-  const fcl::detail::GJKSolver_libccd<double> solver_libccd;
-  const fcl::detail::GJKSolver_indep<double> solver_indep;
+  const auto &X = scene.X_WM, &Y = scene.X_WS;
+  const fcl::detail::GJKSolver_libccd<double> libccd;
+  const fcl::detail::GJKSolver_indep<double> indep;
   const fcl::DistanceRequestd request(true);
-  fcl::distance(m, scene.X_WM, s, scene.X_WS, request, plain);
-  fcl::distance(m, scene.X_WM, s, scene.X_WS, &solver_libccd, request, libccd);
-  fcl::distance(s, scene.X_WS, m, scene.X_WM, &solver_indep, request, indep);
-  EXPECT_EQ(plain.min_distance, libccd.min_distance);
-  EXPECT_EQ(plain.min_distance, indep.min_distance);
-  fcl::CollisionResultd a, b, c;
+  fcl::DistanceResultd p, q, r;
+  const double d = fcl::distance(m, X, s, Y, request, p);
+  EXPECT_EQ(fcl::distance(m, X, s, Y, &libccd, request, q), d);
+  EXPECT_EQ(fcl::distance(s, Y, m, X, &indep, request, r), d);
   const fcl::CollisionRequestd all(kAllContacts, true);
-  fcl::collide(m, scene.X_WM, s, scene.X_WS, all, a);
-  fcl::collide(m, scene.X_WM, s, scene.X_WS, &solver_libccd, all, b);
-  fcl::collide(s, scene.X_WS, m, scene.X_WM, &solver_indep, all, c);
-  EXPECT_EQ(a.numContacts(), b.numContacts());
-  EXPECT_EQ(a.numContacts(), c.numContacts());
+  fcl::CollisionResultd a, b, c;
+  const std::size_t n = fcl::collide(m, X, s, Y, all, a);
+  EXPECT_EQ(fcl::collide(m, X, s, Y, &libccd, all, b), n);
+  EXPECT_EQ(fcl::collide(s, Y, m, X, &indep, all, c), n);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Queries, ::testing::ValuesIn(kShapes), NameOfShape());

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Requests and results of a mesh over k-IOS against a shape: bounds and errors that are honoured,
-// pruning, costs, closed meshes, what is refused, and FCL's OBBRSS where that is right.
+// pruning, closed meshes, what is refused, and FCL's OBBRSS where that is right.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 #include "fcl/expect_refused.h"
 #include "fcl/mesh_cases.h"
@@ -69,90 +70,52 @@ TEST_P(Requests, BoundsAndErrorsAreHonouredAndNodesPruned) {
   EXPECT_LE(loose_work, exact_work);
 }
 
-// FCL is right about most of this scene: its GJK distances to about 1e-6, its verdicts.
+// FCL is right about most of this scene: its verdicts, costs, and contacts that need no GJK.
 TEST_P(Requests, AgreeWithObbrssModels) {
   const Mesh mesh = scenes::bumpyTorus(400);
   const auto ours = kiosModel(mesh);
   const auto theirs = scenes::buildModel<fcl::OBBRSSd>(mesh);
-  const bool unbounded = GetParam() == Shape::kPlane || GetParam() == Shape::kHalfspace;
+  const Shape kind = GetParam();
+  const bool unbounded = kind == Shape::kPlane || kind == Shape::kHalfspace;
+  const bool round = kind == Shape::kEllipsoid || kind == Shape::kCone || kind == Shape::kCylinder;
   int hits = 0;
   for (const Frame& frame : randomFrames(60, 1.2, 42)) {
     const Geometry s = shape(hits);
     fcl::CollisionResultd a, b;
-    const fcl::CollisionRequestd request(kAllContacts, true);
+    const fcl::CollisionRequestd request(kAllContacts, true, 100000, true, false);
     fcl::collide(ours.get(), frame.X_WA, s.get(), frame.X_WB, request, a);
     fcl::collide(theirs.get(), frame.X_WA, s.get(), frame.X_WB, request, b);
     EXPECT_EQ(contactPairs(a), contactPairs(b));
     hits += a.isCollision();
-    if (unbounded || GetParam() == Shape::kSphere) {  // routines of FCL's own, no GJK
-      ASSERT_EQ(a.numContacts(), b.numContacts());
-      std::map<std::intptr_t, fcl::Contactd> by_triangle;
-      for (std::size_t c = 0; c < b.numContacts(); ++c) {
-        by_triangle[b.getContact(c).b1] = b.getContact(c);
-      }
-      for (std::size_t c = 0; c < a.numContacts(); ++c) {
-        const fcl::Contactd &x = a.getContact(c), &y = by_triangle[x.b1];
-        if (GetParam() == Shape::kSphere) {  // FCL takes the last edge in reach; its depth is < 0
-          EXPECT_GT(x.normal.dot(y.normal), 0);
-          EXPECT_GE(x.penetration_depth, -y.penetration_depth - 1e-12);
-          continue;
-        }
-        EXPECT_LE((x.normal - y.normal).norm(), 1e-7);
-        EXPECT_NEAR(x.penetration_depth, y.penetration_depth, 1e-12);
-        EXPECT_LE((x.pos - y.pos).norm(), 1e-9);
-      }
+    std::vector<fcl::CostSourced> costs, their_costs;
+    a.getCostSources(costs);
+    b.getCostSources(their_costs);
+    ASSERT_EQ(costs.size(), their_costs.size());
+    for (std::size_t c = 0; c < costs.size(); ++c) {
+      const double excess = costs[c].total_cost - their_costs[c].total_cost;
+      EXPECT_LE(excess, 1e-12);
+      // FCL's box of a turned round shape is that of its bounding box: larger.
+      EXPECT_TRUE(round || excess >= -1e-12) << excess;
     }
-    if (unbounded) continue;  // FCL's distance crashes
-    if (a.isCollision()) continue;
-    fcl::DistanceResultd d;
-    fcl::distance(theirs.get(), frame.X_WA, s.get(), frame.X_WB, fcl::DistanceRequestd(), d);
-    EXPECT_NEAR(distanceOf(*ours, *s, frame), d.min_distance, 1e-4);
+    if (!unbounded && kind != Shape::kSphere) continue;
+    ASSERT_EQ(a.numContacts(), b.numContacts());
+    std::map<std::intptr_t, fcl::Contactd> by_triangle;
+    for (std::size_t c = 0; c < b.numContacts(); ++c) {
+      by_triangle[b.getContact(c).b1] = b.getContact(c);
+    }
+    for (std::size_t c = 0; c < a.numContacts(); ++c) {
+      const fcl::Contactd &x = a.getContact(c), &y = by_triangle[x.b1];
+      if (kind == Shape::kSphere) {  // FCL takes the last edge in reach; its depth is < 0
+        EXPECT_GT(x.normal.dot(y.normal), 0);
+        EXPECT_GE(x.penetration_depth, -y.penetration_depth - 1e-12);
+        continue;
+      }
+      EXPECT_LE((x.normal - y.normal).norm(), 1e-7);
+      EXPECT_NEAR(x.penetration_depth, y.penetration_depth, 1e-12);
+      EXPECT_LE((x.pos - y.pos).norm(), 1e-9);
+    }
   }
   EXPECT_GT(hits, 3);
-}
-
-TEST_P(Requests, CostSources) {
-  const Mesh mesh = scenes::bumpyTorus(400);
-  const auto ours = kiosModel(mesh);
-  const auto theirs = scenes::buildModel<fcl::OBBRSSd>(mesh);
-  std::size_t sources = 0;
-  for (const Frame& frame : randomFrames(12, 0.7, 43)) {
-    const Geometry s = shape(7);
-    for (const double density : {1.0, 0.5}) {  // occupied; uncertain
-      ours->cost_density = theirs->cost_density = density;
-      const fcl::CollisionRequestd request(kAllContacts, false, 100000, true, false);
-      fcl::CollisionResultd a, b;
-      fcl::collide(ours.get(), frame.X_WA, s.get(), frame.X_WB, request, a);
-      fcl::collide(theirs.get(), frame.X_WA, s.get(), frame.X_WB, request, b);
-      EXPECT_EQ(contactPairs(a), contactPairs(b));
-      std::vector<fcl::CostSourced> sa, sb;
-      a.getCostSources(sa);
-      b.getCostSources(sb);
-      sources += sa.size();
-      if (density == 1.0) {
-        ASSERT_EQ(sa.size(), sb.size());
-        for (std::size_t c = 0; c < sa.size(); ++c) {
-          if (GetParam() == Shape::kEllipsoid || GetParam() == Shape::kCone ||
-              GetParam() == Shape::kCylinder) {
-            // FCL's box of a turned round shape is that of its bounding box: larger.
-            EXPECT_LE(sa[c].total_cost, sb[c].total_cost + 1e-12);
-          } else {
-            EXPECT_NEAR(sa[c].total_cost, sb[c].total_cost, 1e-12);
-          }
-        }
-      } else {
-        EXPECT_EQ(a.numContacts(), 0u);
-      }
-      // The root's box against the shape: a cost wherever there is a contact.
-      const fcl::CollisionRequestd approximate(1, false, 10, true, true);
-      fcl::CollisionResultd root;
-      fcl::collide(s.get(), frame.X_WB, ours.get(), frame.X_WA, approximate, root);
-      std::vector<fcl::CostSourced> one;
-      root.getCostSources(one);
-      EXPECT_GE(one.size(), sa.empty() ? 0u : 1u);
-    }
-  }
-  EXPECT_GT(sources, 20u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, Requests, ::testing::ValuesIn(kShapes), NameOfShape());
@@ -207,26 +170,6 @@ TEST(Refused, ShapesOfImpossibleSizes) {
   plane.n.setZero();
   refused(plane, "fcl::Plane has a normal of no direction");
   refused(fcl::Halfspaced(Vector3d::UnitZ(), nan), "fcl::Halfspace has an offset");
-}
-
-// Sizes where squares over- or underflow.
-TEST(Scales, FromTinyToHuge) {
-  const Mesh unit = scenes::icosphere(1, 1);
-  for (const int exponent : {-250, -120, -30, 0, 30, 120, 250}) {
-    const double scale = std::ldexp(1.0, exponent);
-    Mesh mesh = unit;
-    for (auto& p : mesh.vertices) p *= scale;
-    const auto model = kiosModel(mesh);
-    Frame frame{Transform3d::Identity(), Transform3d::Identity()};
-    frame.X_WB.translation() = scale * Vector3d(0.3, 5, 0.2);
-    const double reference =
-        distanceOf(*kiosModel(unit), fcl::Cylinderd(1, 2),
-                   {Transform3d::Identity(), Transform3d(Eigen::Translation3d(0.3, 5, 0.2))});
-    EXPECT_NEAR(distanceOf(*model, fcl::Cylinderd(scale, 2 * scale), frame) / scale, reference,
-                1e-12);
-    frame.X_WB.translation() *= 0.2;
-    EXPECT_EQ(distanceOf(*model, fcl::Cylinderd(scale, 2 * scale), frame), 0);
-  }
 }
 
 }  // namespace

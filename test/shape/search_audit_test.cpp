@@ -84,8 +84,7 @@ class Auditor {
   /// The search is left a share of the pads. False if floats can't serve the pair.
   bool search(const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3d& X_WM,
               const fcl::Transform3d& X_WS, Pads pads, Audited& out) {
-    const PosedSolid<S> posed(toSolid(geometry), X_WM.cast<S>(), X_WS.cast<S>(),
-                              model_->getBV(0).bv);
+    const PosedSolid posed(toSolid(geometry), X_WM.cast<S>(), X_WS.cast<S>(), meshOf(*model_));
     const bool by_faces = ++calls_ % 2 == 0;  // every other time of a convex shape
     const auto of_faces = shape::ConvexFaces(posed.solid()).slabs();
     engine::FloatSolid solid;
@@ -100,7 +99,7 @@ class Auditor {
     }
     double reach = posed.solid().reach();
     for (int i = 0; i < model_->num_tris; ++i) {
-      const shape::Triangle t = posed.place(cornersOf(*model_, i));
+      const shape::Triangle t = posed.place(cornersInDouble(*model_, i));
       const auto d = shape::distance(posed.solid(), t, kInfinity);
       distances_.push_back(d.distance);
       reach = std::max(reach, shape::sizeOf(t));

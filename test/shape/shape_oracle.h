@@ -11,7 +11,6 @@
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cone.h>
-#include <fcl/geometry/shape/convex.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/halfspace.h>
@@ -19,6 +18,7 @@
 #include <fcl/geometry/shape/sphere.h>
 
 #include "scenes/random.h"
+#include "scenes/shape_geometry.h"
 #include "scenes/shapes.h"
 #include "shape/golden_section.h"
 
@@ -104,17 +104,8 @@ std::shared_ptr<fcl::CollisionGeometry<S>> makeShape(const ShapeSpec& spec) {
       return std::make_shared<fcl::Halfspace<S>>(v, S(spec.offset));
     case Shape::kPlane:
       return std::make_shared<fcl::Plane<S>>(v, S(spec.offset));
-    default: {
-      auto vertices = std::make_shared<std::vector<fcl::Vector3<S>>>();
-      for (const auto& p : spec.hull.vertices) vertices->push_back(p.cast<S>());
-      auto faces = std::make_shared<std::vector<int>>();
-      for (const auto& t : spec.hull.triangles) {
-        faces->push_back(3);
-        for (int i = 0; i < 3; ++i) faces->push_back(static_cast<int>(t[i]));
-      }
-      return std::make_shared<fcl::Convex<S>>(vertices,
-                                              static_cast<int>(spec.hull.triangles.size()), faces);
-    }
+    default:
+      return scenes::convexOf<S>(spec.hull);
   }
 }
 

@@ -7,8 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "shape/golden_section.h"
 #include "shape/solid.h"
 #include "shape/triangle_shape.h"

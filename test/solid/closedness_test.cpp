@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fcl_kios/solid/closedness.h"
+#include "fcl_kios/solids.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <locale>
 #include <string>
 
-#include "fcl_kios/solid/repair.h"
+#include "fcl_kios/repair.h"
 #include "solid/solid_meshes.h"
 
 namespace kios {
@@ -19,7 +19,7 @@ namespace {
 using scenes::Mesh;
 using testing::flipped;
 
-Closednessd inspect(const Mesh& mesh) { return inspectClosedness(*testing::modelOf(mesh)); }
+Closedness inspect(const Mesh& mesh) { return inspectClosedness(*testing::modelOf(mesh)); }
 
 std::string refusal(const Mesh& mesh) {
   const auto model = testing::modelOf(mesh);
@@ -37,7 +37,7 @@ TEST(Closedness, SolidsAreClosedAndTheirComponentsCounted) {
   const auto meshes = testing::solidMeshes();
   for (std::size_t i = 0; i < meshes.size(); ++i) {
     for (const Mesh& mesh : {meshes[i].mesh, scenes::soup(meshes[i].mesh)}) {
-      const Closednessd c = inspect(mesh);
+      const Closedness c = inspect(mesh);
       EXPECT_TRUE(c.closed) << meshes[i].name;
       EXPECT_TRUE(c.oriented) << meshes[i].name;
       EXPECT_EQ(c.components, components[i]) << meshes[i].name;
@@ -60,7 +60,7 @@ TEST(Closedness, TextsDontChangeWithTheLocale) {
   Mesh mesh = scenes::soup(scenes::icosphere(1, 4));
   mesh.triangles.resize(mesh.triangles.size() / 2);
   const auto texts = [&] {
-    RepairOptions options;
+    RepairRequest options;
     options.absolute_weld = -1234.5;
     std::string unfit;
     try {
@@ -84,12 +84,12 @@ TEST(Closedness, AMissingTriangleOpensThreeEdges) {
   Mesh mesh = scenes::icosphere(1, 1);
   const fcl::Triangle gone = mesh.triangles.back();
   mesh.triangles.pop_back();
-  const Closednessd c = inspect(mesh);
+  const Closedness c = inspect(mesh);
   EXPECT_FALSE(c.closed);
   EXPECT_TRUE(c.oriented);
   EXPECT_EQ(c.open_edges, 3);
   EXPECT_EQ(c.misoriented_edges, 0);
-  for (const FaultyEdged& edge : c.first) {
+  for (const FaultyEdge& edge : c.first) {
     ASSERT_GE(edge.triangle, 0);
     int ends = 0;
     for (int k = 0; k < 3; ++k) {
@@ -109,7 +109,7 @@ TEST(Closedness, ATurnedTriangleMisorientsItsEdges) {
   Mesh mesh = scenes::subdividedBox({1, 2, 3}, 2);
   fcl::Triangle& t = mesh.triangles[5];
   t.set(t[0], t[2], t[1]);
-  const Closednessd c = inspect(mesh);
+  const Closedness c = inspect(mesh);
   EXPECT_TRUE(c.closed);
   EXPECT_FALSE(c.oriented);
   EXPECT_EQ(c.misoriented_edges, 3);
@@ -151,7 +151,7 @@ TEST(Closedness, OfManyCavitiesThoseOutsideAreFound) {
     ASSERT_GT(outside, 100);
     const Mesh mesh =
         testing::transformed(scenes::merged(parts), scale, scale * fcl::Vector3d(3, -1, 7));
-    const Closednessd c = inspect(mesh);
+    const Closedness c = inspect(mesh);
     EXPECT_EQ(c.components, static_cast<int>(parts.size()));
     EXPECT_EQ(c.inside_out, outside) << scale;
   }
@@ -170,7 +170,7 @@ TEST(Closedness, CavitiesInLineDontSeeEachOther) {
     }
     if (turned) parts[0] = flipped(parts[0]);
     const std::clock_t start = std::clock();
-    const Closednessd c = inspect(scenes::merged(parts));
+    const Closedness c = inspect(scenes::merged(parts));
     EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 8);
     EXPECT_EQ(c.components, kCavities + 1);
     EXPECT_EQ(c.inside_out, turned ? kCavities + 1 : 0);
@@ -180,12 +180,12 @@ TEST(Closedness, CavitiesInLineDontSeeEachOther) {
 TEST(Closedness, AllSheetsAtAnEdgeMustPassItBothWays) {
   const Mesh box = scenes::subdividedBox({1, 1, 1}, 1);
   const Mesh other = testing::transformed(box, 1, {1, 1, 0});
-  const Closednessd both = inspect(scenes::merged({box, other}));
+  const Closedness both = inspect(scenes::merged({box, other}));
   EXPECT_EQ(both.branching_edges, 1);
   EXPECT_TRUE(both.closed && both.oriented);
   Mesh doubled = box;
   doubled.triangles.push_back(box.triangles[0]);
-  const Closednessd three = inspect(doubled);
+  const Closedness three = inspect(doubled);
   EXPECT_EQ(three.open_edges, 3);
   EXPECT_EQ(three.branching_edges, 3);
   doubled.triangles.push_back(box.triangles[0]);

@@ -21,10 +21,10 @@ using Outline = std::vector<Eigen::Vector2d>;
 void expectDepth(const Mesh& a, const Mesh& b, const fcl::Transform3d& X, double depth, double most,
                  int number) {
   const auto solid_a = solidOf(a), solid_b = solidOf(b);
-  const Penetration p = penetration(*solid_a, X, *solid_b, X),
-                    q = penetration(*solid_b, X, *solid_a, X);
+  const PenetrationResult p = penetration(*solid_a, X, *solid_b, X),
+                          q = penetration(*solid_b, X, *solid_a, X);
   const double rounding = 1e-11;
-  for (const Penetration& found : {p, q}) {
+  for (const PenetrationResult& found : {p, q}) {
     EXPECT_LE(found.lower, depth + rounding) << number;
     EXPECT_GE(found.upper, depth - rounding) << number;
     EXPECT_LE(found.upper, most * depth + rounding) << number << ", depth " << depth;

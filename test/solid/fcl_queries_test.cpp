@@ -234,7 +234,7 @@ TEST(SolidQueries, ManyThreadsMayAskFirst) {
       const fcl::Transform3d X = at(0.1 * thread, 0, 0);
       if (collide(big, kHere, small, X) != 1) ++wrong;
       if (!contains(*big, kHere, X.translation())) ++wrong;
-      const Penetration p = penetration(*big, kHere, *small, X);
+      const PenetrationResult p = penetration(*big, kHere, *small, X);
       if (!(p.lower > 1 && p.upper <= 1.05 * p.lower)) ++wrong;
     });
     EXPECT_EQ(wrong, 0);

@@ -69,13 +69,13 @@ TEST(OddSolids, WhatTouchesLeavesByARounding) {
     const auto cube = solidOf(scenes::subdividedBox({side, side, side}, 1));
     for (const double over : {0.0, 1e-9, 1e-3}) {
       const auto X = at(2, 1 + 0.5 * side - over, 0.6);
-      const Penetration depth = penetration(*shape, kHere, *cube, X);
+      const PenetrationResult depth = penetration(*shape, kHere, *cube, X);
       EXPECT_LE(depth.lower, over + 1e-14);
       EXPECT_GE(depth.upper, over - 1e-14);
       EXPECT_LE(depth.upper, 1.1 * over + 1e-10) << side << " " << over;
     }
   }
-  const Penetration corner = penetration(*shape, kHere, *shape, at(1, 1, 0));
+  const PenetrationResult corner = penetration(*shape, kHere, *shape, at(1, 1, 0));
   EXPECT_LE(corner.upper, 1e-10);
 }
 
@@ -100,7 +100,7 @@ TEST(OddSolids, ARefusedMarkChangesNothing) {
 TEST(OddSolids, ManyTestsAreNotNone) {
   const auto shape = solidOf(prismL());
   const auto cube = solidOf(scenes::subdividedBox({1, 1, 1}, 1));
-  PenetrationOptions options;
+  PenetrationRequest options;
   options.max_tests = INT_MAX;
   const double most = penetration(*shape, kHere, *cube, at(2, 1.2, 0.5), options).upper;
   EXPECT_LE(most, penetration(*shape, kHere, *cube, at(2, 1.2, 0.5)).upper + 1e-12);

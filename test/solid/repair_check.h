@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "fcl_kios/solid/repair.h"
+#include "fcl_kios/repair.h"
 #include "solid/solid_meshes.h"
 
 // Checks of what repair() says of its work.
@@ -18,12 +18,12 @@ namespace kios::testing {
 
 using Vector3d = fcl::Vector3d;
 
-inline Repairedd repaired(const Mesh& mesh, const RepairOptions& options = {}) {
+inline RepairResultd repaired(const Mesh& mesh, const RepairRequest& options = {}) {
   return repair(mesh.vertices, mesh.triangles, options);
 }
 
-inline RepairOptions filling(int edges) {
-  RepairOptions options;
+inline RepairRequest filling(int edges) {
+  RepairRequest options;
   options.max_hole_edges = edges;
   return options;
 }
@@ -37,7 +37,7 @@ inline double volumeOf(const std::vector<Vector3d>& v,
 }
 
 /// Says what is reported is what was done.
-inline void expectHonest(const Mesh& mesh, const Repairedd& r) {
+inline void expectHonest(const Mesh& mesh, const RepairResultd& r) {
   ASSERT_EQ(r.vertex_of.size(), mesh.vertices.size());
   ASSERT_EQ(r.triangle_of.size(), r.triangles.size());
   std::vector<bool> used(mesh.vertices.size(), false);

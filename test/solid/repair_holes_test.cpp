@@ -33,11 +33,11 @@ TEST(RepairHoles, FillsHolesOfTheStatedSize) {
   EXPECT_EQ(static_cast<int>(open.open[0].vertices.size()), edges);
   EXPECT_EQ(open.closedness.open_edges, edges);
   EXPECT_EQ(repaired(mesh, filling(edges - 1)).open.size(), 1U);
-  RepairOptions small = filling(100);
+  RepairRequest small = filling(100);
   small.max_hole_perimeter = open.open[0].perimeter * (1 - 1e-9);
   EXPECT_EQ(repaired(mesh, small).open.size(), 1U);
   small.max_hole_perimeter = open.open[0].perimeter;
-  for (const RepairOptions& options : {small, filling(edges)}) {
+  for (const RepairRequest& options : {small, filling(edges)}) {
     const auto filled = repaired(mesh, options);
     expectHonest(mesh, filled);
     EXPECT_TRUE(filled.closedness.isSolid()) << summaryOf(filled);
@@ -63,7 +63,7 @@ TEST(RepairHoles, FillsManyHoles) {
       fcl::Triangle& t = mesh.triangles[i];
       t.set(t[0], t[2], t[1]);
     }
-    const auto r = repaired(mesh, filling(RepairOptions::kMostHoleEdges));
+    const auto r = repaired(mesh, filling(RepairRequest::kMostHoleEdges));
     expectHonest(mesh, r);
     EXPECT_TRUE(r.open.empty());
     EXPECT_EQ(r.closedness.open_edges, 0) << share << ": " << summaryOf(r);

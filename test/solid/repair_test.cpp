@@ -131,7 +131,7 @@ TEST(Repair, DoubledPatchesAreMended) {
 }
 
 TEST(Repair, WithoutAToleranceEqualVerticesAloneAreWelded) {
-  RepairOptions none;
+  RepairRequest none;
   none.relative_weld = 0;
   for (const double scale : {1e-150, 1.0, 1e150}) {
     for (const double small : {1e-9, 1e-17, 1e-100}) {
@@ -164,7 +164,7 @@ TEST(Repair, WeldsWithinTheTolerance) {
       EXPECT_EQ(r.vertices.size(), ball.vertices.size());
       EXPECT_EQ(r.welded_vertices, static_cast<int>(soup.vertices.size() - ball.vertices.size()));
       EXPECT_LE(r.farthest_weld, 2 * std::sqrt(3.0) * by * scale);
-      RepairOptions exact;
+      RepairRequest exact;
       exact.relative_weld = 0;
       EXPECT_EQ(repaired(soup, exact).closedness.closed, by == 0) << by;
       exact.absolute_weld = 1e-5 * extent;
@@ -184,7 +184,7 @@ TEST(Repair, WeldsDontChain) {
     const auto n = static_cast<std::size_t>(3 * i);
     row.triangles.emplace_back(n, n + 1, n + 2);
   }
-  RepairOptions options;
+  RepairRequest options;
   options.relative_weld = 0;
   options.absolute_weld = 1;
   const auto r = repaired(row, options);
@@ -280,7 +280,7 @@ TEST(Repair, KeepsCavities) {
 
 TEST(Repair, RefusesBadInput) {
   const Mesh ball = scenes::icosphere(1, 0);
-  const auto refused = [&](const Mesh& mesh, const RepairOptions& options, const char* part) {
+  const auto refused = [&](const Mesh& mesh, const RepairRequest& options, const char* part) {
     try {
       repaired(mesh, options);
       ADD_FAILURE() << part;
@@ -295,11 +295,11 @@ TEST(Repair, RefusesBadInput) {
   wrong.vertices[ball.triangles[0][0]][1] = std::nan("");
   refused(wrong, {}, "not finite");
   for (const double value : {-1.0, 1.0, std::nan("")}) {
-    RepairOptions options;
+    RepairRequest options;
     options.relative_weld = value;
     refused(ball, options, "relative_weld");
   }
-  RepairOptions options;
+  RepairRequest options;
   options.absolute_weld = -1;
   refused(ball, options, "absolute_weld");
   options = filling(257);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 
-#include "fcl_kios/solid/self_intersections.h"
+#include "fcl_kios/repair.h"
 
 #include <gtest/gtest.h>
 

@@ -28,7 +28,7 @@ Mesh baked(Mesh mesh, const fcl::Transform3d& X) {
   return mesh;
 }
 
-void expectClosed(const Penetration& depth, const std::string& what) {
+void expectClosed(const PenetrationResult& depth, const std::string& what) {
   EXPECT_GT(depth.lower, 0) << what;
   EXPECT_LE(depth.upper, 1.041 * depth.lower) << what;
 }
@@ -76,7 +76,7 @@ TEST(ThinSolids, DentsAreSeen) {
     const double side = 0.25 * thin;
     const auto box = solidOf(scenes::subdividedBox({side, side, side}, 1));
     // Its lower face is 0.01 thick below the step's tread, which lets it out there.
-    const Penetration depth =
+    const PenetrationResult depth =
         penetration(*solidOf(step), kHere, *box, at(0.75, 0.5, thin * (0.5 + 0.125 - 0.01)));
     EXPECT_LE(depth.lower, 0.0101 * thin) << thin;
     EXPECT_GE(depth.upper, 0.01 * thin * (1 - 1e-9)) << thin;

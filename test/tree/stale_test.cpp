@@ -6,10 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include <list>
-
 #include "fcl/mesh_cases.h"
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "model/deform.h"
 #include "model/prepared.h"
 #include "scenes/foreign_fitter.h"
@@ -58,36 +56,6 @@ TEST_F(Stale, FinishedMeansPrepared) {
   EXPECT_EQ(preparedBytes(Modeld()), 0u);
 }
 
-TEST_F(Stale, ReplacedAndUpdatedInEveryWay) {
-  for (const bool refit : {true, false}) {
-    for (const bool bottomup : {true, false}) {
-      const auto replaced = kiosModel(mesh_), updated = kiosModel(mesh_);
-      const std::size_t one = bytesOfOne();
-      expectAnswersOf(*replaced, mesh_.vertices);
-      expectAnswersOf(*updated, mesh_.vertices);
-      for (double phase = 0.5; phase < 4; phase += 0.5) {
-        replace(*replaced, swayed(mesh_, phase), refit, bottomup);
-        expectAnswersOf(*replaced, swayed(mesh_, phase));
-        update(*updated, swayed(mesh_, phase), refit, bottomup);
-        expectAnswersOf(*updated, swayed(mesh_, phase));
-      }
-      EXPECT_LT(preparedBytes(*replaced), one * 3 / 2);  // the old states are gone
-      EXPECT_LT(preparedBytes(*updated), one * 3);       // FCL keeps two arrays of vertices
-    }
-  }
-}
-
-// The last vertex only: whatever samples the vertices would miss it.
-TEST_F(Stale, OneVertexMoves) {
-  const auto model = kiosModel(mesh_);
-  std::vector<Vector3d> vertices = mesh_.vertices;
-  for (int i = 0; i < 10; ++i) {
-    vertices.back() += Vector3d(0.1, 0.05, 0.02);
-    replace(*model, vertices, true, i % 2 == 0);
-    expectAnswersOf(*model, vertices);
-  }
-}
-
 // Models that come and go at the same addresses, and a model that is built anew.
 TEST_F(Stale, BuiltAnew) {
   for (int i = 0; i < 20; ++i) {
@@ -125,31 +93,6 @@ TEST_F(Stale, ACopyIsPreparedWithEachState) {
   }
 }
 
-TEST_F(Stale, ManyCopiesInTurn) {
-  const auto original = kiosModel(mesh_);
-  const std::size_t one = bytesOfOne();
-  std::list<Modeld> copies;
-  for (int i = 0; i < 20; ++i) {
-    copies.emplace_back(*original);
-    if (i % 2 == 0) replace(copies.back(), swayed(mesh_, i), true, true);
-  }
-  for (int turn = 0; turn < 3; ++turn) {
-    int i = 0;
-    for (const Modeld& copy : copies) {
-      expectAnswersOf(copy, i % 2 == 0 ? swayed(mesh_, i) : mesh_.vertices);
-      ++i;
-    }
-    EXPECT_LT(preparedBytes(*original), 10 * one);
-  }
-  // A copy that is gone leaves no trace in one that takes its place.
-  for (int i = 0; i < 30; ++i) {
-    copies.pop_front();
-    copies.emplace_back(*original);
-    if (i % 3 > 0) replace(copies.back(), swayed(mesh_, 30 + i), true, i % 3 == 1);
-    expectAnswersOf(copies.back(), i % 3 > 0 ? swayed(mesh_, 30 + i) : mesh_.vertices);
-  }
-}
-
 TEST_F(Stale, DirectWritesNeedInvalidate) {
   const auto model = kiosModel(mesh_);
   for (double phase = 1; phase < 4; ++phase) {
@@ -157,14 +100,14 @@ TEST_F(Stale, DirectWritesNeedInvalidate) {
                     std::vector<Vector3d>(model->vertices, model->vertices + model->num_vertices));
     const auto vertices = swayed(mesh_, phase);
     std::copy(vertices.begin(), vertices.end(), model->vertices);
-    invalidate(*model);
+    verticesChanged(*model);
     expectAnswersOf(*model, vertices);
   }
   model->vertices[0][1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(invalidate(*model), std::invalid_argument);
+  EXPECT_THROW(verticesChanged(*model), std::invalid_argument);
 }
 
-// FCL refuses to replace a model that was updated, and invalidate() goes by replacing.
+// FCL refuses to replace a model that was updated, and verticesChanged() goes by replacing.
 TEST_F(Stale, DirectWritesAfterAnUpdateNeedInvalidate) {
   for (const double away : {0.5, 20.0}) {  // the latter where the old volumes don't reach
     const auto model = kiosModel(mesh_);
@@ -173,7 +116,7 @@ TEST_F(Stale, DirectWritesAfterAnUpdateNeedInvalidate) {
     std::vector<Vector3d> vertices = swayed(mesh_, 2);
     for (Vector3d& p : vertices) p += Vector3d(away, 0, 0);
     std::copy(vertices.begin(), vertices.end(), model->vertices);
-    invalidate(*model);
+    verticesChanged(*model);
     expectAnswersOf(*model, vertices);
     const Frame there = {Transform3d::Identity(), Transform3d(Eigen::Translation3d(away, 0, 0))};
     fcl::CollisionResultd contacts;
@@ -226,7 +169,7 @@ TEST_F(Stale, AnotherFitter) {
   EXPECT_EQ(preparedBytes(*model), bytesOfOne());
   replace(*model, swayed(mesh_, 1), true, true);
   expectAnswersOf(*model, swayed(mesh_, 1));
-  invalidate(*model);
+  verticesChanged(*model);
 
   // Replaced after queries; and ours again, by the published fit.
   const auto other = kiosModel(mesh_);

@@ -9,8 +9,7 @@
 #include <limits>
 #include <string>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "scenes/rational_oracle.h"
 #include "scenes/triangle_classes.h"
 

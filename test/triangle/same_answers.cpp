@@ -8,8 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/triangle/intersection.h"
+#include "fcl_kios/triangle.h"
 #include "scenes/triangle_classes.h"
 
 namespace {

@@ -14,9 +14,8 @@
 #include <gtest/gtest.h>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
-#include "fcl_kios/build/fit.h"
-#include "fcl_kios/triangle/distance.h"
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/triangle.h"
+#include "fcl_kios/volume.h"
 #include "query/posed_solid.h"
 #include "scalars.h"
 #include "scenes/motions.h"
@@ -206,12 +205,10 @@ TYPED_TEST(ErrorBounds, TrianglesAndTheirFeatures) {
                                                      rounded.b[m], rounded.b[(m + 1) % 3], ends)
                                     .distance);
         }
-        nearest = std::min(nearest, engine::FacePlane({rounded.b[0], rounded.b[1], rounded.b[2]})
-                                        .distance(rounded.a[k])
-                                        .distance);
-        nearest = std::min(nearest, engine::FacePlane({rounded.a[0], rounded.a[1], rounded.a[2]})
-                                        .distance(rounded.b[k])
-                                        .distance);
+        const FacePlane of_b({rounded.b[0], rounded.b[1], rounded.b[2]});
+        nearest = std::min(nearest, engine::faceDistance(of_b, rounded.a[k]).distance);
+        const FacePlane of_a({rounded.a[0], rounded.a[1], rounded.a[2]});
+        nearest = std::min(nearest, engine::faceDistance(of_a, rounded.b[k]).distance);
       }
       if (oracle.intersect) continue;
       const double in_double = triangleDistance<double>({rounded.a[0], rounded.a[1], rounded.a[2]},
@@ -234,11 +231,12 @@ TYPED_TEST(ErrorBounds, PointsInASolidsFrame) {
     const fcl::Vector3<S> x = randomPoint<S>(random);
     fit(&x, 1, root);
     shape::Solid point;
-    const PosedSolid<S> posed(point, X_WM, X_WS, root);
+    const PosedSolid posed(point, X_WM, X_WS,
+                           kios::Mesh(engine::MeshView<S>(), engine::Tree(), root, nullptr));
     const ExactVector in_world =
         exact(X_WM.linear()) * exact(x) + exact(X_WM.translation()) - exact(X_WS.translation());
     const ExactVector placed = exact(X_WS.linear()).transpose() * in_world;
-    const shape::Vec computed = posed.place(x);
+    const shape::Vec computed = posed.place(x.template cast<double>());
     const double lengths = 1.8 * norm1<S>(x) + norm1<S>(X_WM.translation() - X_WS.translation());
     share.add(length(placed - exact(computed)), error_bounds::solidError(lengths));
   }

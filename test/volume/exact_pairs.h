@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/paper.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include "fcl_kios/paper/fit.h"
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/paper.h"
+#include "fcl_kios/volume.h"
 #include "volume/point_sets.h"
 
 namespace kios::testing {

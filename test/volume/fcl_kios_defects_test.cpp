@@ -9,8 +9,7 @@
 #include <string>
 
 #include <fcl/math/bv/utility.h>
-#include "fcl_kios/build/fit.h"
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/volume.h"
 #include "volume/exact_spheres.h"
 
 namespace kios::testing {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // The volume by itself: its size in memory, its empty state and what it computes of its spheres.
-#include "fcl_kios/volume/kios.h"
+#include "fcl_kios/volume.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,6 @@
 
 #include <fcl/geometry/bvh/BV_node.h>
 #include <fcl/math/bv/kIOS.h>
-#include "fcl_kios/build/fit.h"
 #include "scalars.h"
 #include "volume/exact_spheres.h"
 

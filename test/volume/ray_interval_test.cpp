@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fcl_kios/query/ray.h"
+#include "fcl_kios/rays.h"
 #include "scalars.h"
 #include "scenes/ray_oracle.h"
 #include "volume/exact_spheres.h"
@@ -127,80 +127,6 @@ TYPED_TEST(RayIntervalTest, TangentFromAfar) {
     EXPECT_LE(interval->enter, grid) << "case " << i;
     EXPECT_GE(interval->exit, grid) << "case " << i;
   }
-}
-
-TYPED_TEST(RayIntervalTest, ChordsAndTangents) {
-  using S = TypeParam;
-  const S eps = std::numeric_limits<S>::epsilon();
-  const kIOS<S> bv = ball<S>({1, 2, 3}, 5);
-  Ray<S> ray;
-  ray.origin = {-9, 5, 3};  // 3 off the centre: a chord from 6 to 14
-  auto chord = rayInterval(bv, ray);
-  ASSERT_TRUE(chord);
-  EXPECT_LE(chord->enter, 6);
-  EXPECT_GE(chord->exit, 14);
-  EXPECT_NEAR(chord->enter, 6, 1000 * eps);
-  EXPECT_NEAR(chord->exit, 14, 1000 * eps);
-  ray.direction = {-4, 0, 0};
-  EXPECT_FALSE(overlap(ray, bv));
-  ray.t_min = -100;
-  chord = rayInterval(bv, ray);
-  ASSERT_TRUE(chord);
-  EXPECT_NEAR(chord->enter, -3.5, 1000 * eps);
-  EXPECT_NEAR(chord->exit, -1.5, 1000 * eps);
-  ray.t_max = -3;
-  chord = rayInterval(bv, ray);
-  ASSERT_TRUE(chord);
-  EXPECT_EQ(chord->exit, S(-3));
-  ray.t_min = S(-3.25);
-  EXPECT_EQ(rayInterval(bv, ray)->enter, S(-3.25));
-
-  Ray<S> tangent;  // touches the sphere at t = 10
-  tangent.origin = {-9, 7, 3};
-  const auto touch = rayInterval(bv, tangent);
-  ASSERT_TRUE(touch);
-  EXPECT_LE(touch->enter, 10);
-  EXPECT_GE(touch->exit, 10);
-  tangent.origin[1] += S(1e-4);
-  EXPECT_FALSE(overlap(tangent, bv));
-}
-
-// A sphere, and origins of which all digits but a few cancel.
-TYPED_TEST(RayIntervalTest, FarOrigins) {
-  using S = TypeParam;
-  Random random(5);
-  const kIOS<S> bv = ball<S>({0, 0, 0}, 1);
-  int missed = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const auto far = std::pow(10.0, random.uniform(0, sizeof(S) == sizeof(double) ? 9 : 4));
-    Ray<S> ray;
-    ray.origin = (far * randomDirection(random)).template cast<S>();
-    const fcl::Vector3<S> target = (random.uniform(0, 2) * randomDirection(random)).cast<S>();
-    ray.direction = target - ray.origin;
-    ray.t_min = -10;
-    // In exact arithmetic, to far below the pad.
-    using Long = Eigen::Matrix<long double, 3, 1>;
-    const Long o = ray.origin.template cast<long double>(),
-               d = ray.direction.template cast<long double>();
-    const long double t = -o.dot(d) / d.dot(d), off = (o + t * d).norm();
-    const auto interval = rayInterval(bv, ray);
-    const long double pad = 0x1p-45L * (far + 1);
-    if (off < 1) {
-      ASSERT_TRUE(interval);
-    } else if (off > 1 + pad) {
-      ++missed;
-      EXPECT_FALSE(interval);
-    }
-    if (off > 1 - 1e-3 || !interval) continue;
-    const long double half = std::sqrt((1 - off) * (1 + off)) / d.norm();
-    const long double slack = 8 * (pad / std::sqrt(1 - off) / d.norm() +
-                                   std::numeric_limits<S>::epsilon() * (std::abs(t) + half));
-    EXPECT_LE(interval->enter, t - half + 1e-18L * t);
-    EXPECT_GE(interval->exit, t + half - 1e-18L * t);
-    EXPECT_GE(interval->enter, t - half - slack);
-    EXPECT_LE(interval->exit, t + half + slack);
-  }
-  EXPECT_GT(missed, 300);
 }
 
 TYPED_TEST(RayIntervalTest, EmptyAndPoint) {

@@ -3,11 +3,10 @@
 //
 // No bound exceeds the distance of the contents, decided in higher precision, for hard sets at hard
 // poses: touching, nested, coincident, far, slightly sheared, at any scale.
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/volume.h"
 
 #include <gtest/gtest.h>
 
-#include "fcl_kios/build/fit.h"
 #include "not_finite.h"
 #include "scalars.h"
 #include "volume/exact_pairs.h"
@@ -108,44 +107,6 @@ TYPED_TEST(Separation, TransformFormsAreTheMatrixForms) {
     X.translation() = pair.T;
     EXPECT_EQ(overlap(X, pair.a, pair.b), overlap(pair.R, pair.T, pair.a, pair.b));
     EXPECT_EQ(distance(X, pair.a, pair.b), distance(pair.R, pair.T, pair.a, pair.b));
-  }
-}
-
-// The pose of a query is the product of two. Its entries are rounded; a point notices by no more
-// than 4 eps (|x| + |t2 - t1|) a coordinate.
-TYPED_TEST(Separation, PairOfPosesMovesPointsAsDocumented) {
-  using S = TypeParam;
-  Random random(6);
-  for (int i = 0; i < 5'000; ++i) {
-    fcl::Transform3<S> X[2];
-    for (auto& x : X) {
-      x.setIdentity();
-      x.linear() = randomRotation(random).cast<S>();
-      if (i % 5 == 0) x.linear() = X[0].linear();
-      x.translation() = (randomDirection(random) * std::pow(2, random.uniform(-4, 30))).cast<S>();
-    }
-    if (i % 3 == 0) X[1].translation() = X[0].translation() * S(1 + 1e-3);
-    const RelativePose<S> pose(X[0], X[1]);
-    const fcl::Vector3<S> point =
-        (randomDirection(random) * std::pow(10, random.uniform(-3, 3))).cast<S>();
-    long double in_world[3], shift2 = 0;
-    for (int c = 0; c < 3; ++c) {
-      in_world[c] = static_cast<long double>(X[1].translation()[c]) - X[0].translation()[c];
-      shift2 += in_world[c] * in_world[c];
-      for (int j = 0; j < 3; ++j) {
-        in_world[c] += static_cast<long double>(X[1].linear()(c, j)) * point[j];
-      }
-    }
-    const long double size = point.template cast<long double>().norm() + std::sqrt(shift2);
-    for (int c = 0; c < 3; ++c) {
-      long double in_a = 0, posed = pose.T()[c];
-      for (int j = 0; j < 3; ++j) {
-        in_a += static_cast<long double>(X[0].linear()(j, c)) * in_world[j];
-        posed += static_cast<long double>(pose.R()(c, j)) * point[j];
-      }
-      ASSERT_LE(std::abs(posed - in_a), 4 * std::numeric_limits<S>::epsilon() * size)
-          << "pair " << i;
-    }
   }
 }
 

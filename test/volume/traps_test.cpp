@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // Fits and queries of volumes, and of covers, raise no floating-point flags.
+#include "fcl_kios/clearance.h"
 #include "floating_point_flags.h"
 #include "query/query_cases.h"
 #include "scalars.h"

@@ -6,7 +6,7 @@
 
 #include <stdexcept>
 
-#include "fcl_kios/volume/separation.h"
+#include "fcl_kios/volume.h"
 #include "scalars.h"
 #include "volume/exact_pairs.h"
 

@@ -32,7 +32,7 @@ function describeMesh(panel, mesh, index, names) {
     ['spheres', `k = 1: ${count(mesh.k[1])}, 3: ${count(mesh.k[3])}, 5: ${count(mesh.k[5])}`],
     ['memory', `${bytes(mesh.model_bytes)} + ${bytes(mesh.prepared_bytes)} prepared, ` +
       Math.round((mesh.model_bytes + mesh.prepared_bytes) / mesh.triangles) + ' B a triangle'],
-    ['time', `build ${time(mesh.build_seconds)}, prepare ${time(mesh.prepare_seconds)}`]]);
+    ['time', `build ${time(mesh.build_seconds)}`]]);
   if (mesh.levels.length === 0) return;
   const table = add(panel, 'table');
   table.style.marginTop = '12px';

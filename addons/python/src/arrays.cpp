@@ -52,14 +52,14 @@ py::array_t<double> doubles(py::handle value, const char* name) {
   if (kind == 'f' && (array.itemsize() == 4 || array.itemsize() == 8)) {
     return converted<Doubles>(array, name);
   }
-  if (isWritten(value) && (kind == 'i' || kind == 'u' || array.size() == 0)) {
+  if (kind == 'i' || kind == 'u' || (isWritten(value) && array.size() == 0)) {
     Doubles result = converted<Doubles>(array, name);
     for (py::ssize_t i = 0; i < result.size(); ++i) {
       if (std::abs(result.data()[i]) > 0x1p53) refuse(name, " has integers that no double holds.");
     }
     return result;
   }
-  refuse(name, " has dtype " + dtypeOf(array) + "; float64 or float32 is needed.");
+  refuse(name, " has dtype " + dtypeOf(array) + "; float64, float32 or integers are needed.");
 }
 
 Points::Points(py::handle value, const char* name) : array(doubles(value, name)) {
@@ -166,13 +166,31 @@ std::vector<double> numbers(py::handle value, py::ssize_t n, const char* what) {
 Eigen::Vector3d vector(py::handle value, const char* what) {
   return Eigen::Vector3d(numbers(value, 3, what).data());
 }
+
+namespace {
+
+/// The nearest rotation (Higham 1986, Newton's iteration for the polar factor) of a matrix that was
+/// rounded to few decimals; others stay as they are. Queries refuse what is left that isn't rigid.
+Eigen::Matrix3d asRotation(const Eigen::Matrix3d& R) {
+  constexpr double kRounded = 1e-6, kSkewed = 1e-2;  // of floats, and of two decimals
+  const double error = (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
+  if (!(error > kRounded && error < kSkewed)) return R;
+  Eigen::Matrix3d nearest = R;
+  for (int i = 0; i < 4; ++i) {  // squares the error each time
+    nearest = 0.5 * (nearest + Eigen::Matrix3d(nearest.inverse().transpose()));
+  }
+  return nearest;
+}
+
+}  // namespace
+
 Eigen::Matrix3d matrix(py::handle value, const char* what) {
   const std::vector<double> m = numbers(value, 9, what);
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m.data());
+  return asRotation(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m.data()));
 }
 Eigen::Matrix3d rotation(py::handle value, const char* what) {
   const std::vector<double> q = numbers(value, 4, what);
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  return asRotation(Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix());
 }
 py::array_t<double> toMatrix(const Eigen::Matrix3d& m) {
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> rows = m;

@@ -16,8 +16,8 @@ namespace kios::python {
 
 namespace py = pybind11;
 
-/// Doubles in C order, of any shape. float32 converts without loss; every other dtype of an array
-/// is refused, and integers of a list that doubles can't hold.
+/// Doubles in C order, of any shape. float32 converts without loss, and so must integers; every
+/// other dtype is refused.
 py::array_t<double> doubles(py::handle value, const char* name);
 
 /// (n, 3), or (3,) as one point.
@@ -58,8 +58,9 @@ std::vector<fcl::Triangle> readTriangles(py::handle value, const char* name,
 /// no numbers, std::invalid_argument for another number of them.
 std::vector<double> numbers(py::handle value, py::ssize_t n, const char* what);
 Eigen::Vector3d vector(py::handle value, const char* what);
+/// Rotations that were rounded to few decimals, of (3, 3) or a quaternion w, x, y, z, are made
+/// orthonormal.
 Eigen::Matrix3d matrix(py::handle value, const char* what);
-/// Turns a quaternion w, x, y, z into a matrix.
 Eigen::Matrix3d rotation(py::handle value, const char* what);
 
 py::array_t<double> toArray(const Eigen::Vector3d& v);

@@ -59,6 +59,7 @@ class Batch {
     try {
       std::rethrow_exception(failure_);
     } catch (const std::invalid_argument& error) {
+      if (*what == '\0') throw;
       throw std::invalid_argument(std::string(error.what()) + " (" + what + "[" +
                                   std::to_string(failed_) + "])");
     }
@@ -132,15 +133,17 @@ class Helpers {
   int running_ = 0;
 };
 
+}  // namespace
+
 int threadsOf(const py::object& threads) {
   if (threads.is_none()) return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int n = py::isinstance<py::int_>(threads) ? threads.cast<int>() : 0;
+  const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(threads.ptr()));
+  const Py_ssize_t n = index ? PyNumber_AsSsize_t(index.ptr(), nullptr) : 0;  // numpy's as well
+  PyErr_Clear();
   if (n < 1)
     throw std::invalid_argument("fcl_kios: threads must be an int of at least 1, or None.");
-  return n;
+  return static_cast<int>(std::min<Py_ssize_t>(n, 1024));
 }
-
-}  // namespace
 
 void runBatch(std::size_t n, const BatchOptions& options, const char* what,
               const std::function<void(std::size_t)>& work) {
@@ -149,11 +152,10 @@ void runBatch(std::size_t n, const BatchOptions& options, const char* what,
   Batch batch(n, work);
   std::exception_ptr raised;
   std::size_t told = 0;
-  const auto listen = [&] {
+  const auto hear = [&] {
     const WithGil gil;
     try {
-      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-      if (WithoutGil::isClosing()) throw std::runtime_error("fcl_kios: the interpreter ends.");
+      listen();
       const std::size_t done = batch.done();
       if (tell && done > told) options.progress(done - std::exchange(told, done));
     } catch (...) {
@@ -174,15 +176,15 @@ void runBatch(std::size_t n, const BatchOptions& options, const char* what,
         if ((now - start) * items > microseconds(800)) helpers.start(threads - 1);
       }
       if (now - listened > milliseconds(20)) {
-        listen();
+        hear();
         listened = now;
       }
     });
     while (!helpers.waitFor(milliseconds(20))) {
-      if (!raised) listen();
+      if (!raised) hear();
     }
   }
-  if (!raised && n > 0) listen();
+  if (!raised && n > 0) hear();
   if (raised) std::rethrow_exception(raised);
   batch.rethrow(what);
 }

@@ -6,34 +6,34 @@
 #include <pybind11/stl.h>
 
 #include <cerrno>
+#include <memory>
+#include <string>
 #include <utility>
 
 #include "files/read_mesh.h"
+#include "mesh_batches.h"
 #include "objects.h"
 
 namespace kios::python {
 namespace {
 
-/// Vertices, faces and warnings of a file.
-py::tuple readFile(const std::string& file, bool weld) {
-  files::Mesh mesh;
+/// Vertices, faces and warnings of a file, or of what stands in its place.
+py::tuple readFile(const std::string& file, bool weld, const py::object& content) {
+  std::string bytes;
+  if (!content.is_none()) bytes = content.cast<std::string>();
+  const bool is_file = content.is_none();
+  const auto mesh = std::make_shared<files::Mesh>();
   try {
-    const WithoutGil released;
-    mesh = files::readMesh(file);
-    if (weld) files::weld(mesh);
+    runInterruptibly([file, weld, is_file, bytes = std::move(bytes), mesh]() mutable {
+      *mesh = is_file ? files::readMesh(file) : files::readMesh(file, std::move(bytes));
+      if (weld) files::weld(*mesh);
+    });
   } catch (const files::OpenError& error) {
     errno = error.code;
     PyErr_SetFromErrnoWithFilename(PyExc_OSError, file.c_str());
     throw py::error_already_set();
   }
-  py::array_t<double> vertices({mesh.vertices.size(), std::size_t{3}},
-                               mesh.vertices.data()->data());
-  py::array_t<std::int64_t> faces({mesh.triangles.size(), std::size_t{3}});
-  std::int64_t* to = faces.mutable_data();
-  for (const fcl::Triangle& t : mesh.triangles) {
-    for (const int corner : {0, 1, 2}) *to++ = static_cast<std::int64_t>(t[corner]);
-  }
-  return py::make_tuple(std::move(vertices), std::move(faces), mesh.warnings);
+  return py::make_tuple(toPoints(mesh->vertices), toTriangles(mesh->triangles), mesh->warnings);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 // python-fcl's geometries, transforms and objects.
 #include <cstring>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -20,12 +19,12 @@
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/geometry/shape/triangle_p.h>
-#include <octomap/OcTree.h>
 
 #include "arrays.h"
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/model/storage.h"
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/model.h"
+#include "fcl_kios/solids.h"
+#include "fcl_kios/storage.h"
+#include "files/octomap.h"
 #include "objects.h"
 
 namespace kios::python {
@@ -49,7 +48,7 @@ void property(Class<T>& c, const char* name, double T::*member) {
   c.def_property(
       name, [member](const T& g) { return g.*member; },
       [member](T& g, double value) {
-        requireUnread(g, "geometry");
+        awaitGeometry(g, "geometry");
         g.*member = value;
       });
 }
@@ -58,26 +57,27 @@ void property(Class<T>& c, const char* name, Eigen::Vector3d T::*member) {
   c.def_property(
       name, [member](const T& g) { return toArray(g.*member); },
       [member, name](T& g, py::handle value) {
-        requireUnread(g, "geometry");
+        awaitGeometry(g, "geometry");
         g.*member = vector(value, name);
       });
 }
 
 /// Cones, cylinders and capsules.
 template <typename T>
-void bindRound(py::module_& m, const char* name) {
-  Class<T> c(m, name);
-  c.def(py::init<double, double>(), py::arg("radius"), py::arg("lz"));
+void bindRound(py::module_& m, const char* name, const char* text) {
+  Class<T> c(m, name, text);
+  c.def(py::init<double, double>(), py::arg("radius"), py::arg("lz"),
+        "__init__(self, radius, lz)\n--\n\nAlong z, about the origin; lz is the length.");
   property(c, "radius", &T::radius);
   property(c, "lz", &T::lz);
 }
 
 /// Half-spaces and planes.
 template <typename T>
-void bindFlat(py::module_& m, const char* name) {
-  Class<T> c(m, name);
+void bindFlat(py::module_& m, const char* name, const char* text) {
+  Class<T> c(m, name, text);
   c.def(py::init([](py::handle n, double d) { return std::make_shared<T>(vector(n, "n"), d); }),
-        py::arg("n"), py::arg("d"));
+        py::arg("n"), py::arg("d"), "__init__(self, n, d)\n--\n\nn: (3,); d: a length.");
   property(c, "n", &T::n);
   property(c, "d", &T::d);
 }
@@ -118,36 +118,44 @@ std::shared_ptr<fcl::Convexd> makeConvex(py::handle vertices, int num_faces, py:
 }
 
 void bindShapes(py::module_& m) {
-  Class<fcl::TrianglePd> triangle(m, "TriangleP");
+  Class<fcl::TrianglePd> triangle(m, "TriangleP",
+                                  "TriangleP(a, b, c)\n--\n\nA triangle by its corners.");
   triangle.def(py::init([](py::handle a, py::handle b, py::handle c) {
                  return std::make_shared<fcl::TrianglePd>(vector(a, "a"), vector(b, "b"),
                                                           vector(c, "c"));
                }),
-               py::arg("a"), py::arg("b"), py::arg("c"));
+               py::arg("a"), py::arg("b"), py::arg("c"),
+               "__init__(self, a, b, c)\n--\n\nCorners, (3,) each.");
   property(triangle, "a", &fcl::TrianglePd::a);
   property(triangle, "b", &fcl::TrianglePd::b);
   property(triangle, "c", &fcl::TrianglePd::c);
 
-  Class<fcl::Boxd> box(m, "Box");
-  box.def(py::init<double, double, double>(), py::arg("x"), py::arg("y"), py::arg("z"));
+  Class<fcl::Boxd> box(m, "Box", "Box(x, y, z)\n--\n\nA box about the origin.");
+  box.def(py::init<double, double, double>(), py::arg("x"), py::arg("y"), py::arg("z"),
+          "__init__(self, x, y, z)\n--\n\nIts whole lengths.");
   property(box, "side", &fcl::Boxd::side);
 
-  Class<fcl::Sphered> sphere(m, "Sphere");
-  sphere.def(py::init<double>(), py::arg("radius"));
+  Class<fcl::Sphered> sphere(m, "Sphere", "Sphere(radius)\n--\n\nA ball about the origin.");
+  sphere.def(py::init<double>(), py::arg("radius"), "__init__(self, radius)\n--\n\nA length.");
   property(sphere, "radius", &fcl::Sphered::radius);
 
-  Class<fcl::Ellipsoidd> ellipsoid(m, "Ellipsoid");
-  ellipsoid.def(py::init<double, double, double>(), py::arg("a"), py::arg("b"), py::arg("c"));
+  Class<fcl::Ellipsoidd> ellipsoid(m, "Ellipsoid",
+                                   "Ellipsoid(a, b, c)\n--\n\nAn ellipsoid about the origin.");
+  ellipsoid.def(py::init<double, double, double>(), py::arg("a"), py::arg("b"), py::arg("c"),
+                "__init__(self, a, b, c)\n--\n\nIts half axes.");
   property(ellipsoid, "radii", &fcl::Ellipsoidd::radii);
 
-  bindRound<fcl::Capsuled>(m, "Capsule");
-  bindRound<fcl::Coned>(m, "Cone");
-  bindRound<fcl::Cylinderd>(m, "Cylinder");
-  bindFlat<fcl::Halfspaced>(m, "Halfspace");
-  bindFlat<fcl::Planed>(m, "Plane");
+  bindRound<fcl::Capsuled>(m, "Capsule",
+                           "Capsule(radius, lz)\n--\n\nA cylinder between half balls.");
+  bindRound<fcl::Coned>(m, "Cone", "Cone(radius, lz)\n--\n\nA cone, its tip upwards.");
+  bindRound<fcl::Cylinderd>(m, "Cylinder", "Cylinder(radius, lz)\n--\n\nA cylinder.");
+  bindFlat<fcl::Halfspaced>(m, "Halfspace", "Halfspace(n, d)\n--\n\nThe points where n x <= d.");
+  bindFlat<fcl::Planed>(m, "Plane", "Plane(n, d)\n--\n\nThe points where n x = d.");
 
-  Class<fcl::Convexd>(m, "Convex")
-      .def(py::init(&makeConvex), py::arg("vertices"), py::arg("num_faces"), py::arg("faces"))
+  Class<fcl::Convexd>(m, "Convex", "Convex(vertices, num_faces, faces)\n--\n\nA convex polyhedron.")
+      .def(py::init(&makeConvex), py::arg("vertices"), py::arg("num_faces"), py::arg("faces"),
+           "__init__(self, vertices, num_faces, faces)\n--\n\nvertices: (n, 3); faces: one list of "
+           "each face's number of vertices and their indices.")
       .def_property_readonly("num_faces", &fcl::Convexd::getFaceCount)
       .def_property_readonly(
           "_vertices",
@@ -178,7 +186,7 @@ bool checkBuild(int status) {
 }
 
 Modeld& changed(Modeld& model) {
-  requireUnread(model, "BVHModel");
+  awaitGeometry(model, "BVHModel");
   return model;
 }
 
@@ -187,32 +195,85 @@ Eigen::Vector3d finite(const Eigen::Vector3d& p) {
   return p;
 }
 
+bool mark_watertight = false;
+
+/// A model that one thread builds without the GIL: queries and changes wait.
+struct Building {
+  explicit Building(std::shared_ptr<Modeld> of)
+      : model(std::move(of)), crowd(turnsOf(*model).placed > 0) {
+    count(1);
+  }
+  Building(const Building&) = delete;
+  ~Building() { count(-1); }
+
+  void count(int n) const {
+    Turns& turns = turnsOf(*model);
+    turns.readers += static_cast<unsigned int>(n);
+    turns.waiting += static_cast<unsigned int>(n);
+    if (crowd) crowdTurns().waiting += static_cast<unsigned int>(n);
+  }
+
+  const std::shared_ptr<Modeld> model;
+  const bool crowd;
+  int status = 0;
+};
+
+int endModel(const std::shared_ptr<Modeld>& model) {
+  constexpr int kLong = 20000;
+  const auto end = [](Modeld& g) {
+    const int status = g.endModel();
+    try {
+      if (mark_watertight && status == fcl::BVH_OK && g.num_tris > 0) markSolid(g);
+    } catch (const std::invalid_argument&) {  // it is a soup
+    }
+    return status;
+  };
+  if (changed(*model).num_tris < kLong) return end(*model);
+  const auto building = std::make_shared<Building>(model);
+  runInterruptibly([building = building.get(), end] { building->status = end(*building->model); },
+                   building);
+  return building->status;
+}
+
 void bindModel(py::module_& m) {
-  Class<Modeld>(m, "BVHModel")
-      .def(py::init<>())
-      .def("num_tries_", [](const Modeld& g) { return g.num_tris; })
-      .def("buildState", [](const Modeld& g) { return static_cast<int>(g.build_state); })
+  m.def(
+      "_mark_watertight", [](bool on) { mark_watertight = on; }, py::arg("on"));
+  Class<Modeld>(
+      m, "BVHModel",
+      "BVHModel()\n--\n\nA mesh: beginModel(), then vertices and triangles, then endModel().")
+      .def(py::init<>(), "__init__(self)\n--\n\nAn empty mesh.")
+      .def(
+          "num_tries_", [](const Modeld& g) { return g.num_tris; },
+          "num_tries_(self)\n--\n\nThe number of triangles.")
+      .def(
+          "buildState", [](const Modeld& g) { return static_cast<int>(g.build_state); },
+          "buildState(self)\n--\n\nFCL's state of the build: 2 once it has ended.")
       .def(
           "beginModel",
           [](Modeld& g, int num_tris, int num_vertices) {
             // Where it is 0, FCL's addTriangle() writes beyond the array.
             return changed(g).beginModel(num_tris < 1 ? -1 : num_tris, num_vertices);
           },
-          py::arg("num_tris_") = 0, py::arg("num_vertices_") = 0)
-      .def("endModel", [](Modeld& g) { return changed(g).endModel(); })
+          py::arg("num_tris_") = 0, py::arg("num_vertices_") = 0,
+          "beginModel(self, num_tris_=0, num_vertices_=0)\n--\n\nBegins to build, with room for so "
+          "many. Returns FCL's code, 0.")
+      .def("endModel", &endModel,
+           "endModel(self)\n--\n\nBuilds what queries search. Returns FCL's code, 0 if that went "
+           "well.")
       .def(
           "addVertex",
           [](Modeld& g, double x, double y, double z) {
             return checkBuild(changed(g).addVertex(finite({x, y, z})));
           },
-          py::arg("x"), py::arg("y"), py::arg("z"))
+          py::arg("x"), py::arg("y"), py::arg("z"), "addVertex(self, x, y, z)\n--\n\nAdds a point.")
       .def(
           "addTriangle",
           [](Modeld& g, py::handle v1, py::handle v2, py::handle v3) {
             return checkBuild(changed(g).addTriangle(
                 finite(vector(v1, "v1")), finite(vector(v2, "v2")), finite(vector(v3, "v3"))));
           },
-          py::arg("v1"), py::arg("v2"), py::arg("v3"))
+          py::arg("v1"), py::arg("v2"), py::arg("v3"),
+          "addTriangle(self, v1, v2, v3)\n--\n\nAdds a triangle by its corners, (3,) each.")
       .def(
           "addSubModel",
           [](Modeld& g, py::handle verts, py::handle triangles) {
@@ -220,8 +281,12 @@ void bindModel(py::module_& m) {
             return checkBuild(changed(g).addSubModel(
                 vertices, readTriangles(triangles, "triangles", vertices.size())));
           },
-          py::arg("verts"), py::arg("triangles"))
-      .def("markSolid", [](Modeld& g) { markSolid(changed(g)); })
+          py::arg("verts"), py::arg("triangles"),
+          "addSubModel(self, verts, triangles)\n--\n\nAdds a mesh: (n, 3) numbers, and (m, 3) "
+          "integers below n.")
+      .def(
+          "markSolid", [](Modeld& g) { markSolid(changed(g)); },
+          "markSolid(self)\n--\n\nGives a closed mesh an inside. ValueError says where it isn't.")
       .def("_is_solid", [](const Modeld& g) { return isSolid(g); })
       .def("_save",
            [](const Modeld& g) {
@@ -236,29 +301,6 @@ void bindModel(py::module_& m) {
       });
 }
 
-/// octomap's reader trusts its input: it recurses, and reads on, for ever. Two bytes a node hold
-/// two bits a child, 3 for a child with children; at most 16 levels lie below the root.
-void requireTree(const std::string& data) {
-  constexpr int kLevels = 16;
-  std::vector<int> levels = {0};
-  std::size_t at = 0;
-  while (!levels.empty()) {
-    const int level = levels.back();
-    levels.pop_back();
-    if (data.size() - at < 2) throw std::invalid_argument("OcTree: the data end too early.");
-    for (int child = 8; child-- > 0;) {  // the first is read next
-      const int bits = static_cast<unsigned char>(data[at + static_cast<std::size_t>(child / 4)]) >>
-                           (2 * (child % 4)) &
-                       3;
-      if (bits != 3) continue;
-      if (level + 1 >= kLevels)
-        throw std::invalid_argument("OcTree: the data have too many levels.");
-      levels.push_back(level + 1);
-    }
-    at += 2;
-  }
-}
-
 std::string charsOf(py::handle data) {
   if (PyObject_CheckBuffer(data.ptr()) != 0) {
     return py::reinterpret_steal<py::bytes>(PyBytes_FromObject(data.ptr()));
@@ -269,35 +311,37 @@ std::string charsOf(py::handle data) {
 }
 
 void bindOcTree(py::module_& m) {
-  Class<fcl::OcTreed>(m, "OcTree")
+  Class<fcl::OcTreed>(m, "OcTree", "OcTree(r, data)\n--\n\nAn octree of octomap's.")
       .def(py::init([](double r, py::handle data) {
-             if (!(r > 0))
-               throw std::invalid_argument("OcTree: the resolution r must be positive.");
-             const std::string chars = charsOf(data);
-             requireTree(chars);
-             std::stringstream stream(chars);
-             auto tree = std::make_shared<octomap::OcTree>(r);
-             tree->readBinaryData(stream);
-             return std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(tree));
+             return std::dynamic_pointer_cast<fcl::OcTreed>(
+                 files::octreeOf(charsOf(data), false, r));
            }),
-           py::arg("r"), py::arg("data"));
+           py::arg("r"), py::arg("data"),
+           "__init__(self, r, data)\n--\n\nr: the length of a cell; data: as octomap writes them, "
+           "without a head.");
 }
 
 void bindGeometry(py::module_& m) {
-  py::class_<Geometry, std::shared_ptr<Geometry>>(m, "CollisionGeometry")
-      .def(py::init([]() -> std::shared_ptr<Geometry> { return std::make_shared<NoGeometry>(); }))
-      .def("getNodeType",
-           [](const Geometry& g) -> py::object {
-             if (isNone(g)) return py::none();
-             // python-fcl's meshes are over OBBRSS, and programs tell meshes by that.
-             if (dynamic_cast<const Modeld*>(&g)) return py::int_(static_cast<int>(fcl::BV_OBBRSS));
-             return py::int_(static_cast<int>(g.getNodeType()));
-           })
-      .def("computeLocalAABB",
-           [](Geometry& g) {
-             requireUnread(g, "geometry");
-             computeLocalBox(g);
-           })
+  py::class_<Geometry, std::shared_ptr<Geometry>>(
+      m, "CollisionGeometry", "CollisionGeometry()\n--\n\nWhat shapes, meshes and octrees are.")
+      .def(py::init([]() -> std::shared_ptr<Geometry> { return std::make_shared<NoGeometry>(); }),
+           "__init__(self)\n--\n\nNo geometry.")
+      .def(
+          "getNodeType",
+          [](const Geometry& g) -> py::object {
+            if (isNone(g)) return py::none();
+            // python-fcl's meshes are over OBBRSS, and programs tell meshes by that.
+            if (dynamic_cast<const Modeld*>(&g)) return py::int_(static_cast<int>(fcl::BV_OBBRSS));
+            return py::int_(static_cast<int>(g.getNodeType()));
+          },
+          "getNodeType(self)\n--\n\nOne of NODE_TYPE.")
+      .def(
+          "computeLocalAABB",
+          [](Geometry& g) {
+            awaitGeometry(g, "geometry");
+            computeLocalBox(g);
+          },
+          "computeLocalAABB(self)\n--\n\nTo be called after the geometry was changed.")
       .def_property(
           "aabb_center",
           [](const Geometry& g) -> py::object {
@@ -306,7 +350,7 @@ void bindGeometry(py::module_& m) {
           },
           [](Geometry& g, py::handle value) {
             if (isNone(g)) throw py::type_error("CollisionGeometry: there is no geometry.");
-            requireUnread(g, "geometry");
+            awaitGeometry(g, "geometry");
             const Eigen::Vector3d center = vector(value, "aabb_center");
             if (!center.allFinite()) throw std::invalid_argument("aabb_center is not finite.");
             g.aabb_center = center;

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/solids.h"
 
 namespace kios::python {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 
 // A proof of contact that needs no search. A closed mesh parts space, and how often it winds round
 // a point changes only where its surface is crossed. Where one vertex of another mesh lies inside

@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "inside_grid.h"
 
 namespace kios::python {

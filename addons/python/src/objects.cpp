@@ -50,29 +50,45 @@ Transform makeTransform(const py::args& args) {
 }
 
 void bindTransform(py::module_& m) {
-  py::class_<Transform>(m, "Transform")
-      .def(py::init(&makeTransform))
-      .def("getRotation",
-           [](const Transform& t) { return toMatrix(Eigen::Matrix3d(t.X.linear())); })
-      .def("getTranslation",
-           [](const Transform& t) { return toArray(Eigen::Vector3d(t.X.translation())); })
-      .def("getQuatRotation", [](const Transform& t) { return toQuaternion(t.X.linear()); })
+  py::class_<Transform>(
+      m, "Transform",
+      "Transform(*args)\n--\n\nA pose: Transform(), (rotation), (translation), "
+      "(rotation, translation) or (Transform).\nA rotation is (3, 3), or a "
+      "quaternion w, x, y, z. What was rounded to few decimals is made orthonormal.")
+      .def(py::init(&makeTransform), "__init__(self, *args)\n--\n\nSee the class.")
+      .def(
+          "getRotation", [](const Transform& t) { return toMatrix(t.X.linear()); },
+          "getRotation(self)\n--\n\n(3, 3)")
+      .def(
+          "getTranslation", [](const Transform& t) { return toArray(t.X.translation()); },
+          "getTranslation(self)\n--\n\n(3,)")
+      .def(
+          "getQuatRotation", [](const Transform& t) { return toQuaternion(t.X.linear()); },
+          "getQuatRotation(self)\n--\n\nw, x, y, z")
       .def(
           "setRotation", [](Transform& t, py::handle R) { t.X.linear() = matrix(R, "rotation"); },
-          py::arg("R"))
+          py::arg("R"), "setRotation(self, R)\n--\n\nR: (3, 3)")
       .def(
           "setTranslation",
           [](Transform& t, py::handle T) { t.X.translation() = vector(T, "translation"); },
-          py::arg("T"))
+          py::arg("T"), "setTranslation(self, T)\n--\n\nT: (3,)")
       .def(
           "setQuatRotation",
           [](Transform& t, py::handle q) { t.X.linear() = rotation(q, "quaternion"); },
-          py::arg("q"));
+          py::arg("q"), "setQuatRotation(self, q)\n--\n\nq: w, x, y, z");
 }
 
+/// Waits for the queries that read it, by itself or in a manager.
 template <typename Set>
 void moveObject(Object& object, const Set& set) {
-  requireUnread(object.readers, "object");
+  awaitTurn(
+      [&] {
+        for (const std::shared_ptr<Turns>& manager : object.managers) {
+          if (manager->readers > 0) return manager;
+        }
+        return ifRead(object.turns);
+      },
+      "object");
   set(object.object);
   object.object.computeAABB();
 }
@@ -86,9 +102,11 @@ struct VisitGeometry {
 };
 
 void bindObject(py::module_& m) {
-  py::class_<Object>(m, "CollisionObject", py::custom_type_setup([](PyHeapTypeObject* type) {
-                       traverse<Object>(type, VisitGeometry());
-                     }))
+  py::class_<Object>(
+      m, "CollisionObject",
+      "CollisionObject(geom=None, tf=None)\n--\n\nA geometry at its pose in the world.",
+      py::custom_type_setup(
+          [](PyHeapTypeObject* type) { traverse<Object>(type, VisitGeometry()); }))
       .def(py::init([](py::object geom, const Transform* tf) {
              if (!geom.is_none() && !py::isinstance<Geometry>(geom)) {
                throw py::type_error("CollisionObject: geom must be a CollisionGeometry.");
@@ -99,47 +117,64 @@ void bindObject(py::module_& m) {
              return std::make_unique<Object>(std::move(geom),
                                              tf ? tf->X : fcl::Transform3d::Identity());
            }),
-           py::arg("geom") = py::none(), py::arg("tf") = py::none())
-      .def("getObjectType",
-           [](const Object& o) { return static_cast<int>(o.object.getObjectType()); })
-      .def("getNodeType", [](const Object& o) { return o.geometry.attr("getNodeType")(); })
-      .def("getTranslation",
-           [](const Object& o) { return toArray(Eigen::Vector3d(o.object.getTranslation())); })
-      .def("getRotation",
-           [](const Object& o) { return toMatrix(Eigen::Matrix3d(o.object.getRotation())); })
-      .def("getQuatRotation", [](const Object& o) { return toQuaternion(o.object.getRotation()); })
-      .def("getTransform", [](const Object& o) { return Transform{o.object.getTransform()}; })
+           py::arg("geom") = py::none(), py::arg("tf") = py::none(),
+           "__init__(self, geom=None, tf=None)\n--\n\ntf: a Transform; None: the identity.")
+      .def(
+          "getObjectType",
+          [](const Object& o) { return static_cast<int>(o.object.getObjectType()); },
+          "getObjectType(self)\n--\n\nOne of OBJECT_TYPE.")
+      .def(
+          "getNodeType", [](const Object& o) { return o.geometry.attr("getNodeType")(); },
+          "getNodeType(self)\n--\n\nOne of NODE_TYPE.")
+      .def(
+          "getTranslation", [](const Object& o) { return toArray(o.object.getTranslation()); },
+          "getTranslation(self)\n--\n\n(3,)")
+      .def(
+          "getRotation", [](const Object& o) { return toMatrix(o.object.getRotation()); },
+          "getRotation(self)\n--\n\n(3, 3)")
+      .def(
+          "getQuatRotation", [](const Object& o) { return toQuaternion(o.object.getRotation()); },
+          "getQuatRotation(self)\n--\n\nw, x, y, z")
+      .def(
+          "getTransform", [](const Object& o) { return Transform{o.object.getTransform()}; },
+          "getTransform(self)\n--\n\nA copy of its Transform.")
       .def(
           "setTranslation",
           [](Object& o, py::handle vec) {
             const Eigen::Vector3d p = vector(vec, "translation");
             moveObject(o, [&](auto& object) { object.setTranslation(p); });
           },
-          py::arg("vec"))
+          py::arg("vec"), "setTranslation(self, vec)\n--\n\nvec: (3,)")
       .def(
           "setRotation",
           [](Object& o, py::handle mat) {
             const Eigen::Matrix3d R = matrix(mat, "rotation");
             moveObject(o, [&](auto& object) { object.setRotation(R); });
           },
-          py::arg("mat"))
+          py::arg("mat"), "setRotation(self, mat)\n--\n\nmat: (3, 3)")
       .def(
           "setQuatRotation",
           [](Object& o, py::handle q) {
             const Eigen::Matrix3d R = rotation(q, "quaternion");
             moveObject(o, [&](auto& object) { object.setRotation(R); });
           },
-          py::arg("q"))
+          py::arg("q"), "setQuatRotation(self, q)\n--\n\nq: w, x, y, z")
       .def(
           "setTransform",
           [](Object& o, const Transform& tf) {
             moveObject(o, [&](auto& object) { object.setTransform(tf.X); });
           },
-          py::arg("tf"))
-      .def("isOccupied", [](const Object& o) { return o.object.collisionGeometry()->isOccupied(); })
-      .def("isFree", [](const Object& o) { return o.object.collisionGeometry()->isFree(); })
-      .def("isUncertain",
-           [](const Object& o) { return o.object.collisionGeometry()->isUncertain(); })
+          py::arg("tf"), "setTransform(self, tf)\n--\n\ntf: a Transform")
+      .def(
+          "isOccupied", [](const Object& o) { return o.object.collisionGeometry()->isOccupied(); },
+          "isOccupied(self)\n--\n\nWhether the geometry is known to be there.")
+      .def(
+          "isFree", [](const Object& o) { return o.object.collisionGeometry()->isFree(); },
+          "isFree(self)\n--\n\nWhether it is known not to be.")
+      .def(
+          "isUncertain",
+          [](const Object& o) { return o.object.collisionGeometry()->isUncertain(); },
+          "isUncertain(self)\n--\n\nWhether neither is.")
       .def_property_readonly("_geometry", [](const Object& o) { return o.geometry; });
 }
 
@@ -147,6 +182,7 @@ void bindObject(py::module_& m) {
 
 Object::Object(py::object of, const fcl::Transform3d& X)
     : object(of.cast<std::shared_ptr<Geometry>>(), X), geometry(std::move(of)) {
+  ++geometryTurns().placed;
   object.setUserData(this);
   computeLocalBox(geometry.cast<Geometry&>());
   object.computeAABB();

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
-#include <utility>
+#include <memory>
+#include <vector>
 
 #include <fcl/geometry/collision_geometry.h>
 #include <fcl/narrowphase/collision_object.h>
 #include <pybind11/pybind11.h>
 
+#include "turns.h"
 #include "without_gil.h"
 
 namespace kios::python {
@@ -16,52 +17,26 @@ namespace kios::python {
 /// A Python CollisionObject. FCL's object points back to it by its user data.
 struct Object {
   Object(py::object of, const fcl::Transform3d& X);
+  Object(const Object&) = delete;
+  ~Object() { --turnsOf(*object.collisionGeometry()).placed; }
 
   fcl::CollisionObjectd object;
   py::object geometry;  ///< the caller's own; kept alive
-  Readers readers = 0;
+  Turns turns{};
+  std::vector<std::shared_ptr<Turns>> managers;  ///< that have it, by their turns
 
   static Object& of(const fcl::CollisionObjectd& object) {
     return *static_cast<Object*>(object.getUserData());
   }
   /// The caller's own Python object.
   py::object self() { return py::cast(this, py::return_value_policy::reference); }
+  Turns& geometryTurns() const { return turnsOf(*object.collisionGeometry()); }
 };
 
-/// Marks a geometry, whose user data count its readers.
-class ReadingGeometry {
- public:
-  explicit ReadingGeometry(const fcl::CollisionGeometryd& geometry)
-      : geometry_(const_cast<fcl::CollisionGeometryd*>(&geometry)) {
-    add(1);
-  }
-  ReadingGeometry(ReadingGeometry&& other) noexcept
-      : geometry_(std::exchange(other.geometry_, nullptr)) {}
-  ReadingGeometry& operator=(ReadingGeometry&&) = delete;
-  ~ReadingGeometry() {
-    if (geometry_) add(-1);
-  }
-
- private:
-  void add(int n) {
-    geometry_->user_data =
-        reinterpret_cast<void*>(reinterpret_cast<std::intptr_t>(geometry_->user_data) + n);
-  }
-
-  fcl::CollisionGeometryd* geometry_;
-};
-
-inline void requireUnread(const fcl::CollisionGeometryd& geometry, const char* what) {
-  requireUnread(geometry.user_data ? 1 : 0, what);
+/// Marks two objects and their geometries.
+inline Reading readingBoth(Object& a, Object& b) {
+  return Reading(&a.turns, &a.geometryTurns(), &b.turns, &b.geometryTurns());
 }
-
-/// Marks an object and its geometry.
-struct ReadingObject {
-  explicit ReadingObject(Object& object)
-      : pose(object.readers), geometry(*object.object.collisionGeometry()) {}
-  Reading pose;
-  ReadingGeometry geometry;
-};
 
 /// FCL's queries, as far as what they don't survive is concerned.
 enum class Query { kCollide, kDistance, kContinuous };
@@ -109,5 +84,6 @@ void bindManager(py::module_& m);
 void bindMesh(py::module_& m);
 void bindScene(py::module_& m);
 void bindFiles(py::module_& m);
+void bindRobot(py::module_& m);  ///< where the addon robot is built
 
 }  // namespace kios::python

@@ -1,16 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "fcl_kios/distance.h"
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/query/distance.h"
-#include "fcl_kios/solid/penetration.h"
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/solids.h"
 #include "mesh_batches.h"
 #include "results.h"
+#include "turns.h"
 #include "without_gil.h"
 
 namespace kios::python {
@@ -19,7 +22,7 @@ namespace {
 /// The second body of a pair: a mesh, or one of python-fcl's geometries, which it keeps from
 /// changing meanwhile.
 struct Other {
-  explicit Other(py::handle other) {
+  explicit Other(py::handle other) : object(py::reinterpret_borrow<py::object>(other)) {
     if (py::isinstance<Mesh>(other)) {
       const auto& mesh = other.cast<const Mesh&>();
       geometry = model = &mesh.model();
@@ -32,21 +35,51 @@ struct Other {
     }
     geometry = &other.cast<const fcl::CollisionGeometryd&>();
     model = dynamic_cast<const Modeld*>(geometry);
-    reading.emplace(*geometry);
+    reading.emplace(&turnsOf(*geometry));
     is_solid = model && kios::isSolid(*model);
   }
 
-  /// Throws TypeError.
-  const Modeld& mesh(const char* query) const {
-    if (!model) throw py::type_error(std::string(query) + ": other must be a mesh.");
-    return *model;
-  }
-
+  py::object object;
   const fcl::CollisionGeometryd* geometry;
   const Modeld* model = nullptr;
   const Mesh* unchanging = nullptr;
   bool is_solid = false;
-  std::optional<ReadingGeometry> reading;
+  std::optional<Reading> reading;
+};
+
+/// The poses of a batch, and whose they are.
+struct Asked {
+  /// `meshes` names the query that needs them.
+  Asked(py::handle other, py::handle X_AB, const char* meshes = nullptr) : poses(X_AB, "X_AB") {
+    if (py::isinstance<py::list>(other)) {
+      for (const py::handle each : other) others.emplace_back(each);
+    } else {
+      others.emplace_back(other);
+    }
+    for (const Other& each : others) {
+      if (meshes && !each.model) {
+        throw py::type_error(std::string(meshes) + ": other must be a mesh.");
+      }
+    }
+    share = std::max<std::size_t>(1, poses.size / std::max<std::size_t>(1, others.size()));
+  }
+  const Other& operator[](std::size_t i) const { return others[i / share]; }
+  std::size_t size() const { return poses.size; }
+  /// Asks about each pose; an array of the answers, or a tuple of what they have `of`.
+  template <typename Ask, typename... Of>
+  py::object each(const BatchOptions& options, const Ask& ask, const Of&... of) const {
+    const auto found =
+        runEach(size(), options, "X_AB", [&](std::size_t i) { return ask((*this)[i], poses[i]); });
+    if constexpr (sizeof...(of) == 0) {
+      return column(found, poses.single);
+    } else {
+      return columns(found, poses.single, of...);
+    }
+  }
+
+  Poses poses;
+  std::vector<Other> others;
+  std::size_t share;
 };
 
 const fcl::Transform3d& identity() {
@@ -54,43 +87,16 @@ const fcl::Transform3d& identity() {
   return X;
 }
 
-bool touch(const Modeld& a, const fcl::CollisionGeometryd* b, const fcl::Transform3d& X_AB) {
+bool touch(const Modeld& a, const Other& b, const fcl::Transform3d& X_AB) {
   fcl::CollisionResultd result;
-  return fcl::collide(&a, identity(), b, X_AB, fcl::CollisionRequestd(), result) > 0;
+  return fcl::collide(&a, identity(), b.geometry, X_AB, fcl::CollisionRequestd(), result) > 0;
 }
 
-/// Distances of a batch and, if asked for, where they are attained, in A's frame.
+/// A distance and, if there are any, where it is attained, in A's frame.
 struct Nearest {
-  explicit Nearest(std::size_t n, bool with_points)
-      : distances(makeArray<double>(n)), distance(distances.mutable_data()) {
-    if (!with_points) return;
-    for (int side = 0; side < 2; ++side) {
-      points[side] = makeVectors(n);
-      point[side] = points[side].mutable_data();
-      triangles[side] = makeArray<std::int64_t>(n);
-      triangle[side] = triangles[side].mutable_data();
-    }
-  }
-
-  void set(std::size_t i, double d) {
-    distance[i] = d;
-    if (point[0])
-      set(i, d, Eigen::Vector3d::Constant(kNaN), Eigen::Vector3d::Constant(kNaN), -1, -1);
-  }
-  void set(std::size_t i, double d, const Eigen::Vector3d& on_a, const Eigen::Vector3d& on_b,
-           std::int64_t of_a, std::int64_t of_b) {
-    distance[i] = d;
-    if (!point[0]) return;
-    write(on_a, point[0] + 3 * i);
-    write(on_b, point[1] + 3 * i);
-    triangle[0][i] = of_a;
-    triangle[1][i] = of_b;
-  }
-
-  py::array_t<double> distances, points[2];
-  py::array_t<std::int64_t> triangles[2];
-  double *distance, *point[2] = {};
-  std::int64_t* triangle[2] = {};
+  double distance = kInfinity;
+  Eigen::Vector3d point_a = Eigen::Vector3d::Constant(kNaN), point_b = point_a;
+  std::intptr_t triangle_a = -1, triangle_b = -1;
 };
 
 double nonNegative(double value, const char* name) {
@@ -103,128 +109,148 @@ double nonNegative(double value, const char* name) {
 py::object collides(const Mesh& self, py::handle other, py::handle X_AB,
                     const BatchOptions& options) {
   const Modeld& a = self.model();
-  const Other b(other);
-  const Poses poses(X_AB, "X_AB");
-  auto hits = makeArray<bool>(poses.size);
-  bool* const out = hits.mutable_data();
+  const Asked asked(other, X_AB);
   const InsideGrid* grid = nullptr;
-  if (b.unchanging) {
+  const SpreadVertices* spread = nullptr;
+  if (asked.others.size() == 1 && asked.others[0].unchanging) {
+    const Mesh& b = *asked.others[0].unchanging;
     const WithoutGil released;
-    grid = self.gridFor(poses.size, *b.unchanging);
+    grid = self.gridFor(asked.size(), b);
+    if (grid) spread = &b.spreadVertices();
   }
-  const SpreadVertices* const spread = grid ? &b.unchanging->spreadVertices() : nullptr;
-  runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
-    const fcl::Transform3d X = poses[i];
-    out[i] = (spread && spread->crosses(*grid, X)) || touch(a, b.geometry, X);
+  return asked.each(options, [&](const Other& b, const fcl::Transform3d& X) {
+    return (spread && spread->crosses(*grid, X)) || touch(a, b, X);
   });
-  return orItem(hits, poses.single);
 }
 
 py::object distance(const Mesh& self, py::handle other, py::handle X_AB, double rel_err,
                     double abs_err, double within, bool points, const BatchOptions& options) {
   const Modeld& a = self.model();
-  const Other b(other);
-  const Poses poses(X_AB, "X_AB");
+  const Asked asked(other, X_AB);
   nonNegative(within, "within");
-  DistanceOptionsd how;
+  DistanceBracketRequestd how;
   how.rel_err = nonNegative(rel_err, "rel_err");
   how.abs_err = nonNegative(abs_err, "abs_err");
   how.far_enough = std::nextafter(within, kInfinity);
   how.nearest_points = points;
-  const bool solids = self.isSolid() && b.is_solid;
-  Nearest nearest(poses.size, points);
-  runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
-    const fcl::Transform3d X = poses[i];
+  const auto ask = [&](const Other& b, const fcl::Transform3d& X) -> Nearest {
     if (!b.model) {
       fcl::DistanceRequestd request(points);
       request.rel_err = rel_err;
       request.abs_err = abs_err;
       fcl::DistanceResultd found = emptyResult(how.far_enough);
       fcl::distance(&a, identity(), b.geometry, X, request, found);
-      if (!(found.min_distance <= within)) return nearest.set(i, kInfinity);
+      if (!(found.min_distance <= within)) return {};
       const bool swapped = found.o1 != &a;  // as an octree and a mesh are
-      return nearest.set(i, found.min_distance, found.nearest_points[swapped],
-                         found.nearest_points[!swapped], swapped ? found.b2 : found.b1, -1);
+      return {found.min_distance, found.nearest_points[swapped], found.nearest_points[!swapped],
+              swapped ? found.b2 : found.b1, -1};
     }
-    const DistanceAnswerd found = kios::distance(a, identity(), *b.model, X, how);
+    const DistanceBracketResultd found = kios::distanceBracket(a, identity(), *b.model, X, how);
     // One that lies in the other has no nearest points.
-    if (solids && found.distance > 0 && touch(a, b.geometry, X)) return nearest.set(i, 0);
-    if (!(found.distance <= within)) return nearest.set(i, kInfinity);
-    nearest.set(i, found.distance, found.point_a, found.point_b, found.triangle_a,
-                found.triangle_b);
-  });
-  if (!points) return orItem(nearest.distances, poses.single);
-  const bool single = poses.single;
-  return ofPackage("Nearest")(
-      orItem(nearest.distances, single), orVector(nearest.points[0], single),
-      orVector(nearest.points[1], single), orItem(nearest.triangles[0], single),
-      orItem(nearest.triangles[1], single));
+    if (self.isSolid() && b.is_solid && found.distance > 0 && touch(a, b, X)) return {0};
+    if (!(found.distance <= within)) return {};
+    return {found.distance, found.point_a, found.point_b, found.triangle_a, found.triangle_b};
+  };
+  if (!points) {
+    return asked.each(options, [&](const Other& b, const auto& X) { return ask(b, X).distance; });
+  }
+  return asked.each(options, ask, &Nearest::distance, &Nearest::point_a, &Nearest::point_b,
+                    &Nearest::triangle_a, &Nearest::triangle_b);
 }
 
 py::object bracket(const Mesh& self, py::handle other, py::handle X_AB, double rel_err,
                    double abs_err, const BatchOptions& options) {
   const Modeld& a = self.model();
-  const Other b(other);
-  const Modeld& b_mesh = b.mesh("bracket");
-  const Poses poses(X_AB, "X_AB");
-  DistanceOptionsd how;
+  const Asked asked(other, X_AB, "bracket");
+  DistanceBracketRequestd how;
   how.rel_err = nonNegative(rel_err, "rel_err");
   how.abs_err = nonNegative(abs_err, "abs_err");
   how.nearest_points = false;
-  const bool solids = self.isSolid() && b.is_solid;
-  auto lower = makeArray<double>(poses.size), upper = makeArray<double>(poses.size);
-  double *const lo = lower.mutable_data(), *const up = upper.mutable_data();
-  runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
-    const fcl::Transform3d X = poses[i];
-    lo[i] = up[i] = 0;
-    if (solids && touch(a, b.geometry, X)) return;
-    const DistanceAnswerd found = kios::distance(a, identity(), b_mesh, X, how);
-    lo[i] = found.lower_bound;
-    up[i] = found.upper_bound;
-  });
-  return ofPackage("Bracket")(orItem(lower, poses.single), orItem(upper, poses.single));
+  using Bracket = std::pair<double, double>;
+  const auto ask = [&](const Other& b, const fcl::Transform3d& X) -> Bracket {
+    if (self.isSolid() && b.is_solid && touch(a, b, X)) return {0, 0};
+    const DistanceBracketResultd found = kios::distanceBracket(a, identity(), *b.model, X, how);
+    return {found.lower_bound, found.upper_bound};
+  };
+  return asked.each(options, ask, &Bracket::first, &Bracket::second);
 }
 
 py::object closerThan(const Mesh& self, py::handle other, double t, py::handle X_AB,
                       const BatchOptions& options) {
   const Modeld& a = self.model();
-  const Other b(other);
-  const Modeld& b_mesh = b.mesh("closer_than");
-  const Poses poses(X_AB, "X_AB");
-  const bool solids = self.isSolid() && b.is_solid && t >= 0;
-  auto verdicts = makeArray<bool>(poses.size);
-  bool* const out = verdicts.mutable_data();
-  runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
-    const fcl::Transform3d X = poses[i];
-    out[i] = kios::closerThan(a, identity(), b_mesh, X, t) || (solids && touch(a, b.geometry, X));
+  const Asked asked(other, X_AB, "closer_than");
+  return asked.each(options, [&](const Other& b, const fcl::Transform3d& X) {
+    return kios::closerThan(a, identity(), *b.model, X, t) ||
+           (self.isSolid() && b.is_solid && t >= 0 && touch(a, b, X));
   });
-  return orItem(verdicts, poses.single);
+}
+
+py::object contacts(const Mesh& self, py::handle other, py::handle X_AB, std::size_t most,
+                    const BatchOptions& options) {
+  const Modeld& a = self.model();
+  const Asked asked(other, X_AB);
+  using Contact = std::pair<std::size_t, fcl::Contactd>;
+  std::vector<Contact> found = flatten(runEach(asked.size(), options, "X_AB", [&](std::size_t i) {
+    fcl::CollisionResultd result;
+    fcl::collide(&a, identity(), asked[i].geometry, asked.poses[i], {most, true}, result);
+    std::vector<fcl::Contactd> contacts;
+    result.getContacts(contacts);
+    return contacts;
+  }));
+  for (auto& [i, contact] : found) {
+    if (contact.o1 != &a) {  // as an octree and a mesh are
+      std::swap(contact.b1, contact.b2);
+      contact.normal = -contact.normal;
+    }
+    if (!asked[i].model) contact.b2 = -1;
+  }
+  const auto of = [](const auto member) {
+    return [member](const Contact& c) { return c.second.*member; };
+  };
+  return columns(found, false, &Contact::first, of(&fcl::Contactd::pos), of(&fcl::Contactd::normal),
+                 of(&fcl::Contactd::penetration_depth), of(&fcl::Contactd::b1),
+                 of(&fcl::Contactd::b2));
 }
 
 py::object penetration(const Mesh& self, py::handle other, py::handle X_AB, double rel_gap,
                        int max_tests, const BatchOptions& options) {
   const Modeld& a = self.model();
-  const Other b(other);
-  const Modeld& b_mesh = b.mesh("penetration");
-  const Poses poses(X_AB, "X_AB");
-  PenetrationOptions how;
+  PenetrationRequest how;
   how.rel_gap = rel_gap;
   how.max_tests = max_tests;
-  auto lower = makeArray<double>(poses.size), upper = makeArray<double>(poses.size);
-  auto translations = makeVectors(poses.size), points = makeVectors(poses.size);
-  double *const lo = lower.mutable_data(), *const up = upper.mutable_data(),
-                *const translation = translations.mutable_data(),
-                *const point = points.mutable_data();
-  runBatch(poses.size, options, "X_AB", [&](std::size_t i) {
-    const Penetration found = kios::penetration(a, identity(), b_mesh, poses[i], how);
-    lo[i] = found.lower;
-    up[i] = found.upper;
-    write(found.translation, translation + 3 * i);
-    write(found.point, point + 3 * i);
-  });
-  const bool single = poses.single;
-  return ofPackage("Penetration")(orItem(lower, single), orItem(upper, single),
-                                  orVector(translations, single), orVector(points, single));
+  const auto ask = [&](const Other& b, const fcl::Transform3d& X) {
+    return kios::penetration(a, identity(), *b.model, X, how);
+  };
+  using Result = PenetrationResult;
+  return Asked(other, X_AB, "penetration")
+      .each(options, ask, &Result::lower, &Result::upper, &Result::translation, &Result::point);
+}
+
+py::object localDepth(const Mesh& self, py::handle other, py::handle X_AB, double tolerance,
+                      double rel_err, double threshold, long long max_pieces,
+                      const BatchOptions& options) {
+  const Modeld& a = self.model();
+  LocalDepthRequest how;
+  how.tolerance = tolerance;
+  how.rel_err = rel_err;
+  how.threshold = threshold;
+  how.max_pieces = max_pieces;
+  const auto ask = [&](const Other& b, const fcl::Transform3d& X) {
+    return kios::localDepth(a, identity(), *b.model, X, how);
+  };
+  using Result = LocalDepthResult;
+  return Asked(other, X_AB, "local_depth")
+      .each(options, ask, &Result::lower, &Result::upper, &Result::point, &Result::nearest,
+            &Result::surface_of, &Result::complete);
+}
+
+py::object deeperThan(const Mesh& self, py::handle other, double t, py::handle X_AB,
+                      long long max_pieces, const BatchOptions& options) {
+  const Modeld& a = self.model();
+  return Asked(other, X_AB, "deeper_than")
+      .each(options, [&](const Other& b, const fcl::Transform3d& X) {
+        return kios::deeperThan(a, identity(), *b.model, X, t, max_pieces);
+      });
 }
 
 }  // namespace kios::python

@@ -3,18 +3,35 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "fcl_kios/query/ray.h"
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/rays.h"
+#include "fcl_kios/solids.h"
 #include "mesh_batches.h"
 
 namespace kios::python {
 namespace {
 
+/// The mesh's pose, or one for each of n queries.
+struct Places {
+  Places(py::handle X_WM, std::size_t n) : poses(X_WM, "X_WM") {
+    if (poses.single || poses.size == n) return;
+    throw std::invalid_argument("fcl_kios: there are " + std::to_string(poses.size) +
+                                " poses X_WM for " + std::to_string(n) + " queries.");
+  }
+  fcl::Transform3d operator[](std::size_t i) const { return poses[poses.single ? 0 : i]; }
+
+  Poses poses;
+};
+
 /// Rays from one origin, or as many as there are directions.
 struct Rays {
-  Rays(py::handle o, py::handle d, double from, double to)
-      : origins(o, "origins"), directions(d, "directions"), t_min(from), t_max(to) {
+  Rays(py::handle o, py::handle d, py::handle X_WM, double from, double to)
+      : origins(o, "origins"),
+        directions(d, "directions"),
+        places(X_WM, directions.size),
+        t_min(from),
+        t_max(to) {
     if (origins.size != directions.size && !origins.single) {
       throw std::invalid_argument("fcl_kios: there are " + std::to_string(origins.size) +
                                   " origins, but " + std::to_string(directions.size) +
@@ -34,8 +51,19 @@ struct Rays {
   std::size_t size() const { return directions.size; }
 
   Points origins, directions;
+  Places places;
   double t_min, t_max;
 };
+
+/// The unit normal of a triangle in the mesh's frame; NaN where it has no area.
+Eigen::Vector3d normalOf(const Modeld& mesh, int triangle) {
+  const fcl::Triangle& t = mesh.tri_indices[triangle];
+  const fcl::Vector3d* const v = mesh.vertices;
+  const Eigen::Vector3d e1 = v[t[1]] - v[t[0]], e2 = v[t[2]] - v[t[0]];
+  const Eigen::Vector3d n = e1.stableNormalized().cross(e2.stableNormalized());
+  const double length = n.norm();
+  return length > 0 ? Eigen::Vector3d(n / length) : Eigen::Vector3d::Constant(kNaN);
+}
 
 }  // namespace
 
@@ -43,48 +71,50 @@ py::object contains(const Mesh& self, py::handle points, py::handle X_WM,
                     const BatchOptions& options) {
   const Modeld& model = self.model();
   const Points asked(points, "points");
-  const Poses pose(X_WM, "X_WM");
-  const fcl::Transform3d X = pose.only("X_WM");
-  auto inside = makeArray<bool>(asked.size);
-  bool* const out = inside.mutable_data();
-  runBatch(asked.size, options, "points",
-           [&](std::size_t i) { out[i] = kios::contains(model, X, asked[i]); });
-  return orItem(inside, asked.single);
+  const Places places(X_WM, asked.size);
+  return column(runEach(asked.size, options, "points",
+                        [&](std::size_t i) { return kios::contains(model, places[i], asked[i]); }),
+                asked.single);
 }
 
 py::object rays(const Mesh& self, py::handle origins, py::handle directions, py::handle X_WM,
                 double t_min, double t_max, const BatchOptions& options) {
   const Modeld& model = self.model();
-  const Rays asked(origins, directions, t_min, t_max);
-  const Poses pose(X_WM, "X_WM");
-  const fcl::Transform3d X = pose.only("X_WM");
-  auto triangles = makeArray<std::int64_t>(asked.size());
-  auto distances = makeArray<double>(asked.size()), points = makeVectors(asked.size());
-  std::int64_t* const triangle = triangles.mutable_data();
-  double *const distance = distances.mutable_data(), *const point = points.mutable_data();
-  runBatch(asked.size(), options, "directions", [&](std::size_t i) {
+  const Rays asked(origins, directions, X_WM, t_min, t_max);
+  const auto hits = runEach(asked.size(), options, "directions", [&](std::size_t i) {
     const Rayd ray = asked[i];
-    const std::optional<RayHitd> hit = firstHit(model, X, ray);
-    triangle[i] = hit ? hit->triangle : -1;
-    distance[i] = hit ? hit->t * ray.direction.norm() : kInfinity;
-    write(hit ? hit->point : Eigen::Vector3d::Constant(kNaN), point + 3 * i);
+    std::optional<RayHitd> hit = firstHit(model, asked.places[i], ray);
+    if (!hit) return RayHitd{kInfinity, Eigen::Vector3d::Constant(kNaN), {}, -1, {}};
+    hit->t *= ray.direction.norm();
+    return *hit;
   });
-  const bool single = asked.directions.single;
-  return ofPackage("RayHits")(orItem(triangles, single), orItem(distances, single),
-                              orVector(points, single));
+  return columns(hits, asked.directions.single, &RayHitd::triangle, &RayHitd::t, &RayHitd::point);
+}
+
+py::object raysAll(const Mesh& self, py::handle origins, py::handle directions, py::handle X_WM,
+                   double t_min, double t_max, std::size_t most, const BatchOptions& options) {
+  const Modeld& model = self.model();
+  const Rays asked(origins, directions, X_WM, t_min, t_max);
+  const auto hits = flatten(runEach(asked.size(), options, "directions", [&](std::size_t i) {
+    return allHits(model, asked.places[i], asked[i], most);
+  }));
+  using Hit = std::pair<std::size_t, RayHitd>;
+  return columns(
+      hits, false, &Hit::first, [](const Hit& hit) { return hit.second.triangle; },
+      [&](const Hit& hit) { return hit.second.t * asked.directions[hit.first].norm(); },
+      [](const Hit& hit) { return hit.second.point; },
+      [&](const Hit& hit) -> Eigen::Vector3d {
+        return asked.places[hit.first].linear() * normalOf(model, hit.second.triangle);
+      });
 }
 
 py::object raysBlocked(const Mesh& self, py::handle origins, py::handle directions, py::handle X_WM,
                        double t_min, double t_max, const BatchOptions& options) {
   const Modeld& model = self.model();
-  const Rays asked(origins, directions, t_min, t_max);
-  const Poses pose(X_WM, "X_WM");
-  const fcl::Transform3d X = pose.only("X_WM");
-  auto hits = makeArray<bool>(asked.size());
-  bool* const out = hits.mutable_data();
-  runBatch(asked.size(), options, "directions",
-           [&](std::size_t i) { out[i] = anyHit(model, X, asked[i]); });
-  return orItem(hits, asked.directions.single);
+  const Rays asked(origins, directions, X_WM, t_min, t_max);
+  return column(runEach(asked.size(), options, "directions",
+                        [&](std::size_t i) { return anyHit(model, asked.places[i], asked[i]); }),
+                asked.directions.single);
 }
 
 }  // namespace kios::python

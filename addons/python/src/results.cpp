@@ -3,6 +3,7 @@
 #include "results.h"
 
 #include <limits>
+#include <unordered_map>
 #include <vector>
 
 #include "arrays.h"
@@ -15,9 +16,32 @@ py::object geometryOf(const fcl::CollisionGeometryd* geometry, Object& a, Object
   return geometry == a.object.collisionGeometry().get() ? a.geometry : b.geometry;
 }
 
+/// An instance whose __init__ isn't called, as all its attributes are set.
+py::object bare(py::handle type) {
+  auto* const of = reinterpret_cast<PyTypeObject*>(type.ptr());
+  const py::tuple nothing;
+  py::object made = py::reinterpret_steal<py::object>(of->tp_new(of, nothing.ptr(), nullptr));
+  if (!made) throw py::error_already_set();
+  return made;
+}
+
 }  // namespace
 
-py::object ofFcl(const char* name) { return py::module_::import("fcl_kios.fcl").attr(name); }
+// Both keep what they found for as long as the process runs.
+py::handle interned(const char* literal) {
+  static std::unordered_map<const char*, PyObject*> names;
+  PyObject*& name = names[literal];
+  if (!name) name = PyUnicode_InternFromString(literal);
+  return name;
+}
+py::object ofFcl(const char* name) {
+  static std::unordered_map<const char*, PyObject*> found;
+  const auto at = found.find(name);
+  if (at != found.end()) return py::reinterpret_borrow<py::object>(at->second);
+  const py::object made = py::module_::import("fcl_kios.fcl").attr(name);
+  found[name] = py::object(made).release().ptr();
+  return made;
+}
 
 fcl::CollisionRequestd collisionRequest(py::handle request) {
   if (request.is_none()) return {};
@@ -49,20 +73,24 @@ double minDistance(py::handle result) { return attribute<double>(result, "min_di
 
 void append(fcl::CollisionResultd& found, Object& a, Object& b, py::handle result) {
   if (!found.isCollision() && found.numCostSources() == 0) return;
+  const auto set = [](py::handle of, const char* name, const auto& value) {
+    of.attr(interned(name)) = value;
+  };
   if (found.isCollision()) {
-    result.attr("is_collision") = true;
+    set(result, "is_collision", true);
     const py::object contact_class = ofFcl("Contact");
-    const py::object add = result.attr("contacts").attr("append");
+    const py::object add = result.attr(interned("contacts")).attr(interned("append"));
     for (std::size_t i = 0; i < found.numContacts(); ++i) {
+      if (i % 1024 == 1023) listen();
       const fcl::Contactd& contact = found.getContact(i);
-      const py::object made = contact_class();
-      made.attr("o1") = geometryOf(contact.o1, a, b);
-      made.attr("o2") = contact.o1 == contact.o2 ? b.geometry : geometryOf(contact.o2, a, b);
-      made.attr("b1") = contact.b1;
-      made.attr("b2") = contact.b2;
-      made.attr("normal") = toArray(contact.normal);
-      made.attr("pos") = toArray(contact.pos);
-      made.attr("penetration_depth") = contact.penetration_depth;
+      const py::object made = bare(contact_class);
+      set(made, "o1", geometryOf(contact.o1, a, b));
+      set(made, "o2", contact.o1 == contact.o2 ? b.geometry : geometryOf(contact.o2, a, b));
+      set(made, "b1", contact.b1);
+      set(made, "b2", contact.b2);
+      set(made, "normal", toArray(contact.normal));
+      set(made, "pos", toArray(contact.pos));
+      set(made, "penetration_depth", contact.penetration_depth);
       add(made);
     }
   }
@@ -70,23 +98,26 @@ void append(fcl::CollisionResultd& found, Object& a, Object& b, py::handle resul
   found.getCostSources(costs);
   for (const fcl::CostSourced& cost : costs) {
     const py::object made = ofFcl("CostSource")();
-    made.attr("aabb_min") = toArray(cost.aabb_min);
-    made.attr("aabb_max") = toArray(cost.aabb_max);
-    made.attr("cost_density") = cost.cost_density;
-    made.attr("total_cost") = cost.total_cost;
+    set(made, "aabb_min", toArray(cost.aabb_min));
+    set(made, "aabb_max", toArray(cost.aabb_max));
+    set(made, "cost_density", cost.cost_density);
+    set(made, "total_cost", cost.total_cost);
     result.attr("cost_sources").attr("append")(made);
   }
 }
 
 void assign(const fcl::DistanceResultd& found, Object& a, Object& b, py::handle result) {
-  result.attr("min_distance") = found.min_distance;
+  const auto set = [&](const char* name, const auto& value) {
+    result.attr(interned(name)) = value;
+  };
+  set("min_distance", found.min_distance);
   py::list points;
   for (const Eigen::Vector3d& point : found.nearest_points) points.append(toArray(point));
-  result.attr("nearest_points") = points;
-  result.attr("o1") = geometryOf(found.o1, a, b);
-  result.attr("o2") = found.o1 == found.o2 ? b.geometry : geometryOf(found.o2, a, b);
-  result.attr("b1") = found.b1;
-  result.attr("b2") = found.b2;
+  set("nearest_points", points);
+  set("o1", geometryOf(found.o1, a, b));
+  set("o2", found.o1 == found.o2 ? b.geometry : geometryOf(found.o2, a, b));
+  set("b1", found.b1);
+  set("b2", found.b2);
 }
 
 }  // namespace kios::python

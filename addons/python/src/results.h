@@ -17,10 +17,13 @@
 
 namespace kios::python {
 
+/// Python's one string of a literal's content, looked up by its address.
+py::handle interned(const char* literal);
+
 /// An attribute of a Python object. Throws TypeError that names it if it is of another type.
 template <typename T>
 T attribute(py::handle of, const char* name) {
-  const py::object value = of.attr(name);
+  const py::object value = of.attr(interned(name));
   if constexpr (std::is_same_v<T, bool>) {
     const int truth = PyObject_IsTrue(value.ptr());
     if (truth < 0) throw py::error_already_set();

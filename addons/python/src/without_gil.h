@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <stdexcept>
-#include <string>
+#include <functional>
+#include <memory>
 
 #include <pybind11/pybind11.h>
 
@@ -11,11 +11,12 @@ namespace kios::python {
 
 namespace py = pybind11;
 
-/// Releases the GIL for its lifetime. Once the interpreter is about to end it keeps it: a thread
-/// that asked for it later would be ended within C++ code.
+/// Releases the GIL for its lifetime. It keeps it while a thread forks, so that the child finds
+/// nothing half done, unless it only waits; and once the interpreter is about to end: a thread that
+/// asked for it later would be ended within C++ code.
 class WithoutGil {
  public:
-  WithoutGil();
+  explicit WithoutGil(bool waits = false);
   WithoutGil(const WithoutGil&) = delete;
   ~WithoutGil();
 
@@ -23,8 +24,10 @@ class WithoutGil {
   static bool isClosing();
   /// To be called at exit: no query releases the GIL any more, and when this returns none runs.
   static void close();
-  /// To be called in the child of a fork, which has no other threads.
-  static void forget();
+  /// To be called before and after a fork, in the parent and in the child. The first waits for what
+  /// other threads do without the GIL, and for their queries; what is begun meanwhile keeps it.
+  static void beforeFork();
+  static void afterFork(bool in_child);
 
  private:
   PyThreadState* state_ = nullptr;
@@ -45,28 +48,14 @@ class WithGil {
   const PyGILState_STATE state_;
 };
 
-/// Counts the queries that read something while they don't hold the GIL. Written under the GIL.
-using Readers = int;
+/// Raises what signals raise, KeyboardInterrupt above all, and where the interpreter ends. Needs
+/// the GIL.
+void listen();
 
-/// Marks what a query reads, until it ends.
-class Reading {
- public:
-  explicit Reading(Readers& readers) : readers_(&readers) { ++readers; }
-  Reading(Reading&& other) noexcept : readers_(other.readers_) { other.readers_ = nullptr; }
-  Reading& operator=(Reading&&) = delete;
-  ~Reading() {
-    if (readers_) --*readers_;
-  }
-
- private:
-  Readers* readers_;
-};
-
-/// Throws RuntimeError if a query of another thread, or the one that called back, reads it.
-inline void requireUnread(Readers readers, const char* what) {
-  if (readers == 0) return;
-  throw std::runtime_error(std::string("fcl_kios: the ") + what +
-                           " can't be changed while a query reads it.");
-}
+/// Calls work() without the GIL in a thread of its own, and listens meanwhile. What signals raise
+/// is raised at once: the work then goes on to its end, unheard. So it must own all that it uses,
+/// but for what `kept` owns, which is let go under the GIL once it has ended. Throws what it
+/// throws.
+void runInterruptibly(std::function<void()> work, std::shared_ptr<void> kept = nullptr);
 
 }  // namespace kios::python

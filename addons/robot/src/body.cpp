@@ -51,7 +51,6 @@ void bound(const Points& points, int count, Body& body) {
 void Body::measure() {
   const fcl::CollisionGeometryd& g = *geometry;
   meets = g.isOccupied();
-  middle.setZero();
   const auto round = [&](double x, double y, double z) { half = Vector3d(x, y, z); };
   switch (g.getNodeType()) {
     case fcl::GEOM_HALFSPACE:
@@ -111,10 +110,16 @@ void Body::measure() {
   }
   if (mesh == nullptr && kind != BodyKind::kOctree) kind = BodyKind::kShape;
   // More than all that rounds here and where the ball and the box are asked.
-  middle_L = X_LB.linear() * middle;
   const double slack = 0x1p-40 * (middle.norm() + radius);
   radius += slack;
   half.array() += slack;
+}
+
+void Body::put(int to, const fcl::Transform3d& X) {
+  node = to;
+  X_LB = X;
+  middle_L = X.linear() * middle;
+  center = X * middle;
 }
 
 }  // namespace kios::robot

@@ -18,13 +18,14 @@ namespace kios::robot {
 /// the reach, so that nothing that is near is left out. X_WB's rotation is orthonormal to rounding.
 class BoxLanes {
  public:
-  /// Half sizes may be infinite. The box counts as near if it is within `margin` more.
-  void add(const fcl::Transform3d& X_WB, const fcl::Vector3d& middle, const fcl::Vector3d& half,
-           double margin) {
-    const std::size_t lane = count_++ % kLanes;
-    if (lane == 0) blocks_.emplace_back();
-    Block& block = blocks_.back();
-    const fcl::Vector3d center = X_WB * middle;
+  /// Sets the box of a number, or of the next one. Half sizes may be infinite. The box counts as
+  /// near if it is within `margin` more.
+  void set(std::size_t number, const fcl::Transform3d& X_WB, const fcl::Vector3d& center,
+           const fcl::Vector3d& half, double margin) {
+    const std::size_t lane = number % kLanes;
+    if (number == count_ && lane == 0) blocks_.emplace_back();
+    count_ = std::max(count_, number + 1);
+    Block& block = blocks_[number / kLanes];
     double size = center.lpNorm<1>();
     for (int i = 0; i < 3; ++i) {
       block.center[i][lane] = lanes::toFloat(center[i]);
@@ -36,9 +37,12 @@ class BoxLanes {
     }
     block.margin[lane] = lanes::toFloat((margin + kRounding * size) * (1 + 0x1p-20));
   }
+  void removeLast() {
+    if (--count_ % kLanes == 0) blocks_.pop_back();
+  }
 
-  /// Calls visit(number) for each box that may be within `reach` of a point, in the order in which
-  /// they were added, until one returns true, which is returned.
+  /// Calls visit(number) for each box that may be within `reach` of a point, in the order of
+  /// numbers, until one returns true, which is returned.
   template <typename Visit>
   bool forNear(const fcl::Vector3d& point, double reach, const Visit& visit) const {
     using lanes::broadcast, lanes::load, lanes::Float4;

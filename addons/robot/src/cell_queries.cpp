@@ -36,29 +36,30 @@ struct Cell::Placed {
     static thread_local Placed placed;
     placed.cell = &cell;
     cell.arm_->tree.place(q, placed.links);
-    const auto count = static_cast<std::size_t>(cell.carried_);
+    const std::size_t count = cell.carried_.size();
     placed.poses.resize(count);
     placed.posed.assign(count, 0);
     placed.centers.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const Body& body = cell.bodies_[i];
+      const Body& body = cell.bodies_[cell.carried_[i]];
       const PlacedLink& link = placed.links[body.node];
       placed.centers[i] = link.place(body.X_LB.translation()) + link.R * body.middle_L;
     }
     placed.found.clear();
     return placed;
   }
-  const Transform3d& pose(int i) const {
-    const Body& body = cell->bodies_[i];
-    if (i >= cell->carried_) return body.X_LB;
-    if (posed[i] == 0) {
-      posed[i] = 1;
-      poses[i] = links[body.node].pose(body.X_LB);
+  const Transform3d& pose(int id) const {
+    const Body& body = cell->bodies_[id];
+    if (body.node < 0) return body.X_LB;
+    if (posed[body.place] == 0) {
+      posed[body.place] = 1;
+      poses[body.place] = links[body.node].pose(body.X_LB);
     }
-    return poses[i];
+    return poses[body.place];
   }
-  const Vector3d& center(int i) const {
-    return i < cell->carried_ ? centers[i] : cell->middles_[i - cell->carried_];
+  const Vector3d& center(int id) const {
+    const Body& body = cell->bodies_[id];
+    return body.node < 0 ? body.center : centers[body.place];
   }
 };
 
@@ -88,16 +89,19 @@ bool Cell::touch(const Placed& placed, int a, int b, RobotContact* contact) cons
 
 bool Cell::findContact(Placed& placed, Pair& found) const {
   placed.balls.clear();
-  for (int a = 0; a < carried_; ++a) {
-    const Vector3d& center = placed.centers[a];
-    const double reach = bodies_[a].radius + bodies_[a].padding;
-    const auto carried = [&](std::size_t other) {
-      found = {static_cast<int>(other), a};
-      return isChecked(a, found.a) && touch(placed, found.a, found.b, nullptr);
+  for (const int a : carried_) {
+    const Body& body = bodies_[a];
+    const Vector3d& center = placed.centers[body.place];
+    const double reach = body.radius + body.padding;
+    const auto meets = [&](int first, int second, int other) {
+      found = {first, second};
+      return isChecked(body, bodies_[other]) && touch(placed, first, second, nullptr);
     };
-    const auto obstacle = [&](std::size_t other) {
-      found = {a, carried_ + static_cast<int>(other)};
-      return isChecked(a, found.b) && touch(placed, found.a, found.b, nullptr);
+    const auto carried = [&](std::size_t place) {
+      return meets(carried_[place], a, carried_[place]);
+    };
+    const auto obstacle = [&](std::size_t place) {
+      return meets(a, obstacles_[place], obstacles_[place]);
     };
     if (placed.balls.add(center, reach, carried)) return true;
     if (boxes_.forNear(center, reach, obstacle)) return true;
@@ -113,8 +117,8 @@ std::optional<RobotContact> Cell::contact(const Eigen::VectorXd& q) const {
   // Asked for its point, FCL may deny a contact of two shapes that barely touch.
   touch(placed, found.a, found.b, &contact);
   const Body &a = bodies_[found.a], &b = bodies_[found.b];
-  contact.a = names_[a.entity];
-  contact.b = names_[b.entity];
+  contact.a = entities_[a.entity].name;
+  contact.b = entities_[b.entity].name;
   contact.element_a = a.element;
   contact.element_b = b.element;
   return contact;
@@ -127,16 +131,18 @@ bool Cell::inContact(const Eigen::VectorXd& q) const {
 
 void Cell::candidates(const Placed& placed, double within, RobotPairs among,
                       std::vector<Candidate>& found) const {
-  for (int a = 0; a < carried_; ++a) {
-    for (const auto* others : {&among_[a], &around_[a]}) {
-      const bool obstacles = others == &around_[a];
-      if (among == (obstacles ? RobotPairs::kItself : RobotPairs::kObstacles)) continue;
-      for (const int other : *others) {
-        const int i = std::min(a, other), j = std::max(a, other);
-        const double bound = boundOf(placed, i, j) - (bodies_[i].padding + bodies_[j].padding);
-        if (bound <= within) found.push_back({bound, i, j});
-      }
+  const auto add = [&](int a, int b) {
+    const Body &first = bodies_[a], &second = bodies_[b];
+    if (!isChecked(first, second)) return;
+    const double bound = boundOf(placed, a, b) - (first.padding + second.padding);
+    if (bound <= within) found.push_back({bound, a, b});
+  };
+  for (std::size_t place = 0; place < carried_.size(); ++place) {
+    for (std::size_t i = 0; among != RobotPairs::kObstacles && i < place; ++i) {
+      add(carried_[i], carried_[place]);
     }
+    if (among == RobotPairs::kItself) continue;
+    for (const int obstacle : obstacles_) add(carried_[place], obstacle);
   }
 }
 
@@ -146,8 +152,8 @@ RobotClearance Cell::answer(const Placed& placed, const Candidate& pair, const N
   RobotClearance result;
   Nearness exact = near;
   if (gradient) addGradient(placed, a, b, exact, result);
-  result.a = names_[a.entity];
-  result.b = names_[b.entity];
+  result.a = entities_[a.entity].name;
+  result.b = entities_[b.entity].name;
   result.element_a = a.element;
   result.element_b = b.element;
   const double padding = a.padding + b.padding;
@@ -178,7 +184,7 @@ void Cell::addGradient(const Placed& placed, const Body& a, const Body& b, Nearn
   if (a.node >= 0) tree.addGradient(a.node, near.point_a, n, -1, placed.links, answer.gradient);
 }
 
-RobotClearance Cell::clearance(const Eigen::VectorXd& q, const ClearanceOptions& options) const {
+RobotClearance Cell::clearance(const Eigen::VectorXd& q, const ClearanceRequest& options) const {
   Placed& placed = Placed::of(*this, q);
   std::vector<Candidate>& waiting = placed.found;
   candidates(placed, kInfinity, options.among, waiting);

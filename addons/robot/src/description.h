@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <fcl/geometry/collision_geometry.h>
+#include "fcl_kios/linkage.h"
 
 namespace kios::robot {
 
@@ -19,6 +20,8 @@ using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 struct Element {
   Geometry geometry;
   fcl::Transform3d X = fcl::Transform3d::Identity();
+  /// Has the geometry for its body 0, measured once for all linkages.
+  std::shared_ptr<const Linkage> measured = nullptr;
 };
 
 enum class UrdfJointType { kFixed, kRevolute, kContinuous, kPrismatic, kPlanar, kFloating };
@@ -47,14 +50,23 @@ inline NamePair namePair(const std::string& a, const std::string& b) {
   return a < b ? NamePair(a, b) : NamePair(b, a);
 }
 
+/// A planning group: joints, with the links that they carry.
+struct UrdfGroup {
+  std::set<int> joints, links;
+  std::vector<std::string> end_effectors;  ///< groups
+};
+
 /// What URDF and SRDF say. Links form a tree of one root.
 struct Description {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
   std::set<NamePair> allowed;
+  std::map<NamePair, std::string> reasons;  ///< why the SRDF allows them
+  std::vector<std::string> srdf;            ///< its elements that are not of pairs, as XML
   /// Values by joint, by group state.
   std::map<std::string, std::map<std::string, std::vector<double>>> states;
+  std::map<std::string, UrdfGroup> groups;
   std::vector<std::string> warnings;  ///< what the files say of what isn't there
 
   int linkOf(const std::string& name) const;  ///< -1 if there is none

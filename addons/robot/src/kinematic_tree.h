@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "description.h"
-#include "fcl_kios/linkage/linkage.h"
+#include "fcl_kios/linkage.h"
 #include "fcl_kios/robot/answers.h"
 
 namespace kios::robot {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -11,9 +12,9 @@
 
 namespace kios {
 
-std::vector<LinkPair> Robot::linkPairs(const PairOptions& options) const {
-  if (options.max_boxes < 0) robot::refuse("PairOptions::max_boxes is negative.");
-  if (!(options.max_seconds >= 0)) robot::refuse("PairOptions::max_seconds must be >= 0.");
+std::vector<LinkPair> Robot::linkPairs(const PairRequest& options) const {
+  if (options.max_boxes < 0) robot::refuse("max_boxes is negative.");
+  if (!(options.max_seconds >= 0)) robot::refuse("max_seconds must be >= 0.");
   const robot::Arm& arm = *impl_->arm;
   std::set<robot::NamePair> joined;
   for (const robot::UrdfJoint& joint : arm.description.joints) {
@@ -89,39 +90,66 @@ void Robot::ignore(const std::vector<LinkPair>& pairs) {
   for (const LinkPair& pair : pairs) {
     const bool ignored =
         pair.verdict == PairVerdict::kAlways || pair.verdict == PairVerdict::kNever;
-    if (ignored) allow(pair.a, pair.b);
+    if (ignored) ignorePair(pair.a, pair.b);
   }
 }
 
-std::string toSrdf(const std::vector<LinkPair>& pairs, const std::string& robot) {
-  const auto escaped = [](const std::string& name) {
-    std::string text;
-    for (const char c : name) {
-      const char* const entity = c == '&'    ? "&amp;"
-                                 : c == '<'  ? "&lt;"
-                                 : c == '>'  ? "&gt;"
-                                 : c == '"'  ? "&quot;"
-                                 : c == '\n' ? "&#10;"
-                                 : c == '\t' ? "&#9;"
-                                 : c == '\r' ? "&#13;"
-                                             : nullptr;
-      if (entity) {
-        text += entity;
-      } else {
-        text += c;
-      }
+namespace {
+
+std::string escaped(const std::string& name) {
+  std::string text;
+  for (const char c : name) {
+    const char* const entity = c == '&'    ? "&amp;"
+                               : c == '<'  ? "&lt;"
+                               : c == '>'  ? "&gt;"
+                               : c == '"'  ? "&quot;"
+                               : c == '\n' ? "&#10;"
+                               : c == '\t' ? "&#9;"
+                               : c == '\r' ? "&#13;"
+                                           : nullptr;
+    if (entity) {
+      text += entity;
+    } else {
+      text += c;
     }
-    return text;
-  };
-  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(robot) + "\">\n";
+  }
+  return text;
+}
+
+using Reasons = std::map<robot::NamePair, std::string>;
+
+/// The SRDF that allows pairs for `known` reasons, but for what linkPairs() says.
+std::string srdfOf(const std::string& robot, const std::vector<std::string>& elements,
+                   Reasons known, const std::vector<LinkPair>& pairs) {
   for (const LinkPair& pair : pairs) {
+    const robot::NamePair names = robot::namePair(pair.a, pair.b);
+    const auto told = known.find(names);
     const bool always = pair.verdict == PairVerdict::kAlways;
-    if (!always && pair.verdict != PairVerdict::kNever) continue;
-    const char* const reason = pair.adjacent ? "Adjacent" : always ? "Default" : "Never";
-    text += "  <disable_collisions link1=\"" + escaped(pair.a) + "\" link2=\"" + escaped(pair.b) +
-            "\" reason=\"" + reason + "\"/>\n";
+    if (always || pair.verdict == PairVerdict::kNever) {
+      known[names] = pair.adjacent ? "Adjacent" : always ? "Default" : "Never";
+    } else if (told != known.end() && pair.verdict == PairVerdict::kSometimes &&
+               told->second == "Never") {
+      known.erase(told);
+    }
+  }
+  std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"" + escaped(robot) + "\">\n";
+  for (const std::string& element : elements) text += element + "\n";
+  for (const auto& [names, reason] : known) {
+    text += "  <disable_collisions link1=\"" + escaped(names.first) + "\" link2=\"" +
+            escaped(names.second) + "\" reason=\"" + escaped(reason) + "\"/>\n";
   }
   return text + "</robot>\n";
+}
+
+}  // namespace
+
+std::string toSrdf(const std::vector<LinkPair>& pairs, const std::string& robot) {
+  return srdfOf(robot, {}, {}, pairs);
+}
+
+std::string Robot::toSrdf(const std::vector<LinkPair>& pairs) const {
+  const robot::Description& files = impl_->arm->description;
+  return srdfOf(files.name, files.srdf, files.reasons, pairs);
 }
 
 }  // namespace kios

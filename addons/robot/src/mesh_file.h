@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 
 namespace kios::robot {
 

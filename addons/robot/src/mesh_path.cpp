@@ -74,7 +74,7 @@ std::string resolve(const std::string& uri, const std::string& named_in,
         tried.push_back(folder / rest);
       }
     }
-    remedy = "give the folder of '" + package + "' in RobotOptions::packages";
+    remedy = "give the folder of '" + package + "' in `packages`";
   } else if (startsWith("file://")) {
     tried.emplace_back(uri.substr(7));
   } else if (uri.find("://") != std::string::npos) {

@@ -83,7 +83,8 @@ Nearness ofShapes(const Body& a, const Transform3d& X_WA, const Body& b, const T
 }
 
 /// Returns true if two meshes whose surfaces are apart are in contact, as marked solids are where
-/// one lies in the other; kios::distance and closerThan know surfaces only. Sets a common point.
+/// one lies in the other; kios::distanceBracket and closerThan know surfaces only. Sets a common
+/// point.
 bool isContained(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
                  Nearness& near) {
   if (!isSolid(*a.mesh) || !isSolid(*b.mesh)) return false;
@@ -96,11 +97,11 @@ bool isContained(const Body& a, const Transform3d& X_WA, const Body& b, const Tr
 
 Nearness ofMeshes(const Body& a, const Transform3d& X_WA, const Body& b, const Transform3d& X_WB,
                   double rel_err, double abs_err, double far_enough) {
-  DistanceOptionsd options;
+  DistanceBracketRequestd options;
   options.rel_err = rel_err;
   options.abs_err = abs_err;
   options.far_enough = far_enough;
-  const auto answer = distance(*a.mesh, X_WA, *b.mesh, X_WB, options);
+  const auto answer = distanceBracket(*a.mesh, X_WA, *b.mesh, X_WB, options);
   Nearness near;
   near.distance = answer.stop == DistanceStop::kFar ? kInfinity : answer.distance;
   near.lower = answer.lower_bound;
@@ -252,7 +253,7 @@ Vector3d wayOut(const Body& a, const Transform3d& X_WA, const Body& b, const Tra
                 Nearness& near) {
   Vector3d way = Vector3d::Zero();
   if (a.mesh && b.mesh && isSolid(*a.mesh) && isSolid(*b.mesh)) {
-    const Penetration depth = penetration(*a.mesh, X_WA, *b.mesh, X_WB);
+    const PenetrationResult depth = penetration(*a.mesh, X_WA, *b.mesh, X_WB);
     way = depth.translation;
     if (depth.upper > 0) near.point_a = near.point_b = depth.point;
   }

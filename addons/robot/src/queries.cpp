@@ -15,12 +15,12 @@ using robot::refuse;
 
 namespace {
 
-void requireOptions(const ClearanceOptions& options) {
+void requireOptions(const ClearanceRequest& options) {
   if (!(options.rel_err >= 0) || !(options.abs_err >= 0) || std::isinf(options.rel_err) ||
       std::isinf(options.abs_err)) {
-    refuse("ClearanceOptions::rel_err and abs_err must be finite and >= 0.");
+    refuse("rel_err and abs_err must be finite and >= 0.");
   }
-  if (std::isnan(options.far_enough)) refuse("ClearanceOptions::far_enough is NaN.");
+  if (std::isnan(options.far_enough)) refuse("far_enough is NaN.");
 }
 
 /// Checks the columns of a batch before any is answered.
@@ -38,6 +38,34 @@ void requireColumns(const Impl& impl, const Eigen::MatrixXd& q, const char* what
   }
 }
 
+/// Refuses a configuration beyond the limits, by the name of the joint.
+void requireWithin(const robot::Arm& arm, const Eigen::VectorXd& q, const std::string& what) {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    if (q[i] >= arm.tree.lower[i] && q[i] <= arm.tree.upper[i]) continue;
+    refuse(what + " is beyond the limits of the joint '" +
+           arm.tree.names[static_cast<std::size_t>(i)] + "'.");
+  }
+}
+
+/// Refuses a box that isn't one of the robot's, by the names of its joints.
+void requireBox(const robot::Arm& arm, const JointBox& box, bool within_limits) {
+  const auto size = static_cast<std::size_t>(arm.tree.coordinates());
+  if (box.lower.size() != size || box.upper.size() != size) {
+    refuse("a box has " + std::to_string(box.lower.size()) + " lower and " +
+           std::to_string(box.upper.size()) + " upper ends, but " + arm.description.name + " has " +
+           std::to_string(size) + " coordinates.");
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const std::string range = "the range of the joint '" + arm.tree.names[i] + "'";
+    if (!(box.lower[i] <= box.upper[i])) {
+      refuse(range + " is NaN or empty: its lower end must not be above its upper one.");
+    }
+    const bool within = box.lower[i] >= arm.tree.lower[k] && box.upper[i] <= arm.tree.upper[k];
+    if (within_limits && !within) refuse(range + " is outside of the joint's limits.");
+  }
+}
+
 }  // namespace
 
 std::optional<RobotContact> Robot::contact(const Eigen::VectorXd& q) const {
@@ -45,7 +73,7 @@ std::optional<RobotContact> Robot::contact(const Eigen::VectorXd& q) const {
   return impl_->cell().contact(q);
 }
 
-RobotClearance Robot::clearance(const Eigen::VectorXd& q, const ClearanceOptions& options) const {
+RobotClearance Robot::clearance(const Eigen::VectorXd& q, const ClearanceRequest& options) const {
   impl_->requireConfiguration(q, "q");
   requireOptions(options);
   return impl_->cell().clearance(q, options);
@@ -58,11 +86,59 @@ std::vector<RobotClearance> Robot::clearances(const Eigen::VectorXd& q, double w
 }
 
 RobotMotion Robot::checkMotion(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
-                               const MotionRequest& request) const {
+                               const RobotMotionRequest& request) const {
   impl_->requireConfiguration(q0, "q0");
   impl_->requireConfiguration(q1, "q1");
+  if (request.within_limits) {
+    requireWithin(*impl_->arm, q0, "q0");
+    requireWithin(*impl_->arm, q1, "q1");
+  }
   const robot::Cell& cell = impl_->cell();
   return cell.checkMotion(cell.proofs(), q0, q1, request);
+}
+
+RobotRange Robot::leastClearance(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
+                                 const RangeRequest& request) const {
+  impl_->requireConfiguration(q0, "q0");
+  impl_->requireConfiguration(q1, "q1");
+  return leastClearance(std::vector{q0, q1}, request);
+}
+
+RobotRange Robot::leastClearance(const std::vector<Eigen::VectorXd>& path,
+                                 const RangeRequest& request) const {
+  if (path.size() < 2) refuse("a path has two configurations or more.");
+  for (const Eigen::VectorXd& q : path)
+    impl_->requireConfiguration(q, "a configuration of the path");
+  return impl_->cell().leastClearance(request, [&](const Linkage& linkage, const auto& padded) {
+    return robot::Cell::leastOf(path.size() - 1, padded, [&](std::size_t i, const auto& part) {
+      return kios::leastClearance(linkage, path[i], path[i + 1], part);
+    });
+  });
+}
+
+RobotRange Robot::leastClearance(const JointBox& box, const RangeRequest& request,
+                                 bool within_limits) const {
+  requireBox(*impl_->arm, box, within_limits);
+  return impl_->cell().leastClearance(request, [&](const Linkage& linkage, const auto& padded) {
+    return kios::leastClearance(linkage, box, padded);
+  });
+}
+
+std::vector<RobotRange> Robot::leastClearances(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1,
+                                               const RangeRequest& request) const {
+  impl_->requireConfiguration(q0, "q0");
+  impl_->requireConfiguration(q1, "q1");
+  return impl_->cell().leastClearances(request, [&](const Linkage& linkage, const auto& padded) {
+    return kios::leastClearances(linkage, q0, q1, padded);
+  });
+}
+
+std::vector<RobotRange> Robot::leastClearances(const JointBox& box, const RangeRequest& request,
+                                               bool within_limits) const {
+  requireBox(*impl_->arm, box, within_limits);
+  return impl_->cell().leastClearances(request, [&](const Linkage& linkage, const auto& padded) {
+    return kios::leastClearances(linkage, box, padded);
+  });
 }
 
 std::vector<char> Robot::contacts(const Eigen::MatrixXd& q, int threads) const {
@@ -76,7 +152,7 @@ std::vector<char> Robot::contacts(const Eigen::MatrixXd& q, int threads) const {
 }
 
 std::vector<RobotClearance> Robot::clearances(const Eigen::MatrixXd& q,
-                                              const ClearanceOptions& options, int threads) const {
+                                              const ClearanceRequest& options, int threads) const {
   requireColumns(*impl_, q, "q");
   requireOptions(options);
   const robot::Cell& cell = impl_->cell();
@@ -89,10 +165,14 @@ std::vector<RobotClearance> Robot::clearances(const Eigen::MatrixXd& q,
 
 // A linkage keeps the memory of one search for the next: each thread has a copy.
 std::vector<RobotMotion> Robot::checkMotions(const Eigen::MatrixXd& q0, const Eigen::MatrixXd& q1,
-                                             const MotionRequest& request, int threads) const {
+                                             const RobotMotionRequest& request, int threads) const {
   requireColumns(*impl_, q0, "q0");
   requireColumns(*impl_, q1, "q1");
   if (q0.cols() != q1.cols()) refuse("q0 and q1 have different numbers of columns.");
+  for (Eigen::Index i = 0; request.within_limits && i < q0.cols(); ++i) {
+    requireWithin(*impl_->arm, q0.col(i), "q0, column " + std::to_string(i) + ",");
+    requireWithin(*impl_->arm, q1.col(i), "q1, column " + std::to_string(i) + ",");
+  }
   const robot::Cell& cell = impl_->cell();
   const int count = robot::threadsFor(threads, q0.cols());
   std::vector<std::vector<robot::Cell::Proof>> proofs(static_cast<std::size_t>(count));

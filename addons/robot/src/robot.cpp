@@ -3,10 +3,11 @@
 #include "fcl_kios/robot/robot.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
+#include "files/octomap.h"
 #include "robot_impl.h"
 #include "scene_file.h"
 #include "text_file.h"
@@ -17,96 +18,6 @@ namespace kios {
 using robot::namePair;
 using robot::Object;
 using robot::refuse;
-
-Robot::Impl::Impl(const Impl& other)
-    : arm(other.arm),
-      objects(other.objects),
-      allowed(other.allowed),
-      paddings(other.paddings),
-      warnings(other.warnings) {
-  const std::lock_guard<std::mutex> lock(other.guard_);
-  cell_ = other.cell_;
-  ready_ = cell_ != nullptr;
-}
-
-const robot::Cell& Robot::Impl::cell() const {
-  if (!ready_.load(std::memory_order_acquire)) {
-    const std::lock_guard<std::mutex> lock(guard_);
-    if (!cell_) cell_ = std::make_shared<const robot::Cell>(arm, objects, allowed, paddings);
-    ready_.store(true, std::memory_order_release);
-  }
-  return *cell_;
-}
-
-int Robot::Impl::entityOf(const std::string& name) const {
-  const int link = arm->description.linkOf(name);
-  if (link >= 0) return link;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].name == name) return static_cast<int>(arm->links.size() + i);
-  }
-  return -1;
-}
-
-int Robot::Impl::requireEntity(const std::string& name) const {
-  const int entity = entityOf(name);
-  if (entity < 0) {
-    refuse("there is no link, obstacle or attached object '" + name + "' of " +
-           arm->description.name + ".");
-  }
-  return entity;
-}
-
-int Robot::Impl::requireLink(const std::string& name) const {
-  const int link = arm->description.linkOf(name);
-  if (link < 0) refuse("there is no link '" + name + "' of " + arm->description.name + ".");
-  return link;
-}
-
-void Robot::Impl::requireConfiguration(const Eigen::VectorXd& q, const char* what) const {
-  const int size = arm->tree.coordinates();
-  if (q.size() != size) {
-    refuse(std::string(what) + " has " + std::to_string(q.size()) + " coordinates, but " +
-           arm->description.name + " has " + std::to_string(size) + ".");
-  }
-  for (int i = 0; i < size; ++i) {
-    if (std::isfinite(q[i]) && std::abs(q[i]) <= 0x1p300) continue;
-    refuse(std::string("the coordinate ") + arm->tree.names[static_cast<std::size_t>(i)] + " of " +
-           what + " is NaN, infinite or too large.");
-  }
-}
-
-void Robot::Impl::add(Object object) {
-  if (object.name.empty()) refuse("an object needs a name.");
-  if (entityOf(object.name) >= 0) {
-    refuse("the name '" + object.name + "' is in use; remove what has it first.");
-  }
-  for (const robot::Element& element : object.elements) {
-    if (!element.geometry) refuse("the geometry of '" + object.name + "' is null.");
-    robot::requireServed(element.geometry);
-    const auto type = element.geometry->getNodeType();
-    const bool turns = object.link >= 0 && !arm->tree.moving(arm->tree.nodeOf(object.link)).empty();
-    if (turns && (type == fcl::GEOM_HALFSPACE || type == fcl::GEOM_PLANE)) {
-      refuse("'" + object.name + "' is a half-space or a plane, which can't be carried.");
-    }
-  }
-  objects.push_back(std::move(object));
-  changed();
-}
-
-void Robot::Impl::forget(const std::string& name) {
-  objects.erase(std::remove_if(objects.begin(), objects.end(),
-                               [&](const Object& object) { return object.name == name; }),
-                objects.end());
-  changed();
-}
-
-void Robot::Impl::remove(const std::string& name) {
-  forget(name);
-  paddings.erase(name);
-  for (auto at = allowed.begin(); at != allowed.end();) {
-    at = at->first == name || at->second == name ? allowed.erase(at) : std::next(at);
-  }
-}
 
 Robot::Robot(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Robot::Robot(const Robot& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
@@ -126,6 +37,64 @@ const Eigen::VectorXd& Robot::upper() const { return impl_->arm->tree.upper; }
 
 const std::vector<std::string>& Robot::warnings() const { return impl_->warnings; }
 
+namespace {
+
+/// The places of a joint's coordinates, none if it doesn't move or mimics another.
+std::vector<int> coordinatesOf(const robot::Arm& arm, const robot::UrdfJoint& joint) {
+  std::vector<int> places;
+  if (!joint.moves() || joint.mimics >= 0) return places;
+  const bool several =
+      joint.type == robot::UrdfJointType::kPlanar || joint.type == robot::UrdfJointType::kFloating;
+  const std::vector<std::string>& names = arm.tree.names;
+  const auto first =
+      std::find(names.begin(), names.end(), several ? joint.name + "/x" : joint.name);
+  const int count = !several ? 1 : joint.type == robot::UrdfJointType::kPlanar ? 3 : 6;
+  for (int i = 0; i < count; ++i) places.push_back(static_cast<int>(first - names.begin()) + i);
+  return places;
+}
+
+/// The names of a map, for a message.
+template <typename Map>
+std::string namesOf(const Map& map) {
+  std::string names;
+  for (const auto& [name, value] : map) names += (names.empty() ? "; it has " : ", ") + name;
+  return names + ".";
+}
+
+}  // namespace
+
+std::vector<std::string> Robot::groups() const {
+  std::vector<std::string> names;
+  for (const auto& [name, group] : impl_->arm->description.groups) names.push_back(name);
+  return names;
+}
+
+RobotGroup Robot::group(const std::string& name) const {
+  const robot::Description& description = impl_->arm->description;
+  const auto known = description.groups.find(name);
+  if (known == description.groups.end()) {
+    refuse("the SRDF has no group '" + name + "'" + namesOf(description.groups));
+  }
+  RobotGroup group;
+  group.name = name;
+  for (const int joint : known->second.joints) {
+    for (const int place : coordinatesOf(*impl_->arm, description.joints[joint])) {
+      group.coordinates.push_back(place);
+    }
+  }
+  std::sort(group.coordinates.begin(), group.coordinates.end());
+  for (const int place : group.coordinates) group.joints.push_back(joints()[place]);
+  for (const int link : known->second.links) group.links.push_back(links()[link]);
+  group.end_effectors = known->second.end_effectors;
+  return group;
+}
+
+bool Robot::withinLimits(const Eigen::VectorXd& q, double slack) const {
+  impl_->requireConfiguration(q, "q");
+  if (!(slack >= 0)) refuse("the slack of limits must be >= 0.");
+  return ((q - upper()).array() <= slack).all() && ((lower() - q).array() <= slack).all();
+}
+
 std::vector<std::string> Robot::states() const {
   std::vector<std::string> names;
   for (const auto& [name, values] : impl_->arm->description.states) names.push_back(name);
@@ -136,12 +105,8 @@ UnalignedVector Robot::state(const std::string& name) const {
   const robot::Description& description = impl_->arm->description;
   const auto known = description.states.find(name);
   if (known == description.states.end()) {
-    std::string names;
-    for (const std::string& other : states()) names += (names.empty() ? "" : ", ") + other;
-    refuse("the SRDF has no group state '" + name + "'" +
-           (names.empty() ? "." : "; it has " + names + "."));
+    refuse("the SRDF has no group state '" + name + "'" + namesOf(description.states));
   }
-  const std::vector<std::string>& joints = impl_->arm->tree.names;
   UnalignedVector q = lower().cwiseMax(0.0).cwiseMin(upper());
   for (const auto& [joint, values] : known->second) {
     const auto found = std::find_if(description.joints.begin(), description.joints.end(),
@@ -150,17 +115,14 @@ UnalignedVector Robot::state(const std::string& name) const {
       refuse("the group state '" + name + "' names the joint '" + joint + "', which " +
              description.name + " doesn't have.");
     }
-    if (!found->moves() || found->mimics >= 0) continue;
-    auto at = std::find(joints.begin(), joints.end(), joint) - joints.begin();
-    const bool several = found->type == robot::UrdfJointType::kPlanar ||
-                         found->type == robot::UrdfJointType::kFloating;
-    if (several) at = std::find(joints.begin(), joints.end(), joint + "/x") - joints.begin();
-    const std::size_t count = !several ? 1 : found->type == robot::UrdfJointType::kPlanar ? 3 : 6;
-    if (values.size() != count) {
+    const std::vector<int> places = coordinatesOf(*impl_->arm, *found);
+    if (places.empty()) continue;
+    if (values.size() != places.size()) {
       refuse("the group state '" + name + "' gives the joint '" + joint + "' " +
-             std::to_string(values.size()) + " values instead of " + std::to_string(count) + ".");
+             std::to_string(values.size()) + " values instead of " + std::to_string(places.size()) +
+             ".");
     }
-    for (std::size_t i = 0; i < count; ++i) q[at + static_cast<std::ptrdiff_t>(i)] = values[i];
+    for (std::size_t i = 0; i < places.size(); ++i) q[places[i]] = values[i];
   }
   return q;
 }
@@ -171,13 +133,11 @@ std::vector<RobotElement> Robot::elements() const {
     all.push_back({links()[static_cast<std::size_t>(body.entity)], body.element, false, false,
                    body.geometry, body.X_LB});
   }
-  for (const bool attached : {true, false}) {
-    for (const Object& object : impl_->objects) {
-      if ((object.link >= 0) != attached) continue;
-      int i = 0;
-      for (const robot::Element& element : object.elements) {
-        all.push_back({object.name, i++, !attached, attached, element.geometry, element.X});
-      }
+  for (const Object* const object : impl_->ordered()) {
+    const bool attached = object->link >= 0;
+    int i = 0;
+    for (const robot::Element& element : object->elements) {
+      all.push_back({object->name, i++, !attached, attached, element.geometry, element.X});
     }
   }
   return all;
@@ -186,18 +146,9 @@ std::vector<RobotElement> Robot::elements() const {
 fcl::Transform3d Robot::pose(const std::string& name, const Eigen::VectorXd& q) const {
   impl_->requireConfiguration(q, "q");
   const int entity = impl_->requireEntity(name);
-  const int num_links = static_cast<int>(impl_->arm->links.size());
-  fcl::Transform3d X = fcl::Transform3d::Identity();
-  int link = entity;
-  if (entity >= num_links) {
-    const Object& object = impl_->objects[static_cast<std::size_t>(entity - num_links)];
-    X = object.X;
-    link = object.link;
-    if (link < 0) return X;
-  }
-  std::vector<robot::PlacedLink> placed;
-  impl_->arm->tree.place(q, placed);
-  return placed[static_cast<std::size_t>(impl_->arm->tree.nodeOf(link))].pose(X);
+  const Object* const object = impl_->objectOf(entity);
+  if (!object) return impl_->poseOf(entity, q);
+  return object->link < 0 ? object->X : impl_->poseOf(object->link, q, object->X);
 }
 
 void Robot::addObstacle(const std::string& name,
@@ -206,45 +157,77 @@ void Robot::addObstacle(const std::string& name,
   impl_->add({name, -1, robot::rigid(X_W, "'" + name + "'"), {{std::move(geometry)}}});
 }
 
+void Robot::addPoints(const std::string& name, const Eigen::Ref<const Eigen::Matrix3Xd>& points,
+                      double radius) {
+  if (!(radius >= 0 && radius <= 0x1p300)) refuse("the radius of points must be finite and >= 0.");
+  if (points.cols() > std::numeric_limits<int>::max()) refuse("there are too many points.");
+  std::vector<fcl::Vector3d> vertices;
+  vertices.reserve(static_cast<std::size_t>(points.cols()));
+  for (const auto& point : points.colwise()) vertices.emplace_back(point);
+  impl_->add({name, -1, fcl::Transform3d::Identity(), {{makePointCloud(vertices)}}}, {}, radius);
+}
+
+void Robot::addOctomap(const std::string& name, const std::string& file,
+                       const fcl::Transform3d& X_W) {
+  std::shared_ptr<fcl::CollisionGeometryd> octree;
+  try {
+    octree = files::readOctomap(file);
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+  addObstacle(name, octree, X_W);
+}
+
 void Robot::attach(const std::string& name, const std::string& link,
                    std::shared_ptr<const fcl::CollisionGeometryd> geometry,
                    const fcl::Transform3d& X_LB, const std::vector<std::string>& touch_links) {
   const int carrier = impl_->requireLink(link);
-  impl_->add({name, carrier, robot::rigid(X_LB, "'" + name + "'"), {{std::move(geometry)}}});
-  for (const std::string& touched : touch_links) impl_->allowed.insert(namePair(name, touched));
+  impl_->add({name, carrier, robot::rigid(X_LB, "'" + name + "'"), {{std::move(geometry)}}},
+             touch_links);
 }
 
 void Robot::moveObstacle(const std::string& name, const fcl::Transform3d& X_W) {
-  const int entity = impl_->requireEntity(name) - static_cast<int>(impl_->arm->links.size());
-  if (entity < 0 || impl_->objects[static_cast<std::size_t>(entity)].link >= 0) {
-    refuse("'" + name + "' is no obstacle, so it can't be moved.");
-  }
-  impl_->objects[static_cast<std::size_t>(entity)].X = robot::rigid(X_W, "'" + name + "'");
-  impl_->changed();
+  impl_->move(impl_->requireObject(name, false, "moved"), X_W);
+}
+
+void Robot::attachObstacle(const std::string& name, const std::string& link,
+                           const Eigen::VectorXd& q, const std::vector<std::string>& touch_links) {
+  impl_->requireConfiguration(q, "q");
+  const int entity = impl_->requireObject(name, false, "attached"),
+            carrier = impl_->requireLink(link);
+  const fcl::Transform3d X_WL = impl_->poseOf(carrier, q);
+  impl_->carry(entity, carrier, X_WL.inverse() * impl_->objectOf(entity)->X, touch_links);
+}
+
+void Robot::attachObstacle(const std::string& name, const std::string& link,
+                           const fcl::Transform3d& X_LB,
+                           const std::vector<std::string>& touch_links) {
+  const int entity = impl_->requireObject(name, false, "attached");
+  impl_->carry(entity, impl_->requireLink(link), X_LB, touch_links);
+}
+
+void Robot::detach(const std::string& name, const Eigen::VectorXd& q) {
+  const int entity = impl_->requireObject(name, true, "detached");
+  impl_->carry(entity, -1, pose(name, q), {});
 }
 
 void Robot::remove(const std::string& name) {
-  if (impl_->requireEntity(name) < static_cast<int>(impl_->arm->links.size())) {
+  if (!impl_->objectOf(impl_->requireEntity(name))) {
     refuse("'" + name + "' is a link, which can't be removed.");
   }
   impl_->remove(name);
 }
 
-void Robot::allow(const std::string& a, const std::string& b, bool allowed) {
+void Robot::ignorePair(const std::string& a, const std::string& b, bool ignored) {
   impl_->requireEntity(a);
   impl_->requireEntity(b);
-  if (allowed) {
-    impl_->allowed.insert(namePair(a, b));
-  } else {
-    impl_->allowed.erase(namePair(a, b));
-  }
-  impl_->changed();
+  impl_->ignore(a, b, ignored);
 }
 
 bool Robot::allowed(const std::string& a, const std::string& b) const {
   impl_->requireEntity(a);
   impl_->requireEntity(b);
-  return impl_->allowed.count(namePair(a, b)) != 0;
+  return impl_->ignores(a, b);
 }
 
 void Robot::setPadding(const std::string& name, double metres) {
@@ -252,18 +235,21 @@ void Robot::setPadding(const std::string& name, double metres) {
   if (!(metres >= 0 && metres <= 0x1p300)) {
     refuse("the padding of '" + name + "' must be finite and >= 0.");
   }
-  impl_->paddings[name] = metres;
-  impl_->changed();
+  impl_->setPadding(name, metres);
 }
 
 void Robot::addScene(const std::string& file) {
   robot::Scene scene = robot::readScene(file, impl_->arm->description);
   auto next = std::make_unique<Impl>(*impl_);
+  next->changed();
+  std::set<std::string> named;
   for (const std::string& name : scene.removed) next->remove(name);
   for (Object& object : scene.objects) {
     next->forget(object.name);
+    const std::vector<std::string> touched = std::exchange(object.touch, {});
+    named.insert(touched.begin(), touched.end());
     try {
-      next->add(std::move(object));
+      next->add(std::move(object), touched);
     } catch (const std::exception& error) {
       refuse(file + ": " + error.what());
     }
@@ -271,21 +257,14 @@ void Robot::addScene(const std::string& file) {
   for (const auto& [name, may_touch] : scene.others) {
     if (!may_touch) continue;
     for (const std::string& link : links()) {
-      if (link != name) next->allowed.insert(namePair(name, link));
+      if (link != name) next->ignore(name, link, true);
     }
-    for (const Object& object : next->objects) {
-      if (object.name != name) next->allowed.insert(namePair(name, object.name));
-    }
-  }
-  for (const auto& [pair, allowed] : scene.pairs) {
-    if (allowed) {
-      next->allowed.insert(pair);
-    } else {
-      next->allowed.erase(pair);
+    for (const Object* const object : next->ordered()) {
+      if (object->name != name) next->ignore(name, object->name, true);
     }
   }
-  for (const auto& [link, padding] : scene.paddings) next->paddings[link] = padding;
-  std::set<std::string> named;
+  for (const auto& [pair, allowed] : scene.pairs) next->ignore(pair.first, pair.second, allowed);
+  for (const auto& [link, padding] : scene.paddings) next->setPadding(link, padding);
   for (const auto& [pair, allowed] : scene.pairs) named.insert({pair.first, pair.second});
   for (const auto& [name, may_touch] : scene.others) named.insert(name);
   for (const std::string& name : named) {
@@ -293,14 +272,13 @@ void Robot::addScene(const std::string& file) {
     next->warnings.push_back(file + ": pairs may touch of '" + name +
                              "', which is no link, obstacle or attached object.");
   }
-  next->changed();
   impl_ = std::move(next);
 }
 
 Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file,
                 const RobotOptions& options) {
   if (!(options.padding >= 0 && options.padding <= 0x1p300)) {
-    refuse("RobotOptions::padding must be finite and >= 0.");
+    refuse("the padding must be finite and >= 0.");
   }
   auto arm = std::make_shared<robot::Arm>();
   arm->description = robot::readUrdf(urdf_file, options.packages);
@@ -323,18 +301,17 @@ Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file,
       body.geometry = link.elements[k].geometry;
       body.entity = static_cast<int>(i);
       body.element = static_cast<int>(k);
-      body.node = arm->tree.nodeOf(static_cast<int>(i));
-      body.X_LB = link.elements[k].X;
       body.measure();
+      body.put(arm->tree.nodeOf(static_cast<int>(i)), link.elements[k].X);
       arm->linkage.addBody(body.node, body.geometry, body.X_LB);
       arm->bodies.push_back(std::move(body));
     }
   }
   auto impl = std::make_unique<Robot::Impl>(arm);
-  impl->allowed = description.allowed;
+  for (const auto& [a, b] : description.allowed) impl->ignore(a, b, true);
   impl->warnings = description.warnings;
   if (options.padding > 0) {
-    for (const std::string& link : arm->links) impl->paddings[link] = options.padding;
+    for (const std::string& link : arm->links) impl->setPadding(link, options.padding);
   }
   return Robot(std::move(impl));
 }

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene_file.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include <fcl/geometry/shape/box.h>
@@ -18,6 +15,7 @@
 #include "mesh_file.h"
 #include "text_file.h"
 #include "urdf.h"
+#include "yaml_file.h"
 
 namespace kios::robot {
 namespace {
@@ -27,12 +25,18 @@ using fcl::Vector3d;
 
 /// Reads MoveIt's message PlanningScene. A key is one of the message's, whether it matters here or
 /// not, or refused: what is misspelt would be an obstacle that isn't there.
-class SceneReader {
+class SceneReader : YamlFile {
  public:
-  SceneReader(const std::string& file, const Description& robot) : file_(file), robot_(robot) {}
+  SceneReader(const std::string& file, const Description& robot) : YamlFile(file), robot_(robot) {}
 
   Scene read() {
     const std::string content = contentOf(file_);
+    const std::size_t second = content.find('\n') + 1;
+    if (second > 0 && content.compare(second, 2, "* ") == 0) {
+      refuse(file_ +
+             ": it is a scene in MoveIt's text format, .scene; read is the message "
+             "PlanningScene in YAML.");
+    }
     YAML::Node root;
     try {
       std::vector<YAML::Node> documents = YAML::LoadAll(content);
@@ -60,7 +64,7 @@ class SceneReader {
       const YAML::Node octomap = map(world, {"collision_objects", "octomap"})["octomap"];
       if (octomap && octomap.IsMap() && octomap["octomap"] && octomap["octomap"].IsMap() &&
           !list(octomap["octomap"]["data"]).empty()) {
-        refuseHere(octomap, "an octomap isn't read from here; add it by addObstacle().");
+        refuseHere(octomap, "an octomap isn't read from here; add it as a file, .bt or .ot.");
       }
       for (const YAML::Node& object : list(world["collision_objects"])) readObject(object, -1);
     }
@@ -76,101 +80,6 @@ class SceneReader {
   }
 
  private:
-  [[noreturn]] void refuseHere(const YAML::Node& node, const std::string& what) const {
-    refuseAt(file_, node.Mark().line + 1, what);
-  }
-
-  /// `node`, which must be a map of some of these keys, each once.
-  YAML::Node map(const YAML::Node& node, const std::vector<std::string>& keys) const {
-    if (!node.IsMap()) refuseHere(node, "a map of names and values should stand here.");
-    std::set<std::string> met;
-    for (const auto& entry : node) {
-      const std::string key = scalar(entry.first, node);
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
-        std::string known = keys[0];
-        for (std::size_t i = 1; i < keys.size(); ++i) known += ", " + keys[i];
-        refuseHere(entry.first, "'" + key + "' isn't known here; these are: " + known + ".");
-      }
-      if (!met.insert(key).second) refuseHere(entry.first, "'" + key + "' is there twice.");
-    }
-    return node;
-  }
-
-  std::vector<YAML::Node> list(const YAML::Node& node) const {
-    std::vector<YAML::Node> items;
-    if (!node || node.IsNull()) return items;
-    if (!node.IsSequence()) refuseHere(node, "a list should stand here.");
-    for (const YAML::Node& item : node) items.push_back(item);
-    return items;
-  }
-
-  std::string scalar(const YAML::Node& node, const YAML::Node& parent) const {
-    if (!node) refuseHere(parent, "a name is missing.");
-    if (!node.IsScalar() || node.Scalar().empty()) refuseHere(node, "a name should stand here.");
-    return node.Scalar();
-  }
-
-  double number(const YAML::Node& node, const YAML::Node& parent) const {
-    double x = 0;
-    if (!node) refuseHere(parent, "a number is missing.");
-    if (!node.IsScalar() || !parseNumbers(node.Scalar(), 1, &x)) {
-      refuseHere(node, "a finite number should stand here.");
-    }
-    return x;
-  }
-
-  bool truth(const YAML::Node& node) const {
-    bool value = false;
-    if (node.IsScalar() && YAML::convert<bool>::decode(node, value)) return value;
-    if (node.IsScalar() && (node.Scalar() == "1" || node.Scalar() == "0")) {
-      return node.Scalar() == "1";
-    }
-    refuseHere(node, "true or false should stand here.");
-  }
-
-  /// [x, y, z] or {x: , y: , z: }.
-  std::vector<double> numbers(const YAML::Node& node, const char* names) const {
-    std::vector<double> values;
-    if (node.IsMap()) {
-      std::vector<std::string> keys;
-      for (const char* name = names; *name != '\0'; ++name) keys.emplace_back(1, *name);
-      for (const std::string& key : keys) values.push_back(number(map(node, keys)[key], node));
-      return values;
-    }
-    for (const YAML::Node& item : list(node)) values.push_back(number(item, node));
-    if (*names != '\0' && values.size() != std::char_traits<char>::length(names)) {
-      refuseHere(node, "the numbers " + std::string(names) + " should stand here.");
-    }
-    return values;
-  }
-
-  Transform3d pose(const YAML::Node& position, const YAML::Node& orientation,
-                   const YAML::Node& parent) const {
-    Transform3d X = Transform3d::Identity();
-    if (position) X.translation() = Eigen::Map<const Vector3d>(numbers(position, "xyz").data());
-    if (orientation) {
-      const std::vector<double> q = numbers(orientation, "xyzw");
-      const Eigen::Quaterniond turn(q[3], q[0], q[1], q[2]);
-      const double norm = turn.norm();
-      // All zeros stand for no turn, as in MoveIt.
-      if (norm != 0) {
-        if (!(norm > 0.9 && norm < 1.1))
-          refuseHere(orientation, "the quaternion isn't of length 1.");
-        X.linear() = turn.normalized().toRotationMatrix();
-      }
-    }
-    try {
-      return rigid(X, "an object");
-    } catch (const std::exception&) {
-      refuseHere(parent, "the pose is too large.");
-    }
-  }
-
-  Transform3d pose(const YAML::Node& node) const {
-    map(node, {"position", "orientation"});
-    return pose(node["position"], node["orientation"], node);
-  }
-
   Transform3d frameOf(const YAML::Node& object, int link) const {
     const YAML::Node header = object["header"];
     std::string frame;
@@ -187,15 +96,30 @@ class SceneReader {
     }
     const auto known = frames_.find(frame);
     if (known != frames_.end()) return known->second;
-    if (frame == "world" || frame == robot_.links[robot_.root()].name) {
-      return Transform3d::Identity();
+    if (frame == "world") return Transform3d::Identity();
+    const int placed_in = robot_.linkOf(frame);
+    if (placed_in < 0) {
+      refuseHere(header,
+                 "obstacles must be posed in the frame 'world', one of "
+                 "fixed_frame_transforms, or a link's, not in '" +
+                     frame + "'.");
     }
-    refuseHere(header, "obstacles must be posed in the frame 'world', '" +
-                           robot_.links[robot_.root()].name +
-                           "' or one of fixed_frame_transforms, not in '" + frame + "'.");
+    Transform3d X = Transform3d::Identity();
+    for (int at = placed_in; at != robot_.root();) {
+      const auto joint = std::find_if(robot_.joints.begin(), robot_.joints.end(),
+                                      [&](const UrdfJoint& known) { return known.child == at; });
+      if (joint->moves()) {
+        refuseHere(header, "the joint '" + joint->name + "' moves the frame '" + frame +
+                               "'; pose the obstacle in the frame 'world', or attach it.");
+      }
+      X = rigidProduct(joint->X_PJ, X);
+      at = joint->parent;
+    }
+    return X;
   }
 
-  void readObject(const YAML::Node& node, int link) {
+  /// False if it removes one.
+  bool readObject(const YAML::Node& node, int link) {
     map(node,
         {"header", "pose", "id", "type", "primitives", "primitive_poses", "meshes", "mesh_poses",
          "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"});
@@ -208,7 +132,7 @@ class SceneReader {
         node["operation"] ? scalar(node["operation"], node) : std::string("0");
     if (operation == "1" || operation == "REMOVE" || operation == "remove") {
       scene_.removed.push_back(object.name);
-      return;
+      return false;
     }
     const bool adds = operation == "0" || operation == "ADD" || operation == "add" ||
                       (operation.size() == 1 && operation[0] == '\0') || operation == "\\0";
@@ -231,6 +155,7 @@ class SceneReader {
       object.elements[0].X.setIdentity();
     }
     scene_.objects.push_back(std::move(object));
+    return true;
   }
 
   void readElements(const YAML::Node& node, const char* shapes, const char* poses, Object& object) {
@@ -246,7 +171,7 @@ class SceneReader {
         element.geometry = kind == "primitives" ? primitive(items[i])
                            : kind == "meshes"   ? mesh(items[i])
                                                 : plane(items[i]);
-        requireServed(element.geometry);
+        element.measured = measure(element.geometry);
       } catch (const std::exception& error) {
         const std::string text = error.what(), prefix = "fcl_kios: ";
         if (text.rfind(prefix + file_, 0) == 0) throw;
@@ -290,6 +215,9 @@ class SceneReader {
   }
 
   Geometry mesh(const YAML::Node& node) const {
+    if (node.IsMap() && node["mesh_resource"]) {
+      refuseHere(node, "a mesh_resource isn't read; a mesh is its vertices and triangles here.");
+    }
     map(node, {"vertices", "triangles"});
     std::vector<Vector3d> vertices;
     for (const YAML::Node& v : list(node["vertices"])) {
@@ -329,10 +257,10 @@ class SceneReader {
     const int link = robot_.linkOf(name);
     if (link < 0) refuseHere(node, "there is no link '" + name + "'.");
     if (!node["object"]) refuseHere(node, "the object is missing.");
-    readObject(node["object"], link);
-    const std::string id = scalar(node["object"]["id"], node);
+    const bool adds = readObject(node["object"], link);
     for (const YAML::Node& touched : list(node["touch_links"])) {
-      scene_.pairs.emplace_back(namePair(id, scalar(touched, node)), true);
+      const std::string other = scalar(touched, node);
+      if (adds) scene_.objects.back().touch.push_back(other);
     }
   }
 
@@ -381,7 +309,6 @@ class SceneReader {
     }
   }
 
-  const std::string& file_;
   const Description& robot_;
   std::map<std::string, Transform3d> frames_;
   Scene scene_;

@@ -11,7 +11,7 @@
 #include <fcl/geometry/shape/capsule.h>
 #include <fcl/geometry/shape/cylinder.h>
 #include <fcl/geometry/shape/sphere.h>
-#include "fcl_kios/linkage/linkage.h"
+#include "fcl_kios/linkage.h"
 #include "mesh_file.h"
 #include "mesh_path.h"
 #include "text_file.h"
@@ -97,7 +97,7 @@ class UrdfReader {
       xml_.refuse(*shape, "there is no such shape; mesh, box, sphere, cylinder and capsule are.");
     }
     try {
-      requireServed(geometry);
+      measure(geometry);
     } catch (const std::exception& error) {
       xml_.refuse(*shape, textOf(error));
     }
@@ -156,13 +156,35 @@ class UrdfReader {
     joint.upper = kInfinity;
     if (joint.type == UrdfJointType::kRevolute || joint.type == UrdfJointType::kPrismatic) {
       const XmlElement& limit = xml_.child(e, "limit");
-      joint.lower = xml_.number(limit, "lower", 0);
-      joint.upper = xml_.number(limit, "upper", 0);
-      if (joint.lower > joint.upper) xml_.refuse(limit, "its lower limit exceeds the upper one.");
+      joint.lower = limitOf(limit, "lower");
+      joint.upper = limitOf(limit, "upper");
+      if (!(joint.lower <= joint.upper) || joint.lower == kInfinity || joint.upper == -kInfinity) {
+        xml_.refuse(limit, "its lower limit exceeds the upper one.");
+      }
+      // Exporters write no limits as infinite or huge ones: more turns than a joint ever makes.
+      constexpr double kEndless = 1e6;
+      if (joint.type == UrdfJointType::kRevolute && joint.lower <= -kEndless &&
+          joint.upper >= kEndless) {
+        joint.type = UrdfJointType::kContinuous;
+        joint.lower = -kInfinity;
+        joint.upper = kInfinity;
+      } else if (!std::isfinite(joint.lower) || !std::isfinite(joint.upper)) {
+        xml_.refuse(limit, "only both limits of a revolute joint may be infinite.");
+      }
     }
     const XmlElement* const mimic = xml_.optionalChild(e, "mimic");
     if (mimic && joint.moves()) mimics_.emplace_back(result_.joints.size(), mimic);
     result_.joints.push_back(std::move(joint));
+  }
+
+  double limitOf(const XmlElement& limit, const char* name) const {
+    const char* const text = limit.Attribute(name);
+    for (const double sign : {-1.0, 1.0}) {
+      for (const char* const word : {"inf", "Inf", "INF", "infinity", "Infinity"}) {
+        if (text && text == (sign < 0 ? "-" : "") + std::string(word)) return sign * kInfinity;
+      }
+    }
+    return xml_.number(limit, name, 0);
   }
 
   int jointNamed(const std::string& name) const {
@@ -276,77 +298,14 @@ int Description::root() const {
   return static_cast<int>(std::find(carried.begin(), carried.end(), 0) - carried.begin());
 }
 
-void requireServed(const Geometry& geometry) { Linkage().addBody(-1, geometry); }
+std::shared_ptr<const Linkage> measure(const Geometry& geometry) {
+  const auto alone = std::make_shared<Linkage>();
+  alone->addBody(-1, geometry);
+  return alone;
+}
 
 Description readUrdf(const std::string& file, const std::map<std::string, std::string>& packages) {
   return UrdfReader(file, packages).read();
-}
-
-void readSrdf(const std::string& file, Description& robot) {
-  const XmlFile xml(file, "robot");
-  const XmlElement& root = xml.root();
-  if (root.FirstChildElement("link") != nullptr) {
-    xml.refuse(root, "it has links: it is a URDF, but an SRDF is asked for.");
-  }
-  const auto pairOf = [&](const XmlElement& e) {
-    const std::string first = xml.attribute(e, "link1");
-    return namePair(first, xml.attribute(e, "link2"));
-  };
-  // MoveIt 2: links that may touch every other link, but for the pairs that are enabled again.
-  for (const XmlElement* e = root.FirstChildElement("disable_default_collisions"); e;
-       e = e->NextSiblingElement("disable_default_collisions")) {
-    const std::string link = xml.attribute(*e, "link");
-    for (const UrdfLink& other : robot.links) {
-      if (other.name != link) robot.allowed.insert(namePair(link, other.name));
-    }
-  }
-  for (const XmlElement* e = root.FirstChildElement("enable_collisions"); e;
-       e = e->NextSiblingElement("enable_collisions")) {
-    robot.allowed.erase(pairOf(*e));
-  }
-  for (const XmlElement* e = root.FirstChildElement("disable_collisions"); e;
-       e = e->NextSiblingElement("disable_collisions")) {
-    robot.allowed.insert(pairOf(*e));
-  }
-  const char* const name = root.Attribute("name");
-  if (name && name != robot.name) {
-    robot.warnings.push_back(xml.at(root, "it is of another robot than '" + robot.name + "'."));
-  }
-  for (const char* const element :
-       {"disable_default_collisions", "enable_collisions", "disable_collisions"}) {
-    for (const XmlElement* e = root.FirstChildElement(element); e;
-         e = e->NextSiblingElement(element)) {
-      for (const char* const attribute : {"link", "link1", "link2"}) {
-        const char* const link = e->Attribute(attribute);
-        if (!link || robot.linkOf(link) >= 0) continue;
-        robot.warnings.push_back(
-            xml.at(*e, "there is no link '" + std::string(link) + "' of " + robot.name + "."));
-      }
-    }
-  }
-  std::set<std::string> virtual_joints;  // of the robot's base and the world
-  for (const XmlElement* e = root.FirstChildElement("virtual_joint"); e;
-       e = e->NextSiblingElement("virtual_joint")) {
-    virtual_joints.insert(xml.attribute(*e, "name"));
-  }
-  for (const XmlElement* e = root.FirstChildElement("group_state"); e;
-       e = e->NextSiblingElement("group_state")) {
-    auto& values = robot.states[xml.attribute(*e, "name")];
-    for (const XmlElement* j = e->FirstChildElement("joint"); j;
-         j = j->NextSiblingElement("joint")) {
-      if (virtual_joints.count(xml.attribute(*j, "name")) != 0) continue;
-      const std::string text = xml.attribute(*j, "value");
-      std::vector<double>& numbers = values[xml.attribute(*j, "name")];
-      numbers.clear();
-      constexpr int kMost = 7;
-      for (int count = 1; count <= kMost && numbers.empty(); ++count) {
-        double read[kMost];
-        if (parseNumbers(text, count, read)) numbers.assign(read, read + count);
-      }
-      if (numbers.empty())
-        xml.refuse(*j, "its value must be finite numbers, but is '" + text + "'.");
-    }
-  }
 }
 
 }  // namespace kios::robot

@@ -18,6 +18,6 @@ Description readUrdf(const std::string& file, const std::map<std::string, std::s
 void readSrdf(const std::string& file, Description& robot);
 
 /// Throws std::invalid_argument if a linkage can't serve the geometry.
-void requireServed(const Geometry& geometry);
+std::shared_ptr<const Linkage> measure(const Geometry& geometry);
 
 }  // namespace kios::robot

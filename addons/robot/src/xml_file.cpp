@@ -3,13 +3,44 @@
 #include "xml_file.h"
 
 #include <Eigen/Geometry>
+#include <cstdlib>
 #include <cstring>
+#include <string_view>
 
+#include "files/input.h"
 #include "text_file.h"
 
 namespace kios::robot {
 
 using Eigen::Vector3d;
+
+namespace {
+
+/// Refuses what isn't UTF-8, as names are strings of Python and JSON.
+class RequireUtf8 : public tinyxml2::XMLVisitor {
+ public:
+  explicit RequireUtf8(const std::string& file) : file_(file) {}
+  bool VisitEnter(const XmlFile::Element& /*element*/,
+                  const tinyxml2::XMLAttribute* attribute) override {
+    for (; attribute; attribute = attribute->Next()) {
+      for (std::string_view rest = attribute->Value(); !rest.empty();) {
+        const int length = files::lengthOfCharacter(rest);
+        if (length == 0) {
+          refuseAt(file_, attribute->GetLineNum(),
+                   std::string("the attribute ") + attribute->Name() +
+                       " isn't in UTF-8; convert the file to it.");
+        }
+        rest.remove_prefix(static_cast<std::size_t>(std::abs(length)));
+      }
+    }
+    return true;
+  }
+
+ private:
+  const std::string& file_;
+};
+
+}  // namespace
 
 XmlFile::XmlFile(const std::string& file, const char* root) : name_(file) {
   const std::string content = contentOf(file);
@@ -21,6 +52,8 @@ XmlFile::XmlFile(const std::string& file, const char* root) : name_(file) {
              std::string("it is no well-formed XML (") + document_.ErrorName() +
                  "); a .xacro file must be expanded first.");
   }
+  RequireUtf8 required(file);
+  document_.Accept(&required);
   const Element* const top = document_.RootElement();
   if (!top || std::strcmp(top->Name(), root) != 0) {
     robot::refuse(file + ": its root element must be <" + root + ">" +

@@ -36,14 +36,12 @@ struct BoxLanes {
         e1(column(box, 1)),
         e2(column(box, 2)),
         center(column(box, kCenter)),
-        half{hn::Set(d, box.half[0]), hn::Set(d, box.half[1]), hn::Set(d, box.half[2])} {}
+        half{set(box.half[0]), set(box.half[1]), set(box.half[2])} {}
 
   static V3 column(const BoxBlock& block, int i, size_t l) {
     return {load(block.x[i], l), load(block.y[i], l), load(block.z[i], l)};
   }
-  static V3 column(const Box& box, int i) {
-    return {hn::Set(d, box.x[i]), hn::Set(d, box.y[i]), hn::Set(d, box.z[i])};
-  }
+  static V3 column(const Box& box, int i) { return {set(box.x[i]), set(box.y[i]), set(box.z[i])}; }
 
   V3 along(const V3& v) const { return {dot(e0, v), dot(e1, v), dot(e2, v)}; }
 
@@ -67,7 +65,7 @@ struct BoxPairs {
   BoxPairs(const BoxLanes& box_a, const BoxLanes& box_b, float pad)
       : a(box_a),
         b(box_b),
-        padding(hn::Set(d, pad)),
+        padding(set(pad)),
         between(b.center - a.center),
         a_between(a.along(between)),
         b_between(b.along(between)),
@@ -95,7 +93,7 @@ struct BoxPairs {
   /// The widest gap along a product of an axis of a and one of b. None of these directions is
   /// longer than 1, so that the gaps are bounds as they are.
   [[gnu::hot]] V acrossEdges() const {
-    V widest = hn::Set(d, -kInfinityFloat);
+    V widest = set(-kInfinityFloat);
     const V twice = hn::Add(padding, padding);
     const auto across = [&](V t1, V t2, V h1, V h2, V c1, V c2, V abs_c1, V abs_c2, V reach) {
       const V apart = hn::Sub(hn::Mul(t2, c1), hn::Mul(t1, c2));
@@ -148,7 +146,7 @@ HWY_INLINE V distanceBounds(const BoxLanes& a, const BoxLanes& b, float pad) {
   const V3 to_a = a.towards(pairs.a_between) - pairs.between;  // from b's centre
   const V3 w = b.towards(b.along(to_a)) - to_a;
   const V reach = hn::Add(dot(abs(a.along(w)), a.half), dot(abs(b.along(w)), b.half));
-  const V length2 = dot(w, w), least2 = hn::Set(d, 0x1p-100F);
+  const V length2 = dot(w, w), least2 = set(0x1p-100F);
   const V length = hn::Sqrt(hn::Max(length2, least2));
   const V along_w = hn::Sub(hn::Div(hn::Sub(dot(w, pairs.between), reach), length), pairs.padding);
   // A shorter w joins boxes that are nearer than the pad, and its square may vanish.

@@ -18,26 +18,24 @@ inline HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& 
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.
 HWY_INLINE uint32_t mayMeet(const LeafView& on, const Vec3 (&corners)[3], float pad) {
-  uint32_t result = 0;
-  const V pads = hn::Set(d, pad), minus_pads = hn::Set(d, -pad);
-  for (size_t l = 0; l < kLanes; l += step()) {
-    const Faces faces = {on.faces, l};
-    V low, high, inside[3];
-    for (int c = 0; c < 3; ++c) {
-      const V3 p = inAllLanes(corners[c]);
-      const V h = faces.height(p);
-      low = c == 0 ? h : hn::Min(low, h);
-      high = c == 0 ? h : hn::Max(high, h);
-      for (int k = 0; k < 3; ++k) {
-        const V e = faces.inside(k, p);
-        inside[k] = c == 0 ? e : hn::Max(inside[k], e);
-      }
-    }
-    auto may = hn::And(hn::Le(low, pads), hn::Ge(high, minus_pads));
-    for (int k = 0; k < 3; ++k) may = hn::And(may, hn::Ge(inside[k], minus_pads));
-    result |= bitsOf(may) << l;
-  }
-  return result & ((1U << on.leaf.num_faces) - 1);
+  const V pads = set(pad), minus_pads = set(-pad);
+  return firstLanes(on.leaf.num_faces) & lanesWhere([&](size_t l) {
+           const Faces faces = {on.faces, l};
+           V low, high, inside[3];
+           for (int c = 0; c < 3; ++c) {
+             const V3 p = inAllLanes(corners[c]);
+             const V h = faces.height(p);
+             low = c == 0 ? h : hn::Min(low, h);
+             high = c == 0 ? h : hn::Max(high, h);
+             for (int k = 0; k < 3; ++k) {
+               const V e = faces.inside(k, p);
+               inside[k] = c == 0 ? e : hn::Max(inside[k], e);
+             }
+           }
+           auto may = hn::And(hn::Le(low, pads), hn::Ge(high, minus_pads));
+           for (int k = 0; k < 3; ++k) may = hn::And(may, hn::Ge(inside[k], minus_pads));
+           return may;
+         });
 }
 
 /// Evaluates all pairs of triangles that may touch. True to end the search.
@@ -80,15 +78,15 @@ HWY_INLINE void touching(const Search& search, const LeafPair& leaf_pair) {
   const Expander expander(search);
   const size_t batch_size =
       expander.tightener().hasBoxes() ? tuning::kBoxedContactBatch : tuning::kBatch;
-  Frontier frontier(/*keeps_apart=*/false);
+  Frontier frontier;
   expander.pushRoots(frontier);
   const auto meets = [&](NodePair nodes) {
     ++search.counts.leaf_pairs;
     pair.nodes = nodes;
-    bracketPair(search, leaves_a, leaves_b, last, pair);
+    const LeafView a = leaves_a(nodes.a), b = leaves_b(nodes.b);
+    bracketLeaves(search, a, b, last, pair);
     const Slab& slab = pair.slab;
     if (slab.apart) return false;
-    const LeafView a = leaves_a(nodes.a), b = leaves_b(nodes.b);
     const bool open = slab.bottom_b - slab.top_a > -2 * search.frames.pad * slab.along.length;
     if (HWY_UNLIKELY(open) && areApartInDouble(search, a, b, slab.along)) return false;
     ++search.counts.leaf_kernels;

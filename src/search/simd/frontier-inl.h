@@ -17,6 +17,14 @@ HWY_INLINE uint32_t bitsOf(hn::Mask<D> mask) {
   return bits[0];
 }
 
+/// The lanes, as bits, in which test(l), of the lanes from l on, holds.
+template <class Test>
+HWY_INLINE uint32_t lanesWhere(const Test& test) {
+  uint32_t bits = 0;
+  for (size_t l = 0; l < kLanes; l += step()) bits |= bitsOf(test(l)) << l;
+  return bits;
+}
+
 HWY_INLINE hn::Mask<DU> maskOf(uint32_t bits) {
   const uint8_t bytes[8] = {static_cast<uint8_t>(bits)};
   return hn::LoadMaskBits(du, bytes);
@@ -129,7 +137,7 @@ class NodePairList {
 
   /// The least bound of all; infinity if empty.
   float least() const {
-    V least = hn::Set(d, kInfinityFloat);
+    V least = set(kInfinityFloat);
     for (size_t i = 0; i < size_; i += step()) {
       least = hn::Min(least, boundsAt(i, (1U << std::min(size_ - i, step())) - 1));
     }
@@ -155,7 +163,7 @@ class NodePairList {
   /// traps.
   V boundsAt(size_t i, uint32_t used) const {
     return hn::IfThenElse(hn::RebindMask(d, maskOf(used)), hn::LoadU(d, bounds_ + i),
-                          hn::Set(d, kInfinityFloat));
+                          set(kInfinityFloat));
   }
 
   HWY_NOINLINE void grow(size_t capacity) {
@@ -186,13 +194,8 @@ class NodePairList {
 /// Pairs that wait. Those that overlap must all be looked at: they are at hand, the last in first.
 /// Those apart wait for their turn in waves, the nearest first.
 class Frontier {
-  const bool keeps_apart_;
-
  public:
-  /// Where `keeps_apart` is false, no pair may be pushed that doesn't overlap.
-  explicit Frontier(bool keeps_apart = true) : keeps_apart_(keeps_apart) {
-    hn::Store(hn::Set(d, kInfinityFloat), d, least_);
-  }
+  Frontier() { hn::Store(set(kInfinityFloat), d, least_); }
 
   // At hand:
   NodePairList inner;    ///< pairs of nodes not both of which are leaves
@@ -213,8 +216,8 @@ class Frontier {
       leaves.push(overlapping & are_leaves, bounds, a, b);
       inner.push(overlapping & ~are_leaves, bounds, a, b);
     }
-    if (!keeps_apart_) return;
     const uint32_t apart = lanes & ~overlapping;
+    if (apart == 0) return;  // always in contact
     apart_leaves_.push(apart & are_leaves, bounds, a, b);
     apart_inner_.push(apart & ~are_leaves, bounds, a, b);
     note(apart, bounds);
@@ -224,7 +227,7 @@ class Frontier {
   void keep(float bound, uint32_t index) {
     apart_bounded_.reserve(1);
     apart_bounded_.push(bound, {index, 0});
-    hn::Store(hn::Min(hn::Load(d, least_), hn::Set(d, bound)), d, least_);
+    hn::Store(hn::Min(hn::Load(d, least_), set(bound)), d, least_);
   }
 
   bool empty() const {
@@ -243,7 +246,7 @@ class Frontier {
   /// is dropped. False if that is all.
   bool nextWave(float cull_distance, float share) {
     const float least = hn::GetLane(hn::MinOfLanes(d, hn::Load(d, least_)));
-    hn::Store(hn::Set(d, kInfinityFloat), d, least_);
+    hn::Store(set(kInfinityFloat), d, least_);
     if (!(least < cull_distance)) {  // also where nothing is left: infinities aren't subtracted
       for (NodePairList* const list : {&apart_inner_, &apart_leaves_, &apart_bounded_})
         list->clear();
@@ -251,7 +254,7 @@ class Frontier {
     }
     const float at_most = cull_distance < kInfinityFloat ? least + share * (cull_distance - least)
                                                          : (1 + share / 4) * least;
-    const V most = hn::Set(d, std::max(at_most, least)), limit = hn::Set(d, cull_distance);
+    const V most = set(std::max(at_most, least)), limit = set(cull_distance);
     const auto take = [&](NodePairList& apart, NodePairList& at_hand) {
       at_hand.reserve(apart.size());
       apart.takeAll([&](uint32_t lanes, V bounds, VU a, VU b) {
@@ -278,6 +281,58 @@ class Frontier {
 
   NodePairList apart_inner_, apart_leaves_, apart_bounded_;
   alignas(32) float least_[kLanes];  ///< the least bounds of what is apart are among these
+};
+
+/// What waits in a search that goes depth first: few of them need more room.
+template <class Item>
+using DepthFirst = boost::container::small_vector<Item, 256>;
+
+/// Nodes of a tree, of each node's children the nearest first.
+class WaitingNodes {
+ public:
+  struct Item {
+    float bound;
+    uint32_t node;
+  };
+
+  explicit WaitingNodes(const Tree& tree) : tree_(tree) {
+    waiting_.push_back({-kInfinityFloat, 0});
+  }
+
+  /// Visits all nodes but those whose bound isFar(): until leaf() returns true, and open() adds the
+  /// children of an inner node by push().
+  template <class IsFar, class LeafOf, class Open>
+  HWY_INLINE void walk(const IsFar& isFar, const LeafOf& leaf, const Open& open) {
+    while (!waiting_.empty()) {
+      const Item at = waiting_.back();
+      waiting_.pop_back();
+      if (isFar(at.bound)) continue;
+      const Node& node = tree_.nodes[at.node];
+      if (!node.isLeaf()) {
+        open(node);
+      } else if (leaf(tree_.leaves[node.leaf()])) {
+        return;
+      }
+    }
+  }
+  /// Adds some lanes of the children of a node.
+  HWY_INLINE void push(uint32_t lanes, const float* bounds, uint32_t first_child) {
+    const size_t first = waiting_.size();
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const uint32_t lane = firstOf(lanes);
+      size_t place = waiting_.size();
+      waiting_.emplace_back();
+      for (; place > first && waiting_[place - 1].bound < bounds[lane]; --place) {
+        waiting_[place] = waiting_[place - 1];
+      }
+      waiting_[place] = {bounds[lane], first_child + lane};
+      hwy::Prefetch(&tree_.nodes[first_child + lane]);
+    }
+  }
+
+ private:
+  const Tree& tree_;
+  DepthFirst<Item> waiting_;
 };
 
 }  // namespace kios::engine::HWY_NAMESPACE

@@ -20,17 +20,14 @@ HWY_INLINE Vec3 rotated(const FloatPose& X, Vec3 v) {
 }
 HWY_INLINE Vec3 moved(const FloatPose& X, Vec3 v) { return rotated(X, v) + vec3(X.t); }
 
-HWY_INLINE V3 inAllLanes(Vec3 v) { return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)}; }
+HWY_INLINE V3 inAllLanes(Vec3 v) { return {set(v.x), set(v.y), set(v.z)}; }
 /// The first `count` lanes, all if there are more, as bits.
 HWY_INLINE uint32_t firstLanes(int count) { return count >= kLanes ? 0xFFU : (1U << count) - 1; }
 
 /// Moves a chunk of points, rows x, y, z, to another frame.
 HWY_INLINE void moveRows(const Lanes* from, const FloatPose& X, Lanes* to) {
   for (size_t l = 0; l < kLanes; l += step()) {
-    const V3 p = moved(X, rowsAt(from, l));
-    hn::Store(p.x, d, to[0].v + l);
-    hn::Store(p.y, d, to[1].v + l);
-    hn::Store(p.z, d, to[2].v + l);
+    storeAt(moved(X, rowsAt(from, l)), l, to[0], to[1], to[2]);
   }
 }
 

@@ -5,25 +5,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace kios::engine::HWY_NAMESPACE {
 
-HWY_INLINE V clamp01(V v) { return hn::Min(hn::Max(v, hn::Zero(d)), hn::Set(d, 1)); }
+HWY_INLINE V clamp01(V v) { return hn::Min(positive(v), set(1)); }
 
 /// An edge as it is tested: start, direction a, |a|^2 and its guarded reciprocal.
 struct Edges {
-  V px, py, pz, ax, ay, az, square, inverse;
+  V3 p, a;
+  V square, inverse;
 };
 
 HWY_INLINE Edges edgesIn(const Lanes* rows, size_t l, V least_square) {
-  Edges e = {load(rows[0], l),
-             load(rows[1], l),
-             load(rows[2], l),
-             load(rows[3], l),
-             load(rows[4], l),
-             load(rows[5], l),
-             V(),
-             V()};
-  e.square = square(e.ax, e.ay, e.az);
-  e.inverse = hn::Div(hn::Set(d, 1), hn::Max(e.square, least_square));
-  return e;
+  const V3 a = rowsAt(rows + 3, l);
+  const V square = dot(a, a);
+  return {rowsAt(rows, l), a, square, hn::Div(set(1), hn::Max(square, least_square))};
 }
 
 /// Squared distances of two edges a lane, each at most the true one plus the rounding of the
@@ -37,29 +30,24 @@ HWY_INLINE Edges edgesIn(const Lanes* rows, size_t l, V least_square) {
 /// |a|^2, which the same term exceeds. Edges shorter than 2^-24 S (least_square) are points to the
 /// pad.
 HWY_INLINE V edgeDistances(const Edges& a, const Edges& b) {
-  const V tx = hn::Sub(b.px, a.px), ty = hn::Sub(b.py, a.py), tz = hn::Sub(b.pz, a.pz);
-  const V ab = dot(a.ax, a.ay, a.az, b.ax, b.ay, b.az);
-  const V at = dot(a.ax, a.ay, a.az, tx, ty, tz), bt = dot(b.ax, b.ay, b.az, tx, ty, tz);
+  const V3 t = b.p - a.p;
+  const V ab = dot(a.a, b.a), at = dot(a.a, t), bt = dot(b.a, t);
   const V p = hn::Mul(ab, a.inverse), q = hn::Mul(ab, b.inverse);
   const V alpha = hn::Mul(at, a.inverse), beta = hn::Mul(bt, b.inverse);
-  const V sine2 = hn::Max(hn::Sub(hn::Set(d, 1), hn::Mul(p, q)), hn::Set(d, 0x1p-19F));
-  const V over_sine2 = hn::Div(hn::Set(d, 1), sine2);
+  const V sine2 = hn::Max(hn::Sub(set(1), hn::Mul(p, q)), set(0x1p-19F));
+  const V over_sine2 = hn::Div(set(1), sine2);
   V s = clamp01(hn::Mul(hn::Sub(alpha, hn::Mul(beta, p)), over_sine2));
   const V v = clamp01(hn::Sub(hn::Mul(s, q), beta));
   s = clamp01(hn::Add(hn::Mul(v, p), alpha));
-  const V wx = hn::Sub(hn::Add(tx, hn::Mul(v, b.ax)), hn::Mul(s, a.ax));
-  const V wy = hn::Sub(hn::Add(ty, hn::Mul(v, b.ay)), hn::Mul(s, a.ay));
-  const V wz = hn::Sub(hn::Add(tz, hn::Mul(v, b.az)), hn::Mul(s, a.az));
-  const V excess =
-      hn::Mul(hn::Mul(hn::Set(d, 0x1p-36F), hn::Add(square(tx, ty, tz), a.square)), over_sine2);
-  return hn::Sub(square(wx, wy, wz), excess);
+  const V3 w = t + v * b.a - s * a.a;
+  const V excess = hn::Mul(hn::Mul(set(0x1p-36F), hn::Add(dot(t, t), a.square)), over_sine2);
+  return hn::Sub(dot(w, w), excess);
 }
 
 /// Squared heights of points above the faces that they may project into, infinity elsewhere.
 HWY_INLINE V faceDistances(const Faces& faces, const V3& p, V minus_pad) {
   const V h = faces.height(p);
-  const V inside = hn::Min(hn::Min(faces.inside(0, p), faces.inside(1, p)), faces.inside(2, p));
-  return hn::IfThenElse(hn::Ge(inside, minus_pad), hn::Mul(h, h), hn::Set(d, kInfinityFloat));
+  return hn::IfThenElse(hn::Ge(faces.within(p), minus_pad), hn::Mul(h, h), set(kInfinityFloat));
 }
 
 /// Squared distances of the features of two leaves in rows of lanes: an edge of a against a chunk
@@ -78,7 +66,7 @@ class LeafDistances {
     gatherEdges(a_, a_.vertices, near_a, edges_a_);
     gatherEdges(b_, vertices_b, near_b, edges_b_);
     V least = edgeRows(0x1p-24F * frames.scale);
-    const V minus_pad = hn::Set(d, -frames.pad);
+    const V minus_pad = set(-frames.pad);
     const uint32_t of_a = near_a & owned(a_), of_b = near_b & owned(b_);
     for (uint32_t left = of_a; left != 0; left &= left - 1) {
       const int i = static_cast<int>(firstOf(left));
@@ -118,8 +106,8 @@ class LeafDistances {
   static uint32_t owned(const LeafView& leaf) { return (1U << leaf.leaf.num_owned) - 1; }
 
   V edgeRows(float shortest) {
-    const V least_square = hn::Set(d, shortest * shortest);
-    V least = hn::Set(d, kInfinityFloat);
+    const V least_square = set(shortest * shortest);
+    V least = set(kInfinityFloat);
     alignas(32) float inverse_a[kMaxLeafFeatures], square_a[kMaxLeafFeatures];
     for (int c = 0; c < edges_a_.chunks(); ++c) {
       for (size_t l = 0; l < kLanes; l += step()) {
@@ -135,12 +123,10 @@ class LeafDistances {
       for (size_t l = 0; l < kLanes; l += step()) {
         const Edges eb = edgesIn(edges_b_.rows + 6 * c, l, least_square);
         for (int i = 0; i < edges_a_.count; ++i) {
-          const int at = i % kLanes;
           const Lanes* const rows = edges_a_.rows + 6 * (i / kLanes);
-          const Edges ea = {hn::Set(d, rows[0].v[at]), hn::Set(d, rows[1].v[at]),
-                            hn::Set(d, rows[2].v[at]), hn::Set(d, rows[3].v[at]),
-                            hn::Set(d, rows[4].v[at]), hn::Set(d, rows[5].v[at]),
-                            hn::Set(d, square_a[i]),   hn::Set(d, inverse_a[i])};
+          const Edges ea = {inAllLanes(Points{rows, 1}.at(i % kLanes)),
+                            inAllLanes(Points{rows + 3, 1}.at(i % kLanes)), set(square_a[i]),
+                            set(inverse_a[i])};
           const V square = edgeDistances(ea, eb);
           hn::Store(square, d, squares_[first + i].v + l);
           least = hn::Min(least, square);
@@ -153,7 +139,7 @@ class LeafDistances {
   /// A vertex against the faces of the other leaf, in whose frame it is.
   V faceRow(PairKind kind, int vertex, const LeafView& on, Vec3 point, V minus_pad) {
     const V3 p = inAllLanes(point);
-    V least = hn::Set(d, kInfinityFloat);
+    V least = set(kInfinityFloat);
     for (size_t l = 0; l < kLanes; l += step()) {
       const V square = faceDistances({on.faces, l}, p, minus_pad);
       hn::Store(square, d, squares_[rows_].v + l);
@@ -172,12 +158,11 @@ class LeafDistances {
                     long long& exact) const {
     float limit = squaredLimit(evaluator, pad);
     for (int r = 0; r < rows_; ++r) {
-      uint32_t near = 0;
-      for (size_t l = 0; l < kLanes; l += step()) {
-        const V square = hn::Load(d, squares_[r].v + l);
-        const auto match = hn::Eq(square, hn::Set(d, least));
-        near |= bitsOf(nearest ? match : hn::AndNot(match, hn::Le(square, hn::Set(d, limit)))) << l;
-      }
+      uint32_t near = lanesWhere([&](size_t l) {
+        const V square = load(squares_[r], l);
+        const auto match = hn::Eq(square, set(least));
+        return nearest ? match : hn::AndNot(match, hn::Le(square, set(limit)));
+      });
       if (HWY_LIKELY(near == 0)) continue;
       for (near &= row_[r].lanes; near != 0; near &= near - 1) {
         const uint32_t lane = firstOf(near);

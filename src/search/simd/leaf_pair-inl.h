@@ -8,10 +8,7 @@ namespace kios::engine::HWY_NAMESPACE {
 /// A leaf with its chunks found.
 struct LeafView {
   LeafView(const Tree& tree, const Leaf& l)
-      : leaf(l),
-        vertices{tree.lanes.data() + l.offset, l.vertexChunks()},
-        faces(vertices.rows + 3 * vertices.chunks),
-        ids(tree.features.data() + l.feature_offset) {}
+      : LeafView(l, tree.lanes.data() + l.offset, tree.features.data() + l.feature_offset) {}
 
   LeafView(const Leaf& l, const Lanes* rows, const FeatureId* features)
       : leaf(l),
@@ -96,35 +93,16 @@ struct CornerLanes {
   alignas(32) uint32_t vertices[3][kLanes];
 };
 
-/// The bits shifted right by a number < 32 in each lane.
-HWY_INLINE hn::Vec<DU> shiftedRight(uint32_t bits, hn::Vec<DU> by) {
-#if HWY_TARGET == HWY_SSE4
-  // Highway's way there is by floats, of which 2^31 is no int32_t: an invalid operation, which some
-  // programs trap.
-  HWY_ALIGN uint32_t lanes[hn::MaxLanes(du)];
-  hn::Store(by, du, lanes);
-  for (uint32_t& lane : lanes) lane = bits >> (lane & 31);
-  return hn::Load(du, lanes);
-#else
-  return hn::Shr(hn::Set(du, bits), by);
-#endif
-}
-
 /// The edges that have an end in `vertices_wanted` (bits), between vertices in some frame.
 HWY_INLINE void gatherEdges(const LeafView& leaf, const Points& vertices, uint32_t vertices_wanted,
                             EdgeRows& out) {
-  const auto byte = hn::Set(du, 0xFF), one = hn::Set(du, 1);
+  const auto byte = hn::Set(du, 0xFF);
   out.count = 0;
-  for (size_t i = 0; i < leaf.leaf.num_edges; i += step()) {
-    const auto ends = hn::PromoteTo(du, hn::LoadU(du16, leaf.leaf.ends + i));
-    const auto index = hn::Iota(du, static_cast<uint32_t>(i));
-    const auto either = hn::Or(shiftedRight(vertices_wanted, hn::And(ends, byte)),
-                               shiftedRight(vertices_wanted, hn::ShiftRight<8>(ends)));
-    const auto taken = hn::And(hn::Ne(hn::And(either, one), hn::Zero(du)),
-                               hn::Lt(index, hn::Set(du, uint32_t{leaf.leaf.num_edges})));
-    const uint32_t bits = bitsOf(hn::RebindMask(d, taken));
-    hn::StoreU(ToFront(bits)(hn::Or(hn::ShiftLeft<16>(index), ends)), du, out.edges + out.count);
-    out.count += static_cast<int>(hwy::PopCount(bits));
+  for (uint32_t i = 0; i < leaf.leaf.num_edges; ++i) {
+    const uint32_t ends = leaf.leaf.ends[i];
+    out.edges[out.count] = i << 16 | ends;
+    out.count +=
+        static_cast<int>((vertices_wanted >> (ends & 0xFF) | vertices_wanted >> (ends >> 8)) & 1);
   }
   if (out.count == 0) return;
   for (size_t l = 0; l < kLanes; l += step()) {
@@ -157,12 +135,10 @@ HWY_INLINE Across acrossB(const Leaf& b, const FloatPose& X) {
 /// A leaf of b in a's frame.
 struct MovedLeaf {
   void move(const LeafView& b, const FloatPose& X) {
-    leaf = &b.leaf;
     vertices = moveVertices(b, X, rows);
     centroid = moved(X, vec3(b.leaf.centroid));
   }
 
-  const Leaf* leaf = nullptr;
   Points vertices;  ///< in `rows`
   Vec3 centroid;
   VertexRows rows;
@@ -185,7 +161,7 @@ HWY_INLINE void betweenHulls(const Points& a, const Points& b, const Look& look)
 /// Vertices with w . p >= least, as bits.
 HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
   const V3 along = inAllLanes(w);
-  const V leasts = hn::Set(d, least);
+  const V leasts = set(least);
   uint32_t result = 0;
   for (int c = 0; c < vertices.chunks; ++c) {
     const Lanes* const rows = vertices.rows + 3 * c;
@@ -196,10 +172,25 @@ HWY_INLINE uint32_t facing(const Points& vertices, Vec3 w, float least) {
   return result;
 }
 
-/// The faces of a leaf in the lanes from l on. Where a leaf has one, it is in all of them.
+/// The faces of a leaf in the lanes from l on, by their stored planes: the face's, and those of the
+/// prism that stands on its edges. Where a leaf has one, it is in all of them. In section:
+///
+///     :         :    . p
+///     :  prism  :    |      height above the plane of the face
+///     :         :    |
+///     +=========+----+
+///        face    beyond     |p - face|^2 >= height^2 + beyond^2
 struct Faces {
   V height(const V3& p) const { return plane(kFacePlane, p); }
   V inside(int k, const V3& p) const { return plane(kEdgePlanes + 4 * k, p); }
+  /// How far points lie within all edges' planes.
+  V within(const V3& p) const { return hn::Min(hn::Min(inside(0, p), inside(1, p)), inside(2, p)); }
+  /// Lower bounds of the distances of points: one lies above the face by one length, and beyond an
+  /// edge by another at right angles to it. Triangles without a normal have the bound 0.
+  V distances(const V3& p) const {
+    const V h = height(p), beyond = positive(hn::Neg(within(p)));
+    return hn::Sqrt(hn::Add(hn::Mul(h, h), hn::Mul(beyond, beyond)));
+  }
   V slope(int row, const V3& v) const { return dot(rowsAt(rows + row, l), v); }
   V plane(int row, const V3& p) const { return hn::Add(slope(row, p), load(rows[row + 3], l)); }
 
@@ -210,24 +201,23 @@ struct Faces {
 /// Lanes in which an edge (from p along a, in the face's frame) may cross or touch a face. Heights
 /// and distances to the edge planes are right to `pad`. Where the edge is steep, its crossing point
 /// is right to pad (2 + 8 |a| / |dh|) along it.
-HWY_INLINE uint32_t mayCross(const Faces& faces, const V3& p, const V3& a, float pad) {
-  const V pads = hn::Set(d, pad), minus_pads = hn::Set(d, -pad);
+HWY_INLINE hn::Mask<D> mayCross(const Faces& faces, const V3& p, const V3& a, float pad) {
+  const V pads = set(pad), minus_pads = set(-pad);
   const V h0 = faces.height(p), dh = faces.slope(kFacePlane, a), h1 = hn::Add(h0, dh);
   auto may = hn::And(hn::Le(hn::Min(h0, h1), pads), hn::Ge(hn::Max(h0, h1), minus_pads));
-  if (bitsOf(may) == 0) return 0;
+  if (bitsOf(may) == 0) return may;
   const V steepness = hn::Abs(dh), length = hn::Sqrt(dot(a, a));
-  const auto flat = hn::Lt(steepness, hn::Mul(hn::Set(d, 8), pads));
-  const V divisor = hn::IfThenElse(flat, hn::Set(d, 1), dh);
-  const V s = hn::Min(hn::Max(hn::Div(hn::Neg(h0), divisor), hn::Zero(d)), hn::Set(d, 1));
+  const auto flat = hn::Lt(steepness, hn::Mul(set(8), pads));
+  const V divisor = hn::IfThenElse(flat, set(1), dh);
+  const V s = hn::Min(hn::Max(hn::Div(hn::Neg(h0), divisor), hn::Zero(d)), set(1));
   const V slack =
-      hn::Mul(minus_pads,
-              hn::Add(hn::Set(d, 2), hn::Div(hn::Mul(hn::Set(d, 8), length), hn::Abs(divisor))));
+      hn::Mul(minus_pads, hn::Add(set(2), hn::Div(hn::Mul(set(8), length), hn::Abs(divisor))));
   for (int k = 0; k < 3; ++k) {
     const V e0 = faces.inside(k, p), de = faces.slope(kEdgePlanes + 4 * k, a);
     may = hn::And(may, hn::Ge(hn::Max(e0, hn::Add(e0, de)), minus_pads));
     may = hn::And(may, hn::Or(flat, hn::Ge(hn::Add(e0, hn::Mul(s, de)), slack)));
   }
-  return bitsOf(may) << faces.l;
+  return may;
 }
 
 /// Evaluates some edges of one leaf, in rows moved to the frame of the other, against its
@@ -245,10 +235,9 @@ template <bool kEdgesOfA>
   if (faces.leaf.num_faces == 1) {  // lanes are edges
     for (int c = 0; c < some.chunks(); ++c) {
       const Lanes* const rows = some.rows + 6 * c;
-      uint32_t may = 0;
-      for (size_t l = 0; l < kLanes; l += step()) {
-        may |= mayCross({faces.faces, l}, rowsAt(rows, l), rowsAt(rows + 3, l), pad);
-      }
+      uint32_t may = lanesWhere([&](size_t l) {
+        return mayCross({faces.faces, l}, rowsAt(rows, l), rowsAt(rows + 3, l), pad);
+      });
       for (may &= firstLanes(some.count - kLanes * c); may != 0; may &= may - 1) {
         if (cross(kLanes * c + static_cast<int>(firstOf(may)), 0)) return true;
       }
@@ -260,11 +249,10 @@ template <bool kEdgesOfA>
     const Points chunk = {some.rows + 6 * (i / kLanes), 1};
     const Points directions = {chunk.rows + 3, 1};
     const V3 p = inAllLanes(chunk.at(i % kLanes)), a = inAllLanes(directions.at(i % kLanes));
-    uint32_t may = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      may |= mayCross({faces.faces, l}, p, a, pad);
-    }
-    for (may &= used; may != 0; may &= may - 1) {
+    uint32_t may = used & lanesWhere([&](size_t l) {
+                     return mayCross({faces.faces, l}, p, a, pad);
+                   });
+    for (; may != 0; may &= may - 1) {
       if (cross(i, firstOf(may))) return true;
     }
   }

@@ -12,10 +12,11 @@ using V = hn::Vec<D>;
 using DU = hn::Rebind<uint32_t, D>;
 constexpr D d;
 constexpr DU du;
-constexpr hn::Rebind<uint16_t, D> du16;
 HWY_INLINE size_t step() { return hn::Lanes(d); }
 
 HWY_INLINE V load(const Lanes& lanes, size_t at) { return hn::Load(d, lanes.v + at); }
+HWY_INLINE V set(float v) { return hn::Set(d, v); }
+HWY_INLINE V positive(V v) { return hn::Max(v, hn::Zero(d)); }
 HWY_INLINE V dot(V ax, V ay, V az, V bx, V by, V bz) {
   return hn::Add(hn::Add(hn::Mul(ax, bx), hn::Mul(ay, by)), hn::Mul(az, bz));
 }
@@ -29,7 +30,6 @@ struct V3 {
   V x, y, z;
 };
 HWY_INLINE V dot(const V3& a, const V3& b) { return dot(a.x, a.y, a.z, b.x, b.y, b.z); }
-
 HWY_INLINE V3 abs(const V3& v) { return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)}; }
 HWY_INLINE V3 operator+(const V3& a, const V3& b) {
   return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
@@ -43,17 +43,21 @@ HWY_INLINE V3 operator*(V s, const V3& a) {
 
 /// Points in another frame, and differences of points.
 HWY_INLINE V3 rotated(const FloatPose& X, const V3& v) {
-  const auto row = [&](int i) {
-    return dot({hn::Set(d, X.R[i][0]), hn::Set(d, X.R[i][1]), hn::Set(d, X.R[i][2])}, v);
-  };
+  const auto row = [&](int i) { return dot({set(X.R[i][0]), set(X.R[i][1]), set(X.R[i][2])}, v); };
   return {row(0), row(1), row(2)};
 }
 HWY_INLINE V3 moved(const FloatPose& X, const V3& p) {
-  return rotated(X, p) + V3(hn::Set(d, X.t[0]), hn::Set(d, X.t[1]), hn::Set(d, X.t[2]));
+  return rotated(X, p) + V3(set(X.t[0]), set(X.t[1]), set(X.t[2]));
 }
 /// Lanes from l on of points, rows x, y, z.
 HWY_INLINE V3 rowsAt(const Lanes* rows, size_t l) {
   return {load(rows[0], l), load(rows[1], l), load(rows[2], l)};
+}
+
+HWY_INLINE void storeAt(const V3& v, size_t l, Lanes& x, Lanes& y, Lanes& z) {
+  hn::Store(v.x, d, x.v + l);
+  hn::Store(v.y, d, y.v + l);
+  hn::Store(v.z, d, z.v + l);
 }
 
 /// Rows of a node in another frame: rows that are differences are only rotated.
@@ -69,9 +73,9 @@ HWY_INLINE void move(const Node& node, const FloatPose& X, float pad, MovedNode&
     const V3 turned = rotated(X, {hn::LoadU(d, rows), hn::LoadU(d, rows + kSphereRows),
                                   hn::LoadU(d, rows + 2 * kSphereRows)});
     const V point = hn::Load(d, kPoint + l);
-    hn::Store(hn::Add(turned.x, hn::Mul(point, hn::Set(d, X.t[0]))), d, out.x + l);
-    hn::Store(hn::Add(turned.y, hn::Mul(point, hn::Set(d, X.t[1]))), d, out.y + l);
-    hn::Store(hn::Add(turned.z, hn::Mul(point, hn::Set(d, X.t[2]))), d, out.z + l);
+    hn::Store(hn::Add(turned.x, hn::Mul(point, set(X.t[0]))), d, out.x + l);
+    hn::Store(hn::Add(turned.y, hn::Mul(point, set(X.t[1]))), d, out.y + l);
+    hn::Store(hn::Add(turned.z, hn::Mul(point, set(X.t[2]))), d, out.z + l);
   }
   out.r[kCentral] = node.r[kCentral] + pad;
   out.r[kMiddle2] = node.r[kMiddle2] + pad;
@@ -111,8 +115,7 @@ HWY_INLINE V separation(const Spheres& a, const Spheres& b) {
 HWY_INLINE V lowerBounds(const Block& block, size_t l, const MovedNode& X) {
   const auto row = [&](int i) { return spheresAt(block, i, l); };
   const auto moved = [&](int i) {
-    return Spheres{{hn::Set(d, X.x[i]), hn::Set(d, X.y[i]), hn::Set(d, X.z[i])},
-                   hn::Set(d, X.r[i])};
+    return Spheres{{set(X.x[i]), set(X.y[i]), set(X.z[i])}, set(X.r[i])};
   };
   const V sign = hn::SignBit(d);
   const Spheres c0 = row(kCentral), x0 = moved(kCentral);

@@ -18,8 +18,6 @@
 //
 #include "search/simd/expansion-inl.h"
 //
-#include "search/simd/tighten-inl.h"
-//
 #include "search/simd/traverse-inl.h"
 //
 #include "search/simd/descent-inl.h"

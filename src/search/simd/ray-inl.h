@@ -12,41 +12,15 @@ class RayTraversal {
       : search_(search), tree_(search.tree), ray_(search.ray) {}
 
   void run() {
-    // At most seven children of each level that was opened wait.
-    const size_t room = static_cast<size_t>(tree_.depth) * (kLanes - 1) + kLanes;
-    std::vector<Entry> more;
-    Entry usual[kUsual];
-    Entry* waiting = usual;
-    if (HWY_UNLIKELY(room > kUsual)) {
-      more.resize(room);
-      waiting = more.data();
-    }
-    size_t n = 0;
-    waiting[n++] = {-kInfinityFloat, 0};
-    while (n > 0) {
-      const Entry at = waiting[--n];
-      if (at.enter > search_.evaluator.end) continue;
-      const Node& node = tree_.nodes[at.node];
-      if (node.isLeaf()) {
-        if (leaf(tree_.leaves[node.leaf()])) return;
-      } else {
-        n = open(node, waiting, n);
-      }
-    }
+    WaitingNodes waiting(tree_);  // by where the ray may enter, the pad taken off
+    waiting.walk([&](float bound) { return bound > search_.evaluator.end; },
+                 [&](const Leaf& of) { return leaf(of); },
+                 [&](const Node& node) { open(node, waiting); });
   }
 
  private:
-  struct Entry {
-    float enter;  ///< lower bound, the pad taken off
-    uint32_t node;
-  };
-  static constexpr size_t kUsual = 256;
-
-  V set(float v) const { return hn::Set(d, v); }
-  V3 origin() const { return {set(ray_.origin[0]), set(ray_.origin[1]), set(ray_.origin[2])}; }
-  V3 direction() const {
-    return {set(ray_.direction[0]), set(ray_.direction[1]), set(ray_.direction[2])};
-  }
+  V3 origin() const { return inAllLanes(vec3(ray_.origin)); }
+  V3 direction() const { return inAllLanes(vec3(ray_.direction)); }
 
   /// Cuts [low, high] to what of the line a sphere contains; `square` gets negative if there is
   /// nothing.
@@ -57,14 +31,14 @@ class RayTraversal {
     const V r = hn::Add(radius, set(ray_.pad));
     const V h2 = hn::Sub(hn::Mul(r, r), dot(off, off));
     square = hn::Min(square, h2);
-    const V h = hn::Sqrt(hn::Max(h2, hn::Zero(d)));
+    const V h = hn::Sqrt(positive(h2));
     low = hn::Max(low, hn::Sub(b, h));
     high = hn::Min(high, hn::Add(b, h));
   }
 
-  /// Returns as bits the boxes of a block that the ray may meet before its end, lanes from `l`;
+  /// Whether boxes of a block are those that the ray may meet before its end, lanes from `l`;
   /// raises `enters` to the lower bounds of where it does.
-  HWY_INLINE uint32_t meets(const BoxBlock& block, size_t l, float* enters) const {
+  HWY_INLINE hn::Mask<D> meets(const BoxBlock& block, size_t l, float* enters) const {
     const V3 from_center = origin() - BoxLanes::column(block, kCenter, l);
     const V pad = set(ray_.pad), least = set(0x1p-60F);
     V low = set(-kInfinityFloat), high = hn::Neg(low);
@@ -83,12 +57,12 @@ class RayTraversal {
     high = hn::Add(high, pad);
     const V enter = hn::Max(hn::Load(d, enters + l), low);
     hn::Store(enter, d, enters + l);
-    return bitsOf(hn::And(hn::Le(low, high), hn::And(hn::Le(enter, set(search_.evaluator.end)),
-                                                     hn::Ge(high, set(ray_.begin)))));
+    return hn::And(hn::Le(low, high), hn::And(hn::Le(enter, set(search_.evaluator.end)),
+                                              hn::Ge(high, set(ray_.begin))));
   }
 
-  /// The children that the ray may enter before the end join those that wait, the nearest last.
-  HWY_INLINE size_t open(const Node& node, Entry* waiting, size_t n) const {
+  /// The children that the ray may enter before the end join those that wait.
+  HWY_INLINE void open(const Node& node, WaitingNodes& waiting) const {
     const Block& block = tree_.blocks[static_cast<size_t>(node.child)];
     const Children& children = tree_.children[static_cast<size_t>(node.child)];
     ++search_.counts.expansions;
@@ -115,47 +89,32 @@ class RayTraversal {
     near &= children.all();
     if ((near & children.flat) != 0) {
       const BoxBlock& boxes = tree_.box_blocks[static_cast<size_t>(node.child)];
-      uint32_t met = 0;
-      for (size_t l = 0; l < kLanes; l += step()) met |= meets(boxes, l, enters) << l;
-      near &= met;
+      near &= lanesWhere([&](size_t l) { return meets(boxes, l, enters); });
     }
-    const size_t first = n;
-    for (; near != 0; near &= near - 1) {
-      const uint32_t lane = firstOf(near);
-      const float enter = enters[lane];
-      size_t place = n++;
-      for (; place > first && waiting[place - 1].enter < enter; --place) {
-        waiting[place] = waiting[place - 1];
-      }
-      waiting[place] = {enter, node.first_child + lane};
-      hwy::Prefetch(&tree_.nodes[node.first_child + lane]);
-    }
-    return n;
+    waiting.push(near, enters, node.first_child);
   }
 
   /// Evaluates the faces that the ray may meet: true to end the search.
   HWY_INLINE bool leaf(const Leaf& leaf) const {
     ++search_.counts.leaf_pairs;
     const Lanes* const rows = &tree_.lanes[leaf.offset + 3 * leaf.vertexChunks()];
-    uint32_t near = 0;
     const V pad = set(2 * ray_.pad), begin = set(ray_.begin), end = set(search_.evaluator.end);
     const V sign = hn::SignBit(d);
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const Faces faces = {rows, l};
-      const V H = faces.height(origin()), D = faces.slope(kFacePlane, direction());
-      const V flip = hn::And(D, sign), steep = hn::Abs(D);
-      const V way = hn::Neg(hn::Xor(H, flip));  // to the plane, times |D|
-      auto inside = hn::And(hn::Le(way, hn::Add(hn::Mul(end, steep), pad)),
-                            hn::Ge(way, hn::Sub(hn::Mul(begin, steep), pad)));
-      for (int k = 0; k < 3; ++k) {
-        const int row = kEdgePlanes + 4 * k;
-        const V above = hn::Sub(hn::Mul(faces.plane(row, origin()), D),
-                                hn::Mul(H, faces.slope(row, direction())));
-        inside = hn::And(inside, hn::Ge(hn::Xor(above, flip), hn::Neg(pad)));
-      }
-      near |= bitsOf(inside) << l;
-    }
-    near &= (1U << leaf.num_faces) - 1;
+    uint32_t near = firstLanes(leaf.num_faces) & lanesWhere([&](size_t l) {
+                      const Faces faces = {rows, l};
+                      const V H = faces.height(origin()), D = faces.slope(kFacePlane, direction());
+                      const V flip = hn::And(D, sign), steep = hn::Abs(D);
+                      const V way = hn::Neg(hn::Xor(H, flip));  // to the plane, times |D|
+                      auto inside = hn::And(hn::Le(way, hn::Add(hn::Mul(end, steep), pad)),
+                                            hn::Ge(way, hn::Sub(hn::Mul(begin, steep), pad)));
+                      for (int k = 0; k < 3; ++k) {
+                        const int row = kEdgePlanes + 4 * k;
+                        const V above = hn::Sub(hn::Mul(faces.plane(row, origin()), D),
+                                                hn::Mul(H, faces.slope(row, direction())));
+                        inside = hn::And(inside, hn::Ge(hn::Xor(above, flip), hn::Neg(pad)));
+                      }
+                      return inside;
+                    });
     if (near != 0) ++search_.counts.leaf_kernels;
     for (; near != 0; near &= near - 1) {
       const FeatureId id = tree_.features[leaf.feature_offset + firstOf(near)];

@@ -36,7 +36,7 @@ class SolidTraversal {
   }
 
  private:
-  V pad() const { return hn::Set(d, search_.solid.pad); }
+  V pad() const { return set(search_.solid.pad); }
 
   bool evaluate(uint32_t triangle, bool meets) {
     ++search_.counts.exact;
@@ -85,8 +85,7 @@ class SolidTraversal {
   /// Heights of points over the best slab of the solid.
   V overSlab(const V3& p) const {
     const FloatSlab& slab = search_.evaluator.slab;
-    const V3 n = {hn::Set(d, slab.n[0]), hn::Set(d, slab.n[1]), hn::Set(d, slab.n[2])};
-    return hn::Sub(dot(n, p), hn::Set(d, slab.offset));
+    return hn::Sub(dot(inAllLanes(vec3(slab.n)), p), set(slab.offset));
   }
 
   HWY_INLINE void expand(const NodePairList::Entry& entry) {
@@ -97,7 +96,7 @@ class SolidTraversal {
     const Block& block = tree_.blocks[at];
     ++search_.counts.expansions;
     search_.counts.volume_tests += children.count;
-    const V limit = hn::Set(d, search_.evaluator.cull_distance), least = hn::Set(d, entry.bound);
+    const V limit = set(search_.evaluator.cull_distance), least = set(entry.bound);
     frontier_.reserve();
     for (size_t l = 0; l < kLanes; l += step()) {
       const uint32_t used = children.all() >> l & ((1U << step()) - 1);
@@ -134,7 +133,7 @@ class SolidTraversal {
 
   /// Writes these rows, and offers the nearest vertex.
   void lookAt(const LeafView& view, Lanes* values) {
-    V least = hn::Set(d, kInfinityFloat);
+    V least = set(kInfinityFloat);
     for (int c = 0; c < view.vertices.chunks; ++c) {
       const Lanes* const rows = view.vertices.rows + 3 * c;
       Lanes* const to = values + kRows * c;
@@ -160,7 +159,7 @@ class SolidTraversal {
                                   Triangles& out) const {
     const CornerLanes corners(view.leaf);
     const Points vertices = {values, view.vertices.chunks};
-    const V limit = hn::Set(d, search_.evaluator.cull_distance), inside = hn::Neg(pad());
+    const V limit = set(search_.evaluator.cull_distance), inside = hn::Neg(pad());
     for (size_t l = 0; l < kLanes; l += step()) {
       const auto of = [&](int row, int k) { return corners.valueOf(vertices, row, k, l); };
       const auto leastOf = [](V a, V b, V c) { return hn::Min(hn::Min(a, b), c); };
@@ -175,7 +174,7 @@ class SolidTraversal {
           meeting = hn::And(meeting, hn::Gt(high, pad()));
         }
       }
-      lower = hn::Max(hn::Sub(lower, pad()), hn::Set(d, bound));
+      lower = hn::Max(hn::Sub(lower, pad()), set(bound));
       hn::Store(lower, d, out.bounds + l);
       out.near |= bitsOf(hn::Lt(lower, limit)) << l;
       if (bounds_.tellsInside()) out.meeting |= bitsOf(meeting) << l;
@@ -185,30 +184,30 @@ class SolidTraversal {
     out.meeting &= out.near;
   }
 
+  /// Raises the bounds to raised(l, bounds), lanes from l.
+  template <class Raised>
+  HWY_INLINE void raise(Triangles& out, const Raised& raised) const {
+    const V limit = set(search_.evaluator.cull_distance);
+    out.near &= out.meeting | lanesWhere([&](size_t l) {
+                  const V lower = raised(l, hn::Load(d, out.bounds + l));
+                  hn::Store(lower, d, out.bounds + l);
+                  return hn::Lt(lower, limit);
+                });
+  }
+
   HWY_INLINE void boundByBoxes(const LeafView& view, Triangles& out) const {
     BoxBlock boxes;
     boxTriangles(view, boxes);
-    uint32_t near = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const V lower = bounds_.boxes(boxes, l, contact_, hn::Load(d, out.bounds + l));
-      hn::Store(lower, d, out.bounds + l);
-      near |= bitsOf(hn::Lt(lower, hn::Set(d, search_.evaluator.cull_distance))) << l;
-    }
-    out.near &= near | out.meeting;
+    raise(out, [&](size_t l, V bounds) { return bounds_.boxes(boxes, l, contact_, bounds); });
   }
 
   HWY_NOINLINE void boundBySlabs(const LeafView& view, Triangles& out) const {
     const CornerLanes corners(view.leaf);
-    uint32_t near = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
+    raise(out, [&](size_t l, V bounds) {
       V3 p[3];
       for (int k = 0; k < 3; ++k) p[k] = corners.pointOf(view.vertices, k, l);
-      const V lower =
-          bounds_.trianglesOverSlabs(p, search_.evaluator.slabs(), hn::Load(d, out.bounds + l));
-      hn::Store(lower, d, out.bounds + l);
-      near |= bitsOf(hn::Lt(lower, hn::Set(d, search_.evaluator.cull_distance))) << l;
-    }
-    out.near &= near | out.meeting;
+      return bounds_.trianglesOverSlabs(p, search_.evaluator.slabs(), bounds);
+    });
   }
 
   /// True to end the search.

@@ -74,14 +74,14 @@ class SolidBounds {
   V spheresOverSlabs(const Block& block, size_t l, const std::vector<FloatSlab>& slabs,
                      V bounds) const {
     const Spheres s0 = spheresAt(block, kCentral, l);
-    V highest = hn::Set(d, -kInfinityFloat);
+    V highest = set(-kInfinityFloat);
     for (const FloatSlab& slab : slabs) {
       highest = hn::Max(highest, hn::Sub(dot(vec(slab.n), s0.center), set(slab.offset)));
     }
     return hn::Max(bounds, hn::Sub(highest, hn::Add(s0.r, set(solid_.pad))));
   }
   V trianglesOverSlabs(const V3 (&p)[3], const std::vector<FloatSlab>& slabs, V bounds) const {
-    V highest = hn::Set(d, -kInfinityFloat);
+    V highest = set(-kInfinityFloat);
     for (const FloatSlab& slab : slabs) {
       const V3 n = vec(slab.n);
       const V low = hn::Min(hn::Min(dot(n, p[0]), dot(n, p[1])), dot(n, p[2]));
@@ -98,9 +98,7 @@ class SolidBounds {
   bool isPlane() const { return solid_.form == Form::kPlane; }
 
  private:
-  static V set(float v) { return hn::Set(d, v); }
-  static V3 vec(const float* v) { return {set(v[0]), set(v[1]), set(v[2])}; }
-  static V positive(V v) { return hn::Max(v, hn::Zero(d)); }
+  static V3 vec(const float* v) { return inAllLanes(vec3(v)); }
   static V radial(const V3& at) {
     return hn::Sqrt(hn::Add(hn::Mul(at.x, at.x), hn::Mul(at.y, at.y)));
   }

@@ -91,15 +91,12 @@ class Expander {
   template <bool kInherit>
   void spread(Expansion& e, Frontier& frontier, uint32_t taken = 0) const {
     if constexpr (kInherit) {
-      const V limit = hn::Set(d, sides_.search.evaluator.cull_distance),
-              least = hn::Set(d, e.bound);
-      uint32_t near = 0;
-      for (size_t l = 0; l < kLanes; l += step()) {
+      const V limit = set(sides_.search.evaluator.cull_distance), least = set(e.bound);
+      e.near &= ~taken & lanesWhere([&](size_t l) {
         const V bounds = hn::Max(hn::Load(d, e.bounds + l), least);
         hn::Store(bounds, d, e.bounds + l);
-        near |= bitsOf(hn::Lt(bounds, limit)) << l;
-      }
-      e.near &= near & ~taken;
+        return hn::Lt(bounds, limit);
+      });
     }
     tightener_.tighten(e);
     if (HWY_UNLIKELY(sides_.search.audit != nullptr)) reportPruned(e, taken);
@@ -154,15 +151,6 @@ class Expander {
     sides_.search.counts.volume_tests += e.children.count;
   }
 
-  /// The children that matter whose bounds are at most so far below 0.
-  uint32_t openOf(const Expansion& e, float pads) const {
-    uint32_t open = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      open |= bitsOf(hn::Gt(hn::Load(d, e.bounds + l), hn::Set(d, -pads))) << l;
-    }
-    return e.near & open;
-  }
-
   /// Spheres against prisms. Where most triangles of a leaf matter, it isn't split after all: the
   /// node is to be expanded, and tested, in its place.
   [[gnu::hot]] HWY_NOINLINE void testTriangles(Expansion& e) const {
@@ -173,11 +161,6 @@ class Expander {
       testLeaf(e);
     }
     endTest(e);
-    if (sides_.isContact() &&
-        !sides_.has_boxes[e.kind == Expanded::kNodeTriangle ? e.side : 1 - e.side]) {
-      const uint32_t open = openOf(e, 2 * prismPad(sides_.search.frames));
-      if (HWY_UNLIKELY(open != 0)) tightener_.testInDouble(e, open);
-    }
     if (e.kind == Expanded::kNodeTriangle) return;
     if (!(sides_.search.evaluator.cull_distance < kInfinityFloat)) return;
     tightener_.tighten(e);
@@ -191,38 +174,25 @@ class Expander {
     const Vec3 c =
         moved(*sides_.to[e.side], {other.x[kCentral], other.y[kCentral], other.z[kCentral]});
     const V3 center = inAllLanes(c);
-    const V reach = hn::Set(d, other.r[kCentral] + prismPad(sides_.search.frames));
+    const V reach = set(other.r[kCentral] + prismPad(sides_.search.frames));
     const LeafView leaf(*sides_.trees[e.side], sides_.trees[e.side]->leaves[e.parent->leaf()]);
     for (size_t l = 0; l < kLanes; l += step()) {
-      sides_.keep(e, l, hn::Sub(prismsOf(leaf, l).distances(center), reach));
+      sides_.keep(e, l, hn::Sub(Faces{leaf.faces, l}.distances(center), reach));
     }
   }
   [[gnu::hot]] void testAgainstTriangle(Expansion& e) const {
     const Tree& tree = *sides_.trees[1 - e.side];
     const uint32_t triangle = Sides::otherId(e);
     const LeafView leaf(tree, tree.leaves[leafOfTriangle(triangle)]);
-    const Prisms prism = movedPrism(leaf, laneOfTriangle(triangle), *sides_.to[e.side]);
+    const MovedFace moved(leaf, laneOfTriangle(triangle), *sides_.to[e.side]);
+    const Faces face = moved.faces();
     const Block& block = sides_.blockOf(e);
-    const V pad = hn::Set(d, prismPad(sides_.search.frames));
+    const V pad = set(prismPad(sides_.search.frames));
     for (size_t l = 0; l < kLanes; l += step()) {
       const Spheres s0 = spheresAt(block, kCentral, l);
-      V lower = hn::Sub(prism.distances(s0.center), s0.r);
-      if (!sides_.has_boxes[e.side]) lower = hn::Max(lower, byCaps(block, l, prism, s0.center));
-      sides_.keep(e, l, hn::Sub(lower, pad));
+      sides_.keep(e, l, hn::Sub(hn::Sub(face.distances(s0.center), s0.r), pad));
     }
   }
-  /// Bounds by the caps whose centres lie on the far sides of the triangle's plane from c.
-  static V byCaps(const Block& block, size_t l, const Prisms& prism, const V3& c) {
-    const V height = hn::Add(dot(prism.normal[0], c), prism.offset[0]);
-    const auto byCap = [&](int middle, int half) {
-      const Spheres h = spheresAt(block, half, l);
-      const V side = hn::Xor(dot(prism.normal[0], h.center), height);
-      const Spheres cap = capOf(spheresAt(block, middle, l), h, side);
-      return hn::Sub(prism.distances(cap.center), cap.r);
-    };
-    return hn::Max(byCap(kMiddle2, kHalf2), byCap(kMiddle1, kHalf1));
-  }
-
   /// Returns how many of the children that overlap and are not pairs of leaves precede the deepest.
   static uint32_t deepestOf(const Expansion& e, uint32_t leaves) {
     const uint32_t children = e.near & ~leaves;
@@ -232,13 +202,10 @@ class Expander {
       least = hn::Min(least, hn::IfThenElseZero(hn::RebindMask(d, maskOf(children >> l)), bounds));
     }
     least = hn::MinOfLanes(d, least);
-    uint32_t overlapping = 0, deepest = 0;
-    for (size_t l = 0; l < kLanes; l += step()) {
-      const V bounds = hn::Load(d, e.bounds + l);
-      overlapping |= bitsOf(hn::Le(bounds, hn::Zero(d))) << l;
-      deepest |= bitsOf(hn::Eq(bounds, least)) << l;
-    }
-    overlapping &= children;
+    const auto boundsAt = [&](size_t l) { return hn::Load(d, e.bounds + l); };
+    const uint32_t overlapping =
+        children & lanesWhere([&](size_t l) { return hn::Le(boundsAt(l), hn::Zero(d)); });
+    const uint32_t deepest = lanesWhere([&](size_t l) { return hn::Eq(boundsAt(l), least); });
     return static_cast<uint32_t>(
         hwy::PopCount(overlapping & (firstBit(deepest & overlapping) - 1)));
   }

@@ -13,7 +13,7 @@ HWY_INLINE V3 cross(const V3& a, const V3& b) {
           hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
           hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
-HWY_INLINE V3 unit(const V3& v) { return hn::Div(hn::Set(d, 1), hn::Sqrt(dot(v, v))) * v; }
+HWY_INLINE V3 unit(const V3& v) { return hn::Div(set(1), hn::Sqrt(dot(v, v))) * v; }
 template <class Mask>
 HWY_INLINE V3 select(Mask mask, const V3& yes, const V3& no) {
   return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
@@ -26,7 +26,7 @@ struct Axes {
 
 /// Axes by a direction that is finite and not 0, for triangles that are all but segments.
 HWY_INLINE Axes axesAlong(const V3& direction) {
-  const V zero = hn::Zero(d), one = hn::Set(d, 1);
+  const V zero = hn::Zero(d), one = set(1);
   const V3 along = unit(direction), size = abs(along);
   const auto by_x = hn::And(hn::Le(size.x, size.y), hn::Le(size.x, size.z));
   const auto by_y = hn::Le(size.y, size.z);
@@ -63,11 +63,11 @@ HWY_INLINE Axes axesAlong(const V3& direction) {
     const V3 normal = row(kFacePlane);
     const V3 across = byLongest(row(kEdgePlanes), row(kEdgePlanes + 4), row(kEdgePlanes + 8));
     Axes axes = {cross(normal, across), across, normal};
-    const auto thin = hn::Lt(dot(normal, normal), hn::Set(d, 0.5F));
+    const auto thin = hn::Lt(dot(normal, normal), set(0.5F));
     if (!hn::AllFalse(d, thin)) {
       const V3 longest = byLongest(e0, e1, e2);
-      const auto point = hn::Lt(dot(longest, longest), hn::Set(d, 0x1p-80F));
-      const Axes by_edge = axesAlong(select(point, {hn::Set(d, 1), zero, zero}, longest));
+      const auto point = hn::Lt(dot(longest, longest), set(0x1p-80F));
+      const Axes by_edge = axesAlong(select(point, {set(1), zero, zero}, longest));
       axes = {select(thin, by_edge.along, axes.along), select(thin, by_edge.across, axes.across),
               select(thin, by_edge.normal, axes.normal)};
     }
@@ -76,20 +76,16 @@ HWY_INLINE Axes axesAlong(const V3& direction) {
     for (const V3& e : axis) {
       const V t1 = dot(e, e0), t2 = hn::Neg(dot(e, e2));
       const V low = hn::Min(zero, hn::Min(t1, t2)), high = hn::Max(zero, hn::Max(t1, t2));
-      center = center + hn::Mul(hn::Set(d, 0.5F), hn::Add(low, high)) * e;
+      center = center + hn::Mul(set(0.5F), hn::Add(low, high)) * e;
     }
     V half[3];
     for (int i = 0; i < 3; ++i) {
       const auto height = [&](int k) { return hn::Abs(dot(axis[i], p[k] - center)); };
       half[i] = hn::Max(hn::Max(height(0), height(1)), height(2));
-      hn::Store(axis[i].x, d, out.x[i].v + l);
-      hn::Store(axis[i].y, d, out.y[i].v + l);
-      hn::Store(axis[i].z, d, out.z[i].v + l);
+      storeAt(axis[i], l, out.x[i], out.y[i], out.z[i]);
     }
-    hn::Store(center.x, d, out.x[kCenter].v + l);
-    hn::Store(center.y, d, out.y[kCenter].v + l);
-    hn::Store(center.z, d, out.z[kCenter].v + l);
-    const V more = hn::Mul(hn::Set(d, 0x1p-19F), hn::Add(hn::Add(half[0], half[1]), half[2]));
+    storeAt(center, l, out.x[kCenter], out.y[kCenter], out.z[kCenter]);
+    const V more = hn::Mul(set(0x1p-19F), hn::Add(hn::Add(half[0], half[1]), half[2]));
     for (int i = 0; i < 3; ++i) hn::Store(hn::Add(half[i], more), d, out.half[i].v + l);
   }
 }
@@ -141,55 +137,23 @@ class BoxedTriangles {
   BoxBlock boxes_[kKept];
 };
 
-/// Holds triangles as the planes that are stored for faces, one a lane or one in all lanes: the
-/// face's, and those of the prism that stands on its edges. In section:
-///
-///     :         :    . p
-///     :  prism  :    |      height above the plane of the face
-///     :         :    |
-///     +=========+----+
-///        face    beyond     |p - face|^2 >= height^2 + beyond^2
-struct Prisms {
-  HWY_INLINE Prisms() {}  // as V3's
-
-  V3 normal[4];
-  V offset[4];
-
-  /// Lower bounds of the distances of points: a point lies above the face by one length, and beyond
-  /// an edge by another at right angles to it. Triangles without a normal have the bound 0.
-  V distances(const V3& p) const {
-    const V height = hn::Add(dot(normal[0], p), offset[0]);
-    V inside = hn::Add(dot(normal[1], p), offset[1]);
-    inside = hn::Min(inside, hn::Add(dot(normal[2], p), offset[2]));
-    inside = hn::Min(inside, hn::Add(dot(normal[3], p), offset[3]));
-    const V beyond = hn::Max(hn::Neg(inside), hn::Zero(d));
-    return hn::Sqrt(hn::Add(hn::Mul(height, height), hn::Mul(beyond, beyond)));
+/// One triangle of a leaf in another frame, as a leaf's face.
+struct MovedFace {
+  HWY_INLINE MovedFace(const LeafView& leaf, uint32_t lane, const FloatPose& X) {
+    for (int i = 0; i < kFaceRows; i += 4) {
+      const Lanes* const from = leaf.faces + i;
+      const Vec3 n = rotated(X, {from[0].v[lane], from[1].v[lane], from[2].v[lane]});
+      const V offset = set(from[3].v[lane] - dot(n, vec3(X.t)));
+      storeAt(inAllLanes(n), 0, rows[i], rows[i + 1], rows[i + 2]);
+      hn::Store(offset, d, rows[i + 3].v);
+    }
   }
+  Faces faces() const { return {rows, 0}; }
+
+  Lanes rows[kFaceRows];
 };
 
-HWY_INLINE Prisms prismsOf(const LeafView& leaf, size_t l) {
-  Prisms out;
-  for (int i = 0; i < 4; ++i) {
-    const Lanes* const rows = leaf.faces + 4 * i;
-    out.normal[i] = rowsAt(rows, l);
-    out.offset[i] = load(rows[3], l);
-  }
-  return out;
-}
-
-/// The prism of one triangle in another frame, in all lanes.
-HWY_INLINE Prisms movedPrism(const LeafView& leaf, uint32_t lane, const FloatPose& X) {
-  Prisms out;
-  for (int i = 0; i < 4; ++i) {
-    const Lanes* const rows = leaf.faces + 4 * i;
-    const Vec3 n = rotated(X, {rows[0].v[lane], rows[1].v[lane], rows[2].v[lane]});
-    out.normal[i] = inAllLanes(n);
-    out.offset[i] = hn::Set(d, rows[3].v[lane] - dot(n, vec3(X.t)));
-  }
-  return out;
-}
-
-/// The pad of Prisms::distances() of a centre less a radius: 64 u S of rounding.
+/// The pad of Faces::distances() of a centre less a radius: 64 u S of rounding.
 ///
 /// A height above the face, or beyond an edge, is off by 16 u S at most:
 /// - where the point is moved, 9 u S for it, 5 u S for products and sums, 2 u S for the stored

@@ -81,7 +81,7 @@ class TriangleLeaf {
   void copyFace(const LeafView& from, uint32_t lane) {
     Lanes* const face = lanes_ + 6;
     for (int r = 0; r < kFaceRows; ++r) {
-      const V row = hn::Set(d, from.faces[r].v[lane]);
+      const V row = set(from.faces[r].v[lane]);
       for (size_t l = 0; l < kLanes; l += step()) hn::Store(row, d, face[r].v + l);
     }
     Vec3 normal = {face[kFacePlane].v[0], face[kFacePlane + 1].v[0], face[kFacePlane + 2].v[0]};
@@ -111,14 +111,9 @@ class Leaves {
 
   /// Valid until the next call.
   HWY_INLINE LeafView operator()(uint32_t node) {
-    if (HWY_LIKELY(!isTriangle(node))) return {tree_, leafOf(node)};
+    if (HWY_LIKELY(!isTriangle(node))) return {tree_, tree_.leaves[tree_.nodes[node].leaf()]};
     triangle_.make(tree_, node);
     return triangle_.view();
-  }
-
-  /// The leaf in the tree, of which a triangle is a part.
-  HWY_INLINE const Leaf& leafOf(uint32_t node) const {
-    return tree_.leaves[isTriangle(node) ? leafOfTriangle(node) : tree_.nodes[node].leaf()];
   }
 
  private:

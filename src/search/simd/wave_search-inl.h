@@ -113,7 +113,7 @@ class WaveSearch {
     ++search_.counts.leaf_pairs;
     Bracketed& pair = waiting_[num_waiting_];
     pair.nodes = entry.pair;
-    bracketPair(search_, leaves_a_, leaves_b_, last_, pair);
+    bracketLeaves(search_, leaves_a_(pair.nodes.a), leaves_b_(pair.nodes.b), last_, pair);
     const bool nearer = !pair.slab.apart && pair.upper < evaluator_.candidate_limit;
     if (nearer) evaluator_.addUpperBound(pair.upper);
     const float bound = std::max(entry.bound, pair.lower);

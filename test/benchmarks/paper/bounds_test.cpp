@@ -169,34 +169,5 @@ TEST(Variants, EmptyIsInfinitelyFarAndContainsNothing) {
   });
 }
 
-TEST(Variants, CoordinatesThatCannotBeBoundedAreRefused) {
-  forEachPolicy([](const std::string& name, const auto& policy) {
-    for (const double bad : {double{NAN}, kInfinity, 1e302}) {
-      PointSet points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-      const auto model = policy.share(points.data(), 4);
-      points[2][1] = bad;
-      EXPECT_THROW(fitOf(policy, points, model), std::invalid_argument) << name;
-    }
-  });
-  const PointSet bad = {{NAN, 0, 0}};
-  EXPECT_THROW(AxisAlignedKios().share(bad.data(), 1), std::invalid_argument);
-}
-
-TEST(Variants, OptionsThatMeanNothingAreRefused) {
-  using Directions = std::vector<fcl::Vector3d>;
-  for (const double angle : {0.0, -1.0, 1e-3, 1.6, double{NAN}}) {
-    FitOptions options;
-    options.angle = angle;
-    EXPECT_THROW(OrientedKios<5>{options}, std::invalid_argument) << angle;
-    kIOSd v;
-    const fcl::Vector3d p(0, 0, 0);
-    EXPECT_THROW(fit(&p, 1, v, options), std::invalid_argument) << angle;
-  }
-  EXPECT_THROW(FixedDirectionKios(Directions{}), std::invalid_argument);
-  EXPECT_THROW(FixedDirectionKios(Directions(7, {1, 0, 0})), std::invalid_argument);
-  EXPECT_THROW(FixedDirectionKios(Directions{{0, 0, 0}}), std::invalid_argument);
-  EXPECT_THROW(FixedDirectionKios(Directions{{NAN, 0, 0}}), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace kios::testing

@@ -104,40 +104,6 @@ TEST(VariantTree, FarFromTheirOriginsAndAtAnyScale) {
   expectTrueAnswers(torus, moved(ball, 1, {0, 0, 1e9}), randomPoses(random, 3, 1e9, 0));
 }
 
-TEST(VariantTree, TouchingAndNested) {
-  // Boxes [-1, 1]^3: face to face, edge to edge, corner to corner, a gap of an ulp, one in another.
-  const Mesh box = scenes::subdividedBox({2, 2, 2}, 2), small = scenes::subdividedBox({1, 1, 1}, 1);
-  std::vector<Pose> poses(5);
-  poses[0].b.translation() << 2, 0.5, 0;
-  poses[1].b.translation() << 2, 2, 0.25;
-  poses[2].b.translation() << 2, 2, 2;
-  poses[3].b.translation() << 2 + 0x1p-51, 0, 0;
-  expectTrueAnswers(box, box, poses);
-  expectTrueAnswers(box, small, std::vector<Pose>(1));
-}
-
-TEST(VariantTree, DegenerateTriangles) {
-  Random random(4);
-  Mesh mesh;
-  for (int i = 0; i < 24; ++i) {
-    const fcl::Vector3d p = i % 3 ? fcl::Vector3d(randomDirection(random)) : fcl::Vector3d(1, 1, 1);
-    const fcl::Vector3d e = i % 2 ? randomDirection(random) : fcl::Vector3d(0, 0, 0);
-    mesh.vertices.insert(mesh.vertices.end(), {p, p + e, p + 0.5 * e});  // segments and points
-    mesh.triangles.emplace_back(3 * i, 3 * i + 1, 3 * i + 2);
-  }
-  expectTrueAnswers(mesh, scenes::icosphere(0.5, 1), randomPoses(random, 6, 1, 0));
-  const Mesh point = scenes::singleTriangle({1, 2, 3}, {1, 2, 3}, {1, 2, 3});
-  expectTrueAnswers(mesh, point, randomPoses(random, 6, 1, 0));
-  expectTrueAnswers(point, point, randomPoses(random, 6, 1, 0));
-}
-
-FitOptions options(SphereCount count, bool shared) {
-  FitOptions result;
-  result.count = count;
-  result.shared_radius = shared;
-  return result;
-}
-
 // One tree for all poses: bounds come from the stored floats and the directions as they were.
 TEST(FixedDirections, NothingIsRecomputedWhenModelsTurn) {
   const Mesh plate = scenes::sheet(2, 2, 8, 8, 0.05), torus = scenes::bentTorus();
@@ -183,34 +149,6 @@ TEST(FloatsPerVolume, AreWhatTheFormulasSay) {
     EXPECT_EQ(tree.store().data().capacity(), floats) << name;  // nothing else is held
     EXPECT_EQ(tree.floatsPerVolume(), static_cast<double>(floats) / split->nodes().size()) << name;
   });
-}
-
-TEST(FloatsPerVolume, FallWithEachStepOfThePaper) {
-  const Split split = splitOf(scenes::bumpyTorus(300));
-  const auto floats = [&](const auto& policy) {
-    return VariantTree<std::decay_t<decltype(policy)>>(split, policy).floatsPerVolume();
-  };
-  const FitOptions own = options(SphereCount::kAll, false),
-                   shared = options(SphereCount::kAll, true);
-  EXPECT_EQ(floats(OrientedKios<7>(own)), 28);
-  EXPECT_EQ(floats(OrientedKios<7>(shared)), 23);
-  EXPECT_EQ(floats(OrientedKios<5>(own)), 20);
-  EXPECT_EQ(floats(OrientedKios<5>(shared)), 17);
-  EXPECT_EQ(floats(AxisAlignedKios(own)), 16);
-  EXPECT_EQ(floats(FixedDirectionKios(own)), 16);
-  EXPECT_EQ(floats(FixedDirectionKios(shared)), 11);
-  for (const auto method : {FitMethod::kTuned, FitMethod::kMethodI, FitMethod::kMethodII}) {
-    FitOptions by_method = own;
-    by_method.method = method;
-    EXPECT_EQ(floats(OrientedKios<5>(by_method)), 20);
-    EXPECT_EQ(floats(OrientedKios<3>(by_method)), 12);
-    EXPECT_EQ(floats(OrientedKios<1>(by_method)), 4);
-  }
-  EXPECT_EQ(floats(KiosPolicy()), sizeof(kIOSd) / 4);
-  // With k by the content: below the paper's 9.6 to 9.9 for axis-aligned and fixed directions.
-  const double ratio = floats(FixedDirectionKios(options(SphereCount::kByRatio, true)));
-  EXPECT_LT(ratio, 9.6);
-  EXPECT_GT(ratio, 4);
 }
 
 TEST(MeshSplit, EveryTriangleIsALeafOnce) {

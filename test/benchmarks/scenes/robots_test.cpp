@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <stdexcept>
 
 #include "benchmarks/scenes/mesh_checks.h"
@@ -24,45 +23,9 @@
 namespace kios::scenes {
 namespace {
 
-/// Links have so many triangles.
-void expectTriangles(const std::vector<Link>& links, std::size_t least, std::size_t most) {
-  for (const Link& link : links) {
-    EXPECT_GE(link.mesh.triangles.size(), least);
-    EXPECT_LE(link.mesh.triangles.size(), most);
-  }
-}
-
-TEST(Robots, LinksHaveTheirTriangles) {
-  ASSERT_EQ(cadArm().links.size(), 7u);
-  expectTriangles(cadArm().links, 1000, 5000);
-  ASSERT_EQ(stripChain().links.size(), 4u);
-  expectTriangles(stripChain().links, 400, 1600);
-  ASSERT_EQ(humanoid().links.size(), 19u);
-  ASSERT_EQ(humanoid().centres.size(), 18u);
-  expectTriangles(humanoid().links, 1000, 5000);
-}
-
-// Stretched along x: each link's mesh begins where the one before ends.
-TEST(Robots, StripChainIsStraightAtZero) {
-  const auto poses = linkPoses(stripChain(), fcl::Transform3d::Identity(), {0, 0, 0});
-  for (int i = 0; i < 4; ++i) {
-    EXPECT_LE((poses[i].translation() - fcl::Vector3d(0.6 * i, 0, 0)).norm(), 1e-12);
-    EXPECT_LE((poses[i].linear().col(2) - fcl::Vector3d::UnitX()).norm(), 1e-12);
-  }
-}
-
-TEST(Robots, JointsTurnAboutTheirAxis) {
-  const Arm chain = stripChain();
-  const auto straight = linkPoses(chain, fcl::Transform3d::Identity(), {0, 0, 0});
-  const auto bent = linkPoses(chain, fcl::Transform3d::Identity(), {0.5, 0, 0});
-  EXPECT_EQ(straight[0].matrix(), bent[0].matrix());
-  EXPECT_NEAR(straight[1].linear().col(2).dot(bent[1].linear().col(2)), std::cos(0.5), 1e-12);
-  EXPECT_THROW(linkPoses(chain, fcl::Transform3d::Identity(), {0, 0}), std::invalid_argument);
-}
-
 TEST(Robots, MotionIsSmoothSeededAndInRange) {
-  const Arm arm = cadArm();
-  const auto motion = armMotion(arm, 400, 1);
+  const Robot arm = cadArm();
+  const auto motion = jointMotion(arm, 400, true, 1);
   ASSERT_EQ(motion.size(), 400u);
   for (std::size_t joint = 0; joint < 6; ++joint) {
     for (std::size_t frame = 0; frame < motion.size(); ++frame) {
@@ -73,27 +36,12 @@ TEST(Robots, MotionIsSmoothSeededAndInRange) {
       }
     }
   }
-  EXPECT_EQ(motion, armMotion(arm, 400, 1));
-  EXPECT_NE(motion, armMotion(arm, 400, 2));
-}
-
-TEST(Robots, HumanoidStandsUpright) {
-  const Robot robot = humanoid();
-  const auto poses = robotPoses(robot, fcl::Transform3d::Identity(), std::vector<double>(18, 0.0));
-  double lowest = 1e9, highest = -1e9;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    EXPECT_LE((poses[i].linear() - fcl::Matrix3d::Identity()).norm(), 1e-12) << i;
-    for (const fcl::Vector3d& p : robot.links[i].mesh.vertices) {
-      lowest = std::min(lowest, (poses[i] * p).z());
-      highest = std::max(highest, (poses[i] * p).z());
-    }
-  }
-  EXPECT_NEAR(highest - lowest, 1.8, 0.1);
-  EXPECT_THROW(robotPoses(robot, fcl::Transform3d::Identity(), {0.0}), std::invalid_argument);
+  EXPECT_EQ(motion, jointMotion(arm, 400, true, 1));
+  EXPECT_NE(motion, jointMotion(arm, 400, true, 2));
 }
 
 TEST(Robots, ScenesHoldWhatTheyPromise) {
-  const Robot robot = robotOf(cadArm());
+  const Robot robot = cadArm();
   const BodyScene two =
       twoRobots(robot, fcl::Transform3d::Identity(), fcl::Transform3d::Identity(), 3, true, 1);
   EXPECT_EQ(two.size(), 14);
@@ -118,68 +66,16 @@ TEST(Robots, ScenesHoldWhatTheyPromise) {
   EXPECT_EQ(map.frames.size(), 5u);
 }
 
-TEST(Worlds, BoxesAreWoundOutwardAndCounted) {
-  const std::map<std::string, std::size_t> counts = {
-      {"table_top", 12}, {"table", 60}, {"floor", 12}, {"room", 60},
-      {"shelf", 108},    {"crate", 60}, {"bins", 240}, {"stairs", 144}};
-  for (const World& world : boxWorlds()) {
-    EXPECT_EQ(world.mesh.triangles.size(), counts.at(world.name)) << world.name;
-    ASSERT_EQ(world.mesh.triangles.size(), 12 * world.boards.size()) << world.name;
-    double volume = 0;
-    for (const Board& board : world.boards) volume += board.size.prod();
-    EXPECT_NEAR(signedVolume(world.mesh), volume, 1e-12 * (1 + volume)) << world.name;
-  }
-}
-
-TEST(Worlds, MeshesHaveTheirTriangles) {
-  std::map<std::string, std::size_t> counts;
-  for (const World& world : meshWorlds(30000)) counts[world.name] = world.mesh.triangles.size();
-  EXPECT_EQ(counts["terrain_1m"], 1800u);
-  EXPECT_EQ(counts["terrain_10m"], 1800u);
-  EXPECT_EQ(counts["terrain_5cm"], 28800u);
-  EXPECT_GE(counts["building"], 30000u);
-  EXPECT_LE(counts["building"], 37000u);
-  EXPECT_EQ(counts["needles"], 150u);
-  EXPECT_EQ(counts["strips"], 800u);
-}
-
-TEST(Worlds, TwoOfSevenPosesTouchAndHalfAreNear) {
-  const Mesh link = cadParts().front();
-  const int count = 35;
-  for (const World& world : boxWorlds()) {
-    const auto poses = posesNear(world, link, count, 3);
-    const MeshOracle oracle(world.mesh, link);
-    int near = 0, touching = 0;
-    for (const fcl::Transform3d& X : poses) {
-      const double distance = oracle.distance(fcl::Transform3d::Identity(), X);
-      near += distance < 0.01;
-      touching += distance == 0;
-    }
-    EXPECT_GE(near, count / 2) << world.name;
-    EXPECT_LE(near, count * 4 / 5) << world.name;
-    EXPECT_NEAR(touching, 10, 2) << world.name;
-  }
-}
-
-TEST(Worlds, ScansLieOnTheirSurfaces) {
-  for (const fcl::Vector3d& p : scannedTable(0.05, 0.002, 1)) {
-    const bool table = std::abs(p.z() - 0.75) <= 0.002, wall = std::abs(p.y() - 0.6) <= 0.002;
-    const bool box = std::abs(p.y() - 0.1) <= 0.002 || std::abs(p.x() - 0.1) <= 0.002 ||
-                     std::abs(p.z() - 1) <= 0.002;
-    EXPECT_TRUE(table || wall || box) << p.transpose();
-  }
-}
-
 // A link's mesh reaches from its joint to the next, at any angles.
 TEST(Robots, LinksOfAChainReachFromJointToJoint) {
   std::vector<Mesh> meshes = {filletedBar(0.1, 0.05, 0.4, 0.01, 3), tube(0.02, 0.05, 0.3, 12),
                               boredBlock({0.5, 0.1, 0.1}, 0.01, 0.01, 0.03, 16)};
   meshes[1] =
       moved(fcl::Transform3d(fcl::AngleAxisd(std::acos(0.0), fcl::Vector3d::UnitX())), meshes[1]);
-  const Arm chain = chainOf(meshes);
+  const Robot chain = chainOf(meshes);
   EXPECT_NEAR(chainLength(chain), 1.2, 1e-12);
   ASSERT_EQ(chain.centres.size(), 2u);
-  const auto poses = linkPoses(chain, fcl::Transform3d::Identity(), {0, 0});
+  const auto poses = robotPoses(chain, fcl::Transform3d::Identity(), {0, 0});
   double top = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     double low = 1e9, high = -1e9;
@@ -219,7 +115,7 @@ TEST(Robots, FoldersOfMeshesAreReadByName) {
 TEST(Robots, TheUr5OfTheDataFolder) {
   const auto folder = findData();
   if (!folder || !holdsUr5(*folder)) GTEST_SKIP() << "no data folder: set KIOS_DATA";
-  const Arm arm = loadUr5(*folder);
+  const Robot arm = loadUr5(*folder);
   ASSERT_EQ(arm.links.size(), 7u);
   const std::size_t triangles[] = {235, 674, 1176, 1050, 702, 702, 446};
   for (std::size_t i = 0; i < 7; ++i) {
@@ -227,7 +123,7 @@ TEST(Robots, TheUr5OfTheDataFolder) {
     EXPECT_LT(arm.links[i].mesh.vertices.size(), 3 * triangles[i] / 4);
   }
   // The wrist's centre with all joints at 0: UR's published lengths.
-  const auto poses = linkPoses(arm, fcl::Transform3d::Identity(), std::vector<double>(6, 0));
+  const auto poses = robotPoses(arm, fcl::Transform3d::Identity(), std::vector<double>(6, 0));
   const fcl::Vector3d wrist = poses[6] * arm.links[6].X_LM.inverse() * fcl::Vector3d::Zero();
   EXPECT_LE((wrist - fcl::Vector3d(-0.81725, -0.19145, -0.005491)).norm(), 1e-9);
 }

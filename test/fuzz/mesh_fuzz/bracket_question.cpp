@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// kios::distance and kios::closerThan: the promises of DistanceAnswer for every option.
+// kios::distanceBracket and kios::closerThan: the promises of DistanceBracketResult for every
+// option.
 
-#include "fcl_kios/query/distance.h"
+#include "fcl_kios/distance.h"
 
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
@@ -19,7 +20,7 @@ class BracketQuestion {
       : random_(c.draw),
         pair_(c),
         truth_(c.meshes[0], pair_.X, c.meshes[1], pair_.Y),
-        exact_(kios::distance(*pair_.A, pair_.X, *pair_.B, pair_.Y)) {
+        exact_(kios::distanceBracket(*pair_.A, pair_.X, *pair_.B, pair_.Y)) {
     // The exact distance of the vertices and poses as they are given, where that is quick.
     if (truth_.distances().size() > 60 || !chance(random_, 0.3)) return;
     Mesh a = c.meshes[0], b = c.meshes[1];
@@ -36,7 +37,7 @@ class BracketQuestion {
   }
 
   Verdict brackets() {
-    if (auto wrong = judge(exact_, {}, "auto answer = kios::distance(*A, X[0], *B, X[1])"))
+    if (auto wrong = judge(exact_, {}, "auto answer = kios::distanceBracket(*A, X[0], *B, X[1])"))
       return wrong;
     for (int i = 0; i < 8; ++i) {
       if (auto wrong = withOptions()) return wrong;
@@ -45,13 +46,13 @@ class BracketQuestion {
   }
 
   Verdict closer() {
-    if (auto wrong = judge(exact_, {}, "auto answer = kios::distance(*A, X[0], *B, X[1])"))
+    if (auto wrong = judge(exact_, {}, "auto answer = kios::distanceBracket(*A, X[0], *B, X[1])"))
       return wrong;
     for (int i = 0; i < 10; ++i) {
       const S t = threshold();
       WarmStart start = anyStart();
       const bool warm = chance(random_, 0.3);
-      DistanceAnswer<S> certificate;
+      DistanceBracketResult<S> certificate;
       const bool is = closerThan<S>(*pair_.A, pair_.X, *pair_.B, pair_.Y, t, &certificate,
                                     warm ? &start : nullptr);
       const std::string call =
@@ -67,7 +68,7 @@ class BracketQuestion {
                        call);
       }
       if (t < 0) continue;
-      DistanceOptions<S> any;  // the certificate is no answer to options
+      DistanceBracketRequest<S> any;  // the certificate is no answer to options
       any.near_enough = certificate.stop == DistanceStop::kNear ? certificate.distance : S{0};
       any.far_enough = certificate.stop == DistanceStop::kFar ? certificate.lower_bound
                                                               : std::numeric_limits<S>::infinity();
@@ -116,7 +117,7 @@ class BracketQuestion {
   }
 
   Verdict withOptions() {
-    DistanceOptions<S> options;
+    DistanceBracketRequest<S> options;
     const double L = truth_.extentOf(truth_.nearest);
     if (chance(random_, 0.3)) options.rel_err = static_cast<S>(power(random_, -6, 1));
     if (chance(random_, 0.2)) options.abs_err = static_cast<S>(L * power(random_, -6, 0));
@@ -128,7 +129,7 @@ class BracketQuestion {
     const bool warm = chance(random_, 0.3);
 
     std::ostringstream call;
-    call << "kios::DistanceOptions<S> o; o.rel_err = " << literal(options.rel_err)
+    call << "kios::DistanceBracketRequest<S> o; o.rel_err = " << literal(options.rel_err)
          << "; o.abs_err = " << literal(options.abs_err)
          << "; o.near_enough = " << literal(options.near_enough)
          << "; o.far_enough = " << literal(options.far_enough)
@@ -138,16 +139,16 @@ class BracketQuestion {
            << "}; o.warm_start = &w; ";
       options.warm_start = &start;
     }
-    call << "auto answer = kios::distance(*A, X[0], *B, X[1], o)";
+    call << "auto answer = kios::distanceBracket(*A, X[0], *B, X[1], o)";
     const WarmStart before = start;
-    const auto answer = kios::distance(*pair_.A, pair_.X, *pair_.B, pair_.Y, options);
+    const auto answer = kios::distanceBracket(*pair_.A, pair_.X, *pair_.B, pair_.Y, options);
     if (auto wrong = judge(answer, options, call.str())) return wrong;
     // A larger budget never gives a wider bracket.
     constexpr long long kMost = std::numeric_limits<long long>::max();
     if (options.max_expansions == kMost) return std::nullopt;
     start = before;
     options.max_expansions = 2 * options.max_expansions + 1;
-    const auto more = kios::distance(*pair_.A, pair_.X, *pair_.B, pair_.Y, options);
+    const auto more = kios::distanceBracket(*pair_.A, pair_.X, *pair_.B, pair_.Y, options);
     const double before_width = double{answer.distance} - double{answer.lower_bound};
     const double width = double{more.distance} - double{more.lower_bound};
     const double rounding = 64 * truth_.kEps * (L + double{truth_.distance});
@@ -162,7 +163,7 @@ class BracketQuestion {
                  call.str() + " with a budget of " + std::to_string(options.max_expansions));
   }
 
-  Verdict judge(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options,
+  Verdict judge(const DistanceBracketResult<S>& answer, const DistanceBracketRequest<S>& options,
                 const std::string& call) const {
     const char* fault = faultOf(answer, options);
     if (!fault) {
@@ -188,7 +189,8 @@ class BracketQuestion {
     return failure(words, call);
   }
 
-  const char* faultOf(const DistanceAnswer<S>& answer, const DistanceOptions<S>& options) const {
+  const char* faultOf(const DistanceBracketResult<S>& answer,
+                      const DistanceBracketRequest<S>& options) const {
     const std::pair<int, int> ids = {answer.triangle_a, answer.triangle_b};
     const double lower = answer.lower_bound, distance = answer.distance, upper = answer.upper_bound,
                  exact = truth_.distance;
@@ -246,7 +248,7 @@ class BracketQuestion {
   Random random_;
   const ModelPair<S> pair_;
   const BruteForce<S> truth_;
-  const DistanceAnswer<S> exact_;
+  const DistanceBracketResult<S> exact_;
   double given_ = -1;  ///< the exact distance in the exact frame; negative: not computed
 };
 

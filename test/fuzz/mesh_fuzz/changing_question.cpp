@@ -20,9 +20,8 @@
 #include <fcl/narrowphase/distance_result.h>
 #include <octomap/octomap.h>
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/scene/manager_query.h"
-#include "fcl_kios/scene/scene_distance.h"
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/scene.h"
+#include "fcl_kios/solids.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
 

@@ -5,7 +5,7 @@
 // contact is missed, none reported late, none where the meshes are far apart.
 
 #include "continuous/moving_meshes.h"
-#include "fcl_kios/continuous/continuous.h"
+#include "fcl_kios/motion.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
 

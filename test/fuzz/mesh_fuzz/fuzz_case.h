@@ -47,7 +47,7 @@ struct Case {
   const Question* question = nullptr;
   std::uint64_t draw = 0;  ///< the seed of the draws of the question itself
   bool in_float = false;   ///< asked of kIOSf
-  bool foreign = false;    ///< the models' fitter isn't ours, so that FCL's tree is searched
+  bool foreign = false;    ///< a user's bv_fitter fits the models' nodes, which motions walk
   std::vector<Mesh> meshes;
   std::vector<std::vector<Transform3d>> frames;  ///< [frame][mesh]: poses in the world
 

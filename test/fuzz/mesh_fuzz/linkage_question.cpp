@@ -20,9 +20,9 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include <octomap/octomap.h>
-#include "fcl_kios/linkage/linkage.h"
+#include "fcl_kios/linkage.h"
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/solid/solids.h"
+#include "fcl_kios/solids.h"
 #include "fuzz/mesh_fuzz/hard_meshes.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
@@ -62,7 +62,7 @@ class LinkageQuestion {
     if (chance(random_, 0.3)) request.min_separation = size_ * power(random_, -6, -1);
     const int most = queriesWithin(kTriangleTests);
     request.max_queries = chance(random_, 0.2) ? 1 + below(random_, most) : most;
-    const MotionAnswer answer = checkMotion(linkage_, q0_, q1_, request);
+    const MotionResult answer = checkMotion(linkage_, q0_, q1_, request);
     call_ = "checkMotion: draw " + std::to_string(case_.draw) + ", resolution " +
             literal(request.resolution) + ", first " + std::to_string(request.first_contact) +
             ", separation " + literal(request.min_separation) + ", queries " +
@@ -169,7 +169,7 @@ class LinkageQuestion {
     return std::nullopt;
   }
 
-  Verdict judge(const MotionRequest& request, const MotionAnswer& answer) const {
+  Verdict judge(const MotionRequest& request, const MotionResult& answer) const {
     const bool clear = answer.verdict == MotionVerdict::kClear;
     const bool spent = answer.verdict == MotionVerdict::kBudgetSpent;
     if (spent && answer.counts.queries < request.max_queries) {

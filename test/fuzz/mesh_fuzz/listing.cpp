@@ -23,7 +23,7 @@ void list(const Case& c, const Failure& failure, std::ostream& out) {
     }
     out << "});\n";
   }
-  if (c.foreign) out << "  // the models' bv_fitter is not ours: FCL's tree is searched\n";
+  if (c.foreign) out << "  // a user's bv_fitter fits the models' nodes, which motions walk\n";
   for (std::size_t f = 0; f < c.frames.size(); ++f) {
     const std::string name = f == 0 ? "X" : "X" + std::to_string(f);
     out << "  fcl::Transform3<S> " << name << "[" << c.frames[f].size() << "];\n";

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // usage: mesh_fuzz [--seed N] [--seconds S] [--case K] [--only QUESTION] [--threads N] [--list]
-//                  [--skip QUESTION]... [--shrink S] [--slow S] [--traps 0]
-// Asks cases 0, 1, 2 ... of a seed until the time is up, or --case's alone. At the first failure it
-// prints one line that repeats it, the smallest case that fails alike (searched for --shrink
-// seconds), and exits with 1. A case that takes more than --slow (1) times the processor time of
-// its question is a failure, and so is an operation that raises FE_INVALID or FE_DIVBYZERO, unless
-// --traps is 0.
+//                  [--skip QUESTION]... [--shrink S] [--slow S] [--traps 0] [--least N]
+// Asks cases 0, 1, 2 ... of a seed until the time is up, or --case's alone; it fails if they are
+// fewer than --least (0). At the first failure it prints one line that repeats it, the smallest
+// case that fails alike (searched for --shrink seconds), and exits with 1. A case that takes more
+// than --slow (1) times the processor time of its question is a failure, and so is an operation
+// that raises FE_INVALID or FE_DIVBYZERO, unless --traps is 0.
 
 #include <atomic>
 #include <cfenv>
@@ -24,7 +24,7 @@
 
 #include <unistd.h>
 
-#include "fcl_kios/model/prepare.h"
+#include "fcl_kios/model.h"
 #include "fuzz/mesh_fuzz/draw_case.h"
 #include "fuzz/mesh_fuzz/listing.h"
 #include "fuzz/mesh_fuzz/shrink.h"
@@ -36,6 +36,7 @@ struct Settings {
   std::uint64_t seed = 1;
   double seconds = 10, shrink_seconds = 20;
   long long index = -1;  ///< negative: all
+  long long least = 0;   ///< cases that the time must suffice for
   int threads = 1;
   double slow = 1;  ///< times what a question's case may take
   bool traps = true;
@@ -89,6 +90,10 @@ class Run {
     for (std::thread& t : threads) t.join();
     done = true;
     watch.join();
+    if (!failed_ && cases_ < settings_.least) {
+      failed_ = true;
+      std::cout << "FAILED: fewer than " << settings_.least << " cases\n";
+    }
     std::cout << "mesh_fuzz: seed " << settings_.seed << ", " << simdTarget() << ": " << cases_
               << " cases in " << processorSeconds() << " s of processor time, "
               << (failed_ ? "FAILED" : "clean") << std::endl;
@@ -194,6 +199,8 @@ Settings parsed(int argc, char** argv) {
       settings.traps = value != "0";
     } else if (option == "--case") {
       settings.index = std::stoll(value);
+    } else if (option == "--least") {
+      settings.least = std::stoll(value);
     } else if (option == "--threads") {
       settings.threads = std::stoi(value);
     } else if (option == "--only") {

@@ -11,7 +11,7 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/scene/manager_query.h"
+#include "fcl_kios/scene.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 #include "fuzz/mesh_fuzz/brute_force.h"
 #include "scenes/foreign_fitter.h"
 

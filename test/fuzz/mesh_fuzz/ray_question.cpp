@@ -5,7 +5,7 @@
 // integers. At poses that map rays exactly all must be equal; at others a hit may only be disputed
 // where the ray passes an edge within the bound of that map.
 
-#include "fcl_kios/query/ray.h"
+#include "fcl_kios/rays.h"
 
 #include "fuzz/mesh_fuzz/hard_poses.h"
 #include "fuzz/mesh_fuzz/pair.h"

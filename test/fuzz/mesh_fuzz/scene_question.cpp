@@ -12,7 +12,7 @@
 #include <fcl/narrowphase/distance_request.h>
 #include <fcl/narrowphase/distance_result.h>
 #include "fcl_kios/overloads.h"
-#include "fcl_kios/scene/scene_distance.h"
+#include "fcl_kios/scene.h"
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
 

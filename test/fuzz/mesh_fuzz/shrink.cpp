@@ -12,13 +12,6 @@
 namespace kios::fuzz {
 namespace {
 
-/// v with so many bits of its significand.
-double shortened(double v, int bits) {
-  int e = 0;
-  const double m = std::frexp(v, &e);
-  return std::ldexp(std::round(std::ldexp(m, bits)), e - bits);
-}
-
 class Shrinker {
  public:
   Shrinker(Case c, double seconds)
@@ -31,7 +24,6 @@ class Shrinker {
       better_ = false;
       parts();
       poses();
-      vertices();
     } while (better_ && inTime());
     return best_;
   }
@@ -117,45 +109,6 @@ class Shrinker {
     if (change([](Transform3d& X) { X.setIdentity(); })) return;
     if (f > 0 && change([&](Transform3d& X) { X = best_.frames[f - 1][m]; })) return;
     change([](Transform3d& X) { X.linear().setIdentity(); });
-    change([](Transform3d& X) { X.linear() = X.linear().array().round().matrix(); });
-    change([](Transform3d& X) {
-      X.linear() = Eigen::Quaterniond(X.linear()).normalized().toRotationMatrix();
-    });
-    for (int i = 0; i < 3; ++i) {
-      if (change([&](Transform3d& X) { X.translation()[i] = 0; })) continue;
-      for (const int bits : {1, 4, 12, 24}) {
-        if (change([&](Transform3d& X) {
-              X.translation()[i] = shortened(X.translation()[i], bits);
-            })) {
-          break;
-        }
-      }
-    }
-  }
-
-  void vertices() {
-    for (std::size_t m = 0; m < best_.meshes.size(); ++m) {
-      const auto change = [&](std::size_t v, const auto& how) {
-        Case c = best_;
-        how(c.meshes[m].vertices[v]);
-        return c.meshes[m].vertices[v] != best_.meshes[m].vertices[v] && attempt(c);
-      };
-      for (std::size_t t = 0; t < best_.meshes[m].triangles.size(); ++t) {  // to a point
-        const fcl::Triangle ids = best_.meshes[m].triangles[t];
-        for (int k = 1; k < 3; ++k) {
-          change(ids[k], [&](Vector3d& p) { p = best_.meshes[m].vertices[ids[0]]; });
-        }
-      }
-      for (std::size_t v = 0; v < best_.meshes[m].vertices.size() && inTime(); ++v) {
-        if (change(v, [](Vector3d& p) { p.setZero(); })) continue;
-        for (int i = 0; i < 3; ++i) {
-          if (change(v, [&](Vector3d& p) { p[i] = 0; })) continue;
-          for (const int bits : {1, 4, 12, 24}) {
-            if (change(v, [&](Vector3d& p) { p[i] = shortened(p[i], bits); })) break;
-          }
-        }
-      }
-    }
   }
 
   Case best_;

@@ -10,7 +10,7 @@ namespace kios::fuzz {
 Verdict ask(const Case& c);
 
 /// Returns the smallest case found within `seconds` that fails as well: fewer triangles, frames and
-/// models, simple poses, short coordinates.
+/// models, simple poses.
 Case shrunk(Case c, double seconds);
 
 }  // namespace kios::fuzz

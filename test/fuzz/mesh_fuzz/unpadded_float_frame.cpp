@@ -10,8 +10,7 @@
 
 namespace kios::engine {
 
-bool makeTreePose(const TreeRoot& a, const TreeRoot& b, const RelativePose<double>& X_AB,
-                  TreePose& out) {
+bool makeTreePose(const Tree& a, const Tree& b, const RelativePose<double>& X_AB, TreePose& out) {
   if (!makePaddedTreePose(a, b, X_AB, out)) return false;
   out.pad = out.box_pad = 0;
   return true;

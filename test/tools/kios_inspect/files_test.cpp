@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "fcl_kios/clearance/exact_distance.h"
+#include "fcl_kios/clearance.h"
 #include "inspection.h"
 #include "page.h"
 #include "sample_files.h"
@@ -85,9 +85,10 @@ TEST(Files, APageHoldsTheVolumesThatItDraws) {
   const auto& levels = scene["meshes"][0]["levels"];
   ASSERT_EQ(static_cast<int>(levels.size()), inspection.tree->depth() + 1);
   const double scale = inspection.box.diagonal().norm();
+  std::vector<int> nodes = {0};
   for (std::size_t level = 0; level < levels.size(); ++level) {
+    if (level > 0) nodes = inspection.tree->deeper(nodes);
     const std::vector<float> records = floatsOf(levels[level]);
-    const std::vector<int> nodes = inspection.tree->level(static_cast<int>(level));
     ASSERT_EQ(records.size(), 32 * nodes.size());
     for (std::size_t i = 0; i < nodes.size(); i += 1 + nodes.size() / 40) {
       const float* const r = &records[32 * i];

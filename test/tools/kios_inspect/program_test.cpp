@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "fcl_kios/model/model.h"
-#include "fcl_kios/query/distance.h"
+#include "fcl_kios/distance.h"
+#include "fcl_kios/model.h"
 #include "sample_files.h"
 #include "scenes/shapes.h"
 
@@ -205,7 +205,7 @@ TEST(Program, TheDistanceOfTwoMeshesIsTheLibrarys) {
   X_WB.linear() = fcl::Quaterniond(0.5, 0.5, -0.5, 0.5).toRotationMatrix();
   const Json pair =
       json(files + " --pose-a -1,2.5,0.25 --pose-b 3,-0.5,1,0.5,0.5,-0.5,0.5")["pair"];
-  const auto expected = distance(*a, X_WA, *b, X_WB);
+  const auto expected = distanceBracket(*a, X_WA, *b, X_WB);
   EXPECT_EQ(pair["distance"].get<double>(), expected.distance);
   EXPECT_EQ(pair["triangle_a"], expected.triangle_a);
   EXPECT_EQ(pair["triangle_b"], expected.triangle_b);

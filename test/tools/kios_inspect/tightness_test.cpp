@@ -6,8 +6,8 @@
 
 #include <random>
 
-#include "fcl_kios/clearance/exact_distance.h"
-#include "fcl_kios/paper/fit.h"
+#include "fcl_kios/clearance.h"
+#include "fcl_kios/paper.h"
 
 namespace kios::inspect {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -16,14 +17,15 @@
 #include "way.h"
 
 namespace kios::robot_tool {
-namespace {
 
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
+constexpr double kSlack = 1e-4;  // for limits and states that were rounded
 
-[[gnu::format(printf, 1, 2)]] std::string format(const char* how, ...) {
+void refuse(const std::string& what) { throw std::invalid_argument(what); }
+
+std::string format(const char* how, ...) {
   char text[1024];
   std::va_list values;
   va_start(values, how);
@@ -32,7 +34,7 @@ using Eigen::VectorXd;
   return text;
 }
 
-std::string textOf(const VectorXd& q, const char* between = ",") {
+std::string textOf(const VectorXd& q, const char* between) {
   std::string text;
   for (const double x : q) text += (text.empty() ? "" : between) + format("%.9g", x);
   return text;
@@ -44,9 +46,20 @@ Json listOf(const VectorXd& v) {
   return list;
 }
 
-/// Numbers between commas, or the name of a group state; nothing is 0 or the limit next to it.
-/// `option` is what gave it, for messages.
-VectorXd configuration(const Robot& robot, const std::string& text, const std::string& option) {
+double limited(const Robot& robot, const Options& options, Eigen::Index i, double x,
+               const std::string& option) {
+  const double limit = std::min(std::max(x, robot.lower()[i]), robot.upper()[i]);
+  if (options.beyond_limits || x == limit) return x;
+  if (std::abs(x - limit) <= kSlack) return limit;
+  refuse(option + ": " + robot.joints()[static_cast<std::size_t>(i)] +
+         format(" is %.9g, but its limits are %.9g and %.9g; --beyond-limits takes it.", x,
+                robot.lower()[i], robot.upper()[i]));
+}
+
+namespace {
+
+/// The coordinates of a configuration, whatever they are.
+VectorXd valuesOf(const Robot& robot, const std::string& text, const std::string& option) {
   if (text.empty()) return robot.lower().cwiseMax(0.0).cwiseMin(robot.upper());
   for (const std::string& state : robot.states()) {
     if (state == text) return robot.state(text);
@@ -80,8 +93,18 @@ VectorXd configuration(const Robot& robot, const std::string& text, const std::s
   return q;
 }
 
-/// Configurations of a file, or of standard input by the name -, one a line.
-std::vector<VectorXd> pathOf(const Robot& robot, const std::string& name, std::size_t least) {
+}  // namespace
+
+VectorXd configuration(const Robot& robot, const Options& options, const std::string& text,
+                       const std::string& option) {
+  const VectorXd q = valuesOf(robot, text, option);
+  if (options.beyond_limits || robot.withinLimits(q, kSlack)) return q;
+  for (Eigen::Index i = 0; i < q.size(); ++i) limited(robot, options, i, q[i], option);
+  return q;
+}
+
+std::vector<VectorXd> pathOf(const Robot& robot, const Options& options, std::size_t least) {
+  const std::string& name = options.path;
   std::ifstream file;
   if (name != "-") file.open(name);
   if (name != "-" && (!file || fs::is_directory(name))) refuse(name + ": it can't be read.");
@@ -92,7 +115,7 @@ std::vector<VectorXd> pathOf(const Robot& robot, const std::string& name, std::s
     ++number;
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string place = (name == "-" ? "standard input" : name);
-    path.push_back(configuration(robot, line, place + ", line " + std::to_string(number)));
+    path.push_back(configuration(robot, options, line, place + ", line " + std::to_string(number)));
   }
   if (path.size() < least) {
     refuse(name + ": it has " + std::to_string(path.size()) + " configurations; at least " +
@@ -101,13 +124,79 @@ std::vector<VectorXd> pathOf(const Robot& robot, const std::string& name, std::s
   return path;
 }
 
+std::string sentenceOf(const std::exception& error) {
+  constexpr char kLibrary[] = "fcl_kios: ";
+  const std::string what = error.what();
+  return what.rfind(kLibrary, 0) == 0 ? what.substr(sizeof(kLibrary) - 1) : what;
+}
+
+namespace {
+
+/// Loads it, and refuses in words of the command line what the library does in those of its call.
+Robot loadInOurWords(const Options& options, const RobotOptions& robot_options) {
+  try {
+    return loadRobot(options.urdf, options.srdf, robot_options);
+  } catch (const std::invalid_argument& error) {
+    std::string text = sentenceOf(error);
+    const std::string by_library = "in `packages`";
+    const std::size_t at = text.find(by_library);
+    if (at != std::string::npos) text.replace(at, by_library.size(), "by --package NAME=FOLDER");
+    refuse(text);
+  }
+}
+
+}  // namespace
+
+Robot load(const Options& options) {
+  RobotOptions robot_options;
+  robot_options.padding = options.padding;
+  for (const std::string& package : options.packages) {
+    const std::size_t equals = package.find('=');
+    if (equals == std::string::npos)
+      refuse("--package must be NAME=FOLDER, but is " + package + ".");
+    const std::string folder = package.substr(equals + 1);
+    if (!fs::is_directory(folder)) refuse("--package " + package + ": there is no such folder.");
+    robot_options.packages[package.substr(0, equals)] = folder;
+  }
+  Robot robot = loadInOurWords(options, robot_options);
+  for (const std::string& octomap : options.octomaps) {  // first, as scenes may name them
+    const std::size_t equals = octomap.find('=');
+    if (equals == std::string::npos) {
+      refuse("--octomap must be NAME=FILE, but is " + octomap + ".");
+    }
+    robot.addOctomap(octomap.substr(0, equals), octomap.substr(equals + 1));
+  }
+  for (const std::string& scene : options.scenes) robot.addScene(scene);
+  for (const std::string& warning : robot.warnings()) {
+    std::fprintf(stderr, "kios_robot: warning: %s\n", warning.c_str());
+  }
+  if (options.strict && !robot.warnings().empty()) {
+    refuse("there are warnings, which --strict makes errors.");
+  }
+  return robot;
+}
+
+Answer writePage(const Robot& robot, const Options& options, const std::vector<VectorXd>& path) {
+  const fs::path folder = fs::absolute(options.html).parent_path();
+  if (!fs::is_directory(folder)) refuse("--html: there is no folder " + folder.string() + ".");
+  const std::string page =
+      showPage(robot, fs::path(options.urdf).stem().string(), path, options.separation);
+  std::ofstream file(options.html, std::ios::binary);
+  if (!(file << page) || !file.flush()) refuse(options.html + ": the page can't be written.");
+  return {{{"html", options.html}, {"bytes", page.size()}},
+          options.html + format(": %.1f MB\n", 1e-6 * static_cast<double>(page.size())),
+          0};
+}
+
+namespace {
+
 /// Answers `one` for --at, or for each line of --path; the status is the largest.
 template <typename One>
 Answer forEach(const Robot& robot, const Options& options, const One& one) {
-  if (options.path.empty()) return one(configuration(robot, options.at, "--at"));
+  if (options.path.empty()) return one(configuration(robot, options, options.at, "--at"));
   Answer all;
   all.json["configurations"] = Json::array();
-  for (const VectorXd& q : pathOf(robot, options.path, 1)) {
+  for (const VectorXd& q : pathOf(robot, options, 1)) {
     Answer answer = one(q);
     all.text += answer.text;
     all.status = std::max(all.status, answer.status);
@@ -134,51 +223,11 @@ Json toJson(const RobotClearance& c) {
 
 }  // namespace
 
-std::string sentenceOf(const std::exception& error) {
-  constexpr char kLibrary[] = "fcl_kios: ";
-  const std::string what = error.what();
-  return what.rfind(kLibrary, 0) == 0 ? what.substr(sizeof(kLibrary) - 1) : what;
-}
-
-Robot load(const Options& options) {
-  RobotOptions robot_options;
-  robot_options.padding = options.padding;
-  for (const std::string& package : options.packages) {
-    const std::size_t equals = package.find('=');
-    if (equals == std::string::npos)
-      refuse("--package must be NAME=FOLDER, but is " + package + ".");
-    const std::string folder = package.substr(equals + 1);
-    if (!fs::is_directory(folder)) refuse("--package " + package + ": there is no such folder.");
-    robot_options.packages[package.substr(0, equals)] = folder;
-  }
-  Robot robot = [&] {
-    try {
-      return loadRobot(options.urdf, options.srdf, robot_options);
-    } catch (const std::invalid_argument& error) {
-      std::string what = sentenceOf(error);  // which speaks of the library's options
-      const std::string by_library = "in RobotOptions::packages";
-      const std::size_t at = what.find(by_library);
-      if (at != std::string::npos) what.replace(at, by_library.size(), "by --package NAME=FOLDER");
-      refuse(what);
-    }
-  }();
-  for (const std::string& scene : options.scenes) robot.addScene(scene);
-  for (const std::string& warning : robot.warnings()) {
-    std::fprintf(stderr, "kios_robot: warning: %s\n", warning.c_str());
-  }
-  if (options.strict && !robot.warnings().empty()) {
-    refuse("there are warnings, which --strict makes errors.");
-  }
-  return robot;
-}
-
 Answer info(const Robot& robot, const Options& /*options*/) {
   Answer answer;
-  answer.json = {{"robot", robot.name()},
-                 {"links", robot.links()},
-                 {"coordinates", Json::array()},
-                 {"states", Json::object()},
-                 {"warnings", robot.warnings()}};
+  answer.json = {{"robot", robot.name()},        {"links", robot.links()},
+                 {"coordinates", Json::array()}, {"states", Json::object()},
+                 {"groups", Json::object()},     {"warnings", robot.warnings()}};
   answer.text = format("%zu links, %d coordinates (radians, metres)\n", robot.links().size(),
                        robot.coordinates());
   const Json lower = listOf(robot.lower()), upper = listOf(robot.upper());
@@ -188,6 +237,14 @@ Answer info(const Robot& robot, const Options& /*options*/) {
         {{"name", name}, {"lower", lower[i]}, {"upper", upper[i]}});
     answer.text +=
         format("  %-32s %.6g to %.6g\n", name.c_str(), robot.lower()[i], robot.upper()[i]);
+  }
+  for (const std::string& name : robot.groups()) {
+    const RobotGroup group = robot.group(name);
+    answer.json["groups"][name] = {
+        {"joints", group.joints}, {"links", group.links}, {"end_effectors", group.end_effectors}};
+    std::string text;
+    for (const std::string& joint : group.joints) text += (text.empty() ? "" : ", ") + joint;
+    answer.text += format("  group %-26s ", name.c_str()) + text + "\n";
   }
   for (const std::string& name : robot.states()) {
     std::string text;
@@ -232,7 +289,7 @@ Answer clearance(const Robot& robot, const Options& options) {
   return forEach(robot, options, [&](const VectorXd& q) {
     Answer answer;
     const auto least = [&](RobotPairs among, const char* name, const char* words) {
-      ClearanceOptions clearance_options;
+      ClearanceRequest clearance_options;
       clearance_options.among = among;
       const RobotClearance c = robot.clearance(q, clearance_options);
       answer.json[name] = toJson(c);
@@ -259,9 +316,10 @@ Answer clearance(const Robot& robot, const Options& options) {
 Answer motion(const Robot& robot, const Options& options) {
   std::vector<VectorXd> path;
   if (options.path.empty()) {
-    path = {configuration(robot, options.at, "--from"), configuration(robot, options.to, "--to")};
+    path = {configuration(robot, options, options.at, "--from"),
+            configuration(robot, options, options.to, "--to")};
   } else {
-    path = pathOf(robot, options.path, 2);
+    path = pathOf(robot, options, 2);
   }
   MotionRequest request;
   request.min_separation = options.separation;
@@ -288,7 +346,7 @@ Answer motion(const Robot& robot, const Options& options) {
 }
 
 Answer pairs(const Robot& robot, const Options& options) {
-  PairOptions pair_options;
+  PairRequest pair_options;
   pair_options.max_boxes = options.boxes;
   pair_options.max_seconds = options.seconds;
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -320,27 +378,19 @@ Answer pairs(const Robot& robot, const Options& options) {
     }
     answer.text += "\n";
   }
-  if (options.srdf_out) answer.text = toSrdf(all, robot.name());
+  if (options.srdf_out) answer.text = robot.toSrdf(all);
   return answer;
 }
 
 Answer show(const Robot& robot, const Options& options) {
   std::vector<VectorXd> path;
   if (options.path.empty()) {
-    path.push_back(configuration(robot, options.at, "--at"));
-    if (!options.to.empty()) path.push_back(configuration(robot, options.to, "--to"));
+    path.push_back(configuration(robot, options, options.at, "--at"));
+    if (!options.to.empty()) path.push_back(configuration(robot, options, options.to, "--to"));
   } else {
-    path = pathOf(robot, options.path, 1);
+    path = pathOf(robot, options, 1);
   }
-  const fs::path folder = fs::absolute(options.html).parent_path();
-  if (!fs::is_directory(folder)) refuse("--html: there is no folder " + folder.string() + ".");
-  const std::string page =
-      showPage(robot, fs::path(options.urdf).stem().string(), path, options.separation);
-  std::ofstream file(options.html, std::ios::binary);
-  if (!(file << page) || !file.flush()) refuse(options.html + ": the page can't be written.");
-  return {{{"html", options.html}, {"bytes", page.size()}},
-          options.html + format(": %.1f MB\n", 1e-6 * static_cast<double>(page.size())),
-          0};
+  return writePage(robot, options, path);
 }
 
 }  // namespace kios::robot_tool

@@ -22,6 +22,7 @@ constexpr char kExamples[] = R"(Lengths are in metres, angles in radians. Exit s
   kios_robot contact arm.urdf --srdf arm.srdf --scene cell.yaml --at 0,0.5,-1,0,0,0
   kios_robot clearance arm.urdf --srdf arm.srdf --at ready --json
   kios_robot motion arm.urdf --srdf arm.srdf --from ready --to extended --first
+  kios_robot range arm.urdf --srdf arm.srdf --joint elbow=-1..2 --json
   kios_robot pairs arm.urdf --to-srdf > arm.srdf
   kios_robot show arm.urdf --scene cell.yaml --path plan.txt --html plan.html)";
 
@@ -41,9 +42,12 @@ std::vector<Command> declare(CLI::App& app, Options& options) {
     command->add_option("URDF", options.urdf, "the robot")->required();
     command->add_option("--srdf", options.srdf, "allowed pairs and group states");
     command->add_option("--scene", options.scenes, "MoveIt's planning scene in YAML; repeatable");
+    command->add_option("--octomap", options.octomaps, "NAME=FILE of .bt or .ot; repeatable");
     command->add_option("--package", options.packages, "NAME=FOLDER of package://NAME; repeatable");
     command->add_option("--padding", options.padding, "of all links, metres")
         ->check(CLI::Range(0.0, 1e6));
+    command->add_flag("--beyond-limits", options.beyond_limits,
+                      "takes configurations and ranges beyond the joints' limits");
     command->add_flag("--strict", options.strict, "takes warnings for errors");
     command->add_flag("--json", options.json, "prints JSON");
     commands.push_back({command, run});
@@ -71,6 +75,25 @@ std::vector<Command> declare(CLI::App& app, Options& options) {
   way->add_flag("--first", options.first, "asks for the earliest contact");
   way->callback([&options, end] {
     if (options.path.empty() && end->count() == 0) throw CLI::RequiredError("--to or --path");
+  });
+  CLI::App* const swept =
+      add("range", "least clearance over ranges of joints, or over a path, proven", range);
+  CLI::Option* const joint = swept->add_option(
+      "--joint", options.joints, "NAME=LOWER..UPPER, or NAME for all of its limits; repeatable");
+  CLI::Option* const where = swept->add_option("-q,--at,--from", options.at, at);
+  CLI::Option* const goal = swept->add_option("--to", options.to, q)->excludes(joint);
+  CLI::Option* const plan = addPath(swept)->excludes(where)->excludes(goal)->excludes(joint);
+  swept->add_option("--abs-err", options.range.abs_err, "of the bracket, metres; or")
+      ->capture_default_str();
+  swept->add_option("--rel-err", options.range.rel_err, "of the clearance")->capture_default_str();
+  swept->add_option("--ceiling", options.range.ceiling, "no more is asked for, metres");
+  swept->add_option("--queries", options.range.max_queries, "that it may take")
+      ->capture_default_str();
+  swept->add_flag("--each", options.each, "of each pair, the nearest first");
+  swept->add_option("--html", options.html, "writes a page of one joint's range, or of the path");
+  swept->callback([joint, goal, plan] {
+    if (joint->count() + goal->count() + plan->count() > 0) return;
+    throw CLI::RequiredError("--joint, --to or --path");
   });
   CLI::App* const page = add("show", "a page to look at: the robot, its obstacles, a path", show);
   CLI::Option* const from = page->add_option("-q,--from,--at", options.at, at);

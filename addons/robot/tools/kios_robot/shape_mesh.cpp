@@ -13,7 +13,7 @@
 #include <fcl/geometry/shape/halfspace.h>
 #include <fcl/geometry/shape/plane.h>
 #include <fcl/geometry/shape/sphere.h>
-#include "fcl_kios/model/model.h"
+#include "fcl_kios/model.h"
 
 namespace kios::robot_tool {
 namespace {

@@ -68,6 +68,19 @@ Json frameOf(const Robot& robot, const std::vector<RobotElement>& elements, cons
   return result;
 }
 
+/// Brackets of the least clearance on each step of a path: nothing is nearer, nor is less seen.
+Json bandOf(const Robot& robot, const Way& way, const std::vector<double>& times) {
+  RangeRequest request;
+  request.rel_err = 0.05;
+  request.max_queries = 500;  // a page of a hundred steps
+  Json band = Json::array();
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const RobotRange step = robot.leastClearance(way.at(times[i]), way.at(times[i + 1]), request);
+    band.push_back({step.lower, step.upper});
+  }
+  return band;
+}
+
 Json sceneMesh(const RobotElement& element, const ShapeMesh& mesh, const Json& color) {
   std::vector<float> positions;
   for (const Vector3d& p : mesh.vertices) {
@@ -143,9 +156,10 @@ std::string showPage(const Robot& robot, const std::string& title,
   for (const double s : times) {
     frames.push_back(frameOf(robot, elements, way.at(s), s, frame));
   }
-  const Json content = {{"title", title},   {"joints", robot.joints()}, {"notes", notes},
-                        {"motion", motion}, {"frames", frames},         {"stops", stops},
-                        {"scene", scene}};
+  const Json content = {{"title", title},   {"joints", robot.joints()},
+                        {"notes", notes},   {"motion", motion},
+                        {"frames", frames}, {"stops", stops},
+                        {"scene", scene},   {"band", bandOf(robot, way, times)}};
   return viewer::page(viewer::kPageText,
                       content.dump(-1, ' ', false, Json::error_handler_t::replace));
 }

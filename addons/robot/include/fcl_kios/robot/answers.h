@@ -13,7 +13,7 @@
 
 #include <fcl/common/types.h>
 #include <fcl/geometry/collision_geometry.h>
-#include "fcl_kios/linkage/linkage.h"
+#include "fcl_kios/linkage.h"
 
 // What a robot is asked for, and what it answers (robot.h).
 
@@ -30,6 +30,15 @@ struct RobotElement {
   bool obstacle = false, attached = false;
   std::shared_ptr<const fcl::CollisionGeometryd> geometry;
   UnalignedPose X = UnalignedPose::Identity();  ///< in the frame that Robot::pose() gives
+};
+
+/// A planning group of the SRDF.
+struct RobotGroup {
+  std::string name;
+  std::vector<std::string> joints;  ///< names of its coordinates, as Robot::joints()
+  std::vector<int> coordinates;     ///< their places in q: q(coordinates) is the group's part
+  std::vector<std::string> links;   ///< that its joints carry
+  std::vector<std::string> end_effectors;  ///< groups that are its end effectors
 };
 
 /// Names two that are in contact: links, obstacles or attached objects. Where several pairs are, or
@@ -52,7 +61,7 @@ enum class RobotPairs {
 };
 
 /// Options of Robot::clearance().
-struct ClearanceOptions {
+struct ClearanceRequest {
   RobotPairs among = RobotPairs::kAll;
   /// The distance may exceed the exact one by max(rel_err * exact, abs_err). >= 0.
   double rel_err = 0, abs_err = 0;
@@ -61,6 +70,7 @@ struct ClearanceOptions {
   double far_enough = std::numeric_limits<double>::infinity();
   bool gradient = true;  ///< d clearance / dq is asked for
 };
+using ClearanceOptions [[deprecated("now ClearanceRequest")]] = ClearanceRequest;
 
 /// Distance of a pair less both paddings, with its gradient and nearest points.
 struct RobotClearance {
@@ -69,8 +79,9 @@ struct RobotClearance {
   double clearance = std::numeric_limits<double>::infinity();
   /// Proven but for the errors of docs/robot.md; of all pairs where the least was asked for.
   double lower_bound = std::numeric_limits<double>::infinity();
-  /// Nearest points in the world; a common point of both at contact, if one is known.
-  fcl::Vector3d point_a = fcl::Vector3d::Zero(), point_b = fcl::Vector3d::Zero();
+  /// Nearest points in the world, NaN without a pair; at contact a common one, if one is known.
+  fcl::Vector3d point_a = fcl::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()),
+                point_b = point_a;
   std::intptr_t id_a = -1, id_b = -1;  ///< their triangles, or cells of octrees; -1 for shapes
   /// Gradient by coordinate, n^T (J_b - J_a), n the direction from a to b, of length 1. Where the
   /// nearest pair of points is unique it is the derivative, else one of the generalised gradient.
@@ -80,10 +91,25 @@ struct RobotClearance {
   UnalignedVector gradient;
 };
 
+/// Options of Robot::checkMotion().
+struct RobotMotionRequest : MotionRequest {
+  RobotMotionRequest() = default;
+  RobotMotionRequest(const MotionRequest& request) : MotionRequest(request) {}
+  /// Refuses a path of which an end is beyond a joint's limits, by std::invalid_argument that names
+  /// the joint. All between the ends is within them if both ends are.
+  bool within_limits = false;
+};
+
 /// Answer for distances less the paddings, with the pair's names: those in contact, or undecided.
 /// body_a and body_b are places in the order in which links, then attached objects and obstacles
 /// have collision elements.
-struct RobotMotion : MotionAnswer {
+struct RobotMotion : MotionResult {
+  std::string a, b;
+};
+
+/// Answer for distances less the paddings, with the pair's names; body_a and body_b as in
+/// RobotMotion. In contact it is 0 less the paddings.
+struct RobotRange : RangeResult {
   std::string a, b;
 };
 
@@ -98,7 +124,7 @@ enum class PairVerdict {
 };
 
 /// Options of Robot::linkPairs().
-struct PairOptions {
+struct PairRequest {
   /// Bounds the boxes of configurations a pair that may be looked at.
   long long max_boxes = 4000000;
   /// Seconds after which no more boxes are looked at; what is open then stays so. >= 0, may be
@@ -108,6 +134,7 @@ struct PairOptions {
   /// Called by one thread at a time with how many of all pairs are settled.
   std::function<void(std::size_t settled, std::size_t all)> progress;
 };
+using PairOptions [[deprecated("now PairRequest")]] = PairRequest;
 
 /// Says what two links can do within the limits of the joints between them.
 struct LinkPair {

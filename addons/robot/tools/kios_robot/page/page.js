@@ -41,6 +41,7 @@ function describe() {
     add(panel, 'p', 'Least of the places of the slider: ' +
       (least.contact ? 'contact' : short(least.clearance) + ' m') + `, at ${(100 * least.at).toFixed(1)} %.`, 'faint');
   }
+  if (content.band.some((step) => step[0] !== null)) addCurve(panel);
   add(panel, 'p', 'Blue: the nearest points. Red: what is in contact.', 'faint');
   add(panel, 'h2', 'Coordinates');
   const rows = add(panel, 'dl');
@@ -50,6 +51,36 @@ function describe() {
   });
   describeKeys(panel, [['[ ]', 'along the path'], ['C', 'first contact'],
     ['M O N E S', 'what is shown']]);
+}
+
+// The band of the least clearance, of which each step of the slider has a proven bracket.
+
+const WIDTH = 240, HEIGHT = 90;
+
+function addCurve(panel) {
+  const {band} = content, known = band.flat().filter((x) => x !== null);
+  const most = Math.max(...known, 0), least = Math.min(...known, 0), span = most - least || 1;
+  const x = (i) => WIDTH * frames[i].at;
+  const y = (d) => HEIGHT * (1 - ((d === null ? most : d) - least) / span);
+  // Along the upper ends of all steps, and back along the lower ones.
+  const corners = band.flatMap((b, i) => [[x(i), y(b[1])], [x(i + 1), y(b[1])]]).concat(
+    band.flatMap((b, i) => [[x(i), y(b[0])], [x(i + 1), y(b[0])]]).reverse());
+  const picture = add(panel, 'div', undefined, 'curve');
+  picture.innerHTML = `<svg viewBox="0 -2 ${WIDTH} ${HEIGHT + 4}" role="img"
+    aria-label="The proven band of the least clearance along the path">
+    <line class="axis" x1="0" y1="${y(0)}" x2="${WIDTH}" y2="${y(0)}"/>
+    <path class="band" d="M${corners.map((c) => c.map((v) => v.toFixed(2)).join(' ')).join('L')}Z"/>
+    <line class="place" y1="0" y2="${HEIGHT}"/></svg>`;
+  fields.place = picture.querySelector('.place');
+  picture.addEventListener('click', (event) => {
+    const box = picture.firstElementChild.getBoundingClientRect();
+    const at = (event.clientX - box.left) / box.width;
+    choosePlace(frames.reduce((best, frame, i) =>
+      Math.abs(frame.at - at) < Math.abs(frames[best].at - at) ? i : best, 0));
+  });
+  const low = Math.min(...band.map((b) => b[0] === null ? Infinity : b[0]));
+  add(panel, 'p', `Proven for each step of the slider, up to ${short(most)} m` +
+    (low > 0 ? `; nothing is nearer than ${short(low)} m all along.` : '.'), 'faint');
 }
 
 // Controls.
@@ -75,6 +106,9 @@ function choosePlace(place) {
   shown.place = Math.min(Math.max(place, 0), frames.length - 1);
   const frame = frames[shown.place];
   byId('path').value = shown.place;
+  if (fields.place) {
+    for (const end of ['x1', 'x2']) fields.place.setAttribute(end, WIDTH * frame.at);
+  }
   byId('path-name').textContent = `${(100 * frame.at).toFixed(1)} % of the path`;
   const poseOf = posesAt(shown.place);
   scene.meshes.forEach((mesh, i) => {

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+// The constants of this folder that were found by trying, for penetrations: of 400 random pairs of
+// boxes, plates, gears, balls, tori and blobs, deep and shallow ones, and what another value does
+// to the sums of the upper and lower bounds' logarithms and to the time (2026-11-29).
+
+namespace kios::tuning {
+
+/// Steps of whatever goes uphill or shrinks. 6: lower bounds are 1.4 % less; 24 do as well.
+constexpr int kUphill = 12;
+/// Halvings of a way. 4 to 24 do as well.
+constexpr int kHalvings = 6;
+/// Below this part of what is required, lower bounds are looked for from elsewhere. 0.2: 0.6 %
+/// less; 1 does as well.
+constexpr double kPoor = 0.6;
+/// Points of the polytope between two convex solids, at most. 32 to 512 do as well.
+constexpr int kHullPoints = 128;
+/// Where balls overlap by more of an edge, planes aren't tried. 0.1: 0.6 times the time, but bars
+/// that leave several walls at once (test solid_exits) go twice as far as they must.
+constexpr double kDeep = 0.5;
+/// Corners of planes that are looked at. 256: 1.1 times the time; 64: translations 0.3 % longer.
+constexpr std::size_t kCorners = 128;
+/// Pairs of triangles that meet are used up to so many. 32: 1.2 times the time; 8: 0.4 % longer.
+constexpr std::size_t kContacts = 16;
+/// An exit, or a ball, is changed for what may be so much better. 0.95 to 0.99 do as well.
+constexpr double kEnough = 0.98;
+/// Starts on the way out, in parts of the pair's size. 0.25 and 0.5: 3 % longer; 0.05 and 0.5: 2 %.
+constexpr double kNear = 0.1, kFar = 0.25;
+/// Planes of the last nearest points that bound the next step. 2 to 24 do as well.
+constexpr std::size_t kPlanes = 6;
+/// Places of the surface from which inner balls grow, and balls. 8 balls: lower bounds are 1.4 %
+/// less; 128 and 512 places, and 32 balls, do as well.
+constexpr std::size_t kSamples = 256, kBalls = 16;
+
+// Local depth, found by trying on flush boxes, sheets through blocks, pockets, tori and blobs,
+// which docs/solids.md names; what other values do was not recorded.
+
+/// Pairs of triangles that meet, whose corners are looked at first.
+constexpr std::size_t kDepthContacts = 4;
+/// Solids with walls are given up after so many pieces.
+constexpr long long kMostWithWalls = 4000;
+/// A way that parts both solids is tried again after so many times the pieces.
+constexpr long long kTryLater = 16;
+/// Pieces so many times larger than deep are cut along triangles.
+constexpr double kLarge = 2;
+/// Halves are cut here: in the middle, planes of regular meshes would be met.
+constexpr double kHalf = 0.4472;
+/// Triangles in a piece's way that end a move.
+constexpr int kBlockers = 32;
+/// Visits of nodes and triangles by moves that count as a piece.
+constexpr long long kVisitsPerPiece = 64;
+/// Pairs of triangles that are looked at to rule out walls, for all and for each: fans have many.
+constexpr std::size_t kMeetings = std::size_t{1} << 20, kMeetingsPerTriangle = 64;
+/// Triangles of a part that are tried for whether it is a wall.
+constexpr std::size_t kTries = 8;
+
+}  // namespace kios::tuning

@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// The least clearance over ranges of joints: mechanisms whose minima are known, random trees of
+// joints against dense samples, and budgets.
+#include "linkage/joint_ranges.h"
+
+namespace kios::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double leastAt(const RobotCase& robot, const Joints& q) {
+  double least = kInf;
+  const auto X = robot.poses(q);
+  const int count = static_cast<int>(robot.bodies.size());
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      if (!robot.checked(a, b)) continue;
+      const bool meet = robot.meet(a, X[a], b, X[b], 0);
+      least = std::min(least, meet ? 0 : distanceOf(robot, a, b, X));
+    }
+  }
+  return least;
+}
+
+/// The straight path, the box of its ends, and both the other way round.
+void expectLeastOfTurn(const RobotCase& robot, double from, double to, double least, double width) {
+  const Joints q0 = joints({from}), q1 = joints({to});
+  expectLeast(robot, leastClearance(robot.linkage, q0, q1, fine(width)), least, width);
+  expectLeast(robot, leastClearance(robot.linkage, q1, q0, fine(width)), least, width);
+  expectLeast(robot, leastClearance(robot.linkage, JointBox{{from}, {to}}, fine(width)), least,
+              width);
+}
+
+// The far edge of a leaf passes the jamb: its corners are nearest where they point at it.
+TEST(JointRange, ADoorOnItsHinge) {
+  Random random(1);
+  for (const double gap : {0.003, 0.05, 0.5}) {
+    for (int turned = 0; turned < 3; ++turned) {
+      const double width = 0.9, thick = 0.04, length = std::hypot(width, 0.5 * thick);
+      const Transform3d X_W = turned > 0 ? randomPose(random, 3) : Transform3d::Identity();
+      RobotCase robot;
+      Joint hinge = joint(JointType::kRevolute);
+      hinge.X_PJ = X_W;
+      robot.addLink(-1, hinge);
+      robot.addBody(0, modelOf(scenes::subdividedBox({width, thick, 2}, 12)),
+                    shifted(0.5 * width, 0, 0));
+      robot.addBody(-1, boxOf(0.1, 0.2, 2.1), X_W * shifted(width + gap + 0.05, 0, 0));
+      robot.addBody(-1, boxOf(0.1, 0.2, 2.1), X_W * shifted(-0.08, -0.9, 0));  // the other one
+      expectLeastOfTurn(robot, -0.1, 1.6, width + gap - length, 0.01 * gap);
+    }
+  }
+}
+
+// An eccentric disc and its follower, all round: the turn is a continuous joint's.
+TEST(JointRange, ACamOfCircles) {
+  const double radius = 0.1, off = 0.03, far = 0.3;
+  for (const bool mesh : {false, true}) {
+    RobotCase robot;
+    robot.addLink(-1, joint(JointType::kRevolute, {1, 2, 3}, {0, 0, 2}));  // half a turn is one
+    robot.addBody(0, std::make_shared<fcl::Sphered>(radius), shifted(off, 0, 0));
+    const Transform3d X = shifted(1, 2 + far + 0.05, 3);
+    if (mesh) {
+      robot.addBody(-1, boxOf(0.1, 0.1, 0.1), X);
+    } else {
+      robot.addBody(-1, std::make_shared<fcl::Sphered>(0.05), X);
+    }
+    for (const auto& [low, high] : {std::pair(-kInf, kInf), std::pair(-100.0, kInf),
+                                    std::pair(-kInf, 7.0), std::pair(-1e6, 1e6)}) {
+      const RangeResult result = leastClearance(robot.linkage, JointBox{{low}, {high}}, fine(1e-6));
+      expectLeast(robot, result, far - off - radius, 1e-6, 1e-9);
+      EXPECT_LE(result.queries, 10000);
+    }
+  }
+}
+
+// A parallelogram: the coupler, which mimics the crank, stays upright on its way round.
+TEST(JointRange, AFourBarOfMimics) {
+  const double crank = 0.4, high = 0.55;
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kRevolute));
+  Joint coupler = joint(JointType::kRevolute, {crank, 0, 0});
+  coupler.coordinate = 0;
+  coupler.multiplier = -1;
+  robot.addLink(0, coupler);
+  Joint rocker = joint(JointType::kRevolute, {1, 0, 0});
+  rocker.coordinate = 0;
+  robot.addLink(-1, rocker);
+  robot.addBody(1, boxOf(1.1, 0.05, 0.05), shifted(0.5, 0, 0));
+  robot.addBody(2, boxOf(crank, 0.02, 0.02), shifted(0.5 * crank, 0, -0.2));
+  robot.addBody(-1, boxOf(3, 0.1, 0.1), shifted(0, high + 0.05, 0));
+  expectLeastOfTurn(robot, 0.1, 3, high - crank - 0.025, 1e-5);
+}
+
+// Stretched out, two links of a planar arm are nearest to what is out of their reach.
+TEST(JointRange, ABoxOfAPlanarArm) {
+  Random random(3);
+  for (int turned = 0; turned < 3; ++turned) {
+    const Transform3d X_W = turned > 0 ? randomPose(random, 2) : Transform3d::Identity();
+    RobotCase robot;
+    Joint base = joint(JointType::kRevolute);
+    base.X_PJ = X_W;
+    robot.addLink(-1, base);
+    robot.addLink(0, joint(JointType::kRevolute, {0.5, 0, 0}));
+    robot.addBody(0, std::make_shared<fcl::Capsuled>(0.04, 0.3),
+                  shifted(0.25, 0, 0) * Transform3d(Eigen::AngleAxisd(kPi / 2, Vector3d::UnitY())));
+    robot.addBody(1, std::make_shared<fcl::Sphered>(0.05), shifted(0.4, 0, 0));
+    robot.addBody(-1, std::make_shared<fcl::Sphered>(0.1), X_W * shifted(0.6, 1.0, 0));
+    robot.ignorePair(0, 1);
+    const double least = std::hypot(0.6, 1.0) - 0.9 - 0.15;
+    const RangeResult result =
+        leastClearance(robot.linkage, JointBox{{-kInf, -2}, {kInf, 2}}, fine(1e-3));
+    expectLeast(robot, result, least, 1e-3, 1e-9);
+    EXPECT_EQ(result.body_a, 1);
+    EXPECT_EQ(result.body_b, 2);
+    EXPECT_NEAR(result.at[1], 0, 0.1);
+    // Each pair by itself, of which that is the least.
+    const auto each = leastClearances(robot.linkage, JointBox{{-kInf, -2}, {kInf, 2}}, fine(1e-3));
+    ASSERT_EQ(each.size(), 2U);
+    EXPECT_EQ(each[0].body_a, 0);
+    EXPECT_EQ(each[0].body_b, 2);
+    EXPECT_GT(each[0].lower, 0.5);
+    expectLeast(robot, each[1], least, 1e-3, 1e-9);
+  }
+}
+
+RobotCase randomArm(Random& random, bool shapes) {
+  RobotCase robot;
+  const auto geometry = [&]() -> BodyGeometry {
+    const double size = random.uniform(0.05, 0.2);
+    const double kind = random.unit();
+    if (shapes && kind < 0.3) return std::make_shared<fcl::Sphered>(size);
+    if (shapes && kind < 0.6) return std::make_shared<fcl::Capsuled>(0.4 * size, 2 * size);
+    if (kind < 0.5) return modelOf(scenes::subdividedBox({3 * size, 0.05, 0.1}, 2));
+    return modelOf(scenes::flangedCylinder(0.5 * size, 2 * size, 8));
+  };
+  for (int i = 0; i < 3; ++i) {
+    const bool slides = random.unit() < 0.3;
+    Joint next = joint(slides ? JointType::kPrismatic : JointType::kRevolute);
+    next.X_PJ = randomPose(random, 0.6);
+    next.axis = random.uniform(0.3, 1.2) * inBall(random);
+    if (i == 2 && random.unit() < 0.5) {
+      next.coordinate = 0;
+      next.multiplier = random.uniform(-1.5, 1.5);
+      next.offset = 0.2;
+    }
+    robot.addLink(i - 1, next);
+    robot.addBody(i, geometry(), randomPose(random, 0.2));
+  }
+  for (int i = 0; i < 4; ++i) robot.addBody(-1, geometry(), randomPose(random, 1.6));
+  return robot;
+}
+
+// No sample is below `lower`, and what is said to be seen is seen.
+TEST(JointRange, NoSampleIsBelow) {
+  Random random(5);
+  int clear = 0, contacts = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    RobotCase robot = randomArm(random, trial % 2 == 0);
+    const int n = robot.linkage.coordinates();
+    Joints q0(n), q1(n);
+    for (int k = 0; k < n; ++k) {
+      q0[k] = random.uniform(-0.7, 0.3);
+      q1[k] = q0[k] + random.uniform(0, 0.5);
+    }
+    robot.ignorePair(0, 1);
+    robot.ignorePair(1, 2);
+    const JointBox box{{q0.data(), q0.data() + n}, {q1.data(), q1.data() + n}};
+    RangeRequest request;
+    request.rel_err = 0.05;
+    for (const bool in_box : {false, true}) {
+      const RangeResult result = in_box ? leastClearance(robot.linkage, box, request)
+                                        : leastClearance(robot.linkage, q0, q1, request);
+      SCOPED_TRACE("trial " + std::to_string(trial) + (in_box ? " box" : " path"));
+      EXPECT_LE(result.lower, result.upper);
+      EXPECT_TRUE(result.complete);
+      if (result.complete) {
+        EXPECT_LE(result.upper - result.lower, std::max(1e-4, 0.05 * result.upper) * (1 + 1e-9));
+      }
+      double least = kInf;
+      for (int i = 0; i <= 200; ++i) {
+        Joints q = between(q0, q1, 0.005 * i);
+        for (int k = 0; in_box && k < n; ++k) q[k] = random.uniform(q0[k], q1[k]);
+        least = std::min(least, leastAt(robot, q));
+      }
+      EXPECT_GE(least, result.lower - 1e-9);
+      EXPECT_LE(result.upper, least + std::max(1e-4, 0.06 * least));
+      double nearest = kInf;  // of single pairs
+      for (const RangeResult& pair : in_box ? std::vector<RangeResult>{result}
+                                            : leastClearances(robot.linkage, q0, q1, request)) {
+        EXPECT_TRUE(pair.complete);
+        nearest = std::min(nearest, pair.upper);
+        for (int i = 0; i <= 40; ++i) {
+          const auto X = robot.poses(between(q0, q1, 0.025 * i));
+          const int a = pair.body_a, b = pair.body_b;
+          const bool meet = robot.meet(a, X[a], b, X[b], 0);
+          EXPECT_GE(meet ? 0 : distanceOf(robot, a, b, X), pair.lower - 1e-9);
+        }
+      }
+      EXPECT_GE(nearest, result.lower);
+      EXPECT_LE(nearest, result.upper + std::max(1e-4, 0.05 * result.upper));
+      ASSERT_EQ(static_cast<int>(result.at.size()), n);
+      const Joints at = placeOf(result);
+      for (int k = 0; k < n; ++k) {
+        EXPECT_GE(at[k], q0[k]);
+        EXPECT_LE(at[k], q1[k]);
+      }
+      EXPECT_LE(leastAt(robot, at), result.upper + 1e-7);
+      EXPECT_GE(leastAt(robot, at), result.lower - 1e-9);
+      const RangeResult again = in_box ? leastClearance(robot.linkage, box, request)
+                                       : leastClearance(robot.linkage, q0, q1, request);
+      EXPECT_EQ(again.lower, result.lower);
+      EXPECT_EQ(again.upper, result.upper);
+      EXPECT_EQ(again.at, result.at);
+      (result.upper > 0 ? clear : contacts) += 1;
+    }
+  }
+  EXPECT_GT(clear, 30);
+  EXPECT_GT(contacts, 2);
+}
+
+TEST(JointRange, BudgetsEndWithABracket) {
+  Random random(8);
+  RobotCase robot;
+  for (int i = 0; i < 6; ++i) {
+    robot.addLink(i - 1, joint(JointType::kRevolute, {0.2, 0, 0}, inBall(random)));
+    robot.addBody(i, boxOf(0.1, 0.03, 0.03), shifted(0.1, 0, 0));
+  }
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a + 1; b < 6; ++b) robot.ignorePair(a, b);
+  }
+  robot.addBody(-1, boxOf(0.3, 0.3, 0.3), shifted(1.6, 0.3, 0.2));
+  const JointBox box{std::vector<double>(6, -0.2), std::vector<double>(6, 0.2)};
+  double lower = -kInf, upper = kInf;
+  for (const long long most : {0, 30, 1000, 30000}) {
+    RangeRequest request = fine(1e-9);
+    request.max_queries = most;
+    const RangeResult result = leastClearance(robot.linkage, box, request);
+    EXPECT_FALSE(result.complete);
+    EXPECT_LE(result.queries, most + 20);
+    EXPECT_LE(result.lower, result.upper);
+    EXPECT_GE(result.lower, lower);
+    EXPECT_LE(result.upper, upper);
+    lower = result.lower;
+    upper = result.upper;
+  }
+  EXPECT_GT(lower, 0);
+  EXPECT_LT(upper, 2);
+  for (int i = 0; i < 2000; ++i) {
+    Joints q(6);
+    for (double& x : q) x = random.uniform(-0.2, 0.2);
+    EXPECT_GE(leastAt(robot, q), lower);
+  }
+  for (const long long most : {0, 5, 20, 100}) {
+    RangeRequest request = fine(1e-12);
+    request.max_queries = most;
+    const RangeResult result =
+        leastClearance(robot.linkage, Joints::Constant(6, -1), Joints::Constant(6, 1), request);
+    EXPECT_LE(result.lower, result.upper);
+    if (most <= 20) {
+      EXPECT_FALSE(result.complete);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing

@@ -1,0 +1,204 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// findClashes() against arithmetic for boxes, and against queries of every pair for other meshes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fcl/geometry/shape/sphere.h>
+#include "scene/clash_parts.h"
+
+namespace kios::testing {
+namespace {
+
+/// An axis-aligned box whose corners are multiples of 1/8, so that what adds up is exact.
+struct Box {
+  fcl::Vector3d low, high;
+
+  std::shared_ptr<Modeld> solid() const {
+    Mesh mesh = scenes::subdividedBox({1, 1, 1}, 1);
+    for (fcl::Vector3d& p : mesh.vertices) {
+      for (int c = 0; c < 3; ++c) p[c] = p[c] < 0 ? low[c] : high[c];
+    }
+    return solidOf(mesh);
+  }
+};
+
+Box randomBox(Random& random) {
+  Box box;
+  const auto eighths = [&](double least, double most) {
+    return std::floor(random.uniform(least, most)) / 8;
+  };
+  for (int c = 0; c < 3; ++c) {
+    box.low[c] = eighths(0, 32);
+    box.high[c] = box.low[c] + eighths(1, 16);
+  }
+  return box;
+}
+
+struct Expected {
+  ClashStatus status;
+  double distance = 0;  // if they are apart
+};
+
+/// By arithmetic alone; none if the boxes are farther apart than the clearance.
+std::optional<Expected> expectedOf(const Box& a, const Box& b, const ClashRequest& request) {
+  if (a.low == b.low && a.high == b.high) return Expected{ClashStatus::kDuplicate};
+  const fcl::Vector3d gap = (a.low - b.high).cwiseMax(b.low - a.high);
+  if (gap.maxCoeff() < 0) {
+    const auto in = [](const Box& x, const Box& y) {
+      return (x.low - y.low).minCoeff() > 0 && (y.high - x.high).minCoeff() > 0;
+    };
+    return Expected{in(a, b) || in(b, a) ? ClashStatus::kInside : ClashStatus::kOverlap};
+  }
+  const double distance = gap.cwiseMax(0).norm();
+  if (distance <= request.touch) return Expected{ClashStatus::kTouch, distance};
+  if (distance <= request.clearance) return Expected{ClashStatus::kClearance, distance};
+  return std::nullopt;
+}
+
+void expectEqual(const std::vector<ClashResult>& x, const std::vector<ClashResult>& y) {
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_EQ(Pair(x[i].a, x[i].b), Pair(y[i].a, y[i].b));
+    EXPECT_EQ(x[i].status, y[i].status);
+    EXPECT_EQ(x[i].deep, y[i].deep);
+    EXPECT_EQ(x[i].decided, y[i].decided);
+    EXPECT_EQ(x[i].lower, y[i].lower);
+    EXPECT_EQ(x[i].upper, y[i].upper);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(x[i].point_a[c], y[i].point_a[c]);
+      EXPECT_EQ(x[i].point_b[c], y[i].point_b[c]);
+      EXPECT_EQ(x[i].way_out[c], y[i].way_out[c]);
+    }
+  }
+}
+
+TEST(Clashes, OfBoxesAreThoseOfArithmeticAtEveryPlace) {
+  Random random(1);
+  std::map<ClashStatus, int> seen;
+  for (int round = 0; round < casesOr(4); ++round) {
+    // Turned and moved all alike, the boxes clash as before; flush faces only to rounding.
+    fcl::Transform3d X = fcl::Transform3d::Identity();
+    if (round % 2 == 1) X = scenes::randomPoses(1, 1, 7 + static_cast<std::uint64_t>(round))[0];
+    if (round % 4 == 3) X.translation() += fcl::Vector3d(1e6, -2e6, 1e3);
+    ClashRequest request;
+    request.clearance = 0.3;
+    std::vector<Box> boxes;
+    Parts parts;
+    for (std::size_t i = 0; i < 120; ++i) {
+      boxes.push_back(i % 12 == 11 ? boxes[i - 5] : randomBox(random));
+      parts.push_back(partOf(boxes.back().solid(), X, i));
+    }
+    const auto clashes = findClashes(parts, request);
+    auto found = byPair(clashes);
+    for (std::size_t a = 0; a < boxes.size(); ++a) {
+      for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+        SCOPED_TRACE(std::to_string(a) + " and " + std::to_string(b));
+        const auto expected = expectedOf(boxes[a], boxes[b], request);
+        const auto at = found.find({a, b});
+        ASSERT_EQ(at != found.end(), expected.has_value());
+        if (!expected) continue;
+        const ClashResult clash = at->second;
+        EXPECT_EQ(clash.status, expected->status);
+        EXPECT_TRUE(clash.decided);
+        ++seen[clash.status];
+        const fcl::Vector3d overlap =
+            boxes[a].high.cwiseMin(boxes[b].high) - boxes[a].low.cwiseMax(boxes[b].low);
+        if (expected->status == ClashStatus::kClearance) {
+          EXPECT_FALSE(clash.deep);
+          EXPECT_LE(clash.lower, expected->distance);
+          EXPECT_GE(clash.upper, expected->distance);
+          EXPECT_NEAR((toVector(clash.point_a) - toVector(clash.point_b)).norm(), clash.lower,
+                      1e-8);
+        } else if (expected->status == ClashStatus::kOverlap ||
+                   expected->status == ClashStatus::kInside) {
+          EXPECT_TRUE(clash.deep);
+          // A ball fits into what they share, which is no wider than twice the depth.
+          EXPECT_GE(clash.upper, overlap.minCoeff() / 2);
+          EXPECT_GT(clash.lower, request.touch);
+          const fcl::Vector3d moved = toVector(clash.way_out);
+          EXPECT_GE(moved.norm(), overlap.minCoeff() * (1 - 1e-9));
+        }
+      }
+    }
+    request.threads = 3;
+    expectEqual(findClashes(parts, request), clashes);
+  }
+  EXPECT_EQ(seen.size(), 5u);  // every status
+}
+
+TEST(Clashes, OfMeshesAreThoseOfQueriesOfEachPair) {
+  std::vector<std::shared_ptr<const Modeld>> models;
+  for (const NamedMesh& named : solidMeshes()) models.push_back(solidOf(named.mesh));
+  models.push_back(modelOf(scenes::sheet(3, 3, 8, 8, 0.3)));
+  models.push_back(modelOf(scenes::randomSoup(60, 1, 0.1, 0.5, 3)));
+  for (int round = 0; round < casesOr(3); ++round) {
+    ClashRequest request;
+    request.touch = 1e-4;
+    request.clearance = 0.2;
+    const auto poses = scenes::randomPoses(30, 3, 17 + static_cast<std::uint64_t>(round));
+    Parts parts;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      parts.push_back(partOf(models[i % models.size()], poses[i], i));
+    }
+    const auto found = byPair(findClashes(parts, request));
+    for (std::size_t a = 0; a < parts.size(); ++a) {
+      for (std::size_t b = a + 1; b < parts.size(); ++b) {
+        SCOPED_TRACE(std::to_string(a) + " and " + std::to_string(b));
+        const auto& model_a = static_cast<const Modeld&>(*parts[a].geometry);
+        const auto& model_b = static_cast<const Modeld&>(*parts[b].geometry);
+        const fcl::Transform3d X_a(parts[a].X_WP), X_b(parts[b].X_WP);
+        const double apart = distanceBracket(model_a, X_a, model_b, X_b).distance;
+        const auto clash = found.find({a, b});
+        // Whether a corner of one lies in the other, far from its surface.
+        const auto holds = [](const Modeld& outer, const fcl::Transform3d& X_o, const Modeld& inner,
+                              const fcl::Transform3d& X_i) {
+          for (int v = 0; isSolid(outer) && v < inner.num_vertices; ++v) {
+            if (contains(outer, X_o, X_i * inner.vertices[v])) return true;
+          }
+          return false;
+        };
+        const bool contained =
+            holds(model_a, X_a, model_b, X_b) || holds(model_b, X_b, model_a, X_a);
+        if (apart > request.clearance && !contained) {
+          EXPECT_EQ(clash, found.end());
+          continue;
+        }
+        ASSERT_NE(clash, found.end());
+        const ClashResult& got = clash->second;
+        if (!contained && apart > 0) {
+          EXPECT_EQ(got.status,
+                    apart <= request.touch ? ClashStatus::kTouch : ClashStatus::kClearance);
+          EXPECT_LE(got.lower, apart);
+          EXPECT_GE(got.upper, apart);
+        } else if (isSolid(model_a) && isSolid(model_b)) {
+          LocalDepthRequest rough;
+          rough.rel_err = 0.1;
+          rough.max_pieces = 3000;
+          const LocalDepthResult depth = localDepth(model_a, X_a, model_b, X_b, rough);
+          EXPECT_LE(got.lower, depth.upper);
+          EXPECT_GE(got.upper, depth.lower);
+          EXPECT_TRUE(got.deep);
+          const bool touches = got.status == ClashStatus::kTouch;
+          EXPECT_FALSE(touches && depth.lower > request.touch);
+          EXPECT_TRUE(touches || apart > 0 || depth.upper > request.touch);
+          EXPECT_FALSE(got.status == ClashStatus::kInside && apart == 0);
+        } else {
+          EXPECT_TRUE(got.status == ClashStatus::kOverlap || got.status == ClashStatus::kInside);
+          EXPECT_EQ(got.upper, std::numeric_limits<double>::infinity());
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace kios::testing
