@@ -14,10 +14,19 @@ struct Owned {
   std::uint32_t first = kNone;  ///< packed FeatureId of its first triangle
 };
 
-/// The first leaf that meets a feature owns it.
-void offer(Owned& feature, std::uint32_t leaf, std::uint32_t packed) {
+/// Offers a feature to a leaf, which takes it if it owns clearly less than the owner so far. If the
+/// first leaf keeps all, leaves name twice as many pairs: world/table_top/ur5 distance has 0.87 of
+/// its speed, world/crate/parts 0.88.
+void offer(Owned& feature, std::uint32_t leaf, std::uint32_t packed,
+           std::vector<std::uint32_t>& owned_by) {
   feature.first = std::min(feature.first, packed);
-  if (feature.leaf == kNone) feature.leaf = leaf;
+  if (feature.leaf == leaf) return;
+  if (feature.leaf != kNone) {
+    if (owned_by[feature.leaf] <= owned_by[leaf] + 1) return;
+    --owned_by[feature.leaf];
+  }
+  feature.leaf = leaf;
+  ++owned_by[leaf];
 }
 
 /// Edges by their two vertices; open addressing.
@@ -99,6 +108,7 @@ Ownership assignFeatures(const std::vector<Corners3>& corners,
   const std::size_t num_leaves = leaf_begin.size() - 1;
   std::vector<Owned> vertices(num_vertices);
   EdgeTable edges(corners.size() * 3 / 2 + 16);
+  std::vector<std::uint32_t> edges_of(num_leaves, 0), vertices_of(num_leaves, 0);
   for (std::uint32_t leaf = 0; leaf < num_leaves; ++leaf) {
     for (std::uint32_t i = leaf_begin[leaf]; i < leaf_begin[leaf + 1]; ++i) {
       constexpr std::uint32_t kAhead = 8;
@@ -114,8 +124,8 @@ Ownership assignFeatures(const std::vector<Corners3>& corners,
       const Corners3& v = corners[triangle];
       for (std::uint32_t k = 0; k < 3; ++k) {
         const std::uint32_t packed = triangle << 2 | k;
-        offer(vertices[v[k]], leaf, packed);
-        offer(edges.find(v[k], v[k == 2 ? 0 : k + 1]), leaf, packed);
+        offer(vertices[v[k]], leaf, packed, vertices_of);
+        offer(edges.find(v[k], v[k == 2 ? 0 : k + 1]), leaf, packed, edges_of);
       }
     }
   }
