@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fcl/config.h>
 #include <fcl/geometry/shape/box.h>
@@ -16,19 +15,15 @@
 #include <fcl/geometry/shape/sphere.h>
 #if FCL_HAVE_OCTOMAP
 #include <fcl/geometry/octree/octree.h>
+
+#include "convex.h"
+#include "volume/rounding.h"
 #endif
 
 namespace kios::robot {
 namespace {
 
 using fcl::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <typename Shape>
-const Shape& as(const fcl::CollisionGeometryd& geometry) {
-  return static_cast<const Shape&>(geometry);
-}
 
 /// The box of a list of points, and the largest distance from its middle.
 template <typename Points>

@@ -5,20 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "cell.h"
 #include "pair_query.h"
 #include "volume/ball_lanes.h"
+#include "volume/rounding.h"
 
 namespace kios::robot {
 namespace {
 
 using fcl::Transform3d;
 using fcl::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

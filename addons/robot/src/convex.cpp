@@ -14,6 +14,7 @@
 #include <fcl/geometry/shape/ellipsoid.h>
 #include <fcl/geometry/shape/sphere.h>
 #include "shape/simplex.h"
+#include "volume/rounding.h"
 
 namespace kios::robot {
 namespace {
@@ -21,13 +22,6 @@ namespace {
 using fcl::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-template <typename Shape>
-const Shape& as(const fcl::CollisionGeometryd& geometry) {
-  return static_cast<const Shape&>(geometry);
-}
-
 /// Returns the point of the rim of a disk across z that lies farthest along n.
 Vector3d onRim(const Vector3d& n, double radius, double z) {
   const double length = std::hypot(n.x(), n.y());

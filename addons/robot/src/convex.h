@@ -9,6 +9,12 @@
 
 namespace kios::robot {
 
+/// The geometry as what it is.
+template <typename Shape>
+const Shape& as(const fcl::CollisionGeometryd& geometry) {
+  return static_cast<const Shape&>(geometry);
+}
+
 /// A bounded shape in the world: its core, grown by a margin.
 class Convex {
  public:

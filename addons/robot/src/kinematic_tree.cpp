@@ -3,9 +3,9 @@
 #include "kinematic_tree.h"
 
 #include <Eigen/Geometry>
-#include <limits>
 
 #include "volume/rotation.h"
+#include "volume/rounding.h"
 
 namespace kios::robot {
 namespace {
@@ -44,7 +44,6 @@ std::vector<std::string> coordinatesOf(const UrdfJoint& joint) {
 }  // namespace
 
 KinematicTree::KinematicTree(const Description& robot) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::vector<int> first(robot.joints.size(), -1);
   std::vector<double> low, high;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {

@@ -13,14 +13,13 @@
 #include "convex.h"
 #include "fcl_kios/fcl_kios.h"
 #include "text_file.h"
+#include "volume/rounding.h"
 
 namespace kios::robot {
 namespace {
 
 using fcl::Transform3d;
 using fcl::Vector3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void swap(Nearness& near) {
   std::swap(near.point_a, near.point_b);

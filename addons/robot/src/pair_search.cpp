@@ -5,19 +5,17 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "pair_query.h"
 #include "volume/rotation.h"
+#include "volume/rounding.h"
 
 namespace kios::robot {
 namespace {
 
 using Eigen::Vector3d;
 using fcl::Transform3d;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

@@ -40,7 +40,7 @@ const std::vector<std::string>& Robot::warnings() const { return impl_->warnings
 namespace {
 
 /// The places of a joint's coordinates, none if it doesn't move or mimics another.
-std::vector<int> coordinatesOf(const robot::Arm& arm, const robot::UrdfJoint& joint) {
+std::vector<int> placesOf(const robot::Arm& arm, const robot::UrdfJoint& joint) {
   std::vector<int> places;
   if (!joint.moves() || joint.mimics >= 0) return places;
   const bool several =
@@ -78,7 +78,7 @@ RobotGroup Robot::group(const std::string& name) const {
   RobotGroup group;
   group.name = name;
   for (const int joint : known->second.joints) {
-    for (const int place : coordinatesOf(*impl_->arm, description.joints[joint])) {
+    for (const int place : placesOf(*impl_->arm, description.joints[joint])) {
       group.coordinates.push_back(place);
     }
   }
@@ -115,7 +115,7 @@ UnalignedVector Robot::state(const std::string& name) const {
       refuse("the group state '" + name + "' names the joint '" + joint + "', which " +
              description.name + " doesn't have.");
     }
-    const std::vector<int> places = coordinatesOf(*impl_->arm, *found);
+    const std::vector<int> places = placesOf(*impl_->arm, *found);
     if (places.empty()) continue;
     if (values.size() != places.size()) {
       refuse("the group state '" + name + "' gives the joint '" + joint + "' " +

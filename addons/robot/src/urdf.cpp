@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include <fcl/geometry/shape/box.h>
@@ -15,6 +14,7 @@
 #include "mesh_file.h"
 #include "mesh_path.h"
 #include "text_file.h"
+#include "volume/rounding.h"
 #include "xml_file.h"
 
 namespace kios::robot {
@@ -22,8 +22,6 @@ namespace {
 
 using Eigen::Vector3d;
 using XmlElement = XmlFile::Element;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// fcl_kios: is what our messages begin with.
 std::string textOf(const std::exception& error) {
