@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "build/four_axes.h"
 #include "build/mesh_view.h"
@@ -185,22 +186,19 @@ int BlockPartition::sweep(std::uint32_t* items, int n) const {
   std::copy_n(items, n, best);
   const int num_axes = n > kLeafTriangles ? 2 : 1;
   for (int a = 0; a < num_axes; ++a) {
-    std::uint32_t sorted[kSweep];
-    std::copy_n(items, n, sorted);
-    std::sort(sorted, sorted + n, [this, axis = axes[a]](std::uint32_t i, std::uint32_t j) {
-      const float of_i = items_[i].center[axis], of_j = items_[j].center[axis];
-      return of_i < of_j || (of_i == of_j && i < j);
-    });
+    std::pair<float, std::uint32_t> sorted[kSweep];
+    for (int i = 0; i < n; ++i) sorted[i] = {items_[items[i]].center[axes[a]], items[i]};
+    std::sort(sorted, sorted + n);
     float suffix[kSweep];
     LaneBox box;
     for (int i = n - 1; i > 0; --i) {
-      box.add(items_[sorted[i]].box);
+      box.add(items_[sorted[i].second].box);
       suffix[i] = box.squaredDiagonal();
     }
     box = LaneBox();
     int left = -1;
     for (int i = 1; i < n; ++i) {
-      box.add(items_[sorted[i - 1]].box);
+      box.add(items_[sorted[i - 1].second].box);
       const float cost = box.squaredDiagonal() * sizes[i] + suffix[i] * sizes[n - i];
       if (cost < best_cost) {
         best_cost = cost;
@@ -209,7 +207,7 @@ int BlockPartition::sweep(std::uint32_t* items, int n) const {
     }
     if (left < 0) continue;
     best_left = left;
-    std::copy_n(sorted, n, best);
+    for (int i = 0; i < n; ++i) best[i] = sorted[i].second;
   }
   std::copy_n(best, n, items);
   return best_left;
