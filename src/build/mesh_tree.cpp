@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "build/block_partition.h"
 #include "build/tuning.h"
+#include "volume/large_arrays.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -30,7 +32,10 @@ class MeshTree {
   bool run() {
     if (!setFrame()) return false;
     const int n = static_cast<int>(mesh_.num_triangles);
+    new (nodes_) VolumeNode<S>;
+    reserveLarge(centroids_, mesh_.num_triangles);
     centroids_.resize(mesh_.num_triangles);
+    if (n > kBlock) reserveLarge(all_, mesh_.num_triangles / 2);
     for (int t = 0; t < n; ++t) {
       const auto triangle = static_cast<std::uint32_t>(t);
       const Corners corners = cornersOf(triangle, frame_);
@@ -55,8 +60,12 @@ class MeshTree {
   bool setFrame() {
     fcl::Vector3<S> low = mesh_.corner(0, 0), high = low;
     S poison = 0;  // NaN if a coordinate is not finite
+    corners_of_each_ = 1;
     for (std::size_t t = 0; t < mesh_.num_triangles; ++t) {
-      for (int k = 0; k < 3; ++k) {
+      const bool point =
+          mesh_.index(t, 1) == mesh_.index(t, 0) && mesh_.index(t, 2) == mesh_.index(t, 0);
+      if (!point) corners_of_each_ = 3;
+      for (int k = 0; k < (point ? 1 : 3); ++k) {
         const fcl::Vector3<S>& p = mesh_.corner(t, k);
         poison += S(0) * p[0] + S(0) * p[1] + S(0) * p[2];
         low = low.cwiseMin(p);
@@ -87,6 +96,8 @@ class MeshTree {
     const int child = num_nodes_;
     num_nodes_ += 2;
     nodes_[part.node].first_child = child;
+    new (&nodes_[child]) VolumeNode<S>;
+    new (&nodes_[child + 1]) VolumeNode<S>;
     stack.push_back({child + 1, part.first + left, part.count - left, part.depth + 1});
     stack.push_back({child, part.first, left, part.depth + 1});
   }
@@ -116,7 +127,9 @@ class MeshTree {
 
   Corners cornersOf(std::uint32_t triangle, const PointFrame& frame) const {
     Corners t;
-    for (int k = 0; k < 3; ++k) t.v[k] = frame.place(mesh_.corner(triangle, k));
+    for (int k = 0; k < 3; ++k) {
+      t.v[k] = k < corners_of_each_ ? frame.place(mesh_.corner(triangle, k)) : t.v[0];
+    }
     return t;
   }
 
@@ -217,7 +230,7 @@ class MeshTree {
     const std::size_t begin = chunks_.size();
     int count = 0;
     for (int i = 0; i < n; ++i) {
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < corners_of_each_; ++k) {
         const float x = quads[i].x[k], y = quads[i].y[k], z = quads[i].z[k];
         lanes::Int4 known = {};
         for (std::size_t j = begin; j < chunks_.size(); ++j) {
@@ -246,11 +259,13 @@ class MeshTree {
     const int n = node.num_primitives, first = node.first_primitive - block_first;
     if (n == 1) {
       node.first_child = -(static_cast<int>(primitives_[node.first_primitive]) + 1);
-      fit_.addSmall(index, SmallNode::kTriangle, &quads_[first], 1);
+      corners_of_each_ == 1 ? fit_.fitPoint(index)
+                            : fit_.addSmall(index, SmallNode::kPart, &quads_[first], 1);
       return -1;
     }
     if (n <= kLeafTriangles && cluster_sizes_[first] != n) {
-      fit_.addSmall(index, SmallNode::kPart, &quads_[first], n);
+      fit_.addSmall(index, corners_of_each_ == 1 ? SmallNode::kPoints : SmallNode::kPart,
+                    &quads_[first], n);
       return -1;
     }
     const PointQuad* const chunks = &chunks_[chunk_at_[first]];
@@ -316,6 +331,7 @@ class MeshTree {
   VolumeFit<S> fit_;
   PointFrame frame_;  ///< of the mesh: coordinates are at most 1
   int num_nodes_ = 1;
+  int corners_of_each_ = 3;  ///< 1: all triangles are points
   SmallVector<Centroid> centroids_;
   BlockPartition partition_;
   SmallVector<Corners> corners_;  ///< of the sample, or the block

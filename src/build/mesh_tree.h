@@ -10,7 +10,7 @@ namespace kios::engine {
 /// Nodes on the way from the root to any leaf, at most.
 constexpr int kMaxDepth = 64;
 
-/// Partitions a mesh of n > 0 triangles and fits its volumes in one go: fills 2 n - 1 nodes in the
+/// Partitions a mesh of n > 0 triangles and fits its volumes in one go: makes 2 n - 1 nodes in the
 /// order of FCL's recursion, and `primitives` with the triangles in the order of the leaves.
 /// O(n log n) for any mesh. Depends on nothing but the mesh. Returns false, and has written nothing
 /// that counts, if a used vertex is not finite, or the mesh is beyond 2^500 (double) or 2^60

@@ -16,10 +16,9 @@ using lanes::Float4;
 
 template <typename S>
 void VolumeFit<S>::addSmall(int node, SmallNode content, const PointQuad* quads, int n) {
-  const int of_each = content == SmallNode::kCluster ? 4 : 3;
-  const int count = n * of_each;
-  int which =
-      content == SmallNode::kTriangle ? 0 : (content == SmallNode::kPart ? kParts : kClusters);
+  const int of_each = content == SmallNode::kCluster ? 4 : (content == SmallNode::kPoints ? 1 : 3);
+  const int count = std::max(n * of_each, 3);  // two points are a triangle without height
+  int which = content == SmallNode::kCluster ? kClusters : 0;
   while (count > kRoom[which]) ++which;
   Batch& batch = batches_[which];
   PointRows& rows = batch.rows;
@@ -27,7 +26,7 @@ void VolumeFit<S>::addSmall(int node, SmallNode content, const PointQuad* quads,
   const int lane = batch.used;
   batch.nodes[lane] = node;
   for (int row = 0; row < kRoom[which]; ++row) {
-    const bool own = row < count;
+    const bool own = row < n * of_each;
     const PointQuad& from = quads[own ? row / of_each : 0];
     const int k = own ? row % of_each : 0;
     rows.set(row, lane, from.x[k], from.y[k], from.z[k], own ? 1 : 0);
@@ -48,6 +47,13 @@ void VolumeFit<S>::finishSmall() {
     }
     fitBatch(which);
   }
+}
+
+template <typename S>
+void VolumeFit<S>::fitPoint(int node) {
+  kIOS<S>& bv = nodes_[node].bv;
+  bv.center0 = mesh_.corner(primitives_[nodes_[node].first_primitive], 0);
+  completeCaps(bv, 1);
 }
 
 template <typename S>

@@ -37,9 +37,9 @@ using VolumeNode = fcl::BVNode<kIOS<S>>;
 
 /// The content of a small node, which decides how it is fitted.
 enum class SmallNode {
-  kTriangle,  ///< one triangle
-  kPart,      ///< several triangles, each with its three corners
-  kCluster    ///< one or a few leaves of the prepared tree, the points of each once
+  kPart,    ///< triangles, each with its three corners
+  kPoints,  ///< several triangles that are points
+  kCluster  ///< one or a few leaves of the prepared tree, the points of each once
 };
 
 /// Fits the volumes of a tree's nodes, to points as floats in some frame: every sphere contains the
@@ -61,9 +61,12 @@ class VolumeFit {
   }
 
   /// Takes a node of few points, to be fitted with three others. Of each quad the first three
-  /// points count, those of a cluster all.
+  /// points count, the first of triangles that are points, those of a cluster all.
   void addSmall(int node, SmallNode content, const PointQuad* quads, int n);
   void finishSmall();
+
+  /// Fits a node of one triangle that is a point.
+  void fitPoint(int node);
 
   /// Places spheres by all points, of PointRows::kMost quads at most.
   void fit(int node, const PointQuad* quads, std::size_t n);
@@ -78,9 +81,10 @@ class VolumeFit {
     int nodes[4] = {};
     PointRows rows;
   };
-  /// Rows that the sets of each batch have: of triangles, then of parts, then of clusters.
-  static constexpr int kBatches = 11, kParts = 1, kClusters = 6;
-  static constexpr int kRoom[kBatches] = {3, 6, 9, 12, 18, 24, 8, 12, 16, 24, 32};
+  /// Rows that the sets of each batch have: of one triangle or up to three points, then of more of
+  /// them, then of clusters.
+  static constexpr int kBatches = 12, kClusters = 7;
+  static constexpr int kRoom[kBatches] = {3, 4, 6, 9, 12, 18, 24, 8, 12, 16, 24, 32};
 
   void fitBatch(int which);
   void fit(int node, const PointRows& rows, const PointQuad* quads, std::size_t n);

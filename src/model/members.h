@@ -10,6 +10,7 @@
 
 #include "fcl_kios/model.h"
 #include "model/prepared.h"
+#include "volume/large_arrays.h"
 
 namespace kios {
 
@@ -56,7 +57,9 @@ Members<S> membersOf(Model<S>& model) {
 
 template <typename T>
 std::unique_ptr<T[]> makeArray(int n) {
-  return std::unique_ptr<T[]>(new T[static_cast<std::size_t>(n)]);
+  std::unique_ptr<T[]> array(new T[static_cast<std::size_t>(n)]);
+  preferHugePages(array.get(), static_cast<std::size_t>(n) * sizeof(T));
+  return array;
 }
 
 template <typename T>

@@ -41,6 +41,7 @@ void buildByRecursion(const Members<S>& m, const Recurse& recurse) {
   const Model<S>& model = m.model;
   const std::shared_ptr<const Attachment> attachment = m.prepared().attachment;
   PreparedHandle made = makePrepared<S>(m.numNodes());
+  std::uninitialized_default_construct_n(made->template nodes<S>(), m.numNodes());
   made->attachment = attachment;  // stays if the build fails
   m.take(std::move(made));
   m.num_nodes = 0;

@@ -18,6 +18,7 @@
 #include "tree/refit.h"
 #include "volume/errors.h"
 #include "volume/instantiate.h"
+#include "volume/large_arrays.h"
 
 namespace kios {
 namespace {
@@ -38,6 +39,7 @@ void unlist(Prepared& prepared) {
 Prepared* allocate(std::size_t bytes, int num_nodes) {
   auto* const prepared = new (::operator new(sizeof(Prepared) + bytes)) Prepared;
   prepared->num_nodes = num_nodes;
+  preferHugePages(prepared + 1, bytes);
   return prepared;
 }
 
@@ -82,9 +84,7 @@ PreparedHandle makePrepared(int num_nodes) {
   static_assert(std::is_trivially_destructible<Node>::value && alignof(Node) <= alignof(Prepared));
   const auto n = static_cast<std::size_t>(num_nodes);
   const std::size_t bytes = n * sizeof(Node) + (n + 1) / 2 * sizeof(unsigned int);
-  PreparedHandle made(allocate(bytes, num_nodes), /*add_ref=*/false);
-  std::uninitialized_default_construct_n(made->nodes<S>(), n);
-  return made;
+  return {allocate(bytes, num_nodes), /*add_ref=*/false};
 }
 
 PreparedHandle findPrepared(const engine::ContentHash& content) {
@@ -121,7 +121,7 @@ void own(PreparedHandle& held) {
   }
   PreparedHandle copy = makePrepared<S>(held->num_nodes);
   const auto n = static_cast<std::size_t>(held->num_nodes);
-  std::copy_n(held->nodes<S>(), n, copy->nodes<S>());
+  std::uninitialized_copy_n(held->nodes<S>(), n, copy->nodes<S>());
   std::copy_n(held->primitives<S>(), (n + 1) / 2, copy->primitives<S>());
   copy->tree = held->tree;
   copy->tree_is_shared = true;

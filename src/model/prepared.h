@@ -64,7 +64,8 @@ using PreparedHandle = boost::intrusive_ptr<Prepared>;
 
 /// What models without a tree have.
 PreparedHandle preparedForNone();
-/// A new one with room for a tree of so many nodes. Throws std::bad_alloc.
+/// A new one with room for a tree of so many nodes, for whoever makes them: another pass over as
+/// much memory is a part of a large build. Throws std::bad_alloc.
 template <typename S>
 PreparedHandle makePrepared(int num_nodes);
 /// What is held anywhere for this content; null if nothing is.

@@ -8,6 +8,7 @@
 
 #include "tree/leaf_layout.h"
 #include "tree/node_layout.h"
+#include "volume/large_arrays.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -104,7 +105,7 @@ void takeLeast(const Content& content, const PointChunk* chunks, std::size_t num
 
 // Nodes lie before their children.
 TreePoints::TreePoints(const Tree& tree) : ranges_(tree.nodes.size()) {
-  chunks_.reserve(2 * tree.leaves.size());
+  reserveLarge(chunks_, 2 * tree.leaves.size());
   std::vector<Range> of_leaf(tree.leaves.size());
   for (std::size_t l = 0; l < tree.leaves.size(); ++l) {
     const Leaf& leaf = tree.leaves[l];

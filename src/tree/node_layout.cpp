@@ -9,6 +9,7 @@
 #include "tree/leaf_layout.h"
 #include "tree/tuning.h"
 #include "volume/balls.h"
+#include "volume/large_arrays.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -82,6 +83,7 @@ void fillBlock(const Node& node, Tree& tree) {
 }
 
 void writeBoxBlocks(Tree& tree) {
+  reserveLarge(tree.box_blocks, tree.children.size());
   tree.box_blocks.resize(tree.children.size());
   for (const Node& node : tree.nodes) {
     if (node.isLeaf()) continue;

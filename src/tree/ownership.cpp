@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "volume/large_arrays.h"
+
 namespace kios::engine {
 namespace {
 
@@ -35,9 +37,10 @@ class EdgeTable {
   explicit EdgeTable(std::size_t expected) {
     std::size_t capacity = 16;
     while (capacity < 2 * expected) capacity *= 2;
+    reserveLarge(table_, capacity);
     table_.assign(capacity, kNone);
-    keys_.reserve(expected);
-    edges_.reserve(expected);
+    reserveLarge(keys_, expected);
+    reserveLarge(edges_, expected);
   }
 
   /// To be called some edges before find(): the table is larger than the caches.
@@ -106,8 +109,13 @@ Ownership assignFeatures(const std::vector<Corners3>& corners,
                          const std::vector<std::uint32_t>& order,
                          const std::vector<std::uint32_t>& leaf_begin, std::size_t num_vertices) {
   const std::size_t num_leaves = leaf_begin.size() - 1;
-  std::vector<Owned> vertices(num_vertices);
-  EdgeTable edges(corners.size() * 3 / 2 + 16);
+  std::vector<Owned> vertices;
+  reserveLarge(vertices, num_vertices);
+  vertices.resize(num_vertices);
+  const auto isPoint = [](const Corners3& v) { return v[1] == v[0] && v[2] == v[0]; };
+  // The edges of points are their vertices.
+  const bool points = std::all_of(corners.begin(), corners.end(), isPoint);
+  EdgeTable edges(points ? 0 : corners.size() * 3 / 2 + 16);
   std::vector<std::uint32_t> edges_of(num_leaves, 0), vertices_of(num_leaves, 0);
   for (std::uint32_t leaf = 0; leaf < num_leaves; ++leaf) {
     for (std::uint32_t i = leaf_begin[leaf]; i < leaf_begin[leaf + 1]; ++i) {
@@ -117,20 +125,20 @@ Ownership assignFeatures(const std::vector<Corners3>& corners,
         const Corners3& next = corners[order[i + kAhead]];
         for (int k = 0; k < 3; ++k) {
           __builtin_prefetch(&vertices[next[k]]);
-          edges.prefetch(next[k], next[k == 2 ? 0 : k + 1]);
+          if (!points) edges.prefetch(next[k], next[k == 2 ? 0 : k + 1]);
         }
       }
       const std::uint32_t triangle = order[i];
       const Corners3& v = corners[triangle];
-      for (std::uint32_t k = 0; k < 3; ++k) {
+      for (std::uint32_t k = 0; k < (points ? 1 : 3); ++k) {
         const std::uint32_t packed = triangle << 2 | k;
         offer(vertices[v[k]], leaf, packed, vertices_of);
-        offer(edges.find(v[k], v[k == 2 ? 0 : k + 1]), leaf, packed, edges_of);
+        if (!points) offer(edges.find(v[k], v[k == 2 ? 0 : k + 1]), leaf, packed, edges_of);
       }
     }
   }
   Ownership result;
-  group(edges.edges(), num_leaves, result.edges, result.edge_begin);
+  group(points ? vertices : edges.edges(), num_leaves, result.edges, result.edge_begin);
   group(vertices, num_leaves, result.vertices, result.vertex_begin);
   return result;
 }

@@ -15,6 +15,7 @@
 #include "tree/weld.h"
 #include "tree/wide_tree.h"
 #include "volume/balls.h"
+#include "volume/large_arrays.h"
 #include "volume/rounding.h"
 
 namespace kios::engine {
@@ -59,7 +60,7 @@ class Preparation {
   /// The binary tree down to the leaves of the wide one, and the order of the triangles.
   void readBinary() {
     const int n = static_cast<int>(mesh_.num_triangles);
-    binary_.reserve(n / 2 + 4);
+    reserveLarge(binary_, n / 2 + 4);
     binary_.push_back({0, n});
     std::vector<int> stack = {0};
     while (!stack.empty()) {
@@ -133,6 +134,8 @@ class Preparation {
       }
     }
     tree_->children.shrink_to_fit();
+    reserveLarge(tree_->blocks, tree_->children.size());
+    reserveLarge(tree_->nodes, links.size());
     tree_->blocks.resize(tree_->children.size());
     tree_->nodes.resize(links.size());
     for (std::size_t n = 0; n < links.size(); ++n) {
@@ -144,6 +147,7 @@ class Preparation {
   /// All volumes, bottom-up: nodes lie before their children.
   void placeVolumes() {
     const TreePoints points(*tree_);
+    reserveLarge(tree_->boxes, tree_->nodes.size());
     tree_->boxes.resize(tree_->nodes.size());
     bool any_flat = false;
     for (std::size_t n = tree_->nodes.size(); n-- > 0;) {
@@ -184,7 +188,7 @@ class Preparation {
   void fillLeaves() {
     // Leaves as the nodes number them; triangles in that order.
     std::vector<std::uint32_t> order, begin = {0};
-    order.reserve(order_.size());
+    reserveLarge(order, order_.size());
     for (const int leaf : leaves_) {
       const auto first = order_.begin() + binary_[leaf].first;
       std::copy(first, first + binary_[leaf].count, std::back_inserter(order));
@@ -192,8 +196,8 @@ class Preparation {
       begin.push_back(static_cast<std::uint32_t>(order.size()));
     }
     const Ownership owned = assignFeatures(corners_, order, begin, mesh_.num_vertices);
-    tree_->leaves.reserve(leaves_.size());
-    tree_->features.reserve(order.size() + owned.edges.size() + owned.vertices.size());
+    reserveLarge(tree_->leaves, leaves_.size());
+    reserveLarge(tree_->features, order.size() + owned.edges.size() + owned.vertices.size());
     std::size_t num_rows = 0;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
       Leaf& leaf = tree_->leaves.emplace_back();
@@ -201,7 +205,7 @@ class Preparation {
       gather(order.data() + begin[l], order.data() + begin[l + 1], owned, l, leaf);
       num_rows += static_cast<std::size_t>(leafRows(leaf.num_vertices));
     }
-    tree_->lanes.reserve(num_rows);
+    reserveLarge(tree_->lanes, num_rows);
     for (Leaf& leaf : tree_->leaves) {
       tree_->lanes.resize(leaf.offset + leafRows(leaf.num_vertices));
       Eigen::Vector3f vertices[kMaxLeafFeatures];

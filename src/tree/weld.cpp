@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "volume/large_arrays.h"
+
 namespace kios::engine {
 namespace {
 
@@ -29,7 +31,9 @@ std::vector<std::uint32_t> weld(const MeshView<S>& mesh) {
   std::vector<std::uint32_t> first(mesh.num_vertices, kNotSeen);
   std::size_t capacity = 16;
   while (capacity < 2 * mesh.num_vertices) capacity *= 2;
-  std::vector<std::uint32_t> table(capacity, kNotSeen);  // open addressing, linear probing
+  std::vector<std::uint32_t> table;  // open addressing, linear probing
+  reserveLarge(table, capacity);
+  table.assign(capacity, kNotSeen);
   for (std::size_t t = 0; t < mesh.num_triangles; ++t) {
     constexpr std::size_t kAhead = 8;  // the table is larger than the caches
     for (int k = 0; k < 3 && t + kAhead < mesh.num_triangles; ++k) {

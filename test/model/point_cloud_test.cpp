@@ -10,6 +10,7 @@
 
 #include "fcl/expect_refused.h"
 #include "fcl_kios/fcl_kios.h"
+#include "model/bvh_check.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
@@ -101,6 +102,27 @@ TEST(PointClouds, AnswerAsTheirPoints) {
       EXPECT_GT(fcl::collide(cloud.get(), X, &reaches, X, request, contacts), 0U);
       contacts.clear();
       EXPECT_EQ(fcl::collide(cloud.get(), X, &misses, X, request, contacts), 0U);
+    }
+  }
+}
+
+// Up to more points than a block of the build takes: some are alike, and many lie in one plane.
+TEST(PointClouds, HaveVolumesAroundTheirPoints) {
+  Random random(9);
+  for (const int n : {1, 2, 3, 5, 8, 40, 5000}) {
+    std::vector<Vector3d> all = points(random, n, 1);
+    for (int i = 0; i < n; i += 3) all[static_cast<std::size_t>(i)][2] = 0.25;
+    for (Vector3d& p : all) p += Vector3d(1e6, -1e5, 0);
+    const auto cloud = makePointCloud(all);
+    expectValidTree(*cloud);
+    std::vector<fcl::Vector3f> in_float;
+    for (const Vector3d& p : all) in_float.emplace_back(p.cast<float>());
+    expectValidTree(*byFcl(in_float));
+    for (int i = 0; i < cloud->getNumBVs(); ++i) {
+      const auto& node = cloud->getBV(i);
+      if (!node.isLeaf()) continue;
+      EXPECT_EQ(node.bv.center(), all[static_cast<std::size_t>(node.primitiveId())]);
+      EXPECT_EQ(node.bv.size(), 0);
     }
   }
 }

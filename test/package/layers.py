@@ -81,7 +81,6 @@ SMALL_OR_USED_ONCE = {
     "query/threads.h": "what two folders share",
     "model/stored_format.h": "also what tests alter",
     "tree/compress_table.h": "a table that no target needs twice",
-    "tree/weld.h": "one function",
     "triangle/integer.h": "Boost's integers, which take long to compile",
     "volume/ball_lanes.h": "tested alone", "volume/errors.h": "the one way to refuse",
     "volume/instantiate.h": "macros",
