@@ -55,6 +55,21 @@ void NearestTriangle::lowerTo(double distance) {
   cull_distance = roundUp<float>(limit_);
 }
 
+// It is the corner nearest to a half-space that begins well beyond the mesh. With a loop over all
+// vertices penetrations take 1.4 times as long (kios_bench solids/arm_in_table) to 1.7 (balls).
+Pointd farthestVertex(const Mesh& mesh, const Pointd& n) {
+  shape::Solid beyond;
+  beyond.kind = shape::Kind::kHalfspace;
+  beyond.normal = -n.normalized();
+  beyond.offset = beyond.normal.dot(mesh.center()) - 2 * mesh.radius();
+  const fcl::Transform3d X = fcl::Transform3d::Identity();
+  const PosedSolid posed(std::move(beyond), X, X, mesh, 0);
+  SearchCounts unused;
+  NearestTriangle search(mesh, posed, 0, 0, kInfinity, unused);
+  search.run();
+  return posed.toWorld(search.nearest().on_triangle);
+}
+
 const std::vector<int>& TouchingTriangles::run() {
   const bool by_faces = facesPay();
   makeFloats(by_faces);

@@ -75,6 +75,10 @@ class NearestTriangle final : SolidSearcher {
   shape::TriangleShapeDistance nearest_;
 };
 
+/// The vertex of a mesh that lies farthest along n, which is not zero: no other is farther by more
+/// than 2^-47 |n| mesh.largest().
+Pointd farthestVertex(const Mesh& mesh, const Pointd& n);
+
 /// The triangles that meet a solid.
 class TouchingTriangles final : SolidSearcher {
  public:

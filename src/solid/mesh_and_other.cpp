@@ -12,9 +12,9 @@
 #include "fcl_kios/detail/rigid.h"
 #include "fcl_kios/solids.h"
 #include "query/nearest_on_mesh.h"
+#include "query/shape_search.h"
 #include "shape/solid.h"
 #include "solid/containment.h"
-#include "solid/farthest_vertex.h"
 #include "solid/tuning.h"
 #include "volume/rounding.h"
 

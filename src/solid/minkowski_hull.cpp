@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include "solid/farthest_vertex.h"
+#include "query/shape_search.h"
 #include "volume/rounding.h"
 
 namespace kios {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // What solids ask of a mesh, nearest points and farthest vertices, against all triangles.
-#include "solid/farthest_vertex.h"
-
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "fcl_kios/triangle.h"
 #include "model/prepared.h"
 #include "query/nearest_on_mesh.h"
+#include "query/shape_search.h"
 #include "scenes/random.h"
 #include "solid/solid_meshes.h"
 
