@@ -266,12 +266,13 @@ void ExitSearch::tryStarts(const BallPairs& balls) {
 // doesn't turn another corner of a: so the nearest translation that they all admit is a guess,
 // and a test decides.
 void ExitSearch::descend(const BallPairs& balls) {
+  constexpr std::size_t kPlanes = 3;  // make a corner of space
   std::vector<Plane> planes;
   while (!exhausted()) {
     const auto [at, length, after] = best_;
     if (after.nearest) {
       planes.push_back({after.normal, after.normal.dot(at) - after.gap + 4 * pair_.rounding()});
-      if (planes.size() > tuning::kPlanes) planes.erase(planes.begin());
+      if (planes.size() > kPlanes) planes.erase(planes.begin());
     }
     if (planes.empty()) planes.push_back({at.normalized(), 0.5 * length});
     const double most = tuning::kEnough * length;

@@ -22,7 +22,7 @@ struct Sample {
 };
 
 std::vector<Sample> samplesOf(const Mesh& mesh) {
-  const std::size_t count = std::min(mesh.numTriangles(), tuning::kSamples);
+  const std::size_t count = std::min(mesh.numTriangles(), tuning::kBalls * tuning::kBalls);
   std::vector<Sample> samples;
   for (std::size_t i = 0; i < count; ++i) {
     const TriangleVerticesd p = mesh.triangle(i * mesh.numTriangles() / count);

@@ -15,7 +15,6 @@
 #include "query/shape_search.h"
 #include "shape/solid.h"
 #include "solid/containment.h"
-#include "solid/tuning.h"
 #include "volume/rounding.h"
 
 namespace kios {
@@ -67,8 +66,7 @@ class ShapeExit {
     }
     // Its own direction, to a percent.
     const Vec end = exit_.translation;
-    double low = 0.3, high = 1;
-    for (int i = 0; i < tuning::kHalvings; ++i) {
+    for (double low = 0.3, high = 1; high - low > 0.01;) {
       const double middle = 0.5 * (low + high);
       (accept(middle * end) ? high : low) = middle;
     }

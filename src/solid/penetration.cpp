@@ -143,20 +143,19 @@ double depthOfBalls(SolidPair& pair, const Vec& on_a, const Vec& translation, do
   if (common) tryPoint(*common);
   // Near 0 the way is in a, near 1 in b; in between it is in both, or never.
   double low = 0, high = 1;
-  for (int i = 0; i < tuning::kHalvings && balls.depth < required; ++i) {
+  for (int i = 0; i < tuning::kUphill && balls.depth < required; ++i) {
     const double share = 0.5 * (low + high);
     const Balls here = tryPoint(from + share * way);
-    if (here.in_a == here.in_b || balls.depth > tuning::kPoor * required) break;
+    if (here.in_a == here.in_b) break;
     (here.in_a ? low : high) = share;
   }
-  // If that is poor, from where the surfaces meet, a little way into both.
+  // If that isn't enough, from where the surfaces meet, a little way into both.
   const auto& contacts = pair.overlap().contacts;
   for (std::size_t i = 0; i < contacts.size(); i += 2) {
     const Vec seam = intersectionPoint(contacts[i].a, contacts[i].b);
     const Vec inwards = -normalOf(contacts[i].a) - normalOf(contacts[i].b);
     for (double step = 0.3 * translation.norm(); step > 0.01 * translation.norm(); step *= 0.3) {
-      if (balls.depth > tuning::kPoor * required) break;
-      if (tryPoint(seam + step * inwards).depth > 0) break;
+      if (balls.depth >= required || tryPoint(seam + step * inwards).depth > 0) break;
     }
   }
   if (!(balls.depth > 0)) return 0;
@@ -228,7 +227,7 @@ class PenetrationQuery {
     std::vector<Vec> directions;
     if (pair_.convexityA().convex && pair_.convexityB().convex) {
       const HullDepth hull =
-          hullDepth(differences, pair_.size(), options_.rel_gap, tuning::kHullPoints);
+          hullDepth(differences, pair_.size(), options_.rel_gap, static_cast<int>(tuning::kCorners));
       lower_ = lowerOfHulls(hull.lower);
       if (!hull.normal.isZero(0)) directions.push_back(hull.normal);
     }

@@ -10,19 +10,14 @@
 
 namespace kios::tuning {
 
-/// Steps of whatever goes uphill or shrinks. 6: lower bounds are 1.4 % less; 24 do as well.
+/// Steps of whatever goes uphill, shrinks or halves a way. 6: lower bounds are 1.4 % less; 24 do as
+/// well.
 constexpr int kUphill = 12;
-/// Halvings of a way. 4 to 24 do as well.
-constexpr int kHalvings = 6;
-/// Below this part of what is required, lower bounds are looked for from elsewhere. 0.2: 0.6 %
-/// less; 1 does as well.
-constexpr double kPoor = 0.6;
-/// Points of the polytope between two convex solids, at most. 32 to 512 do as well.
-constexpr int kHullPoints = 128;
 /// Where balls overlap by more of an edge, planes aren't tried. 0.1: 0.6 times the time, but bars
 /// that leave several walls at once (test solid_exits) go twice as far as they must.
 constexpr double kDeep = 0.5;
-/// Corners of planes that are looked at. 256: 1.1 times the time; 64: translations 0.3 % longer.
+/// Corners of planes that are looked at, and points of the polytope between convex solids. 256: 1.1
+/// times the time; 64: translations 0.3 % longer.
 constexpr std::size_t kCorners = 128;
 /// Pairs of triangles that meet are used up to so many. 32: 1.2 times the time; 8: 0.4 % longer.
 constexpr std::size_t kContacts = 16;
@@ -30,11 +25,9 @@ constexpr std::size_t kContacts = 16;
 constexpr double kEnough = 0.98;
 /// Starts on the way out, in parts of the pair's size. 0.25 and 0.5: 3 % longer; 0.05 and 0.5: 2 %.
 constexpr double kNear = 0.1, kFar = 0.25;
-/// Planes of the last nearest points that bound the next step. 2 to 24 do as well.
-constexpr std::size_t kPlanes = 6;
-/// Places of the surface from which inner balls grow, and balls. 8 balls: lower bounds are 1.4 %
-/// less; 128 and 512 places, and 32 balls, do as well.
-constexpr std::size_t kSamples = 256, kBalls = 16;
+/// Inner balls, which grow from the square of as many places of the surface. 8 balls: lower bounds
+/// are 1.4 % less; 32, and 128 or 512 places, do as well.
+constexpr std::size_t kBalls = 16;
 
 // Local depth, found by trying on flush boxes, sheets through blocks, pockets, tori and blobs,
 // which docs/solids.md names; what other values do was not recorded.
