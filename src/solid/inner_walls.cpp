@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "query/nearest_on_mesh.h"
@@ -46,7 +47,7 @@ bool edgeRunsThrough(const TriangleVerticesd& a, const TriangleVerticesd& b) {
 /// points, or parts of edges of both, in common; kCross if one's interior has more, or if there are
 /// too many pairs to tell.
 Meeting worstMeeting(const Mesh& mesh) {
-  const std::size_t most = tuning::kMeetings + tuning::kMeetingsPerTriangle * mesh.numTriangles();
+  const std::size_t most = tuning::kMeetings * mesh.numTriangles();
   std::size_t count = 0;
   const fcl::Transform3d X = fcl::Transform3d::Identity();
   const MeshPair itself(mesh, X, mesh, X);
@@ -76,8 +77,8 @@ bool hasArea(const TriangleVerticesd& t) {
 }
 
 /// Returns true if nothing lies before the triangle, and the solid behind it, at points so near to
-/// its middle that no other triangle is as near.
-bool partsInsideFromOutside(const Mesh& mesh, std::size_t triangle) {
+/// its middle that no other triangle is as near; none if there are no such points.
+std::optional<bool> partsInsideFromOutside(const Mesh& mesh, std::size_t triangle) {
   const TriangleVerticesd t = mesh.triangle(triangle);
   const fcl::Vector3d middle = (t[0] + t[1] + t[2]) / 3, n = normalOf(t);
   const double size = std::max((t[1] - t[0]).norm(), (t[2] - t[0]).norm());
@@ -90,7 +91,7 @@ bool partsInsideFromOutside(const Mesh& mesh, std::size_t triangle) {
       told = near.triangle == static_cast<int>(triangle) && near.lower > 0.5 * step;
       if (told && placeOf(p, mesh, unused).winding != winding) return false;
     }
-    if (!told) return false;
+    if (!told) return std::nullopt;
   }
   return true;
 }
@@ -109,7 +110,7 @@ bool mayHaveInnerWalls(const Mesh& mesh, const Closedness& closedness) {
   if (worst == Meeting::kCross) return true;
   if (worst == Meeting::kTouch) {
     for (std::size_t t = 0; t < mesh.numTriangles(); ++t) {
-      if (!partsInsideFromOutside(mesh, t)) return true;
+      if (!partsInsideFromOutside(mesh, t).value_or(false)) return true;
     }
     return false;
   }
@@ -120,9 +121,9 @@ bool mayHaveInnerWalls(const Mesh& mesh, const Closedness& closedness) {
   });
   const Parts parts = partsOf(sides, mesh.numTriangles(), false);
   return !std::all_of(parts.triangles.begin(), parts.triangles.end(), [&](const auto& part) {
-    const std::size_t step = 1 + part.size() / tuning::kTries;
-    for (std::size_t i = 0; i < part.size(); i += step) {
-      if (partsInsideFromOutside(mesh, static_cast<std::size_t>(part[i]))) return true;
+    for (const int t : part) {
+      const auto parts_them = partsInsideFromOutside(mesh, static_cast<std::size_t>(t));
+      if (parts_them) return *parts_them;
     }
     return false;
   });

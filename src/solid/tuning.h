@@ -46,9 +46,7 @@ constexpr double kHalf = 0.4472;
 constexpr int kBlockers = 32;
 /// Visits of nodes and triangles by moves that count as a piece.
 constexpr long long kVisitsPerPiece = 64;
-/// Pairs of triangles that are looked at to rule out walls, for all and for each: fans have many.
-constexpr std::size_t kMeetings = std::size_t{1} << 20, kMeetingsPerTriangle = 64;
-/// Triangles of a part that are tried for whether it is a wall.
-constexpr std::size_t kTries = 8;
+/// Pairs of triangles that are looked at to rule out walls, for each: fans have many.
+constexpr std::size_t kMeetings = 512;
 
 }  // namespace kios::tuning
