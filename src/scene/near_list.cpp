@@ -22,7 +22,7 @@ double NearList::startFor(double gap, const std::vector<Body>& bodies) {
   valid_ = listing_ = false;
   if (resting_ > 0) return gap;
   const double per_query = 2 * moved_ / static_cast<double>(std::max(1LL, age_));
-  const double ahead = std::min(tuning::kMostQueries * per_query, size_);
+  const double ahead = std::min(static_cast<double>(tuning::kQueries) * per_query, size_);
 
   boxes_.clear();
   double radii = 0;
@@ -39,7 +39,7 @@ double NearList::startFor(double gap, const std::vector<Body>& bodies) {
   }
   pairs_.clear();
   capacity_ = tuning::kPairsOfBody * bodies.size() + 1024;
-  reach_ = gap + ahead + tuning::kShareOfLimit * std::max(gap, 0.0);
+  reach_ = gap + ahead;
   listing_ = reach_ > gap;
   return listing_ ? reach_ : gap;
 }
@@ -53,7 +53,7 @@ bool NearList::add(int a, int b) {
 void NearList::rest() {
   pairs_.clear();
   valid_ = listing_ = false;
-  resting_ = tuning::kRest;
+  resting_ = tuning::kQueries;
 }
 
 }  // namespace kios::scene

@@ -10,13 +10,10 @@
 
 namespace kios::scene::tuning {
 
-/// Queries that a list of near pairs looks ahead, but for no more than a body's radius.
-constexpr double kMostQueries = 16;
-/// One that would last for fewer queries isn't made, and none for so many more.
+/// Queries that a list of near pairs looks ahead, but for no more than a body's radius; and for
+/// which none is made after one that is too long or would last for fewer than the least.
+constexpr long long kQueries = 16;
 constexpr double kLeastQueries = 2;
-constexpr long long kRest = 16;
-/// Its reach is longer by this share of the gap that is asked for.
-constexpr double kShareOfLimit = 0.125;
 /// It has room for so many pairs a body.
 constexpr std::size_t kPairsOfBody = 8;
 
