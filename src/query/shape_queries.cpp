@@ -65,7 +65,7 @@ std::size_t collideShape(const Model<S>& model, const fcl::Transform3<S>& X_WM,
     return request.num_max_contacts - std::min(request.num_max_contacts, result.numContacts());
   };
   TouchingTriangles touching(mesh, posed, costs ? std::numeric_limits<std::size_t>::max() : room(),
-                             request.enable_contact, counted);
+                             counted);
   for (const int id : touching.run()) {
     if (occupied && room() > 0) {
       fcl::Contact<S> contact(&model, &shape, id, fcl::Contact<S>::NONE, fcl::Vector3<S>::Zero(),

@@ -77,7 +77,6 @@ const std::vector<int>& TouchingTriangles::run() {
   cull_distance = 0;
   search();
   if (found_.size() < limit_) sort();
-  std::sort(common_.begin(), common_.end());
   return found_;
 }
 
@@ -92,13 +91,12 @@ bool TouchingTriangles::evaluate(std::uint32_t triangle, bool meets) {
     const shape::Triangle t = this->triangle(id);
     const double clear = 0x1p-40 * (shape::sizeOf(t) + posed_.reach());
     if (slabs_.proveFarther(t, clear)) return false;
-    shape::Witness witness;
-    if (!shape::intersects(posed_.solid(), t, faces_ ? &*faces_ : nullptr, &witness)) {
-      const auto* const added = witness.across ? slabs_.add(*witness.across) : nullptr;
+    std::optional<shape::Vec> across;
+    if (!shape::intersects(posed_.solid(), t, faces_ ? &*faces_ : nullptr, &across)) {
+      const auto* const added = across ? slabs_.add(*across) : nullptr;
       if (added && floats_serve_ && !by_faces_) addSlab(inTree(added->normal, added->offset));
       return false;
     }
-    if (witness.common && points_) common_.push_back({id, *witness.common});
   }
   found_.push_back(id);
   return found_.size() >= limit_;
@@ -143,10 +141,7 @@ void TouchingTriangles::sort() {
 }
 
 shape::TriangleShapeContact TouchingTriangles::contactOf(int id) {
-  const auto at = std::lower_bound(common_.begin(), common_.end(), CommonPoint{id, {}});
-  std::optional<shape::Vec> common;
-  if (at != common_.end() && at->id == id) common = at->point;
-  return shape::contact(posed_.solid(), triangle(id), &faces(), common);
+  return shape::contact(posed_.solid(), triangle(id), &faces());
 }
 
 }  // namespace kios

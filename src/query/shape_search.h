@@ -82,10 +82,9 @@ Pointd farthestVertex(const Mesh& mesh, const Pointd& n);
 /// The triangles that meet a solid.
 class TouchingTriangles final : SolidSearcher {
  public:
-  /// `points` says whether contacts will be asked for.
-  TouchingTriangles(const Mesh& mesh, const PosedSolid& posed, std::size_t limit, bool points,
+  TouchingTriangles(const Mesh& mesh, const PosedSolid& posed, std::size_t limit,
                     SearchCounts& counts)
-      : SolidSearcher(mesh, posed, counts), limit_(limit), points_(points) {}
+      : SolidSearcher(mesh, posed, counts), limit_(limit) {}
 
   /// Up to `limit` triangles; by ids if these are all. Called once.
   const std::vector<int>& run();
@@ -93,12 +92,6 @@ class TouchingTriangles final : SolidSearcher {
   shape::TriangleShapeContact contactOf(int id);
 
  private:
-  struct CommonPoint {
-    int id;
-    shape::Vec point;
-    bool operator<(const CommonPoint& o) const { return id < o.id; }
-  };
-
   bool evaluate(std::uint32_t triangle, bool meets) override;
   bool facesPay() const;
   void setFaces();
@@ -109,11 +102,9 @@ class TouchingTriangles final : SolidSearcher {
   }
 
   const std::size_t limit_;
-  const bool points_;
   bool by_faces_ = false;  ///< the search has the slabs of all faces
   std::optional<shape::ConvexFaces> faces_;
   int num_tests_ = 0;
-  std::vector<CommonPoint> common_;  ///< where it is known; by id once all are found
   std::vector<int> found_;
 };
 

@@ -83,17 +83,12 @@ void descend(Exit& exit) {
 
 /// A point of both; for a capsule the pair of nearest points of its segment and the triangle; for a
 /// box the middle of what its slabs leave of the triangle, unless rounding leaves nothing.
-CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* faces,
-                        const std::optional<Vec>& common) {
+CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
   CoreDistance core = {};
   if (s.kind == Kind::kConvex) {
     for (int i = 0; faces && i < 3; ++i) {
       if (!faces->contains(t[i])) continue;
       core.point = core.on_core = t[i];
-      return core;
-    }
-    if (common) {
-      core.point = core.on_core = *common;
       return core;
     }
   } else if (s.kind == Kind::kCapsule) {
@@ -114,12 +109,11 @@ CoreDistance commonCore(const Solid& s, const Triangle& t, const ConvexFaces* fa
   return core;
 }
 
-TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const ConvexFaces* faces,
-                                  const std::optional<Vec>& common) {
+TriangleShapeContact solidContact(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
   Exit exit(s, t);
   std::optional<ConvexFaces> own;
   if (!faces && s.kind == Kind::kConvex) faces = &own.emplace(s);
-  const CoreDistance core = commonCore(s, t, faces, common);
+  const CoreDistance core = commonCore(s, t, faces);
   const Vec& position = core.point;
   exit.offer(core.point - core.on_core);  // a capsule's segment and the triangle, if apart
   exit.offerBoth(faceNormal(t));
@@ -171,10 +165,9 @@ TriangleShapeContact planeContact(const Solid& s, const Triangle& t) {
 
 }  // namespace
 
-TriangleShapeContact contact(const Solid& s, const Triangle& t, const ConvexFaces* faces,
-                             const std::optional<Vec>& common) {
+TriangleShapeContact contact(const Solid& s, const Triangle& t, const ConvexFaces* faces) {
   if (!s.bounded()) return planeContact(s, t);
-  if (s.kind != Kind::kSphere) return solidContact(s, t, faces, common);
+  if (s.kind != Kind::kSphere) return solidContact(s, t, faces);
   const Vec q = nearestToOrigin(t);
   const double length = q.norm();
   Vec normal = length > 0 ? Vec(q / length) : faceNormal(t);

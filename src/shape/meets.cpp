@@ -207,7 +207,8 @@ bool meetsAt(const Solid& s, const Triangle& t, const CoreDistance& core, Vec* c
   return meets(s, t, core.inside ? nullptr : common);
 }
 
-bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces, Witness* witness) {
+bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces,
+                std::optional<Vec>* across) {
   if (!s.bounded()) {
     const double a = s.normal.dot(t[0]), b = s.normal.dot(t[1]), c = s.normal.dot(t[2]);
     if (std::min({a, b, c}) > s.offset) return false;
@@ -226,8 +227,7 @@ bool intersects(const Solid& s, const Triangle& t, const ConvexFaces* faces, Wit
   core = gjkDistance(s, t.data(), 3, beyond);
   if (margin > 0) return closedBracket(s, t, margin, core).upper <= margin;
   const bool apart = core.lower > clearOf(t, core);
-  if (witness && apart) witness->across = core.point - core.on_core;
-  if (witness && core.inside) witness->common = core.point;
+  if (across && apart) *across = core.point - core.on_core;
   return !apart && meetsAt(s, t, core, nullptr);
 }
 

@@ -17,18 +17,13 @@ namespace kios::shape {
 using Triangle = TriangleVertices<double>;
 class ConvexFaces;
 
-/// What GJK came upon, if it was that which decided: a common point, or a direction from the solid
-/// to the triangle across which they are apart.
-struct Witness {
-  std::optional<Vec> common, across;
-};
-
 /// True if the closed triangle and the closed, full solid have a point in common. By direct tests,
 /// right but for rounding: a pair whose overlap or gap is below 2^-46 L may be judged either way
-/// (a convex shape without faces: 2^-36 L). `faces`, unless null, are those of a convex shape, of
-/// which `witness` tells, unless null.
+/// (a convex shape without faces: 2^-36 L). `faces`, unless null, are those of a convex shape;
+/// `across`, unless null, is set to a direction from that to the triangle across which they are
+/// apart, if GJK came upon one.
 bool intersects(const Solid& solid, const Triangle& triangle, const ConvexFaces* faces = nullptr,
-                Witness* witness = nullptr);
+                std::optional<Vec>* across = nullptr);
 
 /// Largest |x|_1 of the corners: the size that tolerances of contact are measured by.
 inline double sizeOf(const Triangle& t) {
@@ -56,10 +51,8 @@ struct TriangleShapeContact {
 /// For a pair that intersects(). Moving by depth along the normal always ends the overlap. It is
 /// the least such move for spheres, capsules, boxes, half-spaces and planes (for the plane FCL's:
 /// to the side that has more of the triangle); the least along the normals of the faces and of the
-/// triangle for convex shapes; a local minimum to 2^-7 rad for the others. `common`: the
-/// witness of intersects(), which changes nothing.
+/// triangle for convex shapes; a local minimum to 2^-7 rad for the others.
 TriangleShapeContact contact(const Solid& solid, const Triangle& triangle,
-                             const ConvexFaces* faces = nullptr,
-                             const std::optional<Vec>& common = std::nullopt);
+                             const ConvexFaces* faces = nullptr);
 
 }  // namespace kios::shape

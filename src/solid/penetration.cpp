@@ -226,8 +226,8 @@ class PenetrationQuery {
     const Differences differences(pair_);
     std::vector<Vec> directions;
     if (pair_.convexityA().convex && pair_.convexityB().convex) {
-      const HullDepth hull =
-          hullDepth(differences, pair_.size(), options_.rel_gap, static_cast<int>(tuning::kCorners));
+      const HullDepth hull = hullDepth(differences, pair_.size(), options_.rel_gap,
+                                       static_cast<int>(tuning::kCorners));
       lower_ = lowerOfHulls(hull.lower);
       if (!hull.normal.isZero(0)) directions.push_back(hull.normal);
     }
