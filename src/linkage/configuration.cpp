@@ -31,53 +31,44 @@ Path::Path(const Linkage::Impl& linkage, const Eigen::VectorXd& q0, const Eigen:
   requireCoordinates(q0, linkage.coordinates, "q0");
   requireCoordinates(q1, linkage.coordinates, "q1");
   constexpr double kSlack = 0x1p-49;  // 16 u
-  rates_.resize(linkage.links.size());
-  struct Sums {
-    double travel = 0, angles = 0, shifts = 0;
-  };
-  // By link: what prismatic joints add to lengths, and the rounding of angles and of lengths.
-  std::vector<Sums> sums(linkage.links.size());
   sweeps_.resize(linkage.links.size());
   for (std::size_t i = 0; i < linkage.links.size(); ++i) {
     const LinkData& link = linkage.links[i];
-    Sums& sum = sums[i];
     Sweep& sweep = sweeps_[i];
-    if (link.parent >= 0) {
-      sum = sums[link.parent];
-      sweep = sweeps_[link.parent];
-    }
-    sweep.length = link.offsets + sum.travel;
+    if (link.parent >= 0) sweep = sweeps_[link.parent];
+    sweep.rate = 0;
+    sweep.length = link.offsets + sweep.travel;
     if (link.coordinate < 0) continue;
     const double a = q0[link.coordinate], b = q1[link.coordinate];
     const double most =
         (std::abs(link.multiplier) * std::max(std::abs(a), std::abs(b)) + std::abs(link.offset)) *
         link.unit;
-    rates_[i] = link.multiplier * (b - a) * link.unit;
-    if (rates_[i] != 0) {
+    sweep.rate = link.multiplier * (b - a) * link.unit;
+    if (sweep.rate != 0) {
       ++sweep.moves;
       moves_ = true;
     }
     if (link.type == JointType::kPrismatic) {
-      sum.travel += most * (1 + 0x1p-50);
-      sum.shifts += kSlack * most;
-      sweep.slides += std::abs(rates_[i]);
+      sweep.travel += most * (1 + 0x1p-50);
+      sweep.shifts += kSlack * most;
+      sweep.slides += std::abs(sweep.rate);
     } else {
-      sum.angles += kSlack * most;
-      sweep.turns += std::abs(rates_[i]);
-      sweep.arms += std::abs(rates_[i]) * sweep.length;
+      sweep.angles += kSlack * most;
+      sweep.turns += std::abs(sweep.rate);
+      sweep.arms += std::abs(sweep.rate) * sweep.length;
     }
   }
   shares_.resize(linkage.carried.size() + 1);
   for (const CarriedBody& carried : linkage.carried) {
     const BodyData& body = linkage.bodies[carried.body];
     const LinkData& link = linkage.links[body.link];
+    const Sweep& sweep = sweeps_[body.link];
     Share& share = shares_[body.carried + 1];
     share.length =
-        (body.X_LB.translation().norm() + body.reach + link.offsets + sums[body.link].travel) *
-        (1 + 0x1p-50);
+        (body.X_LB.translation().norm() + body.reach + link.offsets + sweep.travel) * (1 + 0x1p-50);
     share.level = link.level + 2;
     largest_level_ = std::max(largest_level_, share.level);
-    share.slack = (sums[body.link].angles * share.length + sums[body.link].shifts) * (1 + 0x1p-50);
+    share.slack = (sweep.angles * share.length + sweep.shifts) * (1 + 0x1p-50);
   }
 }
 

@@ -54,7 +54,7 @@ class Path {
     return s == 1 ? q1_[k] : q0_[k] + s * (q1_[k] - q0_[k]);
   }
   /// The way of a moving joint from q0 to q1, in radians or lengths, to 2^-51 of it.
-  double rate(int link) const { return rates_[link]; }
+  double rate(int link) const { return sweeps_[link].rate; }
 
   /// L of a body.
   double length(int body) const { return shares_[slot(body)].length + obstacleLength(body); }
@@ -96,10 +96,13 @@ class Path {
   struct Share {
     double length = 0, level = 2, slack = 0;  ///< the level is n + 2
   };
-  /// Sums over the joints from the world to a link, itself included: how far they slide, how they
-  /// turn, and this times `length`, which is what lies before an axis: of offsets, and of travel.
+  /// A link: its joint's rate; and sums over the joints from the world to it, itself included: how
+  /// far they slide, how they turn, and this times `length`, which is what lies before an axis: of
+  /// offsets, and of travel. `travel` is what prismatic joints add to lengths, the last two are the
+  /// rounding of angles and of lengths.
   struct Sweep {
-    double slides = 0, turns = 0, arms = 0, length = 0;
+    double rate = 0, slides = 0, turns = 0, arms = 0, length = 0;
+    double travel = 0, angles = 0, shifts = 0;
     int moves = 0;  ///< how many of the joints do
   };
   int movesAfter(int body, int shared) const;
@@ -111,7 +114,6 @@ class Path {
 
   const Linkage::Impl& linkage_;
   const Eigen::VectorXd &q0_, &q1_;
-  std::vector<double> rates_;  // by link
   std::vector<Share> shares_;  // of all obstacles, then by carried body
   std::vector<Sweep> sweeps_;  // by link
   double largest_level_ = 2;
