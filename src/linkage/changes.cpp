@@ -58,6 +58,11 @@ std::shared_ptr<const Linkage::Impl> RenewedLinkage::of(const Linkage::Impl& lin
   return impl_;
 }
 
+long long RenewedLinkage::pairsOf(const Linkage::Impl& linkage) const {
+  if (pairs_.load(std::memory_order_relaxed) == kUnknown) pairs_ = linkage.pairs();
+  return pairs_.load(std::memory_order_relaxed);
+}
+
 }  // namespace articulated
 
 std::shared_ptr<const Linkage::Impl> Linkage::Impl::current() const {

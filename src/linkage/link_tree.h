@@ -81,7 +81,8 @@ class SpareScratch {
   mutable std::atomic<Scratch*> kept_{nullptr};
 };
 
-/// A linkage like another one, whose octrees were measured later. A copy is empty.
+/// What queries find out of a linkage, until it changes: its number of pairs, and one like it whose
+/// octrees were measured later. A copy is empty.
 class RenewedLinkage {
  public:
   RenewedLinkage() = default;
@@ -91,9 +92,16 @@ class RenewedLinkage {
 
   /// Measures the octrees of `linkage` again, unless the last time will do.
   std::shared_ptr<const Linkage::Impl> of(const Linkage::Impl& linkage) const;
-  void forget() { impl_.reset(); }
+  /// The number of pairs to be checked.
+  long long pairsOf(const Linkage::Impl& linkage) const;
+  void forget() {
+    impl_.reset();
+    pairs_ = kUnknown;
+  }
 
  private:
+  static constexpr long long kUnknown = -1;
+  mutable std::atomic<long long> pairs_{kUnknown};
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const Linkage::Impl> impl_;
 };

@@ -41,7 +41,7 @@ MotionSearch::MotionSearch(const Path& path, const MotionRequest& request, const
       cache_(scratch_.configurations),
       suspects_(scratch_.suspects),
       waiting_(scratch_.waiting) {
-  counts_.pairs = only ? 1 : path.linkage().pairs();
+  counts_.pairs = only ? 1 : path.linkage().renewed.pairsOf(path.linkage());
   cache_.reserve(tuning::kCached);
   suspects_.clear();
   waiting_.clear();
