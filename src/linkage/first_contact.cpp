@@ -25,6 +25,10 @@ void MotionSearch::push(int suspect, double from, double to, const Look& look) {
     const bool many = own.undecided || own.asked > tuning::kPatience;
     task.margin = many ? (own.undecided ? 4 : 2) + from : look.way - 0.5 * (to - from);
   }
+  enqueue(task);
+}
+
+void MotionSearch::enqueue(const Task& task) {
   waiting_.push_back(task);
   std::push_heap(waiting_.begin(), waiting_.end(), MostUrgent());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "linkage/orbits.h"
 #include "linkage/slab_motion.h"
@@ -99,36 +100,42 @@ MotionSearch::Look MotionSearch::bySlab(const Task& task, const Pair& pair, cons
   return look;
 }
 
+bool MotionSearch::isMuch(const Look& look, const Task& task) {
+  return look.to - look.from > tuning::kSlabShare * (task.to - task.from);
+}
+
 MotionSearch::Look MotionSearch::look(const Task& task) {
   using Outcome = Look::Outcome;
   ++counts_.queries;
   const Look known = knownLocally(task);
   if (known.outcome != Outcome::kUndecided) return known;
-  Pair& pair = suspects_[task.suspect].pair;
+  Suspect& suspect = suspects_[task.suspect];
+  Pair& pair = suspect.pair;
   const double s = task.look_at;
   const Configuration& c = at(s);
   const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
   const double half = std::max(s - task.from, task.to - s) * (1 + 0x1p-50);
   const double moved = motion.during(half), enough = request_.min_separation + moved;
-  const double roots = queries_.rootBound(pair, c, enough);
-  if (roots - request_.min_separation > moved) return proven(task, s, roots, motion);
-  const auto isMuch = [&](const Look& look) {
-    return look.to - look.from > tuning::kSlabShare * (task.to - task.from);
-  };
-  Look by_slab = bySlab(task, pair, c, queries_.slab(pair, c, kInfinity), true);
-  if (isMuch(by_slab)) return by_slab;
+  if (std::exchange(suspect.seen, -1) != s) {
+    suspect.roots = queries_.rootBound(pair, c, enough);
+    if (suspect.roots > enough) return proven(task, s, suspect.roots, motion);
+    const double width = queries_.slab(pair, c, enough);
+    if (width > enough) return {Outcome::kProven, s, task.from, task.to};
+    const Look by_volumes = bySlab(task, pair, c, width, true);
+    if (isMuch(by_volumes, task)) return by_volumes;
+  }
   const Look by_triangles = local(task);
-  if (isMuch(by_triangles)) return by_triangles;
+  if (isMuch(by_triangles, task)) return by_triangles;
   const long long expansions = counts_.expansions;
-  const Nearness near = queries_.ask(pair, c, enough);
-  suspects_[task.suspect].asked += tuning::kTestsOfExpansion * (counts_.expansions - expansions);
+  const Configuration& again = at(s);  // as a search for turns may have taken its place
+  const Nearness near = queries_.ask(pair, again, enough);
+  suspect.asked += tuning::kTestsOfExpansion * (counts_.expansions - expansions);
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
   // The query knows a better direction.
-  const double width = near.slab ? near.apart : queries_.slab(pair, c, kInfinity);
-  by_slab = bySlab(task, pair, c, width, !near.slab);
-  const Look by_query = proven(task, s, std::max(near.apart, roots), motion);
-  double& way = suspects_[task.suspect].way;
-  way = std::max(0.5 * way, by_query.to - by_query.from);
+  const double width = near.slab ? near.apart : queries_.slab(pair, again, kInfinity);
+  const Look by_slab = bySlab(task, pair, again, width, !near.slab);
+  const Look by_query = proven(task, s, std::max(near.apart, suspect.roots), motion);
+  suspect.way = std::max(0.5 * suspect.way, by_query.to - by_query.from);
   return by_slab.to - by_slab.from > by_query.to - by_query.from ? by_slab : by_query;
 }
 
@@ -198,12 +205,10 @@ bool MotionSearch::contactAt(double s, int suspect) {
 }
 
 MotionResult MotionSearch::run() {
-  // A contact at the end is found first; there it is told as well what lies in what.
-  if (!touchingAtEnd()) {
-    const bool found = findSuspects();
-    const bool contained = !looks_for_touch_ && containedAt(request_.first_contact ? 0 : 0.5);
-    if (!found && !contained) search();
-  }
+  // Where single configurations are looked at, what lies in what is told as well.
+  const bool found = findSuspects();
+  const bool contained = !looks_for_touch_ && containedAt(request_.first_contact ? 0 : 0.5);
+  if (!found && !contained) search();
   MotionResult answer;
   answer.verdict = end_.verdict;
   answer.from = end_.from;

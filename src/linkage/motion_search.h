@@ -15,6 +15,9 @@ namespace kios::articulated {
 /// A pair that its bounding volumes don't prove for the whole path at once.
 struct Suspect {
   Pair pair;
+  /// Where it was found: the bound by volumes, and what would prove all of an interval.
+  double roots = 0, enough = 0;
+  double seen = -1;  ///< where a slab was looked for last
   // One account, in tests of volumes: slabs between triangles may spend what queries did.
   long long asked = 0;     ///< spent on queries
   long long spent = 0;     ///< on slabs, less what the queries that they spared would have taken
@@ -48,7 +51,8 @@ struct Scratch {
   std::vector<Configuration> configurations;
   std::vector<Suspect> suspects;
   std::vector<Pair> pairs;
-  std::vector<std::pair<double, Pair>> near;
+  std::vector<std::pair<double, int>> near;
+  std::vector<std::pair<double, double>> intervals;
   std::vector<Task> waiting;
   NearPairs near_pairs;
 };
@@ -82,21 +86,22 @@ class MotionSearch {
   };
 
   const Configuration& at(double s);
-  /// Gathers the pairs that aren't proven apart within `time` of s; with a time above 0, those that
-  /// move.
+  /// Gathers the pairs that aren't proven apart within `time` of s.
   std::vector<Pair>& gather(double s, double time);
-  /// Finds the pairs that volumes in the middle of the path don't prove clear for all of it.
-  /// True if a contact is found there.
+  /// Finds the pairs that nothing proves clear for all of the path at its middle, and tasks for
+  /// them. True if a contact is found there, at the end, or of a pair that nothing moves.
   bool findSuspects();
+  /// Adds the pairs that move and that volumes at s don't prove within `time` of it.
+  void addSuspects(const std::vector<Pair>& pairs, double s, double time);
+  /// Drops the suspects from `first` on that a slab in the middle of an interval proves for all of
+  /// it, and adds tasks for the others.
+  void dismissBySlabs(std::size_t first, double from, double to);
   /// Decides a pair that nothing moves by the configuration s, as far as that can be. True if it is
   /// in contact.
   bool stillTouching(Pair pair, double s);
-  /// True if a contact is found at the end of the path; at its start, of a pair that nothing moves,
-  /// where the first contact is asked for.
+  /// True if one of the suspects from `first` on, which were found at s, is in contact there.
+  bool touching(double s, std::size_t first);
   bool touchingAtEnd();
-  /// True if one of scratch_.near is in contact at s: pairs whose root volumes overlap, and that
-  /// bound.
-  bool touching(double s);
   /// True if one of two solids lies in the other at s; only then it may do so where the surfaces
   /// are proven apart from s on, or up to s.
   bool containedAt(double s);
@@ -110,6 +115,8 @@ class MotionSearch {
   /// By a slab across the pair's direction; see SlabMotion.
   Look bySlab(const Task& task, const Pair& pair, const Configuration& c, double width,
               bool planes) const;
+  /// True if that spares an interval a query.
+  static bool isMuch(const Look& look, const Task& task);
   bool contactAt(double s, int suspect);
   bool budgetSpent() const { return counts_.queries >= request_.max_queries; }
 
@@ -118,6 +125,7 @@ class MotionSearch {
   /// Adds what is left of a task once [from, to] is proven, or can't be.
   void pushRest(const Task& task, double from, double to, const Look& look);
   void push(int suspect, double from, double to, const Look& look);
+  void enqueue(const Task& task);
   /// Notes a short interval that can't be proven, or a contact at one of its ends.
   void undecided(const Task& task, double s);
   /// True if nothing that waits can change the answer.

@@ -14,7 +14,7 @@ namespace kios::articulated {
 class NearPairs {
  public:
   /// Calls visit(pair) for every pair that may be within `distance` of each other at most `time` to
-  /// both sides of a configuration; with a time above 0, for pairs that move alone.
+  /// both sides of a configuration.
   template <typename Visit>
   void forEach(const Path& path, const Configuration& c, double distance, double time,
                const Visit& visit) {
@@ -28,7 +28,7 @@ class NearPairs {
       // How far the body moves is measured only where something is near enough to need it.
       const double swept = !body.bounded ? kInfinity : time > 0 ? time * path.swept(id, 0) : 0;
       const double reach = body.content.radius + swept;
-      if (body.meets && !(time > 0 && path.still(id, id, 0))) {
+      if (body.meets) {
         const double still = distance + body.content.radius + path.padOfObstacles(id);
         const auto found = [&](int obstacle) {
           if (linkage.bodies[obstacle].ignores(id)) {
@@ -47,10 +47,7 @@ class NearPairs {
         const int shared = carried.shared[slot], other = linkage.carried[slot].body;
         if (shared == CarriedBody::kNever) return false;
         const Pair pair{std::min(id, other), std::max(id, other), shared};
-        if (time > 0 && (path.still(id, other, shared) || apart(path, c, pair, distance, time))) {
-          return false;
-        }
-        visit(pair);
+        if (!(time > 0 && apart(path, c, pair, distance, time))) visit(pair);
         return false;
       });
     }
@@ -65,9 +62,10 @@ class NearPairs {
     const double still = distance + a.content.radius + b.content.radius + path.pad(pair.a, pair.b);
     const double square = (c.center(pair.a) - c.center(pair.b)).squaredNorm();
     const auto isFarther = [&](double moved) { return square > (still + moved) * (still + moved); };
-    return isFarther(time * (path.swept(pair.a, pair.shared) + path.swept(pair.b, pair.shared))) ||
-           isFarther(c.motion(pair.a, pair.shared).during(time) +
-                     c.motion(pair.b, pair.shared).during(time));
+    const double swept = path.swept(pair.a, pair.shared) + path.swept(pair.b, pair.shared);
+    return isFarther(time * swept) ||
+           (swept > 0 && isFarther(c.motion(pair.a, pair.shared).during(time) +
+                                   c.motion(pair.b, pair.shared).during(time)));
   }
 
   BallLanes balls_;

@@ -19,10 +19,10 @@ std::vector<Pair>& MotionSearch::gather(double s, double time) {
     queries_.requireServed(pair.a, pair.b);
     pairs.push_back(pair);
   };
-  if (!only_) {
-    scratch_.near_pairs.forEach(path_, at(s), request_.min_separation, time, add);
-  } else if (time == 0 || !path_.still(only_->a, only_->b, only_->shared)) {
+  if (only_) {
     add(*only_);
+  } else {
+    scratch_.near_pairs.forEach(path_, at(s), request_.min_separation, time, add);
   }
   return pairs;
 }
@@ -47,69 +47,104 @@ bool MotionSearch::stillTouching(Pair pair, double s) {
   return contact;
 }
 
-// Most pairs are so far apart at the middle of the path that half of it doesn't bring them
-// together. Where many aren't, they are looked for anew in both halves, rather than one by one.
-// Some may touch there.
+// Paths that aren't free are in contact at the end more often than not: it comes first. Else most
+// pairs are proven for the whole path at its middle, by volumes or a slab. Where volumes leave
+// many, they are looked for anew in both halves, rather than one by one. What nothing moves is
+// decided here for the whole path.
 bool MotionSearch::findSuspects() {
-  if (!path_.moves()) return false;
-  std::vector<std::pair<double, double>> intervals = {{0, 1}};
+  const bool moves = path_.moves(), first = request_.first_contact;
+  if (moves && touchingAtEnd()) return true;
+  std::vector<std::pair<double, double>>& intervals = scratch_.intervals;
+  intervals.assign(1, {0, 1});
   for (std::size_t i = 0; i < intervals.size(); ++i) {
-    const double from = intervals[i].first, to = intervals[i].second;
-    const double s = 0.5 * (from + to), half = 0.5 * (to - from);
-    const std::size_t before = suspects_.size();
-    const Configuration& c = at(s);
-    scratch_.near.clear();
-    for (const Pair& pair : gather(s, half)) {
-      const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
-      const double moved = motion.during(half) + request_.min_separation;
-      const double roots = queries_.rootBound(pair, c, moved);
-      if (roots > moved) continue;
-      if (!(roots > 0)) scratch_.near.emplace_back(roots, pair);
-      suspects_.push_back({pair});
-      waiting_.push_back({static_cast<int>(suspects_.size()) - 1, from, to, s, roots - moved});
+    const auto [from, to] = intervals[i];
+    const double s = moves   ? 0.5 * (from + to)
+                     : first ? 0
+                             : 1,
+                 half = moves ? 0.5 * (to - from) : 0;
+    const std::vector<Pair>& pairs = gather(s, half);
+    for (const Pair& pair : pairs) {
+      if (i > 0 || !path_.still(pair.a, pair.b, pair.shared)) continue;
+      if (stillTouching(pair, first ? 0 : s)) return true;
     }
+    const std::size_t before = suspects_.size();
+    addSuspects(pairs, s, half);
+    if (touching(s, before)) return true;
     const std::size_t found = suspects_.size() - before;
     if (i == 0) counts_.proven_at_once = counts_.pairs - static_cast<long long>(found);
-    if (looks_for_touch_ && touching(s)) return true;
-    if (found <= tuning::kMany || half <= tuning::kShortest || request_.first_contact) continue;
-    suspects_.resize(before);
-    waiting_.resize(before);
-    intervals.emplace_back(from, s);
-    intervals.emplace_back(s, to);
+    if (found > tuning::kMany && half > tuning::kShortest && !first) {
+      suspects_.resize(before);
+      intervals.emplace_back(from, s);
+      intervals.emplace_back(s, to);
+    } else {
+      dismissBySlabs(before, from, to);
+    }
   }
   return false;
 }
 
-// What doesn't move is decided here for the whole path: gather() leaves it out elsewhere.
-bool MotionSearch::touchingAtEnd() {
-  const double s = request_.first_contact ? 0 : 1;
-  scratch_.near.clear();
-  std::vector<Pair>& pairs = gather(s, 0);
-  const auto still = std::partition(pairs.begin(), pairs.end(), [&](const Pair& pair) {
-    return !path_.still(pair.a, pair.b, pair.shared);
-  });
-  for (auto pair = pairs.begin(); looks_for_touch_ && pair != still; ++pair) {
-    const double roots = queries_.rootBound(*pair, at(s), 0);
-    if (!(roots > 0)) scratch_.near.emplace_back(roots, *pair);
+void MotionSearch::addSuspects(const std::vector<Pair>& pairs, double s, double time) {
+  const Configuration& c = at(s);
+  for (const Pair& pair : pairs) {
+    if (path_.still(pair.a, pair.b, pair.shared)) continue;
+    double enough = request_.min_separation;
+    if (time > 0) {
+      const PairMotion motion(c.motion(pair.a, pair.shared), c.motion(pair.b, pair.shared));
+      enough += motion.during(time);
+    }
+    const double roots = queries_.rootBound(pair, c, enough);
+    if (!(roots > enough)) suspects_.push_back({pair, roots, enough});
   }
-  return touching(s) ||
-         std::any_of(still, pairs.end(), [&](const Pair& pair) { return stillTouching(pair, s); });
+}
+
+void MotionSearch::dismissBySlabs(std::size_t first, double from, double to) {
+  const double s = 0.5 * (from + to);
+  std::size_t kept = first;
+  for (std::size_t i = first; i < suspects_.size(); ++i) {
+    Suspect& suspect = suspects_[kept] = suspects_[i];
+    const Task task = {static_cast<int>(kept), from, to, s, suspect.roots - suspect.enough};
+    ++counts_.queries;
+    suspect.seen = s;
+    const double width = queries_.slab(suspect.pair, at(s), suspect.enough);
+    if (width > suspect.enough) continue;
+    const Look look = bySlab(task, suspect.pair, at(s), width, true);
+    if (look.outcome == Look::Outcome::kProven) continue;
+    ++kept;
+    if (isMuch(look, task)) {
+      pushRest(task, look.from, look.to, look);
+    } else {
+      enqueue(task);
+    }
+  }
+  suspects_.resize(kept);
+}
+
+bool MotionSearch::touchingAtEnd() {
+  if (!looks_for_touch_) return false;
+  addSuspects(gather(1, 0), 1, 0);
+  if (touching(1, 0)) return true;
+  suspects_.clear();
+  return false;
 }
 
 // First the pairs whose volumes overlap most for their size: they are in contact more often than
 // not. No query is asked where volumes or a slab part the bodies.
-bool MotionSearch::touching(double s) {
-  const Configuration& c = at(s);
-  std::vector<std::pair<double, Pair>>& near = scratch_.near;
-  for (auto& [roots, pair] : near) roots /= queries_.smallerRadius(pair);
-  std::sort(near.begin(), near.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (auto& [roots, pair] : near) {
+bool MotionSearch::touching(double s, std::size_t first) {
+  if (!looks_for_touch_) return false;
+  std::vector<std::pair<double, int>>& near = scratch_.near;
+  near.clear();
+  for (std::size_t i = first; i < suspects_.size(); ++i) {
+    const Suspect& suspect = suspects_[i];
+    if (suspect.roots > 0) continue;
+    near.emplace_back(suspect.roots / queries_.smallerRadius(suspect.pair), static_cast<int>(i));
+  }
+  std::sort(near.begin(), near.end());
+  for (const auto& [depth, i] : near) {
     ++counts_.queries;
-    if (roots > tuning::kDeep && queries_.slab(pair, c, 0) > 0) continue;
-    if (!queries_.touching(pair, c)) continue;
-    suspects_.assign(1, {pair});
-    end_ = {MotionVerdict::kContact, s, s, 0};
+    Pair& pair = suspects_[i].pair;
+    if (depth > tuning::kDeep && queries_.slab(pair, at(s), 0) > 0) continue;
+    if (!queries_.touching(pair, at(s))) continue;
+    end_ = {MotionVerdict::kContact, s, s, i};
     return true;
   }
   return false;
