@@ -17,6 +17,7 @@
 #include <fcl/narrowphase/collision_object.h>
 #include "fcl_kios/detail/counts.h"
 #include "fcl_kios/detail/rigid.h"
+#include "fcl_kios/model.h"
 
 namespace kios {
 
@@ -208,13 +209,17 @@ extern template class ManagerQuery<float>;
 
 /// A part of an assembly, where it stands.
 struct ClashPart {
-  /// A mesh over k-IOS. One that is marked as a solid (solids.h) has an inside; others are
-  /// surfaces.
+  /// A mesh over k-IOS, a box, or a convex shape by its faces. Both shapes, and meshes that are
+  /// marked as solids (solids.h), have an inside; others are surfaces. See toDouble(), too.
   std::shared_ptr<const fcl::CollisionGeometryd> geometry;
   UnalignedPose X_WP = UnalignedPose::Identity();
   std::string name;  ///< unlike those of all other parts
   int group = 0;
 };
+
+/// Makes a part's mesh of one in float: in double, marked as a solid if the model is. Throws
+/// std::invalid_argument if the model is not a finished mesh, and std::bad_alloc.
+std::shared_ptr<Modeld> toDouble(const Modelf& model);
 
 /// What findClashes() looks for, lengths in the parts' units.
 struct ClashRequest {
@@ -264,7 +269,7 @@ struct ClashResult {
 ///
 /// Two solids are judged by localDepth(). Surfaces that meet are kOverlap and not decided, unless
 /// a corner of one lies deeper in the other, a solid, than `touch`. Safe from many threads. Throws
-/// std::invalid_argument, which names the part, if a geometry is null, no mesh over k-IOS,
+/// std::invalid_argument, which names the part, if a geometry is null, none of these,
 /// unfinished or marked and no solid any more, a pose is not rigid, or a name is taken or not
 /// known; if a length is negative or not finite, or `touch` exceeds a clearance that isn't 0; and
 /// where there are more than `max_pairs`. Docs: docs/clash.md.

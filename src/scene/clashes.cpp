@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,9 +17,11 @@
 #include "fcl_kios/repair.h"
 #include "fcl_kios/scene.h"
 #include "fcl_kios/solids.h"
-#include "model/kios_model.h"
+#include "model/shape_values.h"
 #include "query/threads.h"
 #include "scene/box.h"
+#include "scene/part_mesh.h"
+#include "shape/shape_solid.h"
 #include "solid/containment.h"
 #include "solid/solid_mark.h"
 #include "volume/errors.h"
@@ -28,6 +31,7 @@ namespace kios {
 namespace {
 
 using scene::Box;
+using scene::meshOfPart;
 
 /// Bounds the rounding of R x + T, whose terms are at most `length` in all, by 16 eps of that,
 /// which is more than frameError(); of what maps it into another part's frame (points.h), by 2^-48
@@ -47,8 +51,8 @@ double lengthOf(const fcl::Vector3d& v) {
 }
 
 struct PlacedPart {
-  PlacedPart(const Modeld& of, const fcl::Transform3d& pose)
-      : model(of), X_W(pose), solid(markOf(of) != nullptr) {
+  PlacedPart(std::shared_ptr<const Modeld> of, const fcl::Transform3d& pose)
+      : owned(std::move(of)), model(*owned), X_W(pose), solid(markOf(model) != nullptr) {
     if (solid) markOf(model)->check();
     std::fill_n(box.lower, 3, kInfinity);
     std::fill_n(box.upper, 3, -kInfinity);
@@ -81,6 +85,7 @@ struct PlacedPart {
     }
   }
 
+  const std::shared_ptr<const Modeld> owned;
   const Modeld& model;
   const fcl::Transform3d X_W;
   const bool solid;
@@ -314,13 +319,19 @@ std::vector<ClashResult> findClashes(const std::vector<ClashPart>& parts,
   std::vector<PlacedPart> placed;
   placed.reserve(parts.size());
   std::unordered_map<std::string, int> ids;
+  // Equal shapes share a mesh: 64,000 boxes took 5 s without, 0.5 s as one.
+  std::map<std::pair<fcl::NODE_TYPE, std::vector<double>>, std::shared_ptr<const Modeld>> shapes;
   for (const ClashPart& part : parts) {
     naming("part " + quotedName(part), [&] {
-      const Modeld* const model = asModel(part.geometry.get());
-      if (!model) refuse("it is no mesh over k-IOS: kios::makeModel() makes one of its triangles.");
-      const int id = scene.add(part.geometry, fcl::Transform3d(part.X_WP));
+      std::shared_ptr<const Modeld> own;
+      const auto* const g = part.geometry.get();
+      const bool is_shape = g && isShape(*g);
+      if (is_shape) toSolid(*g);  // refuses sizes that are none: NaN is no key
+      auto& mesh = is_shape ? shapes[{g->getNodeType(), shapeValues(*g)}] : own;
+      if (!mesh) mesh = meshOfPart(part.geometry);
+      const int id = scene.add(mesh, fcl::Transform3d(part.X_WP));
       if (!ids.emplace(part.name, id).second) refuse("another part has this name.");
-      placed.emplace_back(*model, fcl::Transform3d(part.X_WP));
+      placed.emplace_back(mesh, fcl::Transform3d(part.X_WP));
     });
   }
   for (const auto& pair : request.ignored) {

@@ -124,6 +124,8 @@ void ask() {
   std::vector<kios::ClashPart> parts(2);
   parts[0].geometry = parts[1].geometry = model;
   parts[0].name = "part";
+  parts[1].geometry = kios::toDouble(
+      *kios::makeModel<float>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {fcl::Triangle(0, 1, 2)}));
   parts[1].X_WP = pressed;
   for (const kios::ClashResult& clash : kios::findClashes(parts)) {
     std::printf("%zu %zu %.17g\n", clash.a, clash.b, clash.lower);

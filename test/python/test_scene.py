@@ -122,8 +122,10 @@ def test_clashes_have_their_statuses(ball, block):
         fcl_kios.clashes(parts + [("a", unit)])
     with pytest.raises(ValueError, match="'z'"):
         fcl_kios.clashes(parts, ignored=[("a", "z")])
-    with pytest.raises(TypeError, match="Mesh"):
-        fcl_kios.clashes([("a", fcl.Box(1, 1, 1))])
+    boxes = [("x", fcl.Box(1, 1, 1)), ("y", fcl.Box(1, 1, 1), at(0.75)), ("z", unit, at(1.75))]
+    assert [c.status for c in fcl_kios.clashes(boxes)] == ["overlap", "touch"]
+    with pytest.raises(TypeError, match="Mesh, Box or Convex, not a Sphere"):
+        fcl_kios.clashes([("a", fcl.Sphere(1))])
     soup = fcl_kios.Mesh(block.vertices, block.faces[:-1])
     unknown, = fcl_kios.clashes([("a", soup), ("b", soup, at(0.1))])
     assert unknown.status == "overlap" and not unknown.decided and unknown.upper == np.inf
@@ -141,7 +143,7 @@ def test_clashes_have_their_statuses(ball, block):
     ({"ignored": [("a", "b", "c")]}, TypeError, "pair of names"),
     ({"part": 1}, TypeError, "part 1 must be"), ({"part": ("b",)}, TypeError, "part 1 must be"),
     ({"part": ("b", None, None, None, None)}, TypeError, "part 1 must be"),
-    ({"part": ("b", None)}, TypeError, "mesh of part 'b' must be a Mesh, not a NoneType"),
+    ({"part": ("b", None)}, TypeError, "mesh of part 'b' must be a Mesh, Box or Convex, not a NoneType"),
     ({"part": (2, "mesh")}, TypeError, "name of part 1 must be a str, not 2"),
     ({"part": ("\udc80", "mesh")}, ValueError, "can't be written in UTF-8"),
     ({"part": ("b", "mesh", np.eye(3))}, ValueError, r"X of part 'b' has shape \(3, 3\)"),

@@ -5,7 +5,8 @@
 // parts, ignored ones and bad input, by cases that are known.
 #include <limits>
 
-#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/geometric_shape_to_BVH_model.h>
+#include <fcl/math/bv/OBBRSS.h>
 #include "scene/clash_parts.h"
 
 namespace kios::testing {
@@ -150,6 +151,26 @@ TEST(ClashRules, DuplicatesAreFoundByContent) {
   EXPECT_TRUE(flush.decided);
 }
 
+/// What a refusal of such a shape names.
+TEST(ClashRules, MeshesThatFclMakesOfShapesAreParts) {
+  const auto here = fcl::Transform3d::Identity();
+  std::vector<std::shared_ptr<Modeld>> meshes;
+  const auto next = [&]() -> Modeld& { return *meshes.emplace_back(std::make_shared<Modeld>()); };
+  fcl::generateBVHModel(next(), fcl::Sphered(1), here, 24, 12);
+  fcl::generateBVHModel(next(), fcl::Ellipsoidd(1, 1, 1), here, 24, 12);
+  fcl::generateBVHModel(next(), fcl::Cylinderd(1, 2), here, 24, 2);
+  fcl::generateBVHModel(next(), fcl::Coned(1, 2), here, 24, 2);
+  ClashPart wall;
+  wall.geometry = std::make_shared<fcl::Boxd>(1, 9, 9);
+  for (const auto& mesh : meshes) {
+    ASSERT_NO_THROW(markSolid(*mesh));
+    const ClashResult clash = only({wall, partOf(mesh, at(-1.4, 0, 0), 1)});
+    EXPECT_EQ(clash.status, ClashStatus::kOverlap);
+    EXPECT_LE(clash.lower, 0.1 + 1e-12);
+    EXPECT_GE(clash.upper, 0.09);
+  }
+}
+
 TEST(ClashRules, IgnoredPairsAndGroupsAreLeftOut) {
   const auto model = solidOf(scenes::icosphere(1, 1));
   Parts parts;
@@ -212,8 +233,22 @@ TEST(ClashRules, BadInputIsRefusedByName) {
   expectRefused("'part 1'", [](Parts& p, ClashRequest&) { p[1].X_WP.linear() *= 1.1; });
   expectRefused("part 'part 1': a collision geometry is null",
                 [](Parts& p, ClashRequest&) { p[1].geometry = nullptr; });
-  expectRefused("'part 1': it is no mesh over k-IOS",
+  expectRefused("Sphere<double> is no part; fcl::generateBVHModel() makes a mesh",
                 [](Parts& p, ClashRequest&) { p[1].geometry = std::make_shared<fcl::Sphered>(1); });
+  expectRefused("is no part; kios::toKIOS() makes a mesh", [](Parts& p, ClashRequest&) {
+    p[1].geometry = scenes::buildModel<fcl::OBBRSSd>(scenes::icosphere(1, 1));
+  });
+  for (const double bad : {-1.0, nan, inf}) {
+    expectRefused("'part 1': the fcl::Box has side", [&](Parts& p, ClashRequest&) {
+      p[0].geometry = std::make_shared<fcl::Boxd>(1, 2, 1);
+      p[1].geometry = std::make_shared<fcl::Boxd>(1, bad, 1);
+    });
+  }
+  expectRefused("'part 1': the model bounds no solid", [](Parts& p, ClashRequest&) {
+    p[1].geometry = std::make_shared<fcl::Convexd>(
+        std::make_shared<std::vector<fcl::Vector3d>>(3, fcl::Vector3d(1, 2, 3)), 1,
+        std::make_shared<std::vector<int>>(std::vector<int>{3, 0, 1, 2}));
+  });
   expectRefused("'part 1'",
                 [](Parts& p, ClashRequest&) { p[1].geometry = std::make_shared<Modeld>(); });
   expectRefused("'part 0': another part has this name",

@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include <fcl/geometry/shape/sphere.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/convex.h>
 #include "scene/clash_parts.h"
 
 namespace kios::testing {
@@ -22,12 +23,29 @@ namespace {
 struct Box {
   fcl::Vector3d low, high;
 
-  std::shared_ptr<Modeld> solid() const {
+  /// As a mesh, one in float, or a shape: of one kind for all i that are 6 or 11 modulo 12.
+  ClashPart part(const fcl::Transform3d& X, std::size_t i) const {
     Mesh mesh = scenes::subdividedBox({1, 1, 1}, 1);
     for (fcl::Vector3d& p : mesh.vertices) {
       for (int c = 0; c < 3; ++c) p[c] = p[c] < 0 ? low[c] : high[c];
     }
-    return solidOf(mesh);
+    const std::size_t kind = i % 12;
+    ClashPart part = partOf(kind < 2 ? toDouble(*solidOf<float>(mesh)) : solidOf(mesh), X, i);
+    if (kind == 2 || kind == 3) {
+      const std::vector<int> faces = {4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4,
+                                      4, 2, 6, 7, 3, 4, 0, 4, 6, 2, 4, 1, 3, 7, 5};
+      auto corners = std::make_shared<std::vector<fcl::Vector3d>>();
+      for (int k = 0; k < 8; ++k) {
+        corners->emplace_back((k & 1 ? high : low)[0], (k & 2 ? high : low)[1],
+                              (k & 4 ? high : low)[2]);
+      }
+      part.geometry =
+          std::make_shared<fcl::Convexd>(corners, 6, std::make_shared<std::vector<int>>(faces));
+    } else if ((kind == 6 || kind > 8) && X.linear().isIdentity(0)) {  // else T rounds
+      part.geometry = std::make_shared<fcl::Boxd>(high - low);
+      part.X_WP = X * Eigen::Translation3d((low + high) / 2);
+    }
+    return part;
   }
 };
 
@@ -95,7 +113,7 @@ TEST(Clashes, OfBoxesAreThoseOfArithmeticAtEveryPlace) {
     Parts parts;
     for (std::size_t i = 0; i < 120; ++i) {
       boxes.push_back(i % 12 == 11 ? boxes[i - 5] : randomBox(random));
-      parts.push_back(partOf(boxes.back().solid(), X, i));
+      parts.push_back(boxes.back().part(X, i));
     }
     const auto clashes = findClashes(parts, request);
     auto found = byPair(clashes);

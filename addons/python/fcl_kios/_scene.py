@@ -160,8 +160,8 @@ def _part(part, place, groups):
                         "(name, mesh, X, group).")
     name, mesh, X, group = (*part, None, None)[:4]
     _name(name, f"the name of part {place}")
-    if not isinstance(mesh, Mesh):
-        raise TypeError(f"fcl_kios: the mesh of part {name!r} must be a Mesh, not a "
+    if not isinstance(mesh, (Mesh, _core.Box, _core.Convex)):
+        raise TypeError(f"fcl_kios: the mesh of part {name!r} must be a Mesh, Box or Convex, not a "
                         f"{type(mesh).__name__}.")
     try:
         return name, mesh, X, groups.setdefault(group, len(groups))
@@ -179,7 +179,7 @@ def clashes(parts: Iterable[tuple], *, touch: float = 1e-6, clearance: float = 0
             ignored: Iterable[Tuple[str, str]] = (), between_groups: bool = False,
             threads: Optional[int] = None) -> List[Clash]:
     """Finds every Clash of parts, which are tuples (name, mesh), (name, mesh, X) or (name, mesh, X,
-    group), X their pose (4, 4) in the world. What is at most `touch` apart or deep touches, what is
+    group), X their pose (4, 4) in the world; a Box or Convex of fcl_kios.fcl is a mesh, too. What is at most `touch` apart or deep touches, what is
     nearer than the clearance lacks it. Pairs of names in `ignored`, and with between_groups those of
     one group, are left out. Raises ValueError, which names the part. Docs: docs/clash.md."""
     touch, clearance = _length(touch, "touch"), _length(clearance, "clearance")

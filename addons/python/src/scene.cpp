@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/convex.h>
 #include <pybind11/stl.h>
 
 #include "arrays.h"
@@ -187,8 +189,15 @@ class Scene {
   std::unordered_map<int, Handle> handles_;  ///< by ids of scene_
 };
 
+/// A part's; a box as it stands now.
+std::shared_ptr<const fcl::CollisionGeometryd> geometryOf(py::handle part) {
+  if (py::isinstance<Mesh>(part)) return part.cast<const Mesh&>().share();
+  if (py::isinstance<fcl::Convexd>(part)) return part.cast<std::shared_ptr<fcl::Convexd>>();
+  return std::make_shared<fcl::Boxd>(part.cast<const fcl::Boxd&>());
+}
+
 /// A list of tuples: two places in the list, status, whether it is decided and deep, two bounds,
-/// three vectors. Parts are tuples of a name, a Mesh, a pose and a group.
+/// three vectors. Parts are tuples of a name, a Mesh, Box or Convex, a pose and a group.
 py::list clashes(const py::list& parts, double touch, double clearance,
                  std::vector<std::pair<std::string, std::string>> ignored, bool between_groups,
                  const py::object& threads) {
@@ -197,7 +206,7 @@ py::list clashes(const py::list& parts, double touch, double clearance,
     const auto entry = py::reinterpret_borrow<py::tuple>(part);
     ClashPart& added = placed.emplace_back();
     added.name = entry[0].cast<std::string>();
-    added.geometry = entry[1].cast<const Mesh&>().share();
+    added.geometry = geometryOf(entry[1]);
     const std::string X = "X of part '" + added.name + "'";
     added.X_WP = Poses(entry[2], X.c_str()).only(X.c_str());
     added.group = entry[3].cast<int>();
