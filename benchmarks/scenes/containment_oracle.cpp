@@ -4,12 +4,27 @@
 #include "containment_oracle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "random.h"
 #include "ray_oracle.h"
 
 namespace kios::scenes {
+
+long double windingOf(const std::array<Eigen::Vector3d, 3>& triangle,
+                      const Eigen::Vector3d& point) {
+  using Row = Eigen::Matrix<long double, 3, 1>;
+  Row v[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = triangle[k].cast<long double>() - point.cast<long double>();
+  }
+  const long double a = v[0].norm(), b = v[1].norm(), c = v[2].norm();
+  const long double angle =
+      std::atan2(v[0].dot(v[1].cross(v[2])),
+                 a * b * c + v[0].dot(v[1]) * c + v[1].dot(v[2]) * a + v[2].dot(v[0]) * b);
+  return angle / 6.28318530717958647692528676655900577L;
+}
 
 ContainmentOracle::ContainmentOracle(const Mesh& mesh) {
   for (const fcl::Triangle& t : mesh.triangles) {

@@ -17,6 +17,10 @@
 
 namespace kios::scenes {
 
+/// Returns how far a triangle winds round a point: the solid angle that it fills, 1 all round, in
+/// long double (Van Oosterom and Strackee 1983). Few digits are right near its edges.
+long double windingOf(const std::array<Eigen::Vector3d, 3>& triangle, const Eigen::Vector3d& point);
+
 class ContainmentOracle {
  public:
   explicit ContainmentOracle(const Mesh& mesh);

@@ -6,9 +6,11 @@
 
 #include <utility>
 
+#include "all_pairs.h"
 #include "fcl_kios/fcl_kios.h"
 #include "not_finite.h"
 #include "scalars.h"
+#include "scenes/containment_oracle.h"
 #include "scenes/triangle_families.h"
 #include "shapes.h"
 
@@ -17,20 +19,9 @@ namespace {
 
 template <typename S>
 long double sumOfAngles(const Model<S>& model, const fcl::Vector3d& p) {
-  using Vec = Eigen::Matrix<long double, 3, 1>;
   long double sum = 0;
-  for (int t = 0; t < model.num_tris; ++t) {
-    Vec v[3];
-    for (int k = 0; k < 3; ++k) {
-      v[k] = model.vertices[model.tri_indices[t][k]].template cast<long double>() -
-             p.cast<long double>();
-    }
-    const long double a = v[0].norm(), b = v[1].norm(), c = v[2].norm();
-    const Vec n = v[1].cross(v[2]);
-    sum += std::atan2(v[0].dot(n),
-                      a * b * c + v[0].dot(v[1]) * c + v[1].dot(v[2]) * a + v[2].dot(v[0]) * b);
-  }
-  return sum / 6.28318530717958647692528676655900577L;
+  for (const TriangleVerticesd& t : trianglesOf(model)) sum += scenes::windingOf(t, p);
+  return sum;
 }
 
 std::vector<NamedMesh> meshes() {

@@ -14,7 +14,7 @@
 #include "not_finite.h"
 #include "scalars.h"
 #include "scenes/cad_shapes.h"
-#include "scenes/containment_oracle.h"
+#include "scenes/depth_oracle.h"
 #include "scenes/triangle_families.h"
 #include "solid/solid_meshes.h"
 
@@ -22,61 +22,17 @@ namespace kios::testing {
 namespace {
 
 using fcl::Vector3d;
+using scenes::DepthOracle;
 using scenes::merged;
 using scenes::subdividedBox;
 
-/// One of a pair, as posed in the world.
-struct Posed {
-  Mesh mesh;
-  scenes::ContainmentOracle oracle;
-  std::shared_ptr<Modeld> model;
-  Eigen::AlignedBox3d box;
-
-  explicit Posed(const Mesh& m) : mesh(m), oracle(m), model(solidOf(m)) {
-    for (const Vector3d& p : mesh.vertices) box.extend(p);
-  }
-  double distance(const Vector3d& p) const { return nearestPoint(*model, p).distance; }
-  /// 0 outside; contains() is judged by rational arithmetic elsewhere.
-  double depth(const Vector3d& p) const { return contains(*model, kHere, p) ? distance(p) : 0; }
-  bool holds(const Vector3d& p) const {
-    return oracle.placeOf(p) == scenes::ContainmentOracle::Place::kInside;
-  }
-};
-
-/// Returns the depth of the deepest in b of points on a's triangles, where distances to walls
-/// count.
-double deepestSample(const Posed& a, const Posed& b, int steps = 6) {
-  double deepest = 0;
-  for (const fcl::Triangle& t : a.mesh.triangles) {
-    const Vector3d &p = a.mesh.vertices[t[0]], u = a.mesh.vertices[t[1]] - p,
-                   v = a.mesh.vertices[t[2]] - p;
-    for (int i = 0; i <= steps; ++i) {
-      for (int j = 0; j <= steps - i; ++j) {
-        deepest = std::max(deepest, b.depth(p + (i * u + j * v) / steps));
-      }
-    }
-  }
-  return deepest;
-}
-
-/// Returns the radius of the largest of balls in both about points at random.
-double largestBall(const Posed& a, const Posed& b, int count, Random& random) {
-  double largest = 0;
-  const Eigen::AlignedBox3d box = a.box.intersection(b.box);
-  for (int i = 0; i < count && !box.isEmpty(); ++i) {
-    const Vector3d x = box.center() + 0.5 * inCube(random).cwiseProduct(box.sizes());
-    largest = std::max(largest, std::min(a.depth(x), b.depth(x)));
-  }
-  return largest;
-}
-
 /// Returns what is wrong with the place where `lower` is attained, if anything.
-std::string faultOfLower(const LocalDepthResult& found, const Posed& a, const Posed& b,
+std::string faultOfLower(const LocalDepthResult& found, const DepthOracle& a, const DepthOracle& b,
                          double rounding) {
   if (!(found.lower > rounding)) return {};
   const Vector3d p(found.point[0], found.point[1], found.point[2]),
       q(found.nearest[0], found.nearest[1], found.nearest[2]);
-  const Posed &other = found.surface_of == 1 ? b : a, &own = found.surface_of == 1 ? a : b;
+  const DepthOracle &other = found.surface_of == 1 ? b : a, &own = found.surface_of == 1 ? a : b;
   if (!(other.distance(p) >= found.lower - rounding)) return "the point is nearer to the surface";
   if (!(std::abs((p - q).norm() - found.lower) <= 4 * rounding)) return "the points are elsewhere";
   if (!other.holds(p)) return "the point is outside";
@@ -108,10 +64,11 @@ TYPED_TEST(LocalDepthOfTwo, IsThatOfSamples) {
     request.rel_err = i % 3 == 0 ? 0.01 : 0.1;
     request.max_pieces = 2000;
     const LocalDepthResult found = localDepth(*a, X_WA, *b, X_WB, request);
-    const Posed in_world_a(mesh_a), in_world_b(scenes::moved(X_WB.template cast<double>(), mesh_b));
-    const double deepest =
-        std::max({deepestSample(in_world_a, in_world_b), deepestSample(in_world_b, in_world_a),
-                  largestBall(in_world_a, in_world_b, 2000, random)});
+    const DepthOracle in_world_a(mesh_a),
+        in_world_b(scenes::moved(X_WB.template cast<double>(), mesh_b));
+    const double deepest = std::max({deepestSample(in_world_a, in_world_b, 6),
+                                     deepestSample(in_world_b, in_world_a, 6),
+                                     largestBall(in_world_a, in_world_b, 2000, random)});
     EXPECT_LE(deepest, found.upper + rounding);
     EXPECT_EQ(faultOfLower(found, in_world_a, in_world_b, rounding), "");
     EXPECT_LE(found.lower, found.upper);

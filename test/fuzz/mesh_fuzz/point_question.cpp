@@ -10,6 +10,7 @@
 
 #include "fuzz/mesh_fuzz/pair.h"
 #include "fuzz/mesh_fuzz/questions.h"
+#include "scenes/containment_oracle.h"
 
 namespace kios::fuzz {
 namespace {
@@ -96,16 +97,9 @@ class PointQuestion {
   }
 
   double sumOfAngles(const Vector3d& p) const {
-    using Row = Eigen::Matrix<long double, 3, 1>;
     long double sum = 0;
-    for (const auto& t : triangles_) {
-      Row v[3];
-      for (std::size_t k = 0; k < 3; ++k) v[k] = t[k].cast<long double>() - p.cast<long double>();
-      const long double a = v[0].norm(), b = v[1].norm(), c = v[2].norm();
-      sum += std::atan2(v[0].dot(v[1].cross(v[2])),
-                        a * b * c + v[0].dot(v[1]) * c + v[1].dot(v[2]) * a + v[2].dot(v[0]) * b);
-    }
-    return static_cast<double>(sum / 6.28318530717958647692528676655900577L);
+    for (const auto& t : triangles_) sum += scenes::windingOf(t, p);
+    return static_cast<double>(sum);
   }
 
   /// On, near, within and far from the mesh.
