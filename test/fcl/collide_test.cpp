@@ -111,24 +111,6 @@ TEST(Collide, NormalsPointFromFirstToSecond) {
   EXPECT_LE((ba.getContact(0).normal - Vector3d(0, 0, 1)).norm(), 1e-14);
 }
 
-TEST(Collide, NumberOfContactsIsHonoured) {
-  const MeshCase pair = meshCases().front();
-  const auto model_a = kiosModel(pair.a), model_b = kiosModel(pair.b);
-  for (const Frame& frame : randomFrames(20, pair.spread / 2, 25)) {
-    for (const bool enable_contact : {false, true}) {
-      const auto all = query(*model_a, *model_b, frame, kAllContacts, enable_contact);
-      const Pairs pairs = contactPairs(all);
-      for (const std::size_t limit : {1u, 2u, 3u, 7u, 1000000u}) {
-        const auto some = query(*model_a, *model_b, frame, limit, enable_contact);
-        EXPECT_EQ(some.numContacts(), std::min(limit, all.numContacts()));
-        for (const auto& found : contactPairs(some)) {
-          EXPECT_TRUE(std::binary_search(pairs.begin(), pairs.end(), found));
-        }
-      }
-    }
-  }
-}
-
 TEST(Collide, NoContactsAskedForIsFclsWarningAndNone) {
   const auto model = kiosModel(scenes::icosphere(1, 1));
   const Frame same{Transform3d::Identity(), Transform3d::Identity()};

@@ -28,15 +28,18 @@ class Refused : public ::testing::Test {
 };
 
 TEST_F(Refused, PosesThatAreNotRigid) {
-  std::vector<Transform3d> poses(6, here_);
+  std::vector<Transform3d> poses(5, here_);
   poses[0].linear() *= 1.01;
   poses[1].linear()(0, 1) = 0.01;
   poses[2].linear()(2, 2) = kNaN;
-  poses[3].translation()[1] = kNaN;
-  poses[4].translation()[2] = kInfinity;
-  poses[5].linear().setZero();
+  poses[4].linear().setZero();
+  // Each must be rigid by itself: distances would be right here, points and normals would not.
+  Transform3d half = here_;
+  half.linear() *= 0.5;
+  poses[3].linear() *= 2;
   for (const Transform3d& bad : poses) {
-    for (const auto& [X1, X2] : {std::pair(bad, here_), std::pair(here_, bad)}) {
+    for (const auto& [X1, X2] :
+         {std::pair(bad, here_), std::pair(here_, bad), std::pair(bad, half)}) {
       fcl::CollisionResultd contacts;
       fcl::DistanceResultd distance;
       expectRefused(
@@ -51,20 +54,6 @@ TEST_F(Refused, PosesThatAreNotRigid) {
       EXPECT_EQ(distance.o1, nullptr);
     }
   }
-}
-
-// Each pose must be rigid by itself: distances would be right here, points and normals would not.
-TEST_F(Refused, PosesWhoseErrorsCancel) {
-  Transform3d twice = here_, half = here_;
-  twice.linear() *= 2;
-  half.linear() *= 0.5;
-  half.translation() = Vector3d(9, 0, 0);
-  fcl::DistanceResultd distance;
-  expectRefused(
-      [&] {
-        fcl::distance(good_.get(), twice, good_.get(), half, fcl::DistanceRequestd(true), distance);
-      },
-      "rigid");
 }
 
 // Also where the request is satisfied before anything is looked at.
@@ -181,28 +170,6 @@ void expectReflectionsRefused(const Mesh& mesh) {
 TEST_F(Refused, Reflections) {
   expectReflectionsRefused<double>(mesh_);
   expectReflectionsRefused<float>(mesh_);
-}
-
-// Six-digit rotations, as in the paper's paths, are taken as given: the oracle takes them too.
-TEST_F(Refused, SlightlyWrongRotationsAreNot) {
-  const Mesh a = scenes::bumpyTorus(200), b = scenes::bumpyTorus(140);
-  const auto model_a = kiosModel(a), model_b = kiosModel(b);
-  const scenes::MeshOracle oracle(a, b);
-  for (const double digits : {1e6, 1e5}) {
-    for (Frame frame : randomFrames(60, 1.5, 81)) {
-      for (Transform3d* X : {&frame.X_WA, &frame.X_WB}) {
-        X->linear() = (X->linear().array() * digits).round() / digits;
-      }
-      fcl::DistanceResultd result;
-      EXPECT_NEAR(fcl::distance(model_a.get(), frame.X_WA, model_b.get(), frame.X_WB,
-                                fcl::DistanceRequestd(), result),
-                  oracle.distance(frame.X_WA, frame.X_WB), 1e-12 * sizeOf(a, b));
-      fcl::CollisionResultd contacts;
-      fcl::collide(model_a.get(), frame.X_WA, model_b.get(), frame.X_WB,
-                   fcl::CollisionRequestd(kAllContacts), contacts);
-      EXPECT_EQ(contactPairs(contacts), oracle.collidingPairs(frame.X_WA, frame.X_WB));
-    }
-  }
 }
 
 TEST_F(Refused, MakeModelAndValidate) {
