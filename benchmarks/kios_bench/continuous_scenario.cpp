@@ -134,11 +134,8 @@ void reportContinuous(const Options& options, Report& report) {
     for (const Way& way : ways) {
       if (type == fcl::CCDM_SPLINE && !way.splines) continue;
       served.push_back(&way);
-      competitors.push_back({way.name, [&](std::size_t begin, std::size_t end) {
-                               for (std::size_t i = begin; i < end; ++i) {
-                                 way.answer(motions[i], nullptr);
-                               }
-                             }});
+      competitors.push_back(
+          {way.name, each([&](std::size_t i) { way.answer(motions[i], nullptr); })});
       competitors.back().rounds = roundsOf(way.name);
     }
     Race{motions.size(), options.repeats}.run(competitors);

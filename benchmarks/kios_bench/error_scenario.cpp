@@ -189,11 +189,8 @@ void reportSettings(Row base, const std::vector<Way>& ways, const std::vector<Se
   }
   std::vector<Competitor> competitors;
   for (Entry& entry : entries) {
-    const auto answer = [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        entry.answers[i] = entry.way->answer(entry.setting, questions[i]);
-      }
-    };
+    const auto answer = each(
+        [&](std::size_t i) { entry.answers[i] = entry.way->answer(entry.setting, questions[i]); });
     const auto warm = [answer](std::size_t begin, std::size_t end) {
       const double start = nowMicroseconds();
       while (begin < end && nowMicroseconds() - start < kWarmUp_us) {

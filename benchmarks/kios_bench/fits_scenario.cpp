@@ -15,7 +15,7 @@
 #include "fcl_kios/paper.h"
 #include "paper/fcl_policies.h"
 #include "paper/kios_policy.h"
-#include "paper/packed_policy.h"
+#include "paper/spheres_policy.h"
 #include "paper/variant_tree.h"
 #include "scenario.h"
 #include "scenes/motions.h"
@@ -117,30 +117,25 @@ void addKios(Entrants& all, const std::string& name, const FitOptions& options) 
   add(all, name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); });
 }
 
-/// Volumes that hold no more floats than their kind needs: for each cap its place, of so many
-/// floats, and its radius.
 template <typename Policy>
-void addPacked(Entrants& all, const std::string& name, const Policy& policy, int floats_of_place) {
-  const auto size_of = [floats_of_place](const PackedStore::Packed& bv) {
-    int caps = 0;
-    for (int axis = 0; axis < 8; ++axis) caps += 2 * ((bv.pairs >> axis) & 1);
-    return VolumeSize{4.0 + (floats_of_place + 1) * caps, 1.0 + caps};
-  };
-  add(all, name, policy, size_of);
+void addKind(Entrants& all, const std::string& name, const Policy& policy) {
+  add(all, name, policy, [](const SpheresStore::Stored& bv) {
+    return VolumeSize{double(bv.floats), double(bv.k)};
+  });
 }
 
 /// The paper's kinds (III-A) and its scale of k (V-B).
 void addKinds(Entrants& all) {
   FitOptions every;
   every.count = SphereCount::kAll;
-  addPacked(all, "kios_k3", OrientedKios<3>(every), 3);
-  addPacked(all, "kios_k7", OrientedKios<7>(every), 3);
-  addPacked(all, "kios_axis_aligned", AxisAlignedKios(), 1);
+  addKind(all, "kios_k3", OrientedKios<3>(every));
+  addKind(all, "kios_k7", OrientedKios<7>(every));
+  addKind(all, "kios_axis_aligned", AxisAlignedKios());
   // Through the corners of an icosahedron: k = 13.
   const double g = (1 + std::sqrt(5.0)) / 2;
   const std::vector<fcl::Vector3d> six = {{0, 1, g},  {0, 1, -g}, {1, g, 0},
                                           {1, -g, 0}, {g, 0, 1},  {-g, 0, 1}};
-  addPacked(all, "kios_fixed_6", FixedDirectionKios(six, every), 1);
+  addKind(all, "kios_fixed_6", FixedDirectionKios(six, every));
 }
 
 template <typename Policy>
@@ -270,16 +265,13 @@ std::vector<Row> ask(Row row, bool collide, const Poses& poses, int repeats,
   for (Lane& lane : lanes) {
     lane.answers.assign(poses.size(), 0);
     lane.bv_tests = lane.leaf_tests = 0;
-    competitors.push_back(
-        {lane.entrant->name, [&lane, &poses, collide](std::size_t begin, std::size_t end) {
-           for (std::size_t i = begin; i < end; ++i) {
-             const VariantResult result =
-                 collide ? lane.trees.collide(poses[i]) : lane.trees.distance(poses[i]);
-             lane.answers[i] = collide ? (result.contact ? 1 : 0) : result.distance;
-             lane.bv_tests += result.bv_tests;
-             lane.leaf_tests += result.leaf_tests;
-           }
-         }});
+    competitors.push_back({lane.entrant->name, each([&lane, &poses, collide](std::size_t i) {
+                             const VariantResult result = collide ? lane.trees.collide(poses[i])
+                                                                  : lane.trees.distance(poses[i]);
+                             lane.answers[i] = collide ? (result.contact ? 1 : 0) : result.distance;
+                             lane.bv_tests += result.bv_tests;
+                             lane.leaf_tests += result.leaf_tests;
+                           })});
   }
   Race{poses.size(), repeats, kBlock}.run(competitors);
   const Query query = collide ? Query::kCollide : Query::kDistance;

@@ -156,11 +156,9 @@ std::vector<Row> rowsOf(const std::string& scenario, const char* query,
                         const Options& options) {
   std::vector<Competitor> competitors;
   for (const auto& [bv, ask] : ways) {
-    competitors.push_back({bv, [&places, ask = ask](std::size_t begin, std::size_t end) {
-                             for (std::size_t i = begin; i < end; ++i) {
-                               ask(*places[i].first, places[i].second);
-                             }
-                           }});
+    competitors.push_back({bv, bench::each([&places, ask = ask](std::size_t i) {
+                             ask(*places[i].first, places[i].second);
+                           })});
   }
   Race race{places.size(), options.quick ? 1 : options.repeats, 1, 1, true, wall_clock};
   race.run(competitors);

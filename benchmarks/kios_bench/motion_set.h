@@ -13,6 +13,8 @@
 
 namespace kios::bench {
 
+Eigen::VectorXd vectorOf(const scenes::Joints& q);
+
 /// The linkage of a cell: bodies have the cell's numbers.
 Linkage linkageOf(const scenes::Cell& cell);
 

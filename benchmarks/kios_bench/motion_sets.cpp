@@ -17,10 +17,6 @@
 namespace kios::bench {
 namespace {
 
-Eigen::VectorXd vectorOf(const scenes::Joints& q) {
-  return Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
-}
-
 template <typename BV>
 std::vector<std::shared_ptr<fcl::BVHModel<BV>>> modelsOf(const scenes::Cell& cell) {
   std::vector<std::shared_ptr<fcl::BVHModel<BV>>> models;
@@ -73,9 +69,7 @@ class Managed final : public MotionSet {
   long long takeQueried() override { return std::exchange(queried_, 0); }
 
   bool isFreeAt(const scenes::Joints& q) {
-    scenes::placeLinks(cell_, q, poses_);
-    for (std::size_t i = 0; i < poses_.size(); ++i) bodies_.place(i, poses_[i]);
-    bodies_.update();
+    place(q);
     return !bodies_.collide([this](int a, int b) {
       if (!cell_.admissible(a, b)) return false;
       ++queried_;
@@ -85,9 +79,7 @@ class Managed final : public MotionSet {
     });
   }
   double distanceAt(const scenes::Joints& q) {
-    scenes::placeLinks(cell_, q, poses_);
-    for (std::size_t i = 0; i < poses_.size(); ++i) bodies_.place(i, poses_[i]);
-    bodies_.update();
+    place(q);
     double least = std::numeric_limits<double>::infinity();
     bodies_.distance([&](int a, int b, double& reach) {
       if (cell_.admissible(a, b)) {
@@ -102,6 +94,12 @@ class Managed final : public MotionSet {
   }
 
  private:
+  void place(const scenes::Joints& q) {
+    scenes::placeLinks(cell_, q, poses_);
+    for (std::size_t i = 0; i < poses_.size(); ++i) bodies_.place(i, poses_[i]);
+    bodies_.update();
+  }
+
   const scenes::Cell& cell_;
   ManagedBodies bodies_;
   std::vector<fcl::Transform3d> poses_;
@@ -130,6 +128,10 @@ double sweptBound(const scenes::Cell& cell, const scenes::Joints& q0, const scen
 }
 
 }  // namespace
+
+Eigen::VectorXd vectorOf(const scenes::Joints& q) {
+  return Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size()));
+}
 
 std::function<double(const scenes::Joints&, const scenes::Joints&)> makeSampledClearance(
     const scenes::Cell& cell, double step) {

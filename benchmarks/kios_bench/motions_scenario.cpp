@@ -46,11 +46,7 @@ class Oracle {
     for (int i = 0; i <= samples; ++i) {
       if (!free_(scenes::between(edge.q0, edge.q1, 1.0 * i / samples))) return false;
     }
-    const auto vector = [](const Joints& q) {
-      return Eigen::VectorXd(
-          Eigen::Map<const Eigen::VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
-    };
-    const MotionResult answer = checkMotion(linkage_, vector(edge.q0), vector(edge.q1));
+    const MotionResult answer = checkMotion(linkage_, vectorOf(edge.q0), vectorOf(edge.q1));
     if (answer.verdict != MotionVerdict::kContact) return true;
     return free_(scenes::between(edge.q0, edge.q1, answer.to));
   }
@@ -139,11 +135,9 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
   std::vector<Competitor> competitors;
   std::vector<std::vector<char>> verdicts(sets.size(), std::vector<char>(edges.size(), 0));
   for (std::size_t i = 0; i < sets.size(); ++i) {
-    competitors.push_back({sets[i]->name(), [&, i](std::size_t begin, std::size_t end) {
-                             for (std::size_t e = begin; e < end; ++e) {
-                               verdicts[i][e] = sets[i]->isFree(edges[e].q0, edges[e].q1) ? 1 : 0;
-                             }
-                           }});
+    competitors.push_back({sets[i]->name(), each([&, i](std::size_t e) {
+                             verdicts[i][e] = sets[i]->isFree(edges[e].q0, edges[e].q1) ? 1 : 0;
+                           })});
     competitors.back().rounds = roundsOf(sets[i]->name());
   }
   Race race{edges.size(), options.repeats, 20};

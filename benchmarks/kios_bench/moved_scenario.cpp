@@ -35,9 +35,7 @@ void reportMoved(const Options& options, Report& report) {
   for (std::size_t i = 0; i < spheres; ++i) first.push_back(place());
   for (std::size_t i = 0; i < questions; ++i) {
     later.push_back(place());
-    const scenes::Joints joints = scenes::randomJoints(cell, random);
-    q.push_back(
-        Eigen::Map<const Eigen::VectorXd>(joints.data(), static_cast<Eigen::Index>(joints.size())));
+    q.push_back(vectorOf(scenes::randomJoints(cell, random)));
   }
 
   const Linkage bare = linkageOf(cell);
@@ -56,11 +54,6 @@ void reportMoved(const Options& options, Report& report) {
     for (std::size_t i = 0; begin == 0 && i < questions; ++i) move(i, first[i]);
   };
   std::vector<int> contact(questions), anew(questions, -1);  // -1: it wasn't asked
-  const auto each = [](const auto& answer) {
-    return [answer](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) answer(i);
-    };
-  };
   std::vector<Competitor> alone = {
       {"kios", each([&](std::size_t i) { move(i, later[i]); }), reset}};
   std::vector<Competitor> competitors = {{"kios", each([&](std::size_t i) {

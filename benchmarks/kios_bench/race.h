@@ -27,6 +27,14 @@ struct Competitor {
   std::vector<std::vector<double>> us = {};
 };
 
+/// Returns an answer that asks about one question after the other.
+template <typename Ask>
+auto each(Ask ask) {
+  return [ask](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ask(i);
+  };
+}
+
 /// Competitors take turns: in each repeat at blocks of questions, each block with another one
 /// first. The clock is read at every step, at most a block long.
 struct Race {

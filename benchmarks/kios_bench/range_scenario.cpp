@@ -35,16 +35,10 @@ void reportRange(const std::string& name, std::size_t tasks, const RangeRequest&
                                               queries += static_cast<double>(result.queries);
                                             }
                                           }}};
-  if (clear) {
-    competitors.push_back({"kios_clear", [&](std::size_t begin, std::size_t end) {
-                             for (std::size_t i = begin; i < end; ++i) clear(i);
-                           }});
-  }
+  if (clear) competitors.push_back({"kios_clear", each(clear)});
   for (const Competitor& competitor : competitors) competitor.answer(0, tasks);
   if (samples) {
-    competitors.push_back({"fcl_obbrss_samples", [&](std::size_t begin, std::size_t end) {
-                             for (std::size_t i = begin; i < end; ++i) samples(i);
-                           }});
+    competitors.push_back({"fcl_obbrss_samples", each(samples)});
     competitors.back().stride = 20;
   }
   Race{tasks, options.repeats, Race::kAll, 1}.run(competitors);
@@ -108,16 +102,13 @@ void reportArm(const std::string& name, const scenes::Cell& cell, const Options&
                Report& report) {
   const Linkage linkage = linkageOf(cell);
   scenes::Random random(options.seed);
-  const auto vector = [](const scenes::Joints& q) {
-    return VectorXd(Eigen::Map<const VectorXd>(q.data(), static_cast<Eigen::Index>(q.size())));
-  };
   std::vector<std::pair<VectorXd, VectorXd>> paths;
   std::vector<std::pair<scenes::Joints, scenes::Joints>> sampled;
   const std::size_t count = options.quick ? 3 : 40;
   for (int tries = 0; tries < 10000 && paths.size() < count; ++tries) {
     const scenes::Joints q = scenes::randomJoints(cell, random);
     const scenes::Joints to = scenes::randomStep(q, 0.8, random);
-    const VectorXd q0 = vector(q), q1 = vector(to);
+    const VectorXd q0 = vectorOf(q), q1 = vectorOf(to);
     if (checkMotion(linkage, q0, q1).verdict != MotionVerdict::kClear) continue;
     paths.emplace_back(q0, q1);
     sampled.emplace_back(q, to);

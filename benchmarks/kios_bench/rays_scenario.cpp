@@ -190,11 +190,9 @@ std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
         std::pair(RayQuery::kAll, "all")}) {
     std::vector<Competitor> competitors;
     for (const auto& [bv, caster] : casters) {
-      competitors.push_back({bv, [&, query = query, caster = caster](auto begin, auto end) {
-                               for (std::size_t i = begin; i < end; ++i) {
-                                 caster->cast(query, rays[i], hits);
-                               }
-                             }});
+      competitors.push_back({bv, each([&, query = query, caster = caster](std::size_t i) {
+                               caster->cast(query, rays[i], hits);
+                             })});
     }
     Race{rays.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
     const Row base = baseRow(name, words, rays.size(), options.seed, {mesh});

@@ -46,11 +46,8 @@ void contain(const std::string& name, const Mesh& mesh, const Options& options, 
     points.push_back(p);
   }
   std::vector<char> inside(points.size());
-  std::vector<Competitor> competitors = {{"kios", [&](std::size_t begin, std::size_t end) {
-                                            for (std::size_t i = begin; i < end; ++i) {
-                                              inside[i] = contains<double>(*model, X, points[i]);
-                                            }
-                                          }}};
+  std::vector<Competitor> competitors = {
+      {"kios", each([&](std::size_t i) { inside[i] = contains<double>(*model, X, points[i]); })}};
   Race{points.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
   Row row = baseRow(name, "contains", points.size(), options.seed, {mesh}).of(competitors[0]);
   row.simd_target = simdTarget();
@@ -98,20 +95,10 @@ class Overlaps {
     std::vector<PenetrationResult> found(n);
     std::vector<double> deepest(n);
     std::size_t contacts = 0;
-    std::vector<Competitor> competitors = {{"penetration",
-                                            [&](std::size_t begin, std::size_t end) {
-                                              for (std::size_t i = begin; i < end; ++i)
-                                                found[i] = depthOf(overlapping[i]);
-                                            }},
-                                           {"collide",
-                                            [&](std::size_t begin, std::size_t end) {
-                                              for (std::size_t i = begin; i < end; ++i)
-                                                contacts += collide(overlapping[i]);
-                                            }},
-                                           {"contacts", [&](std::size_t begin, std::size_t end) {
-                                              for (std::size_t i = begin; i < end; ++i)
-                                                deepest[i] = deepestContact(overlapping[i]);
-                                            }}};
+    std::vector<Competitor> competitors = {
+        {"penetration", each([&](std::size_t i) { found[i] = depthOf(overlapping[i]); })},
+        {"collide", each([&](std::size_t i) { contacts += collide(overlapping[i]); })},
+        {"contacts", each([&](std::size_t i) { deepest[i] = deepestContact(overlapping[i]); })}};
     Race{n, options.repeats, 8, 8, true}.run(competitors);
     std::vector<Row> rows;
     for (const Competitor& competitor : competitors) {
@@ -199,9 +186,7 @@ void depths(const std::string& name, const Mesh& a, const Mesh& b, const std::ve
   const Row base = baseRow("solids/depth/" + name, "depth", n, options.seed, {a, b});
   std::vector<Row> rows;
   const auto race = [&](const char* query, const std::function<void(std::size_t)>& ask) -> Row& {
-    std::vector<Competitor> competitors = {{"kios", [&](std::size_t begin, std::size_t end) {
-                                              for (std::size_t i = begin; i < end; ++i) ask(i);
-                                            }}};
+    std::vector<Competitor> competitors = {{"kios", each(ask)}};
     Race{n, options.repeats, 8, 8, true}.run(competitors);
     Row& row = rows.emplace_back(base.of(competitors[0]));
     row.query = query;

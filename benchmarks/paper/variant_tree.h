@@ -48,10 +48,6 @@ class VariantTree {
   const Policy& policy() const { return policy_; }
   const typename Policy::Shared& shared() const { return shared_; }
   const typename Policy::Store& store() const { return store_; }
-  /// Returns floats that memory holds for a volume, on average over the nodes.
-  double floatsPerVolume() const {
-    return static_cast<double>(store_.floats()) / static_cast<double>(split_->nodes().size());
-  }
 
   /// Returns the exact distance to b at X_AB: that of the triangles with b's vertices moved by X_AB
   /// * p.

@@ -17,29 +17,19 @@ namespace {
 
 using PointSet = Points<double>;
 
-PackedPolicy::Shared shareOf(const PackedPolicy& policy, const PointSet& model) {
-  return policy.share(model.data(), static_cast<int>(model.size()));
-}
 template <typename Policy>
 typename Policy::Volume fitOf(const Policy& policy, const PointSet& points,
                               const typename Policy::Shared& model) {
   return policy.fit(points.data(), static_cast<int>(points.size()), model);
 }
 
-/// Returns the first sphere of v that doesn't contain p, as stored; -1 if there is none.
-int excluding(const CapSpheres& v, const PackedPolicy::Shared& model, const fcl::Vector3d& p) {
-  for (int i = 0; i <= v.caps; ++i) {
-    const float o[3] = {i ? v.x[i - 1] : 0, i ? v.y[i - 1] : 0, i ? v.z[i - 1] : 0};
-    Exact sum = 0;
-    for (int c = 0; c < 3; ++c) {
-      const Exact center = ldexp(Exact(v.center[c]) + Exact(o[c]), model.exponent);
-      const Exact d = Exact(p[c]) - Exact(model.origin[c]) - center;
-      sum += d * d;
-    }
-    const Exact r = ldexp(Exact(i ? v.r[i - 1] : v.radius), model.exponent);
-    if (sum > r * r) return i;
+bool containsExactly(const Sphere& sphere, const fcl::Vector3d& p) {
+  Exact sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const Exact d = Exact(p[c]) - Exact(sphere.center[c]);
+    sum += d * d;
   }
-  return -1;
+  return sum <= Exact(sphere.radius) * Exact(sphere.radius);
 }
 
 /// Holds a set with a subset that is the content: models of one volume, of many, and much larger
@@ -55,34 +45,38 @@ struct Model {
   PointSet all, content;
 };
 
-TEST(Variants, StoredSpheresContainTheContent) {
-  std::map<std::string, int> caps;
+TEST(Variants, SpheresContainTheContent) {
+  std::map<std::string, std::size_t> most;
   int index = 0;
-  forEachPackedPolicy([&](const std::string& name, const PackedPolicy& policy) {
+  forEachKind([&](const std::string& name, const SpheresPolicy& policy) {
     Random random(100 + index++);
+    const std::size_t place = name.rfind("oriented", 0) == 0 ? 3 : 1;
+    const bool shared = name.find("shared") != std::string::npos;
     for (int set = 0; set < 700; ++set) {
       const Model m(random);
-      const auto model = shareOf(policy, m.all);
-      PackedStore store;
-      const CapSpheres fitted = fitOf(policy, m.content, model);
-      store.add(fitted);
-      const CapSpheres v = policy.unpack(store[0], model);
-      ASSERT_FALSE(v.empty);
-      ASSERT_EQ(v.caps, fitted.caps);
-      caps[name] = std::max(caps[name], v.caps);
+      const auto model = policy.share(m.all.data(), static_cast<int>(m.all.size()));
+      const Spheres v = fitOf(policy, m.content, model);
+      SpheresStore store;
+      store.add(v);
+      ASSERT_FALSE(v.all.empty());
+      most[name] = std::max(most[name], v.all.size());
       for (const auto& p : m.content) {
-        ASSERT_EQ(excluding(v, model, p), -1) << name << ", set " << set;
+        for (const Sphere& sphere : v.all) ASSERT_TRUE(containsExactly(sphere, p)) << name << set;
         ASSERT_TRUE(policy.contains(store[0], model, p)) << name << ", set " << set;
       }
-      for (int i = 0; v.shared_radius && i < v.caps; ++i) ASSERT_EQ(v.r[i], v.r[0]) << name;
+      const std::size_t caps = v.all.size() - 1;
+      for (std::size_t i = 1; shared && i <= caps; ++i) {
+        ASSERT_EQ(v.all[i].radius, v.all[1].radius) << name;
+      }
+      ASSERT_EQ(store.floats(), 4 + caps * place + (shared && caps > 0 ? 1 : caps)) << name;
     }
   });
-  EXPECT_EQ(caps["oriented 1, " + nameOf({})], 0);
-  EXPECT_EQ(caps["oriented 3, " + nameOf({})], 2);
-  EXPECT_EQ(caps["oriented 7, " + nameOf({})], 6);
+  EXPECT_EQ(most["oriented 1, " + nameOf({})], 1U);
+  EXPECT_EQ(most["oriented 3, " + nameOf({})], 3U);
+  EXPECT_EQ(most["oriented 7, " + nameOf({})], 7U);
   FitOptions all;
   all.count = SphereCount::kAll;
-  EXPECT_EQ(caps["given directions, " + nameOf(all)], 8);
+  EXPECT_EQ(most["given directions, " + nameOf(all)], 9U);
 }
 
 TEST(Variants, BoundsNeverExceedTheDistance) {

@@ -9,7 +9,7 @@
 #include "paper/all_fits.h"
 #include "paper/kios_policy.h"
 #include "paper/mesh_split.h"
-#include "paper/packed_policy.h"
+#include "paper/spheres_policy.h"
 #include "scenes/mesh.h"
 #include "volume/exact_spheres.h"
 
@@ -23,9 +23,9 @@ inline Split splitOf(const scenes::Mesh& mesh) {
   return std::make_shared<const MeshSplit>(mesh.vertices, mesh.triangles);
 }
 
-/// Calls visit(name, policy) for kIOS with all fits and for all packed variants.
+/// Calls visit(name, policy) for kIOS with all fits and for the other kinds.
 template <typename Visit>
-void forEachPackedPolicy(Visit visit) {
+void forEachKind(Visit visit) {
   for (const auto count : {SphereCount::kByRatio, SphereCount::kAll, SphereCount::kByGain}) {
     for (const bool shared : {false, true}) {
       FitOptions options;
@@ -55,7 +55,7 @@ template <typename Visit>
 void forEachPolicy(Visit visit) {
   for (const FitOptions& options : allFits())
     visit("kIOS, " + nameOf(options), KiosPolicy(options));
-  forEachPackedPolicy(visit);
+  forEachKind(visit);
 }
 
 }  // namespace kios::testing

@@ -104,51 +104,17 @@ TEST(VariantTree, FarFromTheirOriginsAndAtAnyScale) {
   expectTrueAnswers(torus, moved(ball, 1, {0, 0, 1e9}), randomPoses(random, 3, 1e9, 0));
 }
 
-// One tree for all poses: bounds come from the stored floats and the directions as they were.
+// One tree for all poses: bounds come from the stored spheres as they were.
 TEST(FixedDirections, NothingIsRecomputedWhenModelsTurn) {
   const Mesh plate = scenes::sheet(2, 2, 8, 8, 0.05), torus = scenes::bentTorus();
   const VariantTree<FixedDirectionKios> a(splitOf(plate)), b(splitOf(torus));
-  const std::vector<float> stored_a = a.store().data(), stored_b = b.store().data();
-  const auto directions_a = a.shared().directions;
   const scenes::MeshOracle oracle(plate, torus);
   Random random(1);
-  for (int i = 0; i < 60; ++i) {
-    fcl::Transform3d X_WA = fcl::Transform3d::Identity(), X_WB = X_WA;
-    X_WA.linear() = randomRotation(random);
-    X_WB.linear() = randomRotation(random);
-    X_WB.translation() = random.uniform(0, 3) * randomDirection(random);
-    const RelativePose<double> X(X_WA, X_WB);
-    ASSERT_NEAR(a.distance(b, X).distance, oracle.distance(X_WA, X_WB), 1e-14);
-    ASSERT_EQ(a.collide(b, X).contact, oracle.collide(X_WA, X_WB));
+  for (const Pose& pose : randomPoses(random, 60, 1, 0)) {
+    const RelativePose<double> X(pose.a, pose.b);
+    ASSERT_NEAR(a.distance(b, X).distance, oracle.distance(pose.a, pose.b), 1e-14);
+    ASSERT_EQ(a.collide(b, X).contact, oracle.collide(pose.a, pose.b));
   }
-  EXPECT_EQ(a.store().data(), stored_a);
-  EXPECT_EQ(b.store().data(), stored_b);
-  EXPECT_EQ(a.shared().directions, directions_a);
-}
-
-/// Returns floats by hand: 4, and for each of `caps` its place and radius or a shared one.
-std::size_t expectedFloats(int caps, int place, bool shared) {
-  if (caps == 0) return 4;
-  return shared ? 5 + caps * place : 4 + caps * (place + 1);
-}
-
-TEST(FloatsPerVolume, AreWhatTheFormulasSay) {
-  const Mesh torus = scenes::bumpyTorus(300);
-  const Split split = splitOf(torus);
-  forEachPackedPolicy([&](const std::string& name, const auto& policy) {
-    const VariantTree<std::decay_t<decltype(policy)>> tree(split, policy);
-    const bool oriented = name.rfind("oriented", 0) == 0;
-    const bool shared = name.find("shared") != std::string::npos;
-    std::size_t floats = 0;
-    for (std::size_t i = 0; i < split->nodes().size(); ++i) {
-      const auto v = policy.unpack(tree.store()[static_cast<int>(i)], tree.shared());
-      floats += expectedFloats(v.caps, oriented ? 3 : 1, shared);
-    }
-    EXPECT_EQ(tree.store().floats(), floats) << name;
-    EXPECT_EQ(tree.store().data().size(), floats) << name;
-    EXPECT_EQ(tree.store().data().capacity(), floats) << name;  // nothing else is held
-    EXPECT_EQ(tree.floatsPerVolume(), static_cast<double>(floats) / split->nodes().size()) << name;
-  });
 }
 
 TEST(MeshSplit, EveryTriangleIsALeafOnce) {

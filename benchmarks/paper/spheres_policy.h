@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: 2026 The fcl_kios authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fcl_kios/paper.h"
+#include "paper/volume_policy.h"
+
+namespace kios::paper {
+
+struct Sphere {
+  fcl::Vector3d center;
+  double radius;
+};
+
+/// S0 and pairs of caps in the model's frame, each of which contains the content in exact
+/// arithmetic. A pair lies outwards along + and - of an axis.
+struct Spheres {
+  std::vector<Sphere> all = {};  ///< none: empty
+  int floats = 0;                ///< that describe them
+};
+
+class SpheresStore {
+ public:
+  struct Stored {
+    const Sphere* spheres;
+    int k;
+    int floats;
+  };
+
+  void add(const Spheres& v) {
+    begin_.push_back(spheres_.size());
+    spheres_.insert(spheres_.end(), v.all.begin(), v.all.end());
+    floats_of_.push_back(v.floats);
+    floats_ += static_cast<std::size_t>(v.floats);
+  }
+  Stored operator[](int i) const {
+    const auto at = static_cast<std::size_t>(i);
+    const std::size_t end = at + 1 < begin_.size() ? begin_[at + 1] : spheres_.size();
+    return {spheres_.data() + begin_[at], static_cast<int>(end - begin_[at]), floats_of_[at]};
+  }
+  std::size_t floats() const { return floats_; }
+
+ private:
+  std::vector<Sphere> spheres_;
+  std::vector<std::size_t> begin_;
+  std::vector<int> floats_of_;
+  std::size_t floats_ = 0;
+};
+
+/// Holds the kinds of k-IOS that models don't use; see its three kinds below. Floats are those that
+/// a kind needs; doubles stand for them here.
+class SpheresPolicy {
+ public:
+  /// Once a model.
+  struct Shared {
+    double reach = 0;                       ///< of the coordinates
+    std::vector<fcl::Vector3d> directions;  ///< of a fixed-direction k-IOS
+  };
+  using Volume = Spheres;
+  using Store = SpheresStore;
+  struct Placed {
+    const RelativePose<double>& X;
+    double pad, stretch;
+  };
+
+  Shared share(const fcl::Vector3d* points, int n) const;
+  Spheres fit(const fcl::Vector3d* points, int n, const Shared& model) const;
+  Placed place(const Shared& a, const Shared& b, const RelativePose<double>& X_AB) const;
+  double separation(const SpheresStore::Stored& a, const SpheresStore::Stored& b, const Placed& at,
+                    double enough) const;
+  bool contains(const SpheresStore::Stored& v, const Shared& model, const fcl::Vector3d& p) const;
+
+ protected:
+  enum class Axes { kOfTheVolume, kOfTheModel, kGiven };
+  SpheresPolicy(Axes axes, int most_spheres, const FitOptions& options,
+                const std::vector<fcl::Vector3d>& directions = {});
+
+ private:
+  void addCaps(const std::vector<fcl::Vector3d>& points, const Shared& model, Spheres& v) const;
+
+  Axes axes_;
+  int most_spheres_;
+  FitOptions options_;
+  std::vector<fcl::Vector3d> given_;  ///< of unit length
+};
+
+/// Holds oriented k-IOS (paper, III-A): caps along the principal axes of each volume's content, as
+/// the fit of `options` places them; k = 1, 3, 5 or, by the tuned fit alone, 7 (by ratio, where the
+/// paper gives 5), at most K. Floats: 4 + 4 (k - 1), with a shared radius 5 + 3 (k - 1).
+template <int K>
+class OrientedKios : public SpheresPolicy {
+  static_assert(K == 1 || K == 3 || K == 5 || K == 7, "S0 and up to three pairs of caps");
+
+ public:
+  explicit OrientedKios(const FitOptions& options = {})
+      : SpheresPolicy(Axes::kOfTheVolume, K, options) {}
+};
+
+/// Holds fixed-direction k-IOS (paper, III-A, V-B): caps along directions that a model stores once.
+/// They turn with the model, so that no rotation makes anything be computed again. The method of
+/// `options` does not matter; by ratio, an axis gets caps where the largest of the extents is more
+/// than 1.5 times its own, which is the paper's rule (III-C). Floats: 4 + 2 (k - 1), with a shared
+/// radius 5 + (k - 1).
+class FixedDirectionKios : public SpheresPolicy {
+ public:
+  /// Takes the principal axes of each model's vertices.
+  explicit FixedDirectionKios(const FitOptions& options = {})
+      : SpheresPolicy(Axes::kOfTheModel, 7, options) {}
+  /// Takes directions, the same for every model, each in the model's frame, of any length above 0.
+  explicit FixedDirectionKios(const std::vector<fcl::Vector3d>& directions,
+                              const FitOptions& options = {})
+      : SpheresPolicy(Axes::kGiven, 1 + 2 * static_cast<int>(directions.size()), options,
+                      directions) {}
+};
+
+/// Holds axis-aligned k-IOS (paper, III-A): along the coordinate axes of the model's frame, of
+/// which nothing is stored.
+class AxisAlignedKios : public FixedDirectionKios {
+ public:
+  explicit AxisAlignedKios(const FitOptions& options = {})
+      : FixedDirectionKios({fcl::Vector3d::UnitX(), fcl::Vector3d::UnitY(), fcl::Vector3d::UnitZ()},
+                           options) {}
+};
+
+}  // namespace kios::paper
