@@ -10,6 +10,7 @@
 #include "fcl_kios/model.h"
 #include "fcl_kios/triangle.h"
 #include "fcl_kios/volume.h"
+#include "scenes/containment_oracle.h"
 #include "shapes.h"
 
 // The triangle kernels over all pairs of triangles, whose answer every search must find.
@@ -38,6 +39,13 @@ Triangles trianglesOf(const Model<S>& m) {
     triangles.push_back(inDouble<S>({m.vertices[ids[0]], m.vertices[ids[1]], m.vertices[ids[2]]}));
   }
   return triangles;
+}
+
+/// Returns how often the triangles wind round p: the sum of the angles under which it sees them.
+inline long double windingNumber(const Triangles& triangles, const fcl::Vector3d& p) {
+  long double sum = 0;
+  for (const TriangleVerticesd& t : triangles) sum += scenes::windingOf(t, p);
+  return sum;
 }
 
 /// Returns a distance as a query in S answers: rounded once, never to 0.

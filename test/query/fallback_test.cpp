@@ -74,6 +74,9 @@ TYPED_TEST(Fallback, EveryCallNamesTheNearestOfBruteForce) {
     fcl::DistanceResult<S> result;
     ASSERT_EQ(distanceMeshes(*a, X_WA, *b, X_WB, fcl::DistanceRequest<S>(), result),
               all.rounded<S>());
+    fcl::CollisionResult<S> contacts;
+    collideMeshes(*a, X_WA, *b, X_WB, fcl::CollisionRequest<S>(100000), contacts);
+    ASSERT_EQ(contacts.numContacts(), all.hits.size());
     if (all.distance == 0) continue;
     ASSERT_EQ(std::make_pair(answer.triangle_a, answer.triangle_b), all.nearest);
     ASSERT_EQ(result.b1, all.nearest.first);
@@ -99,6 +102,21 @@ TYPED_TEST(Fallback, LargerBudgetsNeverProveLess) {
       ASSERT_LE(answer.lower_bound, exact);
       distance = answer.distance;
       lower = answer.lower_bound;
+    }
+  }
+}
+
+TEST(FallbackWork, DistancesAreInDoubleVeryDifferentSizesAreNot) {
+  const auto a = modelOf<double>(scenes::icosphere(1, 1)),
+             small = modelOf<double>(scaled(scenes::icosphere(1, 1), 1e-7));
+  const fcl::Transform3d here = fcl::Transform3d::Identity();
+  for (const fcl::Transform3d& near : scenes::randomPoses(5, 1, 25)) {
+    const fcl::Transform3d far = Eigen::Translation3d(1e7, 0, -3) * near;
+    for (const auto& [b, X] : {std::pair(a, far), std::pair(small, near)}) {
+      const AllPairs all(trianglesOf(*a), trianglesOf(*b), RelativePosed(here, X));
+      const auto answer = kios::distanceBracket(*a, here, *b, X);
+      EXPECT_EQ(answer.counts.tree_searches, b == a ? 1 : 0);
+      EXPECT_NEAR(answer.distance, all.distance, 1e-14 + 1e-15 * all.distance);
     }
   }
 }

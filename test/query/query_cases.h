@@ -60,25 +60,6 @@ std::vector<Poses<S>> posesOf(const Mesh& a, const Mesh& b, int count, double sp
   return poses;
 }
 
-template <typename S>
-DistanceBracketRequest<S> randomOptions(Random& random, double exact, double length) {
-  DistanceBracketRequest<S> options;
-  const auto sometimes = [&random](double p) { return random.uniform(0, 1) < p; };
-  const auto power = [&random](double low, double high) {
-    return std::pow(10, random.uniform(low, high));
-  };
-  const auto near = [&](double low, double high) {
-    return static_cast<S>((exact + 1e-3 * length) * random.uniform(low, high));
-  };
-  if (sometimes(0.5)) options.rel_err = static_cast<S>(power(-4, 1));
-  if (sometimes(0.3)) options.abs_err = static_cast<S>(length * power(-4, 0));
-  if (sometimes(0.3)) options.far_enough = near(0.1, 2);
-  if (sometimes(0.3)) options.near_enough = near(0.1, 2);
-  if (sometimes(0.3)) options.max_expansions = static_cast<long long>(power(0, 3)) - 1;
-  options.nearest_points = sometimes(0.5);
-  return options;
-}
-
 /// Returns the fault of an answer, or nullptr.
 template <typename S>
 const char* faultOf(const DistanceBracketResult<S>& answer,

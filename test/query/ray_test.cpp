@@ -16,18 +16,6 @@ namespace {
 
 KIOS_SCALAR_SUITE(RayQuery);
 
-TYPED_TEST(RayQuery, BruteForce) {
-  using S = TypeParam;
-  std::size_t hits = 0;
-  for (const NamedMesh& named : allMeshes<S>()) {
-    SCOPED_TRACE(named.name);
-    const auto model = scenes::buildModel<kIOS<S>>(named.mesh);
-    HardRays<S> rays(*model, 7);
-    for (int i = 0; i < 64; ++i) hits += expectBruteForce(*model, rays.next());
-  }
-  EXPECT_GT(hits, 2000u);
-}
-
 // From inside a closed mesh every ray leaves it, and both ways; nothing passes at the vertices and
 // edges that it is aimed at.
 TYPED_TEST(RayQuery, WatertightInEveryPose) {

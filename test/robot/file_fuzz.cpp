@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <sstream>
 #include <stdexcept>
 
 #include "files/tetrahedron.h"
@@ -79,40 +80,14 @@ std::size_t below(Random& random, std::size_t n) {
 
 /// Mangles elements and lines, words and numbers, bytes: dropped, doubled, swapped or replaced.
 std::string changed(std::string text, Random& random) {
-  static const char* const kWords[] = {"nan",
-                                       "inf",
-                                       "-1",
-                                       "0",
-                                       "1e308",
-                                       "1e-320",
-                                       "1e999",
-                                       "",
-                                       "''",
-                                       "<robot>",
-                                       "</link>",
-                                       "-0",
-                                       "<!--",
-                                       "&lt;",
-                                       "[",
-                                       "]",
-                                       "{",
-                                       "}",
-                                       ": ",
-                                       "\n",
-                                       "\t",
-                                       "*x",
-                                       "&x",
-                                       "null",
-                                       "true",
-                                       "base",
-                                       "upper",
-                                       "\xff\xfe",
-                                       "99999999999999999999",
-                                       "0x10",
-                                       "1,5",
-                                       "<![CDATA[",
-                                       "!!binary",
-                                       "---"};
+  static const std::vector<std::string> kWords = [] {
+    std::vector<std::string> words = {"", "|"};
+    std::istringstream all(
+        "nan|inf|-1|0|1e308|1e-320|1e999|''|<robot>|</link>|-0|<!--|&lt;|[|]|{|}|: |\n|\t|*x|&x|"
+        "null|true|base|upper|\xff\xfe|99999999999999999999|0x10|1,5|<![CDATA[|!!binary|---");
+    for (std::string word; std::getline(all, word, '|');) words.push_back(word);
+    return words;
+  }();
   const int changes = random.unit() < 0.7 ? 1 : 3;
   for (int i = 0; i < changes && !text.empty(); ++i) {
     const std::size_t at = below(random, text.size());
@@ -152,11 +127,11 @@ std::string changed(std::string text, Random& random) {
         if (begin == std::string::npos) begin = at;
         end = text.find_first_not_of("0123456789.-e", begin);
         if (end == std::string::npos) end = text.size();
-        text.replace(begin, end - begin, kWords[below(random, std::size(kWords))]);
+        text.replace(begin, end - begin, kWords[below(random, kWords.size())]);
         break;
       }
       default:
-        text.insert(at, kWords[below(random, std::size(kWords))]);
+        text.insert(at, kWords[below(random, kWords.size())]);
     }
   }
   return text;

@@ -17,22 +17,9 @@ namespace {
 
 using Geometry = std::shared_ptr<const fcl::CollisionGeometryd>;
 
-void addBoxes(Robot& robot, Random& random, int count) {
-  for (int i = 0; i < count; ++i) {
-    auto box = std::make_shared<fcl::Boxd>(random.uniform(0.05, 0.4), random.uniform(0.05, 0.4),
-                                           random.uniform(0.02, 0.4));
-    Transform3d X =
-        shifted(random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.1, 1.2));
-    X.rotate(Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1),
-                                random.uniform(0.1, 1))
-                 .normalized());
-    robot.addObstacle("box" + std::to_string(i), box, X);
-  }
-}
-
-/// Returns an arm of every joint with shapes and meshes around it.
-Robot cluttered(const Folder& folder, int meshes = 4, int shapes = 4) {
-  Robot robot = loadRobot(manyJoints(folder));
+/// Returns an arm, of every joint if none is given, with shapes and meshes around it.
+Robot cluttered(const Folder& folder, int meshes = 4, int shapes = 4, const Robot* arm = nullptr) {
+  Robot robot = arm ? *arm : loadRobot(manyJoints(folder));
   Random random(5);
   for (int i = 0; i < meshes + shapes; ++i) {
     const Transform3d X =
@@ -106,14 +93,12 @@ TEST(RobotQueries, GradientsAreThoseOfDifferences) {
   expectGradients(cluttered(folder), 200, 1);
   expectGradients(cluttered(folder, 6, 0), 100, 2);
   if (mbmFolder("panda").empty()) return;
-  Robot panda = loadMbm("panda");
+  const Robot panda = loadMbm("panda");
   ASSERT_EQ(panda.coordinates(), 7);
   EXPECT_EQ(panda.joints()[3], "panda_joint4");
   EXPECT_EQ(panda.lower()[3], -3.1416);
   EXPECT_EQ(panda.state("ready")[1], -0.785);
-  Random random(4);
-  addBoxes(panda, random, 5);
-  expectGradients(panda, 100, 3);
+  expectGradients(cluttered(folder, 0, 5, &panda), 100, 3);
 }
 
 TEST(RobotQueries, ClearanceToItselfAndToObstaclesApart) {

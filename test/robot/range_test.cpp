@@ -137,26 +137,5 @@ TEST(RobotRange, RefusesWhatIsOutside) {
   expectRefused([&] { robot.leastClearance(VectorXd::Zero(3), VectorXd::Zero(2)); }, "q0 has 3");
 }
 
-// Along the SRDF's own states, to a millimetre.
-TEST(RobotRange, APandasPath) {
-  if (mbmFolder("panda").empty()) GTEST_SKIP() << "no data";
-  const Robot robot = loadMbm("panda");
-  RangeRequest request;
-  request.abs_err = 1e-3;
-  request.rel_err = 0;
-  const VectorXd q0 = robot.state("ready"), q1 = robot.state("extended");
-  const RobotRange path = robot.leastClearance(q0, q1, request);
-  EXPECT_TRUE(path.complete);
-  EXPECT_GT(path.lower, 0);
-  EXPECT_LE(path.upper - path.lower, 1.0001e-3);
-  EXPECT_LE(path.queries, 500);
-  double least = kInf;
-  for (int i = 0; i <= 500; ++i) {
-    least = std::min(least, robot.clearance(q0 + 0.002 * i * (q1 - q0)).clearance);
-  }
-  EXPECT_GE(least, path.lower);
-  EXPECT_LE(path.upper, least + 1e-3);
-}
-
 }  // namespace
 }  // namespace kios::testing

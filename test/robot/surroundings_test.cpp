@@ -152,39 +152,6 @@ TEST(RobotSurroundings, GradientsOfOverlapLeadOut) {
   EXPECT_GT(near.gradient[0], 0.5);
 }
 
-// What lies wholly inside a mesh touches it only if that is a solid and the other no mere surface,
-// however far the link's origin lies from its body.
-TEST(RobotSurroundings, BodiesLieInMarkedSolids) {
-  const Folder folder;
-  const std::string mesh =
-                        "<mesh filename='" + folder.write("s.obj", boxObj(0.1, 0.1, 0.1)) + "'/>",
-                    large = folder.write("large.obj", boxObj(0.5, 0.5, 0.5));
-  for (const double arm : {0.0, 1e6}) {
-    for (const bool is_mesh : {true, false}) {
-      SCOPED_TRACE((is_mesh ? "mesh " : "shape ") + std::to_string(arm));
-      const std::string b = "<link name='b'><collision><origin xyz='" + std::to_string(-arm) +
-                            " 0 0'/><geometry>" + (is_mesh ? mesh : "<box size='0.2 0.2 0.2'/>") +
-                            "</geometry></collision></link>";
-      Robot robot =
-          loadRobot(folder.write("r.urdf", "<robot name='r'>" + link("a") + b +
-                                               joint("fly", "floating", "a", "b") + "</robot>"));
-      const auto obstacle = loadMesh(large);
-      robot.addObstacle("mesh", obstacle);
-      VectorXd inside = VectorXd::Zero(6);
-      inside[0] = arm;
-      VectorXd across = inside, outside = inside;
-      across[1] = 0.5;
-      outside[1] = 1;
-      for (const bool marked : {false, true}) {
-        if (marked) markSolid(*obstacle);
-        EXPECT_EQ(robot.contact(inside).has_value(), marked && !is_mesh);
-        EXPECT_TRUE(robot.contact(across).has_value());
-        EXPECT_FALSE(robot.contact(outside).has_value());
-      }
-    }
-  }
-}
-
 // One marked solid within another is in contact whatever the paddings, and all calls say so.
 TEST(RobotSurroundings, SolidsWithinSolidsAreInContact) {
   const Folder folder;
