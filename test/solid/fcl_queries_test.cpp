@@ -152,16 +152,6 @@ TEST(SolidQueries, HalfspacesAndPlanesHaveADepthInAnyPose) {
   }
 }
 
-TEST(SolidQueries, UnmarkedModelsAreAsBefore) {
-  const auto a = modelOf(scenes::icosphere(2, 2)), b = modelOf(scenes::icosphere(0.5, 1));
-  const auto other = solidOf(scenes::icosphere(1, 1));  // marks exist
-  EXPECT_FALSE(isSolid(*a));
-  EXPECT_EQ(collide(a, kHere, b, kHere), 0u);
-  EXPECT_GT(distance(a, kHere, b, kHere, true), 1);
-  EXPECT_EQ(distance(a, kHere, b, at(1.8, 0, 0), true), 0);
-  EXPECT_EQ(collide(a, kHere, std::make_shared<fcl::Sphered>(0.2), kHere), 0u);
-}
-
 TEST(SolidQueries, MarksStayThroughReplacesAndAreCopied) {
   const scenes::Mesh mesh = scenes::icosphere(2, 2);
   const auto big = solidOf(mesh), small = solidOf(scenes::icosphere(0.5, 1));

@@ -1,20 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Local depths against samples of both surfaces and balls, of meshes and of boxes on a grid.
+// Local depths of boxes on a grid, against samples of their faces and balls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "not_finite.h"
-#include "scalars.h"
-#include "scenes/cad_shapes.h"
-#include "scenes/depth_oracle.h"
 #include "scenes/triangle_families.h"
 #include "solid/solid_meshes.h"
 
@@ -22,85 +17,8 @@ namespace kios::testing {
 namespace {
 
 using fcl::Vector3d;
-using scenes::DepthOracle;
 using scenes::merged;
 using scenes::subdividedBox;
-
-/// Returns what is wrong with the place where `lower` is attained, if anything.
-std::string faultOfLower(const LocalDepthResult& found, const DepthOracle& a, const DepthOracle& b,
-                         double rounding) {
-  if (!(found.lower > rounding)) return {};
-  const Vector3d p(found.point[0], found.point[1], found.point[2]),
-      q(found.nearest[0], found.nearest[1], found.nearest[2]);
-  const DepthOracle &other = found.surface_of == 1 ? b : a, &own = found.surface_of == 1 ? a : b;
-  if (!(other.distance(p) >= found.lower - rounding)) return "the point is nearer to the surface";
-  if (!(std::abs((p - q).norm() - found.lower) <= 4 * rounding)) return "the points are elsewhere";
-  if (!other.holds(p)) return "the point is outside";
-  if (found.surface_of != 0) {
-    if (!(own.distance(p) <= rounding)) return "the point isn't of its surface";
-    return other.distance(q) <= rounding ? "" : "the nearest point isn't of its surface";
-  }
-  if (!(own.distance(p) >= found.lower - rounding) || !own.holds(p))
-    return "the ball isn't in both";
-  return std::min(a.distance(q), b.distance(q)) <= rounding ? "" : "nothing bounds the ball";
-}
-
-KIOS_SCALAR_SUITE(LocalDepthOfTwo);
-
-TYPED_TEST(LocalDepthOfTwo, IsThatOfSamples) {
-  using S = TypeParam;
-  Random random(11);
-  const auto meshes = solidMeshes();
-  const double rounding = sizeof(S) == sizeof(double) ? 2e-11 : 1e-3;
-  const auto poses = scenes::randomPoses(casesOr(24), 0.8, 17);
-  int deep = 0, open = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Mesh& mesh_a = meshes[i % meshes.size()].mesh;
-    const Mesh& mesh_b = meshes[(i / meshes.size() + 3 * i) % meshes.size()].mesh;
-    const auto a = solidOf<S>(mesh_a), b = solidOf<S>(mesh_b);
-    const fcl::Transform3<S> X_WA = fcl::Transform3<S>::Identity(),
-                             X_WB = poses[i].template cast<S>();
-    LocalDepthRequest request;
-    request.rel_err = i % 3 == 0 ? 0.01 : 0.1;
-    request.max_pieces = 2000;
-    const LocalDepthResult found = localDepth(*a, X_WA, *b, X_WB, request);
-    const DepthOracle in_world_a(mesh_a),
-        in_world_b(scenes::moved(X_WB.template cast<double>(), mesh_b));
-    const double deepest = std::max({deepestSample(in_world_a, in_world_b, 6),
-                                     deepestSample(in_world_b, in_world_a, 6),
-                                     largestBall(in_world_a, in_world_b, 2000, random)});
-    EXPECT_LE(deepest, found.upper + rounding);
-    EXPECT_EQ(faultOfLower(found, in_world_a, in_world_b, rounding), "");
-    EXPECT_LE(found.lower, found.upper);
-    EXPECT_TRUE(!found.complete ||
-                found.upper - found.lower <= request.rel_err * found.upper + rounding);
-    deep += deepest > 0 ? 1 : 0;
-    open += found.complete ? 0 : 1;
-    EXPECT_TRUE(found.lower > 0 || deepest <= rounding);
-    // Decided by a threshold, too.
-    request.threshold = 0.5 * (found.lower + found.upper) * random.uniform(0.5, 1.5);
-    const LocalDepthResult told = localDepth(*a, X_WA, *b, X_WB, request);
-    EXPECT_LE(told.lower, found.upper + rounding);
-    EXPECT_GE(told.upper, found.lower - rounding);
-    EXPECT_TRUE(!told.complete || told.lower > request.threshold ||
-                told.upper <=
-                    std::max(request.threshold, told.lower / (1 - request.rel_err)) + rounding);
-    request.threshold = -1;
-    request.max_pieces = i % 40;
-    const LocalDepthResult reversed = localDepth(*b, X_WB, *a, X_WA, request);
-    const LocalDepthResult brief = localDepth(*a, X_WA, *b, X_WB, request);
-    EXPECT_LE(brief.lower, found.upper + rounding);
-    EXPECT_GE(brief.upper, found.lower - rounding);
-    const auto told_of = [](const LocalDepthResult& d, int surface) {
-      return std::vector<double>{d.lower,      d.upper,     d.complete * 1.0, surface * 1.0,
-                                 d.point[0],   d.point[1],  d.point[2],       d.nearest[0],
-                                 d.nearest[1], d.nearest[2]};
-    };
-    EXPECT_EQ(told_of(brief, (3 - brief.surface_of) % 3), told_of(reversed, reversed.surface_of));
-  }
-  EXPECT_GT(deep, static_cast<int>(poses.size()) / 2);
-  EXPECT_LT(open, static_cast<int>(poses.size()) / 2);
-}
 
 /// A union of boxes whose corners are whole, at an offset: known cube by cube, and so what of the
 /// boxes' faces is surface of the union.

@@ -52,6 +52,10 @@ TEST(LocalDepth, OfSolidsWhoseDepthIsKnown) {
   expectDepth(*box, kHere, *box, kHere, 1);
   expectDepth(*plate, kHere, *plate, kHere, 0.05);
   expectDepth(*plate, kHere, *fine_plate, kHere, 0.05);
+  const auto box_f = solidOf<float>(subdividedBox({2, 2, 2}, 1));
+  const LocalDepthResult in_float =
+      localDepth(*box_f, at<float>(0, 0, 0), *box_f, at<float>(1.75, 0, 0));
+  expectDepth(in_float, 0.25, 1e-6);
   const auto ball = solidOf(icosphere(1, 3));
   const LocalDepthResult same = localDepth(*ball, kHere, *ball, kHere);
   EXPECT_EQ(same.surface_of, 0);
@@ -162,29 +166,6 @@ TEST(LocalDepth, OfUnions) {
   EXPECT_GT(localDepth(*solidOf(stray), kHere, *pebble, kHere).lower, 0.05);
   stray.vertices.back() = {2, 0, 0};
   EXPECT_EQ(localDepth(*solidOf(stray), kHere, *solidOf(icosphere(0.5, 2)), at(2, 0, 0)).lower, 0);
-}
-
-/// A prism along y over a convex polygon, counterclockwise in (x, z), and its triangles.
-Mesh prism(const std::vector<std::array<double, 2>>& contour,
-           const std::vector<std::array<std::size_t, 3>>& triangles,
-           const std::vector<double>& levels) {
-  Mesh mesh;
-  const std::size_t n = contour.size(), top = (levels.size() - 1) * n;
-  for (const double y : levels) {
-    for (const auto& p : contour) mesh.vertices.emplace_back(p[0], y, p[1]);
-  }
-  for (const auto& t : triangles) {
-    mesh.triangles.emplace_back(t[0], t[1], t[2]);
-    mesh.triangles.emplace_back(top + t[0], top + t[2], top + t[1]);
-  }
-  for (std::size_t low = 0; low < top; low += n) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t p = low + i, q = low + (i + 1) % n;
-      mesh.triangles.emplace_back(p + n, q + n, q);
-      mesh.triangles.emplace_back(p + n, q, p);
-    }
-  }
-  return mesh;
 }
 
 /// Each line in which the slabs cross is an edge of one of them alone: no triangle passes through

@@ -45,37 +45,21 @@ TEST(OddSolids, PointsAmongTheTrianglesChangeNothing) {
 }
 
 /// Returns a prism over an L.
-Mesh prismL() {
-  Mesh mesh;
-  const double outline[6][2] = {{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
-  for (const double z : {0.0, 1.0}) {
-    for (const auto& p : outline) mesh.vertices.emplace_back(p[0], p[1], z);
-  }
-  for (const auto& t : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
-    mesh.triangles.emplace_back(t[0], t[2], t[1]);
-    mesh.triangles.emplace_back(6 + t[0], 6 + t[1], 6 + t[2]);
-  }
-  for (int i = 0; i < 6; ++i) {
-    const int n = (i + 1) % 6;
-    mesh.triangles.emplace_back(i, n, 6 + n);
-    mesh.triangles.emplace_back(i, 6 + n, 6 + i);
-  }
-  return mesh;
-}
+Mesh prismL() { return prism({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}, {}, {0, 1}); }
 
 TEST(OddSolids, WhatTouchesLeavesByARounding) {
   const auto shape = solidOf(prismL());
   for (const double side : {1.0, 0.1}) {
     const auto cube = solidOf(scenes::subdividedBox({side, side, side}, 1));
     for (const double over : {0.0, 1e-9, 1e-3}) {
-      const auto X = at(2, 1 + 0.5 * side - over, 0.6);
+      const auto X = at(2, 0.6, 1 + 0.5 * side - over);
       const PenetrationResult depth = penetration(*shape, kHere, *cube, X);
       EXPECT_LE(depth.lower, over + 1e-14);
       EXPECT_GE(depth.upper, over - 1e-14);
       EXPECT_LE(depth.upper, 1.1 * over + 1e-10) << side << " " << over;
     }
   }
-  const PenetrationResult corner = penetration(*shape, kHere, *shape, at(1, 1, 0));
+  const PenetrationResult corner = penetration(*shape, kHere, *shape, at(1, 0, 1));
   EXPECT_LE(corner.upper, 1e-10);
 }
 
@@ -102,8 +86,8 @@ TEST(OddSolids, ManyTestsAreNotNone) {
   const auto cube = solidOf(scenes::subdividedBox({1, 1, 1}, 1));
   PenetrationRequest options;
   options.max_tests = INT_MAX;
-  const double most = penetration(*shape, kHere, *cube, at(2, 1.2, 0.5), options).upper;
-  EXPECT_LE(most, penetration(*shape, kHere, *cube, at(2, 1.2, 0.5)).upper + 1e-12);
+  const double most = penetration(*shape, kHere, *cube, at(2, 0.5, 1.2), options).upper;
+  EXPECT_LE(most, penetration(*shape, kHere, *cube, at(2, 0.5, 1.2)).upper + 1e-12);
 }
 
 // Squares of lengths would vanish, or overflow.

@@ -103,37 +103,6 @@ TEST(Penetration, ConvexPairsAreBracketedToFivePercent) {
   EXPECT_GT(overlapping, cases / 3);
 }
 
-// Not convex: the depth is known by enumeration.
-TEST(Penetration, UnionsOfBoxesAreBracketed) {
-  Random random(14);
-  const int cases = testing::casesOr(400);
-  std::vector<double> ratios;
-  for (int i = 0; i < cases; ++i) {
-    const auto boxes = [&](double spread) {
-      testing::Boxes result;
-      for (int k = 0; k < 3; ++k) {
-        fcl::Vector3d low, size;
-        for (int c = 0; c < 3; ++c) {
-          low[c] = random.uniform(-spread, 0);
-          size[c] = random.uniform(0.1, 1.2);
-        }
-        result.emplace_back(low, low + size);
-      }
-      return result;
-    };
-    const testing::Boxes boxes_a = boxes(1), boxes_b = boxes(1.5);
-    Case c = {testing::meshOf(boxes_a), testing::meshOf(boxes_b), testing::wholePose(random, 1),
-              fcl::Transform3d::Identity()};
-    c.X_WB = c.X_WA;
-    const double depth = testing::depthOfUnions(boxes_a, boxes_b);
-    const double ratio = expectDepth(c, depth, "unions", i);
-    if (depth > 0) ratios.push_back(ratio);
-  }
-  ASSERT_GT(ratios.size(), static_cast<std::size_t>(cases) / 3);
-  std::nth_element(ratios.begin(), ratios.begin() + ratios.size() / 2, ratios.end());
-  EXPECT_LT(ratios[ratios.size() / 2], 2);
-}
-
 TEST(Penetration, ABallInAShellsWallLeavesByTheNearerSide) {
   const Mesh wall = testing::shell(2, 1, 4);
   const Mesh ball = scenes::icosphere(0.1, 2);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "all_pairs.h"
 #include "scenes/random.h"
 #include "solid/repair_check.h"
 
@@ -39,18 +40,6 @@ TEST(Repair, ASolidStaysAsItIs) {
       }
     }
   }
-}
-
-/// Sums the angles under which the triangles are seen from p: how often the mesh winds round it.
-double windingOf(const std::vector<Vector3d>& v, const std::vector<fcl::Triangle>& triangles,
-                 const Vector3d& p) {
-  double sum = 0;
-  for (const fcl::Triangle& t : triangles) {
-    const Vector3d a = v[t[0]] - p, b = v[t[1]] - p, c = v[t[2]] - p;
-    const double u = a.norm(), w = b.norm(), x = c.norm();
-    sum += std::atan2(a.dot(b.cross(c)), u * w * x + a.dot(b) * x + b.dot(c) * u + c.dot(a) * w);
-  }
-  return sum / (2 * EIGEN_PI);
 }
 
 /// Tetrahedra and boxes over few places, so that they share bases, faces and edges, lie in each
@@ -93,11 +82,11 @@ TEST(Repair, SolidsThatSharePartsStayAsTheyAre) {
     EXPECT_EQ(r.triangles.size(), mesh.triangles.size()) << i << ": " << summaryOf(r);
     EXPECT_EQ(r.flipped_triangles + r.moved_vertices, 0) << i;
     EXPECT_NEAR(volumeOf(r.vertices, r.triangles), volumeOf(mesh.vertices, mesh.triangles), 1e-9);
+    const auto before = trianglesOf(MeshIn<double>(mesh)),
+               after = trianglesOf(MeshIn<double>({r.vertices, r.triangles}));
     for (int k = 0; k < 8; ++k) {
       const Vector3d p = Vector3d::Constant(2) + 2.5 * inCube(random);
-      EXPECT_NEAR(windingOf(r.vertices, r.triangles, p),
-                  windingOf(mesh.vertices, mesh.triangles, p), 1e-6)
-          << i;
+      EXPECT_NEAR(windingNumber(after, p), windingNumber(before, p), 1e-6) << i;
     }
   }
 }

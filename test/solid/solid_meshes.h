@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "fcl_kios/fcl_kios.h"
 #include "shapes.h"
@@ -48,6 +50,33 @@ fcl::Transform3<S> at(double x, double y, double z) {
   fcl::Transform3<S> X = fcl::Transform3<S>::Identity();
   X.translation() = fcl::Vector3d(x, y, z).template cast<S>();
   return X;
+}
+
+/// Returns a prism along y over a polygon, counterclockwise in (x, z), and its triangles: without
+/// any, those that fan out of its first corner.
+inline Mesh prism(const std::vector<std::array<double, 2>>& contour,
+                  std::vector<std::array<std::size_t, 3>> triangles,
+                  const std::vector<double>& levels) {
+  Mesh mesh;
+  const std::size_t n = contour.size(), top = (levels.size() - 1) * n;
+  for (std::size_t i = 1; triangles.size() + 2 < n && i + 1 < n; ++i) {
+    triangles.push_back({0, i, i + 1});
+  }
+  for (const double y : levels) {
+    for (const auto& p : contour) mesh.vertices.emplace_back(p[0], y, p[1]);
+  }
+  for (const auto& t : triangles) {
+    mesh.triangles.emplace_back(t[0], t[1], t[2]);
+    mesh.triangles.emplace_back(top + t[0], top + t[2], top + t[1]);
+  }
+  for (std::size_t low = 0; low < top; low += n) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t p = low + i, q = low + (i + 1) % n;
+      mesh.triangles.emplace_back(p + n, q + n, q);
+      mesh.triangles.emplace_back(p + n, q, p);
+    }
+  }
+  return mesh;
 }
 
 /// Returns solids, convex and not, in one piece and in several, of extent about 1 to 5.

@@ -59,20 +59,9 @@ TEST(ThinSolids, BracketsClose) {
 TEST(ThinSolids, DentsAreSeen) {
   for (const double thin : {1.0, 1e-3, 1e-5}) {
     // Half of the sheet's top lies at mid-height: a step, in which a small box is free.
-    Mesh step;
-    const double outline[6][2] = {{0, 0}, {1, 0}, {1, 0.5}, {0.5, 0.5}, {0.5, 1}, {0, 1}};
-    for (const double y : {0.0, 1.0}) {
-      for (const auto& p : outline) step.vertices.emplace_back(p[0], y, thin * p[1]);
-    }
-    for (const auto& t : {std::array<int, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}) {
-      step.triangles.emplace_back(t[0], t[1], t[2]);
-      step.triangles.emplace_back(6 + t[0], 6 + t[2], 6 + t[1]);
-    }
-    for (int i = 0; i < 6; ++i) {
-      const int n = (i + 1) % 6;
-      step.triangles.emplace_back(i, 6 + n, n);
-      step.triangles.emplace_back(i, 6 + i, 6 + n);
-    }
+    const double half = 0.5 * thin;
+    const Mesh step =
+        prism({{0, 0}, {1, 0}, {1, half}, {0.5, half}, {0.5, thin}, {0, thin}}, {}, {0, 1});
     const double side = 0.25 * thin;
     const auto box = solidOf(scenes::subdividedBox({side, side, side}, 1));
     // Its lower face is 0.01 thick below the step's tread, which lets it out there.

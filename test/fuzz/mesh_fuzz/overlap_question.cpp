@@ -103,11 +103,15 @@ double depthOfSample(const Placed& a, const Placed& b, double reach, double tole
   return wall ? 0 : -signedDistanceTo(b, x);
 }
 
-Verdict faultOfDepth(const LocalDepthResult& found, const Placed& a, const Placed& b,
-                     const std::string& call, Random& random) {
+Verdict faultOfDepth(const LocalDepthResult& found, const LocalDepthRequest& request,
+                     const Placed& a, const Placed& b, const std::string& call, Random& random) {
   const double tolerance = toleranceOf(a, b);
-  if (!(found.lower >= 0 && found.lower <= found.upper)) {
-    return failure(Words() << found.lower << " to " << found.upper, call);
+  const bool told = request.threshold >= 0 && (found.lower > request.threshold ||
+                                               found.upper <= request.threshold + tolerance);
+  const bool narrow = found.upper - found.lower <= request.rel_err * found.upper + tolerance;
+  if (!(found.lower >= 0 && found.lower <= found.upper) || (found.complete && !told && !narrow)) {
+    return failure(
+        Words() << found.lower << " to " << found.upper << ", complete " << found.complete, call);
   }
   for (int k = 0; k < 600; ++k) {
     const double depth = k % 2 == 0 ? depthOfSample(a, b, found.upper, tolerance, random)
@@ -116,7 +120,11 @@ Verdict faultOfDepth(const LocalDepthResult& found, const Placed& a, const Place
     return failure(Words() << "a point is " << depth << " deep, the bound " << found.upper, call);
   }
   if (!(found.lower > tolerance)) return std::nullopt;
-  const Vector3d p(found.point[0], found.point[1], found.point[2]);
+  const Eigen::Map<const Vector3d> p(found.point), q(found.nearest);
+  if (!(std::abs((p - q).norm() - found.lower) <= 4 * tolerance)) {
+    return failure(Words() << "points are " << (p - q).norm() << " apart, not " << found.lower,
+                   call);
+  }
   for (const int i : {1, 2}) {
     const double d = signedDistanceTo(i == 1 ? a : b, p);
     if (found.surface_of == i ? std::abs(d) <= tolerance : -d >= found.lower - tolerance) continue;
@@ -196,15 +204,18 @@ Verdict askDepth(const Case& c) {
                      std::to_string(request.max_pieces);
   const auto found = localDepth(*a.model, a.X, *b.model, b.X, request),
              reversed = localDepth(*b.model, b.X, *a.model, a.X, request);
-  if (found.lower != reversed.lower || found.upper != reversed.upper) {
+  if (found.lower != reversed.lower || found.upper != reversed.upper ||
+      found.surface_of != (3 - reversed.surface_of) % 3 ||
+      !std::equal(found.point, found.point + 3, reversed.point)) {
     return failure(Words() << found.lower << " to " << found.upper << ", reversed "
                            << reversed.lower << " to " << reversed.upper,
                    call);
   }
-  if (auto wrong = faultOfDepth(found, a, b, call, random)) return wrong;
+  if (auto wrong = faultOfDepth(found, request, a, b, call, random)) return wrong;
   request.threshold = chance(random, 0.3) ? 0 : found.upper * random.uniform(0, 1.5);
   call += ", threshold " + literal(request.threshold);
-  return faultOfDepth(localDepth(*a.model, a.X, *b.model, b.X, request), a, b, call, random);
+  return faultOfDepth(localDepth(*a.model, a.X, *b.model, b.X, request), request, a, b, call,
+                      random);
 }
 
 Verdict askClashes(const Case& c) {

@@ -65,7 +65,8 @@ class PointQuestion {
       const double error = power(random_, -8, 0), number = tree.at(p, error);
       // Long doubles lose their digits near edges.
       const bool by_angles = one.distance > 1e-6 * most_;
-      const double sum = by_angles ? sumOfAngles(p) : tree.at(p, 0);
+      const double sum =
+          by_angles ? static_cast<double>(testing::windingNumber(triangles_, p)) : tree.at(p, 0);
       const double far =
           one.distance <= request.within ? one.distance : std::numeric_limits<double>::infinity();
       const double own = signedDistance(*model_, p, request);
@@ -94,12 +95,6 @@ class PointQuestion {
       unmarkSolid(*model_);
       return false;
     }
-  }
-
-  double sumOfAngles(const Vector3d& p) const {
-    long double sum = 0;
-    for (const auto& t : triangles_) sum += scenes::windingOf(t, p);
-    return static_cast<double>(sum);
   }
 
   /// On, near, within and far from the mesh.
