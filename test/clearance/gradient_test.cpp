@@ -77,41 +77,6 @@ TEST(ExactGradient, SupportsTheConvexDistance) {
   }
 }
 
-// Properties 2 to 4 along random paths: distance, witnesses and gradient change by no more than a
-// step times what curvature allows, and ten times less for a tenth of the step.
-TEST(ExactGradient, IsContinuousAlongRandomPaths) {
-  Random random(33);
-  int paths = 0;
-  for (int i = 0; i < 100; ++i) {
-    const OrdinaryPair pair(random);
-    const fcl::Vector3d along = 0.5 * randomDirection(random), about = randomDirection(random);
-    const auto largestStep = [&](int steps, double* nearest) {
-      double largest = 0;
-      ExactDistance before;
-      for (int s = 0; s <= steps; ++s) {
-        const double t = static_cast<double>(s) / steps;
-        const ExactDistance now = pair.at(turned(t * about, pair.R), pair.T + t * along);
-        *nearest = std::min(*nearest, now.distance);
-        if (s > 0) {
-          largest = std::max({largest, (now.normal - before.normal).norm(),
-                              (now.moment - before.moment).norm(), (now.p - before.p).norm(),
-                              (now.q - before.q).norm()});
-        }
-        before = now;
-      }
-      return largest;
-    };
-    double nearest = 1e300;
-    const double coarse = largestStep(100, &nearest), fine = largestStep(2'000, &nearest);
-    if (!(nearest > 0.05)) continue;
-    // A step turns the normal by at most (1 + arm) / distance times its length.
-    ASSERT_LE(coarse, 8.0 / 100 / nearest) << i;
-    ASSERT_LE(fine, 8.0 / 2'000 / nearest) << i;
-    ++paths;
-  }
-  EXPECT_GT(paths, 45);
-}
-
 // B slides past A: their nearest points run over sphere, circle and vertex, and never jump.
 TEST(ExactGradient, IsContinuousAcrossTheFeatures) {
   Random random(34);

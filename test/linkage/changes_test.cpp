@@ -14,16 +14,10 @@
 namespace kios::testing {
 namespace {
 
-/// Returns a mesh that slides along x, and an obstacle at the origin.
-RobotCase slider(const BodyGeometry& obstacle, bool carried) {
-  RobotCase robot;
-  Joint joint;
-  joint.type = JointType::kPrismatic;
-  joint.axis = Vector3d::UnitX();
-  robot.addLink(-1, joint);
-  robot.addBody(0, carried ? obstacle : boxOf(0.2, 0.2, 0.2));
-  robot.addBody(-1, carried ? boxOf(0.2, 0.2, 0.2) : obstacle);
-  return robot;
+/// Returns a slider of a box and a body, which is carried or stands.
+RobotCase slideOf(const BodyGeometry& body, bool carried) {
+  const BodyGeometry box = boxOf(0.2, 0.2, 0.2);
+  return carried ? slider(body, box) : slider(box, body);
 }
 
 MotionResult ask(const RobotCase& robot, double from, double to, bool first = false) {
@@ -36,7 +30,7 @@ template <typename Shape, typename Change>
 void expectRefusedAfter(const std::shared_ptr<Shape>& shape, const Change& change) {
   for (const bool carried : {false, true}) {
     const auto own = std::make_shared<Shape>(*shape);
-    const RobotCase robot = slider(own, carried);
+    const RobotCase robot = slideOf(own, carried);
     EXPECT_EQ(ask(robot, 2, 3).verdict, MotionVerdict::kClear);
     const Linkage copy = robot.linkage;
     change(*own);
@@ -57,7 +51,7 @@ TEST(ChangedGeometry, ShapesOfOtherSizesAreRefused) {
 
 TEST(ChangedGeometry, PlanesAndConvexShapesThatMoveAreRefused) {
   const auto floor = std::make_shared<fcl::Halfspaced>(Vector3d::UnitZ(), -1);
-  const RobotCase over = slider(floor, false);
+  const RobotCase over = slideOf(floor, false);
   EXPECT_EQ(ask(over, 2, 3).verdict, MotionVerdict::kClear);
   floor->d = 0.5;
   expectRefused([&] { ask(over, 2, 3); }, "shape of body 1");
@@ -66,7 +60,7 @@ TEST(ChangedGeometry, PlanesAndConvexShapesThatMoveAreRefused) {
       std::vector<Vector3d>{{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}});
   const auto faces = std::make_shared<std::vector<int>>(
       std::vector<int>{3, 0, 2, 1, 3, 0, 1, 3, 3, 0, 3, 2, 3, 1, 2, 3});
-  const RobotCase beside = slider(std::make_shared<fcl::Convexd>(points, 4, faces), false);
+  const RobotCase beside = slideOf(std::make_shared<fcl::Convexd>(points, 4, faces), false);
   EXPECT_EQ(ask(beside, 2, 3).verdict, MotionVerdict::kClear);
   (*points)[1].x() = 4;
   expectRefused([&] { ask(beside, 2, 3); }, "shape of body 1");
@@ -75,7 +69,7 @@ TEST(ChangedGeometry, PlanesAndConvexShapesThatMoveAreRefused) {
 TEST(ChangedGeometry, BodiesThatBecomeOccupiedAreRefused) {
   const auto ball = std::make_shared<fcl::Sphered>(0.1);
   ball->threshold_occupied = 2;
-  const RobotCase robot = slider(ball, false);
+  const RobotCase robot = slideOf(ball, false);
   EXPECT_EQ(ask(robot, -1, 1).verdict, MotionVerdict::kClear);
   ball->threshold_occupied = 1;
   expectRefused([&] { ask(robot, -1, 1); }, "occupancy of body 1");
@@ -95,7 +89,7 @@ TEST(ChangedGeometry, OctreesMayTakeUpMeasurements) {
     cells->updateNode(point(3.05, 0.05, 0.05), false);
     const auto octree =
         std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells));
-    const RobotCase robot = slider(octree, carried);
+    const RobotCase robot = slideOf(octree, carried);
     const double side = carried ? -1 : 1;
     const auto verdict = [&](double from, double to) {
       const MotionResult any = ask(robot, side * from, side * to);
@@ -129,7 +123,7 @@ TEST(ChangedGeometry, OctreesMayTakeUpMeasurements) {
 TEST(ChangedGeometry, AnEmptyOctreeMayGetCells) {
   const auto cells = std::make_shared<octomap::OcTree>(0.1);
   const auto octree = std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells));
-  RobotCase robot = slider(octree, false);
+  RobotCase robot = slideOf(octree, false);
   const int second = robot.addBody(0, boxOf(0.1, 0.1, 0.1), shifted(0, 2, 0));
   robot.ignorePair(second, 1);
   EXPECT_EQ(ask(robot, -5, 5).verdict, MotionVerdict::kClear);
@@ -150,14 +144,14 @@ TEST(ChangedGeometry, GrowingMapsAreSeenAsTheyAre) {
     const auto cells = std::make_shared<octomap::OcTree>(0.05);
     const auto octree =
         std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells));
-    const RobotCase robot = slider(octree, i % 2 == 1);
+    const RobotCase robot = slideOf(octree, i % 2 == 1);
     for (int step = 0; step < 25; ++step) {
       const Vector3d p = 3 * inBall(random);
       cells->updateNode(point(p.x(), 0.2 * p.y(), 0.2 * p.z()), random.unit() < 0.8);
       if (step % 7 == 6) cells->prune();
       const double from = random.uniform(-3, 3), to = from + random.uniform(-1, 1);
       const MotionResult answer = ask(robot, from, to);
-      const MotionResult anew = ask(slider(octree, i % 2 == 1), from, to);
+      const MotionResult anew = ask(slideOf(octree, i % 2 == 1), from, to);
       ASSERT_EQ(answer.verdict, anew.verdict) << i << " " << step;
       contacts += answer.verdict == MotionVerdict::kContact ? 1 : 0;
       clear += answer.verdict == MotionVerdict::kClear ? 1 : 0;
@@ -172,7 +166,7 @@ TEST(ChangedGeometry, LinksComeAfterAnOctreeGrew) {
   const auto cells = std::make_shared<octomap::OcTree>(0.1);
   cells->updateNode(point(0.05, 0.05, 0.05), true);
   RobotCase robot =
-      slider(std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells)), false);
+      slideOf(std::make_shared<fcl::OcTreed>(std::shared_ptr<const octomap::OcTree>(cells)), false);
   cells->updateNode(point(6.05, 0.05, 0.05), true);
   EXPECT_EQ(ask(robot, 5, 7).verdict, MotionVerdict::kContact);
   robot.linkage.addLink(0, joint(JointType::kRevolute));

@@ -11,14 +11,6 @@
 namespace kios::testing {
 namespace {
 
-/// Returns a box that slides along x, one unit of q a metre.
-RobotCase slider(const BodyGeometry& body) {
-  RobotCase robot;
-  robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0}));
-  robot.addBody(0, body);
-  return robot;
-}
-
 MotionResult ask(const RobotCase& robot, const Joints& q0, const Joints& q1, bool first = false,
                  double separation = 0) {
   MotionRequest request;

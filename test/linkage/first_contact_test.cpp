@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "linkage/robot_cases.h"
+#include "shapes.h"
 
 namespace kios::testing {
 namespace {
@@ -24,10 +25,7 @@ struct LineWorld {
 
   explicit LineWorld(const std::vector<double>& speeds) {
     for (const double speed : speeds) {
-      Joint joint;
-      joint.type = JointType::kPrismatic;
-      joint.axis = Vector3d(speed, 0, 0);
-      robot.addLink(-1, joint);
+      robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {speed, 0, 0}));
     }
   }
   static BodyGeometry plate(const Interval& x, bool shape, bool upright) {
@@ -48,19 +46,13 @@ struct LineWorld {
   }
   /// One mesh of several plates.
   void addObstacle(const std::vector<Interval>& parts) {
-    Mesh mesh;
+    std::vector<Mesh> plates;
     for (const Interval& x : parts) {
       obstacles.push_back(x);
-      const std::size_t first = mesh.vertices.size();
-      const Mesh part = scenes::subdividedBox({x.to - x.from, 1, 0.2}, 1);
-      for (const Vector3d& p : part.vertices) {
-        mesh.vertices.push_back(p + Vector3d(0.5 * (x.from + x.to), 0, 0));
-      }
-      for (const fcl::Triangle& t : part.triangles) {
-        mesh.triangles.emplace_back(first + t[0], first + t[1], first + t[2]);
-      }
+      plates.push_back(transformed(scenes::subdividedBox({x.to - x.from, 1, 0.2}, 1), 1,
+                                   {0.5 * (x.from + x.to), 0, 0}));
     }
-    robot.addBody(-1, modelOf(mesh));
+    robot.addBody(-1, modelOf(scenes::merged(plates)));
   }
 
   /// Returns the first s in [0, 1] of all pairs of a mover and an obstacle; 2 if there is none.
@@ -192,24 +184,6 @@ void runWorlds(bool shapes, int count, std::uint64_t seed) {
 TEST(FirstContacts, OfMeshesAreTheFirst) { runWorlds(false, 6000, 1); }
 TEST(FirstContacts, OfMeshesAndShapesAreTheFirst) { runWorlds(true, 3000, 2); }
 
-// Two obstacles within a resolution of each other, whichever comes first.
-TEST(FirstContacts, OfTwoPairsWithinAResolution) {
-  Tally tally;
-  for (const double resolution : {0x1p-20, 0x1p-10, 0x1p-4}) {
-    for (int i = 0; i < 20; ++i) {
-      for (const double apart : {0.05, 0.3, 0.5, 0.7, 0.95}) {
-        LineWorld world({1.0});
-        world.addMover(0, {-0.02, 0}, false);
-        const double x = 0.5 + 0.013 * i;
-        world.addObstacle({x, x + 0.02}, false);
-        world.addObstacle({x - apart * resolution, x + 0.02}, false);
-        expectFirst(world, resolution, 0, tally);
-      }
-    }
-  }
-  EXPECT_EQ(tally.contact, 300);
-}
-
 // A path that begins in contact, leaves it, and comes to the next one within a resolution.
 TEST(FirstContacts, OfPathsThatBeginInContact) {
   Tally tally;
@@ -249,11 +223,7 @@ TEST(FirstContacts, OfShapesHoldNoContradiction) {
   for (int i = 0; i < 2000; ++i) {
     const auto sphere = std::make_shared<fcl::Sphered>(random.uniform(0.05, 1));
     const auto cone = std::make_shared<fcl::Coned>(random.uniform(0.05, 1), random.uniform(0.1, 2));
-    RobotCase robot;
-    Joint joint;
-    joint.type = JointType::kPrismatic;
-    joint.axis = Vector3d::UnitX();
-    robot.addLink(-1, joint);
+    RobotCase robot = slider(sphere);
     // Along the tangent of the cone's side, at a gap of 1e-12 to 1e-6.
     const double r = cone->radius, h = cone->lz, up = random.uniform(0.1, 0.9);
     const double phi = random.uniform(-3, 3), gap = std::pow(10, random.uniform(-12, -6));
@@ -267,7 +237,6 @@ TEST(FirstContacts, OfShapesHoldNoContradiction) {
     Transform3d X = Transform3d::Identity();
     X.linear() = axes.transpose();
     X.translation() = Vector3d(-1 + 4 * random.uniform(0.1, 0.9), 0, 0) - X.linear() * place;
-    robot.addBody(0, sphere);
     robot.addBody(-1, cone, X);
     MotionRequest request;
     request.first_contact = true;

@@ -4,6 +4,7 @@
 // What ends a search for the least clearance: ceilings, contact, rounding, what isn't served.
 #include "fcl/expect_refused.h"
 #include "linkage/joint_ranges.h"
+#include "shapes.h"
 
 namespace kios::testing {
 namespace {
@@ -130,15 +131,9 @@ TEST(JointRangeEnds, NearerThanTheErrorAllAlong) {
 // A channel around a body, 0.5 from either wall: no slab parts them, and distances alone prove the
 // ceiling.
 TEST(JointRangeEnds, CeilingsInAChannel) {
-  Mesh channel;
-  for (const double x : {-1.5, 1.5}) {
-    const Mesh wall = scenes::subdividedBox({1, 8, 4}, 2);
-    const int first = static_cast<int>(channel.vertices.size());
-    for (const Vector3d& p : wall.vertices) channel.vertices.push_back(p + Vector3d(x, 0, 0));
-    for (const auto& t : wall.triangles) {
-      channel.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
-    }
-  }
+  const Mesh wall = scenes::subdividedBox({1, 8, 4}, 2);
+  const Mesh channel =
+      scenes::merged({transformed(wall, 1, {-1.5, 0, 0}), transformed(wall, 1, {1.5, 0, 0})});
   for (const bool mesh : {false, true}) {
     RobotCase robot;
     robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {0, 0, 1}));

@@ -125,17 +125,6 @@ TEST(Linkages, WhichPairsAreChecked) {
             MotionVerdict::kClear);
 }
 
-TEST(Linkages, BodiesThatAreNotOccupiedTouchNothing) {
-  Linkage linkage;
-  linkage.addLink(-1, joint(JointType::kPrismatic));
-  linkage.addBody(0, cube());
-  auto air = makeModel(scenes::subdividedBox({1, 1, 1}, 1).vertices,
-                       scenes::subdividedBox({1, 1, 1}, 1).triangles);
-  air->threshold_occupied = 2;
-  linkage.addBody(-1, air);
-  EXPECT_EQ(checkMotion(linkage, Joints::Zero(1), Joints::Ones(1)).verdict, MotionVerdict::kClear);
-}
-
 TEST(Linkages, WithoutBodiesOrJointsAllIsClear) {
   Linkage linkage;
   EXPECT_EQ(checkMotion(linkage, Joints(0), Joints(0)).verdict, MotionVerdict::kClear);

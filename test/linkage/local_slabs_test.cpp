@@ -32,12 +32,6 @@ RobotCase randomChain(Random& random, int links, double prismatic) {
   return robot;
 }
 
-Joints randomJoints(int count, double far, Random& random) {
-  Joints q(count);
-  for (double& x : q) x = random.uniform(-far, far);
-  return q;
-}
-
 // Points leave their tangents by at most half the acceleration times the square of the time, and
 // come near that.
 TEST(Chains, VelocitiesAndAccelerationsBoundTheMotion) {

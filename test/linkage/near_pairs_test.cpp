@@ -148,45 +148,5 @@ TEST(ObstacleTree, HoldsThousandsThatComeAndGo) {
   }
 }
 
-TEST(NearPairs, AreThoseToBeChecked) {
-  const BodyGeometry box = modelOf(scenes::subdividedBox({0.2, 0.2, 0.2}, 2));
-  const auto shifted = [](double x) {
-    Transform3d X = Transform3d::Identity();
-    X.translation().x() = x;
-    return X;
-  };
-  RobotCase robot;
-  Joint joint;
-  joint.type = JointType::kPrismatic;
-  joint.axis = Vector3d::UnitX();
-  robot.addLink(-1, joint);
-  robot.addLink(-1, joint);
-  const int a = robot.addBody(0, box), b = robot.addBody(1, box, shifted(5));
-  const Joints q0 = Joints::Zero(2), q1 = (Joints(2) << 0, 0.01).finished();
-  const auto ask = [&] { return checkMotion(robot.linkage, q0, q1); };
-  EXPECT_EQ(ask().counts.pairs, 1);
-  const int near = robot.addBody(-1, box, shifted(0.1)), far = robot.addBody(-1, box, shifted(9));
-  EXPECT_EQ(ask().counts.pairs, 5);
-  MotionResult answer = ask();
-  EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
-  EXPECT_EQ(answer.body_a, a);
-  EXPECT_EQ(answer.body_b, near);
-  robot.ignorePair(near, a);
-  robot.ignorePair(a, near);
-  robot.ignorePair(near, far);
-  EXPECT_EQ(ask().counts.pairs, 4);
-  EXPECT_EQ(ask().verdict, MotionVerdict::kClear);
-  const Linkage copy = robot.linkage;
-  const int last = robot.addBody(-1, box, shifted(5.15));
-  answer = ask();
-  EXPECT_EQ(answer.verdict, MotionVerdict::kContact);
-  EXPECT_EQ(answer.body_a, b);
-  EXPECT_EQ(answer.body_b, last);
-  EXPECT_EQ(checkMotion(copy, q0, q1).verdict, MotionVerdict::kClear);
-  robot.ignorePair(b, a);
-  robot.ignorePair(a, b);
-  EXPECT_EQ(ask().counts.pairs, 5);
-}
-
 }  // namespace
 }  // namespace kios::testing

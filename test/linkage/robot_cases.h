@@ -49,6 +49,12 @@ inline Joint joint(JointType type, const Vector3d& place = Vector3d::Zero(),
   return result;
 }
 
+inline Joints randomJoints(int count, double far, Random& random) {
+  Joints q(count);
+  for (double& x : q) x = random.uniform(-far, far);
+  return q;
+}
+
 inline Vector3d inBall(Random& random) {
   Vector3d v;
   do {
@@ -172,6 +178,17 @@ struct RobotCase {
     return 2;
   }
 };
+
+/// Returns a body that slides along x, and another one that stands, if any, which may come first.
+inline RobotCase slider(const BodyGeometry& body, const BodyGeometry& obstacle = nullptr,
+                        bool obstacle_first = false) {
+  RobotCase robot;
+  robot.addLink(-1, joint(JointType::kPrismatic, {0, 0, 0}, {1, 0, 0}));
+  if (obstacle && obstacle_first) robot.addBody(-1, obstacle);
+  robot.addBody(0, body);
+  if (obstacle && !obstacle_first) robot.addBody(-1, obstacle);
+  return robot;
+}
 
 /// Answers of random paths, of which some must be clear and others not.
 struct MotionTally {

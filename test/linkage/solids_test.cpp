@@ -5,6 +5,7 @@
 // surfaces meet.
 
 #include "linkage/robot_cases.h"
+#include "shapes.h"
 
 namespace kios::testing {
 namespace {
@@ -19,12 +20,11 @@ BodyGeometry meshBox(const Vector3d& size, bool solid) {
 /// Returns a box with a cavity, or with another box in it, beside it or around it: two components.
 BodyGeometry twoBoxes(const Vector3d& outer, const Vector3d& inner, const Vector3d& place,
                       bool cavity) {
-  Mesh mesh = scenes::subdividedBox(outer, 1), second = scenes::subdividedBox(inner, 1);
-  const std::size_t first = mesh.vertices.size();
-  for (const Vector3d& p : second.vertices) mesh.vertices.push_back(p + place);
-  for (const fcl::Triangle& t : second.triangles) {
-    mesh.triangles.emplace_back(first + t[0], first + t[cavity ? 2 : 1], first + t[cavity ? 1 : 2]);
+  Mesh second = transformed(scenes::subdividedBox(inner, 1), 1, place);
+  for (fcl::Triangle& t : second.triangles) {
+    if (cavity) t.set(t[0], t[2], t[1]);
   }
+  const Mesh mesh = scenes::merged({scenes::subdividedBox(outer, 1), second});
   const auto model = makeModel(mesh.vertices, mesh.triangles);
   markSolid(*model);
   return model;
@@ -35,18 +35,6 @@ std::vector<BodyGeometry> smallBodies(double size) {
           std::make_shared<fcl::Capsuled>(0.3 * size, 0.4 * size),
           std::make_shared<fcl::Boxd>(size, size, size),
           std::make_shared<fcl::Coned>(0.4 * size, size)};
-}
-
-RobotCase slider(const BodyGeometry& body, const BodyGeometry& obstacle, bool swapped) {
-  RobotCase robot;
-  Joint joint;
-  joint.type = JointType::kPrismatic;
-  joint.axis = Vector3d::UnitX();
-  robot.addLink(-1, joint);
-  if (swapped) robot.addBody(-1, obstacle);
-  robot.addBody(0, body);
-  if (!swapped) robot.addBody(-1, obstacle);
-  return robot;
 }
 
 void expectVerdicts(const RobotCase& robot, double from, double to, bool contact) {
@@ -132,13 +120,7 @@ TEST(MotionsOfSolids, ContinuousCollisionSeesThemToo) {
 }
 
 TEST(MotionsOfSolids, OneThatWasOpenedIsRefused) {
-  Mesh soup;
-  const Mesh mesh = scenes::subdividedBox({2, 2, 2}, 1);
-  for (const fcl::Triangle& t : mesh.triangles) {
-    const std::size_t first = soup.vertices.size();
-    for (int k = 0; k < 3; ++k) soup.vertices.push_back(mesh.vertices[t[k]]);
-    soup.triangles.emplace_back(first, first + 1, first + 2);
-  }
+  Mesh soup = scenes::soup(scenes::subdividedBox({2, 2, 2}, 1));
   const auto model = makeModel(soup.vertices, soup.triangles);
   markSolid(*model);
   soup.vertices[0] *= 1.5;

@@ -63,11 +63,8 @@ TEST(TightFits, APegThatSticksIsFound) {
     const BodyGeometry hole = modelOf(ring(0.01 + clearance, 0.03, 0.1, 4));
     const BodyGeometry peg = modelOf(rod(0.01 * std::sqrt(2.0), 0.3, 4, 0));
     RobotCase robot;
-    Joint joint;
-    joint.type = JointType::kPrismatic;
-    robot.addLink(-1, joint);
-    joint.type = JointType::kRevolute;
-    robot.addLink(0, joint);
+    robot.addLink(-1, joint(JointType::kPrismatic));
+    robot.addLink(0, joint(JointType::kRevolute));
     robot.addBody(1, peg);
     robot.addBody(-1, hole);
     MotionTally tally;
@@ -121,17 +118,15 @@ TEST(Budgets, LongPathsEnd) {
   for (const double far : {1e3, 1e5, 1e8}) {
     RobotCase robot;
     for (int link = 0; link < 4; ++link) {
-      Joint joint;
-      joint.type = JointType::kRevolute;
-      joint.X_PJ = randomPose(random, 0.3);
-      joint.axis = inBall(random).normalized();
-      robot.addLink(link - 1, joint);
+      Joint turn = joint(JointType::kRevolute);
+      turn.X_PJ = randomPose(random, 0.3);
+      turn.axis = inBall(random).normalized();
+      robot.addLink(link - 1, turn);
       robot.addBody(link, modelOf(rod(0.02, 0.3, 6, 0)));
       if (link > 0) robot.ignorePair(link - 1, link);
     }
     robot.addBody(-1, modelOf(ring(2, 2.2, 3, 12)));
-    Joints q1(4);
-    for (double& x : q1) x = random.uniform(-far, far);
+    const Joints q1 = randomJoints(4, far, random);
     for (const bool first : {false, true}) {
       MotionRequest request;
       request.max_queries = 20000;

@@ -14,26 +14,6 @@
 namespace kios::testing {
 namespace {
 
-/// Returns the triangles below each node.
-std::vector<std::vector<std::uint32_t>> contents(const engine::Tree& tree) {
-  std::vector<std::vector<std::uint32_t>> below(tree.nodes.size());
-  for (std::size_t n = tree.nodes.size(); n-- > 0;) {  // children follow their parents
-    const engine::Node& node = tree.nodes[n];
-    if (node.isLeaf()) {
-      const engine::Leaf& leaf = tree.leaves[node.leaf()];
-      for (std::size_t i = 0; i < leaf.num_faces; ++i) {
-        below[n].push_back(tree.features[leaf.feature_offset + i].triangle());
-      }
-      continue;
-    }
-    for (std::uint32_t i = 0; i < tree.children[static_cast<std::size_t>(node.child)].count; ++i) {
-      const auto& child = below[node.first_child + i];
-      below[n].insert(below[n].end(), child.begin(), child.end());
-    }
-  }
-  return below;
-}
-
 template <typename S>
 class Auditor final : public engine::Audit {
  public:
@@ -202,16 +182,7 @@ TYPED_TEST(AuditOf, Soups) {
 }
 
 // Spheres of radius 0: nothing but the pad covers the rounding of their distances.
-TYPED_TEST(AuditOf, HeapsOfPoints) {
-  std::vector<Mesh> parts;
-  Random random(8);
-  for (int heap = 0; heap < 20; ++heap) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-    const fcl::Vector3d p(x, y, random.uniform(-1, 1));
-    parts.insert(parts.end(), engine::kLeafTriangles, scenes::singleTriangle(p, p, p));
-  }
-  this->audit(scenes::merged(parts), scenes::merged(parts), 1, 10);
-}
+TYPED_TEST(AuditOf, HeapsOfPoints) { this->audit(heaps(20, 8), heaps(20, 8), 1, 10); }
 
 TYPED_TEST(AuditOf, FlatSheets) {
   this->audit(scenes::sheet(2, 2, 8, 8, 0), scenes::sheet(2, 2, 7, 9, 1e-3), 1, 10);

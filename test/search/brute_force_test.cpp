@@ -120,52 +120,7 @@ class Searches {
   PosedPair<S> posed_;
 };
 
-template <typename S>
-Seen checkPoses(const Mesh& a, const Mesh& b, double spread, int poses, double scale = 1,
-                std::uint64_t seed = 41) {
-  Searches<S> searches(transformed(a, scale, fcl::Vector3d::Zero()),
-                       transformed(b, scale, fcl::Vector3d::Zero()));
-  Seen seen;
-  auto drawn = scenes::randomPoses(2 * poses, spread, seed);
-  for (fcl::Transform3d& X : drawn) X.translation() *= scale;
-  for (int i = 0; i < poses; ++i) searches.check(drawn[2 * i], drawn[2 * i + 1], seen);
-  return seen;
-}
-
 KIOS_SCALAR_SUITE(BruteForce);
-
-TYPED_TEST(BruteForce, EveryKindOfMesh) {
-  const Mesh other = scenes::bumpyTorus(100);
-  Seen seen;
-  for (const NamedMesh& named : unitMeshes()) {
-    SCOPED_TRACE(named.name);
-    for (const bool swapped : {false, true}) {
-      const Seen some = swapped ? checkPoses<TypeParam>(other, named.mesh, 1.2, 3)
-                                : checkPoses<TypeParam>(named.mesh, other, 1.2, 3);
-      seen.apart += some.apart;
-      seen.touching += some.touching;
-    }
-  }
-  EXPECT_GT(seen.apart, 30);
-  EXPECT_GT(seen.touching, 30);
-}
-
-TYPED_TEST(BruteForce, AnyScale) {
-  for (const double scale : {1e-9, 1e-3, 1e4, 1e9}) {
-    const Seen seen =
-        checkPoses<TypeParam>(scenes::bumpyTorus(100), scenes::icosphere(0.6, 1), 1.2, 10, scale);
-    EXPECT_GT(seen.apart, 2);
-    EXPECT_GT(seen.touching, 2);
-  }
-}
-
-TYPED_TEST(BruteForce, MixedScales) {
-  const Mesh large = scenes::subdividedBox({2, 2, 2}, 3);
-  for (const double scale : {0.1, 1e-2, 1e-3}) {
-    checkPoses<TypeParam>(large, transformed(scenes::icosphere(1, 1), scale, {0, 0, 1}), 0.3, 6);
-    checkPoses<TypeParam>(transformed(scenes::bumpyTorus(100), scale, {0, 0, 1}), large, 0.3, 6);
-  }
-}
 
 // Nearly every pair of leaves is as near as any: the frontier and its waiting room overflow.
 TYPED_TEST(BruteForce, NestedSpheresOfEqualClearance) {

@@ -31,6 +31,38 @@ std::unique_ptr<engine::Tree> treeOf(const MeshIn<S>& shape, const MeshIn<S>* be
   return engine::refit(viewOf(shape), *tree) ? std::move(tree) : nullptr;
 }
 
+/// Returns the triangles below each node.
+inline std::vector<std::vector<std::uint32_t>> contents(const engine::Tree& tree) {
+  std::vector<std::vector<std::uint32_t>> below(tree.nodes.size());
+  for (std::size_t n = tree.nodes.size(); n-- > 0;) {  // children follow their parents
+    const engine::Node& node = tree.nodes[n];
+    if (node.isLeaf()) {
+      const engine::Leaf& leaf = tree.leaves[node.leaf()];
+      for (std::size_t i = 0; i < leaf.num_faces; ++i) {
+        below[n].push_back(tree.features[leaf.feature_offset + i].triangle());
+      }
+      continue;
+    }
+    for (std::uint32_t i = 0; i < tree.children[static_cast<std::size_t>(node.child)].count; ++i) {
+      const auto& child = below[node.first_child + i];
+      below[n].insert(below[n].end(), child.begin(), child.end());
+    }
+  }
+  return below;
+}
+
+/// Returns points in heaps that fill leaves: volumes of size 0, whose bounds are as wide as the
+/// pads let them be.
+inline Mesh heaps(int count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Mesh> parts;
+  for (int i = 0; i < count; ++i) {
+    const fcl::Vector3d p = inCube(random);
+    parts.insert(parts.end(), engine::kLeafTriangles, scenes::singleTriangle(p, p, p));
+  }
+  return scenes::merged(parts);
+}
+
 /// Holds two shapes with their trees, at a pose.
 template <typename S>
 class PosedPair {

@@ -61,22 +61,6 @@ class EngineThreads : public ::testing::Test {
   const std::vector<Frame> frames_ = randomFrames(10, 1.3, 91);
 };
 
-TEST_F(EngineThreads, AllAskFirst) {
-  const std::vector<Answer> expected = answers(*kiosModel(mesh_), *kiosModel(other_mesh_));
-  for (int round = 0; round < 20; ++round) {
-    const auto a = kiosModel(mesh_), b = kiosModel(other_mesh_);
-    const Modeld copy(*a);
-    const std::size_t one = preparedBytes(*a);
-    std::atomic<int> wrong{0};
-    together(kThreads, [&](int t) {
-      const std::size_t at = static_cast<std::size_t>(t + round) % frames_.size();
-      wrong += !ask(*a, *b, frames_[at]).equals(expected[at]);
-    });
-    EXPECT_EQ(wrong, 0);
-    EXPECT_EQ(preparedBytes(*a), one);  // the model and its copy share it
-  }
-}
-
 // Copies hold one tree until they are refitted, while others are asked.
 TEST_F(EngineThreads, RefittedCopiesAndQueriesDoNotMeet) {
   const auto original = kiosModel(mesh_), other = kiosModel(other_mesh_);

@@ -3,13 +3,17 @@
 //
 // The promises of docs/shapes.md about a triangle and a shape that nearly touch: verdicts,
 // distances, lower bounds, nearest points and early ends, with gaps from 1e-15 to 0.1 of the shape,
-// for flat and thin shapes, and for triangles from 1e-9 to 1e6 of the shape that may degenerate.
+// for flat and thin shapes, and for triangles from 1e-9 to 1e6 of the shape that may degenerate;
+// of an octree's cell through FCL's own calls. mesh_fuzz asks these of shapes, far from the origin.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include <fcl/geometry/octree/octree.h>
+#include <fcl_kios/fcl_kios.h>
 
 #include "not_finite.h"
 #include "shape/solid_cases.h"
@@ -138,6 +142,13 @@ TEST_P(NearContact, NeedlesAreJudgedAsWell) {
   EXPECT_LE(worst, promised) << nameOf(kind);
 }
 
+Triangle triangleThrough(const Vec& at, SolidCases& cases) {
+  const double size = cases.power(-2, 3);
+  const Vec n = cases.vector().normalized(), u = n.unitOrthogonal(), v = n.cross(u);
+  return {Vec(at + size * u), Vec(at + size * (-0.4 * u + 0.9 * v)),
+          Vec(at + size * (-0.6 * u - 0.8 * v))};
+}
+
 // A triangle through a point of a shape without an inside, away from both their borders.
 TEST_P(NearContact, PiercedFlatShapesAreMet) {
   SolidCases cases(41);
@@ -163,10 +174,7 @@ TEST_P(NearContact, PiercedFlatShapesAreMet) {
           0.1)) {
       continue;  // a point
     }
-    const double size = cases.power(-2, 3);
-    const Vec n = cases.vector().normalized(), u = n.unitOrthogonal(), v = n.cross(u);
-    const Triangle t = {Vec(at + size * u), Vec(at + size * (-0.4 * u + 0.9 * v)),
-                        Vec(at + size * (-0.6 * u - 0.8 * v))};
+    const Triangle t = triangleThrough(at, cases);
     ++checked;
     EXPECT_TRUE(shape::intersects(s, t)) << i;
     EXPECT_EQ(shape::distance(s, t, kInfinity).distance, 0) << i;
@@ -267,14 +275,51 @@ TEST(FlatEllipsoid, PiercedOnesAreMet) {
     s.half[axis] = i % 4 < 2 ? 1.0 : s.half[axis];
     s.half[(axis + 1) % 3] = 0.2 + 0.8 * cases.unit();
     const Vec at = 0.5 * cases.vector().normalized().cwiseProduct(s.half);
-    const double size = cases.power(-2, 3);
-    const Vec n = cases.vector().normalized(), u = n.unitOrthogonal(), v = n.cross(u);
-    const Triangle t = {Vec(at + size * u), Vec(at + size * (-0.4 * u + 0.9 * v)),
-                        Vec(at + size * (-0.6 * u - 0.8 * v))};
+    const Triangle t = triangleThrough(at, cases);
     const double extent = shape::sizeOf(t) + s.reach();
     EXPECT_LE(shape::distance(s, t, kInfinity).distance, 0x1p-46 * extent) << s.half.transpose();
   }
 }
+
+#if FCL_HAVE_OCTOMAP
+// One cell, which isn't about the octree's origin.
+TEST(OctreeCell, PromisesAreKept) {
+  SolidCases cases(61);
+  const double side = 0.5;
+  auto tree = std::make_shared<octomap::OcTree>(side);
+  tree->updateNode(octomap::point3d(0.75f, 1.25f, -0.25f), true);
+  const fcl::OcTreed octree{std::shared_ptr<const octomap::OcTree>(tree)};
+  const Vec center(0.75, 1.25, -0.25);
+  for (int i = 0; i < 1500; ++i) {
+    NearPair pair;
+    pair.solid.kind = Kind::kBox;
+    pair.solid.half.setConstant(side / 2);
+    pair.faces = coreFaces(pair.solid);
+    pair.triangle = cases.triangle(cases.vector(), cases.power(-3, 3));
+    setGap(cases.power(-14, -1), pair);
+    // As the mesh stores it: about the octree's origin, rounded.
+    std::vector<fcl::Vector3d> stored;
+    for (Vec& p : pair.triangle) {
+      stored.push_back(p + center);
+      p = stored.back() - center;
+    }
+    measure(pair);
+    const auto model = makeModel<double>(stored, {fcl::Triangle(0, 1, 2)});
+    fcl::DistanceResultd d;
+    fcl::CollisionResultd c;
+    const fcl::Transform3d I = fcl::Transform3d::Identity();
+    const fcl::CollisionGeometryd& cell = octree;
+    fcl::distance(model.get(), I, &cell, I, fcl::DistanceRequestd(), d);
+    fcl::collide(model.get(), I, &cell, I, fcl::CollisionRequestd(), c);
+    const Real band = 0x1p-46L * (pair.extent + center.norm());
+    if (pair.depth == 0) {
+      EXPECT_LE(std::abs(d.min_distance - pair.distance), band);
+    }
+    EXPECT_FALSE(c.isCollision() && pair.distance > band);
+    EXPECT_FALSE(!c.isCollision() && pair.depth > band);
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace kios::testing

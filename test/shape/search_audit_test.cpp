@@ -18,6 +18,7 @@
 #include "query/float_solid.h"
 #include "query/mesh_contacts.h"
 #include "scenes/cad_shapes.h"
+#include "search/prepared_pair.h"
 #include "search/search.h"
 #include "shape/convex_faces.h"
 #include "shape/shape_oracle.h"
@@ -62,24 +63,9 @@ template <typename S>
 class Auditor {
  public:
   explicit Auditor(const Mesh& mesh)
-      : model_(scenes::buildModel<kIOS<S>>(mesh)), tree_(treeOf(*model_)) {
-    below_.resize(tree_.nodes.size());
-    for (std::size_t n = tree_.nodes.size(); n-- > 0;) {  // children follow their parents
-      const engine::Node& node = tree_.nodes[n];
-      if (node.isLeaf()) {
-        const engine::Leaf& leaf = tree_.leaves[node.leaf()];
-        for (std::size_t i = 0; i < leaf.num_faces; ++i) {
-          below_[n].push_back(tree_.features[leaf.feature_offset + i].triangle());
-        }
-        continue;
-      }
-      const auto& children = tree_.children[static_cast<std::size_t>(node.child)];
-      for (std::uint32_t i = 0; i < children.count; ++i) {
-        const auto& child = below_[node.first_child + i];
-        below_[n].insert(below_[n].end(), child.begin(), child.end());
-      }
-    }
-  }
+      : model_(scenes::buildModel<kIOS<S>>(mesh)),
+        tree_(treeOf(*model_)),
+        below_(contents(tree_)) {}
 
   /// The search is left a share of the pads. False if floats can't serve the pair.
   bool search(const fcl::CollisionGeometry<S>& geometry, const fcl::Transform3d& X_WM,
@@ -165,29 +151,11 @@ class Auditor {
 
   const std::shared_ptr<fcl::BVHModel<kIOS<S>>> model_;
   const engine::Tree& tree_;
-  std::vector<std::vector<std::uint32_t>> below_;
+  const std::vector<std::vector<std::uint32_t>> below_;
   std::vector<double> distances_;
   double error_ = 0;
   int calls_ = 0;
 };
-
-/// Returns points in heaps of eight: volumes of size 0, whose bounds are as wide as the pads let
-/// them be.
-Mesh heaps(int count, std::uint64_t seed) {
-  scenes::Random random(seed);
-  std::vector<Mesh> parts;
-  for (int i = 0; i < count; ++i) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-    const Vector3d p(x, y, random.uniform(-1, 1));
-    parts.insert(parts.end(), 8, scenes::singleTriangle(p, p, p));
-  }
-  return scenes::merged(parts);
-}
-
-Mesh scaled(Mesh mesh, double scale, const Vector3d& offset = Vector3d::Zero()) {
-  for (Vector3d& p : mesh.vertices) p = scale * p + offset;
-  return mesh;
-}
 
 struct Where {
   double scale = 1, spread = 1.5, shape_scale = 1, stretch = 0, world = 0;
@@ -197,7 +165,7 @@ struct Where {
 
 template <typename S>
 void audit(Shape kind, const Mesh& mesh, const Where& where, int poses, Pads pads, Audited& out) {
-  Auditor<S> auditor(scaled(mesh, where.scale, where.model));
+  Auditor<S> auditor(transformed(mesh, where.scale, where.model));
   scenes::Random random(5);
   for (const Frame& frame : randomFrames(poses, where.spread * where.scale, 31)) {
     ShapeSpec spec = randomShape(kind, random);
