@@ -17,56 +17,15 @@
 #include <string>
 #include <vector>
 
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/geometry/octree/octree.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/math/bv/OBBRSS.h>
-#include <fcl/narrowphase/collision.h>
-#include <fcl/narrowphase/collision_object.h>
-#include <fcl/narrowphase/distance.h>
+#include "preload/fcl_meshes.h"
 
 namespace {
 
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
-/// Returns a torus about z, radii 1 and about 0.4, with bumps.
-std::shared_ptr<Model> torus(int triangles) {
-  const double pi = std::acos(-1);
+std::shared_ptr<Model> modelOf(int triangles) {
   const int around = std::max(6, static_cast<int>(std::sqrt(triangles / 0.8)));
-  const int across = std::max(3, triangles / (2 * around));
-  std::vector<fcl::Vector3d> vertices;
-  std::vector<fcl::Triangle> faces;
-  for (int i = 0; i < around; ++i) {
-    for (int j = 0; j < across; ++j) {
-      const double u = 2 * pi * i / around, v = 2 * pi * j / across;
-      const double r = 0.4 + 0.06 * std::sin(7 * u) * std::cos(3 * v);
-      vertices.emplace_back((1 + r * std::cos(v)) * std::cos(u),
-                            (1 + r * std::cos(v)) * std::sin(u), r * std::sin(v));
-      const auto at = [&](int k, int l) {
-        return static_cast<std::size_t>((k % around) * across + l % across);
-      };
-      faces.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-      faces.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
-  auto model = std::make_shared<Model>();
-  model->beginModel(static_cast<int>(faces.size()), static_cast<int>(vertices.size()));
-  model->addSubModel(vertices, faces);
-  model->endModel();
-  return model;
-}
-
-fcl::Matrix3d randomRotation(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  const Eigen::Quaterniond q(normal(random), normal(random), normal(random), normal(random));
-  return q.normalized().toRotationMatrix();
-}
-
-fcl::Vector3d randomDirection(std::mt19937& random) {
-  std::normal_distribution<double> normal;
-  return fcl::Vector3d(normal(random), normal(random), normal(random)).normalized();
+  return build<fcl::OBBRSSd>(torus(around, std::max(3, triangles / (2 * around))));
 }
 
 /// Returns what the torus meets: another, unless the row names one of FCL's shapes or an octree.
@@ -75,7 +34,7 @@ std::shared_ptr<fcl::CollisionGeometryd> partner(const std::string& row, int tri
   if (names("box")) return std::make_shared<fcl::Boxd>(0.6, 0.5, 0.8);
   if (names("sphere")) return std::make_shared<fcl::Sphered>(0.4);
   if (names("cylinder")) return std::make_shared<fcl::Cylinderd>(0.3, 0.9);
-  if (!names("octree")) return torus(triangles);
+  if (!names("octree")) return modelOf(triangles);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> place(-0.7F, 0.7F);
   const auto cells = std::make_shared<octomap::OcTree>(0.05);
@@ -87,11 +46,6 @@ std::shared_ptr<fcl::CollisionGeometryd> partner(const std::string& row, int tri
 
 using Pairs = std::vector<std::unique_ptr<fcl::CollisionObjectd>>;
 
-double distanceOf(const fcl::CollisionObjectd& a, const fcl::CollisionObjectd& b) {
-  fcl::DistanceResultd result;
-  return fcl::distance(&a, &b, fcl::DistanceRequestd(), result);
-}
-
 /// Moves b along a direction until it is so far from a; for a negative gap until it overlaps by
 /// about so much.
 void place(const fcl::CollisionObjectd& a, fcl::CollisionObjectd& b, const fcl::Vector3d& direction,
@@ -100,8 +54,10 @@ void place(const fcl::CollisionObjectd& a, fcl::CollisionObjectd& b, const fcl::
   for (int i = 0; i < 30; ++i) {
     const double middle = (touching + apart) / 2;
     b.setTranslation(middle * direction);
+    fcl::DistanceResultd result;
+    const double distance = fcl::distance(&a, &b, fcl::DistanceRequestd(), result);
     // FCL's solvers for shapes see an overlap a little early.
-    (distanceOf(a, b) > std::max(gap, 1e-5) ? apart : touching) = middle;
+    (distance > std::max(gap, 1e-5) ? apart : touching) = middle;
   }
   if (gap < 0) b.setTranslation((touching + gap) * direction);
 }
@@ -133,7 +89,7 @@ int main(int argc, char** argv) {
                      : row.find("touch") != std::string::npos ? -1e-4
                      : row.find("deep") != std::string::npos  ? -0.15
                                                               : 4.0;
-  const auto model_a = torus(triangles);
+  const auto model_a = modelOf(triangles);
   const std::shared_ptr<fcl::CollisionGeometryd> other = partner(row, triangles);
   std::mt19937 random(7);
   constexpr int kPoses = 24;
@@ -141,8 +97,9 @@ int main(int argc, char** argv) {
   Pairs others;
   for (int i = 0; i < kPoses; ++i) {
     others.push_back(std::make_unique<fcl::CollisionObjectd>(other));
-    others.back()->setRotation(randomRotation(random));
-    const fcl::Vector3d direction = randomDirection(random);
+    const fcl::Transform3d pose = randomPose(random, 1, 1);
+    others.back()->setRotation(pose.linear());
+    const fcl::Vector3d direction = pose.translation();
     if (gap >= 4) {
       others.back()->setTranslation(6 * direction);
     } else {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace kios::preload {
 namespace {

@@ -11,18 +11,12 @@
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace {
 
 using fcl::Transform3d;
 using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
-double distanceOf(const Model& a, const Model& b, const Transform3d& X_WB) {
-  fcl::DistanceResultd result;
-  fcl::distance(&a, Transform3d::Identity(), &b, X_WB, fcl::DistanceRequestd(), result);
-  return result.min_distance;
-}
 
 void resize(Model& model, const Soup& soup) {
   model.beginUpdateModel();

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "ask.h"
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace {
 
@@ -116,19 +116,25 @@ void askOthers() {
   }
 }
 
+/// Asks for the contact and the distance at so many poses.
+void askNear(const std::string& name, const std::shared_ptr<fcl::CollisionGeometryd>& a,
+             const std::shared_ptr<fcl::CollisionGeometryd>& b, std::mt19937& random, int times,
+             double nearest, double farthest) {
+  for (int i = 0; i < times; ++i) {
+    const Transform3d X_WB = randomPose(random, nearest, farthest);
+    askCollide(name, a, Transform3d::Identity(), b, X_WB, fcl::CollisionRequestd());
+    askDistance(name, a, Transform3d::Identity(), b, X_WB, fcl::DistanceRequestd(true));
+  }
+}
+
 /// Says what a program does to its models between queries.
 template <typename BV>
 void changeModels(const std::string& name) {
   const Soup soup = torus(18, 12);
   const auto a = build<BV>(soup), b = build<BV>(torus(16, 12));
-  const fcl::DistanceRequestd request(true);
   std::mt19937 random(11);
   const auto ask = [&](const char* after, int times) {
-    for (int i = 0; i < times; ++i) {
-      const Transform3d X_WB = randomPose(random, 2.4, 3.5);
-      askCollide(name + after, a, Transform3d::Identity(), b, X_WB, fcl::CollisionRequestd());
-      askDistance(name + after, a, Transform3d::Identity(), b, X_WB, request);
-    }
+    askNear(name + after, a, b, random, times, 2.4, 3.5);
   };
   const auto scaled = [&](double factor) {
     std::vector<fcl::Vector3d> vertices = soup.vertices;
@@ -180,11 +186,7 @@ void writeInPlace(const std::string& name) {
     a->vertices[i] = (1 - t) * soup.vertices[i] + t * smaller.vertices[i];
   };
   const auto ask = [&](const char* after, int times) {
-    for (int i = 0; i < times; ++i) {
-      const Transform3d X_WB = randomPose(random, 2.2, 3.0);
-      askCollide(name + after, a, Transform3d::Identity(), b, X_WB, fcl::CollisionRequestd());
-      askDistance(name + after, a, Transform3d::Identity(), b, X_WB, fcl::DistanceRequestd(true));
-    }
+    askNear(name + after, a, b, random, times, 2.2, 3.0);
   };
   ask("_updated", 60);
   for (int round = 0; round < 60; ++round) {
@@ -222,12 +224,7 @@ void reuseAddresses(const std::string& name) {
     const std::shared_ptr<Model> b(new (memory[1]) Model, destroy);
     fill(*a, torus(16, across, size));
     fill(*b, torus(14, 12, 2 - size));
-    for (int i = 0; i < 25; ++i) {
-      const Transform3d X_WB = randomPose(random, 2.4, 3.5);
-      askCollide(name + "_reused", a, Transform3d::Identity(), b, X_WB, fcl::CollisionRequestd());
-      askDistance(name + "_reused", a, Transform3d::Identity(), b, X_WB,
-                  fcl::DistanceRequestd(true));
-    }
+    askNear(name + "_reused", a, b, random, 25, 2.4, 3.5);
   }
 }
 

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace {
 

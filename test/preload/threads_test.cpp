@@ -8,7 +8,7 @@
 #include <thread>
 
 #include <gtest/gtest.h>
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace {
 
@@ -20,12 +20,6 @@ const bool little_memory = [] {
   setenv("FCL_KIOS_PRELOAD_MIB", "1", 1);
   return true;
 }();
-
-double distanceOf(const Model& a, const Model& b, const Transform3d& X_WB) {
-  fcl::DistanceResultd result;
-  fcl::distance(&a, Transform3d::Identity(), &b, X_WB, fcl::DistanceRequestd(true), result);
-  return result.min_distance;
-}
 
 bool touch(const Model& a, const Model& b, const Transform3d& X_WB) {
   fcl::CollisionResultd result;

@@ -6,7 +6,7 @@
 
 #include <cstdio>
 
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A plug-in that asks libfcl.
-#include "fcl_meshes.h"
+#include "preload/fcl_meshes.h"
 
 namespace {
 

@@ -129,38 +129,21 @@ def test_changes_during_a_batch_are_refused(torus, poses):
     assert seen
 
 
-def child_answers(torus, ball, poses, connection):
-    connection.send(torus.distance(ball, poses, threads=2))
-
-
-def test_forks(torus, ball, poses):
-    many = np.tile(poses, (10, 1, 1))
-    want = torus.distance(ball, many)  # in threads, which the child hasn't
-    context, stop = multiprocessing.get_context("fork"), threading.Event()
-    busy = threading.Thread(target=lambda: [torus.distance(ball, many) for _ in range(9)
-                                            if not stop.is_set()])
-    busy.start()
-    for _ in range(3):
-        ours, theirs = context.Pipe()
-        process = context.Process(target=child_answers, args=(torus, ball, many, theirs))
-        process.start()
-        assert ours.poll(30) and np.array_equal(ours.recv(), want)
-        process.join(30)
-        assert process.exitcode == 0
-    stop.set()
-    busy.join()
-
-
-def child_uses(scene, manager, box, connection):
+def child_uses(scene, manager, box, batch, connection):
     box.side = (1, 1, 1)
     data = fcl.DistanceData()
     manager.distance(data, fcl.defaultDistanceCallback)
     scene.add("new", fcl_kios.Mesh(*shapes.ball(6)))
-    connection.send((data.result.min_distance, len(scene.clearances())))
+    connection.send((data.result.min_distance, len(scene.clearances()), batch(2)))
 
 
-def test_forks_beside_queries_and_builds(torus):
-    """The child finds no lock, scene or geometry in use."""
+def test_forks_beside_queries_and_builds(torus, ball, poses):
+    """The child finds no lock, scene or geometry in use, and threads of its own."""
+    many = np.tile(poses, (10, 1, 1))
+
+    def batch(threads):
+        return torus.distance(ball, many, threads=threads).tolist()
+    want = batch(2)  # in threads, which the child hasn't
     scene, box = fcl_kios.Scene(), fcl.Box(1, 1, 1)
     manager = fcl.DynamicAABBTreeCollisionManager()
     manager.registerObjects([fcl.CollisionObject(box), shapes.placed(box, shapes.translation(3))])
@@ -184,10 +167,11 @@ def test_forks_beside_queries_and_builds(torus):
     try:
         for _ in range(3):
             ours, theirs = context.Pipe()
-            process = context.Process(target=child_uses, args=(scene, manager, box, theirs))
+            process = context.Process(target=child_uses, args=(scene, manager, box, batch, theirs))
             process.start()
-            assert ours.poll(30) and ours.recv() == (2.0, 78)
+            assert ours.poll(30) and ours.recv() == (2.0, 78, want)
             process.join(30)
+            assert process.exitcode == 0
     finally:
         stop.set()
         for t in threads:

@@ -62,3 +62,10 @@ inline fcl::Transform3d randomPose(std::mt19937& random, double nearest, double 
   pose.translation() = distance(random) * direction.normalized();
   return pose;
 }
+
+inline double distanceOf(const fcl::CollisionGeometryd& a, const fcl::CollisionGeometryd& b,
+                         const fcl::Transform3d& X_WB) {
+  fcl::DistanceResultd result;
+  fcl::distance(&a, fcl::Transform3d::Identity(), &b, X_WB, fcl::DistanceRequestd(true), result);
+  return result.min_distance;
+}
