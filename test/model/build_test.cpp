@@ -34,16 +34,6 @@ void fill(Model<S>& model, const Mesh& mesh) {
   ASSERT_EQ(model.endModel(), fcl::BVH_OK);
 }
 
-Mesh joined(const Mesh& a, const Mesh& b, const Vector3d& shift) {
-  Mesh result = a;
-  for (const Vector3d& p : b.vertices) result.vertices.push_back(p + shift);
-  const std::size_t first = a.vertices.size();
-  for (const fcl::Triangle& t : b.triangles) {
-    result.triangles.emplace_back(t[0] + first, t[1] + first, t[2] + first);
-  }
-  return result;
-}
-
 std::vector<Mesh> buildCases() {
   std::vector<Mesh> meshes;
   for (const MeshCase& pair : meshCases()) {
@@ -53,7 +43,7 @@ std::vector<Mesh> buildCases() {
   meshes.push_back(scenes::soup(scenes::bumpyTorus(140)));
   meshes.push_back(scenes::uvSphere(1, 20, 40));
   meshes.push_back(scenes::sheet(1, 1, 9, 9, 0));
-  meshes.push_back(joined(meshes[0], meshes[1], {50, -20, 7}));
+  meshes.push_back(scenes::merged({meshes[0], transformed(meshes[1], 1, {50, -20, 7})}));
   Mesh duplicates = scenes::icosphere(1, 1);  // each triangle three times
   for (int i = 0; i < 160; ++i) duplicates.triangles.push_back(duplicates.triangles[i]);
   meshes.push_back(duplicates);
@@ -65,9 +55,7 @@ std::vector<Mesh> buildCases() {
     concentric.triangles.emplace_back(first, first + 1, first + 2);
   }
   meshes.push_back(concentric);
-  Mesh same = scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  same.triangles.resize(65, same.triangles[0]);
-  meshes.push_back(same);
+  meshes.push_back(repeated(65));
   Mesh points;  // triangles without extent
   for (int i = 0; i < 9; ++i) points.vertices.emplace_back(i / 3, i / 3, -i / 3);
   points.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {0, 3, 6}, {0, 0, 0}};
@@ -209,7 +197,7 @@ int leftCount(const Modeld& model) {
 TEST(Build, ModelsSplitByCostUnlessTheyAreTold) {
   // Two parts far apart, one of far more triangles: the mean of the centroids lies in it.
   const Mesh large = scenes::bumpyTorus(1000), small = scenes::icosphere(1, 1);
-  const Mesh mesh = joined(large, small, {4, 0, 0});
+  const Mesh mesh = scenes::merged({large, transformed(small, 1, {4, 0, 0})});
   Modeld by_cost, by_mean;
   by_mean.bv_splitter.reset(new BVSplitter<kIOSd>(fcl::detail::SPLIT_METHOD_MEAN));
   fill(by_cost, mesh);
@@ -292,8 +280,7 @@ TEST(Build, UsersFittersAndSplittersMix) {
 
 // The median of equal heights must not leave one side empty for ever.
 TEST(Build, DepthOfDegenerateMeshesIsLogarithmic) {
-  Mesh same = scenes::singleTriangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  same.triangles.resize(1 << 12, same.triangles[0]);
+  const Mesh same = repeated(1 << 12);
   for (const SplitMethodType split : kSplits) {
     Modeld model;
     model.bv_splitter.reset(new BVSplitter<kIOSd>(split));

@@ -48,22 +48,6 @@ TYPED_TEST(Convert, KeepsGeometryAndSettings) {
   EXPECT_EQ(converted->aabb_radius, source->aabb_radius);
 }
 
-TYPED_TEST(Convert, AnswersAsTheMesh) {
-  using S = typename TypeParam::S;
-  const Mesh mesh = scenes::bumpyTorus(150), other = scenes::icosphere(0.6, 1);
-  const auto a = toKIOS(*scenes::buildModel<TypeParam>(mesh));
-  const auto b = scenes::buildModel<kIOS<S>>(other);
-  const scenes::MeshOracle oracle(mesh, other);
-  for (const Frame& frame : randomFrames(20, 1.5, 21)) {
-    const fcl::Transform3<S> X_WA = frame.X_WA.cast<S>(), X_WB = frame.X_WB.cast<S>();
-    fcl::DistanceResult<S> result;
-    const fcl::DistanceRequest<S> request;
-    EXPECT_NEAR(fcl::distance(a.get(), X_WA, b.get(), X_WB, request, result),
-                oracle.distance(X_WA.template cast<double>(), X_WB.template cast<double>()),
-                64 * std::numeric_limits<S>::epsilon());
-  }
-}
-
 template <typename BV>
 void expectUnfit(const fcl::BVHModel<BV>& model, const std::string& part) {
   expectRefused([&] { toKIOS(model); }, part);

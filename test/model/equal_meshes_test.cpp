@@ -45,15 +45,6 @@ class EqualMeshes : public ::testing::Test {
   const Nodes built_ = nodesOf(*kiosModel(mesh_));  // while no other lives
 };
 
-TEST_F(EqualMeshes, AreBuiltAsIfAlone) {
-  const auto first = kiosModel(mesh_), second = kiosModel(mesh_);
-  for (const auto& model : {first, second}) {
-    EXPECT_TRUE(sameTree(*model, built_));
-    expectValidTree(*model);
-    expectAnswersOf(*model, mesh_.vertices);
-  }
-}
-
 TEST_F(EqualMeshes, InAnyOrderOfTheirLives) {
   std::list<std::shared_ptr<Modeld>> models;
   for (int i = 0; i < 40; ++i) {
@@ -89,18 +80,6 @@ TEST_F(EqualMeshes, OneMoves) {
     expectAnswersOf(*still, mesh_.vertices);
     expectAnswersOf(*there, vertices);
   }
-}
-
-// A tree that queries use is left as it is where an equal model moves.
-TEST_F(EqualMeshes, OneMovesAfterQueries) {
-  const auto still = kiosModel(mesh_), moving = kiosModel(mesh_);
-  for (int i = 1; i < 6; ++i) {
-    expectAnswersOf(*still, mesh_.vertices);
-    expectAnswersOf(*moving, i == 1 ? mesh_.vertices : swayed(mesh_, i - 1));
-    replace(*moving, swayed(mesh_, i), true, i % 2 == 0);
-  }
-  expectAnswersOf(*moving, swayed(mesh_, 5));
-  expectAnswersOf(*still, mesh_.vertices);
 }
 
 TEST_F(EqualMeshes, OtherTreesAreNotCopied) {

@@ -69,20 +69,29 @@ void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { releas
 namespace kios::testing {
 namespace {
 
-/// Runs `work` again and again, its n-th allocation failing, n = 1, 2, 3 ... until it has memory
-/// enough. `work` returns false where it met one of FCL's codes. After each failure, `check`.
+struct Outcome {
+  bool done, failed;
+};
+
+/// Runs `work` whose n-th allocation fails. It returns false where it met one of FCL's codes.
+template <typename Work>
+Outcome run(int n, const Work& work) {
+  bool done = false;
+  countdown = n;
+  try {
+    done = work();
+  } catch (const std::bad_alloc&) {
+  }
+  return {done, countdown.exchange(0) <= 0};
+}
+
+/// Runs `work` with n = 1, 2, 3 ... until it has memory enough. After each failure, `check`.
 /// Returns how often it failed. Unless it may keep memory, none is left of a failure.
 template <typename Work, typename Check>
 int exhaust(const Work& work, const Check& check, bool keeps_memory = false) {
   for (int n = 1;; ++n) {
-    bool done = false;
     const long before = live;
-    countdown = n;
-    try {
-      done = work();
-    } catch (const std::bad_alloc&) {
-    }
-    const bool failed = countdown.exchange(0) <= 0;
+    const auto [done, failed] = run(n, work);
     if (!done) {
       EXPECT_TRUE(failed) << "refused, with memory";
       EXPECT_TRUE(live <= before || keeps_memory)
@@ -147,16 +156,9 @@ TEST_F(Memory, BuildIsRepeated) {
       };
       int failures = 0;
       for (int n = 1;; ++n, ++failures) {
-        countdown = n;
-        bool built = false;
-        try {
-          built = build();
-        } catch (const std::bad_alloc&) {
-        }
-        if (countdown.exchange(0) > 0) {
-          ASSERT_TRUE(built);
-          break;
-        }
+        const auto [built, failed] = run(n, build);
+        ASSERT_TRUE(built || failed);
+        if (!failed) break;
         if (built) continue;
         EXPECT_THROW(validate(model), std::invalid_argument);
       }
@@ -172,13 +174,8 @@ TEST_F(Memory, EndModelIsRepeated) {
     Modeld model;
     ASSERT_EQ(model.beginModel(), fcl::BVH_OK);
     ASSERT_EQ(model.addSubModel(mesh_.vertices, mesh_.triangles), fcl::BVH_OK);
-    countdown = n;
-    bool built = false;
-    try {
-      built = model.endModel() == fcl::BVH_OK;
-    } catch (const std::bad_alloc&) {
-    }
-    if (countdown.exchange(0) > 0) break;
+    const auto [built, failed] = run(n, [&] { return model.endModel() == fcl::BVH_OK; });
+    if (!failed) break;
     if (!built) {
       ASSERT_EQ(model.endModel(), fcl::BVH_OK);
     }
@@ -246,21 +243,17 @@ TEST_F(Memory, RefitsAreRepeated) {
         for (int n = 1;; ++n) {
           const auto model = kiosModel(mesh_);
           prepare(*model);
-          bool done = false;
-          countdown = n;
-          try {
+          const auto [done, failed] = run(n, [&] {
             if (is_update) {
-              const int status = model->beginUpdateModel();
-              done = status == fcl::BVH_OK && model->updateSubModel(moved) == fcl::BVH_OK &&
+              return model->beginUpdateModel() == fcl::BVH_OK &&
+                     model->updateSubModel(moved) == fcl::BVH_OK &&
                      model->endUpdateModel(refit, bottomup) == fcl::BVH_OK;
-            } else {
-              done = model->beginReplaceModel() == fcl::BVH_OK &&
-                     model->replaceSubModel(moved) == fcl::BVH_OK &&
-                     model->endReplaceModel(refit, bottomup) == fcl::BVH_OK;
             }
-          } catch (const std::bad_alloc&) {
-          }
-          if (countdown.exchange(0) > 0) break;
+            return model->beginReplaceModel() == fcl::BVH_OK &&
+                   model->replaceSubModel(moved) == fcl::BVH_OK &&
+                   model->endReplaceModel(refit, bottomup) == fcl::BVH_OK;
+          });
+          if (!failed) break;
           if (!done && model->build_state == fcl::BVH_BUILD_STATE_PROCESSED) {
             expectRight(*model, mesh_.vertices);  // nothing was begun
             continue;
@@ -339,16 +332,14 @@ TEST_F(Memory, ScenesGoOn) {
     SceneDistance<double> objects;
     objects.add(model, far_.X_WA);
     const int mover = objects.add(other_, near_.X_WB);
-    countdown = n;
-    try {
-      objects.closestPair();
-      objects.add(sphere, Transform3d(fcl::Translation3d(20, 0, 0)));
-      objects.move(mover, far_.X_WB);
-      objects.pairsWithin(20);
-      objects.clearances();
-    } catch (const std::bad_alloc&) {
-    }
-    const bool failed = countdown.exchange(0) <= 0;
+    const bool failed = run(n, [&] {
+                          objects.closestPair();
+                          objects.add(sphere, Transform3d(fcl::Translation3d(20, 0, 0)));
+                          objects.move(mover, far_.X_WB);
+                          objects.pairsWithin(20);
+                          objects.clearances();
+                          return true;
+                        }).failed;
     objects.move(mover, far_.X_WB);
     const std::size_t count = objects.size();
     const auto closest = objects.closestPair();

@@ -209,41 +209,5 @@ TEST(PointClouds, RefuseWhatDoesNotFit) {
   EXPECT_EQ(toKIOS(foreign)->num_tris, 40);
 }
 
-TEST(PointClouds, LinkagesServeThem) {
-  Random random(8);
-  const Mesh box = scenes::icosphere(0.2, 2);
-  for (int i = 0; i < 40; ++i) {
-    const std::vector<Vector3d> all = points(random, 30, 1);
-    Linkage linkage;
-    Joint joint;
-    joint.type = JointType::kPrismatic;
-    joint.axis = Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), 0.3);
-    linkage.addLink(-1, joint);
-    linkage.addBody(0, makeModel(box.vertices, box.triangles),
-                    Transform3d(Eigen::Translation3d(points(random, 1, 1)[0])));
-    linkage.addBody(-1, makePointCloud(all));
-    MotionRequest request;
-    request.min_separation = i % 2 == 0 ? 0 : 0.05;
-    const Eigen::VectorXd from = Eigen::VectorXd::Constant(1, -0.4),
-                          to = Eigen::VectorXd::Constant(1, 0.4);
-    const MotionResult answer = checkMotion(linkage, from, to, request);
-    double least = std::numeric_limits<double>::infinity();
-    const auto model = makeModel(box.vertices, box.triangles);
-    for (int k = 0; k <= 400; ++k) {
-      const auto X = linkage.pose(0, Eigen::VectorXd::Constant(1, -0.4 + 0.002 * k));
-      for (const Vector3d& p : all) {
-        least = std::min(least,
-                         nearestPoint(*model, X.inverse() * p).distance - request.min_separation);
-      }
-    }
-    if (least > 0.003) {
-      EXPECT_EQ(answer.verdict, MotionVerdict::kClear) << i;
-    }
-    if (least < -1e-9) {
-      EXPECT_EQ(answer.verdict, MotionVerdict::kContact) << i;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace kios::testing

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "search/float_frame.h"
+#include "search/on_targets.h"
 #include "shapes.h"
 #include "tree/moment_fit.h"
 #include "tree/node_layout.h"
@@ -108,10 +109,6 @@ Nearest nearest(const Content& a, const Content& b, const Mat& R, const Vec& t) 
 }
 
 /// Returns a number of any size in [least, most], by logarithms.
-double anySize(Random& random, double least, double most) {
-  return std::exp(random.uniform(std::log(least), std::log(most)));
-}
-
 Eigen::Vector3f direction(Random& random) { return inCube(random).cast<float>(); }
 
 Box boxOf(const Eigen::Matrix3f& axes, const Eigen::Vector3f& center, const Eigen::Vector3f& half) {
@@ -243,11 +240,7 @@ void tryBoxes(double size, double offset, double gap, std::uint64_t seed, Outcom
   }
 }
 
-class BoxBounds : public ::testing::TestWithParam<std::int64_t> {
- protected:
-  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
-  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
-};
+using BoxBounds = OnTargets;
 
 TEST_P(BoxBounds, AreBelowTheDistance) {
   Outcome sum;
@@ -270,11 +263,8 @@ TEST_P(BoxBounds, AreBelowTheDistance) {
               sum.pad_used, sum.shares / static_cast<double>(sum.bounded));
 }
 
-std::string nameOf(const ::testing::TestParamInfo<std::int64_t>& info) {
-  return hwy::TargetName(info.param);
-}
 INSTANTIATE_TEST_SUITE_P(Targets, BoxBounds,
-                         ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()), nameOf);
+                         ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()), nameOfTarget);
 
 }  // namespace
 }  // namespace kios::testing

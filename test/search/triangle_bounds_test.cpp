@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include "search/on_targets.h"
 #include "search/root_body.h"
 #include "search/search.h"
 #include "shapes.h"
@@ -117,10 +118,6 @@ Real distanceTo(const Vec& p, const FaceCorners& face) {
   return std::min(by_edges, (w - s * e - t * f).norm());
 }
 
-double anySize(Random& random, double least, double most) {
-  return std::exp(random.uniform(std::log(least), std::log(most)));
-}
-
 /// Returns triangles about `center`: of any shape, thin, and without an area or an extent.
 FaceCorners anyFace(Random& random, const fcl::Vector3d& center, double size) {
   const fcl::Vector3d p = center + size * inCube(random), e = size * inCube(random);
@@ -158,11 +155,8 @@ Vec stored(const engine::Tree& tree, std::size_t lane, std::size_t k) {
   return engine::vertexOf(tree, tree.leaves[0], static_cast<int>(3 * lane + k)).cast<Real>();
 }
 
-class TriangleBounds : public ::testing::TestWithParam<std::int64_t> {
+class TriangleBounds : public OnTargets {
  protected:
-  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
-  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
-
   static std::vector<FaceCorners> anyFaces(Random& random, double size, double offset) {
     const fcl::Vector3d center = offset * size * inCube(random);
     std::vector<FaceCorners> faces(1 + static_cast<std::size_t>(random.uniform(0, kLanes)));
@@ -275,11 +269,8 @@ TEST_P(TriangleBounds, PrismsAreBelowTheDistance) {
               shares / static_cast<double>(bounded));
 }
 
-std::string nameOf(const ::testing::TestParamInfo<std::int64_t>& info) {
-  return hwy::TargetName(info.param);
-}
 INSTANTIATE_TEST_SUITE_P(Targets, TriangleBounds,
-                         ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()), nameOf);
+                         ::testing::ValuesIn(hwy::SupportedAndGeneratedTargets()), nameOfTarget);
 
 }  // namespace
 }  // namespace kios::testing
