@@ -17,6 +17,7 @@
 #include "managed_bodies.h"
 #include "scenario.h"
 #include "scenes/cad_shapes.h"
+#include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
@@ -204,9 +205,74 @@ void findContacts(ManagedBodies& bodies, std::vector<Pair>& contacts) {
   });
 }
 
+/// Brackets of one run that those of another contradict.
+std::size_t contradictions(const std::vector<ClashResult>& x, const std::vector<ClashResult>& y) {
+  if (x.size() != y.size()) return x.size() + y.size();
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    wrong += x[i].a != y[i].a || x[i].b != y[i].b || x[i].lower > y[i].upper ||
+             y[i].lower > x[i].upper ||
+             (x[i].decided && y[i].decided && x[i].status != y[i].status);
+  }
+  return wrong;
+}
+
+/// Time against the width of depths' brackets, by the pieces that a pair may take: of solids
+/// at random poses, each in some others.
+void reportPieces(const std::string& name, const Mesh& mesh, double half_width,
+                  const Options& options, Report& report) {
+  std::vector<ClashPart> parts;
+  const auto model = scenes::buildModel<kIOSd>(mesh);
+  markSolid(*model);
+  Row base = baseRow("clashes/pieces/" + name, "clashes", 1, options.seed);
+  for (const fcl::Transform3d& X :
+       scenes::randomPoses(options.quick ? 12 : 60, half_width, options.seed)) {
+    ClashPart& part = parts.emplace_back();
+    part.geometry = model;
+    part.X_WP = X;
+    part.name = std::to_string(parts.size());
+    base.triangles += mesh.triangles.size();
+  }
+  const std::vector<long long> pieces = {0, 10, 30, 100, 300, 1000, 3000, 10000};
+  std::vector<std::vector<ClashResult>> found(pieces.size());
+  std::vector<Competitor> competitors;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    competitors.push_back({"kios", [&, i](std::size_t, std::size_t) {
+                             ClashRequest request;
+                             request.max_pieces = pieces[i];
+                             found[i] = findClashes(parts, request);
+                           }});
+  }
+  Race{1, options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    Row& row = rows.emplace_back(base.of(competitors[i]));
+    std::size_t deep = 0, undecided = 0;
+    double width = 0;
+    for (const ClashResult& clash : found[i]) {
+      undecided += clash.decided ? 0 : 1;
+      if (!clash.deep || clash.status == ClashStatus::kTouch) continue;
+      width += (clash.upper - clash.lower) / clash.upper;
+      ++deep;
+    }
+    row.asked.budget = static_cast<double>(pieces[i]);
+    row.errors.mean_rel = width / static_cast<double>(std::max<std::size_t>(1, deep));
+    row.errors.undecided = undecided;
+    row.errors.wrong = contradictions(found[i], found.back());
+    row.bodies = parts.size();
+    row.pairs.total = found[i].size();
+    row.simd_target = simdTarget();
+  }
+  report.add(rows);
+}
+
 }  // namespace
 
 void runClashes(const Options& options, Report& report) {
+  if (wanted(options, "pieces")) {
+    reportPieces("balls", scenes::icosphere(0.5, options.quick ? 1 : 3), 1.2, options, report);
+    reportPieces("tori", scenes::bumpyTorus(options.quick ? 100 : 400), 4, options, report);
+  }
   struct Size {
     const char* part;
     int bays, floors;

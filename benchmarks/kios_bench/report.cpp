@@ -67,6 +67,8 @@ constexpr Field kFields[] = {
      [](const Row& row) { return row.errors.max_bracket_ratio; }},
     {"wrong_verdicts", "wrong", "%.0f", [](const Row& row) { return number(row.errors.wrong); },
      true},
+    {"undecided", "open", "%.0f", [](const Row& row) { return number(row.errors.undecided); },
+     true},
     {"bytes_per_triangle", "B/tri", "%.0f",
      [](const Row& row) { return row.volumes.bytes_per_triangle; }},
     {"peak_bytes_per_triangle", "peak/tri", "%.0f",

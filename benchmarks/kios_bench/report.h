@@ -32,6 +32,7 @@ struct Errors {
   Maybe bracket_width;                     ///< mean of distance - proven lower bound
   Maybe bracket_ratio, max_bracket_ratio;  ///< of upper / lower bound: median, largest
   MaybeCount wrong;                        ///< verdicts
+  MaybeCount undecided;                    ///< left open, and said so
 };
 
 /// Tests of bounding volumes, of triangle pairs (ours: of leaves), and pairs evaluated in double,

@@ -56,6 +56,7 @@ void runPreload(const Options& options, Report& report);
 void reportRobotScenes(const Options& options, Report& report);  // of robots
 void reportCrowds(const Options& options, Report& report);       // of scene
 void reportPoints(const Options& options, Report& report);       // of solids
+void reportStress(const Options& options, Report& report);       // of stability
 void reportRanges(const Options& options, Report& report);       // of motions
 void reportMoved(const Options& options, Report& report);        // of motions
 void reportContinuous(const Options& options, Report& report);   // of motions

@@ -34,10 +34,10 @@ const std::vector<Scenario>& scenarios() {
        "a table; 100,000 nearest points and signed distances, beside balls of radius 0; winding "
        "numbers",
        runSolids, 0},
-      {"clashes", "1000 10000",
+      {"clashes", "1000 10000 pieces",
        "clashes, touches and duplicates planted in a building of some 1,000 and 10,000 slabs, "
        "columns, "
-       "walls and pipes; its contacts by FCL's manager",
+       "walls and pipes; its contacts by FCL's manager; time against the width of depths",
        runClashes, 1},
       {"motions", "paths range moved continuous",
        "straight paths in joint space, UR5 (data) or a generated arm amid obstacles, and two arms: "
@@ -61,7 +61,9 @@ const std::vector<Scenario>& scenarios() {
        runError, 20},
       {"paper", "", "the k-IOS paper's constructions and volumes of others over one tree", runPaper,
        0},
-      {"stability", "", "triangle distance and intersection over hard classes of pairs, and FCL's",
+      {"stability", "triangles queries",
+       "triangle distance and intersection over hard classes of pairs, and FCL's; points, local "
+       "depths and clashes over hard classes of solids",
        runStability, 0},
 #ifdef KIOS_HAVE_PRELOAD
       {"preload", "",

@@ -99,6 +99,8 @@ std::vector<Row> rowsOf(const std::string& name, const std::vector<TrianglePair>
 }  // namespace
 
 void runStability(const Options& options, Report& report) {
+  if (wanted(options, "queries")) reportStress(options, report);
+  if (!wanted(options, "triangles")) return;
   const int pairs = options.frames > 0 ? options.frames : (options.quick ? 40 : 2000);
   for (std::size_t c = 0; c < scenes::triangleClasses().size(); ++c) {
     report.add(rowsOf(scenes::triangleClasses()[c].name,

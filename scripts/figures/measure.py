@@ -30,14 +30,16 @@ RUNS = {  # run: its file in docs/measured, and what kios_bench is asked
     "solids": ("shapes", "solids/contains solids/penetration --repeats 5"),
     "depth": ("shapes", "solids/depth --repeats 5"),
     "points": ("shapes", "solids/points --repeats 5"),
-    "clashes": ("world", "clashes --repeats 5"),
+    "clashes": ("world", "clashes/1000 clashes/10000 --repeats 5"),
+    "pieces": ("world", "clashes/pieces --repeats 3"),
     "continuous": ("motions", "motions/continuous --frames 40 --repeats 5"),
     "moved": ("motions", "motions/moved --repeats 5"),
     "motions": ("motions", "motions/paths --frames 200 --repeats 3 --oracle 1000"),
     "range": ("motions", "motions/range --repeats 3"),
     "mbm": ("motions", f"mbm --frames 700 {PAIR}"),
     "fits": ("tori", "paper --frames 100 --repeats 3"),
-    "stability": ("stability", "stability --frames 2000 --repeats 1"),
+    "stability": ("stability", "stability/triangles --frames 2000 --repeats 1"),
+    "stress": ("stability", "stability/queries"),
     "preload": ("preload", "preload --repeats 3"),
 }
 

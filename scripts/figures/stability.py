@@ -67,3 +67,23 @@ FCL                  | collide wrong_verdicts fcl
     lines = [(label(names), (names, {})) for names in groups if names and names not in right]
     right = sum(right, [])
     return grid("class", [*lines, (f"the other {len(right)} classes", (right, {}))], columns, cell)
+
+
+STRESS = spec("""
+nearest point        | nearest
+signed distance      | signed
+winding number       | winding
+local depth          | depth
+deeper than?         | deeper
+clashes              | clashes
+""")
+
+
+def stress(rows):
+    """Answers that are wrong, and left open, by class of solids."""
+    def cell(line, column, _):
+        row = rows.find(line[0], column[0])
+        left = row["undecided"]
+        return f"{row['wrong_verdicts']} of {row['frames']:,}" + (f", {left} open" if left else "")
+    lines = [(name.split("/", 1)[1], ([name], {})) for name in rows.scenarios("stress/*")]
+    return grid("wrong", lines, STRESS, cell)
