@@ -3,13 +3,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "scenes/random.h"
+#include "volume/simd_targets.h"
+//
+#include <hwy/targets.h>  // NOLINT(llvm-include-order)
 
 // Bounds of boxes and triangles in floats, asked on every instruction set.
 
