@@ -26,14 +26,23 @@ class Features {
         t_(triangle),
         required_(required),
         size_(sizeOf(triangle) + solid.reach()),
+        full_ellipsoid_(solid.kind == Kind::kEllipsoid && !isFlat(solid.half, 0) &&
+                        !isFlat(solid.half, 1) && !isFlat(solid.half, 2)),
         core_(core) {}
 
   bool run() {
     core_.lower = -1;
     core_.inside = false;
+    int known = kNone;
+    if (full_ellipsoid_) {
+      Vec outwards;
+      if (touchesInRadii(outwards, known)) return false;
+      if (core_.lower > required_ + tolerance()) return true;
+      if (known == kNone ? face(outwards, 0x1p-20) : cornerAlone(known)) return true;
+    }
     int least = 0;
     for (int i = 0; i < 3; ++i) {
-      corners_[i] = nearestPoint(solid_, t_[i]);
+      if (i != known) corners_[i] = nearestPoint(solid_, t_[i]);
       if (corners_[i].distance < corners_[least].distance) least = i;
     }
     constexpr double kClear = 0x1p-36;
@@ -42,7 +51,7 @@ class Features {
     for (int i = 0; i < 3; ++i) {
       if (edge(i, (i + 1) % 3)) return true;
     }
-    return face(corners_[least].normal);
+    return face(corners_[least].normal, 0);
   }
 
   /// Takes the nearest of all features, whatever their slabs prove.
@@ -60,11 +69,13 @@ class Features {
     }
     const Vec n = faceNormal(t_).normalized();
     for (const Vec& out : {n, Vec(-n)}) {
-      if (foot(n, out, x, q)) offer(x, nearestPoint(solid_, x));
+      if (foot(n, out, 0, x, q)) offer(x, nearestPoint(solid_, x));
     }
   }
 
  private:
+  static constexpr int kNone = -1;
+
   double tolerance() const { return 0x1p-49 * size_; }
 
   /// How far the triangle rises above x along the normal at q: what a slab there lacks, if
@@ -93,6 +104,37 @@ class Features {
     if (!(q.distance > 0x1p-36 * size_)) return false;
     take(x, q, rises);
     return true;
+  }
+
+  /// True if the triangle meets an ellipsoid. Else takes the slab across the ellipsoid's normal
+  /// where the two are nearest in units of the radii, and sets `corner` if that is one. Without it
+  /// shapes/ellipsoid distance has 0.78 of its speed, contacts 0.89.
+  bool touchesInRadii(Vec& outwards, int& corner) {
+    if (isLargeInRadii(solid_.half, t_) && meets(solid_, t_, nullptr)) return true;
+    Triangle scaled;
+    for (int i = 0; i < 3; ++i) scaled[i] = t_[i].cwiseQuotient(solid_.half);
+    const Vec nearest = nearestToOrigin(scaled);
+    const double length = nearest.norm();
+    if (!(length > 1)) return true;
+    for (int i = 0; i < 3; ++i) {
+      if (nearest == scaled[i]) corner = i;
+    }
+    outwards = nearest.cwiseQuotient(solid_.half).normalized();
+    core_.lower = std::min({outwards.dot(t_[0]), outwards.dot(t_[1]), outwards.dot(t_[2])}) -
+                  extentAlong(solid_, outwards);
+    core_.point = nearest.cwiseProduct(solid_.half);
+    core_.on_core = core_.point / length;
+    core_.upper = (core_.point - core_.on_core).norm();
+    return false;
+  }
+
+  /// Takes a corner if the others lie so far beyond its slab that rounding can't make them nearer.
+  bool cornerAlone(int i) {
+    const Vec& x = t_[i];
+    const NearestPoint& q = corners_[i] = nearestPoint(solid_, x);
+    const double rise =
+        std::min(q.normal.dot(t_[(i + 1) % 3] - x), q.normal.dot(t_[(i + 2) % 3] - x));
+    return rise > 0x1p-40 * size_ && decides(x, q);
   }
 
   // Half the derivative of the squared distance along the edge is found to be 0 by false position,
@@ -136,9 +178,10 @@ class Features {
   }
 
   /// Sets q to the solid's support point along `out`, n or -n, and x to its projection into the
-  /// face. False if there is none, or the face's plane cuts the solid. Coordinates are along the
-  /// longest edge, from a to b, and across it, towards c: a thin face leaves others few digits.
-  bool foot(const Vec& n, const Vec& out, Vec& x, NearestPoint& q) const {
+  /// face, by `inside` of its altitudes, which are that share of all lengths at least. False if
+  /// there is none, or the face's plane cuts the solid. Coordinates are along the longest edge,
+  /// from a to b, and across it, towards c: a thin face leaves others few digits.
+  bool foot(const Vec& n, const Vec& out, double inside, Vec& x, NearestPoint& q) const {
     int longest = 0;
     double uu = 0;
     for (int i = 0; i < 3; ++i) {
@@ -149,30 +192,31 @@ class Features {
     const Vec &a = t_[longest], &b = t_[(longest + 1) % 3], &c = t_[(longest + 2) % 3];
     const Vec u = b - a, v = n.cross(u), w = c - a;
     const double width = w.dot(v);
-    if (!(width > 0)) return false;
+    if (!(width > 0 && width * width >= inside * inside * size_ * size_ * uu)) return false;
     q.on_shape = coreSupport(solid_, out);
     q.normal = out;
     const Vec to = q.on_shape - a;
     if (out.dot(to) > 0x1p-48 * size_) return false;
     const double across = to.dot(v) / width, along = (to.dot(u) - across * w.dot(u)) / uu;
-    if (!(across >= 0 && along >= 0 && across + along <= 1)) return false;
+    if (!(across >= inside && along >= inside && across + along <= 1 - inside)) return false;
     x = a + along * u + across * w;
     q.distance = (x - q.on_shape).norm();
     return true;
   }
 
-  bool face(const Vec& outwards) {
+  bool face(const Vec& outwards, double inside) {
     const Vec n = faceNormal(t_).normalized();  // zero stays zero
     const Vec out = n.dot(outwards) < 0 ? Vec(-n) : n;
     Vec x;
     NearestPoint q;
-    return foot(n, out, x, q) && q.distance - out.dot(x - q.on_shape) <= 0.5 * tolerance() &&
-           decides(x, q);
+    return foot(n, out, inside, x, q) &&
+           q.distance - out.dot(x - q.on_shape) <= 0.5 * tolerance() && decides(x, q);
   }
 
   const Solid& solid_;
   const Triangle& t_;
   const double required_, size_;
+  const bool full_ellipsoid_;
   CoreDistance& core_;
   NearestPoint corners_[3];
 };

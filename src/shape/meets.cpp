@@ -164,8 +164,8 @@ bool meetsFlatEllipsoid(const Vec& e, const Triangle& t, Vec* common) {
   return false;
 }
 
-/// True if the coordinates of a triangle close to an ellipsoid of such radii are too large, in
-/// units of the radii, for distances in those units.
+}  // namespace
+
 // The nearest point of a triangle of size S is off by 2^-46 S, in units of the radii as well.
 bool isLargeInRadii(const Vec& e, const Triangle& t) {
   const double most = e.maxCoeff();
@@ -175,8 +175,6 @@ bool isLargeInRadii(const Vec& e, const Triangle& t) {
   for (const Vec& p : t) size = std::max(size, p.cwiseQuotient(e).lpNorm<1>());
   return size * most > 4 * (sizeOf(t) + most);
 }
-
-}  // namespace
 
 bool meets(const Solid& s, const Triangle& t, Vec* common) {
   switch (s.kind) {

@@ -11,6 +11,10 @@ namespace kios::shape {
 /// not null, becomes one, to a few eps of the extent. A convex shape must have faces.
 bool meets(const Solid& solid, const Triangle& triangle, Vec* common);
 
+/// True if the coordinates of a triangle close to an ellipsoid of such radii are too large, in
+/// units of the radii, for distances in those units.
+bool isLargeInRadii(const Vec& radii, const Triangle& triangle);
+
 /// Slabs wider than this prove a pair apart, whatever the rounding.
 inline double clearOf(const Triangle& t, const CoreDistance& core) {
   return 0x1p-40 * (sizeOf(t) + core.on_core.lpNorm<1>());

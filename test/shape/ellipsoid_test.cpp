@@ -99,7 +99,7 @@ TEST(Ellipsoid, FarTrianglesEndEarly) {
       ++nearer;
     }
   }
-  EXPECT_GT(ended, 100);
+  EXPECT_GT(ended, 1000);
   EXPECT_GT(nearer, 1000);
 }
 
