@@ -179,9 +179,10 @@ def clashes(parts: Iterable[tuple], *, touch: float = 1e-6, clearance: float = 0
             ignored: Iterable[Tuple[str, str]] = (), between_groups: bool = False,
             threads: Optional[int] = None) -> List[Clash]:
     """Finds every Clash of parts, which are tuples (name, mesh), (name, mesh, X) or (name, mesh, X,
-    group), X their pose (4, 4) in the world; a Box or Convex of fcl_kios.fcl is a mesh, too. What is at most `touch` apart or deep touches, what is
-    nearer than the clearance lacks it. Pairs of names in `ignored`, and with between_groups those of
-    one group, are left out. Raises ValueError, which names the part. Docs: docs/clash.md."""
+    group), X their pose (4, 4) in the world; a Box or Convex of fcl_kios.fcl is a mesh, too. What is
+    at most `touch` apart or deep touches, what is nearer than the clearance lacks it. Pairs of names
+    in `ignored`, and with between_groups those of one group, are left out. Raises ValueError, which
+    names the part. Docs: docs/clash.md."""
     touch, clearance = _length(touch, "touch"), _length(clearance, "clearance")
     if 0 < clearance < touch:
         raise ValueError(f"fcl_kios: touch is {touch}, more than the clearance, {clearance}.")

@@ -15,10 +15,9 @@
 #include <fcl/geometry/shape/sphere.h>
 #if FCL_HAVE_OCTOMAP
 #include <fcl/geometry/octree/octree.h>
-
+#endif
 #include "convex.h"
 #include "volume/rounding.h"
-#endif
 
 namespace kios::robot {
 namespace {

@@ -22,6 +22,7 @@ namespace {
 using fcl::Vector3d;
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
+
 /// Returns the point of the rim of a disk across z that lies farthest along n.
 Vector3d onRim(const Vector3d& n, double radius, double z) {
   const double length = std::hypot(n.x(), n.y());

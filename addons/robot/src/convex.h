@@ -9,7 +9,7 @@
 
 namespace kios::robot {
 
-/// The geometry as what it is.
+/// The geometry as the shape that its node type names.
 template <typename Shape>
 const Shape& as(const fcl::CollisionGeometryd& geometry) {
   return static_cast<const Shape&>(geometry);
