@@ -58,10 +58,7 @@ bool MotionSearch::findSuspects() {
   intervals.assign(1, {0, 1});
   for (std::size_t i = 0; i < intervals.size(); ++i) {
     const auto [from, to] = intervals[i];
-    const double s = moves   ? 0.5 * (from + to)
-                     : first ? 0
-                             : 1,
-                 half = moves ? 0.5 * (to - from) : 0;
+    const double s = moves ? 0.5 * (from + to) : 1, half = moves ? 0.5 * (to - from) : 0;
     const std::vector<Pair>& pairs = gather(s, half);
     for (const Pair& pair : pairs) {
       if (i > 0 || !path_.still(pair.a, pair.b, pair.shared)) continue;
