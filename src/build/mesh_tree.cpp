@@ -127,7 +127,8 @@ class MeshTree {
 
   Corners cornersOf(std::uint32_t triangle, const PointFrame& frame) const {
     Corners t;
-    for (int k = 0; k < 3; ++k) {
+    t.v[0] = frame.place(mesh_.corner(triangle, 0));
+    for (int k = 1; k < 3; ++k) {
       t.v[k] = k < corners_of_each_ ? frame.place(mesh_.corner(triangle, k)) : t.v[0];
     }
     return t;

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+using std::isnan;  // Highway 1.0's scalar Min() asks for the global one
+
 // Highway's names of the instruction sets that kernels are compiled for, whatever else its version
 // knows; to be included before its headers. SVE is not among them: the size of its vectors is known
 // at run time only, so that they can't be members or elements of arrays. Machines with SVE have

@@ -241,7 +241,7 @@ class BracketQuestion {
   bool hasManyNearest() const {
     constexpr long kMany = 64;  // a thousand of their edges and corners
     const auto& all = truth_.distances();
-    const double limit = truth_.distance * (1 + 64 * truth_.kEps);
+    const double limit = truth_.distance + 64 * truth_.kEps * truth_.extentOf(truth_.nearest);
     return std::count_if(all.begin(), all.end(), [limit](S d) { return d <= limit; }) >= kMany;
   }
 

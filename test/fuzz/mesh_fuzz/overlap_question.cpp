@@ -59,8 +59,9 @@ std::shared_ptr<Modeld> solidOf(const Mesh& mesh, bool foreign, Random& random) 
   return solid.triangles.empty() ? nullptr : marked(solid, foreign);
 }
 
-/// Bounds what rounding of coordinates and poses does to depths and distances (solids.h).
-double toleranceOf(const Placed& a, const Placed& b) {
+/// Bounds what rounding of coordinates and poses does to depths and distances (solids.h), by
+/// `of_skew` times the errors of rotations.
+double toleranceOf(const Placed& a, const Placed& b, double of_skew = 400) {
   double most = 0, skew = 0;
   for (const Placed* part : {&a, &b}) {
     for (int i = 0; i < part->model->num_vertices; ++i) {
@@ -70,7 +71,7 @@ double toleranceOf(const Placed& a, const Placed& b) {
     const Eigen::Matrix3d R = part->X.linear();
     skew += (R.transpose() * R - Eigen::Matrix3d::Identity()).norm();
   }
-  return (2e-11 + 400 * skew) * most + 1e-300;
+  return (2e-11 + of_skew * skew) * most + 1e-300;
 }
 
 /// Negative inside. Walls within a union count, so that no depth is too large.
@@ -108,7 +109,8 @@ Verdict faultOfDepth(const LocalDepthResult& found, const LocalDepthRequest& req
   const double tolerance = toleranceOf(a, b);
   const bool told = request.threshold >= 0 && (found.lower > request.threshold ||
                                                found.upper <= request.threshold + tolerance);
-  const bool narrow = found.upper - found.lower <= request.rel_err * found.upper + tolerance;
+  const bool narrow =
+      found.upper - found.lower <= request.rel_err * found.upper + toleranceOf(a, b, 2000);
   if (!(found.lower >= 0 && found.lower <= found.upper) || (found.complete && !told && !narrow)) {
     return failure(
         Words() << found.lower << " to " << found.upper << ", complete " << found.complete, call);
