@@ -76,7 +76,6 @@ TEST(LinkPairs, AllShapesAndJoints) {
   const Folder folder;
   const Robot robot = loadRobot(manyJoints(folder));
   PairRequest options;
-  options.max_boxes = 300000;
   options.max_seconds = std::numeric_limits<double>::infinity();
   const auto pairs = robot.linkPairs(options);
   EXPECT_EQ(pairs.size(), 28u);  // of eight links with geometry
