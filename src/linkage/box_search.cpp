@@ -76,30 +76,60 @@ void BoxSearch::addSteps(const Configuration& c, const Pair& pair, int side) {
       }
       return half * (std::sqrt(square) + body.content.capsule_radius + pad);
     };
-    steps_.push_back({link.coordinate, moves(pair.a), moves(pair.b)});
+    const double angle = link.type == JointType::kPrismatic ? 0 : half;
+    steps_.push_back({link.coordinate, moves(pair.a), moves(pair.b), angle, placed.axis});
   }
 }
 
 double BoxSearch::moved(const Configuration& c, const Pair& pair, VectorXd& parts) {
   steps_.clear();
+  seen_from_ = 0;
   addSteps(c, pair, pair.a);
   std::reverse(steps_.begin(), steps_.end());
   addSteps(c, pair, pair.b);
   double least = kInfinity;
-  std::size_t best = 0;
   for (std::size_t cut = 0; cut <= steps_.size(); ++cut) {
     double sum = 0;
     for (std::size_t i = 0; i < steps_.size(); ++i)
       sum += i < cut ? steps_[i].of_a : steps_[i].of_b;
     if (!(sum < least)) continue;
     least = sum;
-    best = cut;
+    seen_from_ = cut;
   }
   parts = VectorXd::Zero(linkage_.coordinates);
   for (std::size_t i = 0; i < steps_.size(); ++i) {
-    parts[steps_[i].coordinate] += i < best ? steps_[i].of_a : steps_[i].of_b;
+    parts[steps_[i].coordinate] += i < seen_from_ ? steps_[i].of_a : steps_[i].of_b;
   }
   return least * (1 + 0x1p-40);
+}
+
+double BoxSearch::slabs(const Configuration& c, const Pair& pair, VectorXd& parts) const {
+  if (!linkage_.bodies[pair.a].bounded || !linkage_.bodies[pair.b].bounded) return -kInfinity;
+  const Eigen::Vector3d between = c.center(pair.b) - c.center(pair.a);
+  VectorXd own(linkage_.coordinates);
+  double best = -kInfinity;
+  for (std::size_t k = 0; k <= steps_.size(); ++k) {
+    Eigen::Vector3d n = k < steps_.size() ? steps_[k].axis : pair.direction, on_a, on_b;
+    if (n.dot(between) < 0) n = -n;
+    double turned = 0;
+    own.setZero();
+    const auto add = [&](const Step& step, double moves) {
+      const double share = step.angle > 0 ? n.cross(step.axis).norm() : std::abs(n.dot(step.axis));
+      const double most = std::min(1.0, share + turned + 0x1p-40);
+      own[step.coordinate] += moves * most;
+      turned += step.angle * most;
+    };
+    for (std::size_t i = seen_from_; i-- > 0;) add(steps_[i], steps_[i].of_a);
+    turned = 0;
+    for (std::size_t i = seen_from_; i < steps_.size(); ++i) add(steps_[i], steps_[i].of_b);
+    const double way = own.sum() * (1 + 0x1p-40) + c.path().pad(pair.a, pair.b);
+    if (!(n.dot(between) - way > best)) continue;  // no wider is likely
+    const double width = -c.support(pair.b, -n, on_b) - c.support(pair.a, n, on_a);
+    if (!(width > 0 && width - way > best)) continue;
+    best = width - way;
+    parts = own;
+  }
+  return best;
 }
 
 void BoxSearch::open(Task task) {
@@ -108,6 +138,13 @@ void BoxSearch::open(Task task) {
   Pair& pair = task.pair;
   VectorXd parts;
   const double way = moved(c, pair, parts);
+  VectorXd slab_parts = parts;
+  const double slab = slabs(c, pair, slab_parts);
+  task.bound = std::max(task.bound, slab);
+  if (task.bound >= seen_.enough()) {
+    settled_ = std::min(settled_, task.bound);
+    return;
+  }
   // Where much is taken off, little need be known of what it is taken off from.
   const double rel_err =
       std::max(seen_.fineError(), std::min(1.0, tuning::kOfMotion * way / seen_.far()));
@@ -117,6 +154,8 @@ void BoxSearch::open(Task task) {
     descend(task.low, task.high);
   }
   task.bound = std::max(task.bound, near.lower - way);
+  const double enough = seen_.enough();
+  if (enough - slab < tuning::kSlabFirst * (enough - (near.lower - way))) parts = slab_parts;
   Eigen::Index widest = 0;
   const double most = parts.size() > 0 ? parts.maxCoeff(&widest) : 0;
   const double middle = most > 0 ? path.coordinate(static_cast<int>(widest), 0.5) : 0;

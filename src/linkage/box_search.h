@@ -19,6 +19,12 @@ namespace kios::articulated {
 /// which that is least: the turntable of an arm moves its thin column by less than its hand. What
 /// is proven of the distance at c, less that, holds in the whole box. The coordinate that adds most
 /// to it is halved.
+///
+/// A slab between the bodies at c, across n, proves more where they move along it. From that link
+/// on, let m_i be n, turned back by what the joints before i turn from c on: joint i moves a point
+/// within the plane across its axis, so along n by at most h_i rho_i |m_i x axis|, a slide by h_i
+/// |m_i axis|; and m_i is turned on by at most h_i |m_i x axis|. Axes are those at c, and m_i is
+/// off n by at most the sum of these.
 class BoxSearch {
  public:
   BoxSearch(const Linkage::Impl& linkage, const Pair* only, const RangeRequest& request);
@@ -45,11 +51,16 @@ class BoxSearch {
   struct Step {
     int coordinate;
     double of_a, of_b;
+    double angle;  ///< that it turns by
+    Eigen::Vector3d axis;
   };
   /// Bounds how far two bodies come nearer to each other in a box whose middle is c, and sets what
   /// each coordinate adds to that.
   double moved(const Configuration& c, const Pair& pair, Eigen::VectorXd& parts);
   void addSteps(const Configuration& c, const Pair& pair, int side);
+  /// Bounds the distance of two bodies in a box by slabs across the axes of their joints and the
+  /// pair's direction, after moved(). Sets `parts` likewise, if there is a slab.
+  double slabs(const Configuration& c, const Pair& pair, Eigen::VectorXd& parts) const;
   /// Bounds a pair in a box, or splits that.
   void open(Task task);
   bool spent() const { return nearest_.queries() >= request_.max_queries; }
@@ -60,6 +71,7 @@ class BoxSearch {
   continuous::Seen seen_;
   std::priority_queue<Task> waiting_;
   std::vector<Step> steps_;     ///< from a to b
+  std::size_t seen_from_ = 0;   ///< those before it move a, the others b
   double settled_ = kInfinity;  ///< the least bound of what was left aside
   long long numbers_ = 0;
 };

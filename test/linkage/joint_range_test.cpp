@@ -125,6 +125,50 @@ TEST(JointRange, ABoxOfAPlanarArm) {
   }
 }
 
+// A head that turns and slides over a table stays as high, however wide the ranges are. The bracket
+// closes at once; with a joint that tilts the head, it holds what samples find.
+TEST(JointRange, AGantryOverItsTable) {
+  Random random(3);
+  for (int turned = 0; turned < 6; ++turned) {
+    SCOPED_TRACE(turned);
+    const bool tilts = turned >= 3;
+    const Transform3d X_W = turned > 0 ? randomPose(random, 3) : Transform3d::Identity();
+    RobotCase robot;
+    Joint slide = joint(JointType::kPrismatic);
+    slide.X_PJ = X_W;
+    slide.axis = {1, 0, 0};
+    robot.addLink(-1, slide);
+    slide.X_PJ = Transform3d::Identity();
+    slide.axis = {0, 0.5, 0};
+    robot.addLink(0, slide);
+    Joint turn = joint(JointType::kRevolute);
+    robot.addLink(1, turn);
+    turn.X_PJ = shifted(0.3, 0, 0);
+    robot.addLink(2, turn);
+    turn.X_PJ = shifted(0, 0, 0.2);
+    turn.axis = {1, 0, 0};
+    if (tilts) robot.addLink(3, turn);
+    robot.addBody(-1, boxOf(3, 3, 0.1), X_W * shifted(0, 0, -0.05));
+    robot.addBody(tilts ? 4 : 3, boxOf(0.2, 0.1, 0.3), shifted(0, 0, tilts ? 0 : 0.17));
+    JointBox box{{-1, -2, -3, -kInf}, {1, 2, 3, kInf}};
+    if (!tilts) {
+      const RangeResult result = leastClearance(robot.linkage, box, fine(1e-3));
+      expectLeast(robot, result, 0.02, 1e-3, 1e-9);
+      EXPECT_LE(result.queries, 200);
+      continue;
+    }
+    box.lower.push_back(-0.2);
+    box.upper.push_back(0.9);
+    RangeRequest request = fine(1e-3);
+    request.max_queries = 3000;
+    const RangeResult result = leastClearance(robot.linkage, box, request);
+    const double least = 0.2 - std::hypot(0.05, 0.15);
+    EXPECT_NEAR(result.upper, least, 1e-3);
+    EXPECT_LE(result.lower, least + 1e-9);
+    EXPECT_GE(result.lower, 0.5 * least) << "few boxes along what tilts are enough";
+  }
+}
+
 RobotCase randomArm(Random& random, bool shapes) {
   RobotCase robot;
   const auto geometry = [&]() -> BodyGeometry {

@@ -84,7 +84,6 @@ SMALL_OR_USED_ONCE = {
     "triangle/integer.h": "Boost's integers, which take long to compile",
     "volume/ball_lanes.h": "tested alone", "volume/errors.h": "the one way to refuse",
     "volume/instantiate.h": "macros",
-    "volume/simd_targets.h": "before Highway's headers",
     "volume/unit_vector.h": "one function"}
 count, homes, lines, users, listed = 0, {}, {}, {}, set()
 addons = [root / "addons" / LAYERS[addon] for addon in ADDONS]

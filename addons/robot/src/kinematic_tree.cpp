@@ -90,12 +90,7 @@ int KinematicTree::add(int parent, const Joint& joint) {
   node.joint = joint;
   node.unit = joint.type == JointType::kFixed ? 0 : joint.axis.stableNorm();
   if (node.unit > 0) node.axis = (joint.axis / node.unit).normalized();
-  if (parent >= 0) {
-    node.moving = nodes_[parent].moving;
-    node.level = nodes_[parent].level + 1;
-    node.offsets = nodes_[parent].offsets;
-  }
-  node.offsets = (node.offsets + joint.X_PJ.translation().norm()) * (1 + 0x1p-50);
+  if (parent >= 0) node.moving = nodes_[parent].moving;
   const int number = static_cast<int>(nodes_.size());
   if (joint.type != JointType::kFixed) node.moving.push_back(number);
   nodes_.push_back(std::move(node));

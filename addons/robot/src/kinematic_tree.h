@@ -54,8 +54,6 @@ class KinematicTree {
     Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of length 1
     double unit = 0;                                  ///< length of the joint's axis
     std::vector<int> moving;
-    int level = 1;
-    double offsets = 0;  ///< sum of the lengths of the joints' translations
   };
   const Node& node(int i) const { return nodes_[i]; }
   std::size_t size() const { return nodes_.size(); }

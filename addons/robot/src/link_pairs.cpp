@@ -23,21 +23,21 @@ std::vector<LinkPair> Robot::linkPairs(const PairRequest& options) const {
   }
   struct Task {
     int a, b;
+    double pace = 0;  ///< seconds a query
   };
   std::vector<Task> tasks;
   std::vector<LinkPair> result;
-  const int count = static_cast<int>(arm.links.size());
+  const int links = static_cast<int>(arm.links.size());
   const auto hasBodies = [&](int link) {
     return !arm.description.links[static_cast<std::size_t>(link)].elements.empty();
   };
-  for (int a = 0; a < count; ++a) {
-    for (int b = a + 1; b < count; ++b) {
+  for (int a = 0; a < links; ++a) {
+    for (int b = a + 1; b < links; ++b) {
       if (!hasBodies(a) || !hasBodies(b)) continue;
       LinkPair pair;
       pair.a = arm.links[static_cast<std::size_t>(a)];
       pair.b = arm.links[static_cast<std::size_t>(b)];
       pair.adjacent = joined.count(robot::namePair(pair.a, pair.b)) != 0;
-      if (pair.adjacent) pair.verdict = PairVerdict::kAlways;
       tasks.push_back({a, b});
       result.push_back(std::move(pair));
     }
@@ -47,35 +47,49 @@ std::vector<LinkPair> Robot::linkPairs(const PairRequest& options) const {
     return std::chrono::duration<double>(Clock::now() - begin).count();
   };
   const Clock::time_point start = Clock::now();
+  const robot::PairSearch search(arm);
   std::mutex guard;
   std::size_t settled = 0;
-  const auto count_settled = [&] {
-    const std::lock_guard<std::mutex> lock(guard);
-    ++settled;
-    if (options.progress) options.progress(settled, result.size());
-  };
-  // Each round looks at more boxes a pair, so that none takes the time that others need.
-  constexpr long long kFirst = 4096, kMore = 16;
-  const long long size = static_cast<long long>(tasks.size());
-  for (long long boxes = std::min(kFirst, options.max_boxes);; boxes *= kMore) {
-    boxes = std::min(boxes, options.max_boxes);
-    const bool first = boxes <= kFirst;
-    robot::forEachAlone(size, robot::threadsFor(options.threads, size), [&](long long i) {
+  const auto count = static_cast<long long>(tasks.size());
+  const auto forOpen = [&](const auto& work) {
+    robot::forEachAlone(count, robot::threadsFor(options.threads, count), [&](long long i) {
       LinkPair& pair = result[static_cast<std::size_t>(i)];
-      if (!first && pair.verdict != PairVerdict::kOpen) return;
+      if (pair.verdict != PairVerdict::kOpen) return;
       const Clock::time_point begin = Clock::now();
-      if (!pair.adjacent) {
-        const Task& task = tasks[static_cast<std::size_t>(i)];
-        robot::PairSearch search(arm, task.a, task.b);
-        if (!first || !search.look(pair)) {
-          search.prove(
-              boxes, [&] { return secondsSince(start) >= options.max_seconds; }, pair);
-        }
-        pair.seconds += secondsSince(begin);
-      }
-      if (pair.verdict != PairVerdict::kOpen) count_settled();
+      work(tasks[static_cast<std::size_t>(i)], pair);
+      pair.seconds += secondsSince(begin);
+      if (pair.verdict == PairVerdict::kOpen) return;
+      const std::lock_guard<std::mutex> lock(guard);
+      ++settled;
+      if (options.progress) options.progress(settled, result.size());
     });
-    if (boxes == options.max_boxes || settled == result.size() ||
+  };
+  forOpen([&](const Task& task, LinkPair& pair) {
+    if (pair.adjacent) {
+      pair.verdict = PairVerdict::kAlways;
+    } else {
+      search.sample(task.a, task.b, pair);
+    }
+  });
+  // Each round makes more queries a pair, so that none takes the time that others need; and no more
+  // than time is left for, at the pace of the round before.
+  constexpr long long kFirst = 256, kMore = 4;
+  for (long long most = std::min(kFirst, options.max_boxes);;
+       most = std::min(most * kMore, options.max_boxes)) {
+    forOpen([&](Task& task, LinkPair& pair) {
+      const Clock::time_point begin = Clock::now();
+      const double left = options.max_seconds - secondsSince(start);
+      if (!(left > 0)) return;
+      const double few = std::min(static_cast<double>(most), left / task.pace);
+      search.prove(task.a, task.b, static_cast<long long>(few), pair);
+      task.pace = secondsSince(begin) / std::max(1.0, static_cast<double>(pair.boxes));
+    });
+    if (most <= kFirst) {
+      forOpen([&](const Task& task, LinkPair& pair) {
+        if (secondsSince(start) < options.max_seconds) search.look(task.a, task.b, pair);
+      });
+    }
+    if (most == options.max_boxes || settled == result.size() ||
         secondsSince(start) >= options.max_seconds) {
       return result;
     }

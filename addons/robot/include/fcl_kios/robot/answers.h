@@ -125,7 +125,7 @@ enum class PairVerdict {
 
 /// Options of Robot::linkPairs().
 struct PairRequest {
-  /// Bounds the boxes of configurations a pair that may be looked at.
+  /// Bounds the boxes of configurations a pair that may be looked at, as RangeRequest::max_queries.
   long long max_boxes = 4000000;
   /// Seconds after which no more boxes are looked at; what is open then stays so. >= 0, may be
   /// infinite, upon which verdicts are the same on every machine.
@@ -142,7 +142,7 @@ struct LinkPair {
   PairVerdict verdict = PairVerdict::kOpen;
   bool adjacent = false;  ///< a joint joins them
   UnalignedVector q;      ///< in contact there; empty for kNever, kOpen and `adjacent`
-  long long boxes = 0;    ///< that were looked at
+  long long boxes = 0;    ///< that were looked at; none where volumes are proof
   double seconds = 0;
 };
 
