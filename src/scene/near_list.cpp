@@ -33,7 +33,7 @@ double NearList::startFor(double gap, const std::vector<Body>& bodies) {
   size_ = bodies.empty() ? 0 : radii / static_cast<double>(bodies.size());
   moved_ = 0;
   age_ = 0;
-  if (!(ahead >= tuning::kLeastQueries * per_query)) {
+  if (!(ahead >= per_query)) {
     rest();
     return gap;
   }

@@ -11,9 +11,8 @@
 namespace kios::scene::tuning {
 
 /// Queries that a list of near pairs looks ahead, but for no more than a body's radius; and for
-/// which none is made after one that is too long or would last for fewer than the least.
+/// which none is made after one that is too long or would not last for another.
 constexpr long long kQueries = 16;
-constexpr double kLeastQueries = 2;
 /// It has room for so many pairs a body.
 constexpr std::size_t kPairsOfBody = 8;
 

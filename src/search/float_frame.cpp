@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "search/tuning.h"
 #include "tree/prepare.h"
 #include "volume/error_bounds.h"
 #include "volume/rounding.h"
@@ -39,8 +38,8 @@ FloatPose toFloat(const Eigen::Matrix3d& R, const Eigen::Vector3d& t) {
   out.frame_error = 2 * bounds.stretch * out.scale + points;
   out.pad = error_bounds::laneError(out.scale) + out.frame_error;
   out.box_pad = error_bounds::boxError(out.scale) + out.frame_error;
-  return out.t.lpNorm<1>() <= tuning::kFarAway * (reach_a + reach_b) ||
-         out.pad <= tuning::kCoarse * std::min(reach_a, reach_b);
+  // Floats tell nothing of what is smaller than the pad, but what in the other is near it.
+  return out.t.lpNorm<1>() <= reach_a + reach_b || out.pad <= std::min(reach_a, reach_b);
 }
 
 // The transpose is the inverse but for |R^T R - I| <= 2 stretch + stretch^2, which moves points by

@@ -282,7 +282,7 @@ struct PairSearch {
   Bracket bracket;
   bracket.near_enough = downToFloat(query.near_enough);
   bracket.max_expansions = query.max_expansions;
-  const bool exact = query.usesExactSearch() && !query.endsEarly();
+  const bool exact = query.isExact() && !query.endsEarly();
   evaluator.keeps_pairs = !exact;
   bool has_bound = false, done = false;
   if (pair.exist(query.start)) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "fcl_kios/triangle.h"
-#include "search/tuning.h"
 #include "volume/rounding.h"
 
 // The question about the distance of two meshes, and its answer: the same for both kinds of trees.
@@ -37,8 +36,6 @@ struct PairQuery {
   bool any_touching = false;  ///< of triangles that touch, any may be named, of all models
 
   bool isExact() const { return rel_err == 0 && abs_err == 0; }
-  /// The search of exact answers is then as fast as that of brackets.
-  bool usesExactSearch() const { return rel_err <= tuning::kExactError && abs_err == 0; }
   bool hasBudget() const { return max_expansions != std::numeric_limits<long long>::max(); }
   bool endsEarly() const { return near_enough > 0 || hasBudget(); }
   double cullDistance(double distance) const {

@@ -130,7 +130,7 @@ Depth DepthInSolid::depthOf(const Vec& p) const {
 bool DepthInSolid::isOutside(const ConvexPiece& piece, const Vec& v, std::optional<Cut>& cut,
                              Vec& blocker, long long& visits) const {
   const MovedPiece moved(piece, v);
-  int blockers = 0;
+  std::size_t blockers = 0;
   std::vector<std::uint32_t> waiting = {0};
   while (!waiting.empty()) {
     const std::uint32_t node = waiting.back();
@@ -154,7 +154,7 @@ bool DepthInSolid::isOutside(const ConvexPiece& piece, const Vec& v, std::option
       }
       // The wall that the move leads least out of.
       if (blockers == 0 || n.dot(v) < blocker.dot(v)) blocker = n;
-      return cut || ++blockers == tuning::kBlockers;
+      return cut || ++blockers == tuning::kContacts;
     });
     if (found) return false;
   }

@@ -50,10 +50,8 @@ class CommonCenter {
     const RelativePose<double>& X_AB = pair_.frame().X_AB;
     Balls balls;
     const Vec y = toB(X_AB, c);
-    // No surface lies within the balls of the last point in both.
-    const double moved = 1.001 * (c - last_).norm() + 4 * pair_.rounding();
-    balls.in_a = moved < radius_a_ || placeOf(c, pair_.a(), pair_.counts()).inside();
-    balls.in_b = moved < radius_b_ || placeOf(y, pair_.b(), pair_.counts()).inside();
+    balls.in_a = placeOf(c, pair_.a(), pair_.counts()).inside();
+    balls.in_b = placeOf(y, pair_.b(), pair_.counts()).inside();
     if (!balls.in_a || !balls.in_b) return balls;
     const NearestOnMesh a = nearestOnMesh(pair_.a(), c, kInfinity);
     const NearestOnMesh b = nearestOnMesh(pair_.b(), y, kInfinity);
@@ -62,9 +60,6 @@ class CommonCenter {
     const double error =
         2 * inverseError(X_AB, c.lpNorm<1>() + 4 * pair_.size()) + 2 * pair_.rounding();
     if (!(b.lower > error) || !(a.lower > pair_.rounding())) return balls;
-    last_ = c;
-    radius_a_ = a.lower - error;
-    radius_b_ = b.lower - error;
     balls.depth = a.lower - pair_.rounding() + b.lower - error;
     return balls;
   }
@@ -108,8 +103,6 @@ class CommonCenter {
  private:
   SolidPair& pair_;
   std::vector<Vec> on_a_, on_b_;  ///< points of the surfaces, in a's frame
-  Vec last_ = Vec::Zero();
-  double radius_a_ = 0, radius_b_ = 0;  ///< of balls about last_ that lie in a and b
 };
 
 /// Returns a lower bound of the length of any translation that parts the solids: if balls of radii

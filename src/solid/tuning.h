@@ -19,7 +19,9 @@ constexpr double kDeep = 0.5;
 /// Corners of planes that are looked at, and points of the polytope between convex solids. 256: 1.1
 /// times the time; 64: translations 0.3 % longer.
 constexpr std::size_t kCorners = 128;
-/// Pairs of triangles that meet are used up to so many. 32: 1.2 times the time; 8: 0.4 % longer.
+/// Pairs of triangles that meet are used up to so many. 32: 1.2 times the time; 8: 0.4 % longer. In
+/// local depth their corners are looked at first (4 do as well), and so many triangles in a piece's
+/// way end a move (32 do as well).
 constexpr std::size_t kContacts = 16;
 /// An exit, or a ball, is changed for what may be so much better. 0.95 to 0.99 do as well.
 constexpr double kEnough = 0.98;
@@ -32,18 +34,12 @@ constexpr std::size_t kBalls = 16;
 // Local depth, found by trying on flush boxes, sheets through blocks, pockets, tori and blobs,
 // which docs/solids.md names; what other values do was not recorded.
 
-/// Pairs of triangles that meet, whose corners are looked at first.
-constexpr std::size_t kDepthContacts = 4;
 /// Solids with walls are given up after so many pieces.
 constexpr long long kMostWithWalls = 4000;
 /// A way that parts both solids is tried again after so many times the pieces.
 constexpr long long kTryLater = 16;
-/// Pieces so many times larger than deep are cut along triangles.
-constexpr double kLarge = 2;
 /// Halves are cut here: in the middle, planes of regular meshes would be met.
 constexpr double kHalf = 0.4472;
-/// Triangles in a piece's way that end a move.
-constexpr int kBlockers = 32;
 /// Visits of nodes and triangles by moves that count as a piece.
 constexpr long long kVisitsPerPiece = 64;
 /// Pairs of triangles that are looked at to rule out walls, for each: fans have many.

@@ -147,15 +147,13 @@ class Slabs {
 /// that proves them apart.
 struct LastLeaves {
   /// The direction across a leaf proves most that bodies lie on each other, and in searches with a
-  /// bound on entry most pairs with a leaf several times as wide as the other, as those of ground
+  /// bound on entry most pairs with a leaf many times as wide as the other, as those of ground
   /// are. Without a bound it costs more than it tells.
   explicit LastLeaves(const Search& search) {
     const float cull_distance = search.evaluator.cull_distance;
     const bool contact = cull_distance == 0, bounded = cull_distance < kInfinityFloat;
-    across_a =
-        contact || (bounded && search.a.mean_leaf > tuning::kGroundLeaf * search.b.mean_leaf);
-    across_b =
-        contact || (bounded && search.b.mean_leaf > tuning::kGroundLeaf * search.a.mean_leaf);
+    across_a = contact || (bounded && search.a.mean_leaf > tuning::kWideLeaf * search.b.mean_leaf);
+    across_b = contact || (bounded && search.b.mean_leaf > tuning::kWideLeaf * search.a.mean_leaf);
   }
 
   bool across_a, across_b;  ///< whether to try the directions across the leaves

@@ -87,7 +87,7 @@ class WaveSearch {
       return matters(entry) && ended(boundLeaves(entry));
     }
     if (frontier_.inner.empty()) {
-      frontier_.nextWave(evaluator_.cull_distance, kBracket ? tuning::kBracketWave : tuning::kWave);
+      frontier_.nextWave(evaluator_.cull_distance, tuning::kWave);
       return false;
     }
     NodePairList::Entry batch[tuning::kBatch];
