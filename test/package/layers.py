@@ -75,7 +75,7 @@ NAMED_TWICE = {"contact", "distance", "fit", "intersection", "prepare", "tuning"
 SMALL_OR_USED_ONCE = {
     "fcl/holds_model.cpp": "asked without the queries of the other .cpp",
     "scene/tuning.h": "a table of constants",
-    "build/tuning.h": "a table of constants", "tree/tuning.h": "a table of constants",
+    "tree/tuning.h": "a table of constants",
     "linkage/local_slabs.h": "tested alone",
     "shape/separating_slabs.h": "tested alone",
     "query/threads.h": "what two folders share",

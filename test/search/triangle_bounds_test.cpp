@@ -22,6 +22,7 @@
 #include "search/on_targets.h"
 #include "search/root_body.h"
 #include "search/search.h"
+#include "search/tuning.h"
 #include "shapes.h"
 #include "tree/compress_table.h"
 #include "tree/leaf_layout.h"
