@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "build/four_axes.h"
@@ -17,6 +18,8 @@ namespace {
 using lanes::Float4;
 
 using tuning::kBins, tuning::kSweep;
+
+constexpr int kNoFrame = std::numeric_limits<int>::max();
 
 /// Leaves that n triangles fill.
 float leavesOf(int n) {
@@ -35,13 +38,17 @@ void BlockPartition::start(const Corners* triangles, int n) {
   order_.resize(count);
   for (int i = 0; i < n; ++i) order_[i] = static_cast<std::uint32_t>(i);
   if (items_.size() < count) items_.resize(count);
+  frame_shared_.assign(count, kNoFrame);
 }
 
 int BlockPartition::split(int first, int n, bool in_halves) {
   if (n == 2) return 1;
   std::uint32_t* const items = order_.data() + first;
-  const bool all = n == static_cast<int>(order_.size());
-  if (all || n > kLeafTriangles) project(items, n, principalFrame(items, n));
+  const int shared = frame_shared_[items[0]];
+  if (shared >= tuning::kReframe * n && (n > kLeafTriangles || shared == kNoFrame)) {
+    project(items, n, principalFrame(items, n));
+    for (int i = 0; i < n; ++i) frame_shared_[items[i]] = n;
+  }
   if (in_halves) return halve(items, n);
   if (n <= kSweep) return sweep(items, n);
   const CutPlane plane = bestBin(items, n, 1);

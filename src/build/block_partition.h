@@ -85,7 +85,8 @@ class BlockPartition {
 
   const Corners* triangles_ = nullptr;
   SmallVector<std::uint32_t> order_;
-  SmallVector<Item> items_;  ///< by triangle
+  SmallVector<Item> items_;        ///< by triangle
+  SmallVector<int> frame_shared_;  ///< by triangle: by how many its frame is shared
 };
 
 }  // namespace kios::engine

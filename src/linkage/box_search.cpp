@@ -154,8 +154,10 @@ void BoxSearch::open(Task task) {
     descend(task.low, task.high);
   }
   task.bound = std::max(task.bound, near.lower - way);
-  const double enough = seen_.enough();
-  if (enough - slab < tuning::kSlabFirst * (enough - (near.lower - way))) parts = slab_parts;
+  // Halved is what has to shrink by the smaller factor to leave enough.
+  const double slab_way = slab_parts.sum(), enough = seen_.enough();
+  const double left = slab + slab_way - enough;
+  if (left > 0 && slab_way * (near.lower - enough) < way * left) parts = slab_parts;
   Eigen::Index widest = 0;
   const double most = parts.size() > 0 ? parts.maxCoeff(&widest) : 0;
   const double middle = most > 0 ? path.coordinate(static_cast<int>(widest), 0.5) : 0;

@@ -54,9 +54,5 @@ constexpr long long kFewObstacles = 64;
 constexpr int kRounds = 8;
 /// In a box a distance may be off by this part of what the pair moves by.
 constexpr double kOfMotion = 0.25;
-/// Where a slab lacks less than this part of what the distance lacks, it decides which range is
-/// halved. With 1, the pairs of a Panda take 6 times as many boxes; with 0, a head that tilts over
-/// a table isn't settled (JointRange.AGantryOverItsTable, 2026-11-30).
-constexpr double kSlabFirst = 0.125;
 
 }  // namespace kios::articulated::tuning
