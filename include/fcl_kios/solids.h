@@ -167,8 +167,8 @@ struct LocalDepthResult {
 ///
 /// Both bounds hold for the models' vertices, and include the rounding of the common frame of
 /// docs/guarantees.md. Swapped arguments give the same bracket. Rounding ends the search at widths
-/// of some 1e-12 of the coordinates and 200 |R^T R - I| of the poses' rotations (Frobenius), at most
-/// 2000: for rotations that were rounded to float, some 2e-5 of the coordinates.
+/// of some 1e-12 of the coordinates and 200, at most 2000, |R^T R - I| of the poses' rotations
+/// (Frobenius): for rotations that were rounded to float, some 2e-5 of the coordinates.
 ///
 /// Where triangles of a solid may lie within it, as its components overlap, touch along faces or
 /// run through each other along edges, or have no area, `lower` counts depths to these, too, and
