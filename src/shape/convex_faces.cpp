@@ -95,11 +95,14 @@ bool ConvexFaces::inTetrahedra(std::size_t face, const Vec& p) const {
 // flat shape hold nothing.
 bool ConvexFaces::contains(const Vec& p) const {
   if (per_depth_.size() == 0) return false;
+  if (inTetrahedra(last_, p)) return true;
   heights_ = along(p - middle_) * per_depth_;
   const double most = heights_.maxCoeff();
   std::size_t exit = 0;
   while (exit + 1 < faces_.size() && heights_[static_cast<Eigen::Index>(exit)] < most) ++exit;
-  return inTetrahedra(exit, p);
+  if (!inTetrahedra(exit, p)) return false;
+  last_ = exit;
+  return true;
 }
 
 ConvexFaces::Slab ConvexFaces::leastExit(const Triangle& t) const {
@@ -114,6 +117,10 @@ ConvexFaces::Slab ConvexFaces::leastExit(const Triangle& t) const {
 }
 
 ConvexFaces::Verdict ConvexFaces::judge(const Triangle& t) const {
+  const bool flat = per_depth_.size() == 0;  // the tetrahedra are noise
+  for (const Vec& corner : t) {
+    if (!flat && inTetrahedra(last_, corner)) return Verdict::kMeets;
+  }
   const double clear = 0x1p-40 * (sizeOf(t) + reach_);
   double highest;
   highestOver(t, highest);

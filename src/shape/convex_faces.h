@@ -54,6 +54,7 @@ class ConvexFaces {
   mutable Eigen::ArrayXd offsets_;
   Eigen::ArrayXd per_depth_;  ///< 1 / the middle's depths under the planes; none if flat
   mutable Eigen::ArrayXd heights_;
+  mutable std::size_t last_ = 0;  ///< whose tetrahedra held a point of late
   Vec middle_ = Vec::Zero();
   double reach_ = 0;
 };
