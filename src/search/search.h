@@ -43,13 +43,21 @@ class RefineCallback {
   float candidate_limit = kInfinityFloat;  ///< feature pairs at most so far apart
                                            ///< are candidates
 
-  /// Whether bounds in double may prove what floats leave open, until one doesn't: bodies that
-  /// hover are apart each time, those that touch almost never. Without them contacts of hovering
-  /// bodies take 1.4 times as long.
-  bool tries_double = true;
+  /// Bounds in double may prove what floats leave open: asked for until more of them have failed
+  /// than proven anything, as bodies that hover are apart each time, those that touch almost never.
+  /// Without them contacts of hovering bodies take 1.4 times as long.
+  bool triesDouble() const { return double_balance_ >= 0; }
+  /// Counts what a bound in double came to. Returns whether it proved anything.
+  bool triedDouble(bool apart) {
+    double_balance_ += apart ? 1 : -1;
+    return apart;
+  }
 
  protected:
   ~RefineCallback() = default;
+
+ private:
+  int double_balance_ = 0;
 };
 
 /// Where the leaf of one tree is much larger than a node of the other, its triangles take its

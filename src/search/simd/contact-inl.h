@@ -8,13 +8,11 @@ namespace kios::engine::HWY_NAMESPACE {
 /// Whether leaves that float leaves open are apart in double, along the slab that comes closest.
 inline HWY_NOINLINE bool areApartInDouble(const Search& search, const LeafView& a,
                                           const LeafView& b, const Direction& along) {
-  bool& tries = search.evaluator.tries_double;
-  if (!tries) return false;
+  if (!search.evaluator.triesDouble()) return false;
   const float direction[3] = {along.w.x, along.w.y, along.w.z};
   const StoredPoints points_a = {a.vertices.rows, a.leaf.num_vertices},
                      points_b = {b.vertices.rows, b.leaf.num_vertices};
-  tries = boundAlong(direction, points_a, points_b, search.pose) > 0;
-  return tries;
+  return search.evaluator.triedDouble(boundAlong(direction, points_a, points_b, search.pose) > 0);
 }
 
 /// Faces of `on` that a triangle, by its corners in their frame, is not wholly on one side of.

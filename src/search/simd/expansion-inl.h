@@ -94,13 +94,11 @@ class Tightener {
   /// Raises bounds that other tests left open, a child at a time.
   HWY_NOINLINE void testInDouble(Expansion& e, uint32_t open) const {
     const Search& search = sides_.search;
-    bool& tries = search.evaluator.tries_double;
-    for (; open != 0 && tries; open &= open - 1) {
+    for (; open != 0 && search.evaluator.triesDouble(); open &= open - 1) {
       const uint32_t lane = firstOf(open);
       const NodePair child = Sides::childPair(e, lane);
       const double bound = boundInDouble(search, child.a, child.b);
-      tries = bound > 0;
-      if (!tries) break;
+      if (!search.evaluator.triedDouble(bound > 0)) continue;
       e.bounds[lane] = std::max(e.bounds[lane], roundDown<float>(bound));
       e.near &= ~(1U << lane);
     }
