@@ -9,6 +9,7 @@
 #include "search/root_body.h"
 #include "search/search.h"
 #include "search/solid_search.h"
+#include "search/tuning.h"
 #include "tree/compress_table.h"
 #include "volume/simd_targets.h"  // with what else is included before the first target's pass
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "fcl_kios/detail/counts.h"
-#include "search/tuning.h"
 #include "tree/tree.h"
 #include "volume/rounding.h"
 
@@ -79,10 +78,10 @@ class SolidEvaluator {
   /// Adds a slab of a solid that its box says little of, across some triangle: the last few are
   /// kept.
   void addSlab(const FloatSlab& added) {
-    if (slabs_.size() < tuning::kSlabs) {
+    if (slabs_.size() < kMostSlabs) {
       slabs_.push_back(added);
     } else {
-      slabs_[num_added_ % tuning::kSlabs] = added;
+      slabs_[num_added_ % kMostSlabs] = added;
     }
     ++num_added_;
   }
@@ -95,6 +94,8 @@ class SolidEvaluator {
   ~SolidEvaluator() = default;
 
  private:
+  static constexpr std::uint32_t kMostSlabs = 16;  ///< any from 8 on do as well
+
   std::vector<FloatSlab> slabs_;
   std::uint32_t num_added_ = 0;
 };

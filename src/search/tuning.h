@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 // The constants of searches that were found by trying, each with what it serves, and the speed of
 // rows of kios_bench with something else in its place, measured on 2026-11-28 and 30 by kios_bench
@@ -28,7 +27,5 @@ constexpr float kWave = 0.5F;
 constexpr std::size_t kBatch = 4, kBoxedContactBatch = 2;
 /// Steps of Frank-Wolfe between two leaves. 1: 0.61 of world/table; 3 do as well.
 constexpr int kFrankWolfeSteps = 2;
-/// Slabs of a hull that are kept: not measured.
-constexpr std::uint32_t kSlabs = 16;
 
 }  // namespace kios::engine::tuning

@@ -181,9 +181,9 @@ class DepthSearch {
     if (!piece.shape.isEmpty() && isDone(piece, plane)) return;
     if (piece.node >= 0) return openNode(piece);
     if (piece.cuts == kMostCuts) return leaveOut(piece.bound);
-    // What is larger than deep is cut where it meets the other; else its bound follows from
+    // What is much larger than deep is cut where it meets the other; else its bound follows from
     // its size. Never along planes alone, of which many may cut off little.
-    const bool along = plane && piece.halved && piece.shape.radius() > enough();
+    const bool along = plane && piece.halved && piece.shape.radius() > tuning::kLarge * enough();
     auto parts = along ? piece.shape.cut(plane->n, plane->offset) : piece.shape.halves();
     for (ConvexPiece* const part : {&parts.first, &parts.second}) {
       if (part->isEmpty()) continue;
@@ -295,7 +295,7 @@ LocalDepthResult depthOfPair(SolidPair& pair, const LocalDepthRequest& request) 
   const MeshPair& frame = pair.frame();
   const double rounding = roundingOf(pair);
   if (frame.rootBound(rounding) > rounding) return {};
-  const auto contacts = searchContacts(frame, tuning::kContacts, pair.counts());
+  const auto contacts = searchContacts(frame, 1, pair.counts());
   if (contacts.empty()) {
     const Separation as_is = pair.test(Vec::Zero(), 2 * rounding);
     if (as_is.apart) {

@@ -20,8 +20,7 @@ constexpr double kDeep = 0.5;
 /// times the time; 64: translations 0.3 % longer.
 constexpr std::size_t kCorners = 128;
 /// Pairs of triangles that meet are used up to so many. 32: 1.2 times the time; 8: 0.4 % longer. In
-/// local depth their corners are looked at first (4 do as well), and so many triangles in a piece's
-/// way end a move (32 do as well).
+/// local depth so many triangles in a piece's way end a move; 32 do as well.
 constexpr std::size_t kContacts = 16;
 /// An exit, or a ball, is changed for what may be so much better. 0.95 to 0.99 do as well.
 constexpr double kEnough = 0.98;
@@ -38,6 +37,9 @@ constexpr std::size_t kBalls = 16;
 constexpr long long kMostWithWalls = 4000;
 /// A way that parts both solids is tried again after so many times the pieces.
 constexpr long long kTryLater = 16;
+/// Pieces so many times larger than deep are cut along triangles. 1: solids/depth/balls takes 1.1
+/// to 1.3 times as long (2026-11-30).
+constexpr double kLarge = 2;
 /// Halves are cut here: in the middle, planes of regular meshes would be met.
 constexpr double kHalf = 0.4472;
 /// Visits of nodes and triangles by moves that count as a piece.
