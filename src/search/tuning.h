@@ -20,7 +20,7 @@ constexpr float kWideLeaf = 8;
 /// large. By the leaf's size: 0.5 to 0.6 of world/strips; 8: 0.03 of world/shelf.
 constexpr float kSplitLeaf = 4;
 /// A wave takes what lies within this part of the way from the nearest bound to cull_distance.
-/// 0.125: 0.99 of tori (0.89 to 1.27) and 1.01 of world; in kios_bench error as well.
+/// 0.125: 0.99 of tori (0.89 to 1.27), 1.01 of world, 0.99 of the brackets of kios_bench error.
 constexpr float kWave = 0.5F;
 /// Pairs expanded together; of boxes in contact fewer. 16 in large trees: 0.86 to 0.98 of scaling.
 /// 4 boxed: 0.79 of hits in world/crate and stairs.
