@@ -129,7 +129,7 @@ struct MotionCounts {
   long long pairs = 0;           ///< of bodies that may be checked
   long long proven_at_once = 0;  ///< of these, by bounding volumes at one configuration
   /// Counts questions about a pair at a configuration, by volumes, slabs or the narrow phase. A
-  /// search for slabs between triangles counts as one for each hundred of its tests.
+  /// search for slabs between triangles counts as many as take as long.
   long long queries = 0;
   long long narrow_queries =
       0;  ///< of these: a pair at a configuration: farther apart than it may move?

@@ -206,14 +206,15 @@ int MovingMeshes::split(NodePair pair, const RelativeVelocities& v, NodePair* pa
 
 bool MovingMeshes::changeOrder(double way, long long cost) {
   noteStep(0.5 * way, cost);
-  double* const unknown = std::find_if(worth_, worth_ + kOrders, [](double w) { return w < 0; });
+  double* const unknown = std::find_if(worth_, worth_ + kOrders, [](double w) { return w == 0; });
   if (unknown == worth_ + kOrders) return false;
   order_ = static_cast<Order>(unknown - worth_);
   return true;
 }
 
 void MovingMeshes::noteStep(double way, long long cost) {
-  worth_[static_cast<int>(order_)] = way / static_cast<double>(cost + 1);
+  const auto spent = static_cast<double>(cost + 1);
+  worth_[static_cast<int>(order_)] = way > 0 ? way / spent : -spent;
 }
 
 // Where bodies hardly turn, velocities tell as much and round less.
@@ -237,7 +238,7 @@ bool MovingMeshes::nodesStayApart(NodePair pair, const RelativeVelocities& v) co
 
 // What is long and thin fits balls badly, but lies on one side of its own plane, as whatever slides
 // along it does.
-bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double duration) const {
+bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double duration) {
   const auto &a = a_.getBV(pair.a), &b = b_.getBV(pair.b);
   const Eigen::Matrix3d own = Eigen::Matrix3d::Identity(), R = v.pose().R();
   const Vector3d zero = Vector3d::Zero(), T = v.pose().T();
@@ -249,7 +250,8 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
   // Bounds how far a's points get along n, and b's against it.
   const auto parts = [&](const Vector3d& n) {
     const Heights of_a(v.a(), own, zero, n, duration), of_b(v.b(), R, T, -n, duration);
-    int nodes_left = order_ == Order::kLarger ? tuning::kNodesOfPlane : tuning::kNodesOfPlaneInHole;
+    const int most = order_ == Order::kLarger ? tuning::kNodesOfPlane : tuning::kNodesOfPlaneInHole;
+    int nodes_left = most;
     Heights::Height limit = {-kInfinity, -kInfinity};
     const auto highest = [&limit](const Heights& heights, const Modeld& model, int triangle) {
       for (const Vector3d& corner : cornersInDouble(model, triangle)) {
@@ -259,10 +261,16 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     };
     if (a.isLeaf()) {
       highest(of_a, a_, a.primitiveId());
-      return of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, nodes_left);
+      const bool below =
+          of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, nodes_left);
+      visits_ += most - nodes_left;
+      return below;
     }
     highest(of_b, b_, b.primitiveId());
-    return of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, nodes_left);
+    const bool below =
+        of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, nodes_left);
+    visits_ += most - nodes_left;
+    return below;
   };
   const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
     const auto t = cornersInDouble(model, triangle);

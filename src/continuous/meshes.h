@@ -27,7 +27,7 @@ class MovingMeshes final : public StepSearch {
   bool useChords(const RelativeVelocities& v, double duration);
   bool nodesStayApart(NodePair pair, const RelativeVelocities& v) const;
   /// Returns true if the plane of a triangle, one of the pair, parts it from the other node.
-  bool planeParts(NodePair pair, const RelativeVelocities& v, double duration) const;
+  bool planeParts(NodePair pair, const RelativeVelocities& v, double duration);
   double centersGap(NodePair pair, const RelativeVelocities& v) const;
 
   /// Says which node of a pair is split: the larger one, b's down to its leaves, or a's. What lies
@@ -37,7 +37,8 @@ class MovingMeshes final : public StepSearch {
   const Modeld &a_, &b_;
   static constexpr int kOrders = 3;
   Order order_ = Order::kLarger;
-  double worth_[kOrders] = {-1, -1, -1};  ///< length of a step by its cost; negative if not known
+  /// Length of a step by its cost, or the cost of what came to nothing, negative; 0 if not known.
+  double worth_[kOrders] = {};
   double time_ = 0;                       ///< of the step
   Chords chords_;                         ///< of the step, until duration() after it
 };

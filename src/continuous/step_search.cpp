@@ -47,8 +47,8 @@ double StepSearch::apartFor(double t) {
       budget_ends += budget;
     }
     if (cost() - before > most_tests_) {
-      h = 0;
-      break;
+      noteStep(0, cost() - before);
+      return 0;
     }
     const NodePair pair = stack_.back();
     stack_.pop_back();
@@ -67,7 +67,6 @@ double StepSearch::apartFor(double t) {
   }
   budget_ = budget > budget_ ? budget : std::max(tuning::kLeastBudget, budget / 2);
   noteStep(h, cost() - before);
-  // One that was given up says little of those from elsewhere.
   last_step_ = std::max(h, 0x1p-4 * last_step_);
   window_ = std::min(1.0, tuning::kWindow * last_step_);
   return h;

@@ -34,8 +34,10 @@ class StepSearch {
     end_ = end;
     most_tests_ = most_tests;
   }
-  /// Returns the cost of all steps, in tests of volumes.
-  long long cost() const { return counts_.volume_tests + 3 * counts_.leaf_tests; }
+  /// Returns the cost of all steps, in tests of two volumes that don't move.
+  long long cost() const {
+    return tuning::kTestsOfMoving * (counts_.volume_tests + 3 * counts_.leaf_tests) + visits_;
+  }
 
  protected:
   struct NodePair {
@@ -64,6 +66,7 @@ class StepSearch {
 
   const RelativeMotion motion_;
   ContinuousCounts& counts_;
+  long long visits_ = 0;  ///< of single nodes
 
  private:
   long long budget_ = tuning::kLeastBudget;  ///< volume tests after which the next step is halved

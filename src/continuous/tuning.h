@@ -11,6 +11,8 @@ namespace kios::continuous::tuning {
 /// so many times its length.
 constexpr long long kLeastBudget = 1000;
 constexpr double kLonger = 4;
+/// A test of two moving volumes takes as long as so many of two that don't move; with 16 as good.
+constexpr long long kTestsOfMoving = 32;
 /// A query about a pair at one configuration counts as so many tests, in all budgets.
 constexpr long long kTestsOfQuery = 100;
 /// Bounds of a motion that aren't the same for every time are taken over so many steps.

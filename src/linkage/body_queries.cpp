@@ -127,7 +127,7 @@ Measured BodyQueries::measure(Pair& pair, const Configuration& at, double far, d
     query.near_enough = near_enough;
     query.far_enough = (far + pad) * (1 + 0x1p-40);
     const DistanceBracketResultd answer = bracketDistance(meshPair(pair, at), query);
-    counts_.expansions += answer.counts.expansions;
+    count(answer.counts);
     near.lower = answer.lower_bound - pad;
     near.contact = !(answer.distance > 0);
     if (answer.triangle_a >= 0 && answer.distance < query.far_enough) {
@@ -185,8 +185,13 @@ bool BodyQueries::inContact(const Pair& pair, const Configuration& at) const {
   if (!a.model || !b.model || areSolids(pair)) return meshAndOther(pair, at).touch();
   SearchCounts counts;
   const bool touch = !searchContacts(meshPair(pair, at), 1, counts).empty();
-  counts_.expansions += counts.expansions;
+  count(counts);
   return touch;
+}
+
+void BodyQueries::count(const SearchCounts& counts) const {
+  counts_.expansions += counts.expansions;
+  cost_ += counts.volume_tests + tuning::kTestsOfLeaves * counts.leaf_kernels;
 }
 
 MeshPair BodyQueries::meshPair(const Pair& pair, const Configuration& at) const {

@@ -75,7 +75,11 @@ class BodyQueries {
   /// Throws std::invalid_argument if no query serves the pair.
   void requireServed(int a, int b) const;
 
+  /// Returns the cost of all searches for two meshes, in tests of volumes.
+  long long cost() const { return cost_; }
+
  private:
+  void count(const SearchCounts& counts) const;
   const BodyData& body(int id) const { return path_.linkage().bodies[id]; }
   const shape::Solid* shapeOf(int id) const {
     return body(id).kind == BodyKind::kShape ? &body(id).own->solid : nullptr;
@@ -91,6 +95,7 @@ class BodyQueries {
   const Path& path_;
   const double min_separation_;
   MotionCounts& counts_;
+  mutable long long cost_ = 0;
 };
 
 }  // namespace kios::articulated

@@ -22,10 +22,15 @@ void MotionSearch::push(int suspect, double from, double to, const Look& look) {
     // before one that takes many looks, which is then followed through time, as slabs between
     // triangles are.
     const Suspect& own = suspects_[suspect];
-    const bool many = own.undecided || own.asked > tuning::kPatience;
+    const bool many = own.undecided || own.place >= 0;
     task.margin = many ? (own.undecided ? 4 : 2) + from : look.way - 0.5 * (to - from);
   }
   enqueue(task);
+}
+
+bool MotionSearch::isShortest(const Task& task) const {
+  const double part = request_.first_contact ? tuning::kApproach : 1;
+  return !(task.to - task.from > part * request_.resolution);
 }
 
 void MotionSearch::enqueue(const Task& task) {
@@ -104,8 +109,7 @@ void MotionSearch::search() {
     } else if (result.outcome == Outcome::kContact) {
       contact_ = {MotionVerdict::kContact, result.s, result.s, task.suspect};
       pushRest(task, result.s, result.s, result);
-    } else if (result.outcome == Outcome::kPart &&
-               task.to - task.from > (first ? tuning::kApproach : 1) * request_.resolution) {
+    } else if (result.outcome == Outcome::kPart && !isShortest(task)) {
       if (result.from < result.to) noteProven(task.suspect, result.from, result.to);
       pushRest(task, result.from, result.to, result);
     } else {

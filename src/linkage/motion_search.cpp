@@ -126,10 +126,10 @@ MotionSearch::Look MotionSearch::look(const Task& task) {
   }
   const Look by_triangles = local(task);
   if (isMuch(by_triangles, task)) return by_triangles;
-  const long long expansions = counts_.expansions;
+  const long long before = queries_.cost();
   const Configuration& again = at(s);  // as a search for turns may have taken its place
   const Nearness near = queries_.ask(pair, again, enough);
-  suspect.asked += tuning::kTestsOfExpansion * (counts_.expansions - expansions);
+  suspect.asked += queries_.cost() - before;
   if (near.contact) return {Outcome::kContact, s, s, s, 0};
   // The query knows a better direction.
   const double width = near.slab ? near.apart : queries_.slab(pair, again, kInfinity);
@@ -168,34 +168,37 @@ MotionSearch::Look MotionSearch::local(const Task& task) {
   const long long left = std::max(0LL, request_.max_queries - counts_.queries);
   // About two pivots: four nodes a triangle, two tests each.
   const long long attempt = 8LL * ((a ? a->num_tris : 0) + (b ? b->num_tris : 0));
-  if (suspect.turns && suspect.asked >= attempt && attempt / tuning::kTestsOfQuery < left) {
+  const bool last = isShortest(task) && !suspect.undecided;
+  if (!last && suspect.asked < std::max(suspect.retry, attempt)) return nothing;
+  if (suspect.turns && attempt / tuning::kTestsOfQuery < left) {
     suspect.turns = false;
     long long cost = 0;
-    const bool proven = orbitsApart(path_, suspect.pair, at(0.5), request_.min_separation, cost);
+    Pair pair = suspect.pair;
+    const double apart = queries_.measure(pair, at(0.5), kInfinity, 1).upper;
+    const bool proven = orbitsApart(path_, pair, at(0.5), apart, request_.min_separation, cost);
     counts_.queries += cost / tuning::kTestsOfQuery;
     if (proven) {
       own().to = 1;
       return knownLocally(task);
     }
   }
-  const long long credit = suspect.asked - suspect.spent;
-  if (credit <= tuning::kPatience) return nothing;
   Local& slabs = own();
   if (!slabs.slabs) {
     slabs.slabs = std::make_unique<LocalSlabs>(path_, suspect.pair, request_.min_separation);
   }
-  // Less is spent than was on queries, lest a pair that these decide anyhow takes much longer.
-  const long long most =
-      tuning::kTestsOfQuery * std::min(left, 2 * credit / (3 * tuning::kTestsOfQuery));
+  // No more is spent than was on queries since the last failure, lest a pair that these decide
+  // anyhow takes much longer. Where they can't decide it, all is.
+  const long long affords = suspect.asked / (2 * tuning::kTestsOfQuery);
+  const long long most = tuning::kTestsOfQuery * (last ? left : std::min(left, affords));
   const long long before = slabs.slabs->cost();
   slabs.from = task.from;
   slabs.to = slabs.slabs->provenFrom(task.from, 1, most);
   const long long cost = slabs.slabs->cost() - before;
   counts_.queries += cost / tuning::kTestsOfQuery;
   const double spared = (slabs.to - slabs.from) / std::max(suspect.way, request_.resolution);
-  const auto saved =
-      static_cast<long long>(std::min(spared, 0x1p40) * static_cast<double>(tuning::kTestsOfQuery));
-  suspect.spent = std::max(0LL, suspect.spent + cost - saved);
+  const bool saves =
+      spared * static_cast<double>(tuning::kTestsOfQuery) > static_cast<double>(cost);
+  if (!saves) suspect.retry = 2 * suspect.asked;
   return knownLocally(task);
 }
 

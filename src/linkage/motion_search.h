@@ -18,9 +18,9 @@ struct Suspect {
   /// Where it was found: the bound by volumes, and what would prove all of an interval.
   double roots = 0, enough = 0;
   double seen = -1;  ///< where a slab was looked for last
-  // One account, in tests of volumes: slabs between triangles may spend what queries did.
-  long long asked = 0;     ///< spent on queries
-  long long spent = 0;     ///< on slabs, less what the queries that they spared would have taken
+  // In tests of volumes: slabs between triangles may spend what queries did.
+  long long asked = 0;  ///< spent on queries
+  long long retry = 0;  ///< what is to be spent before slabs are tried again
   double way = 0;          ///< how much of the path a query proves of late
   bool undecided = false;  ///< somewhere
   bool turns = true;       ///< turns were not tried yet
@@ -126,6 +126,8 @@ class MotionSearch {
   void pushRest(const Task& task, double from, double to, const Look& look);
   void push(int suspect, double from, double to, const Look& look);
   void enqueue(const Task& task);
+  /// True if what can't be proven of an interval isn't looked at in shorter ones.
+  bool isShortest(const Task& task) const;
   /// Notes a short interval that can't be proven, or a contact at one of its ends.
   void undecided(const Task& task, double s);
   /// True if nothing that waits can change the answer.

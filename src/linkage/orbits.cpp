@@ -58,8 +58,9 @@ double wayOf(const std::vector<MovingJoint>& joints, const Vector3d& axis, const
 
 /// Returns the line of least slack among the axes, and the point that is nearest to all of them,
 /// each weighed by its turn. Neither if no joint turns the bodies about each other, or the slack is
-/// as large as one of them.
-std::vector<Pivot> pivotsOf(const Path& path, const Pair& pair, const Configuration& at) {
+/// as large as one of them, or as `most`.
+std::vector<Pivot> pivotsOf(const Path& path, const Pair& pair, const Configuration& at,
+                            double most) {
   const BodyData &a = path.linkage().bodies[pair.a], &b = path.linkage().bodies[pair.b];
   if (!a.bounded || !b.bounded) return {};
   const std::vector<MovingJoint> joints = jointsBetween(pair, at);
@@ -70,6 +71,7 @@ std::vector<Pivot> pivotsOf(const Path& path, const Pair& pair, const Configurat
   const double rounding = path.pad(pair.a, pair.b) + 0x1p-43 * lengths;
   double slides = 0;
   for (const MovingJoint& joint : joints) slides += joint.turns ? 0 : joint.rate;
+  most = std::min(most, radius);
   std::vector<Pivot> found;
   const auto offer = [&](const Vector3d& point, const Vector3d& axis, double below) {
     const double off = (point - middle).norm();
@@ -88,14 +90,14 @@ std::vector<Pivot> pivotsOf(const Path& path, const Pair& pair, const Configurat
     if (!joint.turns) continue;
     const Vector3d axis = joint.axis.normalized();
     offer(joint.origin + axis.dot(middle - joint.origin) * axis, axis,
-          found.empty() ? radius : found.back().slack);
+          found.empty() ? most : found.back().slack);
     if (found.size() > 1) found.erase(found.begin());
     const Matrix3d across = joint.rate * (Matrix3d::Identity() - axis * axis.transpose());
     M += across;
     sum += across * (joint.origin - middle);
     ++turns;
   }
-  if (turns > 1) offer(middle + M.ldlt().solve(sum), Vector3d::Zero(), radius);
+  if (turns > 1) offer(middle + M.ldlt().solve(sum), Vector3d::Zero(), most);
   return found;
 }
 
@@ -207,11 +209,11 @@ bool areApart(const Images& a, const Images& b, const Array4d& needed, long long
 
 }  // namespace
 
-bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
-                 long long& cost) {
+bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double apart,
+                 double min_separation, long long& cost) {
   const BodyData &a = path.linkage().bodies[pair.a], &b = path.linkage().bodies[pair.b];
   if (a.kind == BodyKind::kOctree || b.kind == BodyKind::kOctree) return false;
-  const auto pivots = pivotsOf(path, pair, at);
+  const auto pivots = pivotsOf(path, pair, at, apart);
   return std::any_of(pivots.begin(), pivots.end(), [&](const Pivot& pivot) {
     // Places are off by less than the pad, images by a few roundings of lengths.
     const double lengths =

@@ -23,9 +23,10 @@ namespace kios::articulated {
 ///      z
 ///      +---------------> z             and n x - z at the corners.
 ///
-/// One of the bodies is a mesh, `at` is best in the middle of the path. `cost` is what was spent,
-/// in tests of volumes.
-bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double min_separation,
-                 long long& cost);
+/// One of the bodies is a mesh, `at` is best in the middle of the path, where they are at most
+/// `apart` from each other: a pivot of more slack proves nothing. `cost` is what was spent, in
+/// tests of volumes.
+bool orbitsApart(const Path& path, const Pair& pair, const Configuration& at, double apart,
+                 double min_separation, long long& cost);
 
 }  // namespace kios::articulated

@@ -33,12 +33,10 @@ constexpr double kDeep = -0.4;
 /// Times that a slab is tried to last for, the whole interval first.
 constexpr int kTries = 5;
 
-/// The unit of cost of all provers is a test of two volumes; an expansion of a query's search
-/// counts as so many, beside the query.
+/// The unit of cost of all provers is a test of two volumes, some 15 ns; two leaves that a query's
+/// search looks into count as so many, beside the query.
 using continuous::tuning::kTestsOfQuery;
-constexpr long long kTestsOfExpansion = 8;
-/// Slabs between a pair's triangles are tried once queries have cost so much (TightFits).
-constexpr long long kPatience = 100 * kTestsOfQuery;
+constexpr long long kTestsOfLeaves = 64;
 
 /// Where so many intervals can't be decided, no contact is looked for in what else is left.
 constexpr int kMostUndecided = 256;

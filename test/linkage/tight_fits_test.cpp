@@ -10,6 +10,7 @@
 namespace kios::testing {
 namespace {
 
+// Without slabs between triangles the queries grow as 1 / clearance, to millions.
 TEST(TightFits, ARodSlidesThroughARing) {
   for (const double clearance : {1e-3, 1e-4, 1e-5, 1e-6, 1e-8}) {
     SCOPED_TRACE(clearance);
@@ -17,14 +18,14 @@ TEST(TightFits, ARodSlidesThroughARing) {
     const BodyGeometry peg = modelOf(rod(0.01, 2, 32, 0.37));
     for (const bool turned : {false, true}) {
       const RobotCase robot = fitted(peg, hole, JointType::kPrismatic, {{0, 0, 1}}, turned);
-      expectClear(robot, Joints::Constant(1, 0.5), 400);
-      if (clearance > 1e-7) expectClear(robot, Joints::Constant(1, 0.5), 400, 0.5 * clearance);
+      expectClear(robot, Joints::Constant(1, 0.5), 8000);
+      if (clearance > 1e-7) expectClear(robot, Joints::Constant(1, 0.5), 8000, 0.5 * clearance);
       // It holds the other way about, too, and for a shape.
       expectClear(fitted(hole, peg, JointType::kPrismatic, {{0, 0, 1}}, turned),
-                  Joints::Constant(1, 0.5), 400);
+                  Joints::Constant(1, 0.5), 8000);
       expectClear(fitted(std::make_shared<fcl::Cylinderd>(0.01, 2), hole, JointType::kPrismatic,
                          {{0, 0, 1}}, turned),
-                  Joints::Constant(1, 0.5), 400);
+                  Joints::Constant(1, 0.5), 8000);
     }
   }
 }
@@ -91,7 +92,7 @@ TEST(Budgets, ASpentBudgetIsSaid) {
   for (const bool first : {false, true}) {
     request.first_contact = first;
     double last = 0;
-    for (const long long most : {0, 1, 10, 100, 300, 1000}) {
+    for (const long long most : {0, 1, 10, 100, 1000, 5000}) {
       request.max_queries = most;
       const MotionResult answer =
           checkMotion(robot.linkage, Joints::Zero(1), Joints::Constant(1, 0.5), request);
