@@ -261,16 +261,14 @@ bool MovingMeshes::planeParts(NodePair pair, const RelativeVelocities& v, double
     };
     if (a.isLeaf()) {
       highest(of_a, a_, a.primitiveId());
-      const bool below =
-          of_b.below(b_, pair.b, {-limit.start - least, -limit.end - least}, nodes_left);
-      visits_ += most - nodes_left;
-      return below;
+    } else {
+      highest(of_b, b_, b.primitiveId());
     }
-    highest(of_b, b_, b.primitiveId());
-    const bool below =
-        of_a.below(a_, pair.a, {-limit.start - least, -limit.end - least}, nodes_left);
+    const Heights::Height below = {-limit.start - least, -limit.end - least};
+    const bool part = a.isLeaf() ? of_b.below(b_, pair.b, below, nodes_left)
+                                 : of_a.below(a_, pair.a, below, nodes_left);
     visits_ += most - nodes_left;
-    return below;
+    return part;
   };
   const auto facesPart = [&](const Modeld& model, int triangle, const Eigen::Matrix3d& R_AM) {
     const auto t = cornersInDouble(model, triangle);

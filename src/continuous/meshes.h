@@ -39,8 +39,8 @@ class MovingMeshes final : public StepSearch {
   Order order_ = Order::kLarger;
   /// Length of a step by its cost, or the cost of what came to nothing, negative; 0 if not known.
   double worth_[kOrders] = {};
-  double time_ = 0;                       ///< of the step
-  Chords chords_;                         ///< of the step, until duration() after it
+  double time_ = 0;  ///< of the step
+  Chords chords_;    ///< of the step, until duration() after it
 };
 
 }  // namespace kios::continuous

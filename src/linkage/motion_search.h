@@ -19,8 +19,8 @@ struct Suspect {
   double roots = 0, enough = 0;
   double seen = -1;  ///< where a slab was looked for last
   // In tests of volumes: slabs between triangles may spend what queries did.
-  long long asked = 0;  ///< spent on queries
-  long long retry = 0;  ///< what is to be spent before slabs are tried again
+  long long asked = 0;     ///< spent on queries
+  long long retry = 0;     ///< what is to be spent before slabs are tried again
   double way = 0;          ///< how much of the path a query proves of late
   bool undecided = false;  ///< somewhere
   bool turns = true;       ///< turns were not tried yet
