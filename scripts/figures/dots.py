@@ -1,8 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the pictures of times show: the medians of tables, by the same specs."""
-from figures.builds import BUILDERS, BUILT
-from figures.motions import MBM
+"""What the pictures of times show: medians, a line each."""
 from figures.rows import OBBRSS
 from figures.tables import PRELOADED, SCENES
 
@@ -18,26 +16,12 @@ def medians(rows, lines, series):
     return [(label, dict(found(key))) for label, key in lines]
 
 
-def mbm(rows):
-    lines = [(label, lambda of, words=words: (*words, "plan", of)) for label, words in MBM]
-    return medians(rows, lines, [("k-IOS, proven", "kios"), ("k-IOS, samples", "sampled_kios"),
-                                 ("OBBRSS, samples", OBBRSS)])
-
-
 def scenes(rows):
     lines = [(label, lambda of, words=words: (f"{words[0]}/smooth/{words[1]}", "scene", of))
              for label, (words, _) in SCENES]
     return medians(rows, lines, [("SceneDistance", "kios"), ("k-IOS, each pair", "kios_pairs"),
                                  ("FCL's manager, OBBRSS", "fcl_manager"),
                                  ("OBBRSS, each pair", OBBRSS)])
-
-
-def building(rows):
-    lines = [(label, lambda of, words=words: (f"build/{words[0]}", *of))
-             for label, (words, _) in BUILT]
-    series = [("k-IOS, an equal model" if words[0] == "again" else label.partition(":")[0], words)
-              for label, (words, _) in BUILDERS]
-    return medians(rows, lines, series)
 
 
 def preload(rows):
@@ -48,7 +32,5 @@ def preload(rows):
 
 
 # Name of the picture, its function, what a time is of.
-PICTURES = (("plans", mbm, "median time of a plan"),
-            ("scenes", scenes, "median time of a frame, smooth motion"),
-            ("building", building, "median time of building a model"),
+PICTURES = (("scenes", scenes, "median time of a frame, smooth motion"),
             ("preload", preload, "median time of a query"))

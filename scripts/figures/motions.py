@@ -76,12 +76,6 @@ contacts called free   | wrong_verdicts fcl_obbrss
         of_robot(scenario, *column) for scenario in line))
 
 
-def mbm_cores(rows, robot):
-    """How many times as fast a robot's batches are on all cores as on one."""
-    row = f"mbm/{robot}/batches", "collide"
-    return number(rows.find(*row, "kios_one_thread")["median_us"] / rows.find(*row)["median_us"])
-
-
 def mbm_contact(rows, robot):
     """How many problems of a robot begin or end in contact."""
     return number(rows.find(f"mbm/{robot}", "plan")["in_contact"])

@@ -5,7 +5,7 @@
 A block `<!-- report:NAME -->` is the table NAME(rows) below; of several words, as
 `<!-- report:run falling -->`, its function gets the others."""
 from figures.builds import building, memory, refits  # noqa: F401
-from figures.motions import mbm, mbm_contact, mbm_cores, mbm_questions, missed, motions  # noqa: F401
+from figures.motions import mbm, mbm_contact, mbm_questions, missed, motions  # noqa: F401
 from figures.names import default, names  # noqa: F401
 from figures.paper import fits, table_i  # noqa: F401
 from figures.robots import links  # noqa: F401
@@ -77,29 +77,6 @@ def readme(rows, count=None):
     out = [[label, time(ours), time(other), name, number(other / ours)]
            for label, ours, other, name in list(against(rows))[:count and int(count)]]
     return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
-
-
-# docs/settings.md
-
-PAIRS = ("falling", "spinning", "generated", "generated_spinning", "robots")
-
-
-def errors(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} distance" for pair in PAIRS))
-    columns = spec("\n".join(["exact | rel_err=0 abs_err=0",
-                              *(f"rel_err {e} | rel_err={e} abs_err=0"
-                                for e in (0.01, 0.03, 0.1, 0.3, 0.5)),
-                              *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))]))
-    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
-        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
-
-
-def thresholds(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} threshold" for pair in PAIRS))
-    columns = spec("\n".join(f"{t} | threshold={t}"
-                             for t in (0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10)))
-    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
-        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
 
 
 # docs/how-it-works.md
