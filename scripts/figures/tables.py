@@ -100,38 +100,6 @@ touching, contact   | touching collide
 
 # docs/scene.md
 
-SCENES = [(f"{name}: {label}", ([f"robots/{robot}", query], {}))
-          for name, robot in (("two UR5s", "ur5"), ("two humanoids", "humanoids"))
-          for label, query in (("closest pair", "closest"), ("within 0.1, exact", "within"),
-                               ("within 0.1, which", "verdicts"),
-                               ("every clearance", "clearances"))]
-
-
-def scenes(rows):
-    """Smooth motion / random poses."""
-    columns = spec("""
-SceneDistance | us kios
-pairs         | us kios_pairs
-OBBRSS        | us fcl_obbrss
-bounded       | us fcl_obbrss_bounded
-manager       | us fcl_manager
-OBBRSS / ours | ratio
-searches      | searches
-""")
-
-    def entry(scenario, column):
-        if column[0] == "us":
-            return rows.us(scenario, "scene", column[1])
-        if column[0] == "ratio":
-            return rows.ratio(scenario, "scene")
-        return rows.find(scenario, "scene")["narrow_queries"]
-
-    def cell(line, column, _):
-        return " / ".join(number(entry(f"{line[0]}/{motion}/{line[1]}", column))
-                          for motion in ("smooth", "random"))
-    return grid("us a frame: smooth / random", SCENES, columns, cell)
-
-
 def crowds(rows):
     lines = spec("""
 crowd: closest pair   | scene/crowd/closest
@@ -338,41 +306,6 @@ def block(rows, name):
     if not callable(make) or word in ("grid", "number", "spec", "table", "time", "block"):
         raise LookupError(f"scripts/figures/tables.py has no block '{name}'")
     return make(rows, *others)
-
-
-# docs/preload.md
-
-PRELOADED = spec("""
-distance, 0.02 apart, 1,000 triangles          | distance_near/1000 distance
-5,000                                          | distance_near/5000 distance
-100,000                                        | distance_near/100000 distance
-1 apart, 100,000                               | distance_far/100000 distance
-nearer than 0.01? 0.02 apart, 5,000            | distance_near_bounded/5000 distance
-the same, 100,000                              | distance_near_bounded/100000 distance
-distance to a box, 5,000                       | distance_box_near/5000 distance
-distance to an octree, 5,000                   | distance_octree_near/5000 distance
-do they touch? far apart, 5,000                | collide_reject/5000 collide
-0.02 apart, 5,000                              | collide_near/5000 collide
-0.02 apart, 100,000                            | collide_near/100000 collide
-just touching, 5,000                           | collide_touch/5000 collide
-deep in each other, 5,000                      | collide_deep/5000 collide
-deep in each other, 100,000                    | collide_deep/100000 collide
-100 contacts, 5,000                            | collide_deep_contacts/5000 collide
-a box, 0.02 apart, 20,000                      | collide_box_near/20000 collide
-a sphere, 0.02 apart, 5,000                    | collide_sphere_near/5000 collide
-DART: distance of two robots of 7 links        | dart_distance distance
-""")
-
-
-def preload(rows):
-    columns = spec("FCL | fcl_obbrss\npreloaded | kios\ntrust | kios_trust")
-
-    def cell(line, column, _):
-        key = f"preload/{line[0]}", line[1], column[0]
-        us = rows.us(*key)
-        return time(us) if column[0] == OBBRSS else (
-            f"{time(us)} ({number(rows.us(*key[:2], OBBRSS) / us)})")
-    return grid("time (FCL's / preloaded)", PRELOADED, columns, cell)
 
 
 # docs/python.md
