@@ -32,7 +32,7 @@ def cell(rows, scenario, query, **settings):
         return number(ours)
 
 
-def places(rows, query, links="*"):
+def places(rows, query):
     """Scenarios of world with rows of the query, as lines of a table."""
     found = dict.fromkeys(row["scenario"] for row in rows.rows
                           if row["scenario"].startswith("world/") and row["query"] == query)
@@ -54,9 +54,9 @@ all contacts       | contacts /parts
 
 
 def world_shapes(rows):
-    meshes = dict(places(rows, "closer_than"))
-    names = dict.fromkeys(label.rpartition(", ")[0] for label, _ in places(rows, "distance")
-                          if label not in meshes)
+    def kinds(query):
+        return [label.rpartition(", ")[0] for label, _ in places(rows, query)]
+    names = dict.fromkeys(kind for kind in kinds("distance") if kind not in kinds("closer_than"))
     columns = spec("""
 distance, links      | distance ur5
 parts                | distance parts
