@@ -79,21 +79,3 @@ contacts called free   | wrong_verdicts fcl_obbrss
 def mbm_contact(rows, robot):
     """How many problems of a robot begin or end in contact."""
     return number(rows.find(f"mbm/{robot}", "plan")["in_contact"])
-
-
-def mbm_questions(rows):
-    """What a question costs, by robot."""
-    kinds = [("a configuration, in contact or not", "configurations collide"),
-             ("the same, 10,000 at once on all cores, by the clock", "batches collide"),
-             ("clearance and its gradient, free", "free gradient")]
-    columns = [(f"{label}{of}", ([robot, bv], {}))
-               for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
-               for bv, of in (("kios", ""), (OBBRSS, ", OBBRSS"))]
-
-    def cell(line, column, _):
-        own = f"mbm/{column[0]}/{line[0]}", line[1]
-        us = rows.find(*own, column[1])["median_us"]
-        return time(us) + ("" if column[1] == "kios" else
-                           f" ({number(us / rows.find(*own)['median_us'])})")
-    lines = [(label, (words.split(), {})) for label, words in kinds]
-    return grid("question", lines, columns, cell)
