@@ -74,8 +74,3 @@ contacts called free   | wrong_verdicts fcl_obbrss
              for (panda, words), (_, others) in zip(MBM[:kinds], MBM[kinds:])]
     return grid("problems, Panda / UR5", lines, columns, lambda line, column, _: " / ".join(
         of_robot(scenario, *column) for scenario in line))
-
-
-def mbm_contact(rows, robot):
-    """How many problems of a robot begin or end in contact."""
-    return number(rows.find(f"mbm/{robot}", "plan")["in_contact"])
