@@ -29,19 +29,6 @@ queries                 | narrow_queries fcl_obbrss
     return grid("path", spec("\n".join(lines)), columns, cell)
 
 
-def missed(rows):
-    """How many contacts each way misses, of paths at random."""
-    found = [f"motions/ur5_{scene}/missed/{length}" for scene in ("cell", "pair")
-             for length in ("0.05", "0.2", "0.8")]
-
-    def total(key, bv):
-        return sum(rows.find(scenario, "motion", bv)[key] for scenario in found)
-    return (f"the proof missed contacts on {total('wrong_verdicts', 'kios')} of "
-            f"{total('frames', 'kios'):,} paths at random, samples over k-IOS on "
-            f"{total('wrong_verdicts', 'sampled_kios')}, samples over OBBRSS on "
-            f"{total('wrong_verdicts', OBBRSS)}")
-
-
 MBM = [(f"{label}, {kind.replace('_', ' ')}" if kind else label,
         [f"mbm/{kind}_{robot}" if kind else f"mbm/{robot}"])
        for robot, label in (("panda", "Panda"), ("ur5", "UR5"))

@@ -5,7 +5,7 @@
 A block `<!-- report:NAME -->` is the table NAME(rows) below; of several words, as
 `<!-- report:run falling -->`, its function gets the others."""
 from figures.builds import building, memory, refits  # noqa: F401
-from figures.motions import mbm, missed, motions  # noqa: F401
+from figures.motions import mbm, motions  # noqa: F401
 from figures.names import default, names  # noqa: F401
 from figures.paper import fits, table_i  # noqa: F401
 from figures.robots import links  # noqa: F401
