@@ -8,10 +8,9 @@ from figures.builds import building, memory, refits  # noqa: F401
 from figures.motions import mbm, motions  # noqa: F401
 from figures.names import default, names  # noqa: F401
 from figures.paper import fits, table_i  # noqa: F401
-from figures.robots import links  # noqa: F401
 from figures.rows import OBBRSS, OURS, grid, number, span, spec, table, time
 from figures.stability import stability, stress, worst_triangles, wrong_zeros  # noqa: F401
-from figures.world import coal, crowd_of_small, world, world_shapes  # noqa: F401
+from figures.world import coal, world, world_shapes  # noqa: F401
 
 
 # Phrases.
@@ -77,25 +76,6 @@ def readme(rows, count=None):
     out = [[label, time(ours), time(other), name, number(other / ours)]
            for label, ours, other, name in list(against(rows))[:count and int(count)]]
     return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
-
-
-# docs/how-it-works.md
-
-def scaling(rows):
-    lines = spec("""
-gap 0.1, distance   | gap_0.1 distance
-gap 0.1, contact    | gap_0.1 collide
-gap 0.001, distance | gap_1e-3 distance
-gap 0.001, contact  | gap_1e-3 collide
-touching, distance  | touching distance
-touching, contact   | touching collide
-""")
-    columns = spec("1k triangles | 1000\n5k | 5000\n20k | 20000\n80k | 80000")
-
-    def cell(line, column, _):
-        key = f"scaling/{column[0]}/{line[0]}", line[1]
-        return f"{number(rows.us(*key))} ({number(rows.ratio(*key))})"
-    return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
 
 
 # docs/scene.md
@@ -270,7 +250,6 @@ a ball, FCL's OBBRSS     | ball fcl_obbrss
 winding number to 0.1    | winding_0.1 kios
 to 0.01                  | winding_0.01 kios
 to 0.001                 | winding_0.001 kios
-to 1e-4                  | winding_0.0001 kios
 to 1e-6                  | winding_1e-06 kios
 """)
 
@@ -318,7 +297,8 @@ def python(rows):
         other, ratio = row.get("other_us"), row.get("ratio")
         return [row["what"], time(row["median_us"]), time(other) if other else "",
                 number(ratio) if ratio else ""]
-    found = [row for row in rows.rows if row["scenario"].startswith("python/")]
+    found = [row for row in rows.rows if row["scenario"].startswith("python/")
+             and not row["what"].startswith("the same of")]
     if not found:
         raise LookupError("no row of python")
     return table(["what", "fcl_kios", "beside it", "ratio"], [cells(row) for row in found])

@@ -70,20 +70,6 @@ parts                | contacts parts
                     rows, f"world/{line[0]}/{column[1]}", column[0], **settings))
 
 
-def crowd_of_small(rows):
-    lines = spec("""
-all pairs, 100 triangles | crowds/100 collide
-all pairs, 900 triangles | crowds/900 collide
-least distance, 900      | crowds/900 distance
-""")
-
-    def entry(line, column, _):
-        ours, theirs = (rows.find(line[0] + column[0], line[1], bv)["median_us"]
-                        for bv in (OURS, OBBRSS))
-        return f"{time(ours)} ({number(theirs / ours)})"
-    return grid("2,000 bodies (OBBRSS / k-IOS)", lines, spec("cold | /cold\nagain | /again"), entry)
-
-
 def coal(rows):
     """Ours / Coal's / FCL's OBBRSS, and how Coal's answers stand against the oracle."""
     lines = spec("""
