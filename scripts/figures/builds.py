@@ -8,8 +8,6 @@ BUILDERS = spec("""
 k-IOS: `endModel`            | build kios
 the same again               | again kios
 OBBRSS: `endModel`           | build fcl_obbrss
-FCL's kIOS                   | build fcl_kios_builtin
-AABB                         | build fcl_aabb
 """)
 BUILT = spec("""
 1k triangles          | welded/1000
@@ -31,7 +29,6 @@ def memory(rows):
     lines = spec("""
 k-IOS                         | build kios
 OBBRSS                        | build fcl_obbrss
-AABB                          | build fcl_aabb
 """)
     columns = spec("""
 80k triangles         | welded/80000
