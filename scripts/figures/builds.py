@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of building and refitting models."""
-from figures.rows import OBBRSS, grid, number, spec, table, time
+from figures.rows import OBBRSS, grid, number, spec, time
 
 
 BUILDERS = spec("""

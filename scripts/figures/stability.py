@@ -61,8 +61,9 @@ FCL                  | collide wrong_verdicts fcl
         return f"{max(values):.1e}" if key == "max_abs_error" else str(sum(values))
     groups = [[name for name in classes if family[name] == f] for f in FAMILIES]
     # Those in which FCL's error, too, is below the bound of ours are one row.
-    small = [names for names in groups if all(
-        rows.find(name, "distance", "fcl").get("max_abs_error", 1) <= 16 * 2**-52 for name in names)]
+    def is_small(name):
+        return rows.find(name, "distance", "fcl").get("max_abs_error", 1) <= 16 * 2**-52
+    small = [names for names in groups if all(map(is_small, names))]
     lines = [(label(names), (names, {})) for names in groups if names and names not in small]
     small = sum(small, [])
     return grid("class", [*lines, (f"the other {len(small)} classes", (small, {}))], columns, cell)
@@ -79,7 +80,7 @@ pairs of parts    | clashes
 
 
 def stress(rows):
-    """Answers that are wrong, and those that are left open, with the classes of solids that are so."""
+    """How many answers are wrong, how many left open, and in which classes of solids."""
     names = rows.scenarios("stress/*")
     phrases = []
     for label, (query, _) in STRESS:

@@ -166,7 +166,7 @@ all contacts      | contacts
 
 def rays(rows):
     lines = [(", ".join(scenario.split("/")[1:]), ([scenario], {}))
-             for pattern in ("rays/80000/*", "rays/strips/*") for scenario in rows.scenarios(pattern)]
+             for kind in ("80000", "strips") for scenario in rows.scenarios(f"rays/{kind}/*")]
     columns = spec("""
 k-IOS          | us kios
 Embree         | us embree
@@ -202,11 +202,12 @@ def solids(rows):
 
     def line(name, of):
         found = [rows.find(scenario, "penetration") for scenario in of]
-        ratio = [row["median_us"] / rows.us(scenario, "collide") for row, scenario in zip(found, of)]
+        ratios = [row["median_us"] / rows.us(scenario, "collide")
+                  for row, scenario in zip(found, of)]
         off = [rows.find(scenario, "contacts", OBBRSS)["mean_rel_error"] for scenario in of]
         return [name + (f", {len(of)} links" if len(of) > 1 else ""),
                 sum(row["frames"] for row in found), span(row["median_us"] for row in found),
-                span(map(round, ratio)), span(row["bracket_ratio"] for row in found),
+                span(map(round, ratios)), span(row["bracket_ratio"] for row in found),
                 number(max(row.get("max_bracket_ratio", 0) for row in found)),
                 sum(row["wrong_verdicts"] for row in found),
                 span(round(100 * error) for error in off) + " %"]

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of docs/world.md."""
-from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
+from figures.rows import OBBRSS, OURS, grid, number, spec, table
 
 FCL = (OBBRSS, "fcl_rss")
 QUERIES = """
