@@ -1,6 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """What the pictures of times show: medians, a line each."""
+from figures.builds import BUILDERS, BUILT
+from figures.motions import MBM
 from figures.rows import OBBRSS, spec
 
 
@@ -13,6 +15,20 @@ def medians(rows, lines, series):
             except LookupError:
                 pass
     return [(label, dict(found(key))) for label, key in lines]
+
+
+def mbm(rows):
+    lines = [(label, lambda of, words=words: (*words, "plan", of)) for label, words in MBM]
+    return medians(rows, lines, [("k-IOS, proven", "kios"), ("k-IOS, samples", "sampled_kios"),
+                                 ("OBBRSS, samples", OBBRSS)])
+
+
+def building(rows):
+    lines = [(label, lambda of, words=words: (f"build/{words[0]}", *of))
+             for label, (words, _) in BUILT]
+    series = [("k-IOS, an equal model" if words[0] == "again" else label.partition(":")[0], words)
+              for label, (words, _) in BUILDERS]
+    return medians(rows, lines, series)
 
 
 SCENES = [(f"{name}: {label}", ([f"robots/{robot}", query], {}))
@@ -60,5 +76,7 @@ def preload(rows):
 
 
 # Name of the picture, its function, what a time is of.
-PICTURES = (("scenes", scenes, "median time of a frame, smooth motion"),
+PICTURES = (("plans", mbm, "median time of a plan"),
+            ("scenes", scenes, "median time of a frame, smooth motion"),
+            ("building", building, "median time of building a model"),
             ("preload", preload, "median time of a query"))

@@ -30,6 +30,7 @@ RUNS = {  # run: its file in docs/measured, and what kios_bench is asked
     "depth": ("shapes", "solids/depth --repeats 5"),
     "points": ("shapes", "solids/points --repeats 5"),
     "clashes": ("world", "clashes/1000 clashes/10000 --repeats 5"),
+    "pieces": ("world", "clashes/pieces --repeats 3"),
     "continuous": ("motions", "motions/continuous --frames 40 --repeats 5"),
     "moved": ("motions", "motions/moved --repeats 5"),
     "motions": ("motions", "motions/paths --frames 200 --repeats 3 --oracle 1000"),
