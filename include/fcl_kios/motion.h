@@ -51,7 +51,7 @@ double firstContact(const fcl::CollisionGeometryd& a, const fcl::Transform3d& X_
                     fcl::ContinuousCollisionResultd& result, ContinuousCounts* counts = nullptr);
 
 // How near do bodies come while they move? A bracket of the least distance, proven and not sampled
-// (docs/motions.md). Lengths are in the models' units.
+// (docs/range.md). Lengths are in the models' units.
 
 /// Options of leastClearance(). The search ends once upper - lower <= max(abs_err, rel_err *
 /// upper), or nothing comes nearer than the ceiling.

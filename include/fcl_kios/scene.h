@@ -235,7 +235,7 @@ struct ClashRequest {
   long long max_pieces = 100000;
 };
 
-/// How two parts stand to each other: the first of these that holds.
+/// How two parts stand to each other. A duplicate, or one inside the other, is no overlap.
 enum class ClashStatus {
   kOverlap,    ///< deeper than `touch`; also surfaces that meet, and what isn't decided
   kInside,     ///< one lies in the other, their surfaces apart

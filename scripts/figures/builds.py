@@ -1,15 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of building and refitting models."""
-from figures.rows import OBBRSS, grid, number, spec, table, time
+from figures.rows import OBBRSS, grid, number, spec, time
 
 
 BUILDERS = spec("""
 k-IOS: `endModel`            | build kios
 the same again               | again kios
 OBBRSS: `endModel`           | build fcl_obbrss
-FCL's kIOS                   | build fcl_kios_builtin
-AABB                         | build fcl_aabb
 """)
 BUILT = spec("""
 1k triangles          | welded/1000
@@ -31,7 +29,6 @@ def memory(rows):
     lines = spec("""
 k-IOS                         | build kios
 OBBRSS                        | build fcl_obbrss
-AABB                          | build fcl_aabb
 """)
     columns = spec("""
 80k triangles         | welded/80000

@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the pictures of times show: the medians of tables, by the same specs."""
+"""What the pictures of times show: medians, a line each."""
 from figures.builds import BUILDERS, BUILT
 from figures.motions import MBM
-from figures.rows import OBBRSS
-from figures.tables import PRELOADED, SCENES
+from figures.rows import OBBRSS, spec
 
 
 def medians(rows, lines, series):
@@ -24,6 +23,21 @@ def mbm(rows):
                                  ("OBBRSS, samples", OBBRSS)])
 
 
+def building(rows):
+    lines = [(label, lambda of, words=words: (f"build/{words[0]}", *of))
+             for label, (words, _) in BUILT]
+    series = [("k-IOS, an equal model" if words[0] == "again" else label.partition(":")[0], words)
+              for label, (words, _) in BUILDERS]
+    return medians(rows, lines, series)
+
+
+SCENES = [(f"{name}: {label}", ([f"robots/{robot}", query], {}))
+          for name, robot in (("two UR5s", "ur5"), ("two humanoids", "humanoids"))
+          for label, query in (("closest pair", "closest"), ("within 0.1, exact", "within"),
+                               ("within 0.1, which", "verdicts"),
+                               ("every clearance", "clearances"))]
+
+
 def scenes(rows):
     lines = [(label, lambda of, words=words: (f"{words[0]}/smooth/{words[1]}", "scene", of))
              for label, (words, _) in SCENES]
@@ -32,12 +46,26 @@ def scenes(rows):
                                  ("OBBRSS, each pair", OBBRSS)])
 
 
-def building(rows):
-    lines = [(label, lambda of, words=words: (f"build/{words[0]}", *of))
-             for label, (words, _) in BUILT]
-    series = [("k-IOS, an equal model" if words[0] == "again" else label.partition(":")[0], words)
-              for label, (words, _) in BUILDERS]
-    return medians(rows, lines, series)
+PRELOADED = spec("""
+distance, 0.02 apart, 1,000 triangles          | distance_near/1000 distance
+5,000                                          | distance_near/5000 distance
+100,000                                        | distance_near/100000 distance
+1 apart, 100,000                               | distance_far/100000 distance
+nearer than 0.01? 0.02 apart, 5,000            | distance_near_bounded/5000 distance
+the same, 100,000                              | distance_near_bounded/100000 distance
+distance to a box, 5,000                       | distance_box_near/5000 distance
+distance to an octree, 5,000                   | distance_octree_near/5000 distance
+do they touch? far apart, 5,000                | collide_reject/5000 collide
+0.02 apart, 5,000                              | collide_near/5000 collide
+0.02 apart, 100,000                            | collide_near/100000 collide
+just touching, 5,000                           | collide_touch/5000 collide
+deep in each other, 5,000                      | collide_deep/5000 collide
+deep in each other, 100,000                    | collide_deep/100000 collide
+100 contacts, 5,000                            | collide_deep_contacts/5000 collide
+a box, 0.02 apart, 20,000                      | collide_box_near/20000 collide
+a sphere, 0.02 apart, 5,000                    | collide_sphere_near/5000 collide
+DART: distance of two robots of 7 links        | dart_distance distance
+""")
 
 
 def preload(rows):

@@ -20,7 +20,6 @@ RUNS = {  # run: its file in docs/measured, and what kios_bench is asked
     "robots": ("robots", f"robots --frames 60 --repeats 3 --oracle 100 {PAIR}"),
     "world": ("world", "world --repeats 3 --oracle 20 --bv kios,fcl_rss,fcl_obbrss"),
     "coal": ("world", "world/coal --repeats 3 --oracle 20"),
-    "crowds": ("world", "scene/crowds --repeats 3 --oracle 100"),
     "scene": ("robots", "scene/bodies --frames 100 --repeats 3"),
     "build": ("build", "build/models --repeats 5"),
     "refit": ("build", f"build/refit --repeats 3 {PAIR}"),

@@ -29,19 +29,6 @@ queries                 | narrow_queries fcl_obbrss
     return grid("path", spec("\n".join(lines)), columns, cell)
 
 
-def missed(rows):
-    """How many contacts each way misses, of paths at random."""
-    found = [f"motions/ur5_{scene}/missed/{length}" for scene in ("cell", "pair")
-             for length in ("0.05", "0.2", "0.8")]
-
-    def total(key, bv):
-        return sum(rows.find(scenario, "motion", bv)[key] for scenario in found)
-    return (f"the proof missed contacts on {total('wrong_verdicts', 'kios')} of "
-            f"{total('frames', 'kios'):,} paths at random, samples over k-IOS on "
-            f"{total('wrong_verdicts', 'sampled_kios')}, samples over OBBRSS on "
-            f"{total('wrong_verdicts', OBBRSS)}")
-
-
 MBM = [(f"{label}, {kind.replace('_', ' ')}" if kind else label,
         [f"mbm/{kind}_{robot}" if kind else f"mbm/{robot}"])
        for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
@@ -74,32 +61,3 @@ contacts called free   | wrong_verdicts fcl_obbrss
              for (panda, words), (_, others) in zip(MBM[:kinds], MBM[kinds:])]
     return grid("problems, Panda / UR5", lines, columns, lambda line, column, _: " / ".join(
         of_robot(scenario, *column) for scenario in line))
-
-
-def mbm_cores(rows, robot):
-    """How many times as fast a robot's batches are on all cores as on one."""
-    row = f"mbm/{robot}/batches", "collide"
-    return number(rows.find(*row, "kios_one_thread")["median_us"] / rows.find(*row)["median_us"])
-
-
-def mbm_contact(rows, robot):
-    """How many problems of a robot begin or end in contact."""
-    return number(rows.find(f"mbm/{robot}", "plan")["in_contact"])
-
-
-def mbm_questions(rows):
-    """What a question costs, by robot."""
-    kinds = [("a configuration, in contact or not", "configurations collide"),
-             ("the same, 10,000 at once on all cores, by the clock", "batches collide"),
-             ("clearance and its gradient, free", "free gradient")]
-    columns = [(f"{label}{of}", ([robot, bv], {}))
-               for robot, label in (("panda", "Panda"), ("ur5", "UR5"))
-               for bv, of in (("kios", ""), (OBBRSS, ", OBBRSS"))]
-
-    def cell(line, column, _):
-        own = f"mbm/{column[0]}/{line[0]}", line[1]
-        us = rows.find(*own, column[1])["median_us"]
-        return time(us) + ("" if column[1] == "kios" else
-                           f" ({number(us / rows.find(*own)['median_us'])})")
-    lines = [(label, (words.split(), {})) for label, words in kinds]
-    return grid("question", lines, columns, cell)

@@ -5,8 +5,8 @@ from figures.rows import OURS, grid, number, spec
 
 
 def fits(rows):
-    volumes = dict.fromkeys(row["bv"] for row in rows.rows
-                            if row["scenario"] == "fits/falling")
+    volumes = dict.fromkeys(row["bv"] for row in rows.rows if row["scenario"] == "fits/falling"
+                            and not row["bv"].endswith(("_shared", "_k5")))
     columns = spec("""
 tests, falling / spinning | distance bv_tests falling spinning
 us                        | distance median_us falling spinning

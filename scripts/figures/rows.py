@@ -52,6 +52,12 @@ def number(value):
     return f"{value:.3g}" if value >= 1 else f"{value:.2g}"
 
 
+def span(values):
+    """The least and the largest, or one where they are written alike."""
+    texts = list(dict.fromkeys(map(number, sorted(values))))
+    return f"{texts[0]} to {texts[-1]}" if len(texts) > 1 else texts[0]
+
+
 def time(us):
     return number(us / 1000) + " ms" if us >= 1000 else number(us) + " us"
 

@@ -5,13 +5,12 @@
 A block `<!-- report:NAME -->` is the table NAME(rows) below; of several words, as
 `<!-- report:run falling -->`, its function gets the others."""
 from figures.builds import building, memory, refits  # noqa: F401
-from figures.motions import mbm, mbm_contact, mbm_cores, mbm_questions, missed, motions  # noqa: F401
+from figures.motions import mbm, motions  # noqa: F401
 from figures.names import default, names  # noqa: F401
 from figures.paper import fits, table_i  # noqa: F401
-from figures.robots import links  # noqa: F401
-from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
+from figures.rows import OBBRSS, OURS, grid, number, span, spec, table, time
 from figures.stability import stability, stress, worst_triangles, wrong_zeros  # noqa: F401
-from figures.world import coal, crowd_of_small, world, world_shapes  # noqa: F401
+from figures.world import coal, world, world_shapes  # noqa: F401
 
 
 # Phrases.
@@ -79,81 +78,7 @@ def readme(rows, count=None):
     return table(["question", "k-IOS", "the other", "", "other / k-IOS"], out)
 
 
-# docs/settings.md
-
-PAIRS = ("falling", "spinning", "generated", "generated_spinning", "robots")
-
-
-def errors(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} distance" for pair in PAIRS))
-    columns = spec("\n".join(["exact | rel_err=0 abs_err=0",
-                              *(f"rel_err {e} | rel_err={e} abs_err=0"
-                                for e in (0.01, 0.03, 0.1, 0.3, 0.5)),
-                              *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))]))
-    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
-        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
-
-
-def thresholds(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} threshold" for pair in PAIRS))
-    columns = spec("\n".join(f"{t} | threshold={t}"
-                             for t in (0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10)))
-    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
-        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
-
-
-# docs/how-it-works.md
-
-def scaling(rows):
-    lines = spec("""
-gap 0.1, distance   | gap_0.1 distance
-gap 0.1, contact    | gap_0.1 collide
-gap 0.001, distance | gap_1e-3 distance
-gap 0.001, contact  | gap_1e-3 collide
-touching, distance  | touching distance
-touching, contact   | touching collide
-""")
-    columns = spec("1k triangles | 1000\n5k | 5000\n20k | 20000\n80k | 80000")
-
-    def cell(line, column, _):
-        key = f"scaling/{column[0]}/{line[0]}", line[1]
-        return f"{number(rows.us(*key))} ({number(rows.ratio(*key))})"
-    return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
-
-
 # docs/scene.md
-
-SCENES = [(f"{name}: {label}", ([f"robots/{robot}", query], {}))
-          for name, robot in (("two UR5s", "ur5"), ("two humanoids", "humanoids"))
-          for label, query in (("closest pair", "closest"), ("within 0.1, exact", "within"),
-                               ("within 0.1, which", "verdicts"),
-                               ("every clearance", "clearances"))]
-
-
-def scenes(rows):
-    """Smooth motion / random poses."""
-    columns = spec("""
-SceneDistance | us kios
-pairs         | us kios_pairs
-OBBRSS        | us fcl_obbrss
-bounded       | us fcl_obbrss_bounded
-manager       | us fcl_manager
-OBBRSS / ours | ratio
-searches      | searches
-""")
-
-    def entry(scenario, column):
-        if column[0] == "us":
-            return rows.us(scenario, "scene", column[1])
-        if column[0] == "ratio":
-            return rows.ratio(scenario, "scene")
-        return rows.find(scenario, "scene")["narrow_queries"]
-
-    def cell(line, column, _):
-        return " / ".join(number(entry(f"{line[0]}/{motion}/{line[1]}", column))
-                          for motion in ("smooth", "random"))
-    return grid("us a frame: smooth / random", SCENES, columns, cell)
-
 
 def crowds(rows):
     lines = spec("""
@@ -241,7 +166,7 @@ all contacts      | contacts
 
 def rays(rows):
     lines = [(", ".join(scenario.split("/")[1:]), ([scenario], {}))
-             for scenario in rows.scenarios("rays/*")]
+             for kind in ("80000", "strips") for scenario in rows.scenarios(f"rays/{kind}/*")]
     columns = spec("""
 k-IOS          | us kios
 Embree         | us embree
@@ -263,28 +188,32 @@ Embree differs | wrong embree
 
 def containment(rows):
     """Time of a point, and the points that were judged wrongly."""
-    lines = []
-    for scenario in rows.scenarios("solids/contains/*"):
-        row = rows.find(scenario, "contains")
-        lines.append([scenario.split("/")[2], f"{row['triangles']:,}", number(row["median_us"]),
-                      row["wrong_verdicts"]])
-    return table(["solid", "triangles", "us a point", "wrong"], lines)
+    found = [rows.find(scenario, "contains") for scenario in rows.scenarios("solids/contains/*")]
+    return (f"{span(row['median_us'] for row in found)} us a point, and is wrong for "
+            f"{sum(row['wrong_verdicts'] for row in found)}")
 
 
 def solids(rows):
-    lines = []
+    scenes = {}
     for scenario in rows.scenarios("solids/*"):
-        if scenario.split("/")[1] in ("contains", "depth", "points"):
-            continue
-        row = rows.find(scenario, "penetration")
-        us, collide = row["median_us"], rows.us(scenario, "collide")
-        off = rows.find(scenario, "contacts", OBBRSS)["mean_rel_error"]
-        lines.append([scenario[7:].replace("_", " ").replace("/", ", link "), row["frames"],
-                      number(us), f"{us / collide:.0f}", f"{row['bracket_ratio']:.3f}",
-                      number(row.get("max_bracket_ratio")), row["wrong_verdicts"],
-                      f"{100 * off:.0f} %"])
+        scene = scenario.split("/")[1]
+        if scene not in ("contains", "depth", "points"):
+            scenes.setdefault(scene.replace("_", " "), []).append(scenario)
+
+    def line(name, of):
+        found = [rows.find(scenario, "penetration") for scenario in of]
+        ratios = [row["median_us"] / rows.us(scenario, "collide")
+                  for row, scenario in zip(found, of)]
+        off = [rows.find(scenario, "contacts", OBBRSS)["mean_rel_error"] for scenario in of]
+        return [name + (f", {len(of)} links" if len(of) > 1 else ""),
+                sum(row["frames"] for row in found), span(row["median_us"] for row in found),
+                span(map(round, ratios)), span(row["bracket_ratio"] for row in found),
+                number(max(row.get("max_bracket_ratio", 0) for row in found)),
+                sum(row["wrong_verdicts"] for row in found),
+                span(round(100 * error) for error in off) + " %"]
     return table(["scene", "frames", "us", "in collide queries", "upper / lower, median",
-                  "largest", "wrong", "FCL's deepest contact off by"], lines)
+                  "largest", "wrong", "FCL's deepest contact off by"],
+                 [line(*scene) for scene in scenes.items()])
 
 
 def depths(rows):
@@ -305,10 +234,8 @@ def depths(rows):
 def moved(rows):
     def us(query, bv=OURS):
         return time(rows.us("motions/moved", query, bv))
-    row, anew = rows.find("motions/moved", "moved"), rows.find("motions/moved", "moved", "kios_anew")
-    return table(["spheres", "move one", "move one, and contact", "make all anew, and contact", "wrong"],
-                 [[f"{row['bodies']:,}", us("move"), us("moved"), us("moved", "kios_anew"),
-                   f"{row['wrong_verdicts']} of {anew['frames']}"]])
+    return (f"{us('move')}, and the next question whether the arm touches anything comes after "
+            f"{us('moved')} in all, where making all anew takes {us('moved', 'kios_anew')}")
 
 
 def points(rows):
@@ -321,10 +248,8 @@ signed distance          | signed kios
 nearest point            | nearest kios
 a ball, `fcl::distance`  | ball kios
 a ball, FCL's OBBRSS     | ball fcl_obbrss
-winding number to 0.1    | winding_0.1 kios
-to 0.01                  | winding_0.01 kios
+winding number to 0.01   | winding_0.01 kios
 to 0.001                 | winding_0.001 kios
-to 1e-4                  | winding_0.0001 kios
 to 1e-6                  | winding_1e-06 kios
 """)
 
@@ -358,44 +283,10 @@ def block(rows, name):
     """The text of a block; LookupError if there is no such block, or no row for it."""
     word, *others = name.split()
     make = globals().get(word)
-    if not callable(make) or word in ("grid", "number", "spec", "table", "time", "block"):
+    if not callable(make) or word in ("grid", "number", "span", "spec", "table", "time",
+                                         "block"):
         raise LookupError(f"scripts/figures/tables.py has no block '{name}'")
     return make(rows, *others)
-
-
-# docs/preload.md
-
-PRELOADED = spec("""
-distance, 0.02 apart, 1,000 triangles          | distance_near/1000 distance
-5,000                                          | distance_near/5000 distance
-100,000                                        | distance_near/100000 distance
-1 apart, 100,000                               | distance_far/100000 distance
-nearer than 0.01? 0.02 apart, 5,000            | distance_near_bounded/5000 distance
-the same, 100,000                              | distance_near_bounded/100000 distance
-distance to a box, 5,000                       | distance_box_near/5000 distance
-distance to an octree, 5,000                   | distance_octree_near/5000 distance
-do they touch? far apart, 5,000                | collide_reject/5000 collide
-0.02 apart, 5,000                              | collide_near/5000 collide
-0.02 apart, 100,000                            | collide_near/100000 collide
-just touching, 5,000                           | collide_touch/5000 collide
-deep in each other, 5,000                      | collide_deep/5000 collide
-deep in each other, 100,000                    | collide_deep/100000 collide
-100 contacts, 5,000                            | collide_deep_contacts/5000 collide
-a box, 0.02 apart, 20,000                      | collide_box_near/20000 collide
-a sphere, 0.02 apart, 5,000                    | collide_sphere_near/5000 collide
-DART: distance of two robots of 7 links        | dart_distance distance
-""")
-
-
-def preload(rows):
-    columns = spec("FCL | fcl_obbrss\npreloaded | kios\ntrust | kios_trust")
-
-    def cell(line, column, _):
-        key = f"preload/{line[0]}", line[1], column[0]
-        us = rows.us(*key)
-        return time(us) if column[0] == OBBRSS else (
-            f"{time(us)} ({number(rows.us(*key[:2], OBBRSS) / us)})")
-    return grid("time (FCL's / preloaded)", PRELOADED, columns, cell)
 
 
 # docs/python.md
@@ -406,7 +297,8 @@ def python(rows):
         other, ratio = row.get("other_us"), row.get("ratio")
         return [row["what"], time(row["median_us"]), time(other) if other else "",
                 number(ratio) if ratio else ""]
-    found = [row for row in rows.rows if row["scenario"].startswith("python/")]
+    found = [row for row in rows.rows if row["scenario"].startswith("python/")
+             and not row["what"].startswith("the same of")]
     if not found:
         raise LookupError("no row of python")
     return table(["what", "fcl_kios", "beside it", "ratio"], [cells(row) for row in found])

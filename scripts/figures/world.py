@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of docs/world.md."""
-from figures.rows import OBBRSS, OURS, grid, number, spec, table, time
+from figures.rows import OBBRSS, OURS, grid, number, spec, table
 
 FCL = (OBBRSS, "fcl_rss")
 QUERIES = """
@@ -32,7 +32,7 @@ def cell(rows, scenario, query, **settings):
         return number(ours)
 
 
-def places(rows, query, links="*"):
+def places(rows, query):
     """Scenarios of world with rows of the query, as lines of a table."""
     found = dict.fromkeys(row["scenario"] for row in rows.rows
                           if row["scenario"].startswith("world/") and row["query"] == query)
@@ -54,9 +54,9 @@ all contacts       | contacts /parts
 
 
 def world_shapes(rows):
-    meshes = dict(places(rows, "closer_than"))
-    names = dict.fromkeys(label.rpartition(", ")[0] for label, _ in places(rows, "distance")
-                          if label not in meshes)
+    def kinds(query):
+        return [label.rpartition(", ")[0] for label, _ in places(rows, query)]
+    names = dict.fromkeys(kind for kind in kinds("distance") if kind not in kinds("closer_than"))
     columns = spec("""
 distance, links      | distance ur5
 parts                | distance parts
@@ -68,20 +68,6 @@ parts                | contacts parts
     return grid("us (FCL / k-IOS)", [(name, ([name.replace(" ", "_")], {})) for name in names],
                 columns, lambda line, column, settings: cell(
                     rows, f"world/{line[0]}/{column[1]}", column[0], **settings))
-
-
-def crowd_of_small(rows):
-    lines = spec("""
-all pairs, 100 triangles | crowds/100 collide
-all pairs, 900 triangles | crowds/900 collide
-least distance, 900      | crowds/900 distance
-""")
-
-    def entry(line, column, _):
-        ours, theirs = (rows.find(line[0] + column[0], line[1], bv)["median_us"]
-                        for bv in (OURS, OBBRSS))
-        return f"{time(ours)} ({number(theirs / ours)})"
-    return grid("2,000 bodies (OBBRSS / k-IOS)", lines, spec("cold | /cold\nagain | /again"), entry)
 
 
 def coal(rows):

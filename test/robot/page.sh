@@ -5,7 +5,7 @@
 # usage: page.sh KIOS_ROBOT DIR
 # Pages of an arm that swings into a post, one with a link whose name is markup, and of a plan past
 # the post, in headless Chromium: see page.py and plan_page.py. Leaves their pictures in DIR;
-# docs/images/robot.png is DIR/arm.png, plan.png is DIR/plan.png. Skipped without Chromium or Python.
+# docs/images/robot.png is DIR/arm.png. Skipped without Chromium or Python.
 set -euo pipefail
 
 robot=$1 dir=$2

@@ -194,7 +194,7 @@ class Robot {
 Robot loadRobot(const std::string& urdf_file, const std::string& srdf_file = "",
                 const RobotOptions& options = {});
 
-/// Reads a mesh: STL, OBJ, OFF and PLY in doubles, DAE and others by assimp. Vertices of equal
+/// Reads a mesh: STL, OBJ, OFF, PLY and DAE in doubles, others by assimp. Vertices of equal
 /// coordinates are one, triangles stay in the file's order. Coordinates are those of the file times
 /// `scale` (a COLLADA file's unit counts, its up axis does not); a negative one mirrors the mesh,
 /// whose triangles then keep their outside. Appends to `warnings` what is left out of the file or
