@@ -60,7 +60,7 @@ struct RangeRequest {
   /// What is farther apart isn't looked at; not NaN. Nothing is nearer than 0, less the padding.
   double ceiling = std::numeric_limits<double>::infinity();
   /// Bounds the time that a call takes, as MotionRequest::max_queries: a query is a pair at a
-  /// configuration, or a hundred tests of triangles. >= 0.
+  /// configuration, or the tests of moving volumes that take as long. >= 0.
   long long max_queries = 100000;
   /// Taken off every distance, for skins of the bodies that are no part of the models. Finite, >=
   /// 0.
