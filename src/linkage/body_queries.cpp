@@ -144,7 +144,10 @@ Measured BodyQueries::measure(Pair& pair, const Configuration& at, double far, d
     request.rel_err = rel_err;
     result.min_distance =
         std::min((far + error) * (1 + rel_err) * (1 + 0x1p-30), result.min_distance);
-    const double asked = result.min_distance, distance = bodies.distanceSurfaces(request, result);
+    SearchCounts counts;
+    const double asked = result.min_distance,
+                 distance = bodies.distanceSurfaces(request, result, &counts);
+    count(counts);
     near.lower = distance / (1 + rel_err) * (1 - 0x1p-40) - error;
     near.contact = !(distance > error) && bodies.touch();
     if (distance < asked) {

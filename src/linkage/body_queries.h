@@ -75,7 +75,7 @@ class BodyQueries {
   /// Throws std::invalid_argument if no query serves the pair.
   void requireServed(int a, int b) const;
 
-  /// Returns the cost of all searches for two meshes, in tests of volumes.
+  /// Returns the cost of all searches of a mesh, in tests of volumes.
   long long cost() const { return cost_; }
 
  private:

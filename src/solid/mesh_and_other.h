@@ -69,13 +69,14 @@ struct MeshAndOther {
 #endif
     refusePair<S>("collide", mesh, other);
   }
-  S distanceSurfaces(const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result) const {
-    if (other_mesh) return distanceMeshes(mesh, X_WM, *other_mesh, X_WO, request, result);
-    if (isShape(other)) return distanceShape(mesh, X_WM, other, X_WO, request, result);
+  S distanceSurfaces(const fcl::DistanceRequest<S>& request, fcl::DistanceResult<S>& result,
+                     SearchCounts* counts = nullptr) const {
+    if (other_mesh) return distanceMeshes(mesh, X_WM, *other_mesh, X_WO, request, result, counts);
+    if (isShape(other)) return distanceShape(mesh, X_WM, other, X_WO, request, result, counts);
 #if FCL_HAVE_OCTOMAP
     if (other.getObjectType() == fcl::OT_OCTREE) {
       return distanceOctree(static_cast<const fcl::OcTree<S>&>(other), X_WO, mesh, X_WM, request,
-                            result);
+                            result, counts);
     }
 #endif
     refusePair<S>("distance", mesh, other);
