@@ -99,7 +99,7 @@ void race(const std::string& scenario, const Meshes& meshes, const Options& opti
                            [&](std::size_t, std::size_t) { builder.begin(unlike(meshes)); }});
   }
   Race{1, options.repeats}.run(competitors);
-  const Row base = baseRow(scenario, "", 1, options.seed, meshes);
+  const Row base = baseRow(scenario, "", 1, meshes);
   const auto triangles = static_cast<double>(base.triangles);
   const Competitor* const reference = named(std::string(kReference) + " build", competitors);
   std::vector<Row> rows;

@@ -224,7 +224,7 @@ void reportPieces(const std::string& name, const Mesh& mesh, double half_width,
   std::vector<ClashPart> parts;
   const auto model = scenes::buildModel<kIOSd>(mesh);
   markSolid(*model);
-  Row base = baseRow("clashes/pieces/" + name, "clashes", 1, options.seed);
+  Row base = baseRow("clashes/pieces/" + name, "clashes", 1);
   for (const fcl::Transform3d& X :
        scenes::randomPoses(options.quick ? 12 : 60, half_width, options.seed)) {
     ClashPart& part = parts.emplace_back();
@@ -261,7 +261,6 @@ void reportPieces(const std::string& name, const Mesh& mesh, double half_width,
     row.errors.wrong = contradictions(found[i], found.back());
     row.bodies = parts.size();
     row.pairs.total = found[i].size();
-    row.simd_target = simdTarget();
   }
   report.add(rows);
 }
@@ -291,7 +290,7 @@ void runClashes(const Options& options, Report& report) {
         {"kios", [&](std::size_t, std::size_t) { findContacts(parts.ours, ours); }},
         {"fcl_manager", [&](std::size_t, std::size_t) { findContacts(parts.fcls, fcls); }}};
     Race{1, options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-    Row base = baseRow(std::string("clashes/") + part, "contact", 1, options.seed);
+    Row base = baseRow(std::string("clashes/") + part, "contact", 1);
     base.triangles = parts.triangles;
     std::vector<Row> rows;
     for (const Competitor& competitor : competitors) rows.push_back(base.of(competitor));
@@ -303,7 +302,6 @@ void runClashes(const Options& options, Report& report) {
     rows[1].errors.wrong = wrongOf(ours, building.expected);
     rows[2].pairs.total = fcls.size();
     rows[2].errors.wrong = wrongOf(fcls, building.expected);
-    rows[0].simd_target = rows[1].simd_target = simdTarget();
     report.add(rows);
   }
 }

@@ -170,7 +170,7 @@ double Contest::findTruth(Query query, const Question& question) {
 std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::size_t frames,
                                  const std::vector<Competitor>& competitors,
                                  const Competitor* reference) const {
-  const Row base = baseRow(scenario, name(query), frames, options_.seed, meshes_);
+  const Row base = baseRow(scenario, name(query), frames, meshes_);
   const auto triangles = static_cast<double>(base.triangles);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
@@ -180,7 +180,6 @@ std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::
     row.volumes.bytes_per_triangle = static_cast<double>(found->second->bytes()) / triangles;
     row.volumes.build_us_per_triangle =
         timesOf(*named(competitor.name, builds_), 1, nullptr).median_us / triangles;
-    row.simd_target = found->second->simdTarget();
     rows.push_back(std::move(row));
   }
   return rows;
@@ -257,10 +256,7 @@ std::vector<Row> Contest::queryRows(const Task& task) {
     row.asked.threshold = task.threshold;
     if (task.query != Query::kCollide && task.query != Query::kContacts)
       row.asked.rel_err = row.asked.abs_err = 0;
-    if (size > task.frames) {
-      row.pairs.skipped = 0;
-      row.pairs.total = size;
-    }
+    if (size > task.frames) row.pairs.total = size;
     row.errors = compare(answers[row.bv], verdicts, task.query, task.questions, row.extent);
     if (others_.empty() && task.query != Query::kCloserThan)
       row.tests = sets_[row.bv]->count(task.query, task.questions, task.frames);

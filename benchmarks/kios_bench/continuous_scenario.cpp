@@ -139,8 +139,8 @@ void reportContinuous(const Options& options, Report& report) {
       competitors.back().rounds = roundsOf(way.name);
     }
     Race{motions.size(), options.repeats}.run(competitors);
-    const Row base = baseRow(std::string("continuous/") + motion_name, "continuous", motions.size(),
-                             options.seed, {a, b});
+    const Row base =
+        baseRow(std::string("continuous/") + motion_name, "continuous", motions.size(), {a, b});
     std::vector<Row> rows;
     for (std::size_t w = 0; w < served.size(); ++w) {
       const Way& way = *served[w];

@@ -110,7 +110,7 @@ void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Qu
   }
   Race{std::size(kQueries), options.repeats, Race::kAll, 1}.run(competitors);
 
-  Row base = baseRow(scenario, name(query), 1, options.seed, scene.meshes);
+  Row base = baseRow(scenario, name(query), 1, scene.meshes);
   const double truth = query == Query::kDistance ? trueDistance(scene) : 0;
   std::vector<Row> rows;
   for (std::size_t number = 0; number < std::size(kQueries); ++number) {
@@ -122,13 +122,11 @@ void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Qu
       if (query == Query::kCollide) {
         row.errors.wrong = wrongOf(pairs[i], scene, options.oracle_frames);
         row.pairs.total = pairs[i].size();
-        row.pairs.skipped = 0;
       } else {
         row.asked.rel_err = row.asked.abs_err = 0;
         row.errors.max_abs = std::abs(distances[i] - truth);
         row.errors.wrong = (distances[i] == 0) == (truth == 0) ? 0 : 1;
       }
-      if (row.bv == kOurs) row.simd_target = simdTarget();
       rows.push_back(std::move(row));
     }
   }

@@ -306,7 +306,7 @@ void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
   const std::vector<FitEntrant> entrants = fitEntrants();
   std::vector<Lane> lanes = built(entrants, a, b, nodes, options.repeats);
 
-  const Row base = baseRow(scenario, "", frames.size(), options.seed, {pair.a, pair.b});
+  const Row base = baseRow(scenario, "", frames.size(), {pair.a, pair.b});
   for (const bool collide : {false, true}) {
     const Query query = collide ? Query::kCollide : Query::kDistance;
     const std::vector<Question> questions = pairTask("", query, frames).questions;

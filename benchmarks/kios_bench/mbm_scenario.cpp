@@ -118,7 +118,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint64_t seed) {
+std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind) {
   std::vector<Row> rows;
   const auto& theirs = kind.ways[kObbrss].seconds;
   const double base = theirs.empty() ? 0 : median(theirs);
@@ -126,7 +126,7 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     const Tally& tally = kind.ways[way];
     if (tally.seconds.empty()) continue;
     const double middle = median(tally.seconds);
-    Row row = baseRow(scenario, "plan", tally.seconds.size(), seed);
+    Row row = baseRow(scenario, "plan", tally.seconds.size());
     row.bv = kNames[way];
     row.times.median_us = 1e6 * middle;
     row.times.min_us = 1e6 * *std::min_element(tally.seconds.begin(), tally.seconds.end());
@@ -164,7 +164,7 @@ std::vector<Row> rowsOf(const std::string& scenario, const char* query,
   race.run(competitors);
   std::size_t count = 0;
   for (const auto& [place, q] : places) count += static_cast<std::size_t>(q.cols());
-  const Row base = baseRow(scenario, query, count, options.seed);
+  const Row base = baseRow(scenario, query, count);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
     rows.push_back(base.of(competitor, named("fcl_obbrss", competitors)));
@@ -246,10 +246,10 @@ void planAll(const std::string& name, const fs::path& folder, const Options& opt
   }
   Kind all;
   for (const auto& [kind_name, kind] : kinds) {
-    report.add(rowsOf("mbm/" + kind_name, kind, options.seed));
+    report.add(rowsOf("mbm/" + kind_name, kind));
     all.add(kind);
   }
-  report.add(rowsOf("mbm/" + name, all, options.seed));
+  report.add(rowsOf("mbm/" + name, all));
   measureQuestions(name, bare, problems, options, report);
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -143,11 +142,6 @@ class MeshSetOf final : public MeshSet {
       if constexpr (Kind::kPrepared) sum += preparedBytes(model);
     }
     return sum;
-  }
-
-  std::optional<std::string> simdTarget() const override {
-    if constexpr (Kind::kPrepared) return kios::simdTarget();
-    return std::nullopt;
   }
 
  private:

@@ -88,7 +88,7 @@ Edges drawEdges(const scenes::Cell& cell, const Oracle& oracle, double length, i
 
 Row rowOf(const std::string& scenario, const scenes::Cell& cell, std::size_t edges,
           const Options& options) {
-  Row row = baseRow(scenario, "motion", edges, options.seed);
+  Row row = baseRow(scenario, "motion", edges);
   for (int body = 0; body < cell.bodies(); ++body) {
     row.triangles += cell.mesh(body).triangles.size();
   }
@@ -154,10 +154,6 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
     row.pairs.narrow_queries = static_cast<double>(sets[i]->takeQueried()) / asked;
     // They count all pairs in all samples.
     row.pairs.total = static_cast<std::size_t>(steps * edges.size() * admissiblePairs(cell));
-    row.pairs.skipped =
-        *row.pairs.total -
-        std::min(*row.pairs.total, static_cast<std::size_t>(*row.pairs.narrow_queries *
-                                                            static_cast<double>(edges.size())));
     rows.push_back(row);
     if (const long long open = sets[i]->takeUnresolved(); open > 0) {
       std::printf("%s: %lld of %.0f unresolved\n", scenario.c_str(), open, asked);

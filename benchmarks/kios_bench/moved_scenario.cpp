@@ -69,7 +69,7 @@ void reportMoved(const Options& options, Report& report) {
   Race{questions, options.repeats, Race::kAll, Race::kAll, true}.run(alone);
   const std::size_t stride = competitors[1].stride = options.quick ? 2 : 20;
   Race{questions, options.repeats, Race::kAll, 1, true}.run(competitors);
-  Row base = baseRow("motions/moved", "move", questions, options.seed);
+  Row base = baseRow("motions/moved", "move", questions);
   std::vector<Row> rows = {base.of(alone[0]), base.of(competitors[0])};
   base.frames = (questions - 1) / stride + 1;
   rows.push_back(base.of(competitors[1]));

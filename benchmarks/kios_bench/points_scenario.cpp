@@ -44,7 +44,7 @@ class PointContest {
     for (int i = 0; i < count; ++i) {
       for (int c = 0; c < 3; ++c) points_(c, i) = center[c] + half[c] * random.uniform(-1, 1);
     }
-    base_ = baseRow(name, "", 0, options.seed, {mesh});
+    base_ = baseRow(name, "", 0, {mesh});
   }
 
   /// All points at once, and one after the other: FCL's nearest query is that of a ball of radius
@@ -130,7 +130,6 @@ class PointContest {
     Row& row = rows_.emplace_back(base_.of(competitors[0]));
     row.query = query;
     row.bv = bv;
-    if (row.bv == "kios") row.simd_target = simdTarget();
   }
 
   const Mesh& mesh_;

@@ -42,7 +42,7 @@ void reportRange(const std::string& name, std::size_t tasks, const RangeRequest&
     competitors.back().stride = 20;
   }
   Race{tasks, options.repeats, Race::kAll, 1}.run(competitors);
-  const Row base = baseRow("motions/range/" + name, "range", tasks, options.seed);
+  const Row base = baseRow("motions/range/" + name, "range", tasks);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
     Row row = base;

@@ -195,7 +195,7 @@ std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
                              })});
     }
     Race{rays.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-    const Row base = baseRow(name, words, rays.size(), options.seed, {mesh});
+    const Row base = baseRow(name, words, rays.size(), {mesh});
     for (std::size_t c = 0; c < casters.size(); ++c) {
       Row& row = rows.emplace_back(base.of(competitors[c]));
       double worst = 0;
@@ -210,7 +210,6 @@ std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
       row.errors.wrong = wrong;
       if (query == RayQuery::kFirst) row.errors.max_abs = worst;
       if (row.bv != kOurs) continue;
-      row.simd_target = simdTarget();
       ours.counts = {};
       competitors[c].answer(0, rays.size());
       const auto count = static_cast<double>(rays.size());

@@ -45,7 +45,6 @@ Distances distancesOf(const std::vector<SceneAnswer>& answers) {
 void compare(double answer, double truth, double tolerance, Errors& errors) {
   const double error = std::abs(answer - truth);
   *errors.max_abs = std::max(*errors.max_abs, error);
-  if (truth > 0) *errors.max_rel = std::max(*errors.max_rel, error / truth);
   if (!(error <= tolerance)) ++*errors.wrong;
 }
 
@@ -124,12 +123,10 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
     }
     const long long queried = std::accumulate(entrant.queried.begin(), entrant.queried.end(), 0LL);
     row.pairs.total = all_pairs * row.frames;
-    row.pairs.skipped = *row.pairs.total - queried;
     row.pairs.narrow_queries = static_cast<double>(queried) / static_cast<double>(row.frames);
     row.volumes.bytes_per_triangle =
         static_cast<double>(set.bytes()) / static_cast<double>(row.triangles);
-    row.simd_target = set.simdTarget();
-    row.errors.max_abs = row.errors.max_rel = 0;
+    row.errors.max_abs = 0;
     row.errors.wrong = 0;
     for (std::size_t frame = 0; frame < frames; ++frame) {
       if (frame % entrant.stride != 0 || frame % of[0]->stride != 0) continue;
@@ -152,7 +149,7 @@ void reportScene(const std::string& scenario, const scenes::BodyScene& scene, st
       entrants.push_back({std::move(set), stride, {}, {}});
     }
   }
-  Row base = baseRow(scenario, "scene", 0, options.seed, scene.meshes);
+  Row base = baseRow(scenario, "scene", 0, scene.meshes);
   for (std::size_t i = 0; i < queries; ++i) {
     base.scenario = scenario + "/" + kQueries[i].name;
     report.add(rowsOf(scene, kQueries[i].query, base, entrants, options.repeats));

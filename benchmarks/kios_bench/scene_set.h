@@ -37,8 +37,6 @@ class SceneSet {
   /// Returns pairs for which the last answer() asked the narrow phase.
   virtual long long queried() const = 0;
   virtual std::size_t bytes() const = 0;
-  /// Returns the SIMD target, where there is one.
-  virtual std::optional<std::string> simdTarget() const { return std::nullopt; }
 
  private:
   std::string name_;

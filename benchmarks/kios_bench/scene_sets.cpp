@@ -185,7 +185,6 @@ class KiosScene final : public SceneSet {
     for (const auto& model : bodies_.models) sum += preparedBytes(*model);
     return sum;
   }
-  std::optional<std::string> simdTarget() const override { return kios::simdTarget(); }
 
  private:
   SceneObjects<kIOSd> bodies_;

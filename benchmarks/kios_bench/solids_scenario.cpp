@@ -49,8 +49,7 @@ void contain(const std::string& name, const Mesh& mesh, const Options& options, 
   std::vector<Competitor> competitors = {
       {"kios", each([&](std::size_t i) { inside[i] = contains<double>(*model, X, points[i]); })}};
   Race{points.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-  Row row = baseRow(name, "contains", points.size(), options.seed, {mesh}).of(competitors[0]);
-  row.simd_target = simdTarget();
+  Row row = baseRow(name, "contains", points.size(), {mesh}).of(competitors[0]);
   const scenes::ContainmentOracle oracle(mesh);
   const std::size_t judged = std::min<std::size_t>(points.size(), 300);
   std::size_t wrong = 0;
@@ -102,10 +101,8 @@ class Overlaps {
     Race{n, options.repeats, 8, 8, true}.run(competitors);
     std::vector<Row> rows;
     for (const Competitor& competitor : competitors) {
-      Row& row = rows.emplace_back(
-          baseRow(name, competitor.name, n, options.seed, meshes_).of(competitor));
+      Row& row = rows.emplace_back(baseRow(name, competitor.name, n, meshes_).of(competitor));
       row.bv = competitor.name == "contacts" ? "fcl_obbrss" : "kios";
-      if (row.bv == "kios") row.simd_target = simdTarget();
     }
     std::vector<double> ratios;
     std::size_t wrong = 0;
@@ -183,7 +180,7 @@ void depths(const std::string& name, const Mesh& a, const Mesh& b, const std::ve
   markSolid(*model_a);
   markSolid(*model_b);
   const std::size_t n = frames.size();
-  const Row base = baseRow("solids/depth/" + name, "depth", n, options.seed, {a, b});
+  const Row base = baseRow("solids/depth/" + name, "depth", n, {a, b});
   std::vector<Row> rows;
   const auto race = [&](const char* query, const std::function<void(std::size_t)>& ask) -> Row& {
     std::vector<Competitor> competitors = {{"kios", each(ask)}};
@@ -191,7 +188,6 @@ void depths(const std::string& name, const Mesh& a, const Mesh& b, const std::ve
     Row& row = rows.emplace_back(base.of(competitors[0]));
     row.query = query;
     row.bv = "kios";
-    row.simd_target = simdTarget();
     return row;
   };
   race("collide", [&](std::size_t i) {
