@@ -182,10 +182,6 @@ int run(int argc, char** argv) {
   app.add_option("--oracle", oracle, "number of frames judged by the oracle, or 'all'")
       ->check(CLI::Range(1, 1000000000) | CLI::IsMember({"all"}))
       ->capture_default_str();
-  app.add_option("--max-triangles", options.max_triangles,
-                 "largest meshes of 'tori', 'build' and 'rays', to 1000000")
-      ->check(CLI::Range(1, 1000000000))
-      ->capture_default_str();
   app.add_option("--robot", robot,
                  "folder of binary STL and OBJ files, by name the links of a robot for 'robots'")
       ->check(CLI::ExistingDirectory);

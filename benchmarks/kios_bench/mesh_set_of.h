@@ -16,21 +16,17 @@
 
 namespace kios::bench {
 
-/// Holds a query that the volume does not serve.
-struct NoNode {};
-
-/// A kind of set names its volume, the volume's traversal nodes or NoNode, and the calls that
-/// answer for it. Our volume under our own calls counts volumes and pairs of leaves (of up to eight
-/// triangles each) in its prepared trees.
+/// A kind of set names its volume, the calls that answer for it, and the volume's traversal nodes;
+/// void as that of collisions is what FCL has not. Our volume under our own calls counts volumes
+/// and pairs of leaves (of up to eight triangles each) in its prepared trees.
 template <typename BV_, typename Calls_, typename DistanceNode_, typename CollisionNode_>
 struct Kind {
   using BV = BV_;
   using Calls = Calls_;
   using DistanceNode = DistanceNode_;
   using CollisionNode = CollisionNode_;
-  static constexpr bool kDistance = !std::is_same_v<DistanceNode, NoNode>;
-  static constexpr bool kCollision = !std::is_same_v<CollisionNode, NoNode>;
   static constexpr bool kPrepared = std::is_same_v<Calls, KiosCalls>;
+  static constexpr bool kCollision = kPrepared || !std::is_void_v<CollisionNode>;
 };
 
 /// Our volume as a user has it.
@@ -48,9 +44,7 @@ class MeshSetOf final : public MeshSet {
   explicit MeshSetOf(MakeFitter make_fitter) : make_fitter_(make_fitter) {}
 
   bool serves(Query query) const override {
-    if (query == Query::kBuild) return true;
-    const bool collision = query == Query::kCollide || query == Query::kContacts;
-    return collision ? Kind::kCollision : Kind::kDistance;
+    return Kind::kCollision || (query != Query::kCollide && query != Query::kContacts);
   }
 
   void build(const std::vector<scenes::Mesh>& meshes) const override {
@@ -120,10 +114,8 @@ class MeshSetOf final : public MeshSet {
         }
       } else {
         fcl::DistanceResultd result;
-        if constexpr (Kind::kDistance) {
-          count<typename Kind::DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves,
-                                             exact);
-        }
+        count<typename Kind::DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves,
+                                           exact);
       }
     }
     const auto of_frame = [frames](long long sum) {
@@ -156,7 +148,7 @@ class MeshSetOf final : public MeshSet {
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
     result.min_distance = threshold;
-    if constexpr (Kind::kDistance) Kind::Calls::distance(&a, &b, request, result);
+    Kind::Calls::distance(&a, &b, request, result);
     return std::min(result.min_distance, threshold);
   }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <stdexcept>
 
-#include <fcl/math/bv/OBB.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/math/bv/RSS.h>
 #include <fcl/math/bv/kIOS.h>
@@ -41,15 +40,12 @@ constexpr Entry kVolumes[] = {
                    nodes::MeshCollisionTraversalNodekIOSd>();
      }},
     // fcl::collide copies, transforms and rebuilds both RSS models at every query.
-    {"fcl_rss", [] { return make<fcl::RSSd, FclCalls, RssDistance, NoNode>(); }},
+    {"fcl_rss", [] { return make<fcl::RSSd, FclCalls, RssDistance, void>(); }},
     {"fcl_obbrss",
      [] {
        return make<fcl::OBBRSSd, FclCalls, nodes::MeshDistanceTraversalNodeOBBRSSd,
                    nodes::MeshCollisionTraversalNodeOBBRSSd>();
      }},
-    // FCL has no distance between OBBs.
-    {"fcl_obb",
-     [] { return make<fcl::OBBd, FclCalls, NoNode, nodes::MeshCollisionTraversalNodeOBBd>(); }},
     // FCL's binary trees by their nodes: the tuned fit, the paper's Method II as published, RSS.
     {kOurTree, [] { return libraryOf(kOurTree).tree_set(); }, false},
     {"kios_method_ii",

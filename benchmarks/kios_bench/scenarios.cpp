@@ -10,11 +10,11 @@ const std::vector<Scenario>& scenarios() {
       {"tori", "falling spinning generated scaling",
        "the k-IOS paper's moving pairs (data), the same kind made by the program, and bumpy tori "
        "of "
-       "1k to 80k triangles (1M by --max-triangles): gap 0.1, 1e-3, touching",
+       "1k to 80k triangles: gap 0.1, 1e-3, touching",
        runTori, 100},
-      {"robots", "ur5 generated parts strips scenes",
-       "two arms side by side, all pairs of links: UR5 (data), generated, machine parts, long thin "
-       "strips; scene queries of them and of humanoids",
+      {"robots", "ur5 generated parts scenes",
+       "two arms side by side, all pairs of links: UR5 (data), generated, machine parts; "
+       "scene queries of them and of humanoids",
        runRobots, 10},
       {"world", "SCENE coal",
        "a UR5's links (data) and parts of machines about tables, shelves, rooms, terrain, a "
@@ -52,8 +52,8 @@ const std::vector<Scenario>& scenarios() {
        runMbm, 0},
 #endif
       {"build", "models refit",
-       "endModel, the same mesh again, memory: tori of 1k to 80k triangles (1M by "
-       "--max-triangles), and the UR5 (data); refits of tori that sway",
+       "endModel, the same mesh again, memory: tori of 1k to 80k triangles, and "
+       "the UR5 (data); refits of tori that sway",
        runBuild, 8},
       {"error", "",
        "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "

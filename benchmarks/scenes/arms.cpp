@@ -123,28 +123,4 @@ Robot cadArm() {
   return arm;
 }
 
-Robot stripChain() {
-  struct Strips {
-    int count;
-    double width;
-  };
-  constexpr Strips kCylinders[] = {{100, 0.005}, {200, 0.003}, {400, 0.001}, {300, 0.002}};
-  constexpr double kLength = 0.6;
-  Robot arm;
-  for (const Strips& strips : kCylinders) {
-    // x is along the chain; each joint bends across the one before.
-    Link link;
-    if (!arm.links.empty()) {
-      link.X_PL = shift(kLength, 0, 0) * turn(kPi / 2, Vector3d::UnitX());
-      arm.centres.push_back(0);
-      arm.amplitudes.push_back(0.7);
-    }
-    link.X_LM = turn(kPi / 2, Vector3d::UnitY());
-    link.mesh = stripCylinder(strips.count, kLength, strips.width);
-    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
-    arm.links.push_back(link);
-  }
-  return arm;
-}
-
 }  // namespace kios::scenes

@@ -45,8 +45,4 @@ fcl::Transform3d facing(double distance);
 /// triangles.
 Robot cadArm();
 
-/// Returns a chain of 4 cylinders of length 0.6 whose sides are 100 to 400 strips 0.001 to 0.005
-/// wide.
-Robot stripChain();
-
 }  // namespace kios::scenes
