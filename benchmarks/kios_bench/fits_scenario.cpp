@@ -19,6 +19,7 @@
 #include "paper/variant_tree.h"
 #include "scenario.h"
 #include "scenes/motions.h"
+#include "scenes/placement.h"
 #include "scenes/random.h"
 #include "verdicts.h"
 
@@ -27,7 +28,6 @@ namespace {
 
 using namespace paper;
 
-constexpr double kPi = 3.14159265358979323846;
 using Poses = std::vector<RelativePose<double>>;
 using Split = std::shared_ptr<const MeshSplit>;
 
@@ -156,7 +156,7 @@ std::vector<FitEntrant> fitEntrants() {
   addKios(all, "kios_tuned", FitMethod::kTuned);
   every.count = SphereCount::kAll;
   addKios(all, "kios_tuned_k5", every);
-  narrow.angle = kPi / 8;  // for the paper's pi/6
+  narrow.angle = scenes::kPi / 8;  // for the paper's pi/6
   addKios(all, "kios_tuned_22deg", narrow);
   addKinds(all);
   // In the paper's words: two corners, a corner with axes and lengths, ...

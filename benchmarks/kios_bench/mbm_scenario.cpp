@@ -17,6 +17,7 @@
 #include "rrt_connect.h"
 #include "sampled_edge.h"
 #include "scenario.h"
+#include "scenes/placement.h"
 
 namespace kios::bench {
 namespace {
@@ -24,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double kPi = 3.14159265358979323846;
 enum Way { kProven, kSampled, kObbrss, kWays };
 constexpr const char* kNames[kWays] = {"kios", "sampled_kios", "fcl_obbrss"};
 
@@ -80,8 +80,8 @@ class Planning {
     PlanRequest request;
     request.start = problem.start;
     request.goal = problem.goal;
-    request.lower = robot.lower().cwiseMax(-2 * kPi);
-    request.upper = robot.upper().cwiseMin(2 * kPi);
+    request.lower = robot.lower().cwiseMax(-2 * scenes::kPi);
+    request.upper = robot.upper().cwiseMin(2 * scenes::kPi);
     request.seconds = options_.quick ? 0.2 : 2;
     request.seed = seed;
     const bool alone = std::count(options_.bvs.begin(), options_.bvs.end(), kNames[kObbrss]) == 0;
@@ -186,7 +186,8 @@ void measureQuestions(const std::string& name, const Robot& bare,
     places.back()->obbrss = std::make_unique<ObbrssCell>(places.back()->robot, models);
     if (places.size() == 14) break;  // two of each kind
   }
-  const VectorXd lower = bare.lower().cwiseMax(-2 * kPi), upper = bare.upper().cwiseMin(2 * kPi);
+  const VectorXd lower = bare.lower().cwiseMax(-2 * scenes::kPi),
+                 upper = bare.upper().cwiseMin(2 * scenes::kPi);
   std::mt19937_64 random(options.seed);
   std::vector<std::pair<const Place*, Eigen::MatrixXd>> all, some, clear;
   for (const auto& place : places) {

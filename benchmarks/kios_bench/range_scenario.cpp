@@ -12,6 +12,7 @@
 #include "fcl_kios/model.h"
 #include "motion_set.h"
 #include "scenario.h"
+#include "scenes/placement.h"
 #include "scenes/shapes.h"
 
 namespace kios::bench {
@@ -132,8 +133,8 @@ void reportArm(const std::string& name, const scenes::Cell& cell, const Options&
         const VectorXd& q = paths[i % paths.size()].first;
         JointBox box{{q.data(), q.data() + q.size()}, {q.data(), q.data() + q.size()}};
         for (const std::size_t k : {i, i + 1}) {
-          box.lower[k] = -3.141592653589793;
-          box.upper[k] = 3.141592653589793;
+          box.lower[k] = -scenes::kPi;
+          box.upper[k] = scenes::kPi;
         }
         return leastClearance(linkage, box, asked);
       },

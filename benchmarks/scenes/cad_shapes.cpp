@@ -8,12 +8,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "placement.h"
+
 namespace kios::scenes {
 namespace {
 
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Loop = std::vector<Vector3d>;  // counter-clockwise seen from above
 

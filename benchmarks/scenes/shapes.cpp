@@ -11,14 +11,13 @@
 #include <map>
 #include <utility>
 
+#include "placement.h"
 #include "random.h"
 
 namespace kios::scenes {
 namespace {
 
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Two triangles of the square a b c d, which runs counter-clockwise seen from outside.
 void addSquare(Mesh& mesh, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
