@@ -15,7 +15,6 @@
 #include "contest.h"
 #include "fcl_kios/model.h"
 #include "library.h"
-#include "pose_finder.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/shapes.h"
@@ -139,8 +138,7 @@ void reportRefits(const Options& options, Report& report) {
   const scenes::Mesh before = scenes::bumpyTorus(size), after = swayed(before);
   const std::string scenario = "refit/" + std::to_string(size);
   Contest contest({after, scenes::unlike(after)}, options);  // they share nothing
-  PoseFinder distance(after);
-  const auto at = [&](const auto& frame) { return distance(frame); };
+  const auto at = obbrssDistance(after);
   const auto near = scenes::gapMotion(frames, 0.05, kApart, options.seed, at);
   const auto touching = scenes::gapMotion(frames, 0, kApart, options.seed + 1, at);
   Question first;

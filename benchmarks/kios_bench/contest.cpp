@@ -8,6 +8,9 @@
 #include <map>
 #include <string>
 
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/distance.h>
+
 #include "library.h"
 #include "scenes/shapes.h"
 #include "verdicts.h"
@@ -66,6 +69,14 @@ void askOne(MeshSet& set, const Question& question) {
 }
 
 }  // namespace
+
+scenes::DistanceFunction obbrssDistance(const scenes::Mesh& mesh) {
+  return [model = scenes::buildModel<fcl::OBBRSSd>(mesh)](const scenes::Frame& frame) {
+    fcl::DistanceResultd result;
+    return fcl::distance<double>(model.get(), frame.X_WA, model.get(), frame.X_WB,
+                                 fcl::DistanceRequestd(), result);
+  };
+}
 
 std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames, int count) {
   if (count == 0 || static_cast<std::size_t>(count) >= frames.size()) return frames;

@@ -83,6 +83,10 @@ class Contest {
   std::vector<Competitor> builds_;
 };
 
+/// Returns FCL's distance of two copies of a mesh, to find poses by: it is fast at any size, and
+/// what it gets wrong moves a pose a little.
+scenes::DistanceFunction obbrssDistance(const scenes::Mesh& mesh);
+
 /// Returns `count` of the frames, evenly spaced from the first; all of them for count = 0 or too
 /// many.
 std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames, int count);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Containment, penetration and local depth of solids.
+// Penetration and local depth of solids.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,6 @@
 #include "fcl_kios/fcl_kios.h"
 #include "scenario.h"
 #include "scenes/arms.h"
-#include "scenes/containment_oracle.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
@@ -28,38 +27,6 @@ namespace {
 
 using scenes::Frame;
 using scenes::Mesh;
-
-/// Points in and about the mesh's box, judged by rational arithmetic.
-void contain(const std::string& name, const Mesh& mesh, const Options& options, Report& report) {
-  const auto model = scenes::buildModel<kIOSd>(mesh);
-  markSolid(*model);
-  scenes::Random random(options.seed);
-  const fcl::Transform3d X = fcl::Transform3d::Identity();
-  model->computeLocalAABB();
-  const fcl::Vector3d center = model->aabb_center;
-  const fcl::Vector3d half = 0.6 * (model->aabb_local.max_ - model->aabb_local.min_);
-  const int count = options.frames > 0 ? options.frames : (options.quick ? 200 : 20000);
-  std::vector<fcl::Vector3d> points;
-  for (int i = 0; i < count; ++i) {
-    fcl::Vector3d p;
-    for (int c = 0; c < 3; ++c) p[c] = center[c] + half[c] * random.uniform(-1, 1);
-    points.push_back(p);
-  }
-  std::vector<char> inside(points.size());
-  std::vector<Competitor> competitors = {
-      {"kios", each([&](std::size_t i) { inside[i] = contains<double>(*model, X, points[i]); })}};
-  Race{points.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-  Row row = baseRow(name, "contains", points.size(), {mesh}).of(competitors[0]);
-  const scenes::ContainmentOracle oracle(mesh);
-  const std::size_t judged = std::min<std::size_t>(points.size(), 300);
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < judged; ++i) {
-    const auto place = oracle.placeOf(points[i]);
-    wrong += (place != scenes::ContainmentOracle::Place::kOutside) != (inside[i] != 0);
-  }
-  row.errors.wrong = wrong;
-  report.add({row});
-}
 
 /// Overlapping frames of two solids: penetration() beside fcl::collide for one contact, of ours,
 /// and for the deepest of a hundred contacts over OBBRSS, which is what users of FCL take for a
@@ -327,16 +294,9 @@ void penetrate(const Options& options, Report& report) {
 }  // namespace
 
 void runSolids(const Options& options, Report& report) {
-  if (wanted(options, "contains")) {
-    contain("solids/contains/torus", scenes::bumpyTorus(options.quick ? 1000 : 20000), options,
-            report);
-    contain("solids/contains/box", scenes::subdividedBox({1, 2, 3}, options.quick ? 5 : 41),
-            options, report);
-    contain("solids/contains/ball", scenes::icosphere(1, options.quick ? 2 : 5), options, report);
-  }
   if (wanted(options, "penetration")) penetrate(options, report);
   if (wanted(options, "depth")) depths(options, report);
-  if (wanted(options, "points")) reportPoints(options, report);
+  reportPoints(options, report);
 }
 
 }  // namespace kios::bench

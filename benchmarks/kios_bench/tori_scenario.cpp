@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "contest.h"
-#include "pose_finder.h"
 #include "scenario.h"
 #include "scenes/motions.h"
 #include "scenes/pqp_data.h"
@@ -49,11 +48,10 @@ void reportScaling(const Options& options, Report& report) {
     // The oracle transforms every triangle at each frame.
     affordable.oracle_frames = std::min(options.oracle_frames, 1000000 / size);
     Contest contest({torus, scenes::unlike(torus)}, affordable);  // they share nothing
-    PoseFinder distance(torus);
+    const auto distance = obbrssDistance(torus);
     std::vector<Row> rows;
     for (const Gap& gap : kGaps) {
-      const auto motion = scenes::gapMotion(frames, gap.distance, kApart, options.seed,
-                                            [&](const auto& frame) { return distance(frame); });
+      const auto motion = scenes::gapMotion(frames, gap.distance, kApart, options.seed, distance);
       for (const Query query : {Query::kDistance, Query::kCollide}) {
         append(contest.queryRows(pairTask(scenario + "/" + gap.name, query, motion)), rows);
       }
