@@ -13,8 +13,8 @@
 #include "ray_caster.h"
 #include "scenario.h"
 #include "scenes/cad_shapes.h"
+#include "scenes/containment_oracle.h"
 #include "scenes/random.h"
-#include "scenes/ray_oracle.h"
 #include "scenes/shapes.h"
 
 namespace kios::bench {
@@ -69,41 +69,7 @@ std::vector<Rayd> edgeRays(int count, const scenes::Mesh& mesh, std::uint64_t se
   return rays;
 }
 
-struct OracleHit {
-  long double t;
-  int triangle;
-};
-
-/// All hits in exact arithmetic. Triangles that are farther from the line than they are large,
-/// by a margin, are left out in double.
-class Oracle {
- public:
-  explicit Oracle(const scenes::Mesh& mesh) : mesh_(mesh) {
-    for (const fcl::Triangle& t : mesh.triangles) {
-      const Vector &p = mesh.vertices[t[0]], &q = mesh.vertices[t[1]], &r = mesh.vertices[t[2]];
-      reach_.push_back(std::max((q - p).norm(), (r - p).norm()) + 1e-9);
-    }
-  }
-
-  std::vector<OracleHit> all(const Rayd& ray) const {
-    const scenes::RationalRay exact = {ray.origin, ray.direction, ray.t_min,
-                                       std::numeric_limits<double>::max()};
-    const Vector unit = ray.direction.normalized();
-    std::vector<OracleHit> hits;
-    for (std::size_t i = 0; i < reach_.size(); ++i) {
-      const fcl::Triangle& t = mesh_.triangles[i];
-      if ((mesh_.vertices[t[0]] - ray.origin).cross(unit).norm() > reach_[i]) continue;
-      const auto hit = scenes::rationalRayHit(
-          exact, {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]});
-      if (hit) hits.push_back({hit->t, static_cast<int>(i)});
-    }
-    return hits;
-  }
-
- private:
-  const scenes::Mesh& mesh_;
-  std::vector<double> reach_;
-};
+using OracleHit = scenes::RayOracle::Hit;
 
 class KiosCaster final : public RayCaster {
  public:
@@ -167,9 +133,13 @@ Judged judge(const std::vector<Rayd>& rays, const scenes::Mesh& mesh, const Opti
   if (options.oracle_frames > 0) {
     count = std::min(count, static_cast<std::size_t>(options.oracle_frames));
   }
-  const Oracle oracle(mesh);
+  const scenes::RayOracle oracle(mesh);
   Judged judged{rays.size() / count, {}};
-  for (std::size_t i = 0; i < count; ++i) judged.exact.push_back(oracle.all(rays[i * judged.step]));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Rayd& ray = rays[i * judged.step];
+    judged.exact.push_back(
+        oracle.hits({ray.origin, ray.direction, ray.t_min, std::numeric_limits<double>::max()}));
+  }
   return judged;
 }
 
