@@ -26,9 +26,7 @@ void reportMoved(const Options& options, Report& report) {
   scenes::Random random(options.seed);
   const auto ball = std::make_shared<fcl::Sphered>(0.02);
   const auto place = [&] {
-    fcl::Transform3d X = fcl::Transform3d::Identity();
-    for (double& x : X.translation()) x = random.uniform(-1.5, 1.5);
-    return X;
+    return fcl::Transform3d(Eigen::Translation3d(random.inCube(-1.5, 1.5)));
   };
   std::vector<fcl::Transform3d> first, later;
   std::vector<Eigen::VectorXd> q;

@@ -44,9 +44,7 @@ class PointContest {
     if (options.frames == 0 && options.quick) count = 500;
     scenes::Random random(options.seed);
     points_.resize(3, count);
-    for (int i = 0; i < count; ++i) {
-      for (int c = 0; c < 3; ++c) points_(c, i) = center[c] + half[c] * random.uniform(-1, 1);
-    }
+    for (auto p : points_.colwise()) p = center + half.cwiseProduct(random.inCube(-1, 1));
     base_ = baseRow(name, "", 0, {mesh});
   }
 

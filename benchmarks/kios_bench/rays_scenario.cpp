@@ -44,14 +44,11 @@ std::vector<Rayd> cameraRays(int count) {
 /// From anywhere around the torus to anywhere in its box.
 std::vector<Rayd> randomRays(int count, std::uint64_t seed) {
   scenes::Random random(seed);
-  const auto in = [&](double x, double y, double z) -> Vector {
-    const double a = random.uniform(-x, x), b = random.uniform(-y, y);
-    return {a, b, random.uniform(-z, z)};
-  };
   std::vector<Rayd> rays(static_cast<std::size_t>(count));
   for (Rayd& ray : rays) {
-    ray.origin = toFloats(in(3, 3, 3));
-    ray.direction = toFloats(in(1.45, 1.45, 0.45) - ray.origin);
+    ray.origin = toFloats(random.inCube(-3, 3));
+    ray.direction =
+        toFloats(Vector(1.45, 1.45, 0.45).cwiseProduct(random.inCube(-1, 1)) - ray.origin);
   }
   return rays;
 }

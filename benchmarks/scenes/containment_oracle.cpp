@@ -59,8 +59,7 @@ ContainmentOracle::Place ContainmentOracle::placeOf(const Eigen::Vector3d& point
   Random random(17);
   constexpr int kRays = 100;
   for (int i = 0; i < kRays; ++i) {
-    Eigen::Vector3d direction;
-    for (int c = 0; c < 3; ++c) direction[c] = random.uniform(-1, 1);
+    const Eigen::Vector3d direction = random.inCube(-1, 1);
     if (!(direction.norm() > 0.1)) continue;
     int winding = 0;
     bool usable = true;

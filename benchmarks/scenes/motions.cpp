@@ -94,11 +94,7 @@ std::vector<Transform3d> randomPoses(int count, double half_width, std::uint64_t
   poses.reserve(count);
   for (int i = 0; i < count; ++i) {
     const fcl::Matrix3d rotation = randomRotation(random);
-    Vector3d translation;
-    for (double& coordinate : translation.reshaped()) {
-      coordinate = random.uniform(-half_width, half_width);
-    }
-    poses.push_back(pose(rotation, translation));
+    poses.push_back(pose(rotation, random.inCube(-half_width, half_width)));
   }
   return poses;
 }

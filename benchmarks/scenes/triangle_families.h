@@ -36,10 +36,7 @@ inline double logUniform(Random& random, int lower, int upper) {
 inline double randomSign(Random& random) { return random.unit() < 0.5 ? -1 : 1; }
 
 /// In the cube [-1, 1)^3.
-inline Eigen::Vector3d point(Random& random) {
-  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-  return {x, y, random.uniform(-1, 1)};
-}
+inline Eigen::Vector3d point(Random& random) { return random.inCube(-1, 1); }
 
 inline Eigen::Vector3d direction(Random& random) {
   for (;;) {
