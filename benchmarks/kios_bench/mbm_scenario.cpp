@@ -89,9 +89,8 @@ class Planning {
       Tally& tally = kind.ways[way];
       const Plan plan = rrtConnect(request, ways[way]);
       tally.seconds.push_back(plan.seconds);
-      if (!plan.path.empty()) tally.solved.push_back(plan.seconds);
-      if (plan.path.empty() && way == kProven)
-        std::printf("no plan for %s\n", problem.name.c_str());
+      if (plan.solved) tally.solved.push_back(plan.seconds);
+      if (!plan.solved && way == kProven) std::printf("no plan for %s\n", problem.name.c_str());
       for (const auto& [q0, q1] : plan.free_edges) {
         const VectorXd q =
             way == kProven ? sampleInContact(is_free_by_fcl, q0, q1) : contactOn(robot, q0, q1);
