@@ -3,7 +3,6 @@
 //
 // Straight paths in the joint space of robots: proven by checkMotion(), and sampled.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "library.h"
@@ -20,7 +19,6 @@ struct Edge {
   Joints q0, q1;
 };
 
-constexpr double kStep = 0.01;  // of the samples, in the largest joint
 constexpr double kLengths[] = {0.05, 0.2, 0.8};
 
 std::vector<std::unique_ptr<MotionSet>> setsOf(const scenes::Cell& cell) {
@@ -86,8 +84,7 @@ Edges drawEdges(const scenes::Cell& cell, const Oracle& oracle, double length, i
   return edges;
 }
 
-Row rowOf(const std::string& scenario, const scenes::Cell& cell, std::size_t edges,
-          const Options& options) {
+Row rowOf(const std::string& scenario, const scenes::Cell& cell, std::size_t edges) {
   Row row = baseRow(scenario, "motion", edges);
   for (int body = 0; body < cell.bodies(); ++body) {
     row.triangles += cell.mesh(body).triangles.size();
@@ -111,7 +108,7 @@ void reportMissed(const std::string& scenario, const scenes::Cell& cell, const O
     for (std::size_t i = 0; i < edges.size(); ++i) {
       missed += set->isFree(edges[i].q0, edges[i].q1) && free[i] == 0 ? 1 : 0;
     }
-    Row row = rowOf(scenario, cell, edges.size(), options);
+    Row row = rowOf(scenario, cell, edges.size());
     row.bv = set->name();
     row.errors.wrong = static_cast<std::size_t>(missed);
     rows.push_back(row);
@@ -119,16 +116,8 @@ void reportMissed(const std::string& scenario, const scenes::Cell& cell, const O
   report.add(rows);
 }
 
-std::size_t admissiblePairs(const scenes::Cell& cell) {
-  std::size_t count = 0;
-  for (int a = 0; a < cell.bodies(); ++a) {
-    for (int b = a + 1; b < cell.bodies(); ++b) count += cell.admissible(a, b) ? 1 : 0;
-  }
-  return count;
-}
-
 void reportEdges(const std::string& scenario, const scenes::Cell& cell,
-                 const std::vector<Edge>& edges, double length, bool free, const Options& options,
+                 const std::vector<Edge>& edges, bool free, const Options& options,
                  Report& report) {
   if (edges.empty()) return;
   const auto sets = setsOf(cell);
@@ -143,8 +132,7 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
   Race race{edges.size(), options.repeats, 20};
   race.warm_up = true;
   race.run(competitors);
-  const Row base = rowOf(scenario, cell, edges.size(), options);
-  const double steps = std::ceil(length / kStep);
+  const Row base = rowOf(scenario, cell, edges.size());
   std::vector<Row> rows;
   const auto asked = static_cast<double>(edges.size()) * (options.repeats + 1);
   for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -152,8 +140,6 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
     // Contacts that were missed, and contacts that no sample of the oracle confirms.
     row.errors.wrong = std::count(verdicts[i].begin(), verdicts[i].end(), free ? 0 : 1);
     row.pairs.narrow_queries = static_cast<double>(sets[i]->takeQueried()) / asked;
-    // They count all pairs in all samples.
-    row.pairs.total = static_cast<std::size_t>(steps * edges.size() * admissiblePairs(cell));
     rows.push_back(row);
     if (const long long open = sets[i]->takeUnresolved(); open > 0) {
       std::printf("%s: %lld of %.0f unresolved\n", scenario.c_str(), open, asked);
@@ -172,8 +158,8 @@ void reportCell(const std::string& name, const scenes::Cell& cell, const Options
     const Edges edges = drawEdges(cell, oracle, length, count, samples, options.seed);
     char suffix[32];
     std::snprintf(suffix, sizeof suffix, "/%g", length);
-    reportEdges(name + "/valid" + suffix, cell, edges.free, length, true, options, report);
-    reportEdges(name + "/invalid" + suffix, cell, edges.blocked, length, false, options, report);
+    reportEdges(name + "/valid" + suffix, cell, edges.free, true, options, report);
+    reportEdges(name + "/invalid" + suffix, cell, edges.blocked, false, options, report);
     reportMissed(name + "/missed" + suffix, cell, oracle, length, judged, 10 * samples, options,
                  report);
   }

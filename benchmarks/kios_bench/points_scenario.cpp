@@ -121,8 +121,6 @@ class PointContest {
       rows_.back().asked.abs_err = error;
       rows_.back().errors.max_abs = worst;
       rows_.back().errors.wrong = worst > error ? 1 : 0;
-      rows_.back().volumes.bytes_per_triangle =
-          static_cast<double>(tree.bytes()) / static_cast<double>(base_.triangles);
     }
     report.add(rows_);
     rows_.clear();

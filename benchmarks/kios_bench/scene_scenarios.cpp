@@ -110,11 +110,9 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
 
   const Competitor* reference = named("fcl_obbrss", competitors);
   if (!reference) reference = named("fcl_manager", competitors);
-  const auto all_pairs = static_cast<long long>(scene.size()) * (scene.size() - 1) / 2;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < of.size(); ++i) {
     const Entrant& entrant = *of[i];
-    const SceneSet& set = *entrant.set;
     base.frames = (frames + entrant.stride - 1) / entrant.stride;
     Row row = base.of(competitors[i], reference);
     row.asked.rel_err = row.asked.abs_err = 0;
@@ -122,10 +120,7 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
       row.asked.threshold = kMargin;
     }
     const long long queried = std::accumulate(entrant.queried.begin(), entrant.queried.end(), 0LL);
-    row.pairs.total = all_pairs * row.frames;
     row.pairs.narrow_queries = static_cast<double>(queried) / static_cast<double>(row.frames);
-    row.volumes.bytes_per_triangle =
-        static_cast<double>(set.bytes()) / static_cast<double>(row.triangles);
     row.errors.max_abs = 0;
     row.errors.wrong = 0;
     for (std::size_t frame = 0; frame < frames; ++frame) {

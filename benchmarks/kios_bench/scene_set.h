@@ -36,7 +36,6 @@ class SceneSet {
   virtual std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) = 0;
   /// Returns pairs for which the last answer() asked the narrow phase.
   virtual long long queried() const = 0;
-  virtual std::size_t bytes() const = 0;
 
  private:
   std::string name_;

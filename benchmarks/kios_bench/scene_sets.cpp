@@ -8,7 +8,7 @@
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl_kios/fcl_kios.h>
 
-#include "fcl_models.h"
+#include "calls.h"
 #include "managed_bodies.h"
 
 namespace kios::bench {
@@ -40,11 +40,6 @@ struct SceneObjects {
   bool admissible(int a, int b) const {
     if (scene.obstacle[a] && scene.obstacle[b]) return false;
     return !std::binary_search(scene.excluded.begin(), scene.excluded.end(), std::minmax({a, b}));
-  }
-  std::size_t bytes() const {
-    std::size_t sum = 0;
-    for (const auto& model : models) sum += bytesOf(*model);
-    return sum;
   }
 };
 
@@ -85,7 +80,6 @@ class ScenePairs final : public SceneSet {
     return answers;
   }
   long long queried() const override { return static_cast<long long>(pairs_.size()); }
-  std::size_t bytes() const override { return bodies_.bytes(); }
 
  private:
   bool bounded_;
@@ -137,7 +131,6 @@ class FclManager final : public SceneSet {
     return answers;
   }
   long long queried() const override { return queried_; }
-  std::size_t bytes() const override { return bodies_.bytes(); }
 
  private:
   SceneObjects<fcl::OBBRSSd> bodies_;
@@ -180,11 +173,6 @@ class KiosScene final : public SceneSet {
     return answers;
   }
   long long queried() const override { return query_.counts().queried; }
-  std::size_t bytes() const override {
-    std::size_t sum = bodies_.bytes();
-    for (const auto& model : bodies_.models) sum += preparedBytes(*model);
-    return sum;
-  }
 
  private:
   SceneObjects<kIOSd> bodies_;
