@@ -233,7 +233,7 @@ void measureQuestions(const std::string& name, const Robot& bare,
 
 void planAll(const std::string& name, const fs::path& folder, const Options& options,
              Report& report) {
-  const int wanted = options.frames > 0 ? options.frames : options.quick ? 7 : 70;
+  const std::size_t wanted = options.frames > 0 ? options.frames : options.quick ? 7 : 70;
   const Unpacked unpacked(folder / "problems.tar.bz2");
   const Robot bare =
       loadRobot((folder / (name + ".urdf")).string(), (folder / (name + ".srdf")).string());
