@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The fcl_kios authors
 # SPDX-License-Identifier: BSD-3-Clause
 """The tables of robots."""
-from figures.rows import OBBRSS, OURS, grid, number, spec, time
+from figures.rows import grid, spec, time
 
 
 def links(rows):
@@ -18,8 +18,5 @@ generated arm | generated
 machine parts | parts
 """)
 
-    def cell(line, column, _):
-        place, query = line
-        key = f"robots/{column[0]}{place.strip('-')}", query
-        return f"{time(rows.us(*key, OURS))} ({number(rows.us(*key, OBBRSS) / rows.us(*key, OURS))})"
-    return grid("a pair of links (OBBRSS by ours)", lines, columns, cell)
+    return grid("a pair of links (OBBRSS by ours)", lines, columns, lambda line, column, _: (
+        rows.with_ratio(f"robots/{column[0]}{line[0].strip('-')}", line[1], show=time)))

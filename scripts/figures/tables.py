@@ -22,16 +22,6 @@ def run(rows, scenario):
     return f"{of['machine']}, load {of['load']}, {of['date']}, commit {of['commit']}"
 
 
-def ratio(rows, *key):
-    return number(rows.ratio(*key))
-
-
-def ratios(rows, query, *scenarios):
-    """The least and the largest ratio to OBBRSS."""
-    found = sorted(rows.ratio(scenario, query) for scenario in scenarios)
-    return f"{number(found[0])} to {number(found[-1])}"
-
-
 # README.md
 
 README = spec("""
@@ -84,22 +74,22 @@ def readme(rows, count=None):
 PAIRS = ("falling", "spinning", "generated", "generated_spinning", "robots")
 
 
+def of_pairs(rows, query, columns):
+    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} {query}" for pair in PAIRS))
+    return grid("us: k-IOS / OBBRSS", lines, spec("\n".join(columns)), lambda line, _, settings: (
+        " / ".join(number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS))))
+
+
 def errors(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} distance" for pair in PAIRS))
-    columns = spec("\n".join(["exact | rel_err=0 abs_err=0",
-                              *(f"rel_err {e} | rel_err={e} abs_err=0"
-                                for e in (0.01, 0.03, 0.1, 0.3, 0.5)),
-                              *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))]))
-    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
-        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
+    return of_pairs(rows, "distance", [
+        "exact | rel_err=0 abs_err=0",
+        *(f"rel_err {e} | rel_err={e} abs_err=0" for e in (0.01, 0.03, 0.1, 0.3, 0.5)),
+        *(f"abs_err {e} | rel_err=0 abs_err={e}" for e in (0.01, 0.1))])
 
 
 def thresholds(rows):
-    lines = spec("\n".join(f"{pair.replace('_', ', ')} | error/{pair} threshold" for pair in PAIRS))
-    columns = spec("\n".join(f"{t} | threshold={t}"
-                             for t in (0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10)))
-    return grid("us: k-IOS / OBBRSS", lines, columns, lambda line, _, settings: " / ".join(
-        number(rows.us(*line, bv, **settings)) for bv in (OURS, OBBRSS)))
+    return of_pairs(rows, "threshold", [f"{t} | threshold={t}"
+                                        for t in (0.1, 0.5, 0.9, 0.99, 1.01, 1.1, 2, 10)])
 
 
 # docs/how-it-works.md
@@ -115,10 +105,8 @@ touching, contact   | touching collide
 """)
     columns = spec("1k triangles | 1000\n5k | 5000\n20k | 20000\n80k | 80000")
 
-    def cell(line, column, _):
-        key = f"scaling/{column[0]}/{line[0]}", line[1]
-        return f"{number(rows.us(*key))} ({number(rows.ratio(*key))})"
-    return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
+    return grid("us (OBBRSS / k-IOS)", lines, columns, lambda line, column, _: rows.with_ratio(
+        f"scaling/{column[0]}/{line[0]}", line[1]))
 
 
 # docs/scene.md
@@ -235,7 +223,7 @@ all contacts      | contacts
     def cell(line, column, _):
         if column[1:]:
             return f"{rows.find(line[0], 'distance', OBBRSS)['max_abs_error']:.0e}"
-        return f"{number(rows.us(line[0], *column))} ({number(rows.ratio(line[0], *column))})"
+        return rows.with_ratio(line[0], *column)
     return grid("us (OBBRSS / k-IOS)", lines, columns, cell)
 
 
