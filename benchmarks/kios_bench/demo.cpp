@@ -21,7 +21,7 @@
 // Our library makes meshes alone here.
 extern "C" const kios::bench::Library kios_bench_library = {
     []() -> std::unique_ptr<kios::bench::MeshSet> {
-      return std::make_unique<kios::bench::MeshSetOf<kios::bench::KiosKind>>(nullptr);
+      return std::make_unique<kios::bench::KiosSet>(nullptr);
     },
     nullptr,
     nullptr,

@@ -10,7 +10,7 @@
 
 extern "C" const kios::bench::Library kios_bench_library = {
     []() -> std::unique_ptr<kios::bench::MeshSet> {
-      return std::make_unique<kios::bench::MeshSetOf<kios::bench::KiosKind>>(nullptr);
+      return std::make_unique<kios::bench::KiosSet>(nullptr);
     },
     [] { return kios::bench::makeKiosTree(nullptr); },
     [](const std::string& name) -> std::unique_ptr<kios::bench::Crowd> {

@@ -20,7 +20,7 @@ namespace nodes = fcl::detail;
 template <typename BV, typename Calls, typename DistanceNode, typename CollisionNode>
 std::unique_ptr<MeshSet> make(
     std::shared_ptr<fcl::detail::BVFitterBase<BV>> (*make_fitter)() = nullptr) {
-  return std::make_unique<MeshSetOf<Kind<BV, Calls, DistanceNode, CollisionNode>>>(make_fitter);
+  return std::make_unique<MeshSetOf<BV, Calls, DistanceNode, CollisionNode>>(make_fitter);
 }
 
 using RssDistance = nodes::MeshDistanceTraversalNodeRSSd;
