@@ -105,6 +105,24 @@ inline TrianglePair posed(Random& random, const TrianglePair& pair) {
   });
 }
 
+/// Returns a maker of pairs by makers of a triangle each.
+template <typename First, typename Second>
+auto pairOf(First first, Second second) {
+  return [=](Random& random) {
+    const Corners a = first(random);
+    return TrianglePair{a, second(random)};
+  };
+}
+
+/// Returns a maker of posed() pairs, scaled before.
+template <typename Make>
+auto posedBy(double factor, Make make) {
+  return [=](Random& random) {
+    const TrianglePair pair = make(random);
+    return posed(random, scaled(pair, factor));
+  };
+}
+
 /// Returns random lattice triangles that touch exactly: see touching_triangles.cpp.
 TrianglePair latticeVertexOnFace(Random& random);
 TrianglePair latticeVertexOnEdge(Random& random);
