@@ -121,7 +121,7 @@ std::vector<Question> robotQuestions(const scenes::Robot& robot, const fcl::Tran
 }
 
 Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames) {
-  Task task{scenario, query, {}, frames.size(), {}};
+  Task task{scenario, query, {}, frames.size()};
   for (const scenes::Frame& frame : frames) task.questions.push_back({0, 1, frame});
   return task;
 }
@@ -264,7 +264,7 @@ std::vector<Row> Contest::queryRows(const Task& task) {
   const std::size_t largest = largestOf(task.questions);
   for (Row& row : rows) {
     row.largest_mesh = largest;
-    row.asked.threshold = task.threshold;
+    if (task.query == Query::kCloserThan) row.asked.threshold = task.questions[0].threshold;
     if (task.query != Query::kCollide && task.query != Query::kContacts)
       row.asked.rel_err = row.asked.abs_err = 0;
     if (size > task.frames) row.pairs.total = size;

@@ -24,7 +24,6 @@ struct Task {
   Query query = Query::kDistance;
   std::vector<Question> questions;
   std::size_t frames = 0;
-  Maybe threshold;    // as the rows state it
   bool cold = false;  // before every frame the processor has done something else
   /// Before every frame, where cold, this many bytes are written; 0: other code runs, over 4 MB.
   std::size_t streamed_bytes = 0;

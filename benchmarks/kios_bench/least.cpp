@@ -10,19 +10,10 @@
 namespace kios::bench {
 namespace {
 
-/// Scenarios by the beginnings of their names.
-constexpr struct {
-  const char* scenario;
-  const char* why;
-} kMaySlower[] = {
-    {"rays/", "Embree serves nothing but rays, in single precision; FCL serves none"},
-};
-
-// Boxes along the axes of the model, and k-DOPs, are built in a pass over the vertices, and bound
-// turned or near content badly: who asks for those doesn't compare their builds.
+// Boxes along the axes of the model are built in a pass over the vertices, and bound turned or near
+// content badly: who asks for those doesn't compare their builds.
 bool isRival(const Row& row) {
-  if (row.bv.rfind("fcl_", 0) != 0) return row.bv == "embree";
-  return row.query != "build" || (row.bv != "fcl_aabb" && row.bv.rfind("fcl_kdop", 0) != 0);
+  return row.bv.rfind("fcl_", 0) == 0 && (row.query != "build" || row.bv != "fcl_aabb");
 }
 
 bool isTimed(const Row& row) {
@@ -65,13 +56,6 @@ double leastRatio(const Row& row) {
   return cold && row.query == "collide" ? 0.8 : 1;
 }
 
-const char* whySlower(const std::string& scenario) {
-  for (const auto& [beginning, why] : kMaySlower) {
-    if (scenario.rfind(beginning, 0) == 0) return why;
-  }
-  return nullptr;
-}
-
 std::vector<Standing> byRatio(const std::vector<Row>& rows) {
   std::map<Setting, const Row*> best;
   for (const Row& row : rows) {
@@ -84,9 +68,8 @@ std::vector<Standing> byRatio(const std::vector<Row>& rows) {
     if (row.bv != "kios" || !isTimed(row) || !isRealWork(row)) continue;
     const auto found = best.find(settingOf(row));
     if (found == best.end()) continue;
-    standings.push_back({row, found->second->bv,
-                         found->second->times.median_us / row.times.median_us,
-                         whySlower(row.scenario)});
+    standings.push_back(
+        {row, found->second->bv, found->second->times.median_us / row.times.median_us});
   }
   std::stable_sort(standings.begin(), standings.end(),
                    [](const Standing& a, const Standing& b) { return a.ratio < b.ratio; });
@@ -94,10 +77,9 @@ std::vector<Standing> byRatio(const std::vector<Row>& rows) {
 }
 
 int countSlower(const std::vector<Standing>& standings) {
-  return static_cast<int>(
-      std::count_if(standings.begin(), standings.end(), [](const Standing& standing) {
-        return standing.ratio < leastRatio(standing.ours) && !standing.why;
-      }));
+  return static_cast<int>(std::count_if(
+      standings.begin(), standings.end(),
+      [](const Standing& standing) { return standing.ratio < leastRatio(standing.ours); }));
 }
 
 void printLeast(const std::vector<Standing>& standings, std::size_t count) {
@@ -107,9 +89,8 @@ void printLeast(const std::vector<Standing>& standings, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const Standing& standing = standings[i];
     const Row& ours = standing.ours;
-    std::printf("%8.3f  %s: %.3f us, %s %.3f us%s%s\n", standing.ratio, words(ours).c_str(),
-                ours.times.median_us, standing.best.c_str(), standing.ratio * ours.times.median_us,
-                standing.why ? "; " : "", standing.why ? standing.why : "");
+    std::printf("%8.3f  %s: %.3f us, %s %.3f us\n", standing.ratio, words(ours).c_str(),
+                ours.times.median_us, standing.best.c_str(), standing.ratio * ours.times.median_us);
   }
 }
 

@@ -51,7 +51,7 @@ std::vector<Problem> readProblems(const fs::path& folder, const Robot& robot, st
       kinds[file.path().parent_path()].push_back(file.path());
     }
   }
-  const std::size_t of_kind = (wanted + kinds.size() - 1) / kinds.size();
+  const std::size_t of_kind = (wanted + kinds.size() - 1) / std::max<std::size_t>(1, kinds.size());
   for (auto& [kind, scenes] : kinds) std::sort(scenes.begin(), scenes.end());
   std::vector<Problem> problems;
   for (std::size_t i = 0; i < of_kind; ++i) {

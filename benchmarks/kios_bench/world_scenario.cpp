@@ -195,11 +195,9 @@ void reportWorld(const std::string& scenario, const scenes::World& world, std::v
     }
     task.query = Query::kCloserThan;
     for (const double threshold : kThresholds) {
-      task.threshold = threshold;
       for (Question& question : task.questions) question.threshold = threshold;
       append(contest.queryRows(task), rows);
     }
-    task.threshold.reset();
     append(rowsByGap(task, contest), rows);
     if (first_link == 0) {
       Task cold = colder(task, options);
