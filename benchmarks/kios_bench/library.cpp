@@ -13,8 +13,8 @@ extern "C" const kios::bench::Library kios_bench_library = {
       return std::make_unique<kios::bench::KiosSet>(nullptr);
     },
     [] { return kios::bench::makeKiosTree(nullptr); },
-    [](const std::string& name) -> std::unique_ptr<kios::bench::Crowd> {
-      return std::make_unique<kios::bench::CrowdOf<kios::kIOSd, kios::bench::KiosCalls>>(name);
+    []() -> std::unique_ptr<kios::bench::Crowd> {
+      return std::make_unique<kios::bench::CrowdOf<kios::kIOSd, kios::bench::KiosCalls>>();
     },
     kios::bench::makeKiosScene,
     kios::bench::makeCertified,

@@ -21,13 +21,18 @@ struct Edge {
 
 constexpr double kLengths[] = {0.05, 0.2, 0.8};
 
-std::vector<std::unique_ptr<MotionSet>> setsOf(const scenes::Cell& cell) {
-  std::vector<std::unique_ptr<MotionSet>> sets;
+struct Entrant {
+  std::string name;
+  std::unique_ptr<MotionSet> set;
+};
+
+std::vector<Entrant> entrantsIn(const scenes::Cell& cell) {
+  std::vector<Entrant> entrants;
   for (const std::string& name : compared({kOurs, "sampled_kios", "fcl_obbrss"})) {
-    sets.push_back(isOurs(name) ? libraryOf(name).motion_set(name, cell)
-                                : makeMotionSet(name, cell));
+    entrants.push_back(
+        {name, isOurs(name) ? libraryOf(name).motion_set(cell) : makeMotionSet(name, cell)});
   }
-  return sets;
+  return entrants;
 }
 
 /// Holds the truth: an exact static query at so many configurations, and of those that
@@ -103,13 +108,13 @@ void reportMissed(const std::string& scenario, const scenes::Cell& cell, const O
     free.push_back(oracle.isFree(edges.back(), samples) ? 1 : 0);
   }
   std::vector<Row> rows;
-  for (const auto& set : setsOf(cell)) {
+  for (const auto& [name, set] : entrantsIn(cell)) {
     int missed = 0;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       missed += set->isFree(edges[i].q0, edges[i].q1) && free[i] == 0 ? 1 : 0;
     }
     Row row = rowOf(scenario, cell, edges.size());
-    row.bv = set->name();
+    row.bv = name;
     row.errors.wrong = static_cast<std::size_t>(missed);
     rows.push_back(row);
   }
@@ -120,14 +125,15 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
                  const std::vector<Edge>& edges, bool free, const Options& options,
                  Report& report) {
   if (edges.empty()) return;
-  const auto sets = setsOf(cell);
+  const std::vector<Entrant> entrants = entrantsIn(cell);
   std::vector<Competitor> competitors;
-  std::vector<std::vector<char>> verdicts(sets.size(), std::vector<char>(edges.size(), 0));
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    competitors.push_back({sets[i]->name(), each([&, i](std::size_t e) {
-                             verdicts[i][e] = sets[i]->isFree(edges[e].q0, edges[e].q1) ? 1 : 0;
+  std::vector<std::vector<char>> verdicts(entrants.size(), std::vector<char>(edges.size(), 0));
+  for (std::size_t i = 0; i < entrants.size(); ++i) {
+    const auto& [name, set] = entrants[i];
+    competitors.push_back({name, each([&of_set = verdicts[i], &edges, &set = *set](std::size_t e) {
+                             of_set[e] = set.isFree(edges[e].q0, edges[e].q1) ? 1 : 0;
                            })});
-    competitors.back().rounds = roundsOf(sets[i]->name());
+    competitors.back().rounds = roundsOf(name);
   }
   Race race{edges.size(), options.repeats, 20};
   race.warm_up = true;
@@ -135,13 +141,13 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
   const Row base = rowOf(scenario, cell, edges.size());
   std::vector<Row> rows;
   const auto asked = static_cast<double>(edges.size()) * (options.repeats + 1);
-  for (std::size_t i = 0; i < sets.size(); ++i) {
+  for (std::size_t i = 0; i < entrants.size(); ++i) {
     Row row = base.of(competitors[i], named("fcl_obbrss", competitors));
     // Contacts that were missed, and contacts that no sample of the oracle confirms.
     row.errors.wrong = std::count(verdicts[i].begin(), verdicts[i].end(), free ? 0 : 1);
-    row.pairs.narrow_queries = static_cast<double>(sets[i]->takeQueried()) / asked;
+    row.pairs.narrow_queries = static_cast<double>(entrants[i].set->takeQueried()) / asked;
     rows.push_back(row);
-    if (const long long open = sets[i]->takeUnresolved(); open > 0) {
+    if (const long long open = entrants[i].set->takeUnresolved(); open > 0) {
       std::printf("%s: %lld of %.0f unresolved\n", scenario.c_str(), open, asked);
     }
   }

@@ -75,6 +75,7 @@ void compare(SceneQuery query, const std::vector<SceneAnswer>& answers,
 
 /// Holds a set and what it answered: each so many-th frame, where it takes too long.
 struct Entrant {
+  std::string name;
   std::unique_ptr<SceneSet> set;
   std::size_t stride;
   std::vector<std::vector<SceneAnswer>> answers;  // by frame
@@ -101,8 +102,8 @@ std::vector<Row> rowsOf(const scenes::BodyScene& scene, SceneQuery query, Row ba
     const auto before = [&set](std::size_t frame, std::size_t /*end*/) {
       if (frame == 0) set.forget();
     };
-    competitors.push_back({set.name(), answer, before, entrant.stride});
-    competitors.back().rounds = roundsOf(set.name());
+    competitors.push_back({entrant.name, answer, before, entrant.stride});
+    competitors.back().rounds = roundsOf(entrant.name);
     of.push_back(&entrant);
     set.answer(query, 0, kMargin);  // what models leave to their first query belongs to no repeat
   }
@@ -140,8 +141,8 @@ void reportScene(const std::string& scenario, const scenes::BodyScene& scene, st
   std::vector<Entrant> entrants;
   for (const auto& [bv, stride] : sets) {
     for (const std::string& name : compared({bv})) {
-      auto set = isOurs(name) ? libraryOf(name).scene_set(name, scene) : makeSceneSet(name, scene);
-      entrants.push_back({std::move(set), stride, {}, {}});
+      auto set = isOurs(name) ? libraryOf(name).scene_set(scene) : makeSceneSet(name, scene);
+      entrants.push_back({name, std::move(set), stride, {}, {}});
     }
   }
   Row base = baseRow(scenario, "scene", 0, scene.meshes);

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "report.h"
@@ -24,10 +23,7 @@ struct SceneAnswer {
 /// A way to ask for the distances of a scene's bodies, frame by frame. The scene must outlive it.
 class SceneSet {
  public:
-  explicit SceneSet(std::string name) : name_(std::move(name)) {}
   virtual ~SceneSet() = default;
-
-  const std::string& name() const { return name_; }
   virtual bool serves(SceneQuery /*query*/) const { return true; }
   /// Forgets what it learnt from frames before.
   virtual void forget() {}
@@ -36,9 +32,6 @@ class SceneSet {
   virtual std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) = 0;
   /// Returns pairs for which the last answer() asked the narrow phase.
   virtual long long queried() const = 0;
-
- private:
-  std::string name_;
 };
 
 /// By their names in rows. FCL's OBBRSS: `fcl_obbrss`, every pair with a result of its own;
@@ -48,6 +41,6 @@ class SceneSet {
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene);
 
 /// Ours by SceneDistance, `kios`.
-std::unique_ptr<SceneSet> makeKiosScene(const std::string& name, const scenes::BodyScene& scene);
+std::unique_ptr<SceneSet> makeKiosScene(const scenes::BodyScene& scene);
 
 }  // namespace kios::bench

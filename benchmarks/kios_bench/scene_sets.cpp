@@ -48,8 +48,7 @@ struct SceneObjects {
 template <typename BV, typename Calls>
 class ScenePairs final : public SceneSet {
  public:
-  ScenePairs(const std::string& name, const scenes::BodyScene& scene, bool bounded)
-      : SceneSet(name), bounded_(bounded), bodies_(scene) {
+  ScenePairs(const scenes::BodyScene& scene, bool bounded) : bounded_(bounded), bodies_(scene) {
     for (int a = 0; a < scene.size(); ++a) {
       for (int b = a + 1; b < scene.size(); ++b) {
         if (bodies_.admissible(a, b)) pairs_.emplace_back(a, b);
@@ -90,8 +89,7 @@ class ScenePairs final : public SceneSet {
 /// Holds FCL's dynamic AABB tree with what its default distance callback does, after the filter.
 class FclManager final : public SceneSet {
  public:
-  FclManager(const std::string& name, const scenes::BodyScene& scene)
-      : SceneSet(name), bodies_(scene) {
+  explicit FclManager(const scenes::BodyScene& scene) : bodies_(scene) {
     for (int body = 0; body < scene.size(); ++body) {
       const Object& object = *bodies_.objects[body];
       managed_.add(bodies_.models[scene.mesh_of[body]], object.getTransform(),
@@ -140,8 +138,7 @@ class FclManager final : public SceneSet {
 
 class KiosScene final : public SceneSet {
  public:
-  KiosScene(const std::string& name, const scenes::BodyScene& scene)
-      : SceneSet(name), bodies_(scene) {
+  explicit KiosScene(const scenes::BodyScene& scene) : bodies_(scene) {
     for (int body = 0; body < scene.size(); ++body) {
       const auto* const object = bodies_.objects[body].get();
       const Role role = scene.obstacle[body] ? Role::kObstacle : Role::kBody;
@@ -181,17 +178,17 @@ class KiosScene final : public SceneSet {
 
 }  // namespace
 
-std::unique_ptr<SceneSet> makeKiosScene(const std::string& name, const scenes::BodyScene& scene) {
-  return std::make_unique<KiosScene>(name, scene);
+std::unique_ptr<SceneSet> makeKiosScene(const scenes::BodyScene& scene) {
+  return std::make_unique<KiosScene>(scene);
 }
 
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene) {
   using FclPairs = ScenePairs<fcl::OBBRSSd, FclCalls>;
   using KiosPairs = ScenePairs<kIOSd, KiosCalls>;
   const bool bounded = name == "fcl_obbrss_bounded" || name == "kios_bounded";
-  if (name == "fcl_manager") return std::make_unique<FclManager>(name, scene);
-  if (name.rfind("kios_", 0) == 0) return std::make_unique<KiosPairs>(name, scene, bounded);
-  return std::make_unique<FclPairs>(name, scene, bounded);
+  if (name == "fcl_manager") return std::make_unique<FclManager>(scene);
+  if (name.rfind("kios_", 0) == 0) return std::make_unique<KiosPairs>(scene, bounded);
+  return std::make_unique<FclPairs>(scene, bounded);
 }
 
 }  // namespace kios::bench
