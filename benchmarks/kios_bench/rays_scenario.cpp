@@ -68,32 +68,26 @@ std::vector<Rayd> edgeRays(int count, const scenes::Mesh& mesh, std::uint64_t se
 
 using OracleHit = scenes::RayOracle::Hit;
 
-class KiosCaster final : public RayCaster {
- public:
-  explicit KiosCaster(const scenes::Mesh& mesh) : model_(scenes::buildModel<kIOSd>(mesh)) {}
-
-  void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) override {
+/// Adds its work.
+RayCaster kiosCaster(const scenes::Mesh& mesh, SearchCounts& counts) {
+  return [model = scenes::buildModel<kIOSd>(mesh), &counts](RayQuery query, const Rayd& ray,
+                                                            std::vector<CastHit>& hits) {
+    static const fcl::Transform3d here = fcl::Transform3d::Identity();
     hits.clear();
     if (query == RayQuery::kAny) {
-      if (anyHit(*model_, pose_, ray, &counts)) hits.push_back({0, -1});
+      if (anyHit(*model, here, ray, &counts)) hits.push_back({0, -1});
     } else if (query == RayQuery::kFirst) {
-      if (const auto hit = firstHit(*model_, pose_, ray, &counts)) {
+      if (const auto hit = firstHit(*model, here, ray, &counts)) {
         hits.push_back({hit->t, hit->triangle});
       }
     } else {
       constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
-      for (const auto& hit : allHits(*model_, pose_, ray, kAll, &counts)) {
+      for (const auto& hit : allHits(*model, here, ray, kAll, &counts)) {
         hits.push_back({hit.t, hit.triangle});
       }
     }
-  }
-
-  SearchCounts counts;  // work done since it was made
-
- private:
-  const std::shared_ptr<Modeld> model_;
-  const fcl::Transform3d pose_ = fcl::Transform3d::Identity();
-};
+  };
+}
 
 /// Whether hits, by triangle, are what a query asks for, and the error of the first one's length.
 bool isRight(RayQuery query, const Rayd& ray, const std::vector<CastHit>& hits,
@@ -143,11 +137,10 @@ Judged judge(const std::vector<Rayd>& rays, const scenes::Mesh& mesh, const Opti
 /// A row for each query and caster.
 std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
                          const scenes::Mesh& mesh, const Options& options) {
-  KiosCaster ours(mesh);
-  std::vector<std::pair<const char*, RayCaster*>> casters = {{kOurs, &ours}};
+  SearchCounts work;
+  std::vector<std::pair<const char*, RayCaster>> casters = {{kOurs, kiosCaster(mesh, work)}};
 #ifdef KIOS_HAVE_EMBREE
-  const auto embree = makeEmbreeCaster(mesh);
-  casters.emplace_back("embree", embree.get());
+  casters.emplace_back("embree", embreeCaster(mesh));
 #endif
   const Judged judged = judge(rays, mesh, options);
   std::vector<CastHit> hits;
@@ -157,8 +150,8 @@ std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
         std::pair(RayQuery::kAll, "all")}) {
     std::vector<Competitor> competitors;
     for (const auto& [bv, caster] : casters) {
-      competitors.push_back({bv, each([&, query = query, caster = caster](std::size_t i) {
-                               caster->cast(query, rays[i], hits);
+      competitors.push_back({bv, each([&, query = query, &caster = caster](std::size_t i) {
+                               caster(query, rays[i], hits);
                              })});
     }
     Race{rays.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
@@ -169,7 +162,7 @@ std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
       std::size_t wrong = 0;
       for (std::size_t i = 0; i < judged.exact.size(); ++i) {
         const Rayd& ray = rays[i * judged.step];
-        casters[c].second->cast(query, ray, hits);
+        casters[c].second(query, ray, hits);
         std::sort(hits.begin(), hits.end(),
                   [](const CastHit& a, const CastHit& b) { return a.triangle < b.triangle; });
         wrong += isRight(query, ray, hits, judged.exact[i], worst) ? 0 : 1;
@@ -177,11 +170,11 @@ std::vector<Row> contest(const std::string& name, const std::vector<Rayd>& rays,
       row.errors.wrong = wrong;
       if (query == RayQuery::kFirst) row.errors.max_abs = worst;
       if (row.bv != kOurs) continue;
-      ours.counts = {};
+      work = {};
       competitors[c].answer(0, rays.size());
       const auto count = static_cast<double>(rays.size());
-      row.tests = {static_cast<double>(ours.counts.volume_tests) / count,
-                   static_cast<double>(ours.counts.exact) / count};
+      row.tests = {static_cast<double>(work.volume_tests) / count,
+                   static_cast<double>(work.exact) / count};
     }
   }
   return rows;
