@@ -153,8 +153,7 @@ const Scenario& scenarioOf(const std::string& name) {
                        [&name](const Scenario& s) { return s.name == name; });
 }
 
-// False if the scenario cannot run here.
-bool runOne(const std::string& name, Options options, Report& report) {
+void runOne(const std::string& name, Options options, Report& report) {
   const std::size_t slash = name.find('/');
   const Scenario& scenario = scenarioOf(name.substr(0, slash));
   if (slash != std::string::npos) options.part = name.substr(slash + 1);
@@ -171,19 +170,16 @@ bool runOne(const std::string& name, Options options, Report& report) {
     }
   } catch (const Skipped& reason) {
     std::printf("skipped: %s: %s\n", name.c_str(), reason.what());
-    return false;
   }
-  return true;
 }
 
 // Runs the scenarios with few frames each; all that have rows of FCL's if none is named.
-void runFew(std::vector<std::string> wanted, Options options, bool own_repeats, Report& report) {
+void runFew(std::vector<std::string> wanted, Options options, Report& report) {
   if (wanted.empty()) {
     for (const Scenario& scenario : kScenarios) {
       if (scenario.least_frames > 0) wanted.emplace_back(scenario.name);
     }
   }
-  if (!own_repeats) options.repeats = 3;
   options.oracle_frames = 20;
   for (const std::string& name : wanted) {
     Options few = options;
@@ -193,15 +189,9 @@ void runFew(std::vector<std::string> wanted, Options options, bool own_repeats, 
 }
 
 // Compares with FCL. Returns how many of our rows are slower than the fastest other's.
-int runLeast(const std::vector<std::string>& wanted, Options options, bool own_repeats,
-             Report& report) {
+int runLeast(const std::vector<std::string>& wanted, const Options& options, Report& report) {
   constexpr std::size_t kShown = 10;
-  if (options.bvs == defaultVolumeNames()) {
-    // FCL's own k-IOS is nowhere its fastest by much, and takes a hundred times OBBRSS's time.
-    options.bvs.erase(std::remove(options.bvs.begin(), options.bvs.end(), "fcl_kios_builtin"),
-                      options.bvs.end());
-  }
-  runFew(wanted, options, own_repeats, report);
+  runFew(wanted, options, report);
   const std::vector<Standing> standings = byRatio(report.rows());
   printLeast(standings, kShown);
   return countSlower(standings);
@@ -209,15 +199,14 @@ int runLeast(const std::vector<std::string>& wanted, Options options, bool own_r
 
 // Compares with the library of an earlier revision. Returns how many of our rows are slower than
 // kLeastRatio or answer otherwise.
-int runCompared(std::vector<std::string> wanted, Options options, bool own_repeats,
-                Report& report) {
+int runCompared(std::vector<std::string> wanted, Options options, Report& report) {
   constexpr std::size_t kShown = 10;
   if (wanted.empty()) {
     wanted = {"tori", "robots", "world", "scene", "shapes", "build", "motions"};
   }
   if (options.bvs == defaultVolumeNames()) options.bvs = {kOurs, "fcl_obbrss"};
   options.bvs = compared(options.bvs);
-  runFew(std::move(wanted), options, own_repeats, report);
+  runFew(std::move(wanted), options, report);
   return summarize(report.rows(), kShown);
 }
 
@@ -226,9 +215,6 @@ int run(int argc, char** argv) {
   app.footer(kColumns);
   std::vector<std::string> names;
   for (const Scenario& scenario : kScenarios) names.emplace_back(scenario.name);
-  std::vector<std::string> volumes = volumeNames();
-  const bool has_coal = std::count(volumes.begin(), volumes.end(), kCoal) > 0;
-  if (!has_coal) volumes.emplace_back(kCoal);
   Options options;
   std::vector<std::string> wanted;
   options.bvs = defaultVolumeNames();
@@ -248,7 +234,7 @@ int run(int argc, char** argv) {
   app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);
   app.add_option("--bv", options.bvs, "bounding volumes, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember(volumes));
+      ->check(CLI::IsMember(volumeNames()));
   app.add_option("--frames", options.frames, "frames of each scene, evenly chosen")
       ->check(CLI::Range(1, 1000000000));
   app.add_option("--repeats", options.repeats, "repeats of each measurement")
@@ -282,17 +268,12 @@ int run(int argc, char** argv) {
     printList();
     return 0;
   }
-  const auto coal = std::find(options.bvs.begin(), options.bvs.end(), kCoal);
-  if (!has_coal && coal != options.bvs.end()) {
-    options.bvs.erase(coal);
-    std::printf("coal_obbrss is left out: Coal was not found when kios_bench was built\n");
-    if (options.bvs.empty()) return 0;
-  }
-  if (options.quick && app.count("--repeats") == 0) options.repeats = 2;
+  const bool few = least || !libraries.empty();
+  if (app.count("--repeats") == 0 && (few || options.quick)) options.repeats = few ? 3 : 2;
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
   if (!libraries.empty()) loadLibraries(libraries[0], libraries[1]);
-  if (wanted.empty() && !least && libraries.empty()) wanted = {"tori/generated"};
+  if (wanted.empty() && !few) wanted = {"tori/generated"};
   if (!robot.empty() && wanted != std::vector<std::string>{"robots"}) {
     throw std::invalid_argument("--robot is an option of the scenario 'robots'");
   }
@@ -301,9 +282,9 @@ int run(int argc, char** argv) {
                 libraries.empty() ? printTable : printCompared);
   int slower = 0;
   if (!libraries.empty()) {
-    slower = runCompared(wanted, options, app.count("--repeats") > 0, report);
+    slower = runCompared(wanted, options, report);
   } else if (least) {
-    slower = runLeast(wanted, options, app.count("--repeats") > 0, report);
+    slower = runLeast(wanted, options, report);
   } else {
     for (const std::string& name : wanted) runOne(name, options, report);
     if (report.rows().empty()) return 0;
