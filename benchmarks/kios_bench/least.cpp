@@ -20,29 +20,22 @@ bool isTimed(const Row& row) {
   return std::isfinite(row.times.median_us) && row.times.median_us > 0;
 }
 
-std::string text(const Asked& asked) {
-  std::string words;
+}  // namespace
+
+std::string words(const Row& row) {
+  std::string words = row.scenario + " " + row.query;
   const auto add = [&words](const char* name, const Maybe& value) {
     if (!value || (*value == 0 && std::string(name) != "threshold")) return;
     char digits[32];
     std::snprintf(digits, sizeof digits, " %s %g", name, *value);
     words += digits;
   };
-  add("threshold", asked.threshold);
-  add("rel_err", asked.rel_err);
-  add("abs_err", asked.abs_err);
-  add("budget", asked.budget);
+  add("threshold", row.asked.threshold);
+  add("rel_err", row.asked.rel_err);
+  add("abs_err", row.asked.abs_err);
+  add("budget", row.asked.budget);
   return words;
 }
-
-}  // namespace
-
-Setting settingOf(const Row& row) {
-  return {row.scenario,      row.query,           row.asked.rel_err,
-          row.asked.abs_err, row.asked.threshold, row.asked.budget};
-}
-
-std::string words(const Row& row) { return row.scenario + " " + row.query + text(row.asked); }
 
 bool isRealWork(const Row& row) {
   constexpr std::size_t kFew = 64;
@@ -57,16 +50,16 @@ double leastRatio(const Row& row) {
 }
 
 std::vector<Standing> byRatio(const std::vector<Row>& rows) {
-  std::map<Setting, const Row*> best;
+  std::map<std::string, const Row*> best;
   for (const Row& row : rows) {
     if (!isRival(row) || !isTimed(row)) continue;
-    const Row*& fastest = best[settingOf(row)];
+    const Row*& fastest = best[words(row)];
     if (!fastest || row.times.median_us < fastest->times.median_us) fastest = &row;
   }
   std::vector<Standing> standings;
   for (const Row& row : rows) {
     if (row.bv != "kios" || !isTimed(row) || !isRealWork(row)) continue;
-    const auto found = best.find(settingOf(row));
+    const auto found = best.find(words(row));
     if (found == best.end()) continue;
     standings.push_back(
         {row, found->second->bv, found->second->times.median_us / row.times.median_us});

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "report.h"
@@ -18,11 +17,7 @@ struct Standing {
   double ratio = 0;  ///< its median time by ours: below 1, ours is slower
 };
 
-/// Says what rows have in common that answer the same: scenario, query, and what was asked.
-using Setting = std::tuple<std::string, std::string, Maybe, Maybe, Maybe, Maybe>;
-Setting settingOf(const Row& row);
-
-/// Returns the setting in words.
+/// Returns what rows have in common that answer the same: scenario, query, and what was asked.
 std::string words(const Row& row);
 
 /// Returns whether the row is work that programs do: a mesh of 64 triangles or more takes part. No
