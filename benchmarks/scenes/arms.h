@@ -37,6 +37,12 @@ std::vector<fcl::Transform3d> robotPoses(const Robot& robot, const fcl::Transfor
 std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
                                              std::uint64_t seed);
 
+/// Adds a link to a chain, beyond the last one's joint by `reach`. Even links turn about the arm's
+/// direction, their z; odd ones bend about an axis across it, with -y along the arm. At X_UM the
+/// mesh stands upright on its joint.
+void addToChain(Robot& arm, double reach, double centre, double amplitude,
+                const fcl::Transform3d& X_UM, Mesh mesh);
+
 /// Returns the pose of a robot that faces another of its kind at the origin.
 fcl::Transform3d facing(double distance);
 

@@ -64,23 +64,10 @@ Robot chainOf(const std::vector<Mesh>& meshes) {
   Robot arm;
   double reach = 0;  // of the link before
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
-    // with -y along the arm.
     const bool across = i % 2 == 1;
     const Eigen::AlignedBox3d box = boxOf(meshes[i]);
-    Link link;
-    if (i > 0) {
-      link.X_PL = across ? Transform3d(shift(0, 0, reach) * turn(-kPi / 2, Vector3d::UnitX()))
-                         : Transform3d(shift(0, -reach, 0) * turn(kPi / 2, Vector3d::UnitX()));
-      arm.centres.push_back(across ? kCentre : 0);
-      arm.amplitudes.push_back(across ? kBend : kTwist);
-    }
-    link.X_LM = upright(box);
-    if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX()) * link.X_LM;
-    link.mesh = meshes[i];
+    addToChain(arm, reach, across ? kCentre : 0, across ? kBend : kTwist, upright(box), meshes[i]);
     reach = box.sizes().maxCoeff();
-    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
-    arm.links.push_back(std::move(link));
   }
   return arm;
 }
