@@ -80,10 +80,13 @@ void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf si
     for (const Tree* tree : {a.get(), b.get()}) {
       for (const auto& volume : tree->volumes()) {
         const FitSize size = size_of(volume);
-        trees.size.numbers += size.numbers / nodes;
-        trees.size.bytes += size.bytes / nodes;
-        trees.size.spheres += size.spheres / nodes;
+        trees.size.numbers += size.numbers;
+        trees.size.bytes += size.bytes;
+        trees.size.spheres += size.spheres;
       }
+    }
+    for (double* const sum : {&trees.size.numbers, &trees.size.bytes, &trees.size.spheres}) {
+      *sum /= nodes;
     }
     return trees;
   };
