@@ -19,14 +19,11 @@ namespace kios::bench {
 namespace {
 
 /// Reports distance, collide and build rows: times and tests are sums over the pairs of a frame,
-/// `total_pairs` counts the queries of all frames. `frames` if the options name none.
+/// `total_pairs` counts the queries of all frames.
 void reportArms(const std::string& scenario, const scenes::Robot& arm, const fcl::Transform3d& X_W2,
-                int frames, const Options& options, Report& report) {
-  if (options.frames > 0) {
-    frames = options.frames;
-  } else if (options.quick) {
-    frames = 2;
-  }
+                const Options& options, Report& report) {
+  constexpr int kFrames = 100;  // FCL's OBBRSS takes 17 ms for one
+  const int frames = options.frames > 0 ? options.frames : (options.quick ? 2 : kFrames);
   std::vector<scenes::Mesh> meshes;
   for (const scenes::Link& link : arm.links) meshes.push_back(link.mesh);
   Contest contest(meshes, options);
@@ -35,13 +32,9 @@ void reportArms(const std::string& scenario, const scenes::Robot& arm, const fcl
   task.questions = robotQuestions(arm, X_W2, frames, options.seed);
   task.frames = frames;
   std::vector<Row> rows;
-  for (const bool cold : {false, true}) {
-    if (cold) task.scenario += "/cold";  // the processor does something else before each frame
-    task.cold = cold;
-    for (const Query query : {Query::kDistance, Query::kCollide}) {
-      task.query = query;
-      append(contest.queryRows(task), rows);
-    }
+  for (const Query query : {Query::kDistance, Query::kCollide}) {
+    task.query = query;
+    append(contest.queryRows(task), rows);
   }
   append(contest.buildRows(scenario), rows);
   report.add(rows);
@@ -50,32 +43,23 @@ void reportArms(const std::string& scenario, const scenes::Robot& arm, const fcl
 }  // namespace
 
 void runRobots(const Options& options, Report& report) {
-  constexpr int kFrames = 100;      // FCL's OBBRSS takes 17 ms for one
-  constexpr int kStripFrames = 40;  // FCL's k-IOS takes 0.3 s for one, its OBBRSS 3 ms
   if (options.robot) {
     const scenes::Robot chain = scenes::chainOf(scenes::loadMeshes(*options.robot));
     reportArms("robots/" + options.robot->lexically_normal().filename().string(), chain,
-               scenes::facing(0.45 * scenes::chainLength(chain)), kFrames, options, report);
+               scenes::facing(0.45 * scenes::chainLength(chain)), options, report);
     return;
   }
   if (wanted(options, "generated")) {
-    reportArms("robots/generated", scenes::cadArm(), scenes::facing(0.7), kFrames, options, report);
+    reportArms("robots/generated", scenes::cadArm(), scenes::facing(0.7), options, report);
   }
   if (wanted(options, "parts")) {
     const scenes::Robot parts = scenes::chainOf(scenes::cadParts());
-    reportArms("robots/parts", parts, scenes::facing(0.45 * scenes::chainLength(parts)), kFrames,
-               options, report);
-  }
-  if (wanted(options, "strips")) {
-    // The second chain points back at the first, askew: none of their cylinders stay parallel.
-    const fcl::Transform3d X_W2 = scenes::shift(1.8, 0.4, 0.1) *
-                                  scenes::turn(3.3, fcl::Vector3d::UnitZ()) *
-                                  scenes::turn(0.5, fcl::Vector3d::UnitX());
-    reportArms("strips", scenes::stripChain(), X_W2, kStripFrames, options, report);
+    reportArms("robots/parts", parts, scenes::facing(0.45 * scenes::chainLength(parts)), options,
+               report);
   }
   if (wanted(options, "ur5")) {
     if (const auto ur5 = findUr5(options)) {
-      reportArms("robots/ur5", *ur5, scenes::shift(0, 0.5, 0), kFrames, options, report);
+      reportArms("robots/ur5", *ur5, scenes::shift(0, 0.5, 0), options, report);
     } else {
       std::printf("robots/ur5 is left out: name the folder of its data by --data or KIOS_DATA\n");
     }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,29 +44,23 @@ struct Known {
 constexpr double kClearance = 0.05;
 
 /// By arithmetic of boxes; pipes are far from all but where they are planted.
-bool knownOf(const Element& a, const Element& b, Known& known) {
-  if (a.pipe || b.pipe) return false;
+std::optional<Known> knownOf(const Element& a, const Element& b) {
+  if (a.pipe || b.pipe) return std::nullopt;
   if ((a.low - b.low).lpNorm<Eigen::Infinity>() <= 1e-6 &&
       (a.high - b.high).lpNorm<Eigen::Infinity>() <= 1e-6) {
-    known = {ClashStatus::kDuplicate, (a.low - b.low).norm()};
-    return true;
+    return Known{ClashStatus::kDuplicate, (a.low - b.low).norm()};
   }
   const Vec gap = (a.low - b.high).cwiseMax(b.low - a.high);
   if (gap.maxCoeff() < -1e-6) {
     const auto in = [](const Element& x, const Element& y) {
       return (x.low - y.low).minCoeff() > 0 && (y.high - x.high).minCoeff() > 0;
     };
-    if (in(a, b) || in(b, a)) {
-      known = {ClashStatus::kInside};
-    } else {
-      known = {ClashStatus::kOverlap, -gap.maxCoeff()};
-    }
-    return true;
+    if (in(a, b) || in(b, a)) return Known{ClashStatus::kInside};
+    return Known{ClashStatus::kOverlap, -gap.maxCoeff()};
   }
   const double distance = gap.cwiseMax(0).norm();
-  if (distance > kClearance) return false;
-  known = distance <= 1e-6 ? Known{ClashStatus::kTouch} : Known{ClashStatus::kClearance, distance};
-  return true;
+  if (distance > kClearance) return std::nullopt;
+  return distance <= 1e-6 ? Known{ClashStatus::kTouch} : Known{ClashStatus::kClearance, distance};
 }
 
 /// Rooms of a slab, a column, a wall and a pipe each, flush with their neighbours; in every tenth
@@ -85,8 +80,7 @@ class Building {
     }
     for (std::size_t i = 0; i < elements.size(); ++i) {
       for (std::size_t j = i + 1; j < elements.size(); ++j) {
-        Known known;
-        if (knownOf(elements[i], elements[j], known)) expected[{i, j}] = known;
+        if (const auto known = knownOf(elements[i], elements[j])) expected[{i, j}] = *known;
       }
     }
   }
@@ -224,7 +218,7 @@ void reportPieces(const std::string& name, const Mesh& mesh, double half_width,
   std::vector<ClashPart> parts;
   const auto model = scenes::buildModel<kIOSd>(mesh);
   markSolid(*model);
-  Row base = baseRow("clashes/pieces/" + name, "clashes", 1, options.seed);
+  Row base = baseRow("clashes/pieces/" + name, "clashes", 1);
   for (const fcl::Transform3d& X :
        scenes::randomPoses(options.quick ? 12 : 60, half_width, options.seed)) {
     ClashPart& part = parts.emplace_back();
@@ -261,7 +255,6 @@ void reportPieces(const std::string& name, const Mesh& mesh, double half_width,
     row.errors.wrong = contradictions(found[i], found.back());
     row.bodies = parts.size();
     row.pairs.total = found[i].size();
-    row.simd_target = simdTarget();
   }
   report.add(rows);
 }
@@ -291,7 +284,7 @@ void runClashes(const Options& options, Report& report) {
         {"kios", [&](std::size_t, std::size_t) { findContacts(parts.ours, ours); }},
         {"fcl_manager", [&](std::size_t, std::size_t) { findContacts(parts.fcls, fcls); }}};
     Race{1, options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-    Row base = baseRow(std::string("clashes/") + part, "contact", 1, options.seed);
+    Row base = baseRow(std::string("clashes/") + part, "contact", 1);
     base.triangles = parts.triangles;
     std::vector<Row> rows;
     for (const Competitor& competitor : competitors) rows.push_back(base.of(competitor));
@@ -303,7 +296,6 @@ void runClashes(const Options& options, Report& report) {
     rows[1].errors.wrong = wrongOf(ours, building.expected);
     rows[2].pairs.total = fcls.size();
     rows[2].errors.wrong = wrongOf(fcls, building.expected);
-    rows[0].simd_target = rows[1].simd_target = simdTarget();
     report.add(rows);
   }
 }

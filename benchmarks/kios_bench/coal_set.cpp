@@ -104,7 +104,6 @@ class CoalSet final : public MeshSet {
     }
     return sum;
   }
-  std::optional<std::string> simdTarget() const override { return std::nullopt; }
 
  private:
   std::vector<std::shared_ptr<Model>> models_;

@@ -28,13 +28,13 @@ struct Pair {
 };
 
 std::vector<Pair> pairsOf(const std::vector<Row>& rows) {
-  std::map<std::pair<std::string, Setting>, const Row*> before;
+  std::map<std::pair<std::string, std::string>, const Row*> before;
   for (const Row& row : rows) {
-    if (isBefore(row.bv)) before[{row.bv, settingOf(row)}] = &row;
+    if (isBefore(row.bv)) before[{row.bv, words(row)}] = &row;
   }
   std::vector<Pair> pairs;
   for (const Row& row : rows) {
-    const auto found = before.find({row.bv + kBefore, settingOf(row)});
+    const auto found = before.find({row.bv + kBefore, words(row)});
     if (found == before.end() || !isRealWork(row)) continue;
     const std::vector<double>&theirs = found->second->times.repeats_us,
           &ours = row.times.repeats_us;

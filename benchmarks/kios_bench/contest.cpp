@@ -8,6 +8,9 @@
 #include <map>
 #include <string>
 
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/distance.h>
+
 #include "library.h"
 #include "scenes/shapes.h"
 #include "verdicts.h"
@@ -23,21 +26,6 @@ constexpr std::size_t kBlockFrames = 32;
 constexpr int kGeneratedFrames = 1200;
 
 constexpr char kReference[] = "fcl_obbrss";
-
-/// Says what a planner does between the queries of two frames: other code, other data, other
-/// branches.
-void workElsewhere() {
-  static std::vector<unsigned> data(1U << 20);  // 4 MB: twice what a core has for itself
-  static unsigned state = 1;
-  std::map<unsigned, std::string> words;
-  for (std::size_t i = 0; i < data.size(); i += 16) {
-    state = state * 1664525U + 1013904223U;
-    data[i] += state;
-    if (state >> 22 == 0) words[state] = std::to_string(0.1 * state);
-  }
-  std::sort(data.begin(), data.begin() + 4096);
-  for (const auto& [key, word] : words) state += key ^ static_cast<unsigned>(word.size());
-}
 
 /// Leaves nothing else in the caches.
 void stream(std::size_t bytes) {
@@ -66,6 +54,14 @@ void askOne(MeshSet& set, const Question& question) {
 }
 
 }  // namespace
+
+scenes::DistanceFunction obbrssDistance(const scenes::Mesh& mesh) {
+  return [model = scenes::buildModel<fcl::OBBRSSd>(mesh)](const scenes::Frame& frame) {
+    fcl::DistanceResultd result;
+    return fcl::distance<double>(model.get(), frame.X_WA, model.get(), frame.X_WB,
+                                 fcl::DistanceRequestd(), result);
+  };
+}
 
 std::vector<scenes::Frame> evenlyChosen(const std::vector<scenes::Frame>& frames, int count) {
   if (count == 0 || static_cast<std::size_t>(count) >= frames.size()) return frames;
@@ -110,7 +106,7 @@ std::vector<Question> robotQuestions(const scenes::Robot& robot, const fcl::Tran
 }
 
 Task pairTask(const std::string& scenario, Query query, const std::vector<scenes::Frame>& frames) {
-  Task task{scenario, query, {}, frames.size(), {}};
+  Task task{scenario, query, {}, frames.size()};
   for (const scenes::Frame& frame : frames) task.questions.push_back({0, 1, frame});
   return task;
 }
@@ -170,7 +166,7 @@ double Contest::findTruth(Query query, const Question& question) {
 std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::size_t frames,
                                  const std::vector<Competitor>& competitors,
                                  const Competitor* reference) const {
-  const Row base = baseRow(scenario, name(query), frames, options_.seed, meshes_);
+  const Row base = baseRow(scenario, name(query), frames, meshes_);
   const auto triangles = static_cast<double>(base.triangles);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
@@ -180,7 +176,6 @@ std::vector<Row> Contest::rowsOf(const std::string& scenario, Query query, std::
     row.volumes.bytes_per_triangle = static_cast<double>(found->second->bytes()) / triangles;
     row.volumes.build_us_per_triangle =
         timesOf(*named(competitor.name, builds_), 1, nullptr).median_us / triangles;
-    row.simd_target = found->second->simdTarget();
     rows.push_back(std::move(row));
   }
   return rows;
@@ -221,6 +216,7 @@ std::size_t Contest::largestOf(const std::vector<Question>& questions) const {
 
 std::vector<Row> Contest::queryRows(const Task& task) {
   const std::size_t size = task.questions.size();
+  const bool cold = task.streamed_bytes > 0;
   if (size == 0) return {};
   std::map<std::string, std::vector<double>> answers;
   std::vector<Competitor> competitors =
@@ -230,20 +226,18 @@ std::vector<Row> Contest::queryRows(const Task& task) {
         Competitor competitor{bv, [&](std::size_t begin, std::size_t end) {
                                 set.answer(task.query, task.questions, begin, end, of_set);
                               }};
-        if (task.cold) {
-          competitor.before = [&task](std::size_t, std::size_t) {
-            task.streamed_bytes > 0 ? stream(task.streamed_bytes) : workElsewhere();
-          };
+        if (cold) {
+          competitor.before = [&task](std::size_t, std::size_t) { stream(task.streamed_bytes); };
         }
         return competitor;
       });
   for (Competitor& competitor : competitors) {
     const double start = nowMicroseconds();
     competitor.answer(0, size);  // what models leave to their first query belongs to no repeat
-    if (!task.cold) competitor.rounds = roundsOf(competitor.name, nowMicroseconds() - start);
+    if (!cold) competitor.rounds = roundsOf(competitor.name, nowMicroseconds() - start);
   }
   const std::size_t of_frame = size / task.frames;
-  const std::size_t block = task.cold ? of_frame : std::max(kBlock, kBlockFrames * of_frame);
+  const std::size_t block = cold ? of_frame : std::max(kBlock, kBlockFrames * of_frame);
   Race{size, options_.repeats, block}.run(competitors);
 
   const Verdicts verdicts =
@@ -254,13 +248,10 @@ std::vector<Row> Contest::queryRows(const Task& task) {
   const std::size_t largest = largestOf(task.questions);
   for (Row& row : rows) {
     row.largest_mesh = largest;
-    row.asked.threshold = task.threshold;
+    if (task.query == Query::kCloserThan) row.asked.threshold = task.questions[0].threshold;
     if (task.query != Query::kCollide && task.query != Query::kContacts)
       row.asked.rel_err = row.asked.abs_err = 0;
-    if (size > task.frames) {
-      row.pairs.skipped = 0;
-      row.pairs.total = size;
-    }
+    if (size > task.frames) row.pairs.total = size;
     row.errors = compare(answers[row.bv], verdicts, task.query, task.questions, row.extent);
     if (others_.empty() && task.query != Query::kCloserThan)
       row.tests = sets_[row.bv]->count(task.query, task.questions, task.frames);

@@ -24,10 +24,7 @@ struct Task {
   Query query = Query::kDistance;
   std::vector<Question> questions;
   std::size_t frames = 0;
-  Maybe threshold;    // as the rows state it
-  bool cold = false;  // before every frame the processor has done something else
-  /// Before every frame, where cold, this many bytes are written; 0: other code runs, over 4 MB.
-  std::size_t streamed_bytes = 0;
+  std::size_t streamed_bytes = 0;  // written before every frame, so that all is cold
 };
 
 /// Returns the task of a scene with the meshes 0 and 1.
@@ -53,8 +50,8 @@ class Contest {
                              Refit how, const Question& question);
 
   /// Asks all questions, options.repeats times. In a repeat the volumes take turns at blocks of
-  /// questions, each block with another one first; if task.cold, at frames. All answers are then
-  /// compared with the oracle, and tests are counted in a pass that is not timed.
+  /// questions, each block with another one first; where all is cold, at frames. All answers are
+  /// then compared with the oracle, and tests are counted in a pass that is not timed.
   std::vector<Row> queryRows(const Task& task);
 
   /// Returns the oracle of two of the meshes, made when first asked for.
@@ -82,6 +79,10 @@ class Contest {
   std::map<std::string, std::unique_ptr<MeshSet>> sets_;
   std::vector<Competitor> builds_;
 };
+
+/// Returns FCL's distance of two copies of a mesh, to find poses by: it is fast at any size, and
+/// what it gets wrong moves a pose a little.
+scenes::DistanceFunction obbrssDistance(const scenes::Mesh& mesh);
 
 /// Returns `count` of the frames, evenly spaced from the first; all of them for count = 0 or too
 /// many.

@@ -37,10 +37,6 @@ constexpr double kRadii = 2.5 * 1.46;  // of the tori
 /// poses leave members of linear motions and splines unset.
 std::shared_ptr<fcl::MotionBased> randomMotion(fcl::CCDMotionType type, scenes::Random& random) {
   const auto pose = scenes::randomPoses(2, kRadii, static_cast<std::uint64_t>(1e9 * random.unit()));
-  const auto point = [&random](double far) {
-    return fcl::Vector3d(random.uniform(-far, far), random.uniform(-far, far),
-                         random.uniform(-far, far));
-  };
   switch (type) {
     case fcl::CCDM_TRANS:
       return std::make_shared<fcl::TranslationMotiond>(pose[0], pose[1]);
@@ -53,8 +49,8 @@ std::shared_ptr<fcl::MotionBased> randomMotion(fcl::CCDMotionType type, scenes::
     case fcl::CCDM_SPLINE:
       break;
   }
-  const auto far = [&] { return point(1.2 * kRadii); };
-  const auto turn = [&] { return point(9); };
+  const auto far = [&] { return random.inCube(-1.2 * kRadii, 1.2 * kRadii); };
+  const auto turn = [&] { return random.inCube(-9, 9); };
   return std::make_shared<fcl::SplineMotion<double>>(far(), far(), far(), far(), turn(), turn(),
                                                      turn(), turn());
 }
@@ -139,8 +135,8 @@ void reportContinuous(const Options& options, Report& report) {
       competitors.back().rounds = roundsOf(way.name);
     }
     Race{motions.size(), options.repeats}.run(competitors);
-    const Row base = baseRow(std::string("continuous/") + motion_name, "continuous", motions.size(),
-                             options.seed, {a, b});
+    const Row base =
+        baseRow(std::string("continuous/") + motion_name, "continuous", motions.size(), {a, b});
     std::vector<Row> rows;
     for (std::size_t w = 0; w < served.size(); ++w) {
       const Way& way = *served[w];

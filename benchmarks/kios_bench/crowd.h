@@ -3,8 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "calls.h"
@@ -22,7 +20,6 @@ struct BodyPair {
 class Crowd {
  public:
   virtual ~Crowd() = default;
-  virtual std::string name() const = 0;
   /// Makes models that share nothing with those before, and a manager for them.
   virtual void make(const std::vector<scenes::Mesh>& meshes,
                     const std::vector<fcl::Transform3d>& poses) = 0;
@@ -35,9 +32,6 @@ class Crowd {
 template <typename BV, typename Calls>
 class CrowdOf final : public Crowd {
  public:
-  explicit CrowdOf(std::string name) : name_(std::move(name)) {}
-  std::string name() const override { return name_; }
-
   void make(const std::vector<scenes::Mesh>& meshes,
             const std::vector<fcl::Transform3d>& poses) override {
     bodies_ = std::make_unique<ManagedBodies>();
@@ -70,7 +64,6 @@ class CrowdOf final : public Crowd {
   }
 
  private:
-  std::string name_;
   std::unique_ptr<ManagedBodies> bodies_;
 };
 

@@ -67,15 +67,22 @@ std::size_t wrongOf(const std::vector<BodyPair>& pairs, const scenes::BodyScene&
   return wrong;
 }
 
-std::vector<std::unique_ptr<Crowd>> crowdsOf(const Options& options) {
-  std::vector<std::unique_ptr<Crowd>> crowds;
+struct Entrant {
+  std::string name;
+  std::unique_ptr<Crowd> crowd;
+  std::vector<BodyPair> pairs = {};
+  double distance = 0;
+};
+
+std::vector<Entrant> entrantsOf(const Options& options) {
+  std::vector<Entrant> entrants;
   for (const std::string& bv : options.bvs) {
-    if (isOurs(bv)) crowds.push_back(libraryOf(bv).crowd(bv));
+    if (isOurs(bv)) entrants.push_back({bv, libraryOf(bv).crowd()});
     if (bv == "fcl_obbrss") {
-      crowds.push_back(std::make_unique<CrowdOf<fcl::OBBRSSd, FclCalls>>(bv));
+      entrants.push_back({bv, std::make_unique<CrowdOf<fcl::OBBRSSd, FclCalls>>()});
     }
   }
-  return crowds;
+  return entrants;
 }
 
 /// Returns the times of one query of each repeat.
@@ -89,46 +96,42 @@ Competitor part(const Competitor& of, std::size_t query) {
 /// next query, `/again`.
 void reportCrowd(const std::string& scenario, const scenes::BodyScene& scene, Query query,
                  const Options& options, Report& report) {
-  const std::vector<std::unique_ptr<Crowd>> crowds = crowdsOf(options);
-  std::vector<std::vector<BodyPair>> pairs(crowds.size());
-  std::vector<double> distances(crowds.size());
+  std::vector<Entrant> entrants = entrantsOf(options);
   std::vector<scenes::Mesh> meshes = scene.meshes;
   std::vector<Competitor> competitors;
-  for (std::size_t i = 0; i < crowds.size(); ++i) {
-    const auto answer = [&, i, query](std::size_t number, std::size_t) {
-      if (number == 0) crowds[i]->make(meshes, scene.frames[0]);
+  for (Entrant& entrant : entrants) {
+    const auto answer = [&, query](std::size_t number, std::size_t) {
+      if (number == 0) entrant.crowd->make(meshes, scene.frames[0]);
       if (query == Query::kCollide) {
-        crowds[i]->collide(pairs[i]);
+        entrant.crowd->collide(entrant.pairs);
       } else {
-        distances[i] = crowds[i]->distance();
+        entrant.distance = entrant.crowd->distance();
       }
     };
     const auto before = [&](std::size_t, std::size_t) {
       std::transform(scene.meshes.begin(), scene.meshes.end(), meshes.begin(), scenes::unlike);
     };
-    competitors.push_back({crowds[i]->name(), answer, before});
+    competitors.push_back({entrant.name, answer, before});
   }
   Race{std::size(kQueries), options.repeats, Race::kAll, 1}.run(competitors);
 
-  Row base = baseRow(scenario, name(query), 1, options.seed, scene.meshes);
+  Row base = baseRow(scenario, name(query), 1, scene.meshes);
   const double truth = query == Query::kDistance ? trueDistance(scene) : 0;
   std::vector<Row> rows;
   for (std::size_t number = 0; number < std::size(kQueries); ++number) {
     std::vector<Competitor> parts;
     for (const Competitor& all : competitors) parts.push_back(part(all, number));
     base.scenario = scenario + kQueries[number];
-    for (std::size_t i = 0; i < crowds.size(); ++i) {
+    for (std::size_t i = 0; i < entrants.size(); ++i) {
       Row row = base.of(parts[i], named("fcl_obbrss", parts));
       if (query == Query::kCollide) {
-        row.errors.wrong = wrongOf(pairs[i], scene, options.oracle_frames);
-        row.pairs.total = pairs[i].size();
-        row.pairs.skipped = 0;
+        row.errors.wrong = wrongOf(entrants[i].pairs, scene, options.oracle_frames);
+        row.pairs.total = entrants[i].pairs.size();
       } else {
         row.asked.rel_err = row.asked.abs_err = 0;
-        row.errors.max_abs = std::abs(distances[i] - truth);
-        row.errors.wrong = (distances[i] == 0) == (truth == 0) ? 0 : 1;
+        row.errors.max_abs = std::abs(entrants[i].distance - truth);
+        row.errors.wrong = (entrants[i].distance == 0) == (truth == 0) ? 0 : 1;
       }
-      if (row.bv == kOurs) row.simd_target = simdTarget();
       rows.push_back(std::move(row));
     }
   }

@@ -5,6 +5,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <memory>
 #include <stdexcept>
 
 #include "ray_caster.h"
@@ -26,7 +27,7 @@ struct Collecting {
   }
 };
 
-class EmbreeCaster : public RayCaster {
+class EmbreeCaster {
  public:
   explicit EmbreeCaster(const scenes::Mesh& mesh) : device_(rtcNewDevice("threads=1")) {
     if (!device_) throw std::runtime_error("Embree: no device");
@@ -36,13 +37,13 @@ class EmbreeCaster : public RayCaster {
   }
   EmbreeCaster(const EmbreeCaster&) = delete;
   EmbreeCaster& operator=(const EmbreeCaster&) = delete;
-  ~EmbreeCaster() override {
+  ~EmbreeCaster() {
     rtcReleaseScene(collecting_);
     rtcReleaseScene(scene_);
     rtcReleaseDevice(device_);
   }
 
-  void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) override {
+  void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) const {
     hits.clear();
     Collecting collecting;
     rtcInitIntersectContext(&collecting.context);
@@ -111,8 +112,11 @@ class EmbreeCaster : public RayCaster {
 
 }  // namespace
 
-std::unique_ptr<RayCaster> makeEmbreeCaster(const scenes::Mesh& mesh) {
-  return std::make_unique<EmbreeCaster>(mesh);
+RayCaster embreeCaster(const scenes::Mesh& mesh) {
+  return [caster = std::make_shared<const EmbreeCaster>(mesh)](RayQuery query, const Rayd& ray,
+                                                               std::vector<CastHit>& hits) {
+    caster->cast(query, ray, hits);
+  };
 }
 
 }  // namespace kios::bench

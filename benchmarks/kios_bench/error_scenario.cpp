@@ -136,7 +136,7 @@ std::vector<Setting> thresholdSettings() {
 Errors judge(const std::vector<ErrorQuestion>& questions, const Asked& asked,
              const std::vector<Bracket>& answers, double extent) {
   const double rounding = 1e-14 * extent;
-  double sum = 0, rel_sum = 0, max = 0, rel_max = 0, width = 0;
+  double rel_sum = 0, max = 0, width = 0;
   std::size_t apart = 0, wrong = 0;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     const double exact = questions[i].distance;
@@ -149,23 +149,18 @@ Errors judge(const std::vector<ErrorQuestion>& questions, const Asked& asked,
     const bool beyond = !asked.budget && !(upper - exact <= allowed);
     if (beyond || upper < exact - rounding || lower > exact) ++wrong;
     const double error = std::abs(upper - exact);
-    sum += error;
     max = std::max(max, error);
     width += upper - lower;
     if (exact == 0) continue;
     ++apart;
     rel_sum += error / exact;
-    rel_max = std::max(rel_max, error / exact);
   }
   Errors errors;
   errors.wrong = wrong;
   if (asked.threshold) return errors;
   errors.max_abs = max;
-  errors.mean_abs = sum / static_cast<double>(questions.size());
   if (std::isfinite(width)) errors.bracket_width = width / static_cast<double>(questions.size());
-  if (apart == 0) return errors;
-  errors.max_rel = rel_max;
-  errors.mean_rel = rel_sum / static_cast<double>(apart);
+  if (apart > 0) errors.mean_rel = rel_sum / static_cast<double>(apart);
   return errors;
 }
 
@@ -242,7 +237,7 @@ void reportPair(const std::string& scenario, const scenes::MovingPair& pair, con
     all.push_back({f, oracle.distance(f.X_WA, f.X_WB)});
     if (all.back().distance > 0) apart.push_back(all.back());
   }
-  const Row base = baseRow(scenario, "", 0, options.seed, {pair.a, pair.b});
+  const Row base = baseRow(scenario, "", 0, {pair.a, pair.b});
   reportSettings(base, ways, distanceSettings(), all, options.repeats, report);
   if (apart.empty()) return;
   reportSettings(base, ways, thresholdSettings(), apart, options.repeats, report);

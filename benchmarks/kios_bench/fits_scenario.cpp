@@ -19,6 +19,7 @@
 #include "paper/variant_tree.h"
 #include "scenario.h"
 #include "scenes/motions.h"
+#include "scenes/placement.h"
 #include "scenes/random.h"
 #include "verdicts.h"
 
@@ -27,7 +28,6 @@ namespace {
 
 using namespace paper;
 
-constexpr double kPi = 3.14159265358979323846;
 using Poses = std::vector<RelativePose<double>>;
 using Split = std::shared_ptr<const MeshSplit>;
 
@@ -50,7 +50,7 @@ struct FitTrees {
   std::function<VariantResult(const RelativePose<double>&X_AB)> distance, collide;
   /// Returns the bound of two nodes, for a distance query.
   std::function<double(const NodePair& pair)> bound;
-  std::function<FitSize()> size;
+  FitSize size;
 };
 
 /// Holds a volume and its fit.
@@ -61,13 +61,7 @@ struct FitEntrant {
 
 using Entrants = std::vector<FitEntrant>;
 
-/// Numbers that describe a volume, and its spheres.
-struct VolumeSize {
-  double numbers = 0;
-  double spheres = 0;
-};
-
-/// size_of(stored volume) is its VolumeSize.
+/// size_of(volume) is its FitSize.
 template <typename Policy, typename SizeOf>
 void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf size_of) {
   using Tree = VariantTree<Policy>;
@@ -78,49 +72,37 @@ void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf si
     trees.distance = [a, b](const RelativePose<double>& X_AB) { return a->distance(*b, X_AB); };
     trees.collide = [a, b](const RelativePose<double>& X_AB) { return a->collide(*b, X_AB); };
     trees.bound = [a, b](const NodePair& pair) {
-      return a->policy().separation(a->store()[pair.a], b->store()[pair.b],
+      return a->policy().separation(a->volumes()[pair.a], b->volumes()[pair.b],
                                     a->policy().place(a->shared(), b->shared(), pair.X_AB),
                                     std::numeric_limits<double>::infinity());
     };
-    trees.size = [a, b, size_of] {
-      FitSize mean;
-      double nodes = 0, floats = 0;
-      for (const Tree* tree : {a.get(), b.get()}) {
-        const auto count = static_cast<int>(tree->split().nodes().size());
-        for (int i = 0; i < count; ++i) {
-          const VolumeSize size = size_of(tree->store()[i]);
-          mean.numbers += size.numbers;
-          mean.spheres += size.spheres;
-        }
-        nodes += count;
-        floats += static_cast<double>(tree->store().floats());
+    const auto nodes = static_cast<double>(a->volumes().size() + b->volumes().size());
+    for (const Tree* tree : {a.get(), b.get()}) {
+      for (const auto& volume : tree->volumes()) {
+        const FitSize size = size_of(volume);
+        trees.size.numbers += size.numbers;
+        trees.size.bytes += size.bytes;
+        trees.size.spheres += size.spheres;
       }
-      mean.numbers /= nodes;
-      mean.spheres /= nodes;
-      mean.bytes = sizeof(float) * floats / nodes;
-      return mean;
-    };
+    }
+    for (double* const sum : {&trees.size.numbers, &trees.size.bytes, &trees.size.spheres}) {
+      *sum /= nodes;
+    }
     return trees;
   };
   all.push_back({name, build});
 }
 
-/// Returns spheres with their own radii, or with one that all but S0 share.
-VolumeSize sizeOf(const kIOSd& bv, bool shared_radius) {
-  const int k = bv.k();
-  const bool shares = shared_radius && k > 1;
-  return {shares ? 4.0 + 3 * (k - 1) + 1 : 4.0 * k, static_cast<double>(k)};
-}
-
 void addKios(Entrants& all, const std::string& name, const FitOptions& options) {
-  const bool shared = options.shared_radius;
-  add(all, name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); });
+  add(all, name, KiosPolicy(options), [](const kIOSd& bv) {
+    return FitSize{4.0 * bv.k(), sizeof bv, double(bv.k())};
+  });
 }
 
 template <typename Policy>
 void addKind(Entrants& all, const std::string& name, const Policy& policy) {
-  add(all, name, policy, [](const SpheresStore::Stored& bv) {
-    return VolumeSize{double(bv.floats), double(bv.k)};
+  add(all, name, policy, [](const Spheres& bv) {
+    return FitSize{double(bv.floats), 4.0 * bv.floats, double(bv.all.size())};
   });
 }
 
@@ -140,7 +122,7 @@ void addKinds(Entrants& all) {
 
 template <typename Policy>
 void addOther(Entrants& all, const std::string& name, double numbers) {
-  const auto size_of = [numbers](const auto& /*bv*/) { return VolumeSize{numbers, 0}; };
+  const auto size_of = [numbers](const auto& bv) { return FitSize{numbers, sizeof bv, 0}; };
   add(all, name, Policy(), size_of);
 }
 
@@ -150,13 +132,9 @@ std::vector<FitEntrant> fitEntrants() {
   addKios(all, "kios_method_i", FitMethod::kMethodI);
   addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);
   addKios(all, "kios_method_ii", FitMethod::kMethodII);
-  FitOptions shared(FitMethod::kMethodII), every, narrow;
-  shared.shared_radius = true;
-  addKios(all, "kios_method_ii_shared", shared);
   addKios(all, "kios_tuned", FitMethod::kTuned);
-  every.count = SphereCount::kAll;
-  addKios(all, "kios_tuned_k5", every);
-  narrow.angle = kPi / 8;  // for the paper's pi/6
+  FitOptions narrow;
+  narrow.angle = scenes::kPi / 8;  // for the paper's pi/6
   addKios(all, "kios_tuned_22deg", narrow);
   addKinds(all);
   // In the paper's words: two corners, a corner with axes and lengths, ...
@@ -233,7 +211,6 @@ Bounds boundsOf(const FitTrees& trees, const std::vector<NodePair>& pairs) {
 struct Lane {
   const FitEntrant* entrant;
   FitTrees trees;
-  FitSize size;
   double build_us_per_triangle;
   Bounds bounds;
   std::vector<double> answers;
@@ -250,8 +227,7 @@ std::vector<Lane> built(const std::vector<FitEntrant>& entrants, const Split& a,
         {"", [&](std::size_t, std::size_t) { trees = entrant.build(a, b); }}};
     Race{1, repeats}.run(builder);
     const double us = timesOf(builder[0], 1, nullptr).median_us;
-    lanes.push_back(
-        {&entrant, trees, trees.size(), us / triangles, boundsOf(trees, nodes), {}, 0, 0});
+    lanes.push_back({&entrant, trees, us / triangles, boundsOf(trees, nodes), {}, 0, 0});
   }
   return lanes;
 }
@@ -284,9 +260,9 @@ std::vector<Row> ask(Row row, bool collide, const Poses& poses, int repeats,
     of.tests = {static_cast<double>(lane.bv_tests) / asked,
                 static_cast<double>(lane.leaf_tests) / asked};
     of.volumes.build_us_per_triangle = lane.build_us_per_triangle;
-    of.volumes.floats_per_bv = lane.size.numbers;
-    of.volumes.bytes_per_triangle = 2 * lane.size.bytes;  // of volumes
-    if (lane.size.spheres > 0) of.volumes.mean_spheres = lane.size.spheres;
+    of.volumes.floats_per_bv = lane.trees.size.numbers;
+    of.volumes.bytes_per_triangle = 2 * lane.trees.size.bytes;  // of volumes
+    if (lane.trees.size.spheres > 0) of.volumes.mean_spheres = lane.trees.size.spheres;
     of.errors = compare(lane.answers, verdicts, query, questions, row.extent);
     of.volumes.tightness = lane.bounds.tightness;
     *of.errors.wrong += lane.bounds.wrong;
@@ -299,14 +275,14 @@ void reportScene(const std::string& scenario, const scenes::MovingPair& pair,
   const std::vector<scenes::Frame> frames = chosenFrames(pair.frames, options);
   Poses poses;
   for (const scenes::Frame& frame : frames) poses.emplace_back(frame.X_WA, frame.X_WB);
-  const auto a = std::make_shared<const MeshSplit>(pair.a.vertices, pair.a.triangles);
-  const auto b = std::make_shared<const MeshSplit>(pair.b.vertices, pair.b.triangles);
+  const auto a = std::make_shared<const MeshSplit>(pair.a);
+  const auto b = std::make_shared<const MeshSplit>(pair.b);
   const auto nodes = sampleNodes(*a, *b, options.quick ? 100 : 1000, options.seed);
   const scenes::MeshOracle oracle(pair.a, pair.b);
   const std::vector<FitEntrant> entrants = fitEntrants();
   std::vector<Lane> lanes = built(entrants, a, b, nodes, options.repeats);
 
-  const Row base = baseRow(scenario, "", frames.size(), options.seed, {pair.a, pair.b});
+  const Row base = baseRow(scenario, "", frames.size(), {pair.a, pair.b});
   for (const bool collide : {false, true}) {
     const Query query = collide ? Query::kCollide : Query::kDistance;
     const std::vector<Question> questions = pairTask("", query, frames).questions;

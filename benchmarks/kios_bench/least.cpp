@@ -10,48 +10,26 @@
 namespace kios::bench {
 namespace {
 
-/// Scenarios by the beginnings of their names.
-constexpr struct {
-  const char* scenario;
-  const char* why;
-} kMaySlower[] = {
-    {"rays/", "Embree serves nothing but rays, in single precision; FCL serves none"},
-};
-
-// Boxes along the axes of the model, and k-DOPs, are built in a pass over the vertices, and bound
-// turned or near content badly: who asks for those doesn't compare their builds.
-bool isRival(const Row& row) {
-  if (row.bv.rfind("fcl_", 0) != 0) return row.bv == "embree";
-  return row.query != "build" || (row.bv != "fcl_aabb" && row.bv.rfind("fcl_kdop", 0) != 0);
-}
-
 bool isTimed(const Row& row) {
   return std::isfinite(row.times.median_us) && row.times.median_us > 0;
 }
 
-std::string text(const Asked& asked) {
-  std::string words;
+}  // namespace
+
+std::string words(const Row& row) {
+  std::string words = row.scenario + " " + row.query;
   const auto add = [&words](const char* name, const Maybe& value) {
     if (!value || (*value == 0 && std::string(name) != "threshold")) return;
     char digits[32];
     std::snprintf(digits, sizeof digits, " %s %g", name, *value);
     words += digits;
   };
-  add("threshold", asked.threshold);
-  add("rel_err", asked.rel_err);
-  add("abs_err", asked.abs_err);
-  add("budget", asked.budget);
+  add("threshold", row.asked.threshold);
+  add("rel_err", row.asked.rel_err);
+  add("abs_err", row.asked.abs_err);
+  add("budget", row.asked.budget);
   return words;
 }
-
-}  // namespace
-
-Setting settingOf(const Row& row) {
-  return {row.scenario,      row.query,           row.asked.rel_err,
-          row.asked.abs_err, row.asked.threshold, row.asked.budget};
-}
-
-std::string words(const Row& row) { return row.scenario + " " + row.query + text(row.asked); }
 
 bool isRealWork(const Row& row) {
   constexpr std::size_t kFew = 64;
@@ -65,28 +43,20 @@ double leastRatio(const Row& row) {
   return cold && row.query == "collide" ? 0.8 : 1;
 }
 
-const char* whySlower(const std::string& scenario) {
-  for (const auto& [beginning, why] : kMaySlower) {
-    if (scenario.rfind(beginning, 0) == 0) return why;
-  }
-  return nullptr;
-}
-
 std::vector<Standing> byRatio(const std::vector<Row>& rows) {
-  std::map<Setting, const Row*> best;
+  std::map<std::string, const Row*> best;
   for (const Row& row : rows) {
-    if (!isRival(row) || !isTimed(row)) continue;
-    const Row*& fastest = best[settingOf(row)];
+    if (row.bv.rfind("fcl_", 0) != 0 || !isTimed(row)) continue;
+    const Row*& fastest = best[words(row)];
     if (!fastest || row.times.median_us < fastest->times.median_us) fastest = &row;
   }
   std::vector<Standing> standings;
   for (const Row& row : rows) {
     if (row.bv != "kios" || !isTimed(row) || !isRealWork(row)) continue;
-    const auto found = best.find(settingOf(row));
+    const auto found = best.find(words(row));
     if (found == best.end()) continue;
-    standings.push_back({row, found->second->bv,
-                         found->second->times.median_us / row.times.median_us,
-                         whySlower(row.scenario)});
+    standings.push_back(
+        {row, found->second->bv, found->second->times.median_us / row.times.median_us});
   }
   std::stable_sort(standings.begin(), standings.end(),
                    [](const Standing& a, const Standing& b) { return a.ratio < b.ratio; });
@@ -94,10 +64,9 @@ std::vector<Standing> byRatio(const std::vector<Row>& rows) {
 }
 
 int countSlower(const std::vector<Standing>& standings) {
-  return static_cast<int>(
-      std::count_if(standings.begin(), standings.end(), [](const Standing& standing) {
-        return standing.ratio < leastRatio(standing.ours) && !standing.why;
-      }));
+  return static_cast<int>(std::count_if(
+      standings.begin(), standings.end(),
+      [](const Standing& standing) { return standing.ratio < leastRatio(standing.ours); }));
 }
 
 void printLeast(const std::vector<Standing>& standings, std::size_t count) {
@@ -107,9 +76,8 @@ void printLeast(const std::vector<Standing>& standings, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const Standing& standing = standings[i];
     const Row& ours = standing.ours;
-    std::printf("%8.3f  %s: %.3f us, %s %.3f us%s%s\n", standing.ratio, words(ours).c_str(),
-                ours.times.median_us, standing.best.c_str(), standing.ratio * ours.times.median_us,
-                standing.why ? "; " : "", standing.why ? standing.why : "");
+    std::printf("%8.3f  %s: %.3f us, %s %.3f us\n", standing.ratio, words(ours).c_str(),
+                ours.times.median_us, standing.best.c_str(), standing.ratio * ours.times.median_us);
   }
 }
 

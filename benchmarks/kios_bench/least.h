@@ -4,26 +4,20 @@
 
 #include <cstddef>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "report.h"
 
 namespace kios::bench {
 
-/// Holds a row of ours beside the fastest other library's of the same scenario, query and setting.
+/// Holds a row of ours beside the fastest of FCL's of the same scenario, query and setting.
 struct Standing {
   Row ours;
-  std::string best;           ///< `bv` of the fastest other
-  double ratio = 0;           ///< its median time by ours: below 1, ours is slower
-  const char* why = nullptr;  ///< why ours may be slower there, nullptr if it may not
+  std::string best;  ///< `bv` of the fastest other
+  double ratio = 0;  ///< its median time by ours: below 1, ours is slower
 };
 
-/// Says what rows have in common that answer the same: scenario, query, and what was asked.
-using Setting = std::tuple<std::string, std::string, Maybe, Maybe, Maybe, Maybe>;
-Setting settingOf(const Row& row);
-
-/// Returns the setting in words.
+/// Returns what rows have in common that answer the same: scenario, query, and what was asked.
 std::string words(const Row& row);
 
 /// Returns whether the row is work that programs do: a mesh of 64 triangles or more takes part. No
@@ -34,14 +28,11 @@ bool isRealWork(const Row& row);
 /// of whose time is that of reading code.
 double leastRatio(const Row& row);
 
-/// Returns all rows of real work called `kios` that have a row of FCL's volumes, or of Embree,
-/// beside them, by their ratios, least first. AABB and k-DOPs are no rivals in building.
+/// Returns all rows of real work called `kios` that have a row of FCL's volumes beside them, by
+/// their ratios, least first.
 std::vector<Standing> byRatio(const std::vector<Row>& rows);
 
-/// Returns why ours may be slower than others in rows of this scenario; nullptr if it may not.
-const char* whySlower(const std::string& scenario);
-
-/// Returns how many are below leastRatio() without a reason.
+/// Returns how many are below leastRatio().
 int countSlower(const std::vector<Standing>& standings);
 
 /// Prints a line for each of the first `count`.

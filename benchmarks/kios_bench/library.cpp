@@ -10,11 +10,11 @@
 
 extern "C" const kios::bench::Library kios_bench_library = {
     []() -> std::unique_ptr<kios::bench::MeshSet> {
-      return std::make_unique<kios::bench::MeshSetOf<kios::bench::KiosKind>>(nullptr);
+      return std::make_unique<kios::bench::KiosSet>(nullptr);
     },
     [] { return kios::bench::makeKiosTree(nullptr); },
-    [](const std::string& name) -> std::unique_ptr<kios::bench::Crowd> {
-      return std::make_unique<kios::bench::CrowdOf<kios::kIOSd, kios::bench::KiosCalls>>(name);
+    []() -> std::unique_ptr<kios::bench::Crowd> {
+      return std::make_unique<kios::bench::CrowdOf<kios::kIOSd, kios::bench::KiosCalls>>();
     },
     kios::bench::makeKiosScene,
     kios::bench::makeCertified,

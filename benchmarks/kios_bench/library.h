@@ -28,9 +28,9 @@ struct Way;
 struct Library {
   std::unique_ptr<MeshSet> (*mesh_set)();
   std::unique_ptr<MeshSet> (*tree_set)();  ///< FCL's recursion over our volume, by its nodes
-  std::unique_ptr<Crowd> (*crowd)(const std::string& name);
-  std::unique_ptr<SceneSet> (*scene_set)(const std::string& name, const scenes::BodyScene& scene);
-  std::unique_ptr<MotionSet> (*motion_set)(const std::string& name, const scenes::Cell& cell);
+  std::unique_ptr<Crowd> (*crowd)();
+  std::unique_ptr<SceneSet> (*scene_set)(const scenes::BodyScene& scene);
+  std::unique_ptr<MotionSet> (*motion_set)(const scenes::Cell& cell);
   Way (*continuous)(const std::string& name, const scenes::Mesh& a, const scenes::Mesh& b);
 };
 

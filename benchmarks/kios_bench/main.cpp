@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,6 +23,81 @@
 namespace kios::bench {
 namespace {
 
+/// Holds a named set of scenes.
+struct Scenario {
+  const char* name;
+  const char* parts;  ///< that the command line may name, as SCENARIO/PART; empty for none
+  const char* description;
+  void (*run)(const Options& options, Report& report);
+  /// Says how many of each scene `--least` takes; 0 where nothing of FCL's stands beside ours.
+  int least_frames;
+};
+
+constexpr Scenario kScenarios[] = {
+    {"tori", "falling spinning generated scaling",
+     "the k-IOS paper's moving pairs (data), the same kind made by the program, and bumpy tori "
+     "of "
+     "1k to 80k triangles: gap 0.1, 1e-3, touching",
+     runTori, 100},
+    {"robots", "ur5 generated parts scenes",
+     "two arms side by side, all pairs of links: UR5 (data), generated, machine parts; "
+     "scene queries of them and of humanoids",
+     runRobots, 10},
+    {"world", "SCENE coal",
+     "a UR5's links (data) and parts of machines about tables, shelves, rooms, terrain, a "
+     "building, as meshes, shapes and octrees; hot and cold; Coal's OBBRSS beside, if named",
+     runWorld, 14},
+    {"scene", "bodies crowds",
+     "5,000 drifting bodies; an arm's 1,000 configurations amid 5,000 obstacles; 2,000 different "
+     "small bodies in FCL's manager: made and asked about, and asked again",
+     runScene, 20},
+    {"shapes", "", "a mesh of 20k triangles against eight shapes and an octree", runShapes, 20},
+    {"rays", "",
+     "first, any and all hits of camera rays, random rays and rays at edges, bumpy tori and "
+     "strips; FCL has no rays",
+     runRays, 0},
+    {"solids", "contains penetration depth points",
+     "points in solids; penetration and local depth of boxes, balls, a blob in a torus, links in "
+     "a table; 100,000 nearest points and signed distances, beside balls of radius 0; winding "
+     "numbers",
+     runSolids, 0},
+    {"clashes", "1000 10000 pieces",
+     "clashes, touches and duplicates planted in a building of some 1,000 and 10,000 slabs, "
+     "columns, "
+     "walls and pipes; its contacts by FCL's manager; time against the width of depths",
+     runClashes, 1},
+    {"motions", "paths range moved continuous",
+     "straight paths in joint space, UR5 (data) or a generated arm amid obstacles, and two arms: "
+     "proven, and sampled 0.01 rad apart; the least clearance over ranges; contact amid spheres "
+     "of which one moves; first contact in time "
+     "of two tori on random motions",
+     runMotions, 20},
+#ifdef KIOS_HAVE_ROBOT
+    {"mbm", "panda ur5",
+     "MotionBenchMaker's problems (data) by RRT-Connect: edges proven, sampled, and by FCL's "
+     "manager",
+     runMbm, 0},
+#endif
+    {"build", "models refit",
+     "endModel, the same mesh again, memory: tori of 1k to 80k triangles, and "
+     "the UR5 (data); refits of tori that sway",
+     runBuild, 8},
+    {"error", "",
+     "run time against error: tolerances, budgets and thresholds over moving pairs, FCL's nodes "
+     "with their error members set",
+     runError, 20},
+    {"paper", "", "the k-IOS paper's constructions and volumes of others over one tree", runPaper,
+     0},
+    {"stability", "triangles queries",
+     "triangle distance and intersection over hard classes of pairs, and FCL's; points, local "
+     "depths and clashes over hard classes of solids",
+     runStability, 0},
+#ifdef KIOS_HAVE_PRELOAD
+    {"preload", "", "a program that knows FCL alone, with and without the preloaded library; DART",
+     runPreload, 0},
+#endif
+};
+
 constexpr char kColumns[] =
     "Columns: median_us and min_us are the time of a frame, us/pair of one of its queries; x "
     "OBBRSS "
@@ -34,7 +110,7 @@ constexpr char kColumns[] =
 
 void printList() {
   std::printf("scenarios:\n");
-  for (const Scenario& scenario : scenarios()) {
+  for (const Scenario& scenario : kScenarios) {
     std::printf("  %-12s %s%s%s%s\n", scenario.name, scenario.description,
                 *scenario.parts ? " (" : "", scenario.parts, *scenario.parts ? ")" : "");
   }
@@ -73,12 +149,11 @@ int check(const std::vector<Row>& rows) {
 }
 
 const Scenario& scenarioOf(const std::string& name) {
-  return *std::find_if(scenarios().begin(), scenarios().end(),
+  return *std::find_if(std::begin(kScenarios), std::end(kScenarios),
                        [&name](const Scenario& s) { return s.name == name; });
 }
 
-// False if the scenario cannot run here.
-bool runOne(const std::string& name, Options options, Report& report) {
+void runOne(const std::string& name, Options options, Report& report) {
   const std::size_t slash = name.find('/');
   const Scenario& scenario = scenarioOf(name.substr(0, slash));
   if (slash != std::string::npos) options.part = name.substr(slash + 1);
@@ -95,19 +170,16 @@ bool runOne(const std::string& name, Options options, Report& report) {
     }
   } catch (const Skipped& reason) {
     std::printf("skipped: %s: %s\n", name.c_str(), reason.what());
-    return false;
   }
-  return true;
 }
 
 // Runs the scenarios with few frames each; all that have rows of FCL's if none is named.
-void runFew(std::vector<std::string> wanted, Options options, bool own_repeats, Report& report) {
+void runFew(std::vector<std::string> wanted, Options options, Report& report) {
   if (wanted.empty()) {
-    for (const Scenario& scenario : scenarios()) {
+    for (const Scenario& scenario : kScenarios) {
       if (scenario.least_frames > 0) wanted.emplace_back(scenario.name);
     }
   }
-  if (!own_repeats) options.repeats = 3;
   options.oracle_frames = 20;
   for (const std::string& name : wanted) {
     Options few = options;
@@ -116,17 +188,10 @@ void runFew(std::vector<std::string> wanted, Options options, bool own_repeats, 
   }
 }
 
-// Compares with FCL. Returns how many of our rows are slower than the fastest other's without a
-// reason.
-int runLeast(const std::vector<std::string>& wanted, Options options, bool own_repeats,
-             Report& report) {
+// Compares with FCL. Returns how many of our rows are slower than the fastest other's.
+int runLeast(const std::vector<std::string>& wanted, const Options& options, Report& report) {
   constexpr std::size_t kShown = 10;
-  if (options.bvs == defaultVolumeNames()) {
-    // FCL's own k-IOS is nowhere its fastest by much, and takes a hundred times OBBRSS's time.
-    options.bvs.erase(std::remove(options.bvs.begin(), options.bvs.end(), "fcl_kios_builtin"),
-                      options.bvs.end());
-  }
-  runFew(wanted, options, own_repeats, report);
+  runFew(wanted, options, report);
   const std::vector<Standing> standings = byRatio(report.rows());
   printLeast(standings, kShown);
   return countSlower(standings);
@@ -134,15 +199,14 @@ int runLeast(const std::vector<std::string>& wanted, Options options, bool own_r
 
 // Compares with the library of an earlier revision. Returns how many of our rows are slower than
 // kLeastRatio or answer otherwise.
-int runCompared(std::vector<std::string> wanted, Options options, bool own_repeats,
-                Report& report) {
+int runCompared(std::vector<std::string> wanted, Options options, Report& report) {
   constexpr std::size_t kShown = 10;
   if (wanted.empty()) {
     wanted = {"tori", "robots", "world", "scene", "shapes", "build", "motions"};
   }
   if (options.bvs == defaultVolumeNames()) options.bvs = {kOurs, "fcl_obbrss"};
   options.bvs = compared(options.bvs);
-  runFew(std::move(wanted), options, own_repeats, report);
+  runFew(std::move(wanted), options, report);
   return summarize(report.rows(), kShown);
 }
 
@@ -150,10 +214,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Compares kios with FCL's bounding volumes on whole scenarios, against an oracle."};
   app.footer(kColumns);
   std::vector<std::string> names;
-  for (const Scenario& scenario : scenarios()) names.emplace_back(scenario.name);
-  std::vector<std::string> volumes = volumeNames();
-  const bool has_coal = std::count(volumes.begin(), volumes.end(), kCoal) > 0;
-  if (!has_coal) volumes.emplace_back(kCoal);
+  for (const Scenario& scenario : kScenarios) names.emplace_back(scenario.name);
   Options options;
   std::vector<std::string> wanted;
   options.bvs = defaultVolumeNames();
@@ -173,7 +234,7 @@ int run(int argc, char** argv) {
   app.add_option("--data", data, "folder of the benchmark data")->check(CLI::ExistingDirectory);
   app.add_option("--bv", options.bvs, "bounding volumes, separated by commas")
       ->delimiter(',')
-      ->check(CLI::IsMember(volumes));
+      ->check(CLI::IsMember(volumeNames()));
   app.add_option("--frames", options.frames, "frames of each scene, evenly chosen")
       ->check(CLI::Range(1, 1000000000));
   app.add_option("--repeats", options.repeats, "repeats of each measurement")
@@ -181,10 +242,6 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--oracle", oracle, "number of frames judged by the oracle, or 'all'")
       ->check(CLI::Range(1, 1000000000) | CLI::IsMember({"all"}))
-      ->capture_default_str();
-  app.add_option("--max-triangles", options.max_triangles,
-                 "largest meshes of 'tori', 'build' and 'rays', to 1000000")
-      ->check(CLI::Range(1, 1000000000))
       ->capture_default_str();
   app.add_option("--robot", robot,
                  "folder of binary STL and OBJ files, by name the links of a robot for 'robots'")
@@ -211,17 +268,12 @@ int run(int argc, char** argv) {
     printList();
     return 0;
   }
-  const auto coal = std::find(options.bvs.begin(), options.bvs.end(), kCoal);
-  if (!has_coal && coal != options.bvs.end()) {
-    options.bvs.erase(coal);
-    std::printf("coal_obbrss is left out: Coal was not found when kios_bench was built\n");
-    if (options.bvs.empty()) return 0;
-  }
-  if (options.quick && app.count("--repeats") == 0) options.repeats = 2;
+  const bool few = least || !libraries.empty();
+  if (app.count("--repeats") == 0 && (few || options.quick)) options.repeats = few ? 3 : 2;
   options.oracle_frames = oracle == "all" ? 0 : std::stoi(oracle);
   if (!data.empty()) options.data = data;
   if (!libraries.empty()) loadLibraries(libraries[0], libraries[1]);
-  if (wanted.empty() && !least && libraries.empty()) wanted = {"tori/generated"};
+  if (wanted.empty() && !few) wanted = {"tori/generated"};
   if (!robot.empty() && wanted != std::vector<std::string>{"robots"}) {
     throw std::invalid_argument("--robot is an option of the scenario 'robots'");
   }
@@ -230,9 +282,9 @@ int run(int argc, char** argv) {
                 libraries.empty() ? printTable : printCompared);
   int slower = 0;
   if (!libraries.empty()) {
-    slower = runCompared(wanted, options, app.count("--repeats") > 0, report);
+    slower = runCompared(wanted, options, report);
   } else if (least) {
-    slower = runLeast(wanted, options, app.count("--repeats") > 0, report);
+    slower = runLeast(wanted, options, report);
   } else {
     for (const std::string& name : wanted) runOne(name, options, report);
     if (report.rows().empty()) return 0;

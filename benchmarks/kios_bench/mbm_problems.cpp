@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 
 namespace kios::bench {
@@ -43,34 +44,24 @@ Problem readProblem(const fs::path& scene, const fs::path& request, const Robot&
 
 }  // namespace
 
-std::vector<Problem> readProblems(const fs::path& folder, const Robot& robot, int wanted) {
-  std::vector<std::vector<fs::path>> kinds;
-  for (const auto& kind : fs::directory_iterator(folder)) {
-    kinds.emplace_back();
-    for (const auto& file : fs::directory_iterator(kind.path())) {
-      if (file.path().filename().string().rfind("scene", 0) == 0) {
-        kinds.back().push_back(file.path());
-      }
+std::vector<Problem> readProblems(const fs::path& folder, const Robot& robot, std::size_t wanted) {
+  std::map<fs::path, std::vector<fs::path>> kinds;
+  for (const auto& file : fs::recursive_directory_iterator(folder)) {
+    if (file.path().filename().string().rfind("scene", 0) == 0) {
+      kinds[file.path().parent_path()].push_back(file.path());
     }
-    std::sort(kinds.back().begin(), kinds.back().end());
   }
-  std::sort(kinds.begin(), kinds.end());
+  const std::size_t of_kind = (wanted + kinds.size() - 1) / std::max<std::size_t>(1, kinds.size());
+  for (auto& [kind, scenes] : kinds) std::sort(scenes.begin(), scenes.end());
   std::vector<Problem> problems;
-  const std::size_t all = 1 << 20, num_kinds = std::max<std::size_t>(1, kinds.size());
-  const std::size_t of_all = wanted > 0 ? static_cast<std::size_t>(wanted) : all;
-  const std::size_t of_kind = (of_all + num_kinds - 1) / num_kinds;
   for (std::size_t i = 0; i < of_kind; ++i) {
-    bool any = false;
-    for (const auto& scenes : kinds) {
+    for (const auto& [kind, scenes] : kinds) {
       const std::size_t chosen = std::min(of_kind, scenes.size());
-      if (i >= chosen || problems.size() == of_all) continue;
-      any = true;
+      if (i >= chosen) continue;
       const fs::path& scene = scenes[i * scenes.size() / chosen];
       const std::string number = scene.stem().string().substr(5);
-      problems.push_back(
-          readProblem(scene, scene.parent_path() / ("request" + number + ".yaml"), robot));
+      problems.push_back(readProblem(scene, kind / ("request" + number + ".yaml"), robot));
     }
-    if (!any) break;
   }
   return problems;
 }

@@ -18,11 +18,11 @@ struct Problem {
   Eigen::VectorXd start, goal;  ///< by the robot's coordinates
 };
 
-/// The problems of a folder of kinds, evenly chosen of each kind and the kinds in turn: at most
-/// `wanted`, all if it is 0. Throws std::runtime_error for a request that doesn't name every
+/// The problems of a folder of kinds, evenly chosen of each kind and the kinds in turn: so many, or
+/// as few more as there are kinds. Throws std::runtime_error for a request that doesn't name every
 /// coordinate.
 std::vector<Problem> readProblems(const std::filesystem::path& folder, const Robot& robot,
-                                  int wanted);
+                                  std::size_t wanted);
 
 /// A folder of its own into which an archive is unpacked by tar, and which goes with it.
 class Unpacked {

@@ -17,6 +17,7 @@
 #include "rrt_connect.h"
 #include "sampled_edge.h"
 #include "scenario.h"
+#include "scenes/placement.h"
 
 namespace kios::bench {
 namespace {
@@ -24,7 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::VectorXd;
 
-constexpr double kPi = 3.14159265358979323846;
 enum Way { kProven, kSampled, kObbrss, kWays };
 constexpr const char* kNames[kWays] = {"kios", "sampled_kios", "fcl_obbrss"};
 
@@ -80,8 +80,8 @@ class Planning {
     PlanRequest request;
     request.start = problem.start;
     request.goal = problem.goal;
-    request.lower = robot.lower().cwiseMax(-2 * kPi);
-    request.upper = robot.upper().cwiseMin(2 * kPi);
+    request.lower = robot.lower().cwiseMax(-2 * scenes::kPi);
+    request.upper = robot.upper().cwiseMin(2 * scenes::kPi);
     request.seconds = options_.quick ? 0.2 : 2;
     request.seed = seed;
     const bool alone = std::count(options_.bvs.begin(), options_.bvs.end(), kNames[kObbrss]) == 0;
@@ -89,9 +89,8 @@ class Planning {
       Tally& tally = kind.ways[way];
       const Plan plan = rrtConnect(request, ways[way]);
       tally.seconds.push_back(plan.seconds);
-      if (!plan.path.empty()) tally.solved.push_back(plan.seconds);
-      if (plan.path.empty() && way == kProven)
-        std::printf("no plan for %s\n", problem.name.c_str());
+      if (plan.solved) tally.solved.push_back(plan.seconds);
+      if (!plan.solved && way == kProven) std::printf("no plan for %s\n", problem.name.c_str());
       for (const auto& [q0, q1] : plan.free_edges) {
         const VectorXd q =
             way == kProven ? sampleInContact(is_free_by_fcl, q0, q1) : contactOn(robot, q0, q1);
@@ -118,7 +117,7 @@ double mean(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint64_t seed) {
+std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind) {
   std::vector<Row> rows;
   const auto& theirs = kind.ways[kObbrss].seconds;
   const double base = theirs.empty() ? 0 : median(theirs);
@@ -126,7 +125,7 @@ std::vector<Row> rowsOf(const std::string& scenario, const Kind& kind, std::uint
     const Tally& tally = kind.ways[way];
     if (tally.seconds.empty()) continue;
     const double middle = median(tally.seconds);
-    Row row = baseRow(scenario, "plan", tally.seconds.size(), seed);
+    Row row = baseRow(scenario, "plan", tally.seconds.size());
     row.bv = kNames[way];
     row.times.median_us = 1e6 * middle;
     row.times.min_us = 1e6 * *std::min_element(tally.seconds.begin(), tally.seconds.end());
@@ -164,7 +163,7 @@ std::vector<Row> rowsOf(const std::string& scenario, const char* query,
   race.run(competitors);
   std::size_t count = 0;
   for (const auto& [place, q] : places) count += static_cast<std::size_t>(q.cols());
-  const Row base = baseRow(scenario, query, count, options.seed);
+  const Row base = baseRow(scenario, query, count);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
     rows.push_back(base.of(competitor, named("fcl_obbrss", competitors)));
@@ -186,7 +185,8 @@ void measureQuestions(const std::string& name, const Robot& bare,
     places.back()->obbrss = std::make_unique<ObbrssCell>(places.back()->robot, models);
     if (places.size() == 14) break;  // two of each kind
   }
-  const VectorXd lower = bare.lower().cwiseMax(-2 * kPi), upper = bare.upper().cwiseMin(2 * kPi);
+  const VectorXd lower = bare.lower().cwiseMax(-2 * scenes::kPi),
+                 upper = bare.upper().cwiseMin(2 * scenes::kPi);
   std::mt19937_64 random(options.seed);
   std::vector<std::pair<const Place*, Eigen::MatrixXd>> all, some, clear;
   for (const auto& place : places) {
@@ -233,7 +233,7 @@ void measureQuestions(const std::string& name, const Robot& bare,
 
 void planAll(const std::string& name, const fs::path& folder, const Options& options,
              Report& report) {
-  const int wanted = options.frames > 0 ? options.frames : options.quick ? 7 : 70;
+  const std::size_t wanted = options.frames > 0 ? options.frames : options.quick ? 7 : 70;
   const Unpacked unpacked(folder / "problems.tar.bz2");
   const Robot bare =
       loadRobot((folder / (name + ".urdf")).string(), (folder / (name + ".srdf")).string());
@@ -246,10 +246,10 @@ void planAll(const std::string& name, const fs::path& folder, const Options& opt
   }
   Kind all;
   for (const auto& [kind_name, kind] : kinds) {
-    report.add(rowsOf("mbm/" + kind_name, kind, options.seed));
+    report.add(rowsOf("mbm/" + kind_name, kind));
     all.add(kind);
   }
-  report.add(rowsOf("mbm/" + name, all, options.seed));
+  report.add(rowsOf("mbm/" + name, all));
   measureQuestions(name, bare, problems, options, report);
 }
 

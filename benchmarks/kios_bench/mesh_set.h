@@ -71,9 +71,6 @@ class MeshSet {
 
   /// Returns bytes of all models: nodes, primitive indices, vertices and triangles.
   virtual std::size_t bytes() const = 0;
-
-  /// Returns the SIMD target that answers, where the volume has more than one.
-  virtual std::optional<std::string> simdTarget() const = 0;
 };
 
 /// Every bounding volume under its name of the JSON rows; throws std::invalid_argument for others.

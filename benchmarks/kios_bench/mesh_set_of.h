@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -17,30 +16,12 @@
 
 namespace kios::bench {
 
-/// Holds a query that the volume does not serve.
-struct NoNode {};
-
-/// A kind of set names its volume, the volume's traversal nodes or NoNode, and the calls that
-/// answer for it. Our volume under our own calls counts volumes and pairs of leaves (of up to eight
-/// triangles each) in its prepared trees.
-template <typename BV_, typename Calls_, typename DistanceNode_, typename CollisionNode_>
-struct Kind {
-  using BV = BV_;
-  using Calls = Calls_;
-  using DistanceNode = DistanceNode_;
-  using CollisionNode = CollisionNode_;
-  static constexpr bool kDistance = !std::is_same_v<DistanceNode, NoNode>;
-  static constexpr bool kCollision = !std::is_same_v<CollisionNode, NoNode>;
-  static constexpr bool kPrepared = std::is_same_v<Calls, KiosCalls>;
-};
-
-/// Our volume as a user has it.
-using KiosKind = Kind<kIOSd, KiosCalls, void, void>;
-
-template <typename Kind>
+/// A set over a volume, by the calls that answer for it and the volume's traversal nodes; void as
+/// that of collisions is what FCL has not. Our volume under our own calls counts volumes and pairs
+/// of leaves (of up to eight triangles each) in its prepared trees.
+template <typename BV, typename Calls, typename DistanceNode, typename CollisionNode>
 class MeshSetOf final : public MeshSet {
  public:
-  using BV = typename Kind::BV;
   using Model = fcl::BVHModel<BV>;
   using Object = fcl::CollisionObjectd;
   using MakeFitter = std::shared_ptr<fcl::detail::BVFitterBase<BV>> (*)();
@@ -49,9 +30,7 @@ class MeshSetOf final : public MeshSet {
   explicit MeshSetOf(MakeFitter make_fitter) : make_fitter_(make_fitter) {}
 
   bool serves(Query query) const override {
-    if (query == Query::kBuild) return true;
-    const bool collision = query == Query::kCollide || query == Query::kContacts;
-    return collision ? Kind::kCollision : Kind::kDistance;
+    return kCollision || (query != Query::kCollide && query != Query::kContacts);
   }
 
   void build(const std::vector<scenes::Mesh>& meshes) const override {
@@ -62,7 +41,7 @@ class MeshSetOf final : public MeshSet {
     bodies_.clear();
     for (const scenes::Mesh& mesh : meshes) {
       const std::shared_ptr<Model> model = built(mesh);
-      if constexpr (Kind::kPrepared) prepare(*model);
+      if constexpr (kPrepared) prepare(*model);
       add(model);
       bodies_.back().model = model;
     }
@@ -116,21 +95,18 @@ class MeshSetOf final : public MeshSet {
         fcl::CollisionRequestd request;
         if (query == Query::kContacts) request.num_max_contacts = question.max_contacts;
         fcl::CollisionResultd result;
-        if constexpr (Kind::kCollision) {
-          count<typename Kind::CollisionNode>(question, request, result, bvs, leaves, exact);
+        if constexpr (kCollision) {
+          count<CollisionNode>(question, request, result, bvs, leaves, exact);
         }
       } else {
         fcl::DistanceResultd result;
-        if constexpr (Kind::kDistance) {
-          count<typename Kind::DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves,
-                                             exact);
-        }
+        count<DistanceNode>(question, fcl::DistanceRequestd(), result, bvs, leaves, exact);
       }
     }
     const auto of_frame = [frames](long long sum) {
       return static_cast<double>(sum) / static_cast<double>(frames);
     };
-    if (!Kind::kPrepared) return {of_frame(bvs), of_frame(leaves)};
+    if (!kPrepared) return {of_frame(bvs), of_frame(leaves)};
     return {of_frame(bvs), of_frame(leaves), of_frame(exact)};
   }
 
@@ -140,17 +116,15 @@ class MeshSetOf final : public MeshSet {
       if (!body.model) continue;
       const Model& model = *body.model;
       sum += bytesOf(model);
-      if constexpr (Kind::kPrepared) sum += preparedBytes(model);
+      if constexpr (kPrepared) sum += preparedBytes(model);
     }
     return sum;
   }
 
-  std::optional<std::string> simdTarget() const override {
-    if constexpr (Kind::kPrepared) return kios::simdTarget();
-    return std::nullopt;
-  }
-
  private:
+  static constexpr bool kPrepared = std::is_same_v<Calls, KiosCalls>;
+  static constexpr bool kCollision = kPrepared || !std::is_void_v<CollisionNode>;
+
   // A body and its objects as either argument: two bodies of one shape share its model.
   struct Body {
     std::shared_ptr<Model> model;  // nullptr if it is no mesh
@@ -162,7 +136,7 @@ class MeshSetOf final : public MeshSet {
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
     result.min_distance = threshold;
-    if constexpr (Kind::kDistance) Kind::Calls::distance(&a, &b, request, result);
+    Calls::distance(&a, &b, request, result);
     return std::min(result.min_distance, threshold);
   }
 
@@ -170,7 +144,7 @@ class MeshSetOf final : public MeshSet {
   static double collide(const Object& a, const Object& b) {
     const fcl::CollisionRequestd request;
     fcl::CollisionResultd result;
-    if constexpr (Kind::kCollision) Kind::Calls::collide(&a, &b, request, result);
+    if constexpr (kCollision) Calls::collide(&a, &b, request, result);
     return result.isCollision() ? 1 : 0;
   }
 
@@ -178,18 +152,18 @@ class MeshSetOf final : public MeshSet {
     fcl::CollisionRequestd request;
     request.num_max_contacts = most;
     fcl::CollisionResultd result;
-    if constexpr (Kind::kCollision) Kind::Calls::collide(&a, &b, request, result);
+    if constexpr (kCollision) Calls::collide(&a, &b, request, result);
     return static_cast<double>(result.numContacts());
   }
 
   // FCL's way: a bound on entry, the least positive number in place of 0.
   bool closer(const Object& a, const Object& b, const Question& question) const {
-    if constexpr (Kind::kPrepared) {
+    if constexpr (kPrepared) {
       return closerThan<double>(*bodies_[question.a].model, question.poses.X_WA,
                                 *bodies_[question.b].model, question.poses.X_WB,
                                 question.threshold);
     } else {
-      if (question.threshold == 0 && Kind::kCollision) return collide(a, b) == 1;
+      if (question.threshold == 0 && kCollision) return collide(a, b) == 1;
       const double bound = std::max(question.threshold, std::numeric_limits<double>::min());
       return distanceBelow(a, b, bound) < bound;
     }
@@ -201,7 +175,7 @@ class MeshSetOf final : public MeshSet {
     const Model &a = *bodies_[question.a].model, &b = *bodies_[question.b].model;
     const auto& [X_WA, X_WB] = question.poses;
     constexpr bool kAsksDistance = std::is_same_v<Result, fcl::DistanceResultd>;
-    if constexpr (Kind::kPrepared) {
+    if constexpr (kPrepared) {
       SearchCounts counts;
       if constexpr (kAsksDistance) {
         distanceMeshes(a, X_WA, b, X_WB, request, result, &counts);
@@ -233,14 +207,16 @@ class MeshSetOf final : public MeshSet {
   std::vector<Body> bodies_;
 };
 
+/// Our volume as a user has it.
+using KiosSet = MeshSetOf<kIOSd, KiosCalls, void, void>;
+
 /// FCL's recursion over our volume, by the model's own fitter or another.
 inline std::unique_ptr<MeshSet> makeKiosTree(
     std::shared_ptr<fcl::detail::BVFitterBase<kIOSd>> (*make_fitter)()) {
   using Distance = MeshDistanceTraversalNode<double>;
   using Collision = MeshCollisionTraversalNode<double>;
   return std::make_unique<
-      MeshSetOf<Kind<kIOSd, NodeCalls<kIOSd, Distance, Collision>, Distance, Collision>>>(
-      make_fitter);
+      MeshSetOf<kIOSd, NodeCalls<kIOSd, Distance, Collision>, Distance, Collision>>(make_fitter);
 }
 
 }  // namespace kios::bench

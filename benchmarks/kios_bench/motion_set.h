@@ -21,23 +21,17 @@ Linkage linkageOf(const scenes::Cell& cell);
 /// A way to tell whether a straight path in joint space is free of contact.
 class MotionSet {
  public:
-  explicit MotionSet(std::string name) : name_(std::move(name)) {}
   virtual ~MotionSet() = default;
-
-  const std::string& name() const { return name_; }
   /// Returns true if no contact is found from q0, which is free, to q1.
   virtual bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) = 0;
   /// Returns pairs for which the narrow phase was asked since the last call, and, of ours,
   /// undecided paths.
   virtual long long takeQueried() { return 0; }
   virtual long long takeUnresolved() { return 0; }
-
- private:
-  std::string name_;
 };
 
 /// By checkMotion(), `kios` in rows. The cell must outlive it.
-std::unique_ptr<MotionSet> makeCertified(const std::string& name, const scenes::Cell& cell);
+std::unique_ptr<MotionSet> makeCertified(const scenes::Cell& cell);
 
 /// By their names in rows: `sampled_kios` and `fcl_obbrss`, samples at most 0.01 rad apart in the
 /// largest joint, each with FCL's dynamic AABB trees over k-IOS and OBBRSS. Samples are taken in

@@ -29,8 +29,7 @@ std::vector<std::shared_ptr<fcl::BVHModel<BV>>> modelsOf(const scenes::Cell& cel
 
 class Certified final : public MotionSet {
  public:
-  Certified(const std::string& name, const scenes::Cell& cell)
-      : MotionSet(name), linkage_(linkageOf(cell)) {}
+  explicit Certified(const scenes::Cell& cell) : linkage_(linkageOf(cell)) {}
 
   bool isFree(const scenes::Joints& q0, const scenes::Joints& q1) override {
     const auto answer = checkMotion(linkage_, vectorOf(q0), vectorOf(q1));
@@ -50,7 +49,7 @@ class Certified final : public MotionSet {
 template <typename BV, typename Calls>
 class Managed final : public MotionSet {
  public:
-  Managed(const std::string& name, const scenes::Cell& cell) : MotionSet(name), cell_(cell) {
+  explicit Managed(const scenes::Cell& cell) : cell_(cell) {
     const auto models = modelsOf<BV>(cell);
     for (int body = 0; body < cell.bodies(); ++body) {
       const bool moves = body < cell.moving();
@@ -135,7 +134,7 @@ Eigen::VectorXd vectorOf(const scenes::Joints& q) {
 
 std::function<double(const scenes::Joints&, const scenes::Joints&)> makeSampledClearance(
     const scenes::Cell& cell, double step) {
-  const auto set = std::make_shared<Managed<fcl::OBBRSSd, FclCalls>>("", cell);
+  const auto set = std::make_shared<Managed<fcl::OBBRSSd, FclCalls>>(cell);
   return [&cell, set, step](const scenes::Joints& q0, const scenes::Joints& q1) {
     const int samples = std::max(1, static_cast<int>(std::ceil(sweptBound(cell, q0, q1) / step)));
     double least = std::numeric_limits<double>::infinity();
@@ -168,17 +167,17 @@ Linkage linkageOf(const scenes::Cell& cell) {
 }
 
 std::function<bool(const scenes::Joints&)> makeStaticCheck(const scenes::Cell& cell) {
-  const auto set = std::make_shared<Managed<kIOSd, KiosCalls>>("", cell);
+  const auto set = std::make_shared<Managed<kIOSd, KiosCalls>>(cell);
   return [set](const scenes::Joints& q) { return set->isFreeAt(q); };
 }
 
-std::unique_ptr<MotionSet> makeCertified(const std::string& name, const scenes::Cell& cell) {
-  return std::make_unique<Certified>(name, cell);
+std::unique_ptr<MotionSet> makeCertified(const scenes::Cell& cell) {
+  return std::make_unique<Certified>(cell);
 }
 
 std::unique_ptr<MotionSet> makeMotionSet(const std::string& name, const scenes::Cell& cell) {
-  if (name == "sampled_kios") return std::make_unique<Managed<kIOSd, KiosCalls>>(name, cell);
-  return std::make_unique<Managed<fcl::OBBRSSd, FclCalls>>(name, cell);
+  if (name == "sampled_kios") return std::make_unique<Managed<kIOSd, KiosCalls>>(cell);
+  return std::make_unique<Managed<fcl::OBBRSSd, FclCalls>>(cell);
 }
 
 }  // namespace kios::bench

@@ -26,9 +26,7 @@ void reportMoved(const Options& options, Report& report) {
   scenes::Random random(options.seed);
   const auto ball = std::make_shared<fcl::Sphered>(0.02);
   const auto place = [&] {
-    fcl::Transform3d X = fcl::Transform3d::Identity();
-    for (double& x : X.translation()) x = random.uniform(-1.5, 1.5);
-    return X;
+    return fcl::Transform3d(Eigen::Translation3d(random.inCube(-1.5, 1.5)));
   };
   std::vector<fcl::Transform3d> first, later;
   std::vector<Eigen::VectorXd> q;
@@ -69,7 +67,7 @@ void reportMoved(const Options& options, Report& report) {
   Race{questions, options.repeats, Race::kAll, Race::kAll, true}.run(alone);
   const std::size_t stride = competitors[1].stride = options.quick ? 2 : 20;
   Race{questions, options.repeats, Race::kAll, 1, true}.run(competitors);
-  Row base = baseRow("motions/moved", "move", questions, options.seed);
+  Row base = baseRow("motions/moved", "move", questions);
   std::vector<Row> rows = {base.of(alone[0]), base.of(competitors[0])};
   base.frames = (questions - 1) / stride + 1;
   rows.push_back(base.of(competitors[1]));

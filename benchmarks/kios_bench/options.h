@@ -21,8 +21,7 @@ struct Options {
   std::vector<std::string> bvs;               // competitors, in the order of rows
   int frames = 0;                             // per scene; 0 = the scenario's own number
   int repeats = 5;
-  int oracle_frames = 300;    // frames judged by the oracle, evenly chosen; 0 = all
-  int max_triangles = 80000;  // of each mesh of 'scaling'
+  int oracle_frames = 300;  // frames judged by the oracle, evenly chosen; 0 = all
   std::uint64_t seed = 1;
   std::optional<std::filesystem::path> robot;  // folder of meshes, for 'robots'
   bool quick = false;  // few frames and small meshes: a smoke test, not a measurement

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Nearest points, signed distances and winding numbers of points.
+// Points in solids; nearest points, signed distances and winding numbers of points.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +15,7 @@
 #include "contest.h"
 #include "fcl_kios/fcl_kios.h"
 #include "scenario.h"
+#include "scenes/containment_oracle.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
 
@@ -30,21 +31,40 @@ Mesh scanned(Mesh mesh, std::uint64_t seed) {
   return mesh;
 }
 
+/// Points in and about the box of a solid.
 class PointContest {
  public:
-  PointContest(const std::string& name, const Mesh& mesh, const Options& options)
+  PointContest(const std::string& name, const Mesh& mesh, int count, const Options& options)
       : mesh_(mesh), model_(scenes::buildModel<kIOSd>(mesh)), options_(options) {
     markSolid(*model_);
     model_->computeLocalAABB();
     const fcl::Vector3d center = model_->aabb_center;
     const fcl::Vector3d half = 0.6 * (model_->aabb_local.max_ - model_->aabb_local.min_);
-    const int count = options.frames > 0 ? options.frames : (options.quick ? 500 : 100000);
+    if (options.frames > 0) count = options.frames;
+    if (options.frames == 0 && options.quick) count = 500;
     scenes::Random random(options.seed);
     points_.resize(3, count);
-    for (int i = 0; i < count; ++i) {
-      for (int c = 0; c < 3; ++c) points_(c, i) = center[c] + half[c] * random.uniform(-1, 1);
+    for (auto p : points_.colwise()) p = center + half.cwiseProduct(random.inCube(-1, 1));
+    base_ = baseRow(name, "", 0, {mesh});
+  }
+
+  /// Judged by rational arithmetic.
+  void containment(Report& report) {
+    const auto count = static_cast<std::size_t>(points_.cols());
+    std::vector<char> inside(count);
+    const fcl::Transform3d here = fcl::Transform3d::Identity();
+    run("contains", "kios", count, each([&](Eigen::Index i) {
+          inside[static_cast<std::size_t>(i)] = contains<double>(*model_, here, points_.col(i));
+        }));
+    const scenes::ContainmentOracle oracle(mesh_);
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(count, 300); ++i) {
+      const auto place = oracle.placeOf(points_.col(static_cast<Eigen::Index>(i)));
+      wrong += (place != scenes::ContainmentOracle::Place::kOutside) != (inside[i] != 0);
     }
-    base_ = baseRow(name, "", 0, options.seed, {mesh});
+    rows_[0].errors.wrong = wrong;
+    report.add(rows_);
+    rows_.clear();
   }
 
   /// All points at once, and one after the other: FCL's nearest query is that of a ball of radius
@@ -58,16 +78,12 @@ class PointContest {
     Eigen::VectorXd signed_distances(points_.cols()), nearest(points_.cols());
     Eigen::VectorXd by_ball(points_.cols());
     const auto asked = [&](const auto& model) {
-      return [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          fcl::Transform3d X = here;
-          const auto column = static_cast<Eigen::Index>(i);
-          X.translation() = points_.col(column);
-          fcl::DistanceResultd result;
-          by_ball[column] =
-              fcl::distance(model.get(), here, &ball, X, fcl::DistanceRequestd(), result);
-        }
-      };
+      return each([&](Eigen::Index i) {
+        fcl::Transform3d X = here;
+        X.translation() = points_.col(i);
+        fcl::DistanceResultd result;
+        by_ball[i] = fcl::distance(model.get(), here, &ball, X, fcl::DistanceRequestd(), result);
+      });
     };
     run("signed", "kios", all,
         [&](std::size_t, std::size_t) { signedDistances(*model_, points_, signed_distances); });
@@ -92,30 +108,19 @@ class PointContest {
   /// Time against error of winding numbers; the error is the largest against sums of all triangles.
   void windings(Report& report) {
     const WindingTree tree(*model_);
-    const std::size_t count = std::min<std::size_t>(points_.cols(), options_.quick ? 100 : 500),
-                      judged = std::min<std::size_t>(count, 100);
-    std::vector<double> exact;
-    for (std::size_t i = 0; i < judged; ++i) {
-      exact.push_back(tree.at(points_.col(static_cast<Eigen::Index>(i)), 0));
-    }
-    for (const double error : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-      std::vector<double> numbers(count);
+    const Eigen::Index count = std::min<Eigen::Index>(points_.cols(), options_.quick ? 100 : 500),
+                       judged = std::min<Eigen::Index>(count, 100);
+    Eigen::VectorXd exact(judged), numbers(count);
+    for (Eigen::Index i = 0; i < judged; ++i) exact[i] = tree.at(points_.col(i), 0);
+    for (const double error : {1e-2, 1e-3, 1e-6}) {
       char name[32];
       std::snprintf(name, sizeof(name), "winding %g", error);
-      run(name, "kios", count, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          numbers[i] = tree.at(points_.col(static_cast<Eigen::Index>(i)), error);
-        }
-      });
-      double worst = 0;
-      for (std::size_t i = 0; i < judged; ++i) {
-        worst = std::max(worst, std::abs(numbers[i] - exact[i]));
-      }
+      run(name, "kios", static_cast<std::size_t>(count),
+          each([&](Eigen::Index i) { numbers[i] = tree.at(points_.col(i), error); }));
+      const double worst = (numbers.head(judged) - exact).cwiseAbs().maxCoeff();
       rows_.back().asked.abs_err = error;
       rows_.back().errors.max_abs = worst;
       rows_.back().errors.wrong = worst > error ? 1 : 0;
-      rows_.back().volumes.bytes_per_triangle =
-          static_cast<double>(tree.bytes()) / static_cast<double>(base_.triangles);
     }
     report.add(rows_);
     rows_.clear();
@@ -130,7 +135,6 @@ class PointContest {
     Row& row = rows_.emplace_back(base_.of(competitors[0]));
     row.query = query;
     row.bv = bv;
-    if (row.bv == "kios") row.simd_target = simdTarget();
   }
 
   const Mesh& mesh_;
@@ -144,14 +148,25 @@ class PointContest {
 }  // namespace
 
 void reportPoints(const Options& options, Report& report) {
-  const Mesh torus = scenes::bumpyTorus(options.quick ? 1000 : 84000);
-  PointContest on_torus("points/torus", torus, options);
-  on_torus.distances(report);
-  on_torus.windings(report);
-  const Mesh scan = scanned(scenes::bumpyTorus(options.quick ? 2000 : 500000), options.seed);
-  PointContest on_scan("points/scan", scan, options);
-  on_scan.distances(report);
-  on_scan.windings(report);
+  if (wanted(options, "contains")) {
+    const std::pair<const char*, Mesh> solids[] = {
+        {"torus", scenes::bumpyTorus(options.quick ? 1000 : 20000)},
+        {"box", scenes::subdividedBox({1, 2, 3}, options.quick ? 5 : 41)},
+        {"ball", scenes::icosphere(1, options.quick ? 2 : 5)}};
+    for (const auto& [name, mesh] : solids) {
+      PointContest(std::string("solids/contains/") + name, mesh, 20000, options)
+          .containment(report);
+    }
+  }
+  if (!wanted(options, "points")) return;
+  const std::pair<const char*, Mesh> meshes[] = {
+      {"torus", scenes::bumpyTorus(options.quick ? 1000 : 84000)},
+      {"scan", scanned(scenes::bumpyTorus(options.quick ? 2000 : 500000), options.seed)}};
+  for (const auto& [name, mesh] : meshes) {
+    PointContest contest(std::string("points/") + name, mesh, 100000, options);
+    contest.distances(report);
+    contest.windings(report);
+  }
 }
 
 }  // namespace kios::bench

@@ -12,6 +12,7 @@
 #include "fcl_kios/model.h"
 #include "motion_set.h"
 #include "scenario.h"
+#include "scenes/placement.h"
 #include "scenes/shapes.h"
 
 namespace kios::bench {
@@ -20,35 +21,31 @@ namespace {
 using Eigen::VectorXd;
 using Ask = std::function<RangeResult(std::size_t task, const RangeRequest& request)>;
 
-/// Times `ask` for all tasks, and beside it `clear`, which checkMotion() answers, and for a few of
-/// the tasks `samples`.
+/// Times `ask` for all tasks, and beside it `samples` for a few of them.
 void reportRange(const std::string& name, std::size_t tasks, const RangeRequest& request,
-                 const Ask& ask, const std::function<void(std::size_t)>& clear,
-                 const Options& options, Report& report,
+                 const Ask& ask, const Options& options, Report& report,
                  const std::function<void(std::size_t)>& samples = nullptr) {
-  double width = 0, queries = 0;
-  std::vector<Competitor> competitors = {{"kios", [&](std::size_t begin, std::size_t end) {
-                                            width = queries = 0;
-                                            for (std::size_t i = begin; i < end; ++i) {
-                                              const RangeResult result = ask(i, request);
-                                              width += result.upper - result.lower;
-                                              queries += static_cast<double>(result.queries);
-                                            }
-                                          }}};
-  if (clear) competitors.push_back({"kios_clear", each(clear)});
-  for (const Competitor& competitor : competitors) competitor.answer(0, tasks);
+  std::vector<RangeResult> found(tasks);
+  std::vector<Competitor> competitors = {
+      {"kios", each([&](std::size_t i) { found[i] = ask(i, request); })}};
+  competitors[0].answer(0, tasks);
   if (samples) {
     competitors.push_back({"fcl_obbrss_samples", each(samples)});
     competitors.back().stride = 20;
   }
   Race{tasks, options.repeats, Race::kAll, 1}.run(competitors);
-  const Row base = baseRow("motions/range/" + name, "range", tasks, options.seed);
+  const Row base = baseRow("motions/range/" + name, "range", tasks);
   std::vector<Row> rows;
   for (const Competitor& competitor : competitors) {
     Row row = base;
     row.frames = (tasks + competitor.stride - 1) / competitor.stride;
     rows.push_back(row.of(competitor));
     if (competitor.name != "kios") continue;
+    double width = 0, queries = 0;
+    for (const RangeResult& result : found) {
+      width += result.upper - result.lower;
+      queries += static_cast<double>(result.queries);
+    }
     rows.back().errors.bracket_width = width / static_cast<double>(tasks);
     rows.back().pairs.narrow_queries = queries / static_cast<double>(tasks);
     if (request.max_queries != RangeRequest().max_queries) {
@@ -85,15 +82,10 @@ void reportDoor(double gap, const Options& options, Report& report) {
   };
   char name[32];
   std::snprintf(name, sizeof name, "door/%g", gap);
-  reportRange(
-      name, 1, request, ask,
-      [&](std::size_t /*task*/) {
-        checkMotion(door, VectorXd::Zero(1), VectorXd::Constant(1, 1.6));
-      },
-      options, report);
+  reportRange(name, 1, request, ask, options, report);
   for (const long long most : {20, 40, 60, 80, 100, 150, 200}) {
     request.max_queries = most;
-    reportRange(std::string(name) + "/budget", 1, request, ask, nullptr, options, report);
+    reportRange(std::string(name) + "/budget", 1, request, ask, options, report);
   }
 }
 
@@ -123,8 +115,7 @@ void reportArm(const std::string& name, const scenes::Cell& cell, const Options&
       [&](std::size_t i, const RangeRequest& asked) {
         return leastClearance(linkage, paths[i].first, paths[i].second, asked);
       },
-      [&](std::size_t i) { checkMotion(linkage, paths[i].first, paths[i].second); }, options,
-      report, [&](std::size_t i) { samples(sampled[i].first, sampled[i].second); });
+      options, report, [&](std::size_t i) { samples(sampled[i].first, sampled[i].second); });
   const std::size_t joints = static_cast<std::size_t>(cell.coordinates());
   reportRange(
       name + "/box", joints - 1, RangeRequest(),
@@ -132,12 +123,12 @@ void reportArm(const std::string& name, const scenes::Cell& cell, const Options&
         const VectorXd& q = paths[i % paths.size()].first;
         JointBox box{{q.data(), q.data() + q.size()}, {q.data(), q.data() + q.size()}};
         for (const std::size_t k : {i, i + 1}) {
-          box.lower[k] = -3.141592653589793;
-          box.upper[k] = 3.141592653589793;
+          box.lower[k] = -scenes::kPi;
+          box.upper[k] = scenes::kPi;
         }
         return leastClearance(linkage, box, asked);
       },
-      nullptr, options, report);
+      options, report);
 }
 
 }  // namespace

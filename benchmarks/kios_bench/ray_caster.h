@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <vector>
 
 #include "fcl_kios/rays.h"
@@ -19,18 +19,13 @@ struct CastHit {
   int triangle;
 };
 
-/// Casts rays at one mesh, whose coordinates and those of the rays are floats.
-class RayCaster {
- public:
-  virtual ~RayCaster() = default;
-
-  /// Sets the hits: of kFirst at most one, of kAny one of unknown place where there is any.
-  virtual void cast(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits) = 0;
-};
+/// Casts a ray at one mesh, the coordinates of both being floats, and sets the hits: of kFirst at
+/// most one, of kAny one of unknown place where there is any.
+using RayCaster = std::function<void(RayQuery query, const Rayd& ray, std::vector<CastHit>& hits)>;
 
 #ifdef KIOS_HAVE_EMBREE
 /// Returns Embree, single precision with its robust flag.
-std::unique_ptr<RayCaster> makeEmbreeCaster(const scenes::Mesh& mesh);
+RayCaster embreeCaster(const scenes::Mesh& mesh);
 #endif
 
 }  // namespace kios::bench

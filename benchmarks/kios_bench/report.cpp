@@ -58,8 +58,6 @@ constexpr Field kFields[] = {
     {"leaf_tests", "leaves", "%.1f", [](const Row& row) { return row.tests.leaves; }},
     {nullptr, "err/extent", "%.1e", scaledError},
     {"max_abs_error", nullptr, nullptr, [](const Row& row) { return row.errors.max_abs; }},
-    {"max_rel_error", nullptr, nullptr, [](const Row& row) { return row.errors.max_rel; }},
-    {"mean_abs_error", nullptr, nullptr, [](const Row& row) { return row.errors.mean_abs; }},
     {"mean_rel_error", "mean rel", "%.2e", [](const Row& row) { return row.errors.mean_rel; }},
     {"bracket_width", "width", "%.2e", [](const Row& row) { return row.errors.bracket_width; }},
     {"bracket_ratio", "up/low", "%.3f", [](const Row& row) { return row.errors.bracket_ratio; }},
@@ -79,8 +77,6 @@ constexpr Field kFields[] = {
     {"floats_per_bv", "floats", "%.2f", [](const Row& row) { return row.volumes.floats_per_bv; }},
     {"tightness", "tightness", "%.3f", [](const Row& row) { return row.volumes.tightness; }},
     {"bodies", "bodies", "%.0f", [](const Row& row) { return number(row.bodies); }, true},
-    {"skipped_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.skipped); },
-     true},
     {"total_pairs", nullptr, nullptr, [](const Row& row) { return number(row.pairs.total); }, true},
     {"narrow_queries", "searches", "%.2f", [](const Row& row) { return row.pairs.narrow_queries; }},
     {"solved", "solved", "%.0f", [](const Row& row) { return number(row.plans.solved); }, true},
@@ -108,12 +104,11 @@ Row Row::of(const Competitor& competitor, const Competitor* reference) const {
 }
 
 Row baseRow(const std::string& scenario, const std::string& query, std::size_t frames,
-            std::uint64_t seed, const std::vector<scenes::Mesh>& meshes) {
+            const std::vector<scenes::Mesh>& meshes) {
   Row row;
   row.scenario = scenario;
   row.query = query;
   row.frames = frames;
-  row.seed = seed;
   for (const scenes::Mesh& mesh : meshes) {
     row.triangles += mesh.triangles.size();
     row.largest_mesh = std::max(row.largest_mesh, mesh.triangles.size());
@@ -144,15 +139,10 @@ std::string toJson(const Row& row) {
                {"triangles", row.triangles},
                {"frames", row.frames}};
   for (const Field& field : kFields) {
-    if (!field.json) continue;
     const Maybe value = field.of(row);
-    const bool known = value && std::isfinite(*value);
-    json[field.json] = !known           ? Json(nullptr)
-                       : field.is_count ? Json(static_cast<std::size_t>(*value))
-                                        : Json(*value);
+    if (!field.json || !value || !std::isfinite(*value)) continue;
+    json[field.json] = field.is_count ? Json(static_cast<std::size_t>(*value)) : Json(*value);
   }
-  json["simd_target"] = row.simd_target ? Json(*row.simd_target) : Json(nullptr);
-  json["seed"] = row.seed;
   return json.dump();
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -27,7 +27,7 @@ struct Asked {
 
 /// Answers against the oracle's.
 struct Errors {
-  Maybe max_abs, max_rel, mean_abs;
+  Maybe max_abs;
   Maybe mean_rel;                          ///< over frames without contact
   Maybe bracket_width;                     ///< mean of distance - proven lower bound
   Maybe bracket_ratio, max_bracket_ratio;  ///< of upper / lower bound: median, largest
@@ -52,7 +52,6 @@ struct Volumes {
 
 /// Holds pairs of a scene.
 struct Pairs {
-  MaybeCount skipped;
   MaybeCount total;      ///< of all frames, where a frame has several
   Maybe narrow_queries;  ///< of a frame
 };
@@ -69,14 +68,13 @@ struct Changes {
   std::size_t bits = 0, answers = 0;  ///< not bit for bit; beyond rounding
 };
 
-/// Holds one measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
+/// Holds one measurement. A scenario sets the parts that it knows; JSON has no others.
 struct Row {
   std::string scenario, query, bv;
   std::size_t triangles = 0;     ///< of all meshes
   std::size_t largest_mesh = 0;  ///< triangles of the largest one asked about; 0: unsaid
   std::size_t frames = 0;
   MaybeCount bodies;  ///< of an assembly
-  std::uint64_t seed = 0;
   /// Is that of the larger mesh, the scale of its errors; in the table only. 1 for pairs of
   /// triangles, whose errors are relative to the extent of each pair.
   double extent = 0;
@@ -88,7 +86,6 @@ struct Row {
   Pairs pairs;
   Plans plans;
   std::optional<Changes> changes;  ///< not in JSON
-  std::optional<std::string> simd_target;
 
   /// Returns a copy for a competitor, with its times.
   Row of(const Competitor& competitor, const Competitor* reference = nullptr) const;
@@ -96,7 +93,7 @@ struct Row {
 
 /// Returns what all rows of a query have in common.
 Row baseRow(const std::string& scenario, const std::string& query, std::size_t frames,
-            std::uint64_t seed, const std::vector<scenes::Mesh>& meshes = {});
+            const std::vector<scenes::Mesh>& meshes = {});
 
 /// Moves the rows to the end of `all`.
 void append(std::vector<Row> rows, std::vector<Row>& all);
@@ -107,7 +104,7 @@ std::string cell(const Maybe& value, const char* format);
 /// Returns a time for readers: in us, or in ms where those have five digits.
 std::string timeText(double us);
 
-/// Returns the row as one line of JSON. Numbers that are not finite become null.
+/// Returns the row as one line of JSON, without numbers that are not finite.
 std::string toJson(const Row& row);
 
 /// Prints rows as an aligned table, without columns that tell nothing of them.

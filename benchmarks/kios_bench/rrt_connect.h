@@ -21,10 +21,9 @@ struct PlanRequest {
 };
 
 struct Plan {
-  std::vector<Eigen::VectorXd> path;  ///< from start to goal; empty if there is none
-  double seconds = 0;                 ///< of CPU time
-  long long edges = 0;                ///< that were asked about
-  /// Those that were called free.
+  bool solved = false;
+  double seconds = 0;  ///< of CPU time
+  /// Edges that were called free.
   std::vector<std::pair<Eigen::VectorXd, Eigen::VectorXd>> free_edges;
 };
 

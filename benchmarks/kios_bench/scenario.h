@@ -4,7 +4,6 @@
 #pragma once
 
 #include <stdexcept>
-#include <vector>
 
 #include "options.h"
 #include "report.h"
@@ -17,20 +16,6 @@ class Skipped : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
-
-/// Holds a named set of scenes.
-struct Scenario {
-  const char* name;
-  const char* parts;  ///< that the command line may name, as SCENARIO/PART; empty for none
-  const char* description;
-  void (*run)(const Options& options, Report& report);
-  /// Says how many of each scene `--least` takes; 0 where nothing of FCL's stands beside ours.
-  int least_frames;
-};
-
-/// Returns all scenarios. To add one: a file with its run function, declared below, and a line in
-/// scenarios.cpp.
-const std::vector<Scenario>& scenarios();
 
 void runTori(const Options& options, Report& report);
 void runRobots(const Options& options, Report& report);

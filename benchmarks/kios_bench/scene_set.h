@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "report.h"
@@ -24,10 +23,7 @@ struct SceneAnswer {
 /// A way to ask for the distances of a scene's bodies, frame by frame. The scene must outlive it.
 class SceneSet {
  public:
-  explicit SceneSet(std::string name) : name_(std::move(name)) {}
   virtual ~SceneSet() = default;
-
-  const std::string& name() const { return name_; }
   virtual bool serves(SceneQuery /*query*/) const { return true; }
   /// Forgets what it learnt from frames before.
   virtual void forget() {}
@@ -36,21 +32,14 @@ class SceneSet {
   virtual std::vector<SceneAnswer> answer(SceneQuery query, int frame, double margin) = 0;
   /// Returns pairs for which the last answer() asked the narrow phase.
   virtual long long queried() const = 0;
-  virtual std::size_t bytes() const = 0;
-  /// Returns the SIMD target, where there is one.
-  virtual std::optional<std::string> simdTarget() const { return std::nullopt; }
-
- private:
-  std::string name_;
 };
 
 /// By their names in rows. FCL's OBBRSS: `fcl_obbrss`, every pair with a result of its own;
-/// `fcl_obbrss_bounded`, every pair with the best so far, or the margin, as bound on entry;
-/// `fcl_manager`, its dynamic AABB tree. Ours: `kios_pairs` and `kios_bounded`, every pair as
-/// FCL's.
+/// `fcl_manager`, its dynamic AABB tree. Ours: `kios_pairs`, every pair as FCL's; `kios_bounded`,
+/// with the best so far, or the margin, as bound on entry.
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene);
 
 /// Ours by SceneDistance, `kios`.
-std::unique_ptr<SceneSet> makeKiosScene(const std::string& name, const scenes::BodyScene& scene);
+std::unique_ptr<SceneSet> makeKiosScene(const scenes::BodyScene& scene);
 
 }  // namespace kios::bench

@@ -8,7 +8,7 @@
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl_kios/fcl_kios.h>
 
-#include "fcl_models.h"
+#include "calls.h"
 #include "managed_bodies.h"
 
 namespace kios::bench {
@@ -41,11 +41,6 @@ struct SceneObjects {
     if (scene.obstacle[a] && scene.obstacle[b]) return false;
     return !std::binary_search(scene.excluded.begin(), scene.excluded.end(), std::minmax({a, b}));
   }
-  std::size_t bytes() const {
-    std::size_t sum = 0;
-    for (const auto& model : models) sum += bytesOf(*model);
-    return sum;
-  }
 };
 
 /// Every admissible pair in a loop. If bounded, what is known bounds the search: the best so far,
@@ -53,8 +48,7 @@ struct SceneObjects {
 template <typename BV, typename Calls>
 class ScenePairs final : public SceneSet {
  public:
-  ScenePairs(const std::string& name, const scenes::BodyScene& scene, bool bounded)
-      : SceneSet(name), bounded_(bounded), bodies_(scene) {
+  ScenePairs(const scenes::BodyScene& scene, bool bounded) : bounded_(bounded), bodies_(scene) {
     for (int a = 0; a < scene.size(); ++a) {
       for (int b = a + 1; b < scene.size(); ++b) {
         if (bodies_.admissible(a, b)) pairs_.emplace_back(a, b);
@@ -85,7 +79,6 @@ class ScenePairs final : public SceneSet {
     return answers;
   }
   long long queried() const override { return static_cast<long long>(pairs_.size()); }
-  std::size_t bytes() const override { return bodies_.bytes(); }
 
  private:
   bool bounded_;
@@ -96,8 +89,7 @@ class ScenePairs final : public SceneSet {
 /// Holds FCL's dynamic AABB tree with what its default distance callback does, after the filter.
 class FclManager final : public SceneSet {
  public:
-  FclManager(const std::string& name, const scenes::BodyScene& scene)
-      : SceneSet(name), bodies_(scene) {
+  explicit FclManager(const scenes::BodyScene& scene) : bodies_(scene) {
     for (int body = 0; body < scene.size(); ++body) {
       const Object& object = *bodies_.objects[body];
       managed_.add(bodies_.models[scene.mesh_of[body]], object.getTransform(),
@@ -137,7 +129,6 @@ class FclManager final : public SceneSet {
     return answers;
   }
   long long queried() const override { return queried_; }
-  std::size_t bytes() const override { return bodies_.bytes(); }
 
  private:
   SceneObjects<fcl::OBBRSSd> bodies_;
@@ -147,8 +138,7 @@ class FclManager final : public SceneSet {
 
 class KiosScene final : public SceneSet {
  public:
-  KiosScene(const std::string& name, const scenes::BodyScene& scene)
-      : SceneSet(name), bodies_(scene) {
+  explicit KiosScene(const scenes::BodyScene& scene) : bodies_(scene) {
     for (int body = 0; body < scene.size(); ++body) {
       const auto* const object = bodies_.objects[body].get();
       const Role role = scene.obstacle[body] ? Role::kObstacle : Role::kBody;
@@ -180,12 +170,6 @@ class KiosScene final : public SceneSet {
     return answers;
   }
   long long queried() const override { return query_.counts().queried; }
-  std::size_t bytes() const override {
-    std::size_t sum = bodies_.bytes();
-    for (const auto& model : bodies_.models) sum += preparedBytes(*model);
-    return sum;
-  }
-  std::optional<std::string> simdTarget() const override { return kios::simdTarget(); }
 
  private:
   SceneObjects<kIOSd> bodies_;
@@ -194,17 +178,16 @@ class KiosScene final : public SceneSet {
 
 }  // namespace
 
-std::unique_ptr<SceneSet> makeKiosScene(const std::string& name, const scenes::BodyScene& scene) {
-  return std::make_unique<KiosScene>(name, scene);
+std::unique_ptr<SceneSet> makeKiosScene(const scenes::BodyScene& scene) {
+  return std::make_unique<KiosScene>(scene);
 }
 
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene) {
   using FclPairs = ScenePairs<fcl::OBBRSSd, FclCalls>;
   using KiosPairs = ScenePairs<kIOSd, KiosCalls>;
-  const bool bounded = name == "fcl_obbrss_bounded" || name == "kios_bounded";
-  if (name == "fcl_manager") return std::make_unique<FclManager>(name, scene);
-  if (name.rfind("kios_", 0) == 0) return std::make_unique<KiosPairs>(name, scene, bounded);
-  return std::make_unique<FclPairs>(name, scene, bounded);
+  if (name == "fcl_manager") return std::make_unique<FclManager>(scene);
+  if (name == "fcl_obbrss") return std::make_unique<FclPairs>(scene, false);
+  return std::make_unique<KiosPairs>(scene, name == "kios_bounded");
 }
 
 }  // namespace kios::bench

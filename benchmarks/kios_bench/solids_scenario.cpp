@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Containment, penetration and local depth of solids.
+// Penetration and local depth of solids.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -18,7 +18,6 @@
 #include "fcl_kios/fcl_kios.h"
 #include "scenario.h"
 #include "scenes/arms.h"
-#include "scenes/containment_oracle.h"
 #include "scenes/motions.h"
 #include "scenes/random.h"
 #include "scenes/shapes.h"
@@ -28,39 +27,6 @@ namespace {
 
 using scenes::Frame;
 using scenes::Mesh;
-
-/// Points in and about the mesh's box, judged by rational arithmetic.
-void contain(const std::string& name, const Mesh& mesh, const Options& options, Report& report) {
-  const auto model = scenes::buildModel<kIOSd>(mesh);
-  markSolid(*model);
-  scenes::Random random(options.seed);
-  const fcl::Transform3d X = fcl::Transform3d::Identity();
-  model->computeLocalAABB();
-  const fcl::Vector3d center = model->aabb_center;
-  const fcl::Vector3d half = 0.6 * (model->aabb_local.max_ - model->aabb_local.min_);
-  const int count = options.frames > 0 ? options.frames : (options.quick ? 200 : 20000);
-  std::vector<fcl::Vector3d> points;
-  for (int i = 0; i < count; ++i) {
-    fcl::Vector3d p;
-    for (int c = 0; c < 3; ++c) p[c] = center[c] + half[c] * random.uniform(-1, 1);
-    points.push_back(p);
-  }
-  std::vector<char> inside(points.size());
-  std::vector<Competitor> competitors = {
-      {"kios", each([&](std::size_t i) { inside[i] = contains<double>(*model, X, points[i]); })}};
-  Race{points.size(), options.repeats, Race::kAll, Race::kAll, true}.run(competitors);
-  Row row = baseRow(name, "contains", points.size(), options.seed, {mesh}).of(competitors[0]);
-  row.simd_target = simdTarget();
-  const scenes::ContainmentOracle oracle(mesh);
-  const std::size_t judged = std::min<std::size_t>(points.size(), 300);
-  std::size_t wrong = 0;
-  for (std::size_t i = 0; i < judged; ++i) {
-    const auto place = oracle.placeOf(points[i]);
-    wrong += (place != scenes::ContainmentOracle::Place::kOutside) != (inside[i] != 0);
-  }
-  row.errors.wrong = wrong;
-  report.add({row});
-}
 
 /// Overlapping frames of two solids: penetration() beside fcl::collide for one contact, of ours,
 /// and for the deepest of a hundred contacts over OBBRSS, which is what users of FCL take for a
@@ -94,18 +60,15 @@ class Overlaps {
     const std::size_t n = overlapping.size();
     std::vector<PenetrationResult> found(n);
     std::vector<double> deepest(n);
-    std::size_t contacts = 0;
     std::vector<Competitor> competitors = {
         {"penetration", each([&](std::size_t i) { found[i] = depthOf(overlapping[i]); })},
-        {"collide", each([&](std::size_t i) { contacts += collide(overlapping[i]); })},
+        {"collide", each([&](std::size_t i) { collide(overlapping[i]); })},
         {"contacts", each([&](std::size_t i) { deepest[i] = deepestContact(overlapping[i]); })}};
     Race{n, options.repeats, 8, 8, true}.run(competitors);
     std::vector<Row> rows;
     for (const Competitor& competitor : competitors) {
-      Row& row = rows.emplace_back(
-          baseRow(name, competitor.name, n, options.seed, meshes_).of(competitor));
+      Row& row = rows.emplace_back(baseRow(name, competitor.name, n, meshes_).of(competitor));
       row.bv = competitor.name == "contacts" ? "fcl_obbrss" : "kios";
-      if (row.bv == "kios") row.simd_target = simdTarget();
     }
     std::vector<double> ratios;
     std::size_t wrong = 0;
@@ -126,7 +89,6 @@ class Overlaps {
     rows[0].errors.max_bracket_ratio = *std::max_element(ratios.begin(), ratios.end());
     rows[2].errors.mean_rel = off;
     report.add(rows);
-    if (contacts == 0) std::printf("no contact\n");
   }
 
  private:
@@ -183,7 +145,7 @@ void depths(const std::string& name, const Mesh& a, const Mesh& b, const std::ve
   markSolid(*model_a);
   markSolid(*model_b);
   const std::size_t n = frames.size();
-  const Row base = baseRow("solids/depth/" + name, "depth", n, options.seed, {a, b});
+  const Row base = baseRow("solids/depth/" + name, "depth", n, {a, b});
   std::vector<Row> rows;
   const auto race = [&](const char* query, const std::function<void(std::size_t)>& ask) -> Row& {
     std::vector<Competitor> competitors = {{"kios", each(ask)}};
@@ -191,7 +153,6 @@ void depths(const std::string& name, const Mesh& a, const Mesh& b, const std::ve
     Row& row = rows.emplace_back(base.of(competitors[0]));
     row.query = query;
     row.bv = "kios";
-    row.simd_target = simdTarget();
     return row;
   };
   race("collide", [&](std::size_t i) {
@@ -331,16 +292,9 @@ void penetrate(const Options& options, Report& report) {
 }  // namespace
 
 void runSolids(const Options& options, Report& report) {
-  if (wanted(options, "contains")) {
-    contain("solids/contains/torus", scenes::bumpyTorus(options.quick ? 1000 : 20000), options,
-            report);
-    contain("solids/contains/box", scenes::subdividedBox({1, 2, 3}, options.quick ? 5 : 41),
-            options, report);
-    contain("solids/contains/ball", scenes::icosphere(1, options.quick ? 2 : 5), options, report);
-  }
   if (wanted(options, "penetration")) penetrate(options, report);
   if (wanted(options, "depth")) depths(options, report);
-  if (wanted(options, "points")) reportPoints(options, report);
+  reportPoints(options, report);
 }
 
 }  // namespace kios::bench

@@ -69,7 +69,7 @@ std::vector<Row> rowsOf(const std::string& name, const std::vector<TrianglePair>
                                              kernel<Fcl::distance>("fcl", pairs, answers[0][1])},
                                             {kernel<Ours::intersect>("kios", pairs, answers[1][0]),
                                              kernel<Fcl::intersect>("fcl", pairs, answers[1][1])}};
-  Row base = baseRow("stability/" + name, "", pairs.size(), options.seed);
+  Row base = baseRow("stability/" + name, "", pairs.size());
   base.triangles = 2;
   base.extent = 1;
   base.errors.wrong = 0;

@@ -170,17 +170,16 @@ class Stress {
     }
   }
 
-  std::vector<Row> rows(const Options& options) const {
+  std::vector<Row> rows() const {
     std::vector<Row> rows;
     for (const auto& [query, tally] :
          {std::pair("nearest", &nearest_), std::pair("signed", &signed_),
           std::pair("winding", &winding_), std::pair("depth", &depth_),
           std::pair("deeper", &deeper_), std::pair("clashes", &clashes_)}) {
       rows.push_back(baseRow(std::string("stress/") + class_.name, query, tally->questions,
-                             options.seed, {class_.a, class_.b}));
+                             {class_.a, class_.b}));
       Row& row = rows.back();
       row.bv = "kios";
-      row.simd_target = simdTarget();
       row.times.median_us = row.times.min_us = tally->us / static_cast<double>(row.frames);
       row.errors.wrong = tally->wrong;
       row.errors.undecided = tally->undecided;
@@ -363,7 +362,7 @@ class Stress {
 }  // namespace
 
 void reportStress(const Options& options, Report& report) {
-  for (const StressClass& of : stressClasses()) report.add(Stress(of, options).rows(options));
+  for (const StressClass& of : stressClasses()) report.add(Stress(of, options).rows());
 }
 
 }  // namespace kios::bench

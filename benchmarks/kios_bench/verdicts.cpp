@@ -76,9 +76,7 @@ Errors compare(const std::vector<double>& answers, const Verdicts& verdicts, Que
     }
     if ((answer == 0) != (exact == 0)) ++*errors.wrong;
     if (query == Query::kCollide) continue;
-    const double error = absoluteError(answer, exact);
-    errors.max_abs = std::max(errors.max_abs.value_or(0), error);
-    if (exact > 0) errors.max_rel = std::max(errors.max_rel.value_or(0), error / exact);
+    errors.max_abs = std::max(errors.max_abs.value_or(0), absoluteError(answer, exact));
   }
   return errors;
 }

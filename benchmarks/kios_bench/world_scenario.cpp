@@ -115,7 +115,6 @@ Task colder(const Task& task, const Options& options) {
   const std::size_t streamed = (options.quick ? 1 : 96) << 20;
   Task cold = fewer(task, options.quick ? 2 : 9);
   cold.scenario += "/cold";
-  cold.cold = true;
   cold.streamed_bytes = streamed;
   return cold;
 }
@@ -195,11 +194,9 @@ void reportWorld(const std::string& scenario, const scenes::World& world, std::v
     }
     task.query = Query::kCloserThan;
     for (const double threshold : kThresholds) {
-      task.threshold = threshold;
       for (Question& question : task.questions) question.threshold = threshold;
       append(contest.queryRows(task), rows);
     }
-    task.threshold.reset();
     append(rowsByGap(task, contest), rows);
     if (first_link == 0) {
       Task cold = colder(task, options);

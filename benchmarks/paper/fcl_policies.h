@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The fcl_kios authors
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// Volumes of others as policies of a VariantTree (volume_policy.h).
+// Volumes of others as policies of a VariantTree.
 
 #pragma once
 
@@ -15,7 +15,6 @@
 #include <fcl/math/bv/utility.h>
 
 #include "fcl_kios/volume.h"
-#include "paper/volume_policy.h"
 
 namespace kios::paper {
 
@@ -47,7 +46,6 @@ struct PaddedPolicy {
 template <typename BV>
 struct OrientedPolicy : PaddedPolicy {
   using Volume = BV;
-  using Store = VolumeArray<BV>;
 
   BV fit(const fcl::Vector3d* points, int n, const Shared& /*model*/) const {
     BV bv;
@@ -66,7 +64,6 @@ struct OrientedPolicy : PaddedPolicy {
 /// box.
 struct AabbPolicy : PaddedPolicy {
   using Volume = fcl::AABBd;
-  using Store = VolumeArray<Volume>;
 
   Volume fit(const fcl::Vector3d* points, int n, const Shared& /*model*/) const {
     Volume box;

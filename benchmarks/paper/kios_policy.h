@@ -3,7 +3,6 @@
 #pragma once
 
 #include "fcl_kios/paper.h"
-#include "paper/volume_policy.h"
 
 namespace kios::paper {
 
@@ -12,7 +11,6 @@ class KiosPolicy {
  public:
   struct Shared {};
   using Volume = kIOS<double>;
-  using Store = VolumeArray<Volume>;
   using Placed = RelativePose<double>;
 
   explicit KiosPolicy(const FitOptions& options = {}) : options_(options) {}
@@ -29,9 +27,6 @@ class KiosPolicy {
   }
   double separation(const Volume& a, const Volume& b, const Placed& X_AB, double enough) const {
     return kios::separation(a, b, X_AB, enough);
-  }
-  bool contains(const Volume& v, const Shared& /*model*/, const fcl::Vector3d& p) const {
-    return v.contain(p);
   }
 
  private:

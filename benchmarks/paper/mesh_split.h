@@ -4,15 +4,16 @@
 
 #include <vector>
 
-#include <fcl/common/types.h>
-#include <fcl/math/triangle.h>
+#include <fcl/math/bv/OBBRSS.h>
+
 #include "fcl_kios/triangle.h"
+#include "scenes/mesh.h"
 
 namespace kios::paper {
 
-/// A triangle mesh in its own frame, split into a binary tree with one triangle a leaf: each node
-/// across the longest principal axis of its vertices, at the mean of its triangles' centroids, as
-/// fcl::BVHModel<kIOSd> does. Knows no volumes, so that all of them can be compared on one tree.
+/// A triangle mesh in its own frame under the binary tree of FCL's OBBRSS, one triangle a leaf:
+/// each node is split across its longest principal axis, at the mean of its triangles' centroids.
+/// Knows no volumes, so that all of them can be compared on one tree.
 class MeshSplit {
  public:
   struct Node {
@@ -23,25 +24,23 @@ class MeshSplit {
     bool leaf() const { return left == 0; }
   };
 
-  /// Throws std::invalid_argument if there is no triangle, an index is out of range, or a
-  /// coordinate that a triangle uses is NaN, infinite or above 2^1000 in magnitude.
-  MeshSplit(std::vector<fcl::Vector3d> vertices, std::vector<fcl::Triangle> triangles);
+  /// Throws std::runtime_error if FCL refuses the mesh.
+  explicit MeshSplit(const scenes::Mesh& mesh);
 
   /// Returns the 2 n - 1 nodes for n triangles; the root first, children after their parent.
   const std::vector<Node>& nodes() const { return nodes_; }
-  int triangleCount() const { return static_cast<int>(triangles_.size()); }
-  /// Returns the id of the triangle at `place`, in the order of the constructor.
-  int triangle(int place) const { return static_cast<int>(order_[place]); }
+  int triangleCount() const { return static_cast<int>(order_.size()); }
+  /// Returns the id of the triangle at `place`, in the order of the mesh.
+  int triangle(int place) const { return order_[place]; }
   TriangleVertices<double> corners(int triangle_id) const;
   /// Returns the distinct vertices of a node's triangles.
   std::vector<fcl::Vector3d> points(const Node& node) const;
 
  private:
-  int partition(const Node& node, const std::vector<fcl::Vector3d>& points);
+  void add(const fcl::BVHModel<fcl::OBBRSSd>& model, int index);
 
-  std::vector<fcl::Vector3d> vertices_;
-  std::vector<fcl::Triangle> triangles_;
-  std::vector<unsigned int> order_;
+  const scenes::Mesh mesh_;
+  std::vector<int> order_;
   std::vector<Node> nodes_;
 };
 

@@ -153,29 +153,23 @@ SpheresPolicy::Placed SpheresPolicy::place(const Shared& a, const Shared& b,
   return {X_AB, 0x1p-47 * (1.8 * b.reach + bounds.T_norm1 + a.reach) + 0x1p-1060, bounds.stretch};
 }
 
-double SpheresPolicy::separation(const SpheresStore::Stored& a, const SpheresStore::Stored& b,
-                                 const Placed& at, double enough) const {
-  if (a.k == 0 || b.k == 0) return kInfinity;
+double SpheresPolicy::separation(const Spheres& a, const Spheres& b, const Placed& at,
+                                 double enough) const {
+  if (a.all.empty() || b.all.empty()) return kInfinity;
   double best = -kInfinity;
-  for (int j = 0; j < b.k && !(best > enough); ++j) {
-    const fcl::Vector3d c = at.X * b.spheres[j].center;
-    const double of_b = b.spheres[j].radius * (1 + at.stretch + 0x1p-46) + at.pad;
-    for (int i = 0; i < a.k; ++i) {
-      const fcl::Vector3d way = c - a.spheres[i].center;
-      const double radii = a.spheres[i].radius * (1 + 0x1p-46) + of_b, beaten = best + radii;
+  for (const Sphere& of_b : b.all) {
+    if (best > enough) break;
+    const fcl::Vector3d c = at.X * of_b.center;
+    const double radius_b = of_b.radius * (1 + at.stretch + 0x1p-46) + at.pad;
+    for (const Sphere& of_a : a.all) {
+      const fcl::Vector3d way = c - of_a.center;
+      const double radii = of_a.radius * (1 + 0x1p-46) + radius_b, beaten = best + radii;
       const double square = way.squaredNorm();
       if (beaten > 0 && square > 0x1p-900 && square <= beaten * beaten) continue;
       best = std::max(best, lengthOf(way) - radii);
     }
   }
   return best;
-}
-
-bool SpheresPolicy::contains(const SpheresStore::Stored& v, const Shared& /*model*/,
-                             const fcl::Vector3d& p) const {
-  return v.k > 0 && p.allFinite() && std::all_of(v.spheres, v.spheres + v.k, [&](const Sphere& s) {
-           return lengthOf(p - s.center) * (1 - 8 * kUlpDouble) - paddedBy(p, s.center) <= s.radius;
-         });
 }
 
 }  // namespace kios::paper

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "fcl_kios/paper.h"
-#include "paper/volume_policy.h"
 
 namespace kios::paper {
 
@@ -22,34 +20,6 @@ struct Spheres {
   int floats = 0;                ///< that describe them
 };
 
-class SpheresStore {
- public:
-  struct Stored {
-    const Sphere* spheres;
-    int k;
-    int floats;
-  };
-
-  void add(const Spheres& v) {
-    begin_.push_back(spheres_.size());
-    spheres_.insert(spheres_.end(), v.all.begin(), v.all.end());
-    floats_of_.push_back(v.floats);
-    floats_ += static_cast<std::size_t>(v.floats);
-  }
-  Stored operator[](int i) const {
-    const auto at = static_cast<std::size_t>(i);
-    const std::size_t end = at + 1 < begin_.size() ? begin_[at + 1] : spheres_.size();
-    return {spheres_.data() + begin_[at], static_cast<int>(end - begin_[at]), floats_of_[at]};
-  }
-  std::size_t floats() const { return floats_; }
-
- private:
-  std::vector<Sphere> spheres_;
-  std::vector<std::size_t> begin_;
-  std::vector<int> floats_of_;
-  std::size_t floats_ = 0;
-};
-
 /// Holds the kinds of k-IOS that models don't use; see its three kinds below. Floats are those that
 /// a kind needs; doubles stand for them here.
 class SpheresPolicy {
@@ -60,7 +30,6 @@ class SpheresPolicy {
     std::vector<fcl::Vector3d> directions;  ///< of a fixed-direction k-IOS
   };
   using Volume = Spheres;
-  using Store = SpheresStore;
   struct Placed {
     const RelativePose<double>& X;
     double pad, stretch;
@@ -69,9 +38,7 @@ class SpheresPolicy {
   Shared share(const fcl::Vector3d* points, int n) const;
   Spheres fit(const fcl::Vector3d* points, int n, const Shared& model) const;
   Placed place(const Shared& a, const Shared& b, const RelativePose<double>& X_AB) const;
-  double separation(const SpheresStore::Stored& a, const SpheresStore::Stored& b, const Placed& at,
-                    double enough) const;
-  bool contains(const SpheresStore::Stored& v, const Shared& model, const fcl::Vector3d& p) const;
+  double separation(const Spheres& a, const Spheres& b, const Placed& at, double enough) const;
 
  protected:
   enum class Axes { kOfTheVolume, kOfTheModel, kGiven };

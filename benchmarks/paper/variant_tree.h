@@ -10,7 +10,6 @@
 
 #include "fcl_kios/triangle.h"
 #include "paper/mesh_split.h"
-#include "paper/volume_policy.h"
 
 namespace kios::paper {
 
@@ -24,10 +23,26 @@ struct VariantResult {
   std::int64_t leaf_tests = 0;
 };
 
-/// Holds a mesh with a volume of `Policy` (volume_policy.h) around every node of its split.
-/// Traversal and leaf tests are the same for all policies and do not look into volumes, so that
-/// counts compare the volumes alone. For comparison: fcl::BVHModel<kIOSd> is what answers queries
-/// fast.
+/// Holds a mesh with a volume of a policy around every node of its split. Traversal and leaf tests
+/// are the same for all policies and do not look into volumes, so that counts compare the volumes
+/// alone. For comparison: fcl::BVHModel<kIOSd> is what answers queries fast.
+///
+/// A volume policy P is a copyable class with
+///   P::Shared  what a model stores once for all its volumes (directions, origin); {} if nothing
+///   P::Volume  a volume
+///   P::Placed  what the bounds of two models at one pose have in common
+///
+///   Shared share(const fcl::Vector3d* points, int n) const
+///     from all vertices of a model, in its frame
+///   Volume fit(const fcl::Vector3d* points, int n, const Shared&) const
+///     a volume around some of them; empty for n = 0. Throws std::invalid_argument if a coordinate
+///     is NaN, infinite or above 2^1000 in magnitude.
+///   Placed place(const Shared& a, const Shared& b, const RelativePose<double>& X_AB) const
+///     X_AB must outlive the result.
+///   double separation(const Volume& a, const Volume& b, const Placed&, double enough) const
+///     signed lower bound of the distance of the contents, a's in frame A, b's moved by X_AB as
+///     given and also as X_AB * p rounds: > 0 proves them apart, +infinity if one is empty. Any
+///     value above `enough` may be returned as soon as it is proven.
 template <typename Policy>
 class VariantTree {
  public:
@@ -36,18 +51,17 @@ class VariantTree {
       : split_(std::move(split)), policy_(std::move(policy)) {
     const std::vector<fcl::Vector3d> all = split_->points(split_->nodes()[0]);
     shared_ = policy_.share(all.data(), static_cast<int>(all.size()));
-    typename Policy::Store store;
+    volumes_.reserve(split_->nodes().size());
     for (const MeshSplit::Node& node : split_->nodes()) {
       const std::vector<fcl::Vector3d> points = split_->points(node);
-      store.add(policy_.fit(points.data(), static_cast<int>(points.size()), shared_));
+      volumes_.push_back(policy_.fit(points.data(), static_cast<int>(points.size()), shared_));
     }
-    store_ = store;  // a copy has no room to spare
   }
 
   const MeshSplit& split() const { return *split_; }
   const Policy& policy() const { return policy_; }
   const typename Policy::Shared& shared() const { return shared_; }
-  const typename Policy::Store& store() const { return store_; }
+  const std::vector<typename Policy::Volume>& volumes() const { return volumes_; }
 
   /// Returns the exact distance to b at X_AB: that of the triangles with b's vertices moved by X_AB
   /// * p.
@@ -73,7 +87,7 @@ class VariantTree {
 
     double bound(int i, int j, double enough) {
       ++result.bv_tests;
-      return a.policy_.separation(a.store_[i], b.store_[j], placed, enough);
+      return a.policy_.separation(a.volumes_[i], b.volumes_[j], placed, enough);
     }
     bool apart(int i, int j) { return bound(i, j, 0) > 0; }
 
@@ -151,7 +165,7 @@ class VariantTree {
   std::shared_ptr<const MeshSplit> split_;
   Policy policy_;
   typename Policy::Shared shared_;
-  typename Policy::Store store_;
+  std::vector<typename Policy::Volume> volumes_;
 };
 
 }  // namespace kios::paper

@@ -33,7 +33,6 @@ std::shared_ptr<fcl::CollisionGeometryd> partner(const std::string& row, int tri
   const auto names = [&](const char* word) { return row.find(word) != std::string::npos; };
   if (names("box")) return std::make_shared<fcl::Boxd>(0.6, 0.5, 0.8);
   if (names("sphere")) return std::make_shared<fcl::Sphered>(0.4);
-  if (names("cylinder")) return std::make_shared<fcl::Cylinderd>(0.3, 0.9);
   if (!names("octree")) return modelOf(triangles);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> place(-0.7F, 0.7F);
@@ -85,7 +84,6 @@ int main(int argc, char** argv) {
   const bool distances = row.rfind("distance", 0) == 0;
   const double gap = row.find("far") != std::string::npos     ? 1.0
                      : row.find("near") != std::string::npos  ? 0.02
-                     : row.find("close") != std::string::npos ? 0.0005
                      : row.find("touch") != std::string::npos ? -1e-4
                      : row.find("deep") != std::string::npos  ? -0.15
                                                               : 4.0;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "cad_shapes.h"
 #include "placement.h"
@@ -90,6 +91,22 @@ std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, boo
   return motion;
 }
 
+void addToChain(Robot& arm, double reach, double centre, double amplitude, const Transform3d& X_UM,
+                Mesh mesh) {
+  const bool across = arm.links.size() % 2 == 1;
+  Link link;
+  if (!arm.links.empty()) {
+    link.X_PL = across ? Transform3d(shift(0, 0, reach) * turn(-kPi / 2, Vector3d::UnitX()))
+                       : Transform3d(shift(0, -reach, 0) * turn(kPi / 2, Vector3d::UnitX()));
+    arm.centres.push_back(centre);
+    arm.amplitudes.push_back(amplitude);
+  }
+  link.X_LM = across ? Transform3d(turn(kPi / 2, Vector3d::UnitX()) * X_UM) : X_UM;
+  link.mesh = std::move(mesh);
+  arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
+  arm.links.push_back(std::move(link));
+}
+
 Transform3d facing(double distance) {
   Transform3d X = shift(distance, 0, 0);
   X.linear() = Vector3d(-1, -1, 1).asDiagonal();
@@ -100,49 +117,12 @@ Robot cadArm() {
   constexpr double kLengths[] = {0.25, 0.22, 0.26, 0.24, 0.22, 0.18, 0.13};
   constexpr double kRadii[] = {0.075, 0.065, 0.06, 0.055, 0.05, 0.045, 0.04};
   constexpr int kSegments[] = {96, 80, 64, 80, 48, 40, 32};
-  constexpr double kCentres[] = {0.6, 0, 0.8, 0, 0.5, 0};  // leaning towards +x
-  constexpr double kAmplitudes[] = {0.5, 1.5, 0.6, 1.5, 0.8, 1.5};
+  constexpr double kCentres[] = {0, 0.6, 0, 0.8, 0, 0.5, 0};  // leaning towards +x
+  constexpr double kAmplitudes[] = {0, 0.5, 1.5, 0.6, 1.5, 0.8, 1.5};
   Robot arm;
   for (int i = 0; i < 7; ++i) {
-    // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
-    // with -y along the arm.
-    const bool across = i % 2 == 1;
-    Link link;
-    if (i > 0) {
-      const double reach = kLengths[i - 1];
-      link.X_PL = across ? Transform3d(shift(0, 0, reach) * turn(-kPi / 2, Vector3d::UnitX()))
-                         : Transform3d(shift(0, -reach, 0) * turn(kPi / 2, Vector3d::UnitX()));
-      arm.centres.push_back(kCentres[i - 1]);
-      arm.amplitudes.push_back(kAmplitudes[i - 1]);
-    }
-    if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX());
-    link.mesh = cadLink(kLengths[i], kRadii[i], kSegments[i], across);
-    arm.links.push_back(link);
-    arm.parents.push_back(i - 1);
-  }
-  return arm;
-}
-
-Robot stripChain() {
-  struct Strips {
-    int count;
-    double width;
-  };
-  constexpr Strips kCylinders[] = {{100, 0.005}, {200, 0.003}, {400, 0.001}, {300, 0.002}};
-  constexpr double kLength = 0.6;
-  Robot arm;
-  for (const Strips& strips : kCylinders) {
-    // x is along the chain; each joint bends across the one before.
-    Link link;
-    if (!arm.links.empty()) {
-      link.X_PL = shift(kLength, 0, 0) * turn(kPi / 2, Vector3d::UnitX());
-      arm.centres.push_back(0);
-      arm.amplitudes.push_back(0.7);
-    }
-    link.X_LM = turn(kPi / 2, Vector3d::UnitY());
-    link.mesh = stripCylinder(strips.count, kLength, strips.width);
-    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
-    arm.links.push_back(link);
+    addToChain(arm, i > 0 ? kLengths[i - 1] : 0, kCentres[i], kAmplitudes[i],
+               Transform3d::Identity(), cadLink(kLengths[i], kRadii[i], kSegments[i], i % 2 == 1));
   }
   return arm;
 }

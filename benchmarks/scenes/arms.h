@@ -37,6 +37,12 @@ std::vector<fcl::Transform3d> robotPoses(const Robot& robot, const fcl::Transfor
 std::vector<std::vector<double>> jointMotion(const Robot& robot, int frames, bool smooth,
                                              std::uint64_t seed);
 
+/// Adds a link to a chain, beyond the last one's joint by `reach`. Even links turn about the arm's
+/// direction, their z; odd ones bend about an axis across it, with -y along the arm. At X_UM the
+/// mesh stands upright on its joint.
+void addToChain(Robot& arm, double reach, double centre, double amplitude,
+                const fcl::Transform3d& X_UM, Mesh mesh);
+
 /// Returns the pose of a robot that faces another of its kind at the origin.
 fcl::Transform3d facing(double distance);
 
@@ -44,9 +50,5 @@ fcl::Transform3d facing(double distance);
 /// bending in turn. Links are assemblies of flanged cylinders and bored blocks of 1.5k to 4.3k
 /// triangles.
 Robot cadArm();
-
-/// Returns a chain of 4 cylinders of length 0.6 whose sides are 100 to 400 strips 0.001 to 0.005
-/// wide.
-Robot stripChain();
 
 }  // namespace kios::scenes

@@ -125,24 +125,6 @@ Mesh spurGear(int teeth, double module, double thickness, double bore_radius, in
   return extrudedRing(circle(bore_radius, segments), outline, thickness);
 }
 
-Mesh filletedBar(double x, double y, double length, double fillet, int steps) {
-  Outline outline;
-  for (int corner = 0; corner < 4; ++corner) {
-    const double side_x = corner == 0 || corner == 3 ? 1 : -1, side_y = corner < 2 ? 1 : -1;
-    for (int i = 0; i <= steps; ++i) {
-      const double angle = kPi / 2 * (corner + static_cast<double>(i) / steps);
-      outline.push_back({side_x * (x / 2 - fillet) + fillet * std::cos(angle),
-                         side_y * (y / 2 - fillet) + fillet * std::sin(angle)});
-    }
-  }
-  Mesh mesh;
-  const Loop lower = addOutline(outline, 0, mesh), upper = addOutline(outline, length, mesh);
-  addWall(lower, upper, true, mesh);
-  addEnd(lower, 0, false, mesh);
-  addEnd(upper, length, true, mesh);
-  return mesh;
-}
-
 Mesh drilledPlate(int columns, int rows, double pitch, double hole_radius, double thickness,
                   int segments) {
   if (segments % 4 != 0 || !(hole_radius < 0.5 * pitch)) {

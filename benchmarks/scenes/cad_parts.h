@@ -20,10 +20,6 @@ Mesh tube(double inner_radius, double outer_radius, double length, int segments)
 /// edges.
 Mesh spurGear(int teeth, double module, double thickness, double bore_radius, int segments);
 
-/// Bar along z from z = 0 to `length` over a rectangle of sides x, y, its upright edges rounded by
-/// `fillet` in so many steps each: 2 * 4 (steps + 1) strips as long as the bar, ends as fans.
-Mesh filletedBar(double x, double y, double length, double fillet, int steps);
-
 /// Returns a plate [0, columns * pitch] x [0, rows * pitch] x [0, thickness] with a round hole of
 /// `segments` edges, a multiple of 4, in each of its squares, top and bottom as fans between square
 /// and hole.

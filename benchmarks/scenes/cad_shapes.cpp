@@ -8,12 +8,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "placement.h"
+
 namespace kios::scenes {
 namespace {
 
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 using Loop = std::vector<Vector3d>;  // counter-clockwise seen from above
 
@@ -54,29 +54,43 @@ void addBand(std::size_t lower, std::size_t upper, std::size_t n, Mesh& mesh) {
   }
 }
 
+/// A solid through loops of as many points each, from the lowest up; its ends are fans about points
+/// on the axis.
+Mesh capped(const std::vector<Loop>& loops, double bottom_z, double top_z) {
+  Mesh mesh;
+  const std::size_t n = loops[0].size(), bottom = n * loops.size(), top = bottom + 1;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    addVertices(loops[i], mesh);
+    if (i > 0) addBand((i - 1) * n, i * n, n, mesh);
+  }
+  mesh.vertices.emplace_back(0, 0, bottom_z);
+  mesh.vertices.emplace_back(0, 0, top_z);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    mesh.triangles.emplace_back(bottom, next, i);
+    mesh.triangles.emplace_back(top, bottom - n + i, bottom - n + next);
+  }
+  return mesh;
+}
+
 }  // namespace
 
 Mesh turnedPart(const std::vector<ProfilePoint>& profile, int segments) {
   if (profile.size() < 3 || profile.front().radius != 0 || profile.back().radius != 0) {
     throw std::invalid_argument("turnedPart: a profile begins and ends on the axis");
   }
-  Mesh mesh;
-  const auto n = static_cast<std::size_t>(segments);
+  std::vector<Loop> loops;
   for (std::size_t i = 1; i + 1 < profile.size(); ++i) {
-    addVertices(circle(profile[i].radius, profile[i].z, segments), mesh);
-    if (i > 1) addBand((i - 2) * n, (i - 1) * n, n, mesh);
+    loops.push_back(circle(profile[i].radius, profile[i].z, segments));
   }
-  const std::size_t bottom = mesh.vertices.size();
-  const std::size_t top = bottom + 1;
-  const std::size_t last = bottom - n;
-  mesh.vertices.emplace_back(0, 0, profile.front().z);
-  mesh.vertices.emplace_back(0, 0, profile.back().z);
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = (i + 1) % n;
-    mesh.triangles.emplace_back(bottom, next, i);
-    mesh.triangles.emplace_back(top, last + i, last + next);
-  }
-  return mesh;
+  return capped(loops, profile.front().z, profile.back().z);
+}
+
+Mesh filletedBar(double x, double y, double length, double fillet, int steps) {
+  const int segments = 4 * (steps + 1);
+  return capped({roundedRectangle(x / 2, y / 2, fillet, 0, segments),
+                 roundedRectangle(x / 2, y / 2, fillet, length, segments)},
+                0, length);
 }
 
 Mesh stripCylinder(int strips, double length, double width) {

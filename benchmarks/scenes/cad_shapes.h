@@ -26,6 +26,10 @@ struct ProfilePoint {
 /// on it (radius 0) to another: its ends become fans, each step between two a ring of long quads.
 Mesh turnedPart(const std::vector<ProfilePoint>& profile, int segments);
 
+/// Bar along z from z = 0 to `length` over a rectangle of sides x, y, its upright edges rounded by
+/// `fillet` in so many steps each: 2 * 4 (steps + 1) strips as long as the bar, ends as fans.
+Mesh filletedBar(double x, double y, double length, double fillet, int steps);
+
 /// Returns a cylinder from z = 0 to `length` with a chamfered flange of 1.35 times its radius at
 /// each end.
 Mesh flangedCylinder(double radius, double length, int segments);

@@ -38,15 +38,6 @@ Mesh obstacle(int kind, int triangles, Random& random) {
   return mesh;
 }
 
-void allowWithin(const Robot& robot, int robots, Cell& cell) {
-  const int links = static_cast<int>(robot.links.size());
-  for (int r = 0; r < robots; ++r) {
-    for (const auto& [a, b] : allowedPairs(robot)) {
-      cell.allowed.emplace_back(a + r * links, b + r * links);
-    }
-  }
-}
-
 }  // namespace
 
 bool Cell::admissible(int a, int b) const {
@@ -72,7 +63,7 @@ Cell workCell(const Robot& robot, int count, double size, std::uint64_t seed) {
   Cell cell;
   cell.robot = robot;
   cell.bases = {Transform3d::Identity()};
-  allowWithin(robot, 1, cell);
+  cell.allowed = allowedPairs(robot);
   const auto add = [&cell](Mesh mesh, const Transform3d& X) {
     cell.obstacles.push_back(std::move(mesh));
     cell.places.push_back(X);
@@ -98,8 +89,7 @@ Cell sideBySide(const Robot& robot, const Transform3d& X_W2) {
   Cell cell;
   cell.robot = robot;
   cell.bases = {Transform3d::Identity(), X_W2};
-  allowWithin(robot, 2, cell);
-  std::sort(cell.allowed.begin(), cell.allowed.end());
+  cell.allowed = allowedPairs(robot, 2);
   return cell;
 }
 

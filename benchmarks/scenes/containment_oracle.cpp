@@ -8,7 +8,6 @@
 #include <stdexcept>
 
 #include "random.h"
-#include "ray_oracle.h"
 
 namespace kios::scenes {
 
@@ -26,7 +25,7 @@ long double windingOf(const std::array<Eigen::Vector3d, 3>& triangle,
   return angle / 6.28318530717958647692528676655900577L;
 }
 
-ContainmentOracle::ContainmentOracle(const Mesh& mesh) {
+RayOracle::RayOracle(const Mesh& mesh) {
   for (const fcl::Triangle& t : mesh.triangles) {
     const std::array<Eigen::Vector3d, 3> corners = {mesh.vertices[t[0]], mesh.vertices[t[1]],
                                                     mesh.vertices[t[2]]};
@@ -41,25 +40,33 @@ ContainmentOracle::ContainmentOracle(const Mesh& mesh) {
   }
 }
 
+std::vector<RayOracle::Hit> RayOracle::hits(const RationalRay& ray) const {
+  const double size = 1e-12 * (reach_ + ray.origin.lpNorm<Eigen::Infinity>());
+  const double length = ray.direction.norm();
+  std::vector<Hit> hits;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [center, radius] = balls_[t];
+    if ((center - ray.origin).cross(ray.direction).norm() / length > 1.001 * radius + size)
+      continue;
+    if (const auto hit = rationalRayHit(ray, triangles_[t])) {
+      hits.push_back({*hit, static_cast<int>(t)});
+    }
+  }
+  return hits;
+}
+
 ContainmentOracle::Place ContainmentOracle::placeOf(const Eigen::Vector3d& point) const {
   Random random(17);
-  const double size = 1e-12 * (reach_ + point.lpNorm<Eigen::Infinity>());
   constexpr int kRays = 100;
   for (int i = 0; i < kRays; ++i) {
-    Eigen::Vector3d direction;
-    for (int c = 0; c < 3; ++c) direction[c] = random.uniform(-1, 1);
-    const double length = direction.norm();
-    if (!(length > 0.1)) continue;
+    const Eigen::Vector3d direction = random.inCube(-1, 1);
+    if (!(direction.norm() > 0.1)) continue;
     int winding = 0;
     bool usable = true;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const Eigen::Vector3d to = balls_[t].first - point;
-      if (to.cross(direction).norm() / length > 1.001 * balls_[t].second + size) continue;
-      const auto hit = rationalRayHit({point, direction, 0, 1e300}, triangles_[t]);
-      if (!hit) continue;
-      if (hit->t == 0) return Place::kSurface;
-      usable &= hit->crosses && hit->weights[0] > 0 && hit->weights[1] > 0 && hit->weights[2] > 0;
-      winding += hit->along_normal ? 1 : -1;
+    for (const RayOracle::Hit& hit : rays_.hits({point, direction, 0, 1e300})) {
+      if (hit.t == 0) return Place::kSurface;
+      usable &= hit.crosses && hit.weights[0] > 0 && hit.weights[1] > 0 && hit.weights[2] > 0;
+      winding += hit.along_normal ? 1 : -1;
     }
     if (usable) return winding > 0 ? Place::kInside : Place::kOutside;
   }

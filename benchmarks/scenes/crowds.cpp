@@ -59,14 +59,10 @@ BodyScene driftingCrowd(int count, int frames, std::uint64_t seed) {
   std::vector<Drift> drifts;
   for (int i = 0; i < count; ++i) {
     scene.mesh_of.push_back(i / kBodiesPerMesh);
-    const auto vector = [&random](double size) {
-      const double x = random.uniform(-size, size), y = random.uniform(-size, size);
-      return Vector3d(x, y, random.uniform(-size, size));
-    };
     const Vector3d cell(i % side, i / side % side, i / side / side);
-    const Vector3d place = kSpacing * cell + vector(kJitter);
-    const Vector3d swing = vector(kDrift);
-    drifts.push_back({place, swing, vector(3), random.uniform(0.02, 0.08)});
+    const Vector3d place = kSpacing * cell + random.inCube(-kJitter, kJitter);
+    const Vector3d swing = random.inCube(-kDrift, kDrift), phase = random.inCube(-3, 3);
+    drifts.push_back({place, swing, phase, random.uniform(0.02, 0.08)});
   }
   for (int frame = 0; frame < frames; ++frame) {
     std::vector<Transform3d> poses;
@@ -95,11 +91,7 @@ BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t se
   scene.frames.push_back(randomPoses(count, 1, seed + 1));
   const int side = static_cast<int>(std::ceil(std::cbrt(count)));
   for (int i = 0; i < count; ++i) {
-    const auto draw = [&random](double least, double most) {
-      const double x = random.uniform(least, most), y = random.uniform(least, most);
-      return Vector3d(x, y, random.uniform(least, most));
-    };
-    const Vector3d size = draw(0.2, 0.4), phase = draw(0, 3);
+    const Vector3d size = random.inCube(0.2, 0.4), phase = random.inCube(0, 3);
     Mesh mesh = uvSphere(0.5, triangles / (2 * segments) + 1, segments);
     for (Vector3d& p : mesh.vertices) {
       const double bump = std::sin(9 * p.x() + phase.x()) * std::sin(9 * p.y() + phase.y());
@@ -108,7 +100,7 @@ BodyScene packedCrowd(int count, int triangles, double spacing, std::uint64_t se
     scene.meshes.push_back(std::move(mesh));
     scene.mesh_of.push_back(i);
     const Vector3d cell(i % side, i / side % side, i / side / side);
-    scene.frames[0][i].translation() = spacing * (cell + draw(-0.1, 0.1));
+    scene.frames[0][i].translation() = spacing * (cell + random.inCube(-0.1, 0.1));
   }
   return scene;
 }

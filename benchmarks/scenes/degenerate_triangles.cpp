@@ -11,17 +11,21 @@ Corners segment(Random& random, const Eigen::Vector3d& p, const Eigen::Vector3d&
   return random.unit() < 0.5 ? Corners{p, q, p} : Corners{p, q, q};
 }
 
-Corners segment(Random& random) {
+Corners anySegment(Random& random) {
   const Eigen::Vector3d p = point(random);
   return segment(random, p, point(random));
 }
 
 Corners repeated(const Eigen::Vector3d& p) { return {p, p, p}; }
 
+Corners anyPoint(Random& random) { return repeated(point(random)); }
+
 Corners latticeTriangle(Random& random, int n) {
   const Eigen::Vector3d p = latticePoint(random, n), q = latticePoint(random, n);
   return {p, q, latticePoint(random, n)};
 }
+
+Corners lattice5(Random& random) { return latticeTriangle(random, 5); }
 
 // Three collinear integer points, which may coincide, on the line through `on`.
 Corners collinear(Random& random, const Eigen::Vector3d& on, const Eigen::Vector3d& along) {
@@ -30,7 +34,7 @@ Corners collinear(Random& random, const Eigen::Vector3d& on, const Eigen::Vector
   return corners;
 }
 
-Corners collinear(Random& random) {
+Corners anyCollinear(Random& random) {
   const Eigen::Vector3d on = latticePoint(random, 4);
   return collinear(random, on, latticePoint(random, 3));
 }
@@ -50,33 +54,20 @@ TrianglePair segmentsCross(Random& random) {
   return {segment(random, contact.a[0], contact.a[1]), segment(random, contact.b[0], contact.b[1])};
 }
 
-auto posedContact(TrianglePair (*contact)(Random&)) {
-  return [contact](Random& random) {
-    const TrianglePair pair = contact(random);
-    return posed(random, scaled(pair, 0.125));
-  };
+TrianglePair segmentsOnOneLine(Random& random) {
+  const Eigen::Vector3d on = latticePoint(random, 4), along = latticePoint(random, 3);
+  const Corners a = collinear(random, on, along);
+  return {a, collinear(random, on, along)};
 }
 
 }  // namespace
 
 std::vector<TriangleClass> degenerateTriangles() {
   return {
-      {"segment-segment",
-       [](Random& r) {
-         return TrianglePair{segment(r), segment(r)};
-       }},
-      {"segment-triangle",
-       [](Random& r) {
-         return TrianglePair{segment(r), triangle(r)};
-       }},
-      {"point-triangle",
-       [](Random& r) {
-         return TrianglePair{repeated(point(r)), triangle(r)};
-       }},
-      {"point-segment",
-       [](Random& r) {
-         return TrianglePair{repeated(point(r)), segment(r)};
-       }},
+      {"segment-segment", pairOf(anySegment, anySegment)},
+      {"segment-triangle", pairOf(anySegment, triangle)},
+      {"point-triangle", pairOf(anyPoint, triangle)},
+      {"point-segment", pairOf(anyPoint, anySegment)},
       {"point-point",
        [](Random& r) {
          const Eigen::Vector3d p = point(r), q = p + displacement(r, -60, 0);
@@ -88,42 +79,22 @@ std::vector<TriangleClass> degenerateTriangles() {
          return TrianglePair{repeated(p), repeated(p)};
        }},
       {"point on face", pointOnFace},
-      {"point on face, posed", posedContact(pointOnFace)},
+      {"point on face, posed", posedBy(0.125, pointOnFace)},
       {"point on edge", pointOnEdge},
-      {"point on edge, posed", posedContact(pointOnEdge)},
+      {"point on edge, posed", posedBy(0.125, pointOnEdge)},
       {"segments cross", segmentsCross},
-      {"segments cross, posed", posedContact(segmentsCross)},
-      {"segments on one line",
-       [](Random& r) {
-         const Eigen::Vector3d on = latticePoint(r, 4), along = latticePoint(r, 3);
-         const Corners a = collinear(r, on, along);
-         return TrianglePair{a, collinear(r, on, along)};
-       }},
-      {"segments on one line, posed",
-       [](Random& r) {
-         const Eigen::Vector3d on = latticePoint(r, 4), along = latticePoint(r, 3);
-         const TrianglePair pair = {collinear(r, on, along), collinear(r, on, along)};
-         return posed(r, scaled(pair, 0.125));
-       }},
+      {"segments cross, posed", posedBy(0.125, segmentsCross)},
+      {"segments on one line", segmentsOnOneLine},
+      {"segments on one line, posed", posedBy(0.125, segmentsOnOneLine)},
       {"segments on parallel lines",
        [](Random& r) {
          const Eigen::Vector3d along = latticePoint(r, 3);
          const Corners a = collinear(r, latticePoint(r, 3), along);
          return TrianglePair{a, collinear(r, latticePoint(r, 3), along)};
        }},
-      {"collinear triples",
-       [](Random& r) {
-         return TrianglePair{collinear(r), collinear(r)};
-       }},
-      {"collinear triple, triangle",
-       [](Random& r) {
-         return TrianglePair{collinear(r), latticeTriangle(r, 5)};
-       }},
-      {"collinear rounded",
-       [](Random& r) {
-         const TrianglePair pair = {collinear(r), latticeTriangle(r, 5)};
-         return posed(r, scaled(pair, 0.125));
-       }},
+      {"collinear triples", pairOf(anyCollinear, anyCollinear)},
+      {"collinear triple, triangle", pairOf(anyCollinear, lattice5)},
+      {"collinear rounded", posedBy(0.125, pairOf(anyCollinear, lattice5))},
       {"repeated vertices, lattice",
        [](Random& r) {
          TrianglePair pair = {latticeTriangle(r, 2), latticeTriangle(r, 2)};

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/triangle.h>
 
@@ -20,17 +22,17 @@ struct Mesh {
   std::vector<fcl::Triangle> triangles;
 };
 
+/// Returns the axis-aligned box of the vertices.
+inline Eigen::AlignedBox3d boxOf(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const fcl::Vector3d& p : mesh.vertices) box.extend(p);
+  return box;
+}
+
 /// Returns the diagonal of the axis-aligned bounding box of the vertices; 0 for a mesh without
 /// vertices.
 inline double extent(const Mesh& mesh) {
-  if (mesh.vertices.empty()) return 0;
-  fcl::Vector3d lower = mesh.vertices.front();
-  fcl::Vector3d upper = lower;
-  for (const fcl::Vector3d& p : mesh.vertices) {
-    lower = lower.cwiseMin(p);
-    upper = upper.cwiseMax(p);
-  }
-  return (upper - lower).norm();
+  return mesh.vertices.empty() ? 0 : boxOf(mesh).sizes().norm();
 }
 
 /// Returns the triangles in their order, each with three vertices of its own (as PQP stores them).

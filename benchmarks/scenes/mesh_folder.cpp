@@ -24,29 +24,15 @@ std::string lowerExtension(const fs::path& file) {
   return extension;
 }
 
-struct Box {
-  Vector3d low, high;
-};
-
-Box boxOf(const Mesh& mesh) {
-  Box box = {mesh.vertices.at(0), mesh.vertices.at(0)};
-  for (const Vector3d& p : mesh.vertices) {
-    box.low = box.low.cwiseMin(p);
-    box.high = box.high.cwiseMax(p);
-  }
-  return box;
-}
-
 /// Stands the mesh on the origin with the longest side of its box along z.
-Transform3d upright(const Box& box) {
+Transform3d upright(const Eigen::AlignedBox3d& box) {
   int longest = 0;
-  (box.high - box.low).maxCoeff(&longest);
+  box.sizes().maxCoeff(&longest);
   Transform3d X = Transform3d::Identity();
   if (longest == 0) X = turn(-kPi / 2, Vector3d::UnitY());
   if (longest == 1) X = turn(kPi / 2, Vector3d::UnitX());
-  const Vector3d middle = 0.5 * (box.low + box.high);
-  const double half = 0.5 * (box.high - box.low)[longest];
-  return shift(0, 0, half) * X * shift(-middle.x(), -middle.y(), -middle.z());
+  const Vector3d middle = box.center();
+  return shift(0, 0, 0.5 * box.sizes()[longest]) * X * shift(-middle.x(), -middle.y(), -middle.z());
 }
 
 }  // namespace
@@ -78,33 +64,17 @@ Robot chainOf(const std::vector<Mesh>& meshes) {
   Robot arm;
   double reach = 0;  // of the link before
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    // Even links turn about the arm's direction, their z; odd ones bend about an axis across it,
-    // with -y along the arm.
     const bool across = i % 2 == 1;
-    const Box box = boxOf(meshes[i]);
-    Link link;
-    if (i > 0) {
-      link.X_PL = across ? Transform3d(shift(0, 0, reach) * turn(-kPi / 2, Vector3d::UnitX()))
-                         : Transform3d(shift(0, -reach, 0) * turn(kPi / 2, Vector3d::UnitX()));
-      arm.centres.push_back(across ? kCentre : 0);
-      arm.amplitudes.push_back(across ? kBend : kTwist);
-    }
-    link.X_LM = upright(box);
-    if (across) link.X_LM = turn(kPi / 2, Vector3d::UnitX()) * link.X_LM;
-    link.mesh = meshes[i];
-    reach = (box.high - box.low).maxCoeff();
-    arm.parents.push_back(static_cast<int>(arm.links.size()) - 1);
-    arm.links.push_back(std::move(link));
+    const Eigen::AlignedBox3d box = boxOf(meshes[i]);
+    addToChain(arm, reach, across ? kCentre : 0, across ? kBend : kTwist, upright(box), meshes[i]);
+    reach = box.sizes().maxCoeff();
   }
   return arm;
 }
 
 double chainLength(const Robot& chain) {
   double length = 0;
-  for (const Link& link : chain.links) {
-    const Box box = boxOf(link.mesh);
-    length += (box.high - box.low).maxCoeff();
-  }
+  for (const Link& link : chain.links) length += boxOf(link.mesh).sizes().maxCoeff();
   return length;
 }
 

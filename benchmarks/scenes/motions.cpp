@@ -9,16 +9,14 @@
 #include <stdexcept>
 #include <utility>
 
+#include "placement.h"
 #include "random.h"
 
 namespace kios::scenes {
 namespace {
 
-using fcl::AngleAxisd;
 using fcl::Transform3d;
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 Transform3d pose(const fcl::Matrix3d& rotation, const Vector3d& translation) {
   Transform3d X = Transform3d::Identity();
@@ -27,8 +25,9 @@ Transform3d pose(const fcl::Matrix3d& rotation, const Vector3d& translation) {
   return X;
 }
 
-fcl::Matrix3d turn(double angle, const Vector3d& axis) {
-  return AngleAxisd(angle, axis).toRotationMatrix();
+Transform3d spin(double about_x, double about_y, double about_z) {
+  return turn(about_x, Vector3d::UnitX()) * turn(about_y, Vector3d::UnitY()) *
+         turn(about_z, Vector3d::UnitZ());
 }
 
 // K. Shoemake, "Uniform random rotations", Graphics Gems III, 1992.
@@ -71,28 +70,20 @@ std::vector<Frame> fallingMotion(int frames) {
   motion.reserve(frames);
   for (int i = 0; i < frames; ++i) {
     const double t = (i + 0.5) / frames;
-    const fcl::Matrix3d tumbling = turn(2 * kPi * 1.7 * t, Vector3d::UnitX()) *
-                                   turn(2 * kPi * 1.1 * t, Vector3d::UnitY()) *
-                                   turn(2 * kPi * 2.3 * t, Vector3d::UnitZ());
-    const Vector3d position(0.13 * std::sin(2 * kPi * 2.1 * t), 0.13 * std::cos(2 * kPi * 1.3 * t),
-                            0.8 - 1.6 * t);
-    motion.push_back({pose(tumbling, position), Transform3d::Identity()});
+    const Transform3d position = shift(0.13 * std::sin(2 * kPi * 2.1 * t),
+                                       0.13 * std::cos(2 * kPi * 1.3 * t), 0.8 - 1.6 * t);
+    motion.push_back({position * spin(2 * kPi * 1.7 * t, 2 * kPi * 1.1 * t, 2 * kPi * 2.3 * t),
+                      Transform3d::Identity()});
   }
   return motion;
 }
 
 std::vector<Frame> spinningMotion(int frames) {
-  const auto spin = [](double about_x, double about_y, double about_z) {
-    return fcl::Matrix3d(turn(about_x, Vector3d::UnitX()) * turn(about_y, Vector3d::UnitY()) *
-                         turn(about_z, Vector3d::UnitZ()));
-  };
   std::vector<Frame> motion;
   motion.reserve(frames);
   for (int i = 1; i <= frames; ++i) {
-    const double a = 0.1 * i;
-    const double b = 0.2 * i;
-    const double c = 0.3 * i;
-    motion.push_back({pose(spin(a, b, c), {-1, 0, 0}), pose(spin(c, a, b), {1, 0, 0})});
+    const double a = 0.1 * i, b = 0.2 * i, c = 0.3 * i;
+    motion.push_back({shift(-1, 0, 0) * spin(a, b, c), shift(1, 0, 0) * spin(c, a, b)});
   }
   return motion;
 }
@@ -103,11 +94,7 @@ std::vector<Transform3d> randomPoses(int count, double half_width, std::uint64_t
   poses.reserve(count);
   for (int i = 0; i < count; ++i) {
     const fcl::Matrix3d rotation = randomRotation(random);
-    Vector3d translation;
-    for (double& coordinate : translation.reshaped()) {
-      coordinate = random.uniform(-half_width, half_width);
-    }
-    poses.push_back(pose(rotation, translation));
+    poses.push_back(pose(rotation, random.inCube(-half_width, half_width)));
   }
   return poses;
 }

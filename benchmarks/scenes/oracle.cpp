@@ -5,48 +5,69 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
-#include <string>
 
 namespace kios::scenes {
 namespace {
 
-using ExactMatrix = Eigen::Matrix<long double, 3, 3>;
+using Box = ExactTree::Box;
 
-std::vector<ExactTriangle> exactTriangles(const Mesh& mesh, const char* name) {
-  if (mesh.triangles.empty()) {
-    throw std::invalid_argument(std::string("MeshOracle: mesh ") + name + " has no triangle");
-  }
-  std::vector<ExactTriangle> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const fcl::Triangle& t : mesh.triangles) {
-    triangles.push_back({mesh.vertices[t[0]].cast<long double>(),
-                         mesh.vertices[t[1]].cast<long double>(),
-                         mesh.vertices[t[2]].cast<long double>()});
-  }
-  return triangles;
+/// A node's triangles are [begin, end) of its tree's. A left child is the node after its parent,
+/// and what is below it stands before the right one.
+struct Node {
+  std::size_t index, begin, end;
+
+  bool isLeaf() const { return end - begin == 1; }
+  std::size_t middle() const { return begin + (end - begin) / 2; }
+  Node left() const { return {index + 1, begin, middle()}; }
+  Node right() const { return {index + 2 * (middle() - begin), middle(), end}; }
+};
+
+Node rootOf(const ExactTree& tree) { return {0, 0, tree.ids.size()}; }
+
+/// Orders ids by halves along the longest side of the box of their centroids, and so on below.
+void halve(const Node& node, const std::vector<ExactPoint>& centroids, std::vector<int>& ids) {
+  if (node.isLeaf()) return;
+  Box span;
+  for (std::size_t i = node.begin; i < node.end; ++i) span.extend(centroids[ids[i]]);
+  int axis = 0;
+  span.sizes().maxCoeff(&axis);
+  std::nth_element(ids.begin() + node.begin, ids.begin() + node.middle(), ids.begin() + node.end,
+                   [&](int i, int j) { return centroids[i][axis] < centroids[j][axis]; });
+  halve(node.left(), centroids, ids);
+  halve(node.right(), centroids, ids);
 }
 
-// Branch and bound over pairs of nodes of two trees whose boxes lie in one frame.
+const Box& findBox(const Node& node, ExactTree& tree) {
+  Box& box = tree.boxes[node.index];
+  if (node.isLeaf()) {
+    box.setEmpty();
+    for (const ExactPoint& p : tree.triangles[node.begin]) box.extend(p);
+  } else {
+    box = findBox(node.left(), tree).merged(findBox(node.right(), tree));
+  }
+  return box;
+}
+
+/// Branch and bound over pairs of nodes of two trees in one frame.
 class PairSearch {
  public:
-  PairSearch(const AabbTree& tree_a, const std::vector<ExactBox>& boxes_a, const AabbTree& tree_b,
-             const std::vector<ExactBox>& boxes_b)
-      : nodes_a_(tree_a.nodes()), boxes_a_(boxes_a), nodes_b_(tree_b.nodes()), boxes_b_(boxes_b) {
+  PairSearch(const ExactTree& a, const ExactTree& b) : a_(a), b_(b) {
     long double scale = 0;
-    for (const ExactBox* root : {&boxes_a.front(), &boxes_b.front()}) {
+    for (const Box* root : {&a.boxes[0], &b.boxes[0]}) {
       scale =
-          std::max({scale, root->lower.cwiseAbs().maxCoeff(), root->upper.cwiseAbs().maxCoeff()});
+          std::max({scale, root->min().cwiseAbs().maxCoeff(), root->max().cwiseAbs().maxCoeff()});
     }
     pad_ = kRelativePad * scale;
   }
 
-  // Calls visit(triangle of A, triangle of B) for every pair whose boxes are no farther apart than
-  // `reach` plus the pad, nearer boxes first. `reach` is read anew at each pair, so that visit may
-  // lower it; a negative one ends the search.
+  /// Calls visit(place of a triangle of A, of B) for every pair whose boxes are no farther apart
+  /// than `reach` plus the pad, nearer boxes first. `reach` is read anew at each pair, so that
+  /// visit may lower it; a negative one ends the search.
   template <typename Visit>
   void run(const long double& reach, const Visit& visit) const {
-    visitPair(0, 0, boxDistance(boxes_a_[0], boxes_b_[0]), reach, visit);
+    visitPair(pairOf(rootOf(a_), rootOf(b_)), reach, visit);
   }
 
  private:
@@ -54,84 +75,84 @@ class PairSearch {
   // interest: a pruned pair cannot have a smaller computed distance than the one found.
   static constexpr long double kRelativePad = 1e-15L;
 
-  template <typename Visit>
-  void visitPair(int a, int b, long double gap, const long double& reach,
-                 const Visit& visit) const {
-    if (!(gap <= reach + pad_) || reach < 0) return;
-    const AabbTree::Node& node_a = nodes_a_[a];
-    const AabbTree::Node& node_b = nodes_b_[b];
-    if (node_a.triangle >= 0 && node_b.triangle >= 0) {
-      visit(node_a.triangle, node_b.triangle);
-      return;
-    }
-    const bool split_a = node_b.triangle >= 0 ||
-                         (node_a.triangle < 0 && diagonal(boxes_a_[a]) > diagonal(boxes_b_[b]));
-    int first_a = split_a ? node_a.left : a;
-    int first_b = split_a ? b : node_b.left;
-    int second_a = split_a ? node_a.left + 1 : a;
-    int second_b = split_a ? b : node_b.left + 1;
-    long double first_gap = boxDistance(boxes_a_[first_a], boxes_b_[first_b]);
-    long double second_gap = boxDistance(boxes_a_[second_a], boxes_b_[second_b]);
-    if (second_gap < first_gap) {
-      std::swap(first_a, second_a);
-      std::swap(first_b, second_b);
-      std::swap(first_gap, second_gap);
-    }
-    visitPair(first_a, first_b, first_gap, reach, visit);
-    visitPair(second_a, second_b, second_gap, reach, visit);
+  struct Pair {
+    Node a, b;
+    long double gap;
+  };
+  Pair pairOf(const Node& a, const Node& b) const {
+    return {a, b, a_.boxes[a.index].exteriorDistance(b_.boxes[b.index])};
   }
 
-  static long double diagonal(const ExactBox& box) { return (box.upper - box.lower).squaredNorm(); }
+  template <typename Visit>
+  void visitPair(const Pair& pair, const long double& reach, const Visit& visit) const {
+    const auto& [a, b, gap] = pair;
+    if (!(gap <= reach + pad_) || reach < 0) return;
+    if (a.isLeaf() && b.isLeaf()) return visit(a.begin, b.begin);
+    const bool split_a = b.isLeaf() || (!a.isLeaf() && a_.boxes[a.index].sizes().squaredNorm() >
+                                                           b_.boxes[b.index].sizes().squaredNorm());
+    Pair near = split_a ? pairOf(a.left(), b) : pairOf(a, b.left());
+    Pair far = split_a ? pairOf(a.right(), b) : pairOf(a, b.right());
+    if (far.gap < near.gap) std::swap(near, far);
+    visitPair(near, reach, visit);
+    visitPair(far, reach, visit);
+  }
 
-  const std::vector<AabbTree::Node>& nodes_a_;
-  const std::vector<ExactBox>& boxes_a_;
-  const std::vector<AabbTree::Node>& nodes_b_;
-  const std::vector<ExactBox>& boxes_b_;
+  const ExactTree &a_, &b_;
   long double pad_ = 0;
 };
 
 }  // namespace
 
-MeshOracle::MeshOracle(const Mesh& a, const Mesh& b)
-    : triangles_a_(exactTriangles(a, "A")),
-      triangles_b_(exactTriangles(b, "B")),
-      tree_a_(triangles_a_),
-      tree_b_(triangles_b_),
-      boxes_a_(tree_a_.boxes(triangles_a_)) {}
+ExactTree::ExactTree(const Mesh& mesh) : ids(mesh.triangles.size()) {
+  if (ids.empty()) throw std::invalid_argument("MeshOracle: a mesh has no triangle");
+  std::vector<ExactTriangle> all;
+  std::vector<ExactPoint> centroids;  // three times those
+  for (const fcl::Triangle& t : mesh.triangles) {
+    ExactTriangle& corners = all.emplace_back();
+    for (int k = 0; k < 3; ++k) corners[k] = mesh.vertices[t[k]].cast<long double>();
+    centroids.emplace_back(corners[0] + corners[1] + corners[2]);
+  }
+  std::iota(ids.begin(), ids.end(), 0);
+  halve(rootOf(*this), centroids, ids);
+  for (const int id : ids) triangles.push_back(all[id]);
+  boxes.resize(2 * ids.size() - 1);
+  findBoxes();
+}
 
-std::vector<ExactTriangle> MeshOracle::placeB(const fcl::Transform3d& X_WA,
-                                              const fcl::Transform3d& X_WB) const {
+void ExactTree::findBoxes() { findBox(rootOf(*this), *this); }
+
+MeshOracle::MeshOracle(const Mesh& a, const Mesh& b) : a_(a), b_(b) {}
+
+ExactTree MeshOracle::placedB(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const {
+  using ExactMatrix = Eigen::Matrix<long double, 3, 3>;
   const ExactMatrix R1_transposed = X_WA.linear().transpose().cast<long double>();
   const ExactMatrix R2 = X_WB.linear().cast<long double>();
   const ExactPoint offset =
       X_WB.translation().cast<long double>() - X_WA.translation().cast<long double>();
-  std::vector<ExactTriangle> placed = triangles_b_;
-  for (ExactTriangle& triangle : placed) {
+  ExactTree placed = b_;
+  for (ExactTriangle& triangle : placed.triangles) {
     for (ExactPoint& p : triangle) p = (R1_transposed * (R2 * p + offset)).eval();
   }
+  placed.findBoxes();
   return placed;
 }
 
 double MeshOracle::distance(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const {
-  const std::vector<ExactTriangle> placed = placeB(X_WA, X_WB);
-  const std::vector<ExactBox> boxes_b = tree_b_.boxes(placed);
-  long double best = std::numeric_limits<long double>::infinity();
-  const PairSearch search(tree_a_, boxes_a_, tree_b_, boxes_b);
-  long double reach = best;
-  search.run(reach, [&](int i, int j) {
-    best = std::min(best, triangleDistance(triangles_a_[i], placed[j]));
+  const ExactTree b = placedB(X_WA, X_WB);
+  long double best = std::numeric_limits<long double>::infinity(), reach = best;
+  PairSearch(a_, b).run(reach, [&](std::size_t i, std::size_t j) {
+    best = std::min(best, triangleDistance(a_.triangles[i], b.triangles[j]));
     reach = best > 0 ? best : -1;
   });
   return static_cast<double>(best);
 }
 
 bool MeshOracle::collide(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const {
-  const std::vector<ExactTriangle> placed = placeB(X_WA, X_WB);
-  const std::vector<ExactBox> boxes_b = tree_b_.boxes(placed);
+  const ExactTree b = placedB(X_WA, X_WB);
   bool found = false;
   long double reach = 0;
-  PairSearch(tree_a_, boxes_a_, tree_b_, boxes_b).run(reach, [&](int i, int j) {
-    if (!trianglesMeet(triangles_a_[i], placed[j])) return;
+  PairSearch(a_, b).run(reach, [&](std::size_t i, std::size_t j) {
+    if (!trianglesMeet(a_.triangles[i], b.triangles[j])) return;
     found = true;
     reach = -1;
   });
@@ -140,12 +161,11 @@ bool MeshOracle::collide(const fcl::Transform3d& X_WA, const fcl::Transform3d& X
 
 MeshOracle::Pairs MeshOracle::collidingPairs(const fcl::Transform3d& X_WA,
                                              const fcl::Transform3d& X_WB) const {
-  const std::vector<ExactTriangle> placed = placeB(X_WA, X_WB);
-  const std::vector<ExactBox> boxes_b = tree_b_.boxes(placed);
+  const ExactTree b = placedB(X_WA, X_WB);
   Pairs pairs;
   const long double reach = 0;
-  PairSearch(tree_a_, boxes_a_, tree_b_, boxes_b).run(reach, [&](int i, int j) {
-    if (trianglesMeet(triangles_a_[i], placed[j])) pairs.emplace_back(i, j);
+  PairSearch(a_, b).run(reach, [&](std::size_t i, std::size_t j) {
+    if (trianglesMeet(a_.triangles[i], b.triangles[j])) pairs.emplace_back(a_.ids[i], b.ids[j]);
   });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
@@ -153,10 +173,10 @@ MeshOracle::Pairs MeshOracle::collidingPairs(const fcl::Transform3d& X_WA,
 
 double MeshOracle::distanceBruteForce(const fcl::Transform3d& X_WA,
                                       const fcl::Transform3d& X_WB) const {
-  const std::vector<ExactTriangle> placed = placeB(X_WA, X_WB);
+  const ExactTree placed = placedB(X_WA, X_WB);
   long double best = std::numeric_limits<long double>::infinity();
-  for (const ExactTriangle& a : triangles_a_) {
-    for (const ExactTriangle& b : placed) best = std::min(best, triangleDistance(a, b));
+  for (const ExactTriangle& a : a_.triangles) {
+    for (const ExactTriangle& b : placed.triangles) best = std::min(best, triangleDistance(a, b));
   }
   return static_cast<double>(best);
 }
@@ -168,15 +188,14 @@ bool MeshOracle::collideBruteForce(const fcl::Transform3d& X_WA,
 
 MeshOracle::Pairs MeshOracle::collidingPairsBruteForce(const fcl::Transform3d& X_WA,
                                                        const fcl::Transform3d& X_WB) const {
-  const std::vector<ExactTriangle> placed = placeB(X_WA, X_WB);
+  const ExactTree b = placedB(X_WA, X_WB);
   Pairs pairs;
-  for (std::size_t i = 0; i < triangles_a_.size(); ++i) {
-    for (std::size_t j = 0; j < placed.size(); ++j) {
-      if (trianglesMeet(triangles_a_[i], placed[j])) {
-        pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
-      }
+  for (std::size_t i = 0; i < a_.ids.size(); ++i) {
+    for (std::size_t j = 0; j < b.ids.size(); ++j) {
+      if (trianglesMeet(a_.triangles[i], b.triangles[j])) pairs.emplace_back(a_.ids[i], b.ids[j]);
     }
   }
+  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

@@ -6,11 +6,26 @@
 #include <utility>
 #include <vector>
 
-#include "aabb_tree.h"
+#include <Eigen/Geometry>
+
 #include "mesh.h"
 #include "triangle_oracle.h"
 
 namespace kios::scenes {
+
+/// The triangles of a mesh under a binary tree of boxes, one a leaf: a node's children hold the
+/// halves of its range of them.
+struct ExactTree {
+  using Box = Eigen::AlignedBox<long double, 3>;
+
+  explicit ExactTree(const Mesh& mesh);
+  /// To be called when the triangles were moved.
+  void findBoxes();
+
+  std::vector<ExactTriangle> triangles;  ///< from the tree's left to its right
+  std::vector<int> ids;                  ///< of these in the mesh
+  std::vector<Box> boxes;                ///< of nodes
+};
 
 /// The true answers for two triangle soups at given poses, in long double. The common frame is A's:
 /// x -> R1^T (R2 x + (t2 - t1)) with the double matrices as given, whether or not they are exact
@@ -38,14 +53,9 @@ class MeshOracle {
   Pairs collidingPairsBruteForce(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
  private:
-  std::vector<ExactTriangle> placeB(const fcl::Transform3d& X_WA,
-                                    const fcl::Transform3d& X_WB) const;
+  ExactTree placedB(const fcl::Transform3d& X_WA, const fcl::Transform3d& X_WB) const;
 
-  std::vector<ExactTriangle> triangles_a_;  // in A's frame
-  std::vector<ExactTriangle> triangles_b_;  // in B's frame
-  AabbTree tree_a_;
-  AabbTree tree_b_;
-  std::vector<ExactBox> boxes_a_;  // in A's frame
+  ExactTree a_, b_;  // each in its own frame
 };
 
 }  // namespace kios::scenes

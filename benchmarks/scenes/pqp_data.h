@@ -11,7 +11,8 @@
 #include "motions.h"
 
 // The rigid benchmarks of the k-IOS paper, in the PQP distribution's file formats. The project
-// ships none of this data; data/README.md of the data folder describes it.
+// ships none of this data; data/README.md of the data folder describes it. A file that can't be
+// read is named by a std::runtime_error.
 
 namespace kios::scenes {
 
@@ -19,14 +20,6 @@ namespace kios::scenes {
 /// else the same seen from the source tree; nothing if the one so found is not a folder with `pqp`
 /// in it.
 std::optional<std::filesystem::path> findData();
-
-/// Returns a `.tris` file: the number n of triangles, then 3n vertices `x y z`. Gives a soup of 3n
-/// vertices. Throws std::runtime_error naming the file and what is wrong with it.
-Mesh loadTris(const std::filesystem::path& file);
-
-/// Returns a `.path` file: the number of frames, then a row-major rotation and a translation for
-/// each. The numbers are taken as written (rotations have six digits). Throws as loadTris does.
-std::vector<fcl::Transform3d> loadPath(const std::filesystem::path& file);
 
 /// Holds two meshes on their way, in the world frame.
 struct MovingPair {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <random>
 
+#include <Eigen/Core>
+
 namespace kios::scenes {
 
 /// Seeded random numbers that are the same with every standard library: the engine is specified by
@@ -19,6 +21,13 @@ class Random {
 
   /// Returns a number uniform in [lower, upper).
   double uniform(double lower, double upper) { return lower + (upper - lower) * unit(); }
+
+  /// Returns a vector uniform in [lower, upper)^3; x is drawn first.
+  Eigen::Vector3d inCube(double lower, double upper) {
+    Eigen::Vector3d p;
+    for (int c = 0; c < 3; ++c) p[c] = uniform(lower, upper);
+    return p;
+  }
 
  private:
   std::mt19937_64 engine_;

@@ -86,7 +86,7 @@ Robot humanoid() {
   return robot;
 }
 
-std::vector<std::pair<int, int>> allowedPairs(const Robot& robot) {
+std::vector<std::pair<int, int>> allowedPairs(const Robot& robot, int robots) {
   constexpr int kSamples = 40;
   const auto samples = jointMotion(robot, kSamples, false, 7);
   std::vector<std::vector<Transform3d>> poses;
@@ -107,6 +107,11 @@ std::vector<std::pair<int, int>> allowedPairs(const Robot& robot) {
       if (skip) allowed.emplace_back(a, b);
     }
   }
+  const std::size_t of_one = allowed.size();
+  for (std::size_t i = of_one; i < robots * of_one; ++i) {
+    const auto [a, b] = allowed[i - of_one];
+    allowed.emplace_back(a + links, b + links);
+  }
   return allowed;
 }
 
@@ -115,11 +120,8 @@ BodyScene twoRobots(const Robot& robot, const Transform3d& X_W1, const Transform
   const int links = static_cast<int>(robot.links.size());
   BodyScene scene;
   for (const Link& link : robot.links) scene.meshes.push_back(link.mesh);
-  const auto allowed = allowedPairs(robot);
-  for (int r = 0; r < 2; ++r) {
-    for (int i = 0; i < links; ++i) scene.mesh_of.push_back(i);
-    for (const auto& [a, b] : allowed) scene.excluded.emplace_back(a + r * links, b + r * links);
-  }
+  scene.excluded = allowedPairs(robot, 2);
+  for (int i = 0; i < 2 * links; ++i) scene.mesh_of.push_back(i % links);
   scene.obstacle.assign(scene.mesh_of.size(), false);
   const auto first = jointMotion(robot, frames, smooth, 2 * seed);
   const auto second = jointMotion(robot, frames, smooth, 2 * seed + 1);

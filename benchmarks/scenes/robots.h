@@ -30,9 +30,10 @@ struct BodyScene {
 /// links each; 1.2k to 3.0k triangles a link.
 Robot humanoid();
 
-/// Returns pairs of links that a planner wouldn't ask about: neighbours, and those that touch in
-/// more than one of twenty random configurations.
-std::vector<std::pair<int, int>> allowedPairs(const Robot& robot);
+/// Returns pairs of links a < b that a planner wouldn't ask about, ascending: neighbours, and those
+/// that touch in more than one of twenty random configurations. The links of several robots of one
+/// kind are numbered one robot after the other.
+std::vector<std::pair<int, int>> allowedPairs(const Robot& robot, int robots = 1);
 
 /// Returns two robots of one kind with their bases at X_W1 and X_W2, each with all its links, which
 /// share meshes. Smooth frames are the first of a motion of 400 for three swings of a joint.

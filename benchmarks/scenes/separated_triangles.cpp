@@ -56,10 +56,8 @@ Corners sliver(Random& random, double aspect, Sliver shape) {
 }
 
 auto sliverPair(double aspect, Sliver shape) {
-  return [aspect, shape](Random& random) {
-    const Corners a = sliver(random, aspect, shape);
-    return TrianglePair{a, sliver(random, aspect, shape)};
-  };
+  const auto one = [=](Random& random) { return sliver(random, aspect, shape); };
+  return pairOf(one, one);
 }
 
 // A sliver of any width in the plane z = 0, and above it a vertex, or all three in one point, whose
@@ -95,13 +93,6 @@ TrianglePair beyondSliver(Random& random) {
 TrianglePair beyondLatticeSliver(Random& random) {
   const double x = integer(random, 1, 4), y = integer(random, -4, 4);
   return besideSliver(random, {x, y, 0}, integer(random, -12, 16) / 4.0);
-}
-
-auto posedPair(TrianglePair (*make)(Random&)) {
-  return [make](Random& random) {
-    const TrianglePair pair = make(random);
-    return posed(random, pair);
-  };
 }
 
 // A vertex over a face, at height `gap`; below it if negative.
@@ -150,10 +141,7 @@ auto smallGapOf(Over over, double sign, bool exact) {
 
 std::vector<TriangleClass> separatedTriangles() {
   return {
-      {"random",
-       [](Random& r) {
-         return TrianglePair{triangle(r), triangle(r)};
-       }},
+      {"random", pairOf(triangle, triangle)},
       {"random near",
        [](Random& r) {
          TrianglePair pair = {triangle(r), triangle(r)};
@@ -219,9 +207,9 @@ std::vector<TriangleClass> separatedTriangles() {
          return TrianglePair{a, triangle(r)};
        }},
       {"over a sliver", overSliver},
-      {"over a sliver, posed", posedPair(overSliver)},
+      {"over a sliver, posed", posedBy(1, overSliver)},
       {"beyond a sliver", beyondSliver},
-      {"beyond a sliver, posed", posedPair(beyondSliver)},
+      {"beyond a sliver, posed", posedBy(1, beyondSliver)},
       {"beyond a sliver, lattice", beyondLatticeSliver},
       {"gap vertex-face", smallGapOf(vertexOverFace, 1, false)},
       {"gap edge-edge", smallGapOf(edgeOverEdge, 1, false)},

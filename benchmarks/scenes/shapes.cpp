@@ -11,14 +11,13 @@
 #include <map>
 #include <utility>
 
+#include "placement.h"
 #include "random.h"
 
 namespace kios::scenes {
 namespace {
 
 using fcl::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
 
 // Two triangles of the square a b c d, which runs counter-clockwise seen from outside.
 void addSquare(Mesh& mesh, std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
@@ -244,10 +243,7 @@ Mesh randomSoup(int count, double half_width, double min_edge, double max_edge,
   Mesh mesh;
   for (int i = 0; i < count; ++i) {
     const std::size_t first = mesh.vertices.size();
-    const double x = random.uniform(-half_width, half_width);
-    const double y = random.uniform(-half_width, half_width);
-    const double z = random.uniform(-half_width, half_width);
-    const Vector3d corner(x, y, z);
+    const Vector3d corner = random.inCube(-half_width, half_width);
     mesh.vertices.push_back(corner);
     mesh.vertices.emplace_back(corner + edge());
     mesh.vertices.emplace_back(corner + edge());

@@ -93,13 +93,6 @@ auto lattice(int n) {
   return [n](Random& random) { return verticesFrom([&] { return latticePoint(random, n); }); };
 }
 
-auto posedContact(TrianglePair (*contact)(Random&)) {
-  return [contact](Random& random) {
-    const TrianglePair pair = contact(random);
-    return posed(random, scaled(pair, 1.0 / kLattice));
-  };
-}
-
 }  // namespace
 
 TrianglePair latticeVertexOnFace(Random& random) {
@@ -134,11 +127,11 @@ std::vector<TriangleClass> touchingTriangles() {
       {"edge through edge", latticeEdgeThroughEdge},
       {"edge through vertex", latticeEdgeThroughVertex},
       {"edge on face", latticeEdgeOnFace},
-      {"vertex on face, posed", posedContact(latticeVertexOnFace)},
-      {"vertex on edge, posed", posedContact(latticeVertexOnEdge)},
-      {"edge through edge, posed", posedContact(latticeEdgeThroughEdge)},
-      {"edge through vertex, posed", posedContact(latticeEdgeThroughVertex)},
-      {"edge on face, posed", posedContact(latticeEdgeOnFace)},
+      {"vertex on face, posed", posedBy(1.0 / kLattice, latticeVertexOnFace)},
+      {"vertex on edge, posed", posedBy(1.0 / kLattice, latticeVertexOnEdge)},
+      {"edge through edge, posed", posedBy(1.0 / kLattice, latticeEdgeThroughEdge)},
+      {"edge through vertex, posed", posedBy(1.0 / kLattice, latticeEdgeThroughVertex)},
+      {"edge on face, posed", posedBy(1.0 / kLattice, latticeEdgeOnFace)},
       {"one ulp from contact",
        [](Random& r) { return movedByAnUlp(r, scaled(anyLatticeContact(r), 1.0 / kLattice)); }},
       {"vertex on face, rounded",

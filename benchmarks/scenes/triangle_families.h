@@ -36,10 +36,7 @@ inline double logUniform(Random& random, int lower, int upper) {
 inline double randomSign(Random& random) { return random.unit() < 0.5 ? -1 : 1; }
 
 /// In the cube [-1, 1)^3.
-inline Eigen::Vector3d point(Random& random) {
-  const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
-  return {x, y, random.uniform(-1, 1)};
-}
+inline Eigen::Vector3d point(Random& random) { return random.inCube(-1, 1); }
 
 inline Eigen::Vector3d direction(Random& random) {
   for (;;) {
@@ -106,6 +103,24 @@ inline TrianglePair posed(Random& random, const TrianglePair& pair) {
             R(1, 0) * p[0] + R(1, 1) * p[1] + R(1, 2) * p[2] + t[1],
             R(2, 0) * p[0] + (R(2, 1) * p[1] + R(2, 2) * p[2]) + t[2]};
   });
+}
+
+/// Returns a maker of pairs by makers of a triangle each.
+template <typename First, typename Second>
+auto pairOf(First first, Second second) {
+  return [=](Random& random) {
+    const Corners a = first(random);
+    return TrianglePair{a, second(random)};
+  };
+}
+
+/// Returns a maker of posed() pairs, scaled before.
+template <typename Make>
+auto posedBy(double factor, Make make) {
+  return [=](Random& random) {
+    const TrianglePair pair = make(random);
+    return posed(random, scaled(pair, factor));
+  };
 }
 
 /// Returns random lattice triangles that touch exactly: see touching_triangles.cpp.

@@ -5,18 +5,16 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
+
 namespace kios::scenes {
 
 long double extent(const TrianglePair& pair) {
-  using Vector = Eigen::Matrix<long double, 3, 1>;
-  Vector lower = pair.a[0].cast<long double>(), upper = lower;
+  Eigen::AlignedBox<long double, 3> box;
   for (const auto& corners : {pair.a, pair.b}) {
-    for (const Eigen::Vector3d& p : corners) {
-      lower = lower.cwiseMin(p.cast<long double>());
-      upper = upper.cwiseMax(p.cast<long double>());
-    }
+    for (const Eigen::Vector3d& p : corners) box.extend(p.cast<long double>());
   }
-  return (upper - lower).norm();
+  return box.sizes().norm();
 }
 
 double magnitude(const TrianglePair& pair) {

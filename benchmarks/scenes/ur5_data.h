@@ -12,8 +12,8 @@ namespace kios::scenes {
 /// Returns true if the data folder holds the UR5's meshes.
 bool holdsUr5(const std::filesystem::path& data);
 
-/// Returns the UR5 of the data folder: base and 6 links, equal vertices welded. Throws
-/// std::runtime_error, or as loadMesh(), naming the file and what is wrong with it.
+/// Returns the UR5 of the data folder: base and 6 links, equal vertices welded. Throws as
+/// loadMesh(), naming the file and what is wrong with it.
 Robot loadUr5(const std::filesystem::path& data);
 
 }  // namespace kios::scenes

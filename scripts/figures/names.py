@@ -36,31 +36,26 @@ def headline(text):
 
 
 def declarations(text):
-    """What stands in namespaces, as (path of names, declaration, its docstring).
+    """What stands in namespaces, as (innermost namespace, declaration, its docstring).
 
-    Declarations below each other, without an empty line, share one."""
-    text = re.sub(r"^\s*#.*(?:\\\n.*)*", "", text, flags=re.M)
-    scopes, pending, docs, before = [], "", [], ""
-    for piece in re.split(r"(//[^\n]*\n|[;{}])", text):
-        if piece.startswith("//"):
-            if piece.startswith("/// "):
-                docs = [*docs, piece[4:].strip()] if not pending.strip() else docs
-            continue
-        if piece not in (";", "{", "}"):
-            pending += piece
-            if "\n\n" in piece:
-                before = ""
-            continue
-        declared = " ".join(pending.split())
-        namespace = re.match(r"(?:inline )?namespace ?([\w:]*)$", declared)
-        if piece != "}" and declared and not namespace and None not in scopes:
-            before = " ".join(docs) or before
-            yield scopes, declared + (" {" if piece == "{" else ""), before
-        if piece == "{":
-            scopes.append(namespace[1] if namespace else None)
-        elif piece == "}" and scopes:
+    Declarations below each other, without an empty line, share one. As clang-format leaves them, they
+    begin a line, and what a class holds doesn't."""
+    scopes, declared, doc = [], "", ""
+    for line in text.splitlines():
+        opened = re.match(r"(?:inline )?namespace ?([\w:]*) \{", line)
+        if opened:
+            scopes.append(opened[1])
+        elif line.startswith("}  // namespace"):
             scopes.pop()
-        pending, docs = "", []
+        elif not line:
+            doc = ""
+        elif line.startswith("/// "):
+            doc = f"{doc} {line[4:].strip()}".strip()
+        elif declared or re.match(r"[\w\[]", line):
+            declared += " " + re.sub(r"\s*//.*", "", line).strip()
+            if declared[-1] in ";{}":
+                yield scopes[-1] if scopes else "", declared.strip(" ;"), doc
+                declared = ""
 
 
 NAME = re.compile(r"(?:template <[^{}]*?> )?(?:class|struct|enum class|using) (\w+)|"
@@ -82,10 +77,9 @@ def public_names():
                                   if name not in shown)])
         shown.update(DETAIL.findall(text))
         names = {}
-        for scopes, declared, doc in declarations(text):
-            path = "::".join(filter(None, scopes))
+        for namespace, declared, doc in declarations(text):
             match = NAME.match(declared)
-            if path == "kios" and match and not SKIPPED.match(declared):
+            if namespace == "kios" and match and not SKIPPED.match(declared):
                 name = match[1] or match[2]
                 names[name] = names.get(name) or headline(doc)
         if names:

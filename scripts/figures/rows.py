@@ -43,6 +43,9 @@ class Rows:
         quotient of the medians that tables show."""
         return self.us(scenario, query, bv, **settings) / self.us(scenario, query, **settings)
 
+    def with_ratio(self, *key, show=None):
+        return f"{(show or number)(self.us(*key))} ({number(self.ratio(*key))})"
+
 
 def number(value):
     if value is None:

@@ -5,11 +5,11 @@
 # usage: layers.py SOURCE_DIR
 # The folders of src and include/fcl_kios are layers: a file includes files of its own layer and of
 # those below it only (docs/how-it-works.md). Addons are libraries of their own, which nothing
-# includes but they themselves; of addons, those in ADDONS are checked. No two folders have files of
-# one name, but those of public headers. FCL's headers are included as <fcl/...> and ours as "...",
-# and every "..." names one file, whichever include directory is searched first. A file of src under
-# thirty lines, but for the header of a longer .cpp, and a header without a .cpp that one file
-# includes stand below, with their reason.
+# includes but they themselves; of addons, those in ADDONS are checked. docs/images/layers.svg shows
+# the folders of src. No two folders have files of one name, but those of public headers. FCL's
+# headers are included as <fcl/...> and ours as "...", and every "..." names one file, whichever
+# include directory is searched first. A file of src under thirty lines, but for the header of a
+# longer .cpp, and a header without a .cpp that one file includes stand below, with their reason.
 import pathlib
 import re
 import sys
@@ -121,6 +121,10 @@ for path in sorted((root / "include/fcl_kios").glob("*.h")):
     includes = f'#include "fcl_kios/{path.name}"' in umbrella
     if path.name != "fcl_kios.h" and includes == (TOP.get(path.name) in ADDONS):
         faults.append(f"fcl_kios.h includes all public headers but those of addons: {path.name}")
+picture = (root / "docs/images/layers.svg").read_text(encoding="utf-8")
+drawn = re.findall(r'bold" text-anchor="middle">(\w+)<', picture)
+if sorted(drawn) != sorted(path.name for path in (root / "src").iterdir() if path.is_dir()):
+    faults.append("docs/images/layers.svg has other folders than src")
 if count < 100:
     faults.append(f"only {count} files were found")
 print("\n".join(faults) if faults else f"{count} files include downwards only")

@@ -24,7 +24,6 @@
 #include "query/posed_solid.h"
 #include "scalars.h"
 #include "scenes/cad_shapes.h"
-#include "scenes/yard.h"
 #include "shape/shape_oracle.h"
 #include "shape/shape_solid.h"
 #include "shape/triangle_shape.h"

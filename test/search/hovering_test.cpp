@@ -15,23 +15,30 @@
 
 #include "scalars.h"
 #include "scenes/cad_shapes.h"
-#include "scenes/yard.h"
+#include "scenes/shapes.h"
 #include "search/prepared_pair.h"
 #include "volume/rotation.h"
 
 namespace kios::testing {
 namespace {
 
+/// Adds four posts of 0.2 x 0.2 x 1 on z = 0: nothing small that stands between them is above all.
+Mesh withPosts(const Mesh& place) {
+  std::vector<Mesh> all = {place};
+  for (const double x : {-1.85, 1.85}) {
+    for (const double y : {-1.85, 1.85}) {
+      all.push_back(scenes::moved(fcl::Transform3d(Eigen::Translation3d(x, y, 0.5)),
+                                  scenes::subdividedBox({0.2, 0.2, 1}, 1)));
+    }
+  }
+  return scenes::merged(all);
+}
+
 std::vector<Mesh> standingPlaces() {
   const Mesh slab = scenes::moved(fcl::Transform3d(Eigen::Translation3d(0, 0, -0.05)),
                                   scenes::subdividedBox({4, 4, 0.1}, 1));
   const Mesh floor = scenes::sheet(4, 4, 1, 1, 0), grid = scenes::sheet(4, 4, 8, 8, 0);
-  return {floor,
-          slab,
-          grid,
-          scenes::withPosts(floor, 1.85),
-          scenes::withPosts(slab, 1.85),
-          scenes::withPosts(grid, 1.85)};
+  return {floor, slab, grid, withPosts(floor), withPosts(slab), withPosts(grid)};
 }
 
 std::vector<Mesh> standingBodies() {

@@ -19,9 +19,7 @@ using namespace paper;
 
 using Split = std::shared_ptr<const MeshSplit>;
 
-inline Split splitOf(const scenes::Mesh& mesh) {
-  return std::make_shared<const MeshSplit>(mesh.vertices, mesh.triangles);
-}
+inline Split splitOf(const scenes::Mesh& mesh) { return std::make_shared<const MeshSplit>(mesh); }
 
 /// Calls visit(name, policy) for kIOS with all fits and for the other kinds.
 template <typename Visit>

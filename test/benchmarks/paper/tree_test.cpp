@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-
 #include "benchmarks/paper/policies.h"
 #include "scenes/oracle.h"
 #include "scenes/shapes.h"
@@ -138,18 +136,6 @@ TEST(MeshSplit, EveryTriangleIsALeafOnce) {
     }
     for (const int count : seen) ASSERT_EQ(count, 1);
   }
-}
-
-TEST(MeshSplit, RefusesWhatIsNoMesh) {
-  const std::vector<fcl::Vector3d> vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  EXPECT_THROW(MeshSplit(vertices, {}), std::invalid_argument);
-  EXPECT_THROW(MeshSplit(vertices, {fcl::Triangle(0, 1, 3)}), std::invalid_argument);
-  auto bad = vertices;
-  bad[1][2] = NAN;
-  EXPECT_THROW(MeshSplit(bad, {fcl::Triangle(0, 1, 2)}), std::invalid_argument);
-  bad[1][2] = 1e302;
-  EXPECT_THROW(MeshSplit(bad, {fcl::Triangle(0, 1, 2), fcl::Triangle(2, 1, 0)}),
-               std::invalid_argument);
 }
 
 }  // namespace
