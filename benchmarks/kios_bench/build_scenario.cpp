@@ -64,6 +64,15 @@ Meshes unlike(const Meshes& meshes) {
   return others;
 }
 
+std::vector<Builder> builders(const Options& options) {
+  std::vector<Builder> all = {builderOf<kIOSd>(kOurs), builderOf<kIOSd>(kOurs, true),
+                              builderOf<fcl::OBBRSSd>(kReference)};
+  if (options.quick) return all;
+  all.push_back(builderOf<fcl::kIOSd>("fcl_kios_builtin"));
+  all.push_back(builderOf<fcl::AABBd>("fcl_aabb"));
+  return all;
+}
+
 /// Returns bytes of a build, with those of the arrays that it begins with.
 Volumes memoryOf(const Builder& builder, const Meshes& meshes, double triangles) {
   Volumes volumes;
@@ -81,8 +90,7 @@ Volumes memoryOf(const Builder& builder, const Meshes& meshes, double triangles)
 
 void race(const std::string& scenario, const Meshes& meshes, const Options& options,
           Report& report) {
-  const std::vector<Builder> all = {builderOf<kIOSd>(kOurs), builderOf<kIOSd>(kOurs, true),
-                                    builderOf<fcl::OBBRSSd>(kReference)};
+  const std::vector<Builder> all = builders(options);
   std::vector<Competitor> competitors;
   for (const Builder& builder : all) {
     competitors.push_back({builder.bv + " " + builder.query,

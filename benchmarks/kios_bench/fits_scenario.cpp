@@ -93,10 +93,16 @@ void add(Entrants& all, const std::string& name, const Policy& policy, SizeOf si
   all.push_back({name, build});
 }
 
+/// Returns spheres with their own radii, or with one that all but S0 share.
+FitSize sizeOf(const kIOSd& bv, bool shared_radius) {
+  const int k = bv.k();
+  const bool shares = shared_radius && k > 1;
+  return {shares ? 4.0 + 3 * (k - 1) + 1 : 4.0 * k, sizeof bv, static_cast<double>(k)};
+}
+
 void addKios(Entrants& all, const std::string& name, const FitOptions& options) {
-  add(all, name, KiosPolicy(options), [](const kIOSd& bv) {
-    return FitSize{4.0 * bv.k(), sizeof bv, double(bv.k())};
-  });
+  const bool shared = options.shared_radius;
+  add(all, name, KiosPolicy(options), [shared](const kIOSd& bv) { return sizeOf(bv, shared); });
 }
 
 template <typename Policy>
@@ -132,8 +138,12 @@ std::vector<FitEntrant> fitEntrants() {
   addKios(all, "kios_method_i", FitMethod::kMethodI);
   addKios(all, "kios_method_i_at_angle", FitMethod::kMethodIAtAngle);
   addKios(all, "kios_method_ii", FitMethod::kMethodII);
+  FitOptions shared(FitMethod::kMethodII), every, narrow;
+  shared.shared_radius = true;
+  addKios(all, "kios_method_ii_shared", shared);
   addKios(all, "kios_tuned", FitMethod::kTuned);
-  FitOptions narrow;
+  every.count = SphereCount::kAll;
+  addKios(all, "kios_tuned_k5", every);
   narrow.angle = scenes::kPi / 8;  // for the paper's pi/6
   addKios(all, "kios_tuned_22deg", narrow);
   addKinds(all);

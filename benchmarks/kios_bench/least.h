@@ -29,7 +29,7 @@ bool isRealWork(const Row& row);
 double leastRatio(const Row& row);
 
 /// Returns all rows of real work called `kios` that have a row of FCL's volumes beside them, by
-/// their ratios, least first.
+/// their ratios, least first. AABB is no rival in building.
 std::vector<Standing> byRatio(const std::vector<Row>& rows);
 
 /// Returns how many are below leastRatio().

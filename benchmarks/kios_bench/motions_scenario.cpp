@@ -97,6 +97,30 @@ Row rowOf(const std::string& scenario, const scenes::Cell& cell, std::size_t edg
   return row;
 }
 
+/// Reports how many contacts each set misses; not timed.
+void reportMissed(const std::string& scenario, const scenes::Cell& cell, const Oracle& oracle,
+                  double length, int count, int samples, const Options& options, Report& report) {
+  scenes::Random random(options.seed + 1);
+  std::vector<Edge> edges;
+  std::vector<char> free;
+  for (int i = 0; i < count; ++i) {
+    edges.push_back(drawEdge(cell, oracle, length, random));
+    free.push_back(oracle.isFree(edges.back(), samples) ? 1 : 0);
+  }
+  std::vector<Row> rows;
+  for (const auto& [name, set] : entrantsIn(cell)) {
+    int missed = 0;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      missed += set->isFree(edges[i].q0, edges[i].q1) && free[i] == 0 ? 1 : 0;
+    }
+    Row row = rowOf(scenario, cell, edges.size());
+    row.bv = name;
+    row.errors.wrong = static_cast<std::size_t>(missed);
+    rows.push_back(row);
+  }
+  report.add(rows);
+}
+
 void reportEdges(const std::string& scenario, const scenes::Cell& cell,
                  const std::vector<Edge>& edges, bool free, const Options& options,
                  Report& report) {
@@ -133,6 +157,7 @@ void reportEdges(const std::string& scenario, const scenes::Cell& cell,
 void reportCell(const std::string& name, const scenes::Cell& cell, const Options& options,
                 Report& report) {
   const int count = options.frames > 0 ? options.frames : (options.quick ? 10 : 200);
+  const int judged = options.quick ? 20 : options.oracle_frames;
   const int samples = options.quick ? 100 : 400;
   const Oracle oracle(cell);
   for (const double length : kLengths) {
@@ -141,6 +166,8 @@ void reportCell(const std::string& name, const scenes::Cell& cell, const Options
     std::snprintf(suffix, sizeof suffix, "/%g", length);
     reportEdges(name + "/valid" + suffix, cell, edges.free, true, options, report);
     reportEdges(name + "/invalid" + suffix, cell, edges.blocked, false, options, report);
+    reportMissed(name + "/missed" + suffix, cell, oracle, length, judged, 10 * samples, options,
+                 report);
   }
 }
 

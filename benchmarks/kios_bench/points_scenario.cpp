@@ -112,7 +112,7 @@ class PointContest {
                        judged = std::min<Eigen::Index>(count, 100);
     Eigen::VectorXd exact(judged), numbers(count);
     for (Eigen::Index i = 0; i < judged; ++i) exact[i] = tree.at(points_.col(i), 0);
-    for (const double error : {1e-2, 1e-3, 1e-6}) {
+    for (const double error : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
       char name[32];
       std::snprintf(name, sizeof(name), "winding %g", error);
       run(name, "kios", static_cast<std::size_t>(count),

@@ -159,12 +159,17 @@ int frameCount(const Options& options, int frames) {
 void reportRobots(const std::string& scenario, const scenes::Robot& robot,
                   const fcl::Transform3d& X_W2, std::size_t stride, const Options& options,
                   Report& report) {
-  const scenes::BodyScene scene = scenes::twoRobots(robot, fcl::Transform3d::Identity(), X_W2,
-                                                    frameCount(options, 60), true, options.seed);
-  reportScene(
-      scenario + "/smooth", scene, std::size(kQueries),
-      {{"kios_pairs", stride}, {"kios", 1}, {"fcl_obbrss", stride}, {"fcl_manager", stride}},
-      options, report);
+  for (const bool smooth : {true, false}) {
+    const scenes::BodyScene scene = scenes::twoRobots(
+        robot, fcl::Transform3d::Identity(), X_W2, frameCount(options, 60), smooth, options.seed);
+    reportScene(scenario + (smooth ? "/smooth" : "/random"), scene, std::size(kQueries),
+                {{"kios_pairs", stride},
+                 {"kios", 1},
+                 {"fcl_obbrss", stride},
+                 {"fcl_obbrss_bounded", stride},
+                 {"fcl_manager", stride}},
+                options, report);
+  }
 }
 
 }  // namespace

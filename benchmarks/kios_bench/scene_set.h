@@ -35,8 +35,9 @@ class SceneSet {
 };
 
 /// By their names in rows. FCL's OBBRSS: `fcl_obbrss`, every pair with a result of its own;
-/// `fcl_manager`, its dynamic AABB tree. Ours: `kios_pairs`, every pair as FCL's; `kios_bounded`,
-/// with the best so far, or the margin, as bound on entry.
+/// `fcl_obbrss_bounded`, every pair with the best so far, or the margin, as bound on entry;
+/// `fcl_manager`, its dynamic AABB tree. Ours: `kios_pairs` and `kios_bounded`, every pair as
+/// FCL's.
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene);
 
 /// Ours by SceneDistance, `kios`.

@@ -185,9 +185,10 @@ std::unique_ptr<SceneSet> makeKiosScene(const scenes::BodyScene& scene) {
 std::unique_ptr<SceneSet> makeSceneSet(const std::string& name, const scenes::BodyScene& scene) {
   using FclPairs = ScenePairs<fcl::OBBRSSd, FclCalls>;
   using KiosPairs = ScenePairs<kIOSd, KiosCalls>;
+  const bool bounded = name == "fcl_obbrss_bounded" || name == "kios_bounded";
   if (name == "fcl_manager") return std::make_unique<FclManager>(scene);
-  if (name == "fcl_obbrss") return std::make_unique<FclPairs>(scene, false);
-  return std::make_unique<KiosPairs>(scene, name == "kios_bounded");
+  if (name.rfind("kios_", 0) == 0) return std::make_unique<KiosPairs>(scene, bounded);
+  return std::make_unique<FclPairs>(scene, bounded);
 }
 
 }  // namespace kios::bench

@@ -115,6 +115,7 @@ Task colder(const Task& task, const Options& options) {
   const std::size_t streamed = (options.quick ? 1 : 96) << 20;
   Task cold = fewer(task, options.quick ? 2 : 9);
   cold.scenario += "/cold";
+  cold.cold = true;
   cold.streamed_bytes = streamed;
   return cold;
 }

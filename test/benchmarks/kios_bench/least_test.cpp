@@ -57,6 +57,15 @@ TEST(Least, OnlyKiosIsOursAndOnlyFclsAreOthers) {
   EXPECT_DOUBLE_EQ(standings[0].ratio, 3);
 }
 
+TEST(Least, BuildsAreComparedWithVolumesForNearPairs) {
+  const auto standings = byRatio({row("a", "build", "kios", 2), row("a", "build", "fcl_aabb", 1),
+                                  row("a", "build", "fcl_obb", 4), row("a", "collide", "kios", 2),
+                                  row("a", "collide", "fcl_aabb", 1)});
+  ASSERT_EQ(standings.size(), 2u);
+  EXPECT_EQ(standings[0].best, "fcl_aabb");
+  EXPECT_EQ(standings[1].best, "fcl_obb");
+}
+
 TEST(Least, LeavesOutWhatHasNoTime) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto standings =
