@@ -139,9 +139,12 @@ std::string toJson(const Row& row) {
                {"triangles", row.triangles},
                {"frames", row.frames}};
   for (const Field& field : kFields) {
+    if (!field.json) continue;
     const Maybe value = field.of(row);
-    if (!field.json || !value || !std::isfinite(*value)) continue;
-    json[field.json] = field.is_count ? Json(static_cast<std::size_t>(*value)) : Json(*value);
+    const bool known = value && std::isfinite(*value);
+    json[field.json] = !known           ? Json(nullptr)
+                       : field.is_count ? Json(static_cast<std::size_t>(*value))
+                                        : Json(*value);
   }
   return json.dump();
 }

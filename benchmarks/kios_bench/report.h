@@ -68,7 +68,7 @@ struct Changes {
   std::size_t bits = 0, answers = 0;  ///< not bit for bit; beyond rounding
 };
 
-/// Holds one measurement. A scenario sets the parts that it knows; JSON has no others.
+/// Holds one measurement. A scenario sets the parts that it knows; what it leaves is null in JSON.
 struct Row {
   std::string scenario, query, bv;
   std::size_t triangles = 0;     ///< of all meshes
@@ -104,7 +104,7 @@ std::string cell(const Maybe& value, const char* format);
 /// Returns a time for readers: in us, or in ms where those have five digits.
 std::string timeText(double us);
 
-/// Returns the row as one line of JSON, without numbers that are not finite.
+/// Returns the row as one line of JSON. Numbers that are not finite become null.
 std::string toJson(const Row& row);
 
 /// Prints rows as an aligned table, without columns that tell nothing of them.

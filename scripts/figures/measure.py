@@ -60,9 +60,9 @@ def header(root, scenario, command):
 
 
 def slim(row):
-    """The row without what is unkept, to five digits."""
+    """The row without what is unknown or unkept, to five digits."""
     return {key: float(f"{value:.5g}") if isinstance(value, float) else value
-            for key, value in row.items() if key not in UNKEPT}
+            for key, value in row.items() if value is not None and key not in UNKEPT}
 
 
 def replace(file, run, lines):
